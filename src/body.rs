@@ -1,0 +1,58 @@
+//! Bodies: material, supports and loads.
+
+use crate::geometry::Formula;
+
+/// Linear elastic material in plane strain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Young's modulus E > 0 (stress).
+    pub young: f64,
+    /// Poisson's ratio ν, -1 < ν < 0.5.
+    pub poisson: f64,
+}
+
+/// A body: one physical surface of the mesh.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Name of the physical surface.
+    pub name: String,
+    /// Material of the whole body.
+    pub material: Material,
+    /// Force per area, formulas of `x, y`.
+    pub force: [Formula; 2],
+}
+
+/// Prescribed displacement components on physical curves.
+#[derive(Clone, Debug)]
+pub struct Support {
+    /// Name in the case file.
+    pub name: String,
+    /// Physical curves it acts on.
+    pub on: Vec<String>,
+    /// Prescribed component `u_x`, a formula of `x, y`.
+    pub ux: Option<Formula>,
+    /// Prescribed component `u_y`.
+    pub uy: Option<Formula>,
+    /// Prescribed outward normal component; the tangent stays free.
+    pub normal: Option<Formula>,
+}
+
+/// Surface load on physical curves.
+#[derive(Clone, Debug)]
+pub struct Load {
+    /// Name in the case file.
+    pub name: String,
+    /// Physical curves it acts on.
+    pub on: Vec<String>,
+    /// What acts there.
+    pub kind: LoadKind,
+}
+
+/// Kinds of surface load; formulas of `x, y`.
+#[derive(Clone, Debug)]
+pub enum LoadKind {
+    /// Pressure > 0 pushes onto the body.
+    Pressure(Formula),
+    /// Traction in global axes.
+    Traction([Formula; 2]),
+}

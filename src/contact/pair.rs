@@ -1,0 +1,73 @@
+//! A contact pair as the case asks for it.
+
+use crate::geometry::Formula;
+
+/// Two boundaries that may touch, and how their contact is modelled.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Name in the case file.
+    pub name: String,
+    /// Physical curves of body 1 and of body 2; the normal points from 1 to 2.
+    pub between: [String; 2],
+    /// Where the contact boundary comes from.
+    pub curve: CurveChoice,
+    /// Initial gap.
+    pub gap: GapChoice,
+    /// Space of the contact pressure.
+    pub space: MultiplierSpace,
+    /// Cutting of the contact boundary.
+    pub segments: SegmentRule,
+    /// Contact law.
+    pub law: Law,
+}
+
+/// Where the contact boundary comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CurveChoice {
+    /// Both boundaries are straight; the line between them over their overlap.
+    Line,
+    /// The declared geometry that lists both boundaries.
+    Geometry,
+}
+
+/// Gap of the unloaded configuration.
+#[derive(Clone, Debug)]
+pub enum GapChoice {
+    /// The bodies touch along the curve: zero.
+    Closed,
+    /// Measured from declared geometries or straight boundaries.
+    Geometry,
+    /// A formula of `x, y` on the curve (a number is a constant formula; negative: interference).
+    Formula(Formula),
+}
+
+/// Space of the contact pressure on the segments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MultiplierSpace {
+    /// One value per segment.
+    P0,
+    /// Two values per segment.
+    P1Discontinuous,
+    /// One value per segment end.
+    P1Continuous,
+}
+
+/// How the contact boundary is cut into segments.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SegmentRule {
+    /// By the safe rule: a multiple of the softer body's edge length.
+    Auto,
+    /// So many of equal arc length.
+    Count(usize),
+    /// At these fractions of the arc length, from 0 to 1, ascending.
+    Fractions(Vec<f64>),
+}
+
+/// Contact law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// Pressure or gap: λ ≥ 0, g ≥ 0, λ g = 0.
+    Unilateral,
+    /// Equal normal displacement, λ of either sign, free sliding.
+    Bilateral,
+}

@@ -1,0 +1,2 @@
+//! The command `mezha`.
+fn main() {}

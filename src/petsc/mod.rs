@@ -1,0 +1,1 @@
+//! The safe layer over PETSc and MPI.
