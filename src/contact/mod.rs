@@ -1,5 +1,22 @@
-//! Everything on the contact boundary; no PETSc.
+//! Everything on the contact boundary Γ_C; no PETSc.
+//!
+//! A [`Pair`] is placed between two boundaries of the mesh ([`place`]), cut into segments, and given a multiplier space
+//! ([`Multipliers`]). Each body then couples to Γ_C alone ([`integrate`]), through the traces of its own boundary edges.
 
+mod active_set;
+mod contact_boundary;
+mod coupling;
+mod mechanism;
+mod multiplier;
 mod pair;
+mod placing;
+mod trace;
 
+pub use active_set::{ActiveSet, Step};
+pub use contact_boundary::ContactBoundary;
+pub use coupling::{Distance, Entry, Side, declared_gap, integrate};
+pub use mechanism::{Condition, Extent, Mechanism, find_mechanism};
+pub use multiplier::{ALPHA, DiagonalBlock, Multipliers};
 pub use pair::{CurveChoice, GapChoice, Law, MultiplierSpace, Pair, SegmentRule};
+pub use placing::{PlacingError, place, safe_ratio, softer_edge_length};
+pub use trace::{Piece, Trace, pieces, quadrature, trace};

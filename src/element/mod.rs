@@ -1,4 +1,14 @@
-//! Local element kernels.
+//! Local kernels: shape functions, stiffness, loads. They return values; callers insert them.
+
+mod load;
+mod plane_strain;
+mod shape;
+mod stiffness;
+
+pub use load::{edge_load, triangle_load};
+pub use plane_strain::{PlaneStrain, von_mises};
+pub use shape::{edge_shape, edge_slope, shape, slopes};
+pub use stiffness::{BadJacobian, Block, jacobian, quadrature, stiffness, stress};
 
 /// Polynomial degree of the displacement on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -7,4 +17,22 @@ pub enum Order {
     P1,
     /// Quadratic, six nodes.
     P2,
+}
+
+impl Order {
+    /// Degree of the polynomials: lattice intervals per triangle edge.
+    pub fn degree(self) -> usize {
+        match self {
+            Self::P1 => 1,
+            Self::P2 => 2,
+        }
+    }
+
+    /// Nodes of a triangle.
+    pub fn nodes(self) -> usize {
+        match self {
+            Self::P1 => 3,
+            Self::P2 => 6,
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Plane curves with a parameter.
 
-use super::Formula;
+use super::{Formula, Point, cross};
+use std::f64::consts::TAU;
 
 /// A plane curve `t -> (x, y)` over a range of its parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,4 +24,144 @@ pub enum Curve {
         /// First and last value of t.
         range: [f64; 2],
     },
+}
+
+impl Curve {
+    /// First and last parameter.
+    pub fn range(&self) -> [f64; 2] {
+        match self {
+            Self::Line(_) => [0.0, 1.0],
+            Self::Circle { .. } => [0.0, TAU],
+            Self::Parametric { range, .. } => *range,
+        }
+    }
+
+    /// Length of one turn in the parameter, if the curve closes in itself.
+    pub fn period(&self) -> Option<f64> {
+        matches!(self, Self::Circle { .. }).then_some(TAU)
+    }
+
+    /// Whether the curve is a straight line by its kind.
+    pub fn is_line(&self) -> bool {
+        matches!(self, Self::Line(_))
+    }
+
+    /// Point at parameter `t`.
+    pub fn point(&self, t: f64) -> Point {
+        match self {
+            Self::Line([a, b]) => Point::new(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])),
+            Self::Circle { centre, radius } => Point::new(centre[0] + radius * t.cos(), centre[1] + radius * t.sin()),
+            Self::Parametric { x, y, .. } => Point::new(x.value(&[t]), y.value(&[t])),
+        }
+    }
+
+    /// Derivative of the point by the parameter.
+    pub fn derivative(&self, t: f64) -> Point {
+        match self {
+            Self::Line([a, b]) => Point::new(b[0] - a[0], b[1] - a[1]),
+            Self::Circle { radius, .. } => Point::new(-radius * t.sin(), radius * t.cos()),
+            Self::Parametric { x, y, .. } => Point::new(x.derivative(0, &[t]), y.derivative(0, &[t])),
+        }
+    }
+
+    /// Unit tangent at parameter `t`.
+    pub fn tangent(&self, t: f64) -> Point {
+        self.derivative(t).normalize()
+    }
+
+    /// Parameter of the curve's nearest point: its normal line passes through `p`. Beyond an end the curve is
+    /// continued by its formulas, so that a point just outside still has its own foot.
+    pub fn nearest(&self, p: Point) -> f64 {
+        match self {
+            Self::Line([a, _]) => {
+                let along = self.derivative(0.0);
+                (p - Point::new(a[0], a[1])).dot(&along) / along.norm_squared()
+            }
+            Self::Circle { centre, .. } => {
+                let r = p - Point::new(centre[0], centre[1]);
+                r.y.atan2(r.x).rem_euclid(TAU)
+            }
+            Self::Parametric { range, .. } => self.nearest_by_search(p, *range),
+        }
+    }
+
+    /// Best of a fixed number of samples, then Newton's method on `(p - x(t)) . x'(t) = 0` with the curvature left out
+    /// of the slope (Gauss-Newton): quick near the curve, where it is used.
+    fn nearest_by_search(&self, p: Point, [first, last]: [f64; 2]) -> f64 {
+        const SAMPLES: usize = 64;
+        let sample = |k: usize| first + (last - first) * k as f64 / SAMPLES as f64;
+        let distance = |t: f64| (self.point(t) - p).norm_squared();
+        let mut t = (0..=SAMPLES).map(sample).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(first);
+        let longest = (last - first).abs() / SAMPLES as f64;
+        for _ in 0..200 {
+            let slope = self.derivative(t);
+            let step = ((p - self.point(t)).dot(&slope) / slope.norm_squared()).clamp(-longest, longest);
+            t += step;
+            if step.abs() <= 1e-15 * (last - first).abs() {
+                break;
+            }
+        }
+        t
+    }
+
+    /// Signed distance from `origin` along the unit vector `direction` to the curve: the hit nearest to the origin,
+    /// or nothing if the line misses the curve.
+    pub fn distance_along(&self, origin: Point, direction: Point) -> Option<f64> {
+        let mut t = self.nearest(origin);
+        for _ in 0..100 {
+            let offset = self.point(t) - origin;
+            let slope = cross(direction, self.derivative(t));
+            if slope.abs() <= 1e-12 * self.derivative(t).norm() {
+                return None;
+            }
+            let step = cross(direction, offset) / slope;
+            t -= step;
+            if step.abs() <= 1e-15 * (1.0 + t.abs()) {
+                break;
+            }
+        }
+        let offset = self.point(t) - origin;
+        let missed = cross(direction, offset).abs() > 1e-9 * (offset.norm() + self.derivative(t).norm());
+        (!missed).then(|| offset.dot(&direction))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parabola() -> Curve {
+        let read = |text| Formula::parse(text, &["t"]).expect("a formula");
+        Curve::Parametric { x: read("t"), y: read("4 + t - 0.25*t^2"), range: [0.0, 4.0] }
+    }
+
+    #[test]
+    fn the_nearest_point_sees_its_origin_along_the_normal() {
+        let curves = [
+            Curve::Line([[0.0, 3.0], [6.0, 4.0]]),
+            Curve::Circle { centre: [1.0, -1.0], radius: 2.0 },
+            parabola(),
+        ];
+        for curve in &curves {
+            for p in [Point::new(1.2, 3.9), Point::new(2.9, 5.1), Point::new(0.1, 4.2)] {
+                let t = curve.nearest(p);
+                assert!((p - curve.point(t)).dot(&curve.tangent(t)).abs() < 1e-12, "{curve:?} {p}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_along_the_normal_meets_the_curve_it_came_from() {
+        let curve = parabola();
+        let (t, d) = (1.7, 0.3);
+        let normal = super::super::turn_right(curve.tangent(t));
+        let found = curve.distance_along(curve.point(t) - d * normal, normal);
+        assert!((found.expect("a hit") - d).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_line_that_misses_is_told() {
+        let circle = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
+        assert_eq!(circle.distance_along(Point::new(0.0, 2.0), Point::new(1.0, 0.0)), None);
+    }
 }

@@ -1,7 +1,22 @@
-//! Curves, formulas and intervals of the plane; no mesh.
+//! Curves, formulas and quadrature of the plane; no mesh.
 
 mod curve;
 mod formula;
+mod gauss;
 
 pub use curve::Curve;
 pub use formula::{Formula, FormulaError};
+pub use gauss::gauss_points;
+
+/// A point, or a vector, of the plane (length).
+pub type Point = nalgebra::Vector2<f64>;
+
+/// Turns a vector a quarter turn clockwise: the tangent of a counter-clockwise boundary becomes its outward normal.
+pub fn turn_right(v: Point) -> Point {
+    Point::new(v.y, -v.x)
+}
+
+/// `a_x b_y - a_y b_x`: twice the signed area of the triangle that two vectors span.
+pub fn cross(a: Point, b: Point) -> f64 {
+    a.x * b.y - a.y * b.x
+}

@@ -1,1 +1,59 @@
-//! The mesh.
+//! Macro mesh, partition, refinement and its levels: pure functions of (file, geometry, refine, partition).
+//!
+//! A Gmsh file is a *macro mesh*. At `n = 2^level` intervals per macro edge every macro triangle carries the lattice
+//! of [`lattice`]; node numbers follow in closed form ([`Numbering`]) and positions from one smooth map per macro
+//! triangle ([`MacroMesh::position`]), so no rank ever asks another about the mesh.
+
+mod edge_trace;
+mod gmsh;
+pub mod lattice;
+mod macro_mesh;
+mod numbering;
+mod partition;
+mod shape;
+
+pub use edge_trace::{BoundaryEdge, EdgeNode};
+pub use gmsh::read_gmsh;
+pub use macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
+pub use numbering::{Level, Numbering, levels};
+pub use partition::{Graph, Partition};
+pub use shape::EdgeShape;
+
+use std::path::{Path, PathBuf};
+
+/// Why a mesh cannot be used: file, place, what was found and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {
+    /// The file cannot be opened or read.
+    #[error("{file}: cannot be read: {source}")]
+    Unreadable {
+        /// The mesh file.
+        file: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The text of the file is not what is expected.
+    #[error("{file}, line {line}: {message}")]
+    Syntax {
+        /// The mesh file.
+        file: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// What was found and what to do.
+        message: String,
+    },
+    /// The mesh as a whole cannot be used.
+    #[error("{file}: {message}")]
+    Unusable {
+        /// The mesh file.
+        file: PathBuf,
+        /// What was found and what to do.
+        message: String,
+    },
+}
+
+impl MeshError {
+    fn unusable(file: &Path, message: impl Into<String>) -> Self {
+        Self::Unusable { file: file.to_path_buf(), message: message.into() }
+    }
+}

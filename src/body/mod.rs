@@ -1,4 +1,12 @@
-//! Bodies: material, supports and loads.
+//! Bodies: mesh, material, supports and loads.
+
+mod applied_force;
+mod constraint;
+mod macro_stiffness;
+
+pub use applied_force::applied_forces;
+pub use constraint::{Constraint, Constraints, SupportError};
+pub use macro_stiffness::{MacroStiffness, neighbours, positions};
 
 use crate::geometry::Formula;
 

@@ -1,0 +1,69 @@
+//! Nodal forces of loads and body forces.
+
+use super::{Body, Load, LoadKind, positions};
+use crate::element::{BadJacobian, Order, edge_load, triangle_load};
+use crate::geometry::Point;
+use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
+
+/// Hands every nodal force of the macro triangles that `rank` owns to `add(node number, force)`; a node comes many times.
+///
+/// # Errors
+/// [`BadJacobian`] if a triangle is turned inside out.
+pub fn applied_forces(
+    mesh: &MacroMesh,
+    partition: &Partition,
+    rank: usize,
+    numbering: &Numbering,
+    bodies: &[Body],
+    loads: &[Load],
+    mut add: impl FnMut(usize, Point),
+) -> Result<(), BadJacobian> {
+    for load in loads {
+        let edges = load.on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
+        for &edge in edges.filter(|&&edge| partition.owner(mesh.beside(edge).0) == rank) {
+            for small in BoundaryEdge::all_of(mesh, edge, numbering) {
+                let forces = edge_load(&small.points, |x, normal| load.kind.traction(x, normal));
+                small.nodes.iter().zip(forces).for_each(|(node, force)| add(node.number(mesh, numbering), force));
+            }
+        }
+    }
+    for &triangle in partition.triangles_of(rank) {
+        let body = &bodies[mesh.triangles[triangle as usize].body as usize];
+        if body.force.iter().all(|formula| formula.as_constant() == Some(0.0)) {
+            continue;
+        }
+        match numbering.level.order {
+            Order::P1 => body_force::<3>(mesh, triangle as usize, numbering, body, &mut add)?,
+            Order::P2 => body_force::<6>(mesh, triangle as usize, numbering, body, &mut add)?,
+        }
+    }
+    Ok(())
+}
+
+fn body_force<const N: usize>(
+    mesh: &MacroMesh,
+    triangle: usize,
+    numbering: &Numbering,
+    body: &Body,
+    add: &mut impl FnMut(usize, Point),
+) -> Result<(), BadJacobian> {
+    let numbers = numbering.triangle(mesh, triangle);
+    let n = numbering.level.intervals;
+    for small in lattice::triangles(n, numbering.level.order) {
+        let nodes = small.nodes::<N>();
+        let density = |x: Point| Point::new(body.force[0].value(&[x.x, x.y]), body.force[1].value(&[x.x, x.y]));
+        let forces = triangle_load::<N>(&positions(mesh, triangle, n, &nodes), density)?;
+        nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
+    }
+    Ok(())
+}
+
+impl LoadKind {
+    /// Traction at a point with the given outward normal (force per length).
+    pub fn traction(&self, x: Point, normal: Point) -> Point {
+        match self {
+            Self::Pressure(pressure) => -pressure.value(&[x.x, x.y]) * normal,
+            Self::Traction([tx, ty]) => Point::new(tx.value(&[x.x, x.y]), ty.value(&[x.x, x.y])),
+        }
+    }
+}

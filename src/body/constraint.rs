@@ -1,0 +1,205 @@
+//! Supports at the nodes of one level: which displacement components are prescribed, in which frame.
+
+use super::Support;
+use crate::geometry::{Formula, Point, cross};
+use crate::mesh::{EdgeNode, MacroMesh, Numbering};
+use nalgebra::Matrix2;
+use std::collections::HashMap;
+
+/// Directions closer than this (radians) are one direction.
+const SAME: f64 = 1e-6;
+
+/// Outward normals that turn by less than this (radians, 20 degrees) at a node belong to one smooth boundary.
+const SMOOTH: f64 = 20.0 * std::f64::consts::PI / 180.0;
+
+/// Prescribed components of one node, in the frame `(axis, axis turned left)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constraint {
+    /// First axis of the frame, a unit vector; (1, 0) unless the support is inclined.
+    pub axis: Point,
+    /// Which components of the frame are prescribed.
+    pub fixed: [bool; 2],
+    /// Their values (length).
+    pub value: [f64; 2],
+}
+
+impl Constraint {
+    /// Columns: the axes of the frame.
+    pub fn frame(&self) -> Matrix2<f64> {
+        Matrix2::new(self.axis.x, -self.axis.y, self.axis.y, self.axis.x)
+    }
+
+    /// A vector given in the frame, in global axes.
+    pub fn to_global(&self, v: Point) -> Point {
+        self.frame() * v
+    }
+
+    /// A vector given in global axes, in the frame.
+    pub fn to_frame(&self, v: Point) -> Point {
+        self.frame().transpose() * v
+    }
+
+    /// The vector in the frame with its prescribed components set to zero.
+    pub fn free(&self, v: Point) -> Point {
+        Point::new(if self.fixed[0] { 0.0 } else { v.x }, if self.fixed[1] { 0.0 } else { v.y })
+    }
+
+    /// The prescribed displacement in the frame.
+    pub fn prescribed(&self) -> Point {
+        Point::new(if self.fixed[0] { self.value[0] } else { 0.0 }, if self.fixed[1] { self.value[1] } else { 0.0 })
+    }
+}
+
+/// Supports that cannot all hold.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{0}")]
+pub struct SupportError(pub String);
+
+/// One direction held at a node by one support.
+struct Hold<'a> {
+    support: &'a str,
+    direction: Point,
+    value: f64,
+}
+
+/// All constrained nodes of a level, by number; the same on every rank.
+#[derive(Clone, Debug, Default)]
+pub struct Constraints {
+    nodes: HashMap<usize, Constraint>,
+}
+
+impl Constraints {
+    /// Collects what all supports say at the nodes of a level.
+    ///
+    /// # Errors
+    /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite.
+    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
+        let mut holds: HashMap<usize, (Point, Vec<Hold>)> = HashMap::new();
+        for support in supports {
+            for name in &support.on {
+                for &edge in mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]) {
+                    collect(mesh, numbering, support, edge, &mut holds)?;
+                }
+            }
+        }
+        let nodes = holds.into_iter().map(|(node, (x, holds))| Ok((node, combine(x, &holds)?)));
+        Ok(Self { nodes: nodes.collect::<Result<_, _>>()? })
+    }
+
+    /// Constraint of a node.
+    #[inline]
+    pub fn get(&self, node: usize) -> Option<&Constraint> {
+        self.nodes.get(&node)
+    }
+
+    /// All constrained nodes, in no order.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, &Constraint)> {
+        self.nodes.iter().map(|(&node, constraint)| (node, constraint))
+    }
+}
+
+fn collect<'a>(
+    mesh: &MacroMesh,
+    numbering: &Numbering,
+    support: &'a Support,
+    edge: u32,
+    holds: &mut HashMap<usize, (Point, Vec<Hold<'a>>)>,
+) -> Result<(), SupportError> {
+    for position in 0..=numbering.level.intervals {
+        let node = EdgeNode { edge, position: position as u32 };
+        let x = node.place(mesh, numbering);
+        let (_, known) = holds.entry(node.number(mesh, numbering)).or_insert((x, Vec::new()));
+        let mut hold = |formula: &Option<Formula>, direction: Point| match formula {
+            Some(formula) => add(known, &support.name, direction, formula.value(&[x.x, x.y]), x),
+            None => Ok(()),
+        };
+        hold(&support.ux, Point::new(1.0, 0.0))?;
+        hold(&support.uy, Point::new(0.0, 1.0))?;
+        hold(&support.normal, mesh.edge_normal(edge, position as f64 / numbering.level.intervals as f64))?;
+    }
+    Ok(())
+}
+
+/// Adds a hold; normals of one support that nearly agree at a node become their mean.
+fn add<'a>(known: &mut Vec<Hold<'a>>, support: &'a str, direction: Point, value: f64, x: Point) -> Result<(), SupportError> {
+    if !value.is_finite() {
+        return Err(SupportError(format!("support.{support}: its formula has no finite value at ({}, {})", x.x, x.y)));
+    }
+    let near = |hold: &&mut Hold| hold.support == support && hold.direction.dot(&direction) > SMOOTH.cos();
+    match known.iter_mut().find(near) {
+        Some(hold) => hold.direction = (hold.direction + direction).normalize(),
+        None => known.push(Hold { support, direction, value }),
+    }
+    Ok(())
+}
+
+fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
+    let first = &holds[0];
+    let second = holds.iter().find(|hold| cross(first.direction, hold.direction).abs() > SAME);
+    let constraint = match second {
+        None if first.direction.x == 0.0 => {
+            Constraint { axis: Point::new(1.0, 0.0), fixed: [false, true], value: [0.0, first.value * first.direction.y] }
+        }
+        None => {
+            let along = if first.direction.y == 0.0 { first.direction.x } else { 1.0 };
+            Constraint { axis: first.direction * along, fixed: [true, false], value: [first.value * along, 0.0] }
+        }
+        Some(second) => {
+            let (a, b) = (first.direction, second.direction);
+            let inverse = 1.0 / cross(a, b);
+            let u = Point::new(first.value * b.y - second.value * a.y, second.value * a.x - first.value * b.x) * inverse;
+            Constraint { axis: Point::new(1.0, 0.0), fixed: [true, true], value: [u.x, u.y] }
+        }
+    };
+    let u = constraint.to_global(constraint.prescribed());
+    for hold in holds {
+        let found = u.dot(&hold.direction);
+        if (found - hold.value).abs() > 1e-9 * (found.abs() + hold.value.abs()) {
+            let others: Vec<_> = holds.iter().filter(|h| h.support != hold.support).map(|h| format!("support.{}", h.support)).collect();
+            return Err(SupportError(format!(
+                "support.{} asks for displacement {} in direction ({:.6}, {:.6}) at ({}, {}), {} for {found}; leave one of them out there",
+                hold.support, hold.value, hold.direction.x, hold.direction.y, x.x, x.y, others.join(" and ")
+            )));
+        }
+    }
+    Ok(constraint)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hold(support: &str, angle: f64, value: f64) -> Hold<'_> {
+        Hold { support, direction: Point::new(angle.cos(), angle.sin()), value }
+    }
+
+    #[test]
+    fn two_directions_fix_the_node_wherever_they_point() {
+        let holds = [hold("a", 0.3, 0.1), hold("b", 1.4, -0.2), hold("a", 0.3, 0.1)];
+        let constraint = combine(Point::zeros(), &holds).expect("no contradiction");
+        let u = constraint.to_global(constraint.prescribed());
+        assert_eq!(constraint.fixed, [true, true]);
+        assert!(holds.iter().all(|h| (u.dot(&h.direction) - h.value).abs() < 1e-15));
+    }
+
+    #[test]
+    fn an_inclined_support_leaves_its_tangent_free() {
+        let constraint = combine(Point::zeros(), &[hold("a", 0.7, 0.5)]).expect("one support");
+        assert_eq!(constraint.fixed, [true, false]);
+        let u = constraint.to_global(Point::new(0.5, 3.0));
+        assert!((u.dot(&Point::new(0.7f64.cos(), 0.7f64.sin())) - 0.5).abs() < 1e-15);
+        assert!((constraint.to_frame(u) - Point::new(0.5, 3.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn opposite_directions_are_one_direction() {
+        let holds = [hold("a", 0.0, 0.25), Hold { support: "b", direction: Point::new(-1.0, 0.0), value: -0.25 }];
+        assert_eq!(combine(Point::zeros(), &holds).expect("they agree").fixed, [true, false]);
+    }
+
+    #[test]
+    fn a_contradiction_names_both_supports() {
+        let words = combine(Point::new(1.0, 2.0), &[hold("wall", 0.0, 0.0), hold("pull", 0.0, 0.1)]).unwrap_err().0;
+        assert!(words.contains("support.wall") && words.contains("support.pull") && words.contains("(1, 2)"), "{words}");
+    }
+}

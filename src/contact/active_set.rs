@@ -1,0 +1,104 @@
+//! The primal-dual active set: which multipliers carry pressure.
+
+/// Number of multipliers that a verdict names at most.
+const NAMED: usize = 6;
+
+/// What a new active set means for the loop.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// The same set as before: done.
+    Settled,
+    /// A set not seen before: solve again.
+    Changed {
+        /// Multipliers that became active.
+        added: usize,
+        /// Multipliers that were released.
+        released: usize,
+    },
+    /// A set seen before: the loop would go round for ever. The multipliers that flip.
+    Repeated(Vec<usize>),
+}
+
+/// The active multipliers of all contacts, with every set that was tried.
+///
+/// Source: Hintermüller, Ito, Kunisch, SIAM Journal on Optimization 13 (2002), 865-888.
+#[derive(Clone, Debug)]
+pub struct ActiveSet {
+    active: Vec<bool>,
+    /// Multipliers of bilateral contacts: always active.
+    bilateral: Vec<bool>,
+    tried: Vec<Vec<bool>>,
+}
+
+impl ActiveSet {
+    /// Everything active.
+    pub fn new(bilateral: Vec<bool>) -> Self {
+        let active = vec![true; bilateral.len()];
+        Self { tried: vec![active.clone()], active, bilateral }
+    }
+
+    /// Which multipliers are active.
+    pub fn active(&self) -> &[bool] {
+        &self.active
+    }
+
+    /// Whether some multiplier may be released at all.
+    pub fn may_change(&self) -> bool {
+        self.bilateral.contains(&false)
+    }
+
+    /// The next set: active where `λ_i + κ_i (Bu - c)_i > 0`.
+    pub fn update(&mut self, force: impl Fn(usize) -> f64) -> Step {
+        let next: Vec<bool> = self.bilateral.iter().enumerate().map(|(i, &bilateral)| bilateral || force(i) > 0.0).collect();
+        if next == self.active {
+            return Step::Settled;
+        }
+        let changed: Vec<usize> = (0..next.len()).filter(|&i| next[i] != self.active[i]).collect();
+        let added = changed.iter().filter(|&&i| next[i]).count();
+        let step = Step::Changed { added, released: changed.len() - added };
+        self.active = next;
+        if let Some(first) = self.tried.iter().position(|set| *set == self.active) {
+            return Step::Repeated(self.flipping(first));
+        }
+        self.tried.push(self.active.clone());
+        step
+    }
+
+    /// Forgets the sets tried so far, because the solves become more exact from here on.
+    pub fn forget(&mut self) {
+        self.tried = vec![self.active.clone()];
+    }
+
+    fn flipping(&self, first: usize) -> Vec<usize> {
+        let cycle = &self.tried[first..];
+        (0..self.active.len()).filter(|&i| cycle.iter().any(|set| set[i] != cycle[0][i])).take(NAMED).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_that_stands_is_settled() {
+        let mut set = ActiveSet::new(vec![false; 3]);
+        let force = |i: usize| if i == 1 { -1.0 } else { 1.0 };
+        assert_eq!(set.update(force), Step::Changed { added: 0, released: 1 });
+        assert_eq!(set.update(force), Step::Settled);
+        assert_eq!(set.active(), [true, false, true]);
+    }
+
+    #[test]
+    fn a_cycle_is_told_with_the_multipliers_that_flip() {
+        let mut set = ActiveSet::new(vec![false; 3]);
+        assert!(matches!(set.update(|i| if i == 2 { -1.0 } else { 1.0 }), Step::Changed { .. }));
+        assert_eq!(set.update(|_| 1.0), Step::Repeated(vec![2]));
+    }
+
+    #[test]
+    fn bilateral_multipliers_are_never_released() {
+        let mut set = ActiveSet::new(vec![true, false]);
+        set.update(|_| -1.0);
+        assert_eq!(set.active(), [true, false]);
+    }
+}

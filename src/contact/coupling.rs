@@ -1,0 +1,112 @@
+//! Coupling of one body's boundary to the multipliers of Γ_C, and its share of the initial gap.
+
+use super::{ContactBoundary, Multipliers};
+use super::trace::{pieces, quadrature, trace};
+use crate::geometry::{Curve, Formula, Point, gauss_points};
+use crate::mesh::{BoundaryEdge, EdgeNode};
+
+/// Which body of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The body that the normal leaves.
+    First,
+    /// The body that the normal enters.
+    Second,
+}
+
+impl Side {
+    /// Sign of its displacement in the penetration `B₁u₁ - B₂u₂`.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::First => 1.0,
+            Self::Second => -1.0,
+        }
+    }
+}
+
+/// One entry of the coupling: multiplier `i`, node `j`, and `± ∫ψ_i N_j n ds` (length), + for body 1, - for body 2.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Multiplier, counted along its own boundary.
+    pub multiplier: usize,
+    /// Node of the body's boundary.
+    pub node: EdgeNode,
+    /// The integral.
+    pub value: Point,
+}
+
+/// Where the distances to a body's undeformed boundary come from.
+pub enum Distance<'a> {
+    /// Not needed: the gap is declared.
+    Declared,
+    /// The true shape.
+    Curve(&'a Curve),
+    /// The edges themselves, which are straight.
+    Edges,
+}
+
+/// Integrates the edges of one body that a rank owns: entries of `B`, and `∫ψ_i d ds` with the distance
+/// `d = n·(X - x)` of the undeformed corresponding point from Γ_C, signed so that both bodies' shares add up to `c`.
+///
+/// # Errors
+/// Words, if the normal of Γ_C misses the declared shape.
+pub fn integrate(
+    boundary: &ContactBoundary,
+    multipliers: &Multipliers,
+    side: Side,
+    edges: &[BoundaryEdge],
+    distance: &Distance,
+) -> Result<(Vec<Entry>, Vec<f64>), String> {
+    let mut entries = Vec::new();
+    let mut gap = vec![0.0; multipliers.count()];
+    for piece in pieces(boundary, edges) {
+        let small = &edges[piece.edge];
+        let first = entries.len();
+        for i in multipliers.on_segment(piece.segment, 0.0).0.into_iter().take(multipliers.per_segment()) {
+            entries.extend(small.nodes.iter().map(|&node| Entry { multiplier: i, node, value: Point::zeros() }));
+        }
+        for (t, weight) in quadrature(boundary, &piece, boundary.is_straight() && small.straight) {
+            let normal = boundary.normal(t);
+            let here = trace(boundary, piece.edge, small, t);
+            let knots = boundary.knots();
+            let z = (t - knots[piece.segment]) / (knots[piece.segment + 1] - knots[piece.segment]);
+            let (rows, values) = multipliers.on_segment(piece.segment, z);
+            let d = distance.at(boundary.point(t), normal, here.point)?;
+            for k in 0..multipliers.per_segment() {
+                gap[rows[k]] -= side.sign() * weight * values[k] * d;
+                for a in 0..small.nodes.len() {
+                    entries[first + k * small.nodes.len() + a].value += side.sign() * weight * values[k] * here.values[a] * normal;
+                }
+            }
+        }
+    }
+    Ok((entries, gap))
+}
+
+impl Distance<'_> {
+    fn at(&self, x: Point, normal: Point, corresponding: Point) -> Result<f64, String> {
+        match self {
+            Self::Declared => Ok(0.0),
+            Self::Edges => Ok((corresponding - x).dot(&normal)),
+            Self::Curve(curve) => curve.distance_along(x, normal).ok_or_else(|| {
+                format!("the normal of the contact boundary at ({}, {}) misses the declared geometry of the body; give `gap` as a number or a formula", x.x, x.y)
+            }),
+        }
+    }
+}
+
+/// `∫ψ_i g₀ ds` of a declared gap, a formula of `x, y`.
+pub fn declared_gap(boundary: &ContactBoundary, multipliers: &Multipliers, formula: &Formula) -> Vec<f64> {
+    let mut gap = vec![0.0; multipliers.count()];
+    for (k, ends) in boundary.knots().windows(2).enumerate() {
+        for (z, weight) in gauss_points(10) {
+            let t = ends[0] + z * (ends[1] - ends[0]);
+            let x = boundary.point(t);
+            let (rows, values) = multipliers.on_segment(k, *z);
+            for a in 0..multipliers.per_segment() {
+                gap[rows[a]] += weight * (ends[1] - ends[0]) * boundary.speed(t) * values[a] * formula.value(&[x.x, x.y]);
+            }
+        }
+    }
+    gap
+}

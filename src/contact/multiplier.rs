@@ -1,0 +1,185 @@
+//! Multiplier spaces on the segments of a contact boundary.
+
+use super::{ContactBoundary, MultiplierSpace};
+
+/// Strength of the augmentation, `γ = ALPHA E_c / H`: flat optimum between 2 and 10 for every pair of spaces.
+pub const ALPHA: f64 = 5.0;
+
+/// A diagonal block over one multiplier, or over the two of a discontinuous segment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiagonalBlock {
+    /// Multipliers it couples: one or two.
+    pub rows: Vec<usize>,
+    /// Symmetric entries `[row][column]`; the unused ones are zero.
+    pub values: [[f64; 2]; 2],
+}
+
+impl DiagonalBlock {
+    fn single(row: usize, value: f64) -> Self {
+        Self { rows: vec![row], values: [[value, 0.0], [0.0, 0.0]] }
+    }
+
+    /// The inverse block.
+    pub fn inverse(&self) -> Self {
+        let [[a, b], [_, d]] = self.values;
+        match self.rows.len() {
+            1 => Self::single(self.rows[0], 1.0 / a),
+            _ => {
+                let determinant = a * d - b * b;
+                Self { rows: self.rows.clone(), values: [[d / determinant, -b / determinant], [-b / determinant, a / determinant]] }
+            }
+        }
+    }
+}
+
+/// The multipliers of one contact boundary, numbered along it.
+#[derive(Clone, Debug)]
+pub struct Multipliers {
+    /// Their space.
+    pub space: MultiplierSpace,
+    /// Segment lengths.
+    lengths: Vec<f64>,
+}
+
+impl Multipliers {
+    /// The multipliers of a space on a boundary's segments.
+    pub fn new(space: MultiplierSpace, boundary: &ContactBoundary) -> Self {
+        Self { space, lengths: (0..boundary.segments()).map(|k| boundary.segment_length(k)).collect() }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        let segments = self.lengths.len();
+        match self.space {
+            MultiplierSpace::P0 => segments,
+            MultiplierSpace::P1Discontinuous => 2 * segments,
+            MultiplierSpace::P1Continuous => segments + 1,
+        }
+    }
+
+    /// Multipliers of segment `k` with their values at the fraction `z` of the segment; the second is unused for P0.
+    pub fn on_segment(&self, k: usize, z: f64) -> ([usize; 2], [f64; 2]) {
+        match self.space {
+            MultiplierSpace::P0 => ([k, k], [1.0, 0.0]),
+            MultiplierSpace::P1Discontinuous => ([2 * k, 2 * k + 1], [1.0 - z, z]),
+            MultiplierSpace::P1Continuous => ([k, k + 1], [1.0 - z, z]),
+        }
+    }
+
+    /// How many multipliers live on a segment.
+    pub fn per_segment(&self) -> usize {
+        if self.space == MultiplierSpace::P0 { 1 } else { 2 }
+    }
+
+    /// Value at the fraction `z` of segment `k`.
+    pub fn value(&self, values: &[f64], k: usize, z: f64) -> f64 {
+        let (rows, weights) = self.on_segment(k, z);
+        values[rows[0]] * weights[0] + values[rows[1]] * weights[1]
+    }
+
+    /// Segment that a multiplier is counted to: its own, or for a segment end the one before it.
+    pub fn segment_of(&self, multiplier: usize) -> usize {
+        match self.space {
+            MultiplierSpace::P0 => multiplier,
+            MultiplierSpace::P1Discontinuous => multiplier / 2,
+            MultiplierSpace::P1Continuous => multiplier.saturating_sub(1),
+        }
+    }
+
+    /// Segments that a multiplier lives on, as first and one past the last.
+    pub fn support(&self, multiplier: usize) -> std::ops::Range<usize> {
+        match self.space {
+            MultiplierSpace::P0 => multiplier..multiplier + 1,
+            MultiplierSpace::P1Discontinuous => multiplier / 2..multiplier / 2 + 1,
+            MultiplierSpace::P1Continuous => multiplier.saturating_sub(1)..(multiplier + 1).min(self.lengths.len()),
+        }
+    }
+
+    /// Length `H_i` that a multiplier stands for: its segment, or the lumped length of a segment end.
+    pub fn length(&self, multiplier: usize) -> f64 {
+        match self.space {
+            MultiplierSpace::P1Continuous => self.support(multiplier).map(|k| 0.5 * self.lengths[k]).sum(),
+            _ => self.lengths[self.segment_of(multiplier)],
+        }
+    }
+
+    /// `∫ψ_i ds`: row sum of the mass matrix.
+    pub fn weight(&self, multiplier: usize) -> f64 {
+        match self.space {
+            MultiplierSpace::P1Discontinuous => 0.5 * self.length(multiplier),
+            _ => self.length(multiplier),
+        }
+    }
+
+    /// Augmentation weights `D = √γ W⁻¹ √γ` with `γ_i = ALPHA E_c / H_i` over the active multipliers; `W` is the mass
+    /// matrix, lumped for P1 continuous. `modulus` is `E_c` (stress); entries have the unit stress per length squared.
+    pub fn augmentation(&self, modulus: f64, active: &[bool]) -> Vec<DiagonalBlock> {
+        let gamma = |i: usize| ALPHA * modulus / self.length(i);
+        if self.space != MultiplierSpace::P1Discontinuous {
+            let one = |i: usize| DiagonalBlock::single(i, gamma(i) / self.weight(i));
+            return (0..self.count()).filter(|&i| active[i]).map(one).collect();
+        }
+        let pair = |k: usize| {
+            let (i, h) = (2 * k, self.lengths[k]);
+            match (active[i], active[i + 1]) {
+                (false, false) => None,
+                (true, true) => {
+                    let unit = gamma(i) * 2.0 / h;
+                    Some(DiagonalBlock { rows: vec![i, i + 1], values: [[2.0 * unit, -unit], [-unit, 2.0 * unit]] })
+                }
+                (first, _) => Some(DiagonalBlock::single(if first { i } else { i + 1 }, gamma(i) * 3.0 / h)),
+            }
+        };
+        (0..self.lengths.len()).filter_map(pair).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Curve, Point};
+
+    const SPACES: [MultiplierSpace; 3] = [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous];
+
+    fn multipliers(space: MultiplierSpace) -> Multipliers {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [2.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&[0.0, 0.25, 0.5, 1.0]);
+        Multipliers::new(space, &boundary)
+    }
+
+    #[test]
+    fn values_sum_to_one_and_weights_to_the_length() {
+        for space in SPACES {
+            let m = multipliers(space);
+            assert_eq!(m.value(&vec![3.0; m.count()], 1, 0.3), 3.0);
+            assert!(((0..m.count()).map(|i| m.weight(i)).sum::<f64>() - 2.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn augmentation_inverts_the_mass_matrix() {
+        let m = multipliers(MultiplierSpace::P1Discontinuous);
+        let block = &m.augmentation(1.0, &[true; 6])[2];
+        let h = 1.0;
+        let (unit, gamma) = (h / 6.0, ALPHA / h);
+        let inverse = block.inverse();
+        assert_eq!(inverse.rows, [4, 5]);
+        for (i, row) in inverse.values.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                let mass = if i == j { 2.0 * unit } else { unit };
+                assert!((value * gamma - mass).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn inactive_multipliers_have_no_weight() {
+        for space in SPACES {
+            let m = multipliers(space);
+            let mut active = vec![true; m.count()];
+            active[1] = false;
+            let rows: Vec<usize> = m.augmentation(7.0, &active).into_iter().flat_map(|block| block.rows).collect();
+            assert_eq!(rows, (0..m.count()).filter(|&i| i != 1).collect::<Vec<_>>());
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
+
+use super::{ContactBoundary, CurveChoice, MultiplierSpace, Pair, SegmentRule};
+use crate::element::Order;
+use crate::geometry::{Curve, Point};
+use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
+
+/// Why no contact boundary can be placed: the key of the case, and words.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("contact.{pair}: {words}")]
+pub struct PlacingError {
+    /// Name of the pair.
+    pub pair: String,
+    /// What is wrong and what to do.
+    pub words: String,
+}
+
+/// Places Γ_C of a pair and cuts it into segments. `young` are the moduli of body 1 and body 2 (stress); `numbering`
+/// is that of the finest level, whose edge lengths the automatic rule follows. The same on every rank.
+///
+/// # Errors
+/// [`PlacingError`] if the boundaries are not straight or do not share a geometry, as the pair claims, or do not overlap.
+pub fn place(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 2]) -> Result<ContactBoundary, PlacingError> {
+    let error = |words: String| PlacingError { pair: pair.name.clone(), words };
+    let sides = [0, 1].map(|k| mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]));
+    let (curve, range) = match pair.curve {
+        CurveChoice::Line => line_between(mesh, pair, sides).map_err(error)?,
+        CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,
+    };
+    let middle = curve.point(0.5 * (range[0] + range[1]));
+    let nearest = sides[0].iter().min_by(|&&a, &&b| {
+        let away = |edge| (mesh.edge_position(edge, 0.5) - middle).norm();
+        away(a).total_cmp(&away(b))
+    });
+    let Some(&nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
+    let towards = mesh.edge_normal(nearest, 0.5);
+    let mut boundary = ContactBoundary::new(curve, range, towards);
+    boundary.cut(&fractions(mesh, numbering, pair, sides, young, &boundary));
+    Ok(boundary)
+}
+
+/// A straight line between two straight boundaries, over the extent that both have.
+fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Curve, [f64; 2]), String> {
+    let mut extents = [[0.0; 2]; 2];
+    let mut offsets = [0.0; 2];
+    let (mut origin, mut along) = (Point::zeros(), Point::zeros());
+    for (side, edges) in sides.into_iter().enumerate() {
+        let (a, b) = ends(mesh, edges);
+        if side == 0 {
+            (origin, along) = (a, (b - a).normalize());
+        }
+        let own = (b - a).normalize();
+        if (own.dot(&along).abs() - 1.0).abs() > 1e-9 {
+            return Err(format!("curve = \"line\", but \"{}\" and \"{}\" are not parallel; give a [geometry] that lists both, and curve = \"geometry\"", pair.between[0], pair.between[1]));
+        }
+        let length = (b - a).norm();
+        for &edge in edges {
+            let bent = mesh.edges[edge as usize].shape.is_some();
+            let off = mesh.edges[edge as usize].vertices.iter().any(|&vertex| {
+                crate::geometry::cross(own, mesh.vertices[vertex as usize] - a).abs() > 1e-9 * length
+            });
+            if bent || off {
+                return Err(format!("curve = \"line\", but \"{}\" is not straight; give a [geometry] that lists both boundaries, and curve = \"geometry\"", pair.between[side]));
+            }
+        }
+        let (s, t) = ((a - origin).dot(&along), (b - origin).dot(&along));
+        extents[side] = [s.min(t), s.max(t)];
+        offsets[side] = crate::geometry::cross(along, a - origin);
+    }
+    let (start, end) = (extents[0][0].max(extents[1][0]), extents[0][1].min(extents[1][1]));
+    if end - start <= 1e-9 * (extents[0][1] - extents[0][0]) {
+        return Err(format!("\"{}\" and \"{}\" do not face each other: they have no extent in common", pair.between[0], pair.between[1]));
+    }
+    // `cross(along, left) = 1`: the mean of both lines, where they lie apart.
+    let lift = Point::new(-along.y, along.x) * (0.5 * (offsets[0] + offsets[1]));
+    let at = |s: f64| {
+        let x = origin + s * along + lift;
+        [x.x, x.y]
+    };
+    Ok((Curve::Line([at(start), at(end)]), [0.0, 1.0]))
+}
+
+/// The two vertices of a set of edges that are farthest apart, seen from the first vertex.
+fn ends(mesh: &MacroMesh, edges: &[u32]) -> (Point, Point) {
+    let points = || edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
+    let farthest = |from: Point| points().max_by(|a, b| (a - from).norm().total_cmp(&(b - from).norm())).unwrap_or(from);
+    let a = points().next().map(farthest).unwrap_or_default();
+    (a, farthest(a))
+}
+
+/// The declared geometry of both boundaries, over the extent that both have.
+fn shared_geometry(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Curve, [f64; 2]), String> {
+    let mut common: Option<(Curve, [f64; 2])> = None;
+    for (side, edges) in sides.into_iter().enumerate() {
+        let mut extent: Option<[f64; 2]> = None;
+        for &edge in edges {
+            let Some(shape) = &mesh.edges[edge as usize].shape else {
+                return Err(format!("curve = \"geometry\", but no curved [geometry] lists \"{}\"", pair.between[side]));
+            };
+            let reference = common.as_ref().map(|(_, [a, b])| 0.5 * (a + b)).or(extent.map(|[a, b]| 0.5 * (a + b)));
+            let middle = 0.5 * (shape.range[0] + shape.range[1]);
+            let turn = match (shape.curve.period(), reference) {
+                (Some(period), Some(reference)) => ((reference - middle) / period).round() * period,
+                _ => 0.0,
+            };
+            let [a, b] = shape.range.map(|t| t + turn);
+            let [low, high] = extent.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
+            extent = Some([low.min(a).min(b), high.max(a).max(b)]);
+            common.get_or_insert_with(|| ((*shape.curve).clone(), [f64::NEG_INFINITY, f64::INFINITY]));
+        }
+        if let (Some((_, range)), Some([low, high])) = (&mut common, extent) {
+            *range = [range[0].max(low), range[1].min(high)];
+        }
+    }
+    match common {
+        Some((curve, range)) if range[1] > range[0] => Ok((curve, range)),
+        _ => Err(format!("\"{}\" and \"{}\" do not face each other: they have no extent in common", pair.between[0], pair.between[1])),
+    }
+}
+
+fn fractions(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, sides: [&[u32]; 2], young: [f64; 2], boundary: &ContactBoundary) -> Vec<f64> {
+    let equal = |count: usize| (0..=count).map(|k| k as f64 / count as f64).collect();
+    match &pair.segments {
+        SegmentRule::Fractions(fractions) => fractions.clone(),
+        SegmentRule::Count(count) => equal(*count),
+        SegmentRule::Auto => {
+            let edges = sides.map(|edges| edges.iter().flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering)).collect::<Vec<_>>());
+            let ratio = safe_ratio(numbering.level.order, pair.space, matching(&edges));
+            let least = ratio * softer_edge_length(&edges, young);
+            equal(((boundary.length() / least * (1.0 + 1e-9)) as usize).max(1))
+        }
+    }
+}
+
+/// Length of the longest interface edge of the softer body; of the longer edges where the moduli are within a factor 3.
+pub fn softer_edge_length(edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
+    let longest = [0, 1].map(|k| edges[k].iter().map(BoundaryEdge::length).fold(0.0, f64::max));
+    match young[0] / young[1] {
+        r if r < 1.0 / 3.0 => longest[0],
+        r if r > 3.0 => longest[1],
+        _ => longest[0].max(longest[1]),
+    }
+}
+
+/// Smallest safe segment length, in edges of the softer body: the discrete inf-sup constant stays above 0.3 with some
+/// margin. P2 with discontinuous multipliers needs more where the meshes match.
+pub fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
+    match (order, space) {
+        (Order::P1, MultiplierSpace::P0) => 1.5,
+        (Order::P1, MultiplierSpace::P1Continuous) => 1.25,
+        (Order::P1, MultiplierSpace::P1Discontinuous) => 3.0,
+        (Order::P2, MultiplierSpace::P1Discontinuous) => if matching { 2.0 } else { 1.5 },
+        (Order::P2, _) => 0.75,
+    }
+}
+
+/// Whether every edge end of body 2 coincides with one of body 1.
+fn matching(edges: &[Vec<BoundaryEdge>; 2]) -> bool {
+    let near = |a: &BoundaryEdge, b: &BoundaryEdge| {
+        let close = |p: Point, q: Point| (p - q).norm() < 1e-6 * a.length();
+        close(a.points[0], b.points[1]) && close(a.points[1], b.points[0])
+    };
+    edges[0].len() == edges[1].len() && edges[0].iter().all(|a| edges[1].iter().any(|b| near(a, b)))
+}

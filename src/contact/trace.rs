@@ -1,0 +1,93 @@
+//! Traces: a body's fields at the points of Γ_C, through their corresponding points on the body's boundary.
+//!
+//! A body couples to Γ_C alone, so each rank works on the boundary edges it owns and on nothing else.
+
+use super::ContactBoundary;
+use crate::element::{edge_shape, edge_slope};
+use crate::geometry::{Point, gauss_points};
+use crate::mesh::BoundaryEdge;
+
+/// A part of Γ_C that sees one boundary edge along its normals and lies in one segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Index of the boundary edge.
+    pub edge: usize,
+    /// Segment of Γ_C.
+    pub segment: usize,
+    /// Parameters of Γ_C where it starts and ends.
+    pub range: [f64; 2],
+}
+
+/// A body's trace at one point of Γ_C.
+#[derive(Clone, Copy, Debug)]
+pub struct Trace {
+    /// Index of the boundary edge.
+    pub edge: usize,
+    /// Fraction of the edge where the corresponding point lies.
+    pub fraction: f64,
+    /// Values of the edge's shape functions there.
+    pub values: [f64; 3],
+    /// The corresponding point.
+    pub point: Point,
+}
+
+/// Cuts Γ_C at the feet of the edges' ends and at the segment ends; edges that see no part of it give no piece.
+pub fn pieces(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<Piece> {
+    let knots = boundary.knots();
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let least = 1e-13 * (last - first);
+    let mut pieces = Vec::new();
+    for (edge, small) in edges.iter().enumerate() {
+        let feet = [boundary.foot(small.points[0]), boundary.foot(small.points[1])];
+        let (start, end) = (feet[0].min(feet[1]).max(first), feet[0].max(feet[1]).min(last));
+        if end - start <= least {
+            continue;
+        }
+        let (mut segment, mut from) = (boundary.locate(start + least).0, start);
+        while from < end - least {
+            let to = if segment + 1 == boundary.segments() { end } else { end.min(knots[segment + 1]) };
+            if to - from > least {
+                pieces.push(Piece { edge, segment, range: [from, to] });
+            }
+            (from, segment) = (to, segment + 1);
+        }
+    }
+    pieces
+}
+
+/// Trace on an edge at parameter `t` of Γ_C: where the normal line meets the edge.
+pub fn trace(boundary: &ContactBoundary, edge: usize, small: &BoundaryEdge, t: f64) -> Trace {
+    let (x, normal) = (boundary.point(t), boundary.normal(t));
+    let tangent = crate::geometry::turn_right(normal);
+    let along: Vec<f64> = small.points.iter().map(|point| (point - x).dot(&tangent)).collect();
+    let mut fraction = along[0] / (along[0] - along[1]);
+    if along.len() == 3 {
+        for _ in 0..30 {
+            let (values, slopes) = (edge_shape(3, fraction), edge_slope(3, fraction));
+            let (mut value, mut slope) = (0.0, 0.0);
+            for a in 0..3 {
+                value += values[a] * along[a];
+                slope += slopes[a] * along[a];
+            }
+            let step = value / slope;
+            fraction -= step;
+            if step.abs() < 1e-15 {
+                break;
+            }
+        }
+    }
+    let fraction = fraction.clamp(0.0, 1.0);
+    let values = edge_shape(small.points.len(), fraction);
+    let point = small.points.iter().zip(values).fold(Point::zeros(), |sum, (point, value)| sum + value * point);
+    Trace { edge, fraction, values, point }
+}
+
+/// Gauss points of a piece: parameter of Γ_C and weight (length). Two suffice where everything is straight.
+pub fn quadrature(boundary: &ContactBoundary, piece: &Piece, straight: bool) -> impl Iterator<Item = (f64, f64)> {
+    let [from, to] = piece.range;
+    let points = if straight { 2 } else { 8 };
+    gauss_points(points).iter().map(move |(z, weight)| {
+        let t = from + z * (to - from);
+        (t, weight * (to - from) * boundary.speed(t))
+    })
+}

@@ -1,0 +1,68 @@
+//! Consistent nodal forces.
+
+use super::shape::{edge_shape, edge_slope, shape};
+use super::stiffness::{BadJacobian, jacobian, quadrature};
+use crate::geometry::{Point, gauss_points, turn_right};
+
+/// Nodal forces of a traction on an element edge, `∫ N_a t ds` per unit thickness.
+///
+/// `points` are the edge's 2 or 3 nodes, body on the left; `traction` takes a point and the unit outward normal there
+/// and returns force per length. Exact for tractions of degree 4 on straight edges.
+pub fn edge_load(points: &[Point], traction: impl Fn(Point, Point) -> Point) -> [Point; 3] {
+    let mut forces = [Point::zeros(); 3];
+    for &(t, weight) in gauss_points(4) {
+        let (values, slopes) = (edge_shape(points.len(), t), edge_slope(points.len(), t));
+        let (mut x, mut along) = (Point::zeros(), Point::zeros());
+        for (a, point) in points.iter().enumerate() {
+            x += values[a] * point;
+            along += slopes[a] * point;
+        }
+        let force = traction(x, turn_right(along).normalize()) * (weight * along.norm());
+        for (sum, value) in forces.iter_mut().zip(values) {
+            *sum += value * force;
+        }
+    }
+    forces
+}
+
+/// Nodal forces of a force per area on a triangle, `∫ N_a b dA` per unit thickness.
+///
+/// # Errors
+/// [`BadJacobian`] where the map folds over.
+pub fn triangle_load<const N: usize>(nodes: &[Point; N], force: impl Fn(Point) -> Point) -> Result<[Point; N], BadJacobian> {
+    let mut forces = [Point::zeros(); N];
+    for &(l, weight) in quadrature::<6>(false) {
+        let (_, determinant) = jacobian(nodes, l)?;
+        let values = shape::<N>(l);
+        let x = nodes.iter().zip(values).fold(Point::zeros(), |sum, (node, value)| sum + value * node);
+        let density = force(x) * (0.5 * weight * determinant);
+        for (sum, value) in forces.iter_mut().zip(values) {
+            *sum += value * density;
+        }
+    }
+    Ok(forces)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pressure_on_a_closed_quarter_arc_acts_on_its_chord() {
+        // Three nodes of a quadratic edge; uniform pressure on any curve adds up to that on the chord between its ends.
+        let points = [Point::new(1.0, 0.0), Point::new(0.0, 1.0), Point::new(0.75, 0.75)];
+        let total: Point = edge_load(&points, |_, normal| -normal).iter().sum();
+        assert!((total - Point::new(-1.0, -1.0)).norm() < 1e-14);
+    }
+
+    #[test]
+    fn a_uniform_force_on_a_straight_triangle_goes_to_the_known_nodes() {
+        let corners = [Point::new(0.0, 0.0), Point::new(2.0, 0.0), Point::new(0.0, 1.0)];
+        let linear = triangle_load(&corners, |_| Point::new(0.0, -3.0)).expect("a good triangle");
+        assert!(linear.iter().all(|f| (f - Point::new(0.0, -1.0)).norm() < 1e-14));
+        let [a, b, c] = corners;
+        let quadratic = triangle_load(&[a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)], |_| Point::new(3.0, 0.0)).expect("a good triangle");
+        assert!(quadratic[..3].iter().all(|f| f.norm() < 1e-14));
+        assert!(quadratic[3..].iter().all(|f| (f - Point::new(1.0, 0.0)).norm() < 1e-14));
+    }
+}

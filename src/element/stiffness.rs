@@ -1,0 +1,205 @@
+//! Stiffness and stress of one triangle, straight or isoparametric.
+
+use super::PlaneStrain;
+use super::shape::slopes;
+use crate::geometry::Point;
+use nalgebra::Matrix2;
+
+/// Coupling of two nodes: `[row component][column component]`.
+pub type Block = [[f64; 2]; 2];
+
+/// A triangle whose map from the reference triangle folds over.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("the triangle around ({}, {}) is turned inside out (Jacobian {jacobian:.3e})", middle.x, middle.y)]
+pub struct BadJacobian {
+    /// Mean of its corners.
+    pub middle: Point,
+    /// Smallest Jacobian determinant found.
+    pub jacobian: f64,
+}
+
+/// A quadrature rule: barycentric coordinates and weights of sum 1.
+type Rule = &'static [([f64; 3], f64)];
+
+const CENTRE: Rule = &[([1.0 / 3.0; 3], 1.0)];
+
+/// Degree 2.
+const THREE: Rule = &[
+    ([2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0], 1.0 / 3.0),
+    ([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0], 1.0 / 3.0),
+    ([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0], 1.0 / 3.0),
+];
+
+const A: f64 = 0.091_576_213_509_770_74;
+const B: f64 = 0.445_948_490_915_964_9;
+const WA: f64 = 0.109_951_743_655_321_87;
+const WB: f64 = 0.223_381_589_678_011_47;
+
+/// Degree 4. Dunavant, International Journal for Numerical Methods in Engineering 21 (1985), 1129-1148.
+const SIX: Rule = &[
+    ([1.0 - 2.0 * A, A, A], WA),
+    ([A, 1.0 - 2.0 * A, A], WA),
+    ([A, A, 1.0 - 2.0 * A], WA),
+    ([1.0 - 2.0 * B, B, B], WB),
+    ([B, 1.0 - 2.0 * B, B], WB),
+    ([B, B, 1.0 - 2.0 * B], WB),
+];
+
+/// Rule for stiffness integrals of an `N`-node triangle: exact where it is straight, of degree 4 where a P2 triangle is curved.
+pub fn quadrature<const N: usize>(straight: bool) -> Rule {
+    match (N, straight) {
+        (3, _) => CENTRE,
+        (_, true) => THREE,
+        (_, false) => SIX,
+    }
+}
+
+/// Derivatives of the shape functions by x and y at barycentric coordinates `l`, and the Jacobian determinant
+/// (twice the area for a straight triangle).
+///
+/// # Errors
+/// [`BadJacobian`] if the determinant is not positive.
+pub fn jacobian<const N: usize>(nodes: &[Point; N], l: [f64; 3]) -> Result<([Point; N], f64), BadJacobian> {
+    let reference = slopes::<N>(l);
+    let mut j = Matrix2::zeros();
+    for (x, d) in nodes.iter().zip(&reference) {
+        j += Matrix2::new(x.x * d[0], x.x * d[1], x.y * d[0], x.y * d[1]);
+    }
+    let determinant = j.determinant();
+    if determinant <= 0.0 || !determinant.is_finite() {
+        return Err(BadJacobian { middle: (nodes[0] + nodes[1] + nodes[2]) / 3.0, jacobian: determinant });
+    }
+    let (a, b, c, d) = (j[(0, 0)], j[(0, 1)], j[(1, 0)], j[(1, 1)]);
+    let gradients = reference.map(|[r, s]| Point::new((d * r - c * s) / determinant, (a * s - b * r) / determinant));
+    Ok((gradients, determinant))
+}
+
+/// Stiffness of a triangle of unit thickness, `K_ab = ∫ λ g_a ⊗ g_b + μ (g_b ⊗ g_a + g_a·g_b I)` with `g_a = ∇N_a`.
+///
+/// | argument | shape | unit |
+/// |---|---|---|
+/// | `nodes` | corners counter-clockwise, then midsides | length |
+/// | returns | `N x N` blocks of 2 x 2 | stress (force per length and thickness) |
+///
+/// # Errors
+/// [`BadJacobian`] if the map folds over at a quadrature point or, for P2, at a corner.
+/// # Source
+/// Zienkiewicz and Taylor, The Finite Element Method, vol. 1, plane elasticity.
+pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneStrain, straight: bool) -> Result<[[Block; N]; N], BadJacobian> {
+    let mut k = [[[[0.0; 2]; 2]; N]; N];
+    if !straight && N == 6 {
+        for corner in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+            jacobian(nodes, corner)?;
+        }
+    }
+    for &(l, weight) in quadrature::<N>(straight) {
+        let (gradients, determinant) = jacobian(nodes, l)?;
+        let (lambda, mu) = (0.5 * weight * determinant * law.lambda, 0.5 * weight * determinant * law.mu);
+        for (row, a) in k.iter_mut().zip(&gradients) {
+            for (block, b) in row.iter_mut().zip(&gradients) {
+                let shear = mu * a.dot(b);
+                block[0][0] += (lambda + mu) * a.x * b.x + shear;
+                block[0][1] += lambda * a.x * b.y + mu * a.y * b.x;
+                block[1][0] += lambda * a.y * b.x + mu * a.x * b.y;
+                block[1][1] += (lambda + mu) * a.y * b.y + shear;
+            }
+        }
+    }
+    Ok(k)
+}
+
+/// Stress (xx, yy, xy, zz) of the nodal displacements `u` at barycentric coordinates `l`.
+///
+/// # Errors
+/// [`BadJacobian`] where the map folds over.
+pub fn stress<const N: usize>(nodes: &[Point; N], u: &[Point; N], l: [f64; 3], law: &PlaneStrain) -> Result<[f64; 4], BadJacobian> {
+    let (gradients, _) = jacobian(nodes, l)?;
+    let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
+    Ok(law.stress(&gradient))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const LAW: PlaneStrain = PlaneStrain { lambda: 2.0, mu: 1.5 };
+
+    /// A P2 triangle with all midsides moved a little.
+    fn curved() -> [Point; 6] {
+        let (a, b, c) = (Point::new(0.0, 0.1), Point::new(1.2, 0.0), Point::new(0.3, 0.9));
+        let middle = |p: Point, q: Point, dx: f64, dy: f64| 0.5 * (p + q) + Point::new(dx, dy);
+        [a, b, c, middle(a, b, 0.02, -0.05), middle(b, c, 0.06, 0.04), middle(c, a, -0.03, 0.0)]
+    }
+
+    fn energy<const N: usize>(k: &[[Block; N]; N], u: &[Point; N]) -> f64 {
+        let mut sum = 0.0;
+        for a in 0..N {
+            for b in 0..N {
+                for (i, row) in k[a][b].iter().enumerate() {
+                    sum += u[a][i] * (row[0] * u[b].x + row[1] * u[b].y);
+                }
+            }
+        }
+        0.5 * sum
+    }
+
+    #[test]
+    fn rigid_motions_store_no_energy_even_on_curved_triangles() {
+        let nodes = curved();
+        let k = stiffness(&nodes, &LAW, false).expect("a good triangle");
+        let scale = k[0][0][0][0];
+        for motion in [|_: Point| Point::new(1.0, 0.0), |_| Point::new(0.0, 1.0), |x| Point::new(-x.y, x.x)] {
+            assert!(energy(&k, &nodes.map(motion)).abs() < 1e-14 * scale);
+        }
+    }
+
+    #[test]
+    fn a_linear_field_has_its_exact_stress_everywhere() {
+        let nodes = curved();
+        let u = nodes.map(|x| Point::new(0.3 * x.x - 0.1 * x.y, 0.2 * x.x + 0.5 * x.y));
+        let exact = LAW.stress(&Matrix2::new(0.3, -0.1, 0.2, 0.5));
+        for &(l, _) in quadrature::<6>(false) {
+            let found = stress(&nodes, &u, l, &LAW).expect("a good triangle");
+            assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-13));
+        }
+    }
+
+    #[test]
+    fn an_inverted_triangle_is_refused_with_its_place() {
+        let mut nodes = curved();
+        nodes[3] = Point::new(0.5, 0.8);
+        assert!(stiffness(&nodes, &LAW, false).unwrap_err().jacobian <= 0.0);
+        let clockwise = [Point::new(0.0, 0.0), Point::new(0.0, 1.0), Point::new(1.0, 0.0)];
+        assert!(stiffness(&clockwise, &LAW, true).is_err());
+    }
+
+    #[test]
+    fn the_rules_are_exact_for_their_degree() {
+        let exact = |p: i32, q: i32| {
+            let f = |n: i32| (1..=n).product::<i32>() as f64;
+            2.0 * f(p) * f(q) / f(p + q + 2)
+        };
+        for (rule, degree) in [(CENTRE, 1), (THREE, 2), (SIX, 4)] {
+            for p in 0..=degree {
+                for q in 0..=degree - p {
+                    let sum: f64 = rule.iter().map(|(l, w)| w * l[1].powi(p) * l[2].powi(q)).sum();
+                    assert!((sum / exact(p, q) - 1.0).abs() < 1e-13, "degree {degree}: x^{p} y^{q}");
+                }
+            }
+        }
+    }
+
+    proptest! {
+        /// In the plane the stiffness depends on the shape of a triangle, not on its size: one matrix serves every level.
+        #[test]
+        fn stiffness_does_not_depend_on_size(x in 0.2f64..2.0, y in 0.2f64..2.0, size in 1e-6f64..1e6) {
+            let one = [Point::new(0.0, 0.0), Point::new(1.0, 0.1), Point::new(0.3 * x, y)];
+            let a = stiffness(&one, &LAW, true).expect("a good triangle");
+            let b = stiffness(&one.map(|p| p * size), &LAW, true).expect("a good triangle");
+            for (a, b) in a.iter().flatten().flatten().flatten().zip(b.iter().flatten().flatten().flatten()) {
+                prop_assert!((a - b).abs() <= 1e-12 * (1.0 + a.abs()));
+            }
+        }
+    }
+}

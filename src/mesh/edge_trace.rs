@@ -1,0 +1,69 @@
+//! The small edges of a boundary at one level.
+
+use super::{MacroMesh, Numbering};
+use crate::element::Order;
+use crate::geometry::Point;
+
+/// A node on a macro edge: `position` intervals from the edge's first vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct EdgeNode {
+    /// Macro edge.
+    pub edge: u32,
+    /// Intervals from its first vertex, from 0 to the level's intervals.
+    pub position: u32,
+}
+
+impl EdgeNode {
+    /// The two nodes of the next coarser level whose mean it is; the same one twice where that level has it.
+    pub fn parents(self) -> [Self; 2] {
+        let half = self.position / 2;
+        [half, half + self.position % 2].map(|position| Self { position, ..self })
+    }
+
+    /// Its number.
+    pub fn number(self, mesh: &MacroMesh, numbering: &Numbering) -> usize {
+        numbering.edge_node(mesh, self.edge, self.position as usize)
+    }
+
+    /// Its position in the plane.
+    pub fn place(self, mesh: &MacroMesh, numbering: &Numbering) -> Point {
+        mesh.edge_position(self.edge, f64::from(self.position) / numbering.level.intervals as f64)
+    }
+}
+
+/// One element edge on the boundary of a body, directed so that the body lies on its left.
+#[derive(Clone, Debug)]
+pub struct BoundaryEdge {
+    /// Its nodes: both ends, and for P2 the node between them.
+    pub nodes: Vec<EdgeNode>,
+    /// Their positions.
+    pub points: Vec<Point>,
+    /// Whether it is straight.
+    pub straight: bool,
+}
+
+impl BoundaryEdge {
+    /// The element edges of a macro edge at a level, in the direction that keeps the body on the left.
+    pub fn all_of(mesh: &MacroMesh, edge: u32, numbering: &Numbering) -> Vec<Self> {
+        let (triangle, side) = mesh.beside(edge);
+        let forward = mesh.triangles[triangle as usize].forward[side];
+        let n = numbering.level.intervals;
+        let step = numbering.level.order.degree();
+        let straight = mesh.edges[edge as usize].shape.is_none();
+        let node = |p: usize| EdgeNode { edge, position: if forward { p } else { n - p } as u32 };
+        let one = |k: usize| {
+            let nodes: Vec<EdgeNode> = match numbering.level.order {
+                Order::P1 => vec![node(k), node(k + 1)],
+                Order::P2 => vec![node(k * step), node(k * step + 2), node(k * step + 1)],
+            };
+            let points = nodes.iter().map(|node| node.place(mesh, numbering)).collect();
+            Self { nodes, points, straight }
+        };
+        (0..n / step).map(one).collect()
+    }
+
+    /// Length of the chord.
+    pub fn length(&self) -> f64 {
+        (self.points[1] - self.points[0]).norm()
+    }
+}

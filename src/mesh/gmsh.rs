@@ -1,0 +1,255 @@
+//! Reader of Gmsh 4.1 ASCII files.
+
+use super::macro_mesh::{MacroMesh, RawMesh};
+use super::MeshError;
+use crate::geometry::Point;
+use std::collections::HashMap;
+use std::path::Path;
+use std::str::FromStr;
+
+/// Reads a Gmsh 4.1 ASCII file: physical surfaces become bodies, physical curves become boundaries.
+///
+/// # Errors
+/// [`MeshError`] with file and line, what was found, and the gmsh command that mends it.
+pub fn read_gmsh(file: &Path) -> Result<MacroMesh, MeshError> {
+    let bytes = std::fs::read(file).map_err(|source| MeshError::Unreadable { file: file.to_path_buf(), source })?;
+    let text = String::from_utf8_lossy(&bytes);
+    MacroMesh::build(Reader::new(file, &text).read()?, file)
+}
+
+/// Dimension and tag of an elementary entity of the file.
+type Entity = (usize, i64);
+
+/// A cursor over the lines of the file.
+struct Reader<'a> {
+    file: &'a Path,
+    lines: std::iter::Enumerate<std::str::Lines<'a>>,
+    line: usize,
+    convert: String,
+    names: HashMap<Entity, String>,
+    physical: HashMap<Entity, Vec<i64>>,
+    nodes: HashMap<i64, usize>,
+    mesh: RawMesh,
+}
+
+impl<'a> Reader<'a> {
+    fn new(file: &'a Path, text: &'a str) -> Self {
+        let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
+        Self {
+            file,
+            lines: text.lines().enumerate(),
+            line: 0,
+            convert: format!("`gmsh {name} -save -format msh41 -o converted.msh`"),
+            names: HashMap::new(),
+            physical: HashMap::new(),
+            nodes: HashMap::new(),
+            mesh: RawMesh::default(),
+        }
+    }
+
+    fn error(&self, message: impl Into<String>) -> MeshError {
+        MeshError::Syntax { file: self.file.to_path_buf(), line: self.line, message: message.into() }
+    }
+
+    /// Next line that is not blank, or nothing at the end of the file.
+    fn next_line(&mut self) -> Option<&'a str> {
+        for (number, line) in self.lines.by_ref() {
+            self.line = number + 1;
+            if !line.trim().is_empty() {
+                return Some(line.trim());
+            }
+        }
+        None
+    }
+
+    fn line_in(&mut self, section: &str) -> Result<&'a str, MeshError> {
+        match self.next_line() {
+            Some(line) => Ok(line),
+            None => Err(self.error(format!("the file ends inside ${section}; it is cut off, save it again"))),
+        }
+    }
+
+    /// The next line as numbers, at least `least` of them.
+    fn numbers<T: FromStr>(&mut self, section: &str, least: usize) -> Result<Vec<T>, MeshError> {
+        let line = self.line_in(section)?;
+        let found: Result<Vec<T>, _> = line.split_whitespace().map(str::parse).collect();
+        match found {
+            Ok(values) if values.len() >= least => Ok(values),
+            _ => Err(self.error(format!("in ${section}, expected {least} numbers, found `{line}`"))),
+        }
+    }
+
+    fn read(mut self) -> Result<RawMesh, MeshError> {
+        match self.next_line() {
+            Some("$MeshFormat") => self.format()?,
+            _ => return Err(self.error("not a Gmsh mesh: the first line must be $MeshFormat")),
+        }
+        let mut seen = Vec::new();
+        while let Some(line) = self.next_line() {
+            let Some(section) = line.strip_prefix('$') else {
+                return Err(self.error(format!("expected the start of a section, found `{line}`")));
+            };
+            match section {
+                "PhysicalNames" => self.physical_names()?,
+                "Entities" => self.entities()?,
+                "Nodes" => self.nodes()?,
+                "Elements" => self.elements()?,
+                _ => self.skip(section)?,
+            }
+            if matches!(section, "PhysicalNames" | "Entities" | "Nodes" | "Elements") {
+                self.end(section)?;
+            }
+            seen.push(section);
+        }
+        for (section, remedy) in [
+            ("PhysicalNames", "name the bodies with `Physical Surface(\"name\") = {...}` and the boundaries with `Physical Curve(\"name\") = {...}` in the .geo file"),
+            ("Entities", "save the file as format 4.1"),
+            ("Nodes", "mesh it with `gmsh -2`"),
+            ("Elements", "mesh it with `gmsh -2`"),
+        ] {
+            if !seen.contains(&section) {
+                return Err(MeshError::unusable(self.file, format!("has no ${section}; {remedy}")));
+            }
+        }
+        Ok(self.mesh)
+    }
+
+    fn end(&mut self, section: &str) -> Result<(), MeshError> {
+        let line = self.line_in(section)?;
+        if line.strip_prefix("$End") == Some(section) {
+            return Ok(());
+        }
+        Err(self.error(format!("expected $End{section}, found `{line}`")))
+    }
+
+    fn skip(&mut self, section: &str) -> Result<(), MeshError> {
+        let end = format!("$End{section}");
+        while self.line_in(section)? != end {}
+        Ok(())
+    }
+
+    fn format(&mut self) -> Result<(), MeshError> {
+        let line = self.line_in("MeshFormat")?;
+        let mut words = line.split_whitespace();
+        let (version, kind) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
+        if version != "4.1" {
+            return Err(self.error(format!(
+                "mesh format {version} is not read, only 4.1 ASCII; convert it with {}",
+                self.convert
+            )));
+        }
+        if kind != "0" {
+            return Err(self.error(format!(
+                "binary files are not read, only ASCII; save it with `Mesh.Binary = 0`, or convert it with {}",
+                self.convert
+            )));
+        }
+        self.end("MeshFormat")
+    }
+
+    fn physical_names(&mut self) -> Result<(), MeshError> {
+        let count: usize = self.numbers("PhysicalNames", 1)?[0];
+        for _ in 0..count {
+            let line = self.line_in("PhysicalNames")?;
+            let mut words = line.splitn(3, ' ');
+            let mut number = || words.next().and_then(|word| word.parse::<i64>().ok());
+            let (dimension, tag) = (number(), number());
+            let name = words.next().map(|word| word.trim().trim_matches('"').to_string());
+            let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
+                return Err(self.error(format!("expected `dimension tag \"name\"`, found `{line}`")));
+            };
+            self.names.insert((dimension as usize, tag), name);
+        }
+        Ok(())
+    }
+
+    fn entities(&mut self) -> Result<(), MeshError> {
+        let counts: Vec<usize> = self.numbers("Entities", 4)?;
+        for (dimension, count) in counts.into_iter().take(4).enumerate() {
+            let first = if dimension == 0 { 4 } else { 7 };
+            for _ in 0..count {
+                let values: Vec<f64> = self.numbers("Entities", first + 1)?;
+                let count = values[first] as usize;
+                let tags = values.get(first + 1..first + 1 + count);
+                let Some(tags) = tags else {
+                    return Err(self.error(format!("expected {count} physical tags")));
+                };
+                let tags = tags.iter().map(|tag| tag.abs() as i64).collect();
+                self.physical.insert((dimension, values[0] as i64), tags);
+            }
+        }
+        Ok(())
+    }
+
+    fn nodes(&mut self) -> Result<(), MeshError> {
+        let blocks: usize = self.numbers("Nodes", 4)?[0];
+        for _ in 0..blocks {
+            let block: Vec<i64> = self.numbers("Nodes", 4)?;
+            let mut tags = Vec::new();
+            for _ in 0..block[3] {
+                tags.push(self.numbers::<i64>("Nodes", 1)?[0]);
+            }
+            for tag in tags {
+                let x: Vec<f64> = self.numbers("Nodes", 3)?;
+                if x[..3].iter().any(|value| !value.is_finite()) {
+                    return Err(self.error(format!("node {tag} has a coordinate that is not a finite number")));
+                }
+                if x[2].abs() > 1e-12 * (x[0].abs() + x[1].abs() + 1.0) {
+                    return Err(self.error(format!("node {tag} has z = {}; the mesh must lie in the plane z = 0", x[2])));
+                }
+                self.nodes.insert(tag, self.mesh.vertices.len());
+                self.mesh.vertices.push(Point::new(x[0], x[1]));
+            }
+        }
+        Ok(())
+    }
+
+    fn elements(&mut self) -> Result<(), MeshError> {
+        let blocks: usize = self.numbers("Elements", 4)?[0];
+        for _ in 0..blocks {
+            let block: Vec<i64> = self.numbers("Elements", 4)?;
+            let (dimension, entity, kind, count) = (block[0] as usize, block[1], block[2], block[3]);
+            let corners = match kind {
+                1 => 2,
+                2 => 3,
+                15 => 1,
+                _ => return Err(self.error(refused_element(kind))),
+            };
+            let names = self.names_of((dimension, entity));
+            for _ in 0..count {
+                let words: Vec<i64> = self.numbers("Elements", 1 + corners)?;
+                let corners = self.corners(&words[1..=corners])?;
+                match corners[..] {
+                    [a, b] => self.mesh.lines.extend(names.iter().map(|name| (name.clone(), [a, b], self.line))),
+                    [a, b, c] => self.mesh.triangles.push(([a, b, c], names.clone(), self.line)),
+                    _ => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn corners(&self, tags: &[i64]) -> Result<Vec<usize>, MeshError> {
+        let find = |tag| {
+            self.nodes.get(tag).copied().ok_or_else(|| self.error(format!("node {tag} is not among the $Nodes")))
+        };
+        tags.iter().map(find).collect()
+    }
+
+    /// Physical names of an entity; a physical group without a name is known by its tag.
+    fn names_of(&self, entity: Entity) -> Vec<String> {
+        let tags = self.physical.get(&entity).map(Vec::as_slice).unwrap_or(&[]);
+        let name = |tag: &i64| self.names.get(&(entity.0, *tag)).cloned().unwrap_or(tag.to_string());
+        tags.iter().map(name).collect()
+    }
+}
+
+fn refused_element(kind: i64) -> String {
+    let (what, remedy) = match kind {
+        3 | 10 | 16 => ("quadrangles", "mesh with triangles (drop `Recombine Surface`)"),
+        4..=7 | 11..=14 => ("volume elements", "mesh the plane scene with `gmsh -2`"),
+        8 | 9 => ("second-order elements", "mesh with `gmsh -2 -order 1`: `mesh.order = 2` in the case makes P2 triangles of it"),
+        _ => ("elements of another kind", "mesh with first-order triangles"),
+    };
+    format!("holds {what} (Gmsh element type {kind}); {remedy}")
+}

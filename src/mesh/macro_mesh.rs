@@ -1,0 +1,244 @@
+//! The mesh of the file: triangles of named bodies, edges, named boundaries.
+
+use super::shape::EdgeShape;
+use super::MeshError;
+use crate::geometry::{Point, cross};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// What a mesh file says, before it is checked. Lines are those of the file.
+#[derive(Default)]
+pub(super) struct RawMesh {
+    pub vertices: Vec<Point>,
+    pub triangles: Vec<([usize; 3], Vec<String>, usize)>,
+    pub lines: Vec<(String, [usize; 2], usize)>,
+}
+
+/// A macro triangle, counter-clockwise.
+#[derive(Clone, Debug)]
+pub struct MacroTriangle {
+    /// Corners, as indices of [`MacroMesh::vertices`].
+    pub vertices: [u32; 3],
+    /// Macro edges; edge `k` joins corner `k` to corner `k + 1` (mod 3).
+    pub edges: [u32; 3],
+    /// Whether edge `k` runs from corner `k` to corner `k + 1` in its own direction.
+    pub forward: [bool; 3],
+    /// Index of its body.
+    pub body: u32,
+}
+
+/// A macro edge, directed from its first vertex to its second.
+#[derive(Clone, Debug)]
+pub struct MacroEdge {
+    /// Ends, as indices of [`MacroMesh::vertices`].
+    pub vertices: [u32; 2],
+    /// Macro triangles beside it: one on a boundary, two inside a body.
+    pub triangles: [Option<u32>; 2],
+    /// True shape, where it is not straight.
+    pub shape: Option<EdgeShape>,
+}
+
+/// A physical curve: macro edges on the boundary of one body or several.
+#[derive(Clone, Debug)]
+pub struct Boundary {
+    /// Name in the mesh file.
+    pub name: String,
+    /// Its macro edges.
+    pub edges: Vec<u32>,
+}
+
+/// The mesh of the file. Every rank holds the whole of it.
+#[derive(Clone, Debug)]
+pub struct MacroMesh {
+    /// File it came from.
+    pub file: PathBuf,
+    /// Positions of the vertices that triangles use.
+    pub vertices: Vec<Point>,
+    /// Triangles, each with its body.
+    pub triangles: Vec<MacroTriangle>,
+    /// Edges, each once.
+    pub edges: Vec<MacroEdge>,
+    /// Physical surfaces.
+    pub bodies: Vec<String>,
+    /// Physical curves.
+    pub boundaries: Vec<Boundary>,
+}
+
+impl MacroMesh {
+    /// Checks what a file says and connects it.
+    pub(super) fn build(mut raw: RawMesh, file: &Path) -> Result<Self, MeshError> {
+        drop_loose_vertices(&mut raw);
+        let mut mesh = Self {
+            file: file.to_path_buf(),
+            vertices: raw.vertices,
+            triangles: Vec::with_capacity(raw.triangles.len()),
+            edges: Vec::new(),
+            bodies: Vec::new(),
+            boundaries: Vec::new(),
+        };
+        let mut known = HashMap::new();
+        for (corners, names, line) in raw.triangles {
+            let body = mesh.body_of(&names, line)?;
+            let corners = mesh.turned(corners, line)?;
+            mesh.add_triangle(corners, body, line, &mut known)?;
+        }
+        if mesh.triangles.is_empty() {
+            return Err(MeshError::unusable(file, "has no triangles; mesh it with `gmsh -2`"));
+        }
+        mesh.check_bodies_are_apart()?;
+        for (name, ends, line) in raw.lines {
+            mesh.add_line(name, ends, line, &known)?;
+        }
+        Ok(mesh)
+    }
+
+    fn syntax(&self, line: usize, message: String) -> MeshError {
+        MeshError::Syntax { file: self.file.clone(), line, message }
+    }
+
+    fn body_of(&mut self, names: &[String], line: usize) -> Result<u32, MeshError> {
+        let [name] = names else {
+            let found = if names.is_empty() { "no physical surface".into() } else { names.join(", ") };
+            return Err(self.syntax(line, format!("a triangle must lie in exactly one physical surface (its body); found {found}")));
+        };
+        if let Some(body) = self.bodies.iter().position(|body| body == name) {
+            return Ok(body as u32);
+        }
+        self.bodies.push(name.clone());
+        Ok(self.bodies.len() as u32 - 1)
+    }
+
+    /// The corners counter-clockwise; a clockwise triangle is turned round, a flat one refused.
+    fn turned(&self, corners: [usize; 3], line: usize) -> Result<[u32; 3], MeshError> {
+        let [a, b, c] = corners.map(|corner| self.vertices[corner]);
+        let area = 0.5 * cross(b - a, c - a);
+        let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+        if area.abs() <= 1e-10 * longest * longest {
+            return Err(self.syntax(
+                line,
+                format!(
+                    "degenerate triangle with corners ({}, {}), ({}, {}), ({}, {}): its area is {area:e}; mesh the scene again",
+                    a.x, a.y, b.x, b.y, c.x, c.y
+                ),
+            ));
+        }
+        let [a, b, c] = corners.map(|corner| corner as u32);
+        Ok(if area > 0.0 { [a, b, c] } else { [a, c, b] })
+    }
+
+    fn add_triangle(&mut self, vertices: [u32; 3], body: u32, line: usize, known: &mut HashMap<[u32; 2], u32>) -> Result<(), MeshError> {
+        let triangle = self.triangles.len() as u32;
+        let (mut edges, mut forward) = ([0; 3], [true; 3]);
+        for k in 0..3 {
+            let (a, b) = (vertices[k], vertices[(k + 1) % 3]);
+            let edge = *known.entry([a.min(b), a.max(b)]).or_insert(self.edges.len() as u32);
+            if edge as usize == self.edges.len() {
+                self.edges.push(MacroEdge { vertices: [a, b], triangles: [Some(triangle), None], shape: None });
+            } else {
+                let there = &mut self.edges[edge as usize];
+                if there.triangles[1].is_some() || there.vertices[0] == a {
+                    return Err(self.syntax(line, "overlaps a triangle before it: they lie on the same side of an edge; mesh the scene again".into()));
+                }
+                there.triangles[1] = Some(triangle);
+                forward[k] = false;
+            }
+            edges[k] = edge;
+        }
+        self.triangles.push(MacroTriangle { vertices, edges, forward, body });
+        Ok(())
+    }
+
+    /// Bodies meet only in contact: no edge and no vertex may belong to two of them.
+    fn check_bodies_are_apart(&self) -> Result<(), MeshError> {
+        let mut owner = vec![None; self.vertices.len()];
+        for triangle in &self.triangles {
+            for &vertex in &triangle.vertices {
+                let body = owner[vertex as usize].get_or_insert(triangle.body);
+                if *body != triangle.body {
+                    let (x, names) = (self.vertices[vertex as usize], [*body, triangle.body].map(|b| &self.bodies[b as usize]));
+                    return Err(MeshError::unusable(
+                        &self.file,
+                        format!(
+                            "bodies \"{}\" and \"{}\" share the node at ({}, {}); give each body points and lines of its own, contact joins them",
+                            names[0], names[1], x.x, x.y
+                        ),
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn add_line(&mut self, name: String, ends: [usize; 2], line: usize, known: &HashMap<[u32; 2], u32>) -> Result<(), MeshError> {
+        let [a, b] = ends.map(|end| end as u32);
+        let edge = match known.get(&[a.min(b), a.max(b)]) {
+            Some(&edge) if self.edges[edge as usize].triangles[1].is_none() => edge,
+            found => {
+                let place = if found.is_some() { "lies inside a body" } else { "is not an edge of a triangle" };
+                return Err(self.syntax(line, format!("a line of the physical curve \"{name}\" {place}; physical curves must bound bodies")));
+            }
+        };
+        match self.boundaries.iter_mut().find(|boundary| boundary.name == name) {
+            Some(boundary) if boundary.edges.contains(&edge) => {}
+            Some(boundary) => boundary.edges.push(edge),
+            None => self.boundaries.push(Boundary { name, edges: vec![edge] }),
+        }
+        Ok(())
+    }
+
+    /// The boundary of that name, if the mesh has it.
+    pub fn boundary(&self, name: &str) -> Option<&Boundary> {
+        self.boundaries.iter().find(|boundary| boundary.name == name)
+    }
+
+    /// The triangle beside a boundary edge, and which of its three edges it is.
+    pub fn beside(&self, edge: u32) -> (u32, usize) {
+        let triangle = self.edges[edge as usize].triangles[0].expect("every macro edge has a first triangle");
+        let side = self.triangles[triangle as usize].edges.iter().position(|&e| e == edge);
+        (triangle, side.expect("a macro triangle knows its edges"))
+    }
+
+    /// Body of a boundary edge.
+    pub fn body_beside(&self, edge: u32) -> usize {
+        self.triangles[self.beside(edge).0 as usize].body as usize
+    }
+
+    /// Straight length of a macro edge.
+    pub fn edge_length(&self, edge: u32) -> f64 {
+        let [a, b] = self.edges[edge as usize].vertices;
+        (self.vertices[b as usize] - self.vertices[a as usize]).norm()
+    }
+
+    /// Smallest box around all vertices of a body: lower left and upper right corner.
+    pub fn bounds(&self, body: usize) -> [Point; 2] {
+        let mut bounds = [Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)];
+        for triangle in self.triangles.iter().filter(|triangle| triangle.body as usize == body) {
+            for &vertex in &triangle.vertices {
+                let x = self.vertices[vertex as usize];
+                bounds = [bounds[0].inf(&x), bounds[1].sup(&x)];
+            }
+        }
+        bounds
+    }
+}
+
+/// Leaves out the points of the geometry that no triangle uses (centres of circles, say).
+fn drop_loose_vertices(raw: &mut RawMesh) {
+    let mut used = vec![false; raw.vertices.len()];
+    raw.triangles.iter().flat_map(|(corners, ..)| corners).for_each(|&corner| used[corner] = true);
+    let mut new = vec![usize::MAX; raw.vertices.len()];
+    let mut count = 0;
+    for (vertex, used) in used.iter().enumerate() {
+        if *used {
+            raw.vertices[count] = raw.vertices[vertex];
+            new[vertex] = count;
+            count += 1;
+        }
+    }
+    raw.vertices.truncate(count);
+    raw.triangles.iter_mut().flat_map(|(corners, ..)| corners).for_each(|corner| *corner = new[*corner]);
+    for (_, ends, _) in &mut raw.lines {
+        // A line whose end no triangle uses keeps an index that no edge has, and is refused with words.
+        ends.iter_mut().for_each(|end| *end = new[*end].min(u32::MAX as usize));
+    }
+}

@@ -1,0 +1,128 @@
+//! True shapes of macro edges, and the smooth map of a macro triangle that follows them.
+
+use super::{MacroMesh, MeshError};
+use crate::geometry::{Curve, Point};
+use std::sync::Arc;
+
+/// The true shape of a macro edge: a piece of a curve.
+#[derive(Clone, Debug)]
+pub struct EdgeShape {
+    /// The curve.
+    pub curve: Arc<Curve>,
+    /// Its parameter at the edge's first and second vertex.
+    pub range: [f64; 2],
+}
+
+impl EdgeShape {
+    /// Parameter of the curve at the fraction `t` from the edge's first vertex.
+    pub fn parameter(&self, t: f64) -> f64 {
+        self.range[0] + t * (self.range[1] - self.range[0])
+    }
+}
+
+impl MacroMesh {
+    /// Gives the edges of the named boundaries the shape of a curve and moves their vertices onto it.
+    ///
+    /// # Errors
+    /// If a boundary does not exist, or a vertex is farther from the curve than a tenth of its edge.
+    pub fn bend(&mut self, geometry: &str, boundaries: &[String], curve: &Curve) -> Result<(), MeshError> {
+        let curve = Arc::new(curve.clone());
+        for name in boundaries {
+            let Some(boundary) = self.boundary(name) else {
+                let known = self.boundaries.iter().map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
+                return Err(MeshError::unusable(
+                    &self.file,
+                    format!("has no physical curve \"{name}\", which [geometry.{geometry}] names; it has {known}"),
+                ));
+            };
+            for edge in boundary.edges.clone() {
+                self.bend_edge(geometry, edge, &curve)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn bend_edge(&mut self, geometry: &str, edge: u32, curve: &Arc<Curve>) -> Result<(), MeshError> {
+        let ends = self.edges[edge as usize].vertices;
+        let length = self.edge_length(edge);
+        let mut range = ends.map(|vertex| curve.nearest(self.vertices[vertex as usize]));
+        if let Some(period) = curve.period() {
+            range[1] = range[0] + (range[1] - range[0] + 0.5 * period).rem_euclid(period) - 0.5 * period;
+        }
+        for (vertex, t) in ends.into_iter().zip(range) {
+            let (here, there) = (self.vertices[vertex as usize], curve.point(t));
+            let distance = (here - there).norm();
+            let [first, last] = curve.range();
+            let beyond = (first - t).max(t - last) > 1e-6 * (last - first).abs() && curve.period().is_none();
+            if distance > 0.1 * length || !distance.is_finite() || beyond {
+                return Err(MeshError::unusable(
+                    &self.file,
+                    format!(
+                        "the node ({}, {}) lies {distance:.3e} from [geometry.{geometry}] (nearest at t = {t}); correct the formula, its range of t, or the mesh",
+                        here.x, here.y
+                    ),
+                ));
+            }
+            if distance > 1e-14 * (here.norm() + length) {
+                self.vertices[vertex as usize] = there;
+            }
+        }
+        self.edges[edge as usize].shape = (!curve.is_line()).then(|| EdgeShape { curve: curve.clone(), range });
+        Ok(())
+    }
+
+    /// Whether an edge of the macro triangle is bent, so that its triangles differ from one another.
+    pub fn is_curved(&self, triangle: usize) -> bool {
+        self.triangles[triangle].edges.iter().any(|&edge| self.edges[edge as usize].shape.is_some())
+    }
+
+    /// Position of the point with barycentric coordinates `(1 - xi - eta, xi, eta)` of a macro triangle.
+    ///
+    /// The displacement of each bent edge is carried into the triangle by the blending of Szabó and Babuška,
+    /// Finite Element Analysis (1991), section 6.2: smooth, exact on the edges, so that nodes of every level are points of one map.
+    pub fn position(&self, triangle: usize, xi: f64, eta: f64) -> Point {
+        let macro_triangle = &self.triangles[triangle];
+        let weights = [1.0 - xi - eta, xi, eta];
+        let corners = macro_triangle.vertices.map(|vertex| self.vertices[vertex as usize]);
+        let mut x = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+        for k in 0..3 {
+            let Some(shape) = &self.edges[macro_triangle.edges[k] as usize].shape else { continue };
+            let (a, b) = (weights[k], weights[(k + 1) % 3]);
+            if a * b <= 0.0 {
+                continue;
+            }
+            let t = 0.5 * (1.0 + b - a);
+            let straight = corners[k] * (1.0 - t) + corners[(k + 1) % 3] * t;
+            let along = if macro_triangle.forward[k] { t } else { 1.0 - t };
+            x += (shape.curve.point(shape.parameter(along)) - straight) * (a * b / (t * (1.0 - t)));
+        }
+        x
+    }
+
+    /// Position at the fraction `t` of a macro edge from its first vertex.
+    pub fn edge_position(&self, edge: u32, t: f64) -> Point {
+        let macro_edge = &self.edges[edge as usize];
+        let [a, b] = macro_edge.vertices.map(|vertex| self.vertices[vertex as usize]);
+        match &macro_edge.shape {
+            Some(shape) if t > 0.0 && t < 1.0 => shape.curve.point(shape.parameter(t)),
+            _ => a * (1.0 - t) + b * t,
+        }
+    }
+
+    /// Unit outward normal of a boundary edge at the fraction `t` from its first vertex; from the true shape where it has one.
+    pub fn edge_normal(&self, edge: u32, t: f64) -> Point {
+        let macro_edge = &self.edges[edge as usize];
+        let (triangle, side) = self.beside(edge);
+        let [a, b] = macro_edge.vertices.map(|vertex| self.vertices[vertex as usize]);
+        let chord = b - a;
+        let tangent = match &macro_edge.shape {
+            Some(shape) => {
+                let tangent = shape.curve.tangent(shape.parameter(t));
+                tangent * tangent.dot(&chord).signum()
+            }
+            None => chord.normalize(),
+        };
+        let outward = crate::geometry::turn_right(tangent);
+        if self.triangles[triangle as usize].forward[side] { outward } else { -outward }
+    }
+}
