@@ -28,6 +28,9 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
         choice(&[("unilateral", Ok(Law::Unilateral)), ("bilateral", Ok(Law::Bilateral))]),
     );
     refuse_what_is_not_built(section);
+    if !section.name().chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
+        section.problem(&[], "its name is part of a file name; use letters, digits, - and _".into());
+    }
     Some(Pair {
         name: section.name().into(),
         between: between?,

@@ -40,7 +40,10 @@ impl CaseError {
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
         let message = error.message().replace('\n', ", ");
-        Self::of_file(file, format!("line {line}, column {column}: {message}; the file is written in TOML, see toml.io"))
+        Self::of_file(
+            file,
+            format!("line {line}, column {column}: {message}; the file is written in TOML, see toml.io"),
+        )
     }
 }
 
@@ -88,7 +91,7 @@ pub(super) fn suggest<'a>(found: &str, names: impl Iterator<Item = &'a str>) -> 
     let names: Vec<&str> = names.collect();
     let distance = |name: &str| strsim::damerau_levenshtein(&found.to_lowercase(), &name.to_lowercase());
     let nearest = names.iter().min_by_key(|name| distance(name));
-    match nearest.filter(|name| distance(name) <= 1.max(name.len() / 3)) {
+    match nearest.filter(|name| distance(name) <= 1.max(found.len().max(name.len()) / 3)) {
         Some(name) => format!("did you mean \"{name}\"?"),
         None if names.is_empty() => "there are none".into(),
         None => format!("there are {}", names.join(", ")),

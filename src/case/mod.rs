@@ -148,7 +148,7 @@ impl Case {
         if let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut) {
             mesh.insert("file".into(), Value::from(mesh_file.to_string_lossy().into_owned()));
         }
-        format!("# {}, resolved by mezha {}\n{table}", self.name, env!("CARGO_PKG_VERSION"))
+        format!("# Resolved by mezha {}.\n{table}", env!("CARGO_PKG_VERSION"))
     }
 
     /// Reads every section, then checks what lies between them. None if a value is missing or bad; the log knows why.

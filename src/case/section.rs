@@ -45,7 +45,12 @@ impl<'a> Section<'a> {
     }
 
     /// A value that must be given; `example` shows how.
-    pub fn required<T>(&self, key: &'static str, example: &str, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
+    pub fn required<T>(
+        &self,
+        key: &'static str,
+        example: &str,
+        read: impl Fn(&Value) -> Result<T, String>,
+    ) -> Option<T> {
         match self.get(key) {
             Some(value) => self.checked(key, value, read),
             None => {
@@ -136,7 +141,10 @@ impl<'a> Section<'a> {
     }
 
     fn get(&self, key: &'static str) -> Option<&'a Value> {
-        self.asked.borrow_mut().push(key);
+        let mut asked = self.asked.borrow_mut();
+        if !asked.contains(&key) {
+            asked.push(key);
+        }
         self.table.and_then(|table| table.get(key))
     }
 
