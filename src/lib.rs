@@ -21,4 +21,6 @@ pub mod system;
 pub mod case;
 pub mod output;
 
+pub mod arguments;
+
 pub mod run;

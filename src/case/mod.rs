@@ -1,1 +1,203 @@
-//! The case file.
+//! The case file: TOML text to checked values.
+//!
+//! Everything that needs no mesh is checked here, and all that is wrong is reported at once, each with file, key, value and remedy.
+
+mod contact;
+mod error;
+mod exact;
+mod model;
+mod overrides;
+mod section;
+mod values;
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use toml::{Table, Value};
+
+use crate::body::{Body, Load, Support};
+use crate::contact::Pair;
+use crate::element::Order;
+use crate::geometry::Curve;
+use crate::system::SolverChoice;
+
+pub use error::{CaseError, Problem};
+pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
+
+use overrides::{apply_override, set_value};
+use section::{Log, Section};
+
+/// A checked case: what to solve, on which mesh, and what is known of the result.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The case file.
+    pub file: PathBuf,
+    /// Folder of the case file; other files are relative to it.
+    pub folder: PathBuf,
+    /// Name of the folder if the file is called `case.toml`, else the file's stem.
+    pub name: String,
+    /// What it shows, in words.
+    pub title: String,
+    /// Mesh and discretisation.
+    pub mesh: MeshChoice,
+    /// Bodies, in the order of the file.
+    pub bodies: Vec<Body>,
+    /// True shapes of boundaries.
+    pub geometries: Vec<Geometry>,
+    /// Prescribed displacements.
+    pub supports: Vec<Support>,
+    /// Surface loads.
+    pub loads: Vec<Load>,
+    /// Contact pairs.
+    pub contacts: Vec<Pair>,
+    /// Linear solver.
+    pub solver: Solver,
+    /// Points to report.
+    pub probes: Vec<Probe>,
+    /// Exact or reference values.
+    pub exact: Exact,
+    /// The file with overrides and defaults written out.
+    table: Table,
+}
+
+/// Which mesh, and what is made of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshChoice {
+    /// Gmsh file, found from the folder of the case.
+    pub file: PathBuf,
+    /// Order of the displacement.
+    pub order: Order,
+    /// Refinements after reading.
+    pub refine: usize,
+}
+
+/// True shape of some boundaries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Geometry {
+    /// Name in the case file.
+    pub name: String,
+    /// Physical curves that have this shape.
+    pub curves: Vec<String>,
+    /// The shape.
+    pub curve: Curve,
+}
+
+/// How the linear systems are solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solver {
+    /// Which solver.
+    pub choice: SolverChoice,
+    /// Relative residual of the scaled augmented system, in (0, 0.01].
+    pub tolerance: f64,
+}
+
+/// A point whose displacement and stress are reported.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Name in the case file.
+    pub name: String,
+    /// Where (length).
+    pub point: [f64; 2],
+    /// Body that is asked; two bodies may touch there.
+    pub body: String,
+}
+
+impl Case {
+    /// Reads and checks a case file, after the overrides `KEY=VALUE`.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn read(file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let text = std::fs::read_to_string(file).map_err(|error| {
+            let words = format!("cannot be read: {error}; the first argument is the path of a case file");
+            CaseError::of_file(file, words)
+        })?;
+        Self::parse(&text, file, overrides)
+    }
+
+    /// Checks the text of a case file; `file` gives names to the case and to errors, and a folder to the mesh.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let mut table: Table = toml::from_str(text).map_err(|error| CaseError::of_syntax(file, text, &error))?;
+        let mut log = Log::default();
+        for text in overrides {
+            match apply_override(&mut table, text) {
+                Ok(path) => log.overridden.push(path),
+                Err(problem) => log.problems.push(problem),
+            }
+        }
+        let log = RefCell::new(log);
+        let draft = Self::from_section(&Section::root(&table, &log), file);
+        let log = log.into_inner();
+        let Some(mut case) = draft.filter(|_| log.problems.is_empty()) else {
+            return Err(CaseError { file: file.into(), problems: log.problems });
+        };
+        for (path, value) in log.defaults {
+            set_value(&mut table, &path, value).expect("a default stands in a table that was just read");
+        }
+        case.table = table;
+        Ok(case)
+    }
+
+    /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its absolute path.
+    pub fn resolved(&self) -> String {
+        let mut table = self.table.clone();
+        let mesh_file = std::path::absolute(&self.mesh.file).unwrap_or_else(|_| self.mesh.file.clone());
+        if let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut) {
+            mesh.insert("file".into(), Value::from(mesh_file.to_string_lossy().into_owned()));
+        }
+        format!("# Resolved by mezha {}.\n{table}", env!("CARGO_PKG_VERSION"))
+    }
+
+    /// Reads every section, then checks what lies between them. None if a value is missing or bad; the log knows why.
+    fn from_section(root: &Section, file: &Path) -> Option<Self> {
+        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
+        let title = root.or("title", "", values::text);
+        let mesh = model::read_mesh(root, &folder);
+        let bodies = root.named("body", model::read_body);
+        let geometries = root.named("geometry", model::read_geometry);
+        let supports = root.named("support", model::read_support);
+        let loads = root.named("load", model::read_load);
+        let contacts = root.named("contact", contact::read_contact);
+        let solver = model::read_solver(root);
+        let probes = root.named("probe", model::read_probe);
+        let exact = exact::read_exact(root);
+        model::check_bodies(root);
+        model::check_geometries(&geometries, root);
+        model::check_probes(&probes, root);
+        contact::check_contacts(&contacts, &geometries, root);
+        exact::check_exact(&exact, root);
+        Some(Self {
+            name: name_of(file, &folder),
+            file: file.into(),
+            folder,
+            title: title?,
+            mesh: mesh?,
+            bodies,
+            geometries,
+            supports,
+            loads,
+            contacts,
+            solver: solver?,
+            probes,
+            exact,
+            table: Table::new(),
+        })
+    }
+}
+
+/// Name of the folder if the file is called `case.toml`, else the file's stem.
+fn name_of(file: &Path, folder: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default();
+    if file.file_name() != Some("case.toml".as_ref()) {
+        return stem.to_string_lossy().into_owned();
+    }
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let folder = here.canonicalize().or_else(|_| std::path::absolute(here)).unwrap_or_default();
+    folder.file_name().unwrap_or(stem).to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests;

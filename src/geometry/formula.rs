@@ -1,39 +1,154 @@
 //! Formulas of named variables.
+//!
+//! A formula is read once into a postfix program and evaluated with dual numbers, so that derivatives are exact.
+//!
+//! | precedence, weakest first | associates |
+//! |---|---|
+//! | `a + b`, `a - b` | to the left |
+//! | `a * b`, `a / b` | to the left |
+//! | `-a` | `-x^2` is `-(x^2)` |
+//! | `a ^ b` | to the right: `2^3^2` is `2^9`; `2^-1` is one half |
+
+mod dual;
+mod parser;
+
+use dual::Dual;
 
 /// A formula of named variables.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
     text: String,
+    /// Postfix; leaves exactly one number on the stack and never more than [`DEPTH`].
+    program: Vec<Step>,
 }
 
-/// Why a formula cannot be read.
+/// Why a formula cannot be read: column, what was found, what is allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct FormulaError(pub String);
 
+/// Most numbers that wait on the stack at a time.
+const DEPTH: usize = 24;
+
+/// One step of a program: pushes a number, or takes its operands from the stack and pushes the result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Step {
+    Number(f64),
+    Variable(usize),
+    Negate,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Apply(Function),
+}
+
+/// The functions that a formula may call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Function {
+    Sqrt,
+    Sin,
+    Cos,
+    Exp,
+}
+
 impl Formula {
-    /// Reads a formula.
-    pub fn parse(text: &str, _variables: &[&str]) -> Result<Self, FormulaError> {
-        Ok(Self { text: text.into() })
+    /// Reads a formula of the named variables: `+ - * / ^ ( )`, `sqrt`, `sin`, `cos`, `exp`, `pi`, numbers.
+    ///
+    /// # Errors
+    /// [`FormulaError`] with the column (from 1) of the first character that cannot stand there.
+    pub fn parse(text: &str, variables: &[&str]) -> Result<Self, FormulaError> {
+        let program = parser::parse(text, variables)?;
+        Ok(Self { text: text.into(), program })
     }
+
     /// The formula that is the same everywhere.
     pub fn constant(value: f64) -> Self {
-        Self { text: value.to_string() }
+        Self { text: format!("{value:?}"), program: vec![Step::Number(value)] }
     }
+
     /// Its value, if no variable occurs in it.
     pub fn as_constant(&self) -> Option<f64> {
-        None
+        match self.program[..] {
+            [Step::Number(value)] => Some(value),
+            _ => None,
+        }
     }
-    /// Value at the given variables, in the order of `parse`.
-    pub fn value(&self, _at: &[f64]) -> f64 {
-        0.0
+
+    /// Value at the given variables, in the order of `parse`. NaN or infinite where the formula is not defined.
+    ///
+    /// # Panics
+    /// If `at` is shorter than the variables that the formula uses.
+    pub fn value(&self, at: &[f64]) -> f64 {
+        self.evaluate(at, None).value
     }
+
     /// Exact partial derivative by variable number `variable`.
-    pub fn derivative(&self, _variable: usize, _at: &[f64]) -> f64 {
-        0.0
+    ///
+    /// # Panics
+    /// As [`Formula::value`].
+    pub fn derivative(&self, variable: usize, at: &[f64]) -> f64 {
+        self.evaluate(at, Some(variable)).slope
     }
+
     /// As it was written.
     pub fn text(&self) -> &str {
         &self.text
     }
+
+    /// Runs the program; slopes are by the variable `by`.
+    fn evaluate(&self, at: &[f64], by: Option<usize>) -> Dual {
+        if let Some(value) = self.as_constant() {
+            return Dual::constant(value);
+        }
+        let mut stack = [Dual::constant(0.0); DEPTH];
+        let mut top = 0;
+        for step in &self.program {
+            let taken = step.operands();
+            let operands = &stack[top - taken..top];
+            let result = match *step {
+                Step::Variable(index) => Dual { value: at[index], slope: f64::from(u8::from(by == Some(index))) },
+                ref step => step.compute(operands),
+            };
+            top -= taken;
+            stack[top] = result;
+            top += 1;
+        }
+        stack[0]
+    }
 }
+
+impl Step {
+    /// How many numbers it takes from the stack.
+    fn operands(&self) -> usize {
+        match self {
+            Step::Number(_) | Step::Variable(_) => 0,
+            Step::Negate | Step::Apply(_) => 1,
+            Step::Add | Step::Subtract | Step::Multiply | Step::Divide | Step::Power => 2,
+        }
+    }
+
+    /// Result of a step that needs no variable.
+    fn compute(&self, operands: &[Dual]) -> Dual {
+        match (self, operands) {
+            (Step::Number(value), []) => Dual::constant(*value),
+            (Step::Negate, [a]) => -*a,
+            (Step::Apply(function), [a]) => match function {
+                Function::Sqrt => a.sqrt(),
+                Function::Sin => a.sin(),
+                Function::Cos => a.cos(),
+                Function::Exp => a.exp(),
+            },
+            (Step::Add, [a, b]) => *a + *b,
+            (Step::Subtract, [a, b]) => *a - *b,
+            (Step::Multiply, [a, b]) => *a * *b,
+            (Step::Divide, [a, b]) => *a / *b,
+            (Step::Power, [a, b]) => a.power(*b),
+            _ => unreachable!("the parser pushes the operands of every step, and variables are pushed by `evaluate`"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

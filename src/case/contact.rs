@@ -1,0 +1,131 @@
+//! `[contact.NAME]`
+
+use toml::Value;
+
+use super::Geometry;
+use super::section::Section;
+use super::values::{self, PLANE, choice, must_be};
+use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Pair, SegmentRule};
+
+/// `[contact.NAME]`
+pub fn read_contact(section: &Section) -> Option<Pair> {
+    let between = section.required("between", "[\"lower.seam\", \"upper.seam\"]", read_between);
+    let curve = section.or("curve", "fit", read_curve);
+    let gap = section.or("gap", "geometry", read_gap);
+    let space = section.or(
+        "multiplier",
+        "p1-discontinuous",
+        choice(&[
+            ("p0", Ok(MultiplierSpace::P0)),
+            ("p1-discontinuous", Ok(MultiplierSpace::P1Discontinuous)),
+            ("p1-continuous", Ok(MultiplierSpace::P1Continuous)),
+        ]),
+    );
+    let segments = section.or("segments", "auto", read_segments);
+    let law = section.or(
+        "law",
+        "unilateral",
+        choice(&[("unilateral", Ok(Law::Unilateral)), ("bilateral", Ok(Law::Bilateral))]),
+    );
+    refuse_what_is_not_built(section);
+    if !section.name().chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
+        section.problem(&[], "its name is part of a file name; use letters, digits, - and _".into());
+    }
+    Some(Pair {
+        name: section.name().into(),
+        between: between?,
+        curve: curve?,
+        gap: gap?,
+        space: space?,
+        segments: segments?,
+        law: law?,
+    })
+}
+
+/// Keys with one value so far.
+fn refuse_what_is_not_built(section: &Section) {
+    let remedy = "leave it out: \"cut\" integrates exactly between the projected nodes";
+    section.or("quadrature", "cut", choice(&[("cut", Ok(())), ("segment", Err("write quadrature = \"cut\""))]));
+    section.not_yet("points", remedy);
+    section.or("stabilise", "auto", |value| match value {
+        Value::Boolean(false) => Ok(()),
+        Value::Boolean(true) => Err("not available yet; write \"auto\" or false".into()),
+        Value::String(word) if word == "auto" => Ok(()),
+        other => Err(must_be("\"auto\" or false", other)),
+    });
+    section.or(
+        "configuration",
+        "reference",
+        choice(&[("reference", Ok(())), ("deformed", Err("write configuration = \"reference\""))]),
+    );
+    section.not_yet("grading", "leave it out, or give segments as a list of fractions");
+}
+
+fn read_between(value: &Value) -> Result<[String; 2], String> {
+    let wanted = || must_be("two physical curves, of body 1 and of body 2", value);
+    let list = value.as_array().ok_or_else(wanted)?;
+    let names = list.iter().map(values::name).collect::<Result<Vec<_>, _>>()?;
+    match <[String; 2]>::try_from(names).map_err(|_| wanted())? {
+        [first, second] if first == second => Err("must name two different curves, one of each body".into()),
+        pair => Ok(pair),
+    }
+}
+
+/// The default, a fit, is not built yet, so that one of the others must be given.
+fn read_curve(value: &Value) -> Result<CurveChoice, String> {
+    choice(&[
+        ("line", Ok(CurveChoice::Line)),
+        ("geometry", Ok(CurveChoice::Geometry)),
+        ("fit", Err("it is the default, so write curve = \"line\" for straight boundaries, or curve = \"geometry\"")),
+    ])(value)
+}
+
+fn read_gap(value: &Value) -> Result<GapChoice, String> {
+    match value.as_str() {
+        Some("closed") => Ok(GapChoice::Closed),
+        Some("geometry") => Ok(GapChoice::Geometry),
+        _ => values::formula(&PLANE)(value)
+            .map(GapChoice::Formula)
+            .map_err(|words| format!("must be \"closed\", \"geometry\", a number or a formula of x, y; {words}")),
+    }
+}
+
+fn read_segments(value: &Value) -> Result<SegmentRule, String> {
+    match value {
+        Value::Integer(count @ 1..) => Ok(SegmentRule::Count(*count as usize)),
+        Value::String(word) if word == "auto" => Ok(SegmentRule::Auto),
+        Value::Array(_) => read_fractions(value),
+        _ => Err("must be \"auto\", a whole number >= 1, or fractions like [0, 0.2, 1]".into()),
+    }
+}
+
+fn read_fractions(value: &Value) -> Result<SegmentRule, String> {
+    let fractions = values::numbers(value)?;
+    let whole = fractions.first() == Some(&0.0) && fractions.last() == Some(&1.0);
+    if !whole || !fractions.is_sorted_by(|a, b| a < b) {
+        return Err("must ascend from 0 to 1, as in [0, 0.2, 1]".into());
+    }
+    Ok(SegmentRule::Fractions(fractions))
+}
+
+/// A contact on a declared geometry needs one that lists both boundaries.
+pub fn check_contacts(contacts: &[Pair], geometries: &[Geometry], root: &Section) {
+    if geometries.len() < root.names_below("geometry").count() {
+        return; // A geometry could not be read; its own error comes first.
+    }
+    for pair in contacts.iter().filter(|pair| pair.curve == CurveChoice::Geometry) {
+        let [first, second] = &pair.between;
+        let lists = |geometry: &&Geometry, name| geometry.curves.contains(name);
+        if geometries.iter().filter(|geometry| lists(geometry, first) && lists(geometry, second)).count() == 1 {
+            continue;
+        }
+        let mut found = Vec::new();
+        for name in [first, second] {
+            let shapes = geometries.iter().filter(|geometry| lists(geometry, name));
+            found.extend(shapes.map(|geometry| format!("geometry.{} lists \"{name}\"", geometry.name)));
+        }
+        let found = if found.is_empty() { "none lists either".into() } else { found.join(", ") };
+        let words = format!("needs one [geometry] with curves = [\"{first}\", \"{second}\"]; {found}");
+        root.problem(&["contact", &pair.name, "curve"], words);
+    }
+}

@@ -1,0 +1,99 @@
+//! What is wrong with a case, in words.
+
+use std::fmt::{self, Display, Formatter};
+use std::path::{Path, PathBuf};
+
+use toml::Value;
+
+/// Longest value that is quoted in full.
+const LONGEST_VALUE: usize = 60;
+
+/// Everything that is wrong with a case file, one line each.
+#[derive(Clone, Debug, thiserror::Error)]
+pub struct CaseError {
+    /// The case file.
+    pub file: PathBuf,
+    /// At least one, in the order found.
+    pub problems: Vec<Problem>,
+}
+
+/// One thing that is wrong with a case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Dotted key; empty if the whole file is meant.
+    pub key: String,
+    /// Value found there, as TOML, and ` (--set)` if it comes from the command line.
+    pub value: Option<String>,
+    /// What is wrong and what to do about it.
+    pub words: String,
+}
+
+impl CaseError {
+    /// An error of the file as a whole.
+    pub(super) fn of_file(file: &Path, words: String) -> Self {
+        Self { file: file.into(), problems: vec![Problem { key: String::new(), value: None, words }] }
+    }
+
+    /// An error of TOML itself.
+    pub(super) fn of_syntax(file: &Path, text: &str, error: &toml::de::Error) -> Self {
+        let before = &text[..error.span().map_or(0, |span| span.start)];
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        let message = error.message().replace('\n', ", ");
+        Self::of_file(
+            file,
+            format!("line {line}, column {column}: {message}; the file is written in TOML, see toml.io"),
+        )
+    }
+}
+
+impl Display for CaseError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        for (index, problem) in self.problems.iter().enumerate() {
+            let separator = if index == 0 { "" } else { "\n" };
+            write!(f, "{separator}{}: {problem}", self.file.display())?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Problem {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match (&self.key[..], &self.value) {
+            ("", _) => write!(f, "{}", self.words),
+            (key, None) => write!(f, "{key}: {}", self.words),
+            (key, Some(value)) => write!(f, "{key} = {value}: {}", self.words),
+        }
+    }
+}
+
+/// Dotted key as TOML wants it: names with dots in quotes.
+pub(super) fn dotted(path: &[String]) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let quote = |name: &String| match !name.is_empty() && name.chars().all(bare) {
+        true => name.clone(),
+        false => Value::from(name.as_str()).to_string(),
+    };
+    path.iter().map(quote).collect::<Vec<_>>().join(".")
+}
+
+/// A value as TOML on one line, cut if long.
+pub(super) fn quoted(value: &Value) -> String {
+    let text = value.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    match text.char_indices().nth(LONGEST_VALUE) {
+        None => text,
+        Some((end, _)) => format!("{} ...", &text[..end]),
+    }
+}
+
+/// ` did you mean "young"?` for the nearest of some names, or the list of them.
+pub(super) fn suggest<'a>(found: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    let distance = |name: &str| strsim::damerau_levenshtein(&found.to_lowercase(), &name.to_lowercase());
+    let nearest = names.iter().min_by_key(|name| distance(name));
+    match nearest.filter(|name| distance(name) <= 1.max(found.len().max(name.len()) / 3)) {
+        Some(name) => format!("did you mean \"{name}\"?"),
+        None if names.is_empty() => "there are none".into(),
+        None => format!("there are {}", names.join(", ")),
+    }
+}

@@ -1,0 +1,180 @@
+//! Mesh, bodies, geometry, supports, loads, solver and probes.
+
+use std::path::Path;
+
+use toml::Value;
+
+use super::error::suggest;
+use super::section::Section;
+use super::values::{self, PLANE};
+use super::{Geometry, MeshChoice, Probe, Solver};
+use crate::body::{Body, Load, LoadKind, Material, Support};
+use crate::element::Order;
+use crate::geometry::Curve;
+use crate::system::SolverChoice;
+
+/// More refinements than fit any machine.
+const MOST_REFINEMENTS: i64 = 12;
+
+/// `[mesh]`
+pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
+    let section = root.table("mesh");
+    let file = section.required("file", "\"bars.msh\", a Gmsh 4.1 file", values::name);
+    let order = section.or("order", 2, |value| match value.as_integer() {
+        Some(1) => Ok(Order::P1),
+        Some(2) => Ok(Order::P2),
+        _ => Err("must be 1 or 2, the order of the displacement".into()),
+    });
+    let refine = section.or("refine", 0, |value| match value.as_integer() {
+        Some(times @ 0..=MOST_REFINEMENTS) => Ok(times as usize),
+        _ => Err(format!("must be a whole number from 0 to {MOST_REFINEMENTS}; each one quarters every triangle")),
+    });
+    section.not_yet("grade", "remove [mesh.grade]");
+    Some(MeshChoice { file: folder.join(file?), order: order?, refine: refine? })
+}
+
+/// `[body.NAME]`
+pub fn read_body(section: &Section) -> Option<Body> {
+    let young = section.required("young", "7000.0", values::positive);
+    let poisson = section.required("poisson", "0.3", |value| match values::number(value)? {
+        ratio if ratio > -1.0 && ratio < 0.5 => Ok(ratio),
+        _ => {
+            Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into())
+        }
+    });
+    let force = section.or("body_force", vec![0.0, 0.0], values::formulas);
+    let material = Material { young: young?, poisson: poisson? };
+    Some(Body { name: section.name().into(), material, force: force? })
+}
+
+/// `[geometry.NAME]`
+pub fn read_geometry(section: &Section) -> Option<Geometry> {
+    let curves = section.required("curves", "[\"lower.seam\", \"upper.seam\"]", values::names);
+    let parametric = ["x", "y", "t"].map(|key| section.has(key));
+    let curve = match (section.has("circle"), parametric.contains(&true)) {
+        (true, true) => {
+            section.problem(&["circle"], "stands beside x, y, t; give either circle or formulas".into());
+            None
+        }
+        (true, false) => read_circle(section),
+        _ => read_parametric(section),
+    };
+    Some(Geometry { name: section.name().into(), curves: curves?, curve: curve? })
+}
+
+fn read_circle(section: &Section) -> Option<Curve> {
+    let circle = section.table("circle");
+    let centre = circle.required("centre", "[0, 0]", values::point);
+    let radius = circle.required("radius", "1.0", values::positive);
+    Some(Curve::Circle { centre: centre?, radius: radius? })
+}
+
+fn read_parametric(section: &Section) -> Option<Curve> {
+    let either = "or circle = { centre = [0, 0], radius = 1 }";
+    let x = section.required("x", &format!("\"t\", {either}"), values::formula(&["t"]));
+    let y = section.required("y", &format!("\"t^2\", {either}"), values::formula(&["t"]));
+    let range = section.required("t", &format!("[0, 1], {either}"), |value| match values::point(value) {
+        Ok(range) if range[0] < range[1] => Ok(range),
+        _ => Err("must be two ascending numbers, the range of t".into()),
+    });
+    let (x, y, range) = (x?, y?, range?);
+    if x.as_constant().is_some() && y.as_constant().is_some() {
+        section.problem(&["x"], "neither x nor y depends on t, so the curve is a point; use t".into());
+        return None;
+    }
+    for (key, formula) in [("x", &x), ("y", &y)] {
+        if let Some(t) = range.iter().find(|t| !formula.value(&[**t]).is_finite()) {
+            section.problem(&[key], format!("is not finite at t = {t}; correct the formula or the range of t"));
+            return None;
+        }
+    }
+    Some(Curve::Parametric { x, y, range })
+}
+
+/// `[support.NAME]`
+pub fn read_support(section: &Section) -> Option<Support> {
+    let on = section.required("on", "\"bottom\"", values::names);
+    let given = ["ux", "uy", "normal"].map(|key| section.has(key));
+    let component = |key| section.optional(key, values::formula(&PLANE));
+    let [ux, uy, normal] = ["ux", "uy", "normal"].map(component);
+    match given {
+        [false, false, false] => section.problem(&[], "prescribes nothing; give ux, uy or normal".into()),
+        [_, _, true] if given[0] || given[1] => {
+            section.problem(&["normal"], "cannot stand beside ux or uy; make two supports on different curves".into());
+        }
+        _ => {}
+    }
+    Some(Support { name: section.name().into(), on: on?, ux, uy, normal })
+}
+
+/// `[load.NAME]`
+pub fn read_load(section: &Section) -> Option<Load> {
+    let on = section.required("on", "\"top\"", values::names);
+    let given = [section.has("pressure"), section.has("traction")];
+    let pressure = section.optional("pressure", values::formula(&PLANE)).map(LoadKind::Pressure);
+    let traction = section.optional("traction", values::formulas::<2>).map(LoadKind::Traction);
+    match given {
+        [false, false] => section.problem(&[], "loads nothing; give pressure or traction = [tx, ty]".into()),
+        [true, true] => section.problem(&["pressure"], "stands beside traction; give one of them, or two loads".into()),
+        _ => {}
+    }
+    Some(Load { name: section.name().into(), on: on?, kind: pressure.or(traction)? })
+}
+
+/// `[solver]`
+pub fn read_solver(root: &Section) -> Option<Solver> {
+    let section = root.table("solver");
+    let choice = section.or(
+        "name",
+        "auto",
+        values::choice(&[
+            ("auto", Ok(SolverChoice::Auto)),
+            ("fieldsplit", Ok(SolverChoice::FieldSplit)),
+            ("direct", Ok(SolverChoice::Direct)),
+        ]),
+    );
+    let tolerance = section.or("tolerance", 1e-8, |value| match value {
+        Value::String(word) if word == "discretisation" => Err("not available yet; give a number like 1e-8".into()),
+        _ => match values::number(value)? {
+            tolerance if tolerance > 0.0 && tolerance <= 1e-2 => Ok(tolerance),
+            _ => Err("must lie in (0, 0.01]; 1e-8 is the default".into()),
+        },
+    });
+    Some(Solver { choice: choice?, tolerance: tolerance? })
+}
+
+/// `[probe.NAME]`
+pub fn read_probe(section: &Section) -> Option<Probe> {
+    let point = section.required("point", "[1.0, 2.0]", values::point);
+    let body = section.required("body", "\"lower\"", values::name);
+    Some(Probe { name: section.name().into(), point: point?, body: body? })
+}
+
+/// There is something to solve for.
+pub fn check_bodies(root: &Section) {
+    if root.names_below("body").next().is_none() {
+        root.problem(&["body"], "missing; write [body.NAME] for every physical surface of the mesh".into());
+    }
+}
+
+/// A boundary has one shape.
+pub fn check_geometries(geometries: &[Geometry], root: &Section) {
+    for (index, geometry) in geometries.iter().enumerate() {
+        for other in &geometries[..index] {
+            if let Some(curve) = geometry.curves.iter().find(|curve| other.curves.contains(curve)) {
+                let words = format!("geometry.{} lists \"{curve}\" too; a boundary has one shape", other.name);
+                root.problem(&["geometry", &geometry.name, "curves"], words);
+            }
+        }
+    }
+}
+
+/// Probes ask bodies of the case.
+pub fn check_probes(probes: &[Probe], root: &Section) {
+    for probe in probes {
+        if !root.names_below("body").any(|name| name == probe.body) {
+            let words = format!("no such body; {}", suggest(&probe.body, root.names_below("body")));
+            root.problem(&["probe", &probe.name, "body"], words);
+        }
+    }
+}

@@ -1,0 +1,390 @@
+use std::path::Path;
+
+use super::*;
+use crate::body::LoadKind;
+use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, SegmentRule};
+
+/// Every key of the contract that can be given.
+const FULL: &str = r#"
+title = "Two bars"
+[mesh]
+file = "bars.msh"
+order = 1
+refine = 3
+[body.lower]
+young = 7000
+poisson = 0.227
+body_force = [0, "-9.81*y"]
+[body."upper.left"]
+young = 7e6
+poisson = -0.2
+[geometry.parabola]
+curves = ["lower.seam", "upper.seam"]
+x = "t"
+y = "4 + t - 0.25*t^2"
+t = [0, 4]
+[geometry.hole]
+curves = "hole"
+circle = { centre = [1, 2.5], radius = 0.5 }
+[support.table]
+on = "bottom"
+ux = "0.1*x"
+uy = 0
+[support.roller]
+on = ["left", "right"]
+normal = 0.0
+[load.top]
+on = "top"
+pressure = "1 + x"
+[load.side]
+on = ["side"]
+traction = [1, "y"]
+[contact.seam]
+between = ["lower.seam", "upper.seam"]
+curve = "geometry"
+gap = "1e-3*x^2"
+multiplier = "p0"
+segments = [0, 0.2, 1]
+law = "bilateral"
+quadrature = "cut"
+stabilise = false
+configuration = "reference"
+[solver]
+name = "direct"
+tolerance = 1e-10
+[probe.tip]
+point = [1, 2.0]
+body = "upper.left"
+[exact]
+must_hold = true
+energy = { value = 2.6e-3, tolerance = 2e-5 }
+[exact.contact.seam]
+force = { value = 6.08, tolerance = 1e-9 }
+lambda = { at = [[1.2, 3.2]], value = [0.925], tolerance = 1e-3 }
+[exact.body.lower]
+displacement = { at = [[6, 4]], value = [[6.3e-4, -7.7e-4]], tolerance = 1e-4 }
+u = ["x", 0]
+stress = ["1", "x*y", 0.5]
+"#;
+
+/// The least that a case can be, and room for one more section.
+const LEAST: &str = "mesh.file = 'a.msh'\n[body.a]\nyoung = 1\npoisson = 0.3\n";
+const CONTACT: &str = "[contact.c]\nbetween = ['p', 'q']\ncurve = 'line'\n";
+
+fn parse(text: &str, overrides: &[&str]) -> Result<Case, CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Case::parse(text, Path::new("bars/case.toml"), &overrides)
+}
+
+/// The only error of a case, without the name of the file.
+fn error_of(text: &str, overrides: &[&str]) -> String {
+    let words = parse(text, overrides).map(|case| panic!("accepted: {case:?}")).unwrap_err().to_string();
+    assert_eq!(words.lines().count(), 1, "{words}");
+    words.strip_prefix("bars/case.toml: ").unwrap().to_owned()
+}
+
+#[test]
+fn a_full_case_is_read() {
+    let case = parse(FULL, &[]).unwrap();
+    assert_eq!(
+        (case.name.as_str(), case.title.as_str(), case.folder.as_path()),
+        ("bars", "Two bars", Path::new("bars"))
+    );
+    assert_eq!(case.mesh, MeshChoice { file: "bars/bars.msh".into(), order: Order::P1, refine: 3 });
+    let [lower, upper] = &case.bodies[..] else { panic!("{:?}", case.bodies) };
+    assert_eq!((lower.name.as_str(), lower.material.young, lower.material.poisson), ("lower", 7000.0, 0.227));
+    assert_eq!(lower.force[1].value(&[0.0, 2.0]), -19.62);
+    assert_eq!((upper.name.as_str(), upper.force[0].as_constant()), ("upper.left", Some(0.0)));
+    assert!(
+        matches!(&case.geometries[0].curve, Curve::Parametric { y, range: [0.0, 4.0], .. } if y.value(&[2.0]) == 5.0)
+    );
+    assert_eq!(case.geometries[1].curve, Curve::Circle { centre: [1.0, 2.5], radius: 0.5 });
+    assert_eq!(case.geometries[1].curves, ["hole"]);
+    let [table, roller] = &case.supports[..] else { panic!("{:?}", case.supports) };
+    assert_eq!(table.ux.as_ref().unwrap().text(), "0.1*x");
+    assert!(table.uy.is_some() && table.normal.is_none() && roller.normal.is_some());
+    assert_eq!(roller.on, ["left", "right"]);
+    assert!(matches!(&case.loads[0].kind, LoadKind::Pressure(p) if p.value(&[2.0, 0.0]) == 3.0));
+    assert!(matches!(&case.loads[1].kind, LoadKind::Traction([_, ty]) if ty.text() == "y"));
+    let pair = &case.contacts[0];
+    assert_eq!((pair.curve, pair.space, pair.law), (CurveChoice::Geometry, MultiplierSpace::P0, Law::Bilateral));
+    assert_eq!(pair.segments, SegmentRule::Fractions(vec![0.0, 0.2, 1.0]));
+    assert!(matches!(&pair.gap, GapChoice::Formula(gap) if gap.value(&[2.0, 0.0]) == 4e-3));
+    assert_eq!(case.solver, Solver { choice: SolverChoice::Direct, tolerance: 1e-10 });
+    assert_eq!(case.probes, [Probe { name: "tip".into(), point: [1.0, 2.0], body: "upper.left".into() }]);
+    assert!(case.exact.must_hold);
+    assert_eq!(case.exact.energy, Some(Expected { value: 2.6e-3, tolerance: 2e-5 }));
+    assert!(matches!(&case.exact.contacts[0].lambda, Some(LambdaExact::Points { value, .. }) if value == &[0.925]));
+    let body = &case.exact.bodies[0];
+    assert_eq!(body.displacement.as_ref().unwrap().value, [[6.3e-4, -7.7e-4]]);
+    assert_eq!(body.stress.as_ref().unwrap()[1].value(&[2.0, 3.0]), 6.0);
+}
+
+#[test]
+fn defaults_are_those_of_the_contract() {
+    let case = parse(&format!("{LEAST}{CONTACT}"), &[]).unwrap();
+    assert_eq!((case.mesh.order, case.mesh.refine, case.title.as_str()), (Order::P2, 0, ""));
+    assert_eq!(case.solver, Solver { choice: SolverChoice::Auto, tolerance: 1e-8 });
+    let pair = &case.contacts[0];
+    assert_eq!((pair.space, pair.law), (MultiplierSpace::P1Discontinuous, Law::Unilateral));
+    assert_eq!(pair.segments, SegmentRule::Auto);
+    assert!(matches!(pair.gap, GapChoice::Geometry));
+    assert_eq!(case.exact, Exact::default());
+}
+
+#[test]
+fn the_resolved_case_is_an_equal_case_from_another_folder() {
+    for (text, overrides) in [
+        (FULL.to_owned(), vec![]),
+        (format!("{LEAST}{CONTACT}"), vec!["contact.c.gap=-1e-3", "exact.energy={value=1, tolerance=0.1}"]),
+    ] {
+        let case = parse(&text, &overrides).unwrap();
+        let resolved = case.resolved();
+        let again = Case::parse(&resolved, Path::new("/elsewhere/bars/case.toml"), &[]).unwrap();
+        assert!(again.mesh.file.is_absolute());
+        assert_eq!(again.resolved(), resolved);
+        let here = Case { file: again.file.clone(), folder: again.folder.clone(), table: again.table.clone(), ..case };
+        let mesh = MeshChoice { file: std::path::absolute(&here.mesh.file).unwrap(), ..here.mesh };
+        assert_eq!(format!("{:?}", Case { mesh, ..here }), format!("{again:?}"));
+    }
+}
+
+#[test]
+fn every_default_is_written_out() {
+    let resolved = parse(&format!("{LEAST}{CONTACT}"), &[]).unwrap().resolved();
+    for line in [
+        "title = \"\"",
+        "order = 2",
+        "refine = 0",
+        "body_force = [0.0, 0.0]",
+        "gap = \"geometry\"",
+        "multiplier = \"p1-discontinuous\"",
+        "segments = \"auto\"",
+        "law = \"unilateral\"",
+        "quadrature = \"cut\"",
+        "stabilise = \"auto\"",
+        "configuration = \"reference\"",
+        "name = \"auto\"",
+        "tolerance = 0.00000001",
+        "must_hold = false",
+    ] {
+        assert!(resolved.lines().any(|found| found == line), "{line} is not in\n{resolved}");
+    }
+}
+
+#[test]
+fn overrides_win_and_are_checked() {
+    let case = parse(
+        FULL,
+        &[
+            "body.lower.young=8e6",
+            "contact.seam.segments=auto",
+            "mesh.refine = 2",
+            "body.\"upper.left\".poisson=0",
+            "title=a = b",
+            "contact.seam.gap=-1e-3",
+            "probe.new.point=[0, 1]",
+            "probe.new.body=lower",
+            "load.top.pressure=2*x",
+        ],
+    )
+    .unwrap();
+    assert_eq!((case.bodies[0].material.young, case.bodies[1].material.poisson), (8e6, 0.0));
+    assert_eq!((&case.contacts[0].segments, case.mesh.refine, case.title.as_str()), (&SegmentRule::Auto, 2, "a = b"));
+    assert!(matches!(&case.contacts[0].gap, GapChoice::Formula(gap) if gap.as_constant() == Some(-1e-3)));
+    assert_eq!(case.probes[1], Probe { name: "new".into(), point: [0.0, 1.0], body: "lower".into() });
+    assert!(matches!(&case.loads[0].kind, LoadKind::Pressure(p) if p.text() == "2*x"));
+
+    for (text, expected) in [
+        ("mesh.refine=99", "mesh.refine = 99 (--set): must be a whole number from 0 to 12"),
+        ("mesh.refin=1", "mesh.refin: unknown key; did you mean \"refine\"?"),
+        ("refine", "--set refine: must be KEY=VALUE"),
+        ("=1", "--set =1: must be KEY=VALUE"),
+        ("a b=1", "--set a b=1: must be KEY=VALUE"),
+        ("mesh.refine.x=1", "--set mesh.refine.x: mesh.refine is a value, not a table"),
+    ] {
+        let words = error_of(FULL, &[text]);
+        assert!(words.starts_with(expected), "{text}: {words}");
+    }
+}
+
+#[test]
+fn a_bad_file_is_named() {
+    let words = Case::read(Path::new("no/such.toml"), &[]).unwrap_err().to_string();
+    assert!(words.starts_with("no/such.toml: cannot be read: "), "{words}");
+    let words = error_of("mesh.file = 'a'\n[body.a\n", &[]);
+    assert!(words.starts_with("line 2, column 8: "), "{words}");
+    assert!(words.ends_with("the file is written in TOML, see toml.io"), "{words}");
+}
+
+#[test]
+fn names_are_unique() {
+    let words = error_of(&format!("{LEAST}[body.a]\nyoung = 2\n"), &[]);
+    assert!(words.starts_with("line 5, column 7: duplicate key"), "{words}");
+}
+
+#[test]
+fn the_file_names_the_case() {
+    let name = |file: &str| Case::parse(LEAST, Path::new(file), &[]).unwrap().name;
+    assert_eq!(name("cases/two_bars/case.toml"), "two_bars");
+    assert_eq!(name("cases/two_bars/fine.toml"), "fine");
+    let here = std::env::current_dir().unwrap();
+    assert_eq!(name("case.toml"), here.file_name().unwrap().to_str().unwrap());
+}
+
+#[test]
+fn all_errors_are_reported_at_once() {
+    let text =
+        "[body.a]\nyung = 1\npoisson = 0.5\n[probe.p]\npoint = [1]\nbody = 'b'\n[contact.c]\n[exact.contact.d]\n";
+    let words = parse(text, &[]).unwrap_err().to_string();
+    for expected in [
+        "bars/case.toml: mesh.file: missing; write file = \"bars.msh\"",
+        "bars/case.toml: body.a.young: missing; write young = ",
+        "bars/case.toml: body.a.yung: unknown key; did you mean \"young\"?",
+        "bars/case.toml: body.a.poisson = 0.5: must lie in (-1, 0.5); 0.5 is incompressible",
+        "bars/case.toml: probe.p.point = [1]: must be two numbers",
+        "bars/case.toml: contact.c.between: missing",
+        "bars/case.toml: contact.c.curve = \"fit\": not available yet",
+        "bars/case.toml: exact.contact.d: no such contact; did you mean \"c\"?",
+    ] {
+        assert!(words.lines().any(|line| line.starts_with(expected)), "{expected}\nis not in\n{words}");
+    }
+    assert_eq!(words.lines().count(), 8, "{words}");
+}
+
+/// Key, value and remedy of one error each, from overrides of a case that is good.
+#[test]
+fn every_error_names_key_value_and_remedy() {
+    let circle = "{centre = [0, 0], radius = 1}";
+    let mut missed = Vec::new();
+    for (overrides, expected) in [
+        ("mesh.order=3", "mesh.order = 3 (--set): must be 1 or 2"),
+        ("mesh.refine=-1", "must be a whole number from 0 to 12"),
+        ("mesh.refine=1.0", "must be a whole number from 0 to 12"),
+        ("mesh.file=7", "mesh.file = 7 (--set): must be a string in quotes, not of type integer"),
+        ("mesh.file=''", "must not be empty"),
+        ("mesh.grade.points=[[0, 3]]", "mesh.grade: not available yet; remove [mesh.grade]"),
+        ("solver=3", "solver = 3 (--set): must be a table; write [solver]"),
+        ("meshes.a=1", "meshes: unknown key; did you mean \"mesh\"?"),
+        ("cases=1", "cases: unknown key; there are title, mesh, body"),
+        ("body.a.young=0", "body.a.young = 0 (--set): must be > 0"),
+        ("body.a.young=inf", "must be a finite number"),
+        ("body.a.young=soft", "body.a.young = \"soft\" (--set): must be a finite number, not of type string"),
+        ("body.a.poisson=-1", "must lie in (-1, 0.5)"),
+        (
+            "body.a.body_force=[1]",
+            "body.a.body_force = [1] (--set): must be a list of 2 numbers or formulas of x, y, not a list of length 1",
+        ),
+        ("body.a.body_force=['1', 't']", "entry 2: column 1: found `t`; allowed here: a number, x, y"),
+        (
+            "body.a.left.young=1",
+            "body.a.left: unknown key; there are young, poisson, body_force (a name that holds dots stands in quotes)",
+        ),
+        ("body.b=1", "body.b = 1 (--set): must be a table; write [body.b]"),
+        ("geometry.g.curves=[]", "must list at least one physical curve"),
+        ("geometry.g.curves=['p', 'p']", "lists \"p\" twice"),
+        ("geometry.g.curves=3", "must be a physical curve, or a list of them"),
+        ("geometry.g.t=[1, 1]", "must be two ascending numbers"),
+        ("geometry.g.x=1", "neither x nor y depends on t"),
+        ("geometry.g.x=1/t", "geometry.g.x = \"1/t\" (--set): is not finite at t = 0"),
+        ("geometry.g.x=x", "found `x`; allowed here: a number, t, pi"),
+        (&format!("geometry.g.circle={circle}"), "geometry.g.circle: stands beside x, y, t"),
+        (
+            "geometry.h={curves='h', circle={centre=[0, 0], radius=0}}",
+            "geometry.h.circle.radius = 0 (--set): must be > 0",
+        ),
+        (
+            &format!("geometry.h={{curves='p', circle={circle}}}"),
+            "geometry.h.curves = \"p\" (--set): geometry.g lists \"p\" too",
+        ),
+        ("support.s.normal=0", "cannot stand beside ux or uy"),
+        ("support.r.on=left", "support.r: prescribes nothing; give ux, uy or normal"),
+        ("support.s.ux=1/0", "support.s.ux = \"1/0\" (--set): is not finite"),
+        ("support.s.ux=true", "must be a number or a formula of x, y, not of type boolean"),
+        ("load.l.traction=[0, 1]", "load.l.pressure = 1: stands beside traction"),
+        ("load.k.on=top", "load.k: loads nothing; give pressure or traction"),
+        ("contact.c.between=['p', 'p']", "must name two different curves"),
+        ("contact.'a/b'={between=['p', 'q'], curve='line'}", "contact.\"a/b\": its name is part of a file name; use"),
+        ("contact.c.between=p", "must be two physical curves, of body 1 and of body 2, not of type string"),
+        (
+            "contact.c.curve=fit",
+            "contact.c.curve = \"fit\" (--set): not available yet; it is the default, so write curve = \"line\"",
+        ),
+        ("contact.c.curve=lines", "must be \"line\" or \"geometry\"; did you mean \"line\"?"),
+        ("contact.c.curve=geometry", "needs one [geometry] with curves = [\"p\", \"q\"]; geometry.g lists \"p\""),
+        (
+            "contact.c.gap=clsoed",
+            "must be \"closed\", \"geometry\", a number or a formula of x, y; column 1: found `clsoed`",
+        ),
+        (
+            "contact.c.multiplier=p1",
+            "must be \"p0\" or \"p1-discontinuous\" or \"p1-continuous\"; did you mean \"p0\"?",
+        ),
+        ("contact.c.multiplier=0", "not of type integer"),
+        ("contact.c.segments=0", "must be \"auto\", a whole number >= 1, or fractions"),
+        ("contact.c.segments=many", "must be \"auto\", a whole number >= 1, or fractions"),
+        ("contact.c.segments=[0, 0.5]", "must ascend from 0 to 1"),
+        ("contact.c.segments=[0, 0.5, 0.5, 1]", "must ascend from 0 to 1"),
+        ("contact.c.law=bonded", "must be \"unilateral\" or \"bilateral\"; there are"),
+        ("contact.c.quadrature=segment", "not available yet; write quadrature = \"cut\""),
+        ("contact.c.points=5", "contact.c.points = 5 (--set): not available yet"),
+        ("contact.c.stabilise=true", "not available yet; write \"auto\" or false"),
+        ("contact.c.stabilise=1", "must be \"auto\" or false"),
+        ("contact.c.configuration=deformed", "not available yet; write configuration = \"reference\""),
+        ("contact.c.grading=2", "contact.c.grading = 2 (--set): not available yet"),
+        ("solver.name=Direct", "must be \"auto\" or \"fieldsplit\" or \"direct\"; did you mean \"direct\"?"),
+        ("solver.tolerance=0", "must lie in (0, 0.01]"),
+        ("solver.tolerance=0.02", "must lie in (0, 0.01]"),
+        ("solver.tolerance=discretisation", "not available yet; give a number"),
+        ("probe.p.body=aa", "probe.p.body = \"aa\" (--set): no such body; did you mean \"a\"?"),
+        ("probe.p.point=[0, nan]", "entry 2: must be a finite number"),
+        ("exact.must_hold=1", "must be true or false, not of type integer"),
+        ("exact.energy.value=0", "exact.energy.value = 0 (--set): must not be 0"),
+        ("exact.energy=3", "exact.energy = 3 (--set): must be a table; write [exact.energy]"),
+        ("exact.energy={value = 3}", "exact.energy.tolerance: missing; write tolerance = 1e-3"),
+        ("exact.contact.d={}", "exact.contact.d: no such contact; did you mean \"c\"?"),
+        (
+            "exact.contact.c.lambda.at=[[0, 0], [0, 1]]",
+            "exact.contact.c.lambda.value = [1]: holds 1 for 2 points in at",
+        ),
+        ("exact.contact.c.lambda.formula=x", "stands beside at and value"),
+        ("exact.body.b.u=[0, 0]", "exact.body.b: no such body; did you mean \"a\"?"),
+        ("exact.body.a.stress=[0, 0]", "must be a list of 3 numbers or formulas of x, y, not a list of length 2"),
+        ("exact.energi=1", "exact.energi: unknown key; did you mean \"energy\"?"),
+    ] {
+        let words = parse(&good(), &[overrides]).map_or_else(|error| error.to_string(), |_| "accepted".into());
+        if !words.contains(expected) || words.lines().count() != 1 {
+            missed.push(format!("{overrides}: {words}\n  instead of {expected}"));
+        }
+    }
+    assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+fn good() -> String {
+    format!(
+        "{LEAST}{CONTACT}
+        [geometry.g]\ncurves = 'p'\nx = 't'\ny = 0\nt = [0, 1]
+        [support.s]\non = 'left'\nux = 0
+        [load.l]\non = 'top'\npressure = 1
+        [probe.p]\npoint = [0, 0]\nbody = 'a'
+        [exact.energy]\nvalue = 1\ntolerance = 0.1
+        [exact.contact.c.lambda]\nat = [[0, 0]]\nvalue = [1]\ntolerance = 0.1\n"
+    )
+}
+
+#[test]
+fn a_pressure_may_be_known_by_formula() {
+    let text =
+        format!("{LEAST}{CONTACT}[exact.contact.c]\nlambda = {{ formula = 'sqrt(1 - x^2)', tolerance = 1e-2 }}\n");
+    let case = parse(&text, &[]).unwrap();
+    assert!(
+        matches!(&case.exact.contacts[0].lambda, Some(LambdaExact::Formula { formula, tolerance: 1e-2 }) if formula.value(&[0.6, 0.0]) == 0.8)
+    );
+}
+
+#[test]
+fn long_values_are_cut() {
+    let list = vec!["0.123456"; 100].join(", ");
+    let words = error_of(LEAST, &[&format!("body.a.poisson=[{list}]")]);
+    assert!(words.len() < 200 && words.contains(" ...") && words.contains("not a list of length 100"), "{words}");
+}

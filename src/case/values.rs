@@ -1,0 +1,126 @@
+//! Readers of single values. Each gives a checked value, or words that say what it must be.
+
+use toml::Value;
+
+use super::error::suggest;
+use crate::geometry::Formula;
+
+/// Variables of formulas in the plane.
+pub const PLANE: [&str; 2] = ["x", "y"];
+
+/// What a choice stands for; an error is the remedy for a choice that is known but not built yet.
+pub type Choice<T> = (&'static str, Result<T, &'static str>);
+
+/// A string.
+pub fn text(value: &Value) -> Result<String, String> {
+    value.as_str().map(str::to_owned).ok_or_else(|| must_be("a string in quotes", value))
+}
+
+/// A string that says something.
+pub fn name(value: &Value) -> Result<String, String> {
+    text(value).and_then(|text| if text.trim().is_empty() { Err("must not be empty".into()) } else { Ok(text) })
+}
+
+/// One name or a list of names, each once.
+pub fn names(value: &Value) -> Result<Vec<String>, String> {
+    let names = match value {
+        Value::Array(list) => list.iter().map(name).collect::<Result<Vec<_>, _>>()?,
+        single => vec![name(single).map_err(|_| must_be("a physical curve, or a list of them", single))?],
+    };
+    if names.is_empty() {
+        return Err("must list at least one physical curve".into());
+    }
+    match names.iter().enumerate().find(|(index, name)| names[..*index].contains(name)) {
+        Some((_, twice)) => Err(format!("lists \"{twice}\" twice; list each physical curve once")),
+        None => Ok(names),
+    }
+}
+
+/// `true` or `false`.
+pub fn boolean(value: &Value) -> Result<bool, String> {
+    value.as_bool().ok_or_else(|| must_be("true or false", value))
+}
+
+/// A finite number.
+pub fn number(value: &Value) -> Result<f64, String> {
+    let number = value.as_float().or(value.as_integer().map(|integer| integer as f64));
+    number.filter(|number| number.is_finite()).ok_or_else(|| must_be("a finite number", value))
+}
+
+/// A finite number above zero.
+pub fn positive(value: &Value) -> Result<f64, String> {
+    number(value).and_then(|number| if number > 0.0 { Ok(number) } else { Err("must be > 0".into()) })
+}
+
+/// A finite number that relative errors can be measured against.
+pub fn not_zero(value: &Value) -> Result<f64, String> {
+    let remedy = "must not be 0: the error is relative to it";
+    number(value).and_then(|number| if number != 0.0 { Ok(number) } else { Err(remedy.into()) })
+}
+
+/// A list of finite numbers.
+pub fn numbers(value: &Value) -> Result<Vec<f64>, String> {
+    entries(value, "a list of numbers", number)
+}
+
+/// Two finite numbers.
+pub fn point(value: &Value) -> Result<[f64; 2], String> {
+    let wanted = "two numbers [x, y]";
+    entries(value, wanted, number)?.try_into().map_err(|_| must_be(wanted, value))
+}
+
+/// A list of points.
+pub fn points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
+    entries(value, "a list of points [[x, y], ...]", point)
+}
+
+/// A number or a formula of some variables. A formula without variables has a finite value.
+pub fn formula(variables: &'static [&'static str]) -> impl Fn(&Value) -> Result<Formula, String> {
+    move |value| {
+        let formula = match value {
+            Value::String(text) => Formula::parse(text, variables).map_err(|error| error.to_string())?,
+            Value::Integer(_) | Value::Float(_) => Formula::constant(number(value)?),
+            other => return Err(must_be(&format!("a number or a formula of {}", variables.join(", ")), other)),
+        };
+        match formula.as_constant() {
+            Some(constant) if !constant.is_finite() => Err("is not finite; correct the formula".into()),
+            _ => Ok(formula),
+        }
+    }
+}
+
+/// A list of `N` numbers or formulas of x, y.
+pub fn formulas<const N: usize>(value: &Value) -> Result<[Formula; N], String> {
+    let wanted = format!("a list of {N} numbers or formulas of x, y");
+    entries(value, &wanted, formula(&PLANE))?.try_into().map_err(|_| must_be(&wanted, value))
+}
+
+/// One of some words.
+pub fn choice<T: Copy>(options: &'static [Choice<T>]) -> impl Fn(&Value) -> Result<T, String> {
+    move |value| {
+        let available: Vec<&str> = options.iter().filter(|option| option.1.is_ok()).map(|option| option.0).collect();
+        let all = || format!("\"{}\"", available.join("\" or \""));
+        let found = value.as_str().ok_or_else(|| must_be(&all(), value))?;
+        match options.iter().find(|option| option.0 == found) {
+            Some((_, Ok(choice))) => Ok(*choice),
+            Some((_, Err(remedy))) => Err(format!("not available yet; {remedy}")),
+            None => Err(format!("must be {}; {}", all(), suggest(found, available.iter().copied()))),
+        }
+    }
+}
+
+/// `must be WANTED, not an integer`
+pub fn must_be(wanted: &str, found: &Value) -> String {
+    match found {
+        Value::Float(number) if !number.is_finite() => format!("must be {wanted}"),
+        Value::Array(list) => format!("must be {wanted}, not a list of length {}", list.len()),
+        found => format!("must be {wanted}, not of type {}", found.type_str()),
+    }
+}
+
+/// Every entry of a list.
+fn entries<T>(value: &Value, wanted: &str, read: impl Fn(&Value) -> Result<T, String>) -> Result<Vec<T>, String> {
+    let list = value.as_array().ok_or_else(|| must_be(wanted, value))?;
+    let numbered = |(index, entry)| read(entry).map_err(|words| format!("entry {}: {words}", index + 1));
+    list.iter().enumerate().map(numbered).collect()
+}
