@@ -9,7 +9,8 @@ use super::vector::length;
 use std::ptr;
 
 /// Divides a graph into `parts` of about equal weight with few edges between them; the part of each vertex.
-/// The whole graph is given, the same on every rank, and so is the result; it is the same from run to run. **Collective**
+/// The whole graph is given, the same on every rank, and so is the result; it depends on the
+/// arguments and the number of ranks alone. **Collective**
 ///
 /// | argument | length | |
 /// |---|---|---|
@@ -81,6 +82,8 @@ pub fn partition(
             handed_over(&weights[first..end])?
         ))?;
     }
+    // Scotch draws random numbers: from the same start, so that a partition does not depend on earlier ones.
+    unsafe { ffi::mezha_restart_scotch() };
     let mut part = ptr::null_mut();
     petsc!(MatPartitioningApply(partitioning.0, &mut part))?;
     Ok(session.gather_all(&IndexSet::from_raw(session, part).indices()?))
