@@ -1,1 +1,39 @@
-//! The safe layer over PETSc and MPI.
+//! The safe layer over PETSc and MPI: the only module with `unsafe`, and the only one that names either library's own types.
+//!
+//! A [`Session`] starts both libraries; every other object holds a clone of it, so that both end when the last object is gone.
+//! Each wrapper owns one reference that PETSc counts, gives it back when dropped, and checks every code PETSc returns.
+//! Sizes and ranges are `usize`, indices inside arrays are `i32` as PETSc stores them; a row that starts with −1 is skipped.
+//! Functions marked **Collective** must be called by all ranks in the same order, and so must the drop of any object.
+
+mod collective;
+mod environment;
+mod error;
+mod ffi;
+mod gather;
+mod index_set;
+mod krylov;
+mod matrix;
+mod multigrid;
+mod nest;
+pub mod options;
+mod partition;
+mod preconditioner;
+mod session;
+mod shell;
+mod stage;
+mod vector;
+pub mod versions;
+
+pub use collective::Datum;
+pub use error::{Error, Result};
+pub use gather::Gather;
+pub use index_set::IndexSet;
+pub use krylov::{Krylov, Solved};
+pub use matrix::Matrix;
+pub use multigrid::Level;
+pub use partition::partition;
+pub use preconditioner::Preconditioner;
+pub use session::Session;
+pub use shell::Action;
+pub use stage::{Stage, StageGuard};
+pub use vector::Vector;

@@ -1,0 +1,113 @@
+//! What all ranks tell each other.
+
+use super::session::Session;
+use mpi::collective::SystemOperation;
+use mpi::datatype::PartitionMut;
+use mpi::traits::{Communicator, CommunicatorCollectives, Equivalence, Root};
+
+/// Numbers that ranks can send each other: integers and reals.
+pub trait Datum: Equivalence + Copy + Default {}
+impl<T: Equivalence + Copy + Default> Datum for T {}
+
+impl Session {
+    /// The values of all ranks, in the order of the ranks. **Collective**
+    pub fn gather_all<T: Datum>(&self, local: &[T]) -> Vec<T> {
+        let counts: Vec<i32> = self
+            .gather_counts(local.len())
+            .into_iter()
+            .map(|count| i32::try_from(count).expect("MPI counts in 32 bits"))
+            .collect();
+        let mut end = 0;
+        let starts: Vec<i32> = counts
+            .iter()
+            .map(|count| {
+                end += count;
+                end - count
+            })
+            .collect();
+        let mut all = vec![T::default(); end as usize];
+        self.world()
+            .all_gather_varcount_into(local, &mut PartitionMut::new(&mut all[..], counts, starts));
+        all
+    }
+
+    /// The number `n` of every rank. **Collective**
+    pub fn gather_counts(&self, n: usize) -> Vec<usize> {
+        let mut all = vec![0; self.size()];
+        self.world().all_gather_into(&n, &mut all[..]);
+        all
+    }
+
+    /// Replaces each value by its sum over the ranks, bit for bit the same on every rank. **Collective**
+    pub fn sum(&self, values: &mut [f64]) {
+        let root = self.world().process_at_rank(0);
+        let own = values.to_vec();
+        if self.rank() == 0 {
+            root.reduce_into_root(&own[..], values, SystemOperation::sum());
+        } else {
+            root.reduce_into(&own[..], SystemOperation::sum());
+        }
+        root.broadcast_into(values);
+    }
+
+    /// Replaces each value by its maximum over the ranks. **Collective**
+    pub fn max(&self, values: &mut [f64]) {
+        let own = values.to_vec();
+        self.world()
+            .all_reduce_into(&own[..], values, SystemOperation::max());
+    }
+
+    /// Replaces each value by its minimum over the ranks. **Collective**
+    pub fn min(&self, values: &mut [f64]) {
+        let own = values.to_vec();
+        self.world()
+            .all_reduce_into(&own[..], values, SystemOperation::min());
+    }
+
+    /// Whether any rank says so. **Collective**
+    pub fn any(&self, here: bool) -> bool {
+        let mut anywhere = 0_i32;
+        self.world()
+            .all_reduce_into(&i32::from(here), &mut anywhere, SystemOperation::max());
+        anywhere != 0
+    }
+
+    /// Lets every rank know whether all are well, so that none goes on alone. **Collective**
+    ///
+    /// # Errors
+    /// On a rank that failed, its own message; on the others the message of the lowest rank that did.
+    pub fn agree<T, E: ToString>(
+        &self,
+        outcome: std::result::Result<T, E>,
+    ) -> std::result::Result<T, String> {
+        let own = outcome.map_err(|error| error.to_string());
+        let mut failed = 0;
+        let here = if own.is_ok() {
+            self.size()
+        } else {
+            self.rank()
+        };
+        self.world()
+            .all_reduce_into(&here, &mut failed, SystemOperation::min());
+        if failed == self.size() {
+            return own;
+        }
+        let mut message = own
+            .as_ref()
+            .err()
+            .filter(|_| failed == self.rank())
+            .map(|text| text.clone().into_bytes())
+            .unwrap_or_default();
+        let root = self.world().process_at_rank(failed as i32);
+        let mut length = message.len();
+        root.broadcast_into(&mut length);
+        message.resize(length, 0);
+        root.broadcast_into(&mut message[..]);
+        own.and_then(|_| {
+            Err(format!(
+                "another rank failed: {}",
+                String::from_utf8_lossy(&message)
+            ))
+        })
+    }
+}

@@ -1,0 +1,109 @@
+//! Errors: what PETSc says, and where.
+
+use super::ffi;
+use std::cell::RefCell;
+use std::ffi::{CStr, c_char, c_int, c_void};
+
+/// What every call to PETSc returns.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why a call to PETSc or MPI did not do its work.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// PETSc returned an error code.
+    #[error("{call}: {message} (PETSc error {code})")]
+    Petsc {
+        /// Name of the C function that was called.
+        call: &'static str,
+        /// PETSc's code.
+        code: i32,
+        /// PETSc's own words, from the innermost function that failed.
+        message: String,
+    },
+    /// A linear solver stopped without a solution.
+    #[error("linear solver: {reason} after {iterations} iterations, residual {residual:.3e}")]
+    NotConverged {
+        /// Name of the reason, such as `KSP_DIVERGED_ITS`; what failed in the preconditioner follows in words.
+        reason: String,
+        /// Iterations done.
+        iterations: usize,
+        /// Norm of the last residual.
+        residual: f64,
+    },
+    /// MPI runs once in the life of a process.
+    #[error("MPI has already been started in this process")]
+    AlreadyStarted,
+}
+
+thread_local! {
+    /// What the error handler has heard since the last check: the message of the innermost failure.
+    static DEEPEST: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// Calls a PETSc function and makes a [`Result`] of its code: `petsc!(VecSet(vector, 1.0))?`.
+macro_rules! petsc {
+    ($function:ident ( $($argument:expr),* $(,)? )) => {
+        // The arguments are handles that a wrapper keeps alive, and memory of the lengths that the wrapper has checked.
+        $crate::petsc::error::check(stringify!($function), unsafe { $crate::petsc::ffi::$function($($argument),*) })
+    };
+}
+pub(super) use petsc;
+
+/// Result of a PETSc call, from its code.
+#[inline]
+pub(super) fn check(call: &'static str, code: ffi::PetscErrorCode) -> Result<()> {
+    if code == 0 {
+        Ok(())
+    } else {
+        Err(failure(call, code))
+    }
+}
+
+#[cold]
+fn failure(call: &'static str, code: ffi::PetscErrorCode) -> Error {
+    let heard = DEEPEST.take().filter(|message| !message.is_empty());
+    Error::Petsc {
+        call,
+        code,
+        message: heard.unwrap_or_else(|| general_message(code)),
+    }
+}
+
+/// What PETSc says in general about a code.
+fn general_message(code: ffi::PetscErrorCode) -> String {
+    let mut text: *const c_char = std::ptr::null();
+    let unknown = unsafe { ffi::PetscErrorMessage(code, &mut text, std::ptr::null_mut()) };
+    if unknown != 0 || text.is_null() {
+        "unknown error".into()
+    } else {
+        words(text)
+    }
+}
+
+/// Rust's copy of a C string without spaces at its ends; empty if there is none.
+pub(super) fn words(text: *const c_char) -> String {
+    if text.is_null() {
+        return String::new();
+    }
+    unsafe { CStr::from_ptr(text) }
+        .to_string_lossy()
+        .trim()
+        .to_owned()
+}
+
+/// PETSc's error handler: keeps the words of the function where the error arose, stays silent, hands the code on.
+pub(super) unsafe extern "C" fn remember(
+    _comm: mpi::ffi::MPI_Comm,
+    _line: c_int,
+    _function: *const c_char,
+    _file: *const c_char,
+    code: ffi::PetscErrorCode,
+    kind: ffi::PetscErrorType,
+    message: *const c_char,
+    _context: *mut c_void,
+) -> ffi::PetscErrorCode {
+    if kind == ffi::PetscErrorType::PETSC_ERROR_INITIAL {
+        DEEPEST.set(Some(words(message)));
+    }
+    code
+}

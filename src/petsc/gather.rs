@@ -1,0 +1,74 @@
+//! Entries of a distributed vector that a rank needs and others own.
+
+use super::error::{Result, petsc};
+use super::ffi;
+use super::index_set::IndexSet;
+use super::vector::{Vector, length};
+use std::ptr;
+
+/// Brings chosen entries of a vector, from whatever rank, to this one.
+pub struct Gather {
+    raw: ffi::VecScatter,
+    /// Where the entries arrive, a vector of this rank alone.
+    arrived: Vector,
+}
+
+impl Gather {
+    /// Prepares to fetch the entries `indices` (global, any order, repeats allowed, each rank its own)
+    /// from vectors laid out like `layout`. **Collective**
+    pub fn new(layout: &Vector, indices: &[i32]) -> Result<Self> {
+        let session = layout.session();
+        let alone = unsafe { mpi::ffi::RSMPI_COMM_SELF };
+        let mut from = ptr::null_mut();
+        petsc!(ISCreateGeneral(
+            alone,
+            length(indices.len()),
+            indices.as_ptr(),
+            ffi::PetscCopyMode::PETSC_COPY_VALUES,
+            &mut from
+        ))?;
+        let from = IndexSet::from_raw(session, from);
+        let mut arrived = ptr::null_mut();
+        petsc!(VecCreateSeq(alone, length(indices.len()), &mut arrived))?;
+        let arrived = Vector::from_raw(session, arrived)?;
+        let mut raw = ptr::null_mut();
+        petsc!(VecScatterCreate(
+            layout.raw(),
+            from.raw(),
+            arrived.raw(),
+            ptr::null_mut(),
+            &mut raw
+        ))?;
+        Ok(Self { raw, arrived })
+    }
+
+    /// The chosen entries of `vector`, in the order of the indices. **Collective**
+    pub fn fetch(&self, vector: &Vector) -> Result<Vec<f64>> {
+        let (insert, forward) = (
+            ffi::InsertMode::INSERT_VALUES,
+            ffi::ScatterMode::SCATTER_FORWARD,
+        );
+        petsc!(VecScatterBegin(
+            self.raw,
+            vector.raw(),
+            self.arrived.raw(),
+            insert,
+            forward
+        ))?;
+        petsc!(VecScatterEnd(
+            self.raw,
+            vector.raw(),
+            self.arrived.raw(),
+            insert,
+            forward
+        ))?;
+        Ok(self.arrived.values().to_vec())
+    }
+}
+
+impl Drop for Gather {
+    /// Gives back one PETSc reference. **Collective**
+    fn drop(&mut self) {
+        unsafe { ffi::VecScatterDestroy(&mut self.raw) };
+    }
+}

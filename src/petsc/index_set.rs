@@ -1,0 +1,61 @@
+//! Sets of global numbers.
+
+use super::error::{Result, petsc};
+use super::ffi;
+use super::session::Session;
+use super::vector::length;
+use std::ptr;
+
+/// A distributed set of global numbers, such as the unknowns of one field.
+pub struct IndexSet {
+    raw: ffi::IS,
+    _session: Session,
+}
+
+impl IndexSet {
+    /// The numbers `first .. first + count` on this rank. **Collective**
+    pub fn stride(session: &Session, first: usize, count: usize) -> Result<Self> {
+        let mut raw = ptr::null_mut();
+        petsc!(ISCreateStride(
+            session.raw(),
+            length(count),
+            length(first),
+            1,
+            &mut raw
+        ))?;
+        Ok(Self::from_raw(session, raw))
+    }
+
+    /// Takes over one reference to an index set of PETSc's.
+    pub(super) fn from_raw(session: &Session, raw: ffi::IS) -> Self {
+        Self {
+            raw,
+            _session: session.clone(),
+        }
+    }
+
+    pub(super) fn raw(&self) -> ffi::IS {
+        self.raw
+    }
+
+    /// The numbers on this rank.
+    pub fn indices(&self) -> Result<Vec<i32>> {
+        let (mut count, mut array) = (0, ptr::null());
+        petsc!(ISGetLocalSize(self.raw, &mut count))?;
+        petsc!(ISGetIndices(self.raw, &mut array))?;
+        let indices = if count == 0 {
+            Vec::new()
+        } else {
+            unsafe { std::slice::from_raw_parts(array, count as usize) }.to_vec()
+        };
+        petsc!(ISRestoreIndices(self.raw, &mut array))?;
+        Ok(indices)
+    }
+}
+
+impl Drop for IndexSet {
+    /// Gives back one PETSc reference. **Collective**
+    fn drop(&mut self) {
+        unsafe { ffi::ISDestroy(&mut self.raw) };
+    }
+}

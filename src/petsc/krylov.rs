@@ -1,0 +1,181 @@
+//! Linear solvers.
+
+use super::error::{Error, Result, petsc, words};
+use super::ffi;
+use super::matrix::Matrix;
+use super::preconditioner::Preconditioner;
+use super::session::Session;
+use super::vector::{Vector, length};
+use std::ffi::CString;
+use std::ptr;
+
+/// A Krylov method with its preconditioner.
+pub struct Krylov {
+    raw: ffi::KSP,
+    session: Session,
+}
+
+/// How a linear solve ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solved {
+    /// Whether the tolerance was reached.
+    pub converged: bool,
+    /// Iterations done.
+    pub iterations: usize,
+    /// Norm of the last residual, in the norm of the method.
+    pub residual: f64,
+    /// Name of PETSc's reason to stop, such as `KSP_CONVERGED_RTOL`; what failed in the preconditioner follows in words.
+    pub reason: String,
+}
+
+impl Krylov {
+    /// A solver whose options begin with `-<prefix>`. It records its residuals. **Collective**
+    pub fn new(session: &Session, prefix: &str) -> Result<Self> {
+        let mut raw = ptr::null_mut();
+        petsc!(KSPCreate(session.raw(), &mut raw))?;
+        let krylov = Self {
+            raw,
+            session: session.clone(),
+        };
+        let prefix = CString::new(prefix).expect("a prefix has no zero byte");
+        petsc!(KSPSetOptionsPrefix(raw, prefix.as_ptr()))?;
+        krylov.recording_residuals()
+    }
+
+    /// Another reference to a solver of PETSc's.
+    pub(super) fn share(session: &Session, raw: ffi::KSP) -> Result<Self> {
+        petsc!(PetscObjectReference(raw.cast()))?;
+        Self {
+            raw,
+            session: session.clone(),
+        }
+        .recording_residuals()
+    }
+
+    fn recording_residuals(self) -> Result<Self> {
+        petsc!(KSPSetResidualHistory(
+            self.raw,
+            ptr::null_mut(),
+            ffi::mezha_determine,
+            ffi::PetscBool::PETSC_TRUE
+        ))?;
+        Ok(self)
+    }
+
+    /// Sets the matrix of the system and the one the preconditioner is built from, often the same. **Collective**
+    pub fn set_operators(&self, system: &Matrix, preconditioner: &Matrix) -> Result<()> {
+        petsc!(KSPSetOperators(
+            self.raw,
+            system.raw(),
+            preconditioner.raw()
+        ))
+    }
+
+    /// Stops when the residual is below `relative · |b|`, or gives up after `max_iterations`. **Collective**
+    pub fn set_tolerance(&self, relative: f64, max_iterations: usize) -> Result<()> {
+        let other = ffi::mezha_default_real;
+        petsc!(KSPSetTolerances(
+            self.raw,
+            relative,
+            other,
+            other,
+            length(max_iterations)
+        ))
+    }
+
+    /// Starts from the `x` given to a solve instead of from zero. **Collective**
+    pub fn set_initial_guess_nonzero(&self, nonzero: bool) -> Result<()> {
+        let flag = if nonzero {
+            ffi::PetscBool::PETSC_TRUE
+        } else {
+            ffi::PetscBool::PETSC_FALSE
+        };
+        petsc!(KSPSetInitialGuessNonzero(self.raw, flag))
+    }
+
+    /// Reads its options and those of its preconditioner. **Collective**
+    pub fn set_from_options(&self) -> Result<()> {
+        petsc!(KSPSetFromOptions(self.raw))
+    }
+
+    /// Prepares the method and its preconditioner for the operators. **Collective**
+    pub fn set_up(&self) -> Result<()> {
+        petsc!(KSPSetUp(self.raw))
+    }
+
+    /// Its preconditioner.
+    pub fn preconditioner(&self) -> Result<Preconditioner> {
+        let mut raw = ptr::null_mut();
+        petsc!(KSPGetPC(self.raw, &mut raw))?;
+        Preconditioner::share(&self.session, raw)
+    }
+
+    /// Solves `A x = b`. **Collective**
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] if the method gives up: PETSc itself reports that as a success.
+    pub fn solve(&self, b: &Vector, x: &mut Vector) -> Result<Solved> {
+        let solved = self.solve_allowing(b, x)?;
+        if solved.converged {
+            return Ok(solved);
+        }
+        let Solved {
+            iterations,
+            residual,
+            reason,
+            ..
+        } = solved;
+        Err(Error::NotConverged {
+            reason,
+            iterations,
+            residual,
+        })
+    }
+
+    /// As [`Krylov::solve`], but a method that gives up is no error: `converged` tells, `x` holds the last iterate.
+    /// **Collective**
+    pub fn solve_allowing(&self, b: &Vector, x: &mut Vector) -> Result<Solved> {
+        petsc!(KSPSolve(self.raw, b.raw(), x.raw()))?;
+        let mut reason = ffi::KSPConvergedReason::KSP_CONVERGED_ITERATING;
+        let (mut iterations, mut residual) = (0, 0.0);
+        petsc!(KSPGetConvergedReason(self.raw, &mut reason))?;
+        petsc!(KSPGetIterationNumber(self.raw, &mut iterations))?;
+        petsc!(KSPGetResidualNorm(self.raw, &mut residual))?;
+        let converged = reason.0 > 0;
+        Ok(Solved {
+            converged,
+            iterations: iterations as usize,
+            residual,
+            reason: self.reason(reason)?,
+        })
+    }
+
+    /// Name of the reason to stop, and what failed in the preconditioner.
+    fn reason(&self, reason: ffi::KSPConvergedReason) -> Result<String> {
+        let mut name = ptr::null();
+        petsc!(KSPGetConvergedReasonString(self.raw, &mut name))?;
+        let name = format!("KSP_{}", words(name));
+        if reason != ffi::KSPConvergedReason::KSP_DIVERGED_PC_FAILED {
+            return Ok(name);
+        }
+        Ok(format!("{name} ({})", self.preconditioner()?.failure()?))
+    }
+
+    /// Residual norms of the last solve: before it, and after each iteration.
+    pub fn residual_history(&self) -> Result<Vec<f64>> {
+        let (mut array, mut count) = (ptr::null(), 0);
+        petsc!(KSPGetResidualHistory(self.raw, &mut array, &mut count))?;
+        Ok(if count == 0 {
+            Vec::new()
+        } else {
+            unsafe { std::slice::from_raw_parts(array, count as usize) }.to_vec()
+        })
+    }
+}
+
+impl Drop for Krylov {
+    /// Gives back one PETSc reference. **Collective**
+    fn drop(&mut self) {
+        unsafe { ffi::KSPDestroy(&mut self.raw) };
+    }
+}

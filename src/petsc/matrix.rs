@@ -1,0 +1,319 @@
+//! Distributed matrices.
+
+use super::error::{Result, petsc};
+use super::ffi;
+use super::session::Session;
+use super::vector::{Vector, length};
+use std::ops::Range;
+use std::ptr;
+
+/// A matrix whose rows lie in consecutive ranges on the ranks: sparse ([`Matrix::aij`]), two by two of others
+/// ([`Matrix::nest`]) or an action ([`Matrix::shell`]). A clone is the same matrix under another name.
+pub struct Matrix {
+    raw: ffi::Mat,
+    session: Session,
+    /// Rows and columns per block of [`Matrix::add_blocks`].
+    block: usize,
+}
+
+impl Matrix {
+    /// A sparse matrix with `rows` × `columns` scalar entries on this rank, stored by rows and filled in blocks of
+    /// `block` × `block`. For each block row, `diagonal` and `off_diagonal` say how many blocks lie in this rank's own
+    /// columns and in others': exact counts, since an entry beyond them is an error. **Collective**
+    ///
+    /// # Panics
+    /// If the counts are not one per block row.
+    pub fn aij(
+        session: &Session,
+        rows: usize,
+        columns: usize,
+        block: usize,
+        diagonal: &[i32],
+        off_diagonal: &[i32],
+    ) -> Result<Self> {
+        assert!(
+            [diagonal.len(), off_diagonal.len()] == [rows / block; 2] && rows % block == 0,
+            "one count for each block row"
+        );
+        let mut raw = ptr::null_mut();
+        petsc!(MatCreate(session.raw(), &mut raw))?;
+        let matrix = Self {
+            raw,
+            session: session.clone(),
+            block,
+        };
+        petsc!(MatSetSizes(
+            raw,
+            length(rows),
+            length(columns),
+            ffi::mezha_determine,
+            ffi::mezha_determine
+        ))?;
+        petsc!(MatSetType(raw, c"aij".as_ptr()))?;
+        petsc!(MatXAIJSetPreallocation(
+            raw,
+            length(block),
+            diagonal.as_ptr(),
+            off_diagonal.as_ptr(),
+            ptr::null(),
+            ptr::null()
+        ))?;
+        matrix.set_option(ffi::MatOption::MAT_NEW_NONZERO_ALLOCATION_ERR, true)?;
+        Ok(matrix)
+    }
+
+    /// Takes over one reference to a matrix of PETSc's.
+    pub(super) fn from_raw(session: &Session, raw: ffi::Mat) -> Self {
+        Self {
+            raw,
+            session: session.clone(),
+            block: 1,
+        }
+    }
+
+    pub(super) fn raw(&self) -> ffi::Mat {
+        self.raw
+    }
+
+    pub(super) fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// Adds a dense block to the rows and columns of these blocks (global block numbers; negative ones are skipped).
+    /// Holds after [`Matrix::assemble`].
+    ///
+    /// | argument | shape |
+    /// |---|---|
+    /// | `values` | (`rows` · block) × (`columns` · block), row after row |
+    ///
+    /// # Panics
+    /// If `values` has another length.
+    #[inline]
+    pub fn add_blocks(&mut self, rows: &[i32], columns: &[i32], values: &[f64]) -> Result<()> {
+        assert_eq!(
+            values.len(),
+            rows.len() * columns.len() * self.block * self.block,
+            "values of whole blocks"
+        );
+        let (m, n) = (length(rows.len()), length(columns.len()));
+        let add = ffi::InsertMode::ADD_VALUES;
+        petsc!(MatSetValuesBlocked(
+            self.raw,
+            m,
+            rows.as_ptr(),
+            n,
+            columns.as_ptr(),
+            values.as_ptr(),
+            add
+        ))
+    }
+
+    /// Adds `values`, row after row, to the entries at `rows` × `columns` (global; negative ones are skipped).
+    /// Holds after [`Matrix::assemble`].
+    ///
+    /// # Panics
+    /// If `values` has another length than the product of the two.
+    #[inline]
+    pub fn add(&mut self, rows: &[i32], columns: &[i32], values: &[f64]) -> Result<()> {
+        self.set_values(rows, columns, values, ffi::InsertMode::ADD_VALUES)
+    }
+
+    /// As [`Matrix::add`], but the values take the place of the old ones. Between two assemblies either add or insert.
+    #[inline]
+    pub fn insert(&mut self, rows: &[i32], columns: &[i32], values: &[f64]) -> Result<()> {
+        self.set_values(rows, columns, values, ffi::InsertMode::INSERT_VALUES)
+    }
+
+    #[inline]
+    fn set_values(
+        &mut self,
+        rows: &[i32],
+        columns: &[i32],
+        values: &[f64],
+        mode: ffi::InsertMode,
+    ) -> Result<()> {
+        assert_eq!(
+            values.len(),
+            rows.len() * columns.len(),
+            "one value for each row and column"
+        );
+        let (m, n) = (length(rows.len()), length(columns.len()));
+        petsc!(MatSetValues(
+            self.raw,
+            m,
+            rows.as_ptr(),
+            n,
+            columns.as_ptr(),
+            values.as_ptr(),
+            mode
+        ))
+    }
+
+    /// Brings added or inserted values to their ranks and closes the pattern. **Collective**
+    pub fn assemble(&mut self) -> Result<()> {
+        petsc!(MatAssemblyBegin(
+            self.raw,
+            ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY
+        ))?;
+        petsc!(MatAssemblyEnd(
+            self.raw,
+            ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY
+        ))
+    }
+
+    /// Sets every stored entry to zero and keeps the pattern. **Collective**
+    pub fn zero_entries(&mut self) -> Result<()> {
+        petsc!(MatZeroEntries(self.raw))
+    }
+
+    /// `y = A x`. **Collective**
+    pub fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        petsc!(MatMult(self.raw, x.raw(), y.raw()))
+    }
+
+    /// `y = Aᵀ x`. **Collective**
+    pub fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        petsc!(MatMultTranspose(self.raw, x.raw(), y.raw()))
+    }
+
+    /// `y += A x`. **Collective**
+    pub fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        petsc!(MatMultAdd(self.raw, x.raw(), y.raw(), y.raw()))
+    }
+
+    /// `r = b - A x`. **Collective**
+    pub fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()> {
+        petsc!(MatResidual(self.raw, b.raw(), x.raw(), r.raw()))
+    }
+
+    /// Copies the diagonal. **Collective**
+    pub fn diagonal(&self, diagonal: &mut Vector) -> Result<()> {
+        petsc!(MatGetDiagonal(self.raw, diagonal.raw()))
+    }
+
+    /// Largest sum of magnitudes in a row. **Collective**
+    pub fn norm_infinity(&self) -> Result<f64> {
+        self.norm(ffi::NormType::NORM_INFINITY)
+    }
+
+    /// Root of the sum of squares. **Collective**
+    pub fn norm_frobenius(&self) -> Result<f64> {
+        self.norm(ffi::NormType::NORM_FROBENIUS)
+    }
+
+    fn norm(&self, kind: ffi::NormType) -> Result<f64> {
+        let mut norm = 0.0;
+        petsc!(MatNorm(self.raw, kind, &mut norm))?;
+        Ok(norm)
+    }
+
+    /// Global numbers of the rows of this rank.
+    pub fn row_range(&self) -> Range<usize> {
+        let (mut first, mut end) = (0, 0);
+        petsc!(MatGetOwnershipRange(self.raw, &mut first, &mut end))
+            .expect("a matrix knows its rows");
+        first as usize..end as usize
+    }
+
+    /// Global numbers of the columns that go with this rank's entries of `x` in `A x`.
+    pub fn column_range(&self) -> Range<usize> {
+        let (mut first, mut end) = (0, 0);
+        petsc!(MatGetOwnershipRangeColumn(self.raw, &mut first, &mut end))
+            .expect("a matrix knows its columns");
+        first as usize..end as usize
+    }
+
+    /// Rows and columns on this rank.
+    pub fn local_size(&self) -> (usize, usize) {
+        let (mut rows, mut columns) = (0, 0);
+        petsc!(MatGetLocalSize(self.raw, &mut rows, &mut columns))
+            .expect("a matrix knows its size");
+        (rows as usize, columns as usize)
+    }
+
+    /// Rows and columns on all ranks.
+    pub fn size(&self) -> (usize, usize) {
+        let (mut rows, mut columns) = (0, 0);
+        petsc!(MatGetSize(self.raw, &mut rows, &mut columns)).expect("a matrix knows its size");
+        (rows as usize, columns as usize)
+    }
+
+    /// Stored entries on all ranks. **Collective**
+    pub fn nonzeros(&self) -> Result<usize> {
+        Ok(self.information()?.nz_used as usize)
+    }
+
+    /// Entries on all ranks that were asked for and have not been used. **Collective**
+    pub fn wasted(&self) -> Result<usize> {
+        Ok(self.information()?.nz_unneeded as usize)
+    }
+
+    fn information(&self) -> Result<ffi::MatInfo> {
+        let mut information = ffi::MatInfo::default();
+        petsc!(MatGetInfo(
+            self.raw,
+            ffi::MatInfoType::MAT_GLOBAL_SUM,
+            &mut information
+        ))?;
+        Ok(information)
+    }
+
+    /// Tells solvers that the matrix is symmetric, or not.
+    pub fn set_symmetric(&mut self, holds: bool) -> Result<()> {
+        self.set_option(ffi::MatOption::MAT_SYMMETRIC, holds)
+    }
+
+    /// Tells solvers that the matrix is symmetric and positive definite, or not.
+    pub fn set_positive_definite(&mut self, holds: bool) -> Result<()> {
+        self.set_option(ffi::MatOption::MAT_SPD, holds)
+    }
+
+    fn set_option(&self, option: ffi::MatOption, holds: bool) -> Result<()> {
+        let flag = if holds {
+            ffi::PetscBool::PETSC_TRUE
+        } else {
+            ffi::PetscBool::PETSC_FALSE
+        };
+        petsc!(MatSetOption(self.raw, option, flag))
+    }
+
+    /// New vectors `(x, y)` that fit `y = A x`. **Collective**
+    pub fn create_vectors(&self) -> Result<(Vector, Vector)> {
+        let (mut right, mut left) = (ptr::null_mut(), ptr::null_mut());
+        petsc!(MatCreateVecs(self.raw, &mut right, &mut left))?;
+        let right = Vector::from_raw(&self.session, right);
+        let left = Vector::from_raw(&self.session, left);
+        Ok((right?, left?))
+    }
+
+    /// A sparse copy, as direct solvers want it. **Collective**
+    pub fn convert_aij(&self) -> Result<Self> {
+        let mut raw = ptr::null_mut();
+        petsc!(MatConvert(
+            self.raw,
+            c"aij".as_ptr(),
+            ffi::MatReuse::MAT_INITIAL_MATRIX,
+            &mut raw
+        ))?;
+        Ok(Self::from_raw(&self.session, raw))
+    }
+}
+
+impl Clone for Matrix {
+    /// Another reference to the same matrix.
+    fn clone(&self) -> Self {
+        petsc!(PetscObjectReference(self.raw.cast())).expect("PETSc counts references");
+        Self {
+            raw: self.raw,
+            session: self.session.clone(),
+            block: self.block,
+        }
+    }
+}
+
+impl Drop for Matrix {
+    /// Gives back one PETSc reference. **Collective**
+    fn drop(&mut self) {
+        unsafe { ffi::MatDestroy(&mut self.raw) };
+    }
+}

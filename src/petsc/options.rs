@@ -1,0 +1,112 @@
+//! PETSc's options: mezha sets defaults, the user has the last word.
+
+use super::error::{Result, petsc, words};
+use super::session::{Session, is_name};
+use std::ffi::{CString, c_char};
+use std::ptr;
+
+/// Beginnings of options that PETSc reads only at its end.
+const READ_LATER: [&str; 6] = [
+    "-log_",
+    "-malloc_",
+    "-objects_",
+    "-options_",
+    "-memory_",
+    "-no_signal_handler",
+];
+
+/// Sets option `name` (`"-ksp_type"`) to `value`, unless the user has set it; an empty value stands for a bare flag.
+pub fn set_default(session: &Session, name: &str, value: &str) -> Result<()> {
+    if set_by_user(session, name) {
+        return Ok(());
+    }
+    let (key, text) = (c_string(name), c_string(value));
+    petsc!(PetscOptionsSetValue(
+        ptr::null_mut(),
+        key.as_ptr(),
+        text.as_ptr()
+    ))?;
+    session.defaults().borrow_mut().insert(name.to_lowercase());
+    Ok(())
+}
+
+/// Takes back a default that [`set_default`] or the start has set; a value of the user's stays.
+pub fn clear(session: &Session, name: &str) -> Result<()> {
+    if session.defaults().borrow_mut().remove(&name.to_lowercase()) {
+        petsc!(PetscOptionsClearValue(
+            ptr::null_mut(),
+            c_string(name).as_ptr()
+        ))?;
+    }
+    Ok(())
+}
+
+/// Value of option `name`, empty for a bare flag; `None` if nobody has set it. Does not count as a use of the option.
+pub fn get(_session: &Session, name: &str) -> Option<String> {
+    let options = all().expect("PETSc lists its options");
+    options
+        .into_iter()
+        .find(|(other, _)| other.eq_ignore_ascii_case(name))
+        .map(|(_, value)| value)
+}
+
+/// Options of the user's that no object has asked for so far, each as `-name value`: a typing mistake is among them.
+/// Options that PETSc reads only at its end are left out.
+pub fn unused(session: &Session) -> Result<Vec<String>> {
+    let mut count = 0;
+    let (mut names, mut values): (*mut *mut c_char, *mut *mut c_char) =
+        (ptr::null_mut(), ptr::null_mut());
+    petsc!(PetscOptionsLeftGet(
+        ptr::null_mut(),
+        &mut count,
+        &mut names,
+        &mut values
+    ))?;
+    let left: Vec<(String, String)> = (0..count as usize)
+        .map(|i| unsafe { (format!("-{}", words(*names.add(i))), words(*values.add(i))) })
+        .collect();
+    petsc!(PetscOptionsLeftRestore(
+        ptr::null_mut(),
+        &mut count,
+        &mut names,
+        &mut values
+    ))?;
+    let defaults = session.defaults().borrow();
+    Ok(left
+        .into_iter()
+        .filter(|(name, _)| !defaults.contains(&name.to_lowercase()))
+        .filter(|(name, _)| {
+            !READ_LATER
+                .iter()
+                .any(|start| name.to_lowercase().starts_with(start))
+        })
+        .map(|(name, value)| format!("{name} {value}").trim_end().to_owned())
+        .collect())
+}
+
+/// Whether the user has set option `name`, on the command line or in a file that PETSc reads.
+fn set_by_user(session: &Session, name: &str) -> bool {
+    !session.defaults().borrow().contains(&name.to_lowercase()) && get(session, name).is_some()
+}
+
+/// All options that are set, with their values.
+fn all() -> Result<Vec<(String, String)>> {
+    let mut text: *mut c_char = ptr::null_mut();
+    petsc!(PetscOptionsGetAll(ptr::null_mut(), &mut text))?;
+    let line = words(text);
+    petsc!(mezha_free(text.cast()))?;
+    let mut options: Vec<(String, String)> = Vec::new();
+    for word in line.split_whitespace() {
+        match options.last_mut() {
+            Some((_, value)) if !is_name(word) => {
+                *value = format!("{value} {word}").trim_start().to_owned();
+            }
+            _ => options.push((word.to_owned(), String::new())),
+        }
+    }
+    Ok(options)
+}
+
+fn c_string(text: &str) -> CString {
+    CString::new(text).expect("an option has no zero byte")
+}

@@ -1,0 +1,116 @@
+//! Division of a graph into parts.
+
+use super::error::{Result, petsc};
+use super::ffi;
+use super::index_set::IndexSet;
+use super::matrix::Matrix;
+use super::session::Session;
+use super::vector::length;
+use std::ptr;
+
+/// Divides a graph into `parts` of about equal weight with few edges between them; the part of each vertex.
+/// The whole graph is given, the same on every rank, and so is the result; it depends on the
+/// arguments and the number of ranks alone. **Collective**
+///
+/// | argument | length | |
+/// |---|---|---|
+/// | `offsets` | vertices + 1 | neighbours of vertex v stand at `offsets[v] .. offsets[v + 1]` |
+/// | `neighbours` | `offsets[vertices]` | without v itself; each edge stands at both of its ends |
+/// | `edge_weights` | same | > 0, equal at both ends |
+/// | `vertex_weights` | vertices | > 0; 1 if none are given |
+///
+/// # Panics
+/// If a length is wrong.
+pub fn partition(
+    session: &Session,
+    parts: usize,
+    offsets: &[i32],
+    neighbours: &[i32],
+    edge_weights: &[i32],
+    vertex_weights: Option<&[i32]>,
+) -> Result<Vec<i32>> {
+    let vertices = offsets
+        .len()
+        .checked_sub(1)
+        .expect("offsets has vertices + 1 entries");
+    assert!(
+        neighbours.len() == offsets[vertices] as usize && edge_weights.len() == neighbours.len(),
+        "neighbours end at the last offset"
+    );
+    assert!(
+        vertex_weights.is_none_or(|weights| weights.len() == vertices),
+        "one weight for each vertex"
+    );
+    if parts == 1 {
+        return Ok(vec![0; vertices]);
+    }
+
+    // This rank's share: vertices first .. end.
+    let [first, end] =
+        [session.rank(), session.rank() + 1].map(|rank| rank * vertices / session.size());
+    let entries = offsets[first] as usize..offsets[end] as usize;
+    let own_offsets: Vec<i32> = offsets[first..=end]
+        .iter()
+        .map(|offset| offset - offsets[first])
+        .collect();
+    let rows = handed_over(&own_offsets)?;
+    let columns = handed_over(&neighbours[entries.clone()])?;
+    let weights = handed_over(&edge_weights[entries])?;
+    let mut graph = ptr::null_mut();
+    petsc!(MatCreateMPIAdj(
+        session.raw(),
+        length(end - first),
+        length(vertices),
+        rows,
+        columns,
+        weights,
+        &mut graph
+    ))?;
+    let graph = Matrix::from_raw(session, graph);
+
+    let partitioning = Partitioning::new(session)?;
+    petsc!(MatPartitioningSetAdjacency(partitioning.0, graph.raw()))?;
+    petsc!(MatPartitioningSetType(partitioning.0, c"ptscotch".as_ptr()))?;
+    petsc!(MatPartitioningSetNParts(partitioning.0, length(parts)))?;
+    petsc!(MatPartitioningSetUseEdgeWeights(
+        partitioning.0,
+        ffi::PetscBool::PETSC_TRUE
+    ))?;
+    if let Some(weights) = vertex_weights {
+        petsc!(MatPartitioningSetVertexWeights(
+            partitioning.0,
+            handed_over(&weights[first..end])?
+        ))?;
+    }
+    // Scotch draws random numbers: from the same start, so that a partition does not depend on earlier ones.
+    unsafe { ffi::mezha_restart_scotch() };
+    let mut part = ptr::null_mut();
+    petsc!(MatPartitioningApply(partitioning.0, &mut part))?;
+    Ok(session.gather_all(&IndexSet::from_raw(session, part).indices()?))
+}
+
+/// A copy that PETSc will free.
+fn handed_over(values: &[i32]) -> Result<*mut i32> {
+    let mut memory = ptr::null_mut();
+    petsc!(mezha_malloc(size_of_val(values).max(1), &mut memory))?;
+    let memory = memory.cast::<i32>();
+    unsafe { ptr::copy_nonoverlapping(values.as_ptr(), memory, values.len()) };
+    Ok(memory)
+}
+
+struct Partitioning(ffi::MatPartitioning);
+
+impl Partitioning {
+    fn new(session: &Session) -> Result<Self> {
+        let mut raw = ptr::null_mut();
+        petsc!(MatPartitioningCreate(session.raw(), &mut raw))?;
+        Ok(Self(raw))
+    }
+}
+
+impl Drop for Partitioning {
+    /// Gives back one PETSc reference. **Collective**
+    fn drop(&mut self) {
+        unsafe { ffi::MatPartitioningDestroy(&mut self.0) };
+    }
+}

@@ -1,0 +1,14 @@
+/* What PETSc offers only as a macro or a variadic function, and what it does not pass on from its partitioner. */
+#include <petscksp.h>
+
+/* Memory that PETSc will free itself: `bytes` of it, or NULL with a non-zero code. */
+PetscErrorCode mezha_malloc(size_t bytes, void **memory);
+/* Gives back memory that PETSc has handed over. */
+PetscErrorCode mezha_free(void *memory);
+/* Enters an error of a callback into PETSc's error handling; returns its code. */
+PetscErrorCode mezha_callback_error(const char *message);
+/* Starts the random numbers of Scotch afresh, if this PETSc has loaded it. */
+void mezha_restart_scotch(void);
+/* Sizes that PETSc works out, and its default real tolerance. */
+static const PetscInt  mezha_determine    = PETSC_DETERMINE;
+static const PetscReal mezha_default_real = PETSC_DEFAULT;

@@ -1,0 +1,670 @@
+//! The layer over PETSc and MPI on 1, 2 and 3 ranks.
+
+mod launch;
+mod support;
+
+use launch::{LIST_LEAKS, Suite, mpirun};
+use mezha::petsc::{
+    Error, Gather, Krylov, Matrix, Session, Stage, Vector, options, partition, versions,
+};
+use std::time::{Duration, Instant};
+use support::{NodePair, laplacian, ramp, share, sparse};
+
+fn main() -> std::process::ExitCode {
+    Suite {
+        options: (
+            &["-test_default", "1", "-test_both", "1"],
+            &[
+                "-test_both",
+                "2",
+                "-test_mistyped",
+                "7",
+                "-test_flag",
+                "-test_below",
+                "-1.5",
+            ],
+        ),
+        checks: &[
+            ("options_of_the_user_win", options_of_the_user_win),
+            (
+                "options_without_use_are_listed",
+                options_without_use_are_listed,
+            ),
+            ("versions_are_known", versions_are_known),
+            ("ranks_tell_each_other", ranks_tell_each_other),
+            ("ranks_agree", ranks_agree),
+            ("vector_algebra", vector_algebra),
+            ("vector_adds_across_ranks", vector_adds_across_ranks),
+            ("gather_fetches_any_entry", gather_fetches_any_entry),
+            ("matrix_of_exact_counts", matrix_of_exact_counts),
+            ("matrix_in_blocks", matrix_in_blocks),
+            ("matrix_is_shared_by_clones", matrix_is_shared_by_clones),
+            ("wrong_calls_give_words", wrong_calls_give_words),
+            ("nest_is_its_blocks", nest_is_its_blocks),
+            ("shell_acts", shell_acts),
+            ("shell_errors_reach_all_ranks", shell_errors_reach_all_ranks),
+            ("krylov_converges", krylov_converges),
+            ("krylov_names_its_failure", krylov_names_its_failure),
+            (
+                "schur_complement_with_multigrid",
+                schur_complement_with_multigrid,
+            ),
+            (
+                "partition_is_balanced_and_cheap",
+                partition_is_balanced_and_cheap,
+            ),
+            ("stages_add_up", stages_add_up),
+        ],
+        outside: &[
+            ("a_panic_ends_all_ranks", a_panic_ends_all_ranks),
+            ("a_leak_is_listed", a_leak_is_listed),
+            ("a_second_start_is_an_error", a_second_start_is_an_error),
+        ],
+        scenarios: &[
+            ("panic", panic_on_the_last_rank),
+            ("leak", leak_a_solver),
+            ("twice", start_twice),
+        ],
+    }
+    .run()
+}
+
+fn options_of_the_user_win(session: &Session) {
+    assert_eq!(options::get(session, "-test_default").as_deref(), Some("1"));
+    assert_eq!(options::get(session, "-test_both").as_deref(), Some("2"));
+    assert_eq!(
+        options::get(session, "-test_below").as_deref(),
+        Some("-1.5")
+    );
+    assert_eq!(options::get(session, "-test_flag").as_deref(), Some(""));
+    assert_eq!(options::get(session, "-test_nobody"), None);
+    for name in ["-test_both", "-test_default", "-test_new"] {
+        options::set_default(session, name, "3").unwrap();
+    }
+    assert_eq!(options::get(session, "-test_both").as_deref(), Some("2"));
+    assert_eq!(options::get(session, "-test_default").as_deref(), Some("3"));
+    options::set_default(session, "-test_new", "4").unwrap();
+    assert_eq!(options::get(session, "-test_new").as_deref(), Some("4"));
+    for name in ["-test_both", "-test_new"] {
+        options::clear(session, name).unwrap();
+    }
+    assert_eq!(options::get(session, "-test_both").as_deref(), Some("2"));
+    assert_eq!(options::get(session, "-test_new"), None);
+}
+
+fn options_without_use_are_listed(session: &Session) {
+    let mut unused = options::unused(session).unwrap();
+    unused.sort();
+    assert_eq!(
+        unused,
+        [
+            "-test_below -1.5",
+            "-test_both 2",
+            "-test_flag",
+            "-test_mistyped 7"
+        ]
+    );
+}
+
+fn versions_are_known(_session: &Session) {
+    assert!(versions::petsc().starts_with("3."), "{}", versions::petsc());
+    assert!(
+        versions::mpi().starts_with("Open MPI v"),
+        "{}",
+        versions::mpi()
+    );
+    assert!(versions::blas().contains(".so"), "{}", versions::blas());
+}
+
+fn ranks_tell_each_other(session: &Session) {
+    let (rank, size) = (session.rank(), session.size());
+    assert_eq!(
+        session.gather_counts(10 + rank),
+        (0..size).map(|r| 10 + r).collect::<Vec<_>>()
+    );
+    // Rank r sends r numbers.
+    let numbers: Vec<usize> = (0..size).flat_map(|r| vec![r; r]).collect();
+    assert_eq!(
+        session.gather_all(&vec![rank as f64; rank]),
+        numbers.iter().map(|r| *r as f64).collect::<Vec<_>>()
+    );
+    assert_eq!(
+        session.gather_all(&vec![rank as i32; rank]),
+        numbers.iter().map(|r| *r as i32).collect::<Vec<_>>()
+    );
+    assert_eq!(
+        session.gather_all(&vec![rank as u64; rank]),
+        numbers.iter().map(|r| *r as u64).collect::<Vec<_>>()
+    );
+    assert_eq!(
+        session.gather_all(&vec![rank as u8; rank]),
+        numbers.iter().map(|r| *r as u8).collect::<Vec<_>>()
+    );
+
+    let mut sums = [1.0, 0.1 * (rank as f64 + 1.0), 1e16 / (rank as f64 + 3.0)];
+    session.sum(&mut sums);
+    assert_eq!(sums[0], size as f64);
+    let bits = session.gather_all(&sums.map(f64::to_bits));
+    assert!(
+        bits.chunks(3).all(|others| others == &bits[..3]),
+        "the same bits on every rank"
+    );
+    let (mut high, mut low) = ([rank as f64, -1.0], [rank as f64, -1.0]);
+    session.max(&mut high);
+    session.min(&mut low);
+    assert_eq!((high, low), ([size as f64 - 1.0, -1.0], [0.0, -1.0]));
+    assert!(session.any(rank + 1 == size) && !session.any(false));
+}
+
+fn ranks_agree(session: &Session) {
+    assert_eq!(
+        session.agree(Ok::<_, String>(session.rank())),
+        Ok(session.rank())
+    );
+    let here = if session.rank() == 0 {
+        Ok(())
+    } else {
+        Err(format!("no luck on {}", session.rank()))
+    };
+    let expected = match (session.size(), session.rank()) {
+        (1, _) => Ok(()),
+        (_, 0) => Err("another rank failed: no luck on 1".into()),
+        (_, rank) => Err(format!("no luck on {rank}")),
+    };
+    assert_eq!(session.agree(here), expected);
+}
+
+fn vector_algebra(session: &Session) {
+    // Rank r owns r entries, the first rank none.
+    let (rank, size) = (session.rank(), session.size());
+    let mut x = Vector::new(session, rank).unwrap();
+    assert_eq!(
+        (x.local_len(), x.len(), x.is_empty()),
+        (rank, size * (size - 1) / 2, size == 1)
+    );
+    assert_eq!(
+        x.range(),
+        rank * rank.saturating_sub(1) / 2..rank * (rank + 1) / 2
+    );
+    x.values_mut().fill(2.0);
+    let n = x.len() as f64;
+    let mut y = x.duplicate().unwrap();
+    y.set(-1.0).unwrap();
+    assert_eq!(x.dot(&y).unwrap(), -2.0 * n);
+    y.axpy(2.0, &x).unwrap();
+    assert!(y.values().iter().all(|value| *value == 3.0));
+    x.copy_from(&y).unwrap();
+    x.scale(2.0).unwrap();
+    assert!((x.norm().unwrap() - 6.0 * n.sqrt()).abs() < 1e-12);
+}
+
+fn vector_adds_across_ranks(session: &Session) {
+    let mut x = Vector::new(session, 2).unwrap();
+    let n = x.len() as i32;
+    let all: Vec<i32> = (-1..n).collect();
+    let ones = vec![1.0; all.len()];
+    x.add(&all, &ones).unwrap();
+    x.assemble().unwrap();
+    assert_eq!(*x.values(), [session.size() as f64; 2]);
+    let mut y = x.duplicate().unwrap();
+    y.add(&[-7], &[1.0]).unwrap();
+    y.assemble().unwrap();
+    assert_eq!(y.norm().unwrap(), 0.0);
+}
+
+fn gather_fetches_any_entry(session: &Session) {
+    let x = ramp(session, 7);
+    let backwards: Vec<i32> = (0..7).rev().chain([3, 3]).collect();
+    let gather = Gather::new(&x, &backwards).unwrap();
+    assert_eq!(
+        gather.fetch(&x).unwrap(),
+        [6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0, 3.0, 3.0]
+    );
+    let mut y = x.duplicate().unwrap();
+    y.axpy(10.0, &x).unwrap();
+    assert_eq!(gather.fetch(&y).unwrap()[0], 60.0);
+    assert!(Gather::new(&x, &[]).unwrap().fetch(&x).unwrap().is_empty());
+}
+
+fn matrix_of_exact_counts(session: &Session) {
+    let n = 10;
+    let mut a = laplacian(session, n, |_| 0.0);
+    assert_eq!(
+        (a.size(), a.row_range(), a.column_range()),
+        ((n, n), share(session, n), share(session, n))
+    );
+    assert_eq!(
+        a.local_size(),
+        (share(session, n).len(), share(session, n).len())
+    );
+    assert_eq!((a.nonzeros().unwrap(), a.wasted().unwrap()), (3 * n - 2, 0));
+    assert_eq!(a.norm_infinity().unwrap(), 4.0);
+    assert!(
+        (a.norm_frobenius().unwrap() - (4.0 * n as f64 + 2.0 * (n as f64 - 1.0)).sqrt()).abs()
+            < 1e-13
+    );
+
+    let x = ramp(session, n);
+    let (mut y, mut r) = a.create_vectors().unwrap();
+    a.multiply(&x, &mut y).unwrap();
+    // The second difference of a ramp vanishes but at its ends.
+    let ends = [(0, -1.0), (n - 1, n as f64)];
+    let at = |i| ends.iter().find(|end| end.0 == i).map_or(0.0, |end| end.1);
+    let expected: Vec<f64> = share(session, n).map(at).collect();
+    assert_eq!(*y.values(), *expected);
+    a.residual(&y, &x, &mut r).unwrap();
+    assert_eq!(r.norm().unwrap(), 0.0);
+    a.multiply_transpose(&x, &mut r).unwrap();
+    a.multiply_add(&x, &mut r).unwrap();
+    r.axpy(-2.0, &y).unwrap();
+    assert_eq!(r.norm().unwrap(), 0.0);
+    a.diagonal(&mut r).unwrap();
+    assert!(r.values().iter().all(|entry| *entry == 2.0));
+    a.zero_entries().unwrap();
+    a.assemble().unwrap();
+    assert_eq!(
+        (a.norm_infinity().unwrap(), a.nonzeros().unwrap()),
+        (0.0, 3 * n - 2)
+    );
+}
+
+fn matrix_in_blocks(session: &Session) {
+    // One 2 x 2 block per rank on the diagonal, and one in the column of rank 0, filled by rank 0 from afar.
+    let (rank, size) = (session.rank() as i32, session.size() as i32);
+    let mut a = Matrix::aij(session, 2, 2, 2, &[1], &[i32::from(rank > 0)]).unwrap();
+    a.add_blocks(
+        &[rank],
+        &[rank, -1],
+        &[1.0, 2.0, 9.0, 9.0, 3.0, 4.0, 9.0, 9.0],
+    )
+    .unwrap();
+    if rank == 0 {
+        for other in 1..size {
+            a.add_blocks(&[other], &[0], &[5.0, 6.0, 7.0, 8.0]).unwrap();
+        }
+    }
+    a.assemble().unwrap();
+    let mut x = Vector::new(session, 2).unwrap();
+    x.values_mut().copy_from_slice(&[1.0, 10.0]);
+    let mut y = x.duplicate().unwrap();
+    a.multiply(&x, &mut y).unwrap();
+    assert_eq!(
+        *y.values(),
+        if rank == 0 {
+            [21.0, 43.0]
+        } else {
+            [86.0, 130.0]
+        }
+    );
+    a.insert(&[2 * rank], &[2 * rank, -1], &[0.0, 9.0]).unwrap();
+    a.assemble().unwrap();
+    a.multiply(&x, &mut y).unwrap();
+    assert_eq!(y.values()[0], if rank == 0 { 20.0 } else { 85.0 });
+}
+
+fn matrix_is_shared_by_clones(session: &Session) {
+    let a = laplacian(session, 4, |_| 0.0);
+    let mut b = a.clone();
+    b.zero_entries().unwrap();
+    b.assemble().unwrap();
+    drop(b);
+    assert_eq!(a.norm_infinity().unwrap(), 0.0);
+}
+
+fn wrong_calls_give_words(session: &Session) {
+    let words = |outcome: Result<(), Error>| match outcome {
+        Err(Error::Petsc { call, message, .. }) => format!("{call}: {message}"),
+        other => panic!("not an error of PETSc's: {other:?}"),
+    };
+    let krylov = Krylov::new(session, "").unwrap();
+    let text = words(krylov.preconditioner().unwrap().set_kind("nonsense"));
+    assert!(
+        text.starts_with("PCSetType: Unable to find requested PC type nonsense"),
+        "{text}"
+    );
+
+    let mut a = laplacian(session, 10, |_| 0.0);
+    let row = a.row_range().start as i32;
+    let text = words(a.insert(&[row], &[(row + 4) % 10], &[1.0]));
+    assert!(
+        text.starts_with("MatSetValues: ") && text.contains("nonzero"),
+        "{text}"
+    );
+
+    let a = laplacian(session, 10, |_| 0.0);
+    let (x, mut short) = (ramp(session, 10), ramp(session, 9));
+    let text = words(a.multiply(&x, &mut short));
+    assert!(text.contains("10") && text.contains('9'), "{text}");
+    assert!(a.nest_index_sets().is_err());
+}
+
+fn nest_is_its_blocks(session: &Session) {
+    let (n, m) = (8, 3);
+    let mut k = laplacian(session, n, |_| 0.0);
+    let b = sparse(session, m, n, |i| vec![(i, 1.0), (i + 4, -1.0)]);
+    let b_transpose = sparse(session, n, m, |j| {
+        (0..m)
+            .filter(|i| j == *i || j == i + 4)
+            .map(|i| (i, if j == i { 1.0 } else { -1.0 }))
+            .collect()
+    });
+    let zero = sparse(session, m, m, |i| vec![(i, 0.0)]);
+    let mut nest = Matrix::nest(session, [[&k, &b_transpose], [&b, &zero]]).unwrap();
+    assert_eq!(nest.size(), (n + m, n + m));
+
+    let [upper, lower] = nest.nest_index_sets().unwrap();
+    let (own_n, own_m) = (share(session, n).len(), share(session, m).len());
+    let first = nest.row_range().start as i32;
+    assert_eq!(
+        upper.indices().unwrap(),
+        (first..first + own_n as i32).collect::<Vec<_>>()
+    );
+    assert_eq!(lower.indices().unwrap().len(), own_m);
+
+    // Product by blocks.
+    let (u, lambda) = (ramp(session, n), ramp(session, m));
+    let (mut top, mut bottom) = (u.duplicate().unwrap(), lambda.duplicate().unwrap());
+    k.multiply(&u, &mut top).unwrap();
+    b_transpose.multiply_add(&lambda, &mut top).unwrap();
+    b.multiply(&u, &mut bottom).unwrap();
+    let expected = [&*top.values(), &*bottom.values()].concat();
+    let (mut x, mut y) = nest.create_vectors().unwrap();
+    x.values_mut()
+        .copy_from_slice(&[&*u.values(), &*lambda.values()].concat());
+    nest.multiply(&x, &mut y).unwrap();
+    assert_eq!(*y.values(), *expected);
+    nest.multiply_transpose(&x, &mut y).unwrap();
+    assert_eq!(*y.values(), *expected);
+
+    let converted = nest.convert_aij().unwrap();
+    converted.multiply(&x, &mut y).unwrap();
+    assert_eq!(*y.values(), *expected);
+    assert_eq!(converted.nonzeros().unwrap(), 3 * n - 2 + 4 * m + m);
+
+    // The nest shares its blocks.
+    k.zero_entries().unwrap();
+    k.assemble().unwrap();
+    nest.refresh().unwrap();
+    b_transpose.multiply(&lambda, &mut top).unwrap();
+    nest.multiply(&x, &mut y).unwrap();
+    assert_eq!(y.values()[..own_n], *top.values());
+}
+
+fn shell_acts(session: &Session) {
+    let own = share(session, 6).len();
+    let halve = |x: &[f64], y: &mut [f64]| {
+        y.iter_mut().zip(x).for_each(|(y, x)| *y = 0.5 * x);
+        Ok(())
+    };
+    let a = Matrix::shell(session, own, own, Box::new(halve)).unwrap();
+    let b = ramp(session, 6);
+    let mut x = b.duplicate().unwrap();
+    let krylov = Krylov::new(session, "").unwrap();
+    krylov.set_operators(&a, &a).unwrap();
+    krylov.preconditioner().unwrap().set_kind("none").unwrap();
+    assert_eq!(krylov.solve(&b, &mut x).unwrap().iterations, 1);
+    x.axpy(-2.0, &b).unwrap();
+    assert!(x.norm().unwrap() < 1e-12);
+}
+
+fn shell_errors_reach_all_ranks(session: &Session) {
+    let last = session.rank() + 1 == session.size();
+    let refuse = move |_: &[f64], _: &mut [f64]| {
+        if last {
+            Err("the spring is broken".to_owned())
+        } else {
+            Ok(())
+        }
+    };
+    let a = Matrix::shell(session, 1, 1, Box::new(refuse)).unwrap();
+    let x = Vector::new(session, 1).unwrap();
+    let mut y = x.duplicate().unwrap();
+    let Err(Error::Petsc { call, message, .. }) = a.multiply(&x, &mut y) else {
+        panic!("the error was lost")
+    };
+    assert_eq!(call, "MatMult");
+    assert_eq!(
+        message,
+        if last {
+            "the spring is broken"
+        } else {
+            "another rank failed in the action of a shell"
+        }
+    );
+    let sound = Matrix::shell(
+        session,
+        1,
+        1,
+        Box::new(|_, y| {
+            y.fill(1.0);
+            Ok(())
+        }),
+    )
+    .unwrap();
+    sound.multiply(&x, &mut y).unwrap();
+    assert_eq!(y.values()[0], 1.0);
+}
+
+fn krylov_converges(session: &Session) {
+    let n = 40;
+    let mut a = laplacian(session, n, |_| 0.0);
+    a.set_symmetric(true).unwrap();
+    a.set_positive_definite(true).unwrap();
+    options::set_default(session, "-line_ksp_type", "cg").unwrap();
+    options::set_default(session, "-line_pc_type", "jacobi").unwrap();
+    let krylov = Krylov::new(session, "line_").unwrap();
+    krylov.set_operators(&a, &a).unwrap();
+    krylov.set_tolerance(1e-10, 100).unwrap();
+    krylov.set_from_options().unwrap();
+    krylov.set_up().unwrap();
+    assert_eq!(krylov.preconditioner().unwrap().prefix(), "line_");
+    let exact = ramp(session, n);
+    let (mut x, mut b) = a.create_vectors().unwrap();
+    a.multiply(&exact, &mut b).unwrap();
+    let solved = krylov.solve(&b, &mut x).unwrap();
+    assert!(
+        solved.converged && solved.reason.starts_with("KSP_CONVERGED") && solved.iterations <= n,
+        "{solved:?}"
+    );
+    let history = krylov.residual_history().unwrap();
+    assert_eq!(history.len(), solved.iterations + 1);
+    assert_eq!(history.last(), Some(&solved.residual));
+    x.axpy(-1.0, &exact).unwrap();
+    assert!(x.norm().unwrap() < 1e-7);
+
+    // From the solution there is nothing left to do.
+    krylov.set_initial_guess_nonzero(true).unwrap();
+    x.copy_from(&exact).unwrap();
+    assert_eq!(krylov.solve(&b, &mut x).unwrap().iterations, 0);
+}
+
+fn krylov_names_its_failure(session: &Session) {
+    let a = laplacian(session, 40, |_| 0.0);
+    let b = ramp(session, 40);
+    let mut x = b.duplicate().unwrap();
+    let krylov = Krylov::new(session, "short_").unwrap();
+    krylov.set_operators(&a, &a).unwrap();
+    krylov.set_tolerance(1e-10, 2).unwrap();
+    krylov.preconditioner().unwrap().set_kind("jacobi").unwrap();
+    match krylov.solve(&b, &mut x) {
+        Err(Error::NotConverged {
+            reason,
+            iterations: 2,
+            residual,
+        }) => {
+            assert_eq!(reason, "KSP_DIVERGED_ITS");
+            assert!(residual > 0.0);
+        }
+        other => panic!("{other:?}"),
+    }
+    let solved = krylov.solve_allowing(&b, &mut x).unwrap();
+    assert!(!solved.converged && solved.iterations == 2, "{solved:?}");
+
+    // A factorisation of a singular matrix.
+    let mut a = laplacian(session, 4, |_| 0.0);
+    a.zero_entries().unwrap();
+    a.assemble().unwrap();
+    let b = ramp(session, 4);
+    let mut x = b.duplicate().unwrap();
+    let krylov = Krylov::new(session, "singular_").unwrap();
+    krylov.set_operators(&a, &a).unwrap();
+    options::set_default(session, "-singular_pc_type", "redundant").unwrap();
+    krylov.set_from_options().unwrap();
+    match krylov.solve(&b, &mut x) {
+        Err(Error::NotConverged { reason, .. }) => {
+            assert!(reason.starts_with("KSP_DIVERGED_PC_FAILED ("), "{reason}")
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+fn schur_complement_with_multigrid(session: &Session) {
+    let problem = NodePair::new(session);
+    let krylov = problem.solver();
+    let (b, exact) = (problem.right_hand_side(), problem.solution());
+    let mut x = b.duplicate().unwrap();
+    let solved = krylov.solve(&b, &mut x).unwrap();
+    assert!(solved.iterations < 15, "{solved:?}");
+    x.axpy(-1.0, &exact).unwrap();
+    assert!(
+        x.norm().unwrap() < 1e-7 * exact.norm().unwrap(),
+        "{}",
+        x.norm().unwrap()
+    );
+}
+
+fn partition_is_balanced_and_cheap(session: &Session) {
+    // A strip of 20 x 4 vertices with heavy edges along x in its lower half.
+    let (nx, ny) = (20, 4);
+    let (mut offsets, mut neighbours) = (vec![0], Vec::new());
+    for v in 0..nx * ny {
+        let (x, y) = (v % nx, v / nx);
+        neighbours.extend((x > 0).then(|| v as i32 - 1));
+        neighbours.extend((x + 1 < nx).then(|| v as i32 + 1));
+        neighbours.extend((y > 0).then(|| (v - nx) as i32));
+        neighbours.extend((y + 1 < ny).then(|| (v + nx) as i32));
+        offsets.push(neighbours.len() as i32);
+    }
+    let cut = |part: &[i32]| -> usize {
+        (0..nx * ny)
+            .map(|v| {
+                neighbours[offsets[v] as usize..offsets[v + 1] as usize]
+                    .iter()
+                    .filter(|w| part[v] != part[**w as usize])
+                    .count()
+            })
+            .sum::<usize>()
+            / 2
+    };
+    let light = vec![1; neighbours.len()];
+    assert_eq!(
+        partition(session, 1, &offsets, &neighbours, &light, None).unwrap(),
+        vec![0; nx * ny]
+    );
+    for parts in 2..4 {
+        let part = partition(session, parts, &offsets, &neighbours, &light, None).unwrap();
+        let counts: Vec<usize> = (0..parts as i32)
+            .map(|p| part.iter().filter(|q| **q == p).count())
+            .collect();
+        assert!(
+            counts
+                .iter()
+                .all(|count| count.abs_diff(nx * ny / parts) <= nx * ny / 10),
+            "{counts:?}"
+        );
+        assert!(cut(&part) <= 6 * (parts - 1), "{}", cut(&part));
+        let all = session.gather_all(&part);
+        assert!(
+            all.chunks(part.len()).all(|other| other == part),
+            "the same on every rank"
+        );
+        assert_eq!(
+            partition(session, parts, &offsets, &neighbours, &light, None).unwrap(),
+            part
+        );
+    }
+    // Heavy vertices in the last column: its side becomes the shorter one.
+    let weights: Vec<i32> = (0..nx * ny)
+        .map(|v| if v % nx + 1 == nx { 20 } else { 1 })
+        .collect();
+    let part = partition(session, 2, &offsets, &neighbours, &light, Some(&weights)).unwrap();
+    let heavy = part.iter().filter(|p| **p == part[nx - 1]).count();
+    assert!(heavy < nx * ny / 3, "{heavy} vertices on the heavy side");
+    // Heavy edges along x: the cut goes along the strip, where a plain one goes across.
+    let across: Vec<i32> = (0..nx * ny)
+        .flat_map(|v| {
+            neighbours[offsets[v] as usize..offsets[v + 1] as usize]
+                .iter()
+                .map(move |w| if v.abs_diff(*w as usize) == 1 { 50 } else { 1 })
+        })
+        .collect();
+    let part = partition(session, 2, &offsets, &neighbours, &across, None).unwrap();
+    assert!(
+        (0..nx * ny).all(|v| part[v] == part[v / nx * nx]),
+        "rows stay whole: {part:?}"
+    );
+}
+
+fn stages_add_up(session: &Session) {
+    let (outer, inner) = (
+        Stage::new(session, "outer").unwrap(),
+        Stage::new(session, "inner").unwrap(),
+    );
+    for _ in 0..2 {
+        let _outer = outer.enter();
+        let _inner = inner.enter();
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(inner.seconds() >= 0.01 && outer.seconds() >= inner.seconds());
+    assert_eq!(Stage::new(session, "inner").unwrap().seconds(), 0.0);
+}
+
+fn a_panic_ends_all_ranks() {
+    let start = Instant::now();
+    let ended = mpirun(3, Some("panic"), &[], "");
+    assert!(ended.code.is_some_and(|code| code != 0), "{:?}", ended.code);
+    assert!(
+        start.elapsed() < Duration::from_secs(20),
+        "{:?}",
+        start.elapsed()
+    );
+    assert_eq!(
+        ended.errors.matches("a rank lost its way").count(),
+        1,
+        "{}",
+        ended.errors
+    );
+}
+
+fn panic_on_the_last_rank() {
+    let session = Session::start(&[], &[]).unwrap();
+    assert!(session.rank() + 1 < session.size(), "a rank lost its way");
+    session.barrier();
+}
+
+fn a_leak_is_listed() {
+    for ranks in 1..=2 {
+        let ended = mpirun(ranks, Some("leak"), &[], LIST_LEAKS);
+        let text = ended.output + &ended.errors;
+        assert!(text.contains("KSP"), "the leaked solver is listed: {text}");
+    }
+}
+
+fn leak_a_solver() {
+    let session = Session::start(&[], &[]).unwrap();
+    std::mem::forget(Krylov::new(&session, "").unwrap());
+    // The forgotten solver has a share in the session, which would never end: give that share back.
+    drop(unsafe { std::ptr::read(&session) });
+}
+
+fn a_second_start_is_an_error() {
+    let ended = mpirun(1, Some("twice"), &[], "");
+    assert_eq!(ended.code, Some(0), "{}", ended.errors);
+}
+
+fn start_twice() {
+    let session = Session::start(&[], &[]).unwrap();
+    assert_eq!(Session::start(&[], &[]).err(), Some(Error::AlreadyStarted));
+    drop(session);
+    assert_eq!(Session::start(&[], &[]).err(), Some(Error::AlreadyStarted));
+}
