@@ -72,6 +72,7 @@ fn declarations(includes: &[PathBuf], file: &Path) {
     let mut builder = bindgen::Builder::default()
         .header("src/petsc/shim.h")
         .clang_args(includes.iter().map(|path| format!("-I{}", path.display())))
+        .rust_target(bindgen::RustTarget::stable(85, 0).expect("a version that bindgen knows"))
         .rust_edition(bindgen::RustEdition::Edition2024)
         .blocklist_item("MPI_.*|ompi_.*")
         .raw_line("use mpi::ffi::MPI_Comm;")

@@ -78,10 +78,10 @@ impl Krylov {
     }
 
     /// Its preconditioner.
-    pub fn preconditioner(&self) -> Result<Preconditioner> {
+    pub fn preconditioner(&self) -> Preconditioner {
         let mut raw = ptr::null_mut();
-        petsc!(KSPGetPC(self.raw, &mut raw))?;
-        Preconditioner::share(&self.session, raw)
+        let shared = petsc!(KSPGetPC(self.raw, &mut raw)).and_then(|()| Preconditioner::share(&self.session, raw));
+        shared.expect("a solver has a preconditioner")
     }
 
     /// Solves `A x = b`. **Collective**
@@ -118,14 +118,14 @@ impl Krylov {
         if reason != ffi::KSPConvergedReason::KSP_DIVERGED_PC_FAILED {
             return Ok(name);
         }
-        Ok(format!("{name} ({})", self.preconditioner()?.failure()?))
+        Ok(format!("{name} ({})", self.preconditioner().failure()?))
     }
 
     /// Residual norms of the last solve: before it, and after each iteration.
-    pub fn residual_history(&self) -> Result<Vec<f64>> {
+    pub fn residual_history(&self) -> Vec<f64> {
         let (mut array, mut count) = (ptr::null(), 0);
-        petsc!(KSPGetResidualHistory(self.raw, &mut array, &mut count))?;
-        Ok(if count == 0 { Vec::new() } else { unsafe { std::slice::from_raw_parts(array, count as usize) }.to_vec() })
+        petsc!(KSPGetResidualHistory(self.raw, &mut array, &mut count)).expect("a solver records its residuals");
+        if count == 0 { Vec::new() } else { unsafe { std::slice::from_raw_parts(array, count as usize) }.to_vec() }
     }
 }
 

@@ -220,7 +220,7 @@ fn wrong_calls_give_words(session: &Session) {
         other => panic!("not an error of PETSc's: {other:?}"),
     };
     let krylov = Krylov::new(session, "").unwrap();
-    let text = words(krylov.preconditioner().unwrap().set_kind("nonsense"));
+    let text = words(krylov.preconditioner().set_kind("nonsense"));
     assert!(text.starts_with("PCSetType: Unable to find requested PC type nonsense"), "{text}");
 
     let mut a = laplacian(session, 10, |_| 0.0);
@@ -291,7 +291,7 @@ fn shell_acts(session: &Session) {
     let mut x = b.duplicate().unwrap();
     let krylov = Krylov::new(session, "").unwrap();
     krylov.set_operators(&a, &a).unwrap();
-    krylov.preconditioner().unwrap().set_kind("none").unwrap();
+    krylov.preconditioner().set_kind("none").unwrap();
     assert_eq!(krylov.solve(&b, &mut x).unwrap().iterations, 1);
     x.axpy(-2.0, &b).unwrap();
     assert!(x.norm().unwrap() < 1e-12);
@@ -334,13 +334,13 @@ fn krylov_converges(session: &Session) {
     krylov.set_tolerance(1e-10, 100).unwrap();
     krylov.set_from_options().unwrap();
     krylov.set_up().unwrap();
-    assert_eq!(krylov.preconditioner().unwrap().prefix(), "line_");
+    assert_eq!(krylov.preconditioner().prefix(), "line_");
     let exact = ramp(session, n);
     let (mut x, mut b) = a.create_vectors().unwrap();
     a.multiply(&exact, &mut b).unwrap();
     let solved = krylov.solve(&b, &mut x).unwrap();
     assert!(solved.converged && solved.reason.starts_with("KSP_CONVERGED") && solved.iterations <= n, "{solved:?}");
-    let history = krylov.residual_history().unwrap();
+    let history = krylov.residual_history();
     assert_eq!(history.len(), solved.iterations + 1);
     assert_eq!(history.last(), Some(&solved.residual));
     x.axpy(-1.0, &exact).unwrap();
@@ -359,7 +359,7 @@ fn krylov_names_its_failure(session: &Session) {
     let krylov = Krylov::new(session, "short_").unwrap();
     krylov.set_operators(&a, &a).unwrap();
     krylov.set_tolerance(1e-10, 2).unwrap();
-    krylov.preconditioner().unwrap().set_kind("jacobi").unwrap();
+    krylov.preconditioner().set_kind("jacobi").unwrap();
     match krylov.solve(&b, &mut x) {
         Err(Error::NotConverged { reason, iterations: 2, residual }) => {
             assert_eq!(reason, "KSP_DIVERGED_ITS");
@@ -382,7 +382,7 @@ fn krylov_names_its_failure(session: &Session) {
     krylov.set_from_options().unwrap();
     match krylov.solve(&b, &mut x) {
         Err(Error::NotConverged { reason, .. }) => {
-            assert!(reason.starts_with("KSP_DIVERGED_PC_FAILED ("), "{reason}")
+            assert_eq!(reason, "KSP_DIVERGED_PC_FAILED (an inner preconditioner failed)")
         }
         other => panic!("{other:?}"),
     }
@@ -393,8 +393,8 @@ fn schur_complement_with_multigrid(session: &Session) {
     // For the nodes of the second solver the user has chosen another preconditioner.
     for (prefix, kind) in [("string_", "mg"), ("other_", "redundant")] {
         let krylov = problem.solver(prefix);
-        let fields = krylov.preconditioner().unwrap().field_split_solvers().unwrap();
-        assert_eq!(fields[0].preconditioner().unwrap().kind(), kind);
+        let fields = krylov.preconditioner().field_split_solvers().unwrap();
+        assert_eq!(fields[0].preconditioner().kind(), kind);
         let (b, exact) = (problem.right_hand_side(), problem.solution());
         let mut x = b.duplicate().unwrap();
         let solved = krylov.solve(&b, &mut x).unwrap();
@@ -435,6 +435,12 @@ fn partition_is_balanced_and_cheap(session: &Session) {
         assert!(all.chunks(part.len()).all(|other| other == part), "the same on every rank");
         assert_eq!(partition(session, parts, &offsets, &neighbours, &light, None).unwrap(), part);
     }
+    // Two vertices, fewer than there may be ranks; and one that has no neighbour.
+    let mut part = partition(session, 2, &[0, 1, 2], &[1, 0], &[1, 1], None).unwrap();
+    part.sort();
+    assert_eq!(part, [0, 1]);
+    assert_eq!(partition(session, 2, &[0, 0, 1, 2], &[2, 1], &[1, 1], None).unwrap().len(), 3);
+
     // Heavy vertices in the last column: its side becomes the shorter one.
     let weights: Vec<i32> = (0..nx * ny).map(|v| if v % nx + 1 == nx { 20 } else { 1 }).collect();
     let part = partition(session, 2, &offsets, &neighbours, &light, Some(&weights)).unwrap();

@@ -120,14 +120,14 @@ impl<'a> HeldString<'a> {
         krylov.set_operators(&self.nest, &self.nest).unwrap();
         krylov.set_tolerance(1e-10, 60).unwrap();
         let [u, lambda] = self.nest.nest_index_sets().unwrap();
-        let preconditioner = krylov.preconditioner().unwrap();
+        let preconditioner = krylov.preconditioner();
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &self.schur).unwrap();
         krylov.set_from_options().unwrap();
         krylov.set_up().unwrap();
 
         let solvers = preconditioner.field_split_solvers().unwrap();
         assert_eq!(solvers.len(), 2);
-        let nodes = solvers[0].preconditioner().unwrap();
+        let nodes = solvers[0].preconditioner();
         assert_eq!(nodes.prefix(), format!("{prefix}fieldsplit_u_"));
         let interpolations = std::iter::once(None).chain(self.interpolations.iter().map(Some));
         let levels: Vec<Level> =
