@@ -27,7 +27,7 @@ const FUNCTIONS: &[&str] = &[
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",
     "KSP(SetInitialGuessNonzero|Solve|GetConvergedReason|GetConvergedReasonString|GetIterationNumber|GetResidualNorm)",
     "KSP(SetResidualHistory|GetResidualHistory)",
-    "PC(Destroy|SetType|SetFromOptions|SetUp|SetReusePreconditioner|GetOptionsPrefix|GetFailedReason)",
+    "PC(Destroy|SetType|GetType|SetFromOptions|SetUp|SetReusePreconditioner|GetOptionsPrefix|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
     "PCMG(SetLevels|SetType|SetInterpolation|GetSmoother)",
     // partition
@@ -44,30 +44,14 @@ fn main() {
     let petsc = pkg_config::Config::new()
         .atleast_version("3.18")
         .probe("PETSc")
-        .unwrap_or_else(|error| {
-            missing(
-                "PETSc 3.18 or newer",
-                "libpetsc-real-dev pkg-config",
-                &error.to_string(),
-            )
-        });
-    let includes: Vec<PathBuf> = petsc
-        .include_paths
-        .iter()
-        .cloned()
-        .chain(mpi_includes())
-        .collect();
+        .unwrap_or_else(|error| missing("PETSc 3.18 or newer", "libpetsc-real-dev pkg-config", &error.to_string()));
+    let includes: Vec<PathBuf> = petsc.include_paths.iter().cloned().chain(mpi_includes()).collect();
     for path in &petsc.link_paths {
         // The library of this PETSc flavour, at run time too: no environment variable is needed.
         println!("cargo:rustc-link-arg=-Wl,-rpath,{}", path.display());
     }
 
-    cc::Build::new()
-        .file("src/petsc/shim.c")
-        .includes(&includes)
-        .warnings(true)
-        .extra_warnings(false)
-        .compile("mezha_shim");
+    cc::Build::new().file("src/petsc/shim.c").includes(&includes).warnings(true).extra_warnings(false).compile("mezha_shim");
 
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     declarations(&includes, &out.join("petsc.rs"));
@@ -76,25 +60,11 @@ fn main() {
 /// Directories with `mpi.h`, as the compiler wrapper tells them.
 fn mpi_includes() -> Vec<PathBuf> {
     let output = match Command::new("mpicc").arg("-show").output() {
-        Ok(output) if output.status.success() => {
-            String::from_utf8_lossy(&output.stdout).into_owned()
-        }
-        Ok(output) => missing(
-            "the MPI compiler",
-            "libopenmpi-dev",
-            &String::from_utf8_lossy(&output.stderr),
-        ),
-        Err(error) => missing(
-            "the MPI compiler (mpicc)",
-            "libopenmpi-dev",
-            &error.to_string(),
-        ),
+        Ok(output) if output.status.success() => String::from_utf8_lossy(&output.stdout).into_owned(),
+        Ok(output) => missing("the MPI compiler", "libopenmpi-dev", &String::from_utf8_lossy(&output.stderr)),
+        Err(error) => missing("the MPI compiler (mpicc)", "libopenmpi-dev", &error.to_string()),
     };
-    output
-        .split_whitespace()
-        .filter_map(|word| word.strip_prefix("-I"))
-        .map(PathBuf::from)
-        .collect()
+    output.split_whitespace().filter_map(|word| word.strip_prefix("-I")).map(PathBuf::from).collect()
 }
 
 /// Writes the declarations of [`FUNCTIONS`] and of the types they need; MPI's own types come from `mpi::ffi`.
@@ -102,13 +72,11 @@ fn declarations(includes: &[PathBuf], file: &Path) {
     let mut builder = bindgen::Builder::default()
         .header("src/petsc/shim.h")
         .clang_args(includes.iter().map(|path| format!("-I{}", path.display())))
+        .rust_target(bindgen::RustTarget::stable(85, 0).expect("a version that bindgen knows"))
         .rust_edition(bindgen::RustEdition::Edition2024)
         .blocklist_item("MPI_.*|ompi_.*")
         .raw_line("use mpi::ffi::MPI_Comm;")
-        .default_enum_style(bindgen::EnumVariation::NewType {
-            is_bitfield: false,
-            is_global: false,
-        })
+        .default_enum_style(bindgen::EnumVariation::NewType { is_bitfield: false, is_global: false })
         .allowlist_var("mezha_.*")
         .layout_tests(false)
         .derive_default(true)
@@ -117,13 +85,7 @@ fn declarations(includes: &[PathBuf], file: &Path) {
         builder = builder.allowlist_function(format!("({names})"));
     }
     let bindings = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| builder.generate()))
-        .unwrap_or_else(|_| {
-            missing(
-                "libclang",
-                "libclang1-14 libclang-common-14-dev",
-                "bindgen could not load it",
-            )
-        })
+        .unwrap_or_else(|_| missing("libclang", "libclang1-14 libclang-common-14-dev", "bindgen could not load it"))
         .unwrap_or_else(|error| {
             missing(
                 "a header of PETSc, MPI or the compiler",
@@ -136,9 +98,6 @@ fn declarations(includes: &[PathBuf], file: &Path) {
 
 /// Ends the build: what was not found, and the Debian packages that bring it.
 fn missing(what: &str, packages: &str, detail: &str) -> ! {
-    eprintln!(
-        "\nmezha: {what} was not found. On Debian 12:\n\n    apt-get install {packages}\n\n{}\n",
-        detail.trim()
-    );
+    eprintln!("\nmezha: {what} was not found. On Debian 12:\n\n    apt-get install {packages}\n\n{}\n", detail.trim());
     exit(1)
 }

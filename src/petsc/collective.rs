@@ -26,8 +26,7 @@ impl Session {
             })
             .collect();
         let mut all = vec![T::default(); end as usize];
-        self.world()
-            .all_gather_varcount_into(local, &mut PartitionMut::new(&mut all[..], counts, starts));
+        self.world().all_gather_varcount_into(local, &mut PartitionMut::new(&mut all[..], counts, starts));
         all
     }
 
@@ -53,22 +52,19 @@ impl Session {
     /// Replaces each value by its maximum over the ranks. **Collective**
     pub fn max(&self, values: &mut [f64]) {
         let own = values.to_vec();
-        self.world()
-            .all_reduce_into(&own[..], values, SystemOperation::max());
+        self.world().all_reduce_into(&own[..], values, SystemOperation::max());
     }
 
     /// Replaces each value by its minimum over the ranks. **Collective**
     pub fn min(&self, values: &mut [f64]) {
         let own = values.to_vec();
-        self.world()
-            .all_reduce_into(&own[..], values, SystemOperation::min());
+        self.world().all_reduce_into(&own[..], values, SystemOperation::min());
     }
 
     /// Whether any rank says so. **Collective**
     pub fn any(&self, here: bool) -> bool {
         let mut anywhere = 0_i32;
-        self.world()
-            .all_reduce_into(&i32::from(here), &mut anywhere, SystemOperation::max());
+        self.world().all_reduce_into(&i32::from(here), &mut anywhere, SystemOperation::max());
         anywhere != 0
     }
 
@@ -76,38 +72,21 @@ impl Session {
     ///
     /// # Errors
     /// On a rank that failed, its own message; on the others the message of the lowest rank that did.
-    pub fn agree<T, E: ToString>(
-        &self,
-        outcome: std::result::Result<T, E>,
-    ) -> std::result::Result<T, String> {
+    pub fn agree<T, E: ToString>(&self, outcome: std::result::Result<T, E>) -> std::result::Result<T, String> {
         let own = outcome.map_err(|error| error.to_string());
         let mut failed = 0;
-        let here = if own.is_ok() {
-            self.size()
-        } else {
-            self.rank()
-        };
-        self.world()
-            .all_reduce_into(&here, &mut failed, SystemOperation::min());
+        let here = if own.is_ok() { self.size() } else { self.rank() };
+        self.world().all_reduce_into(&here, &mut failed, SystemOperation::min());
         if failed == self.size() {
             return own;
         }
-        let mut message = own
-            .as_ref()
-            .err()
-            .filter(|_| failed == self.rank())
-            .map(|text| text.clone().into_bytes())
-            .unwrap_or_default();
+        let mut message =
+            own.as_ref().err().filter(|_| failed == self.rank()).map(|text| text.clone().into_bytes()).unwrap_or_default();
         let root = self.world().process_at_rank(failed as i32);
         let mut length = message.len();
         root.broadcast_into(&mut length);
         message.resize(length, 0);
         root.broadcast_into(&mut message[..]);
-        own.and_then(|_| {
-            Err(format!(
-                "another rank failed: {}",
-                String::from_utf8_lossy(&message)
-            ))
-        })
+        own.and_then(|_| Err(format!("another rank failed: {}", String::from_utf8_lossy(&message))))
     }
 }

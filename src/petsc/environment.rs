@@ -28,10 +28,7 @@ pub(super) fn prepare() {
 }
 
 fn launch() -> Launch {
-    match (
-        env::var("OMPI_COMM_WORLD_SIZE"),
-        env::var("OMPI_COMM_WORLD_LOCAL_SIZE"),
-    ) {
+    match (env::var("OMPI_COMM_WORLD_SIZE"), env::var("OMPI_COMM_WORLD_LOCAL_SIZE")) {
         (Err(_), _) => Launch::Alone,
         (Ok(world), Ok(local)) if world == local => Launch::OneNode,
         _ => Launch::ManyNodes,

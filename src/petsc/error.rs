@@ -52,32 +52,20 @@ pub(super) use petsc;
 /// Result of a PETSc call, from its code.
 #[inline]
 pub(super) fn check(call: &'static str, code: ffi::PetscErrorCode) -> Result<()> {
-    if code == 0 {
-        Ok(())
-    } else {
-        Err(failure(call, code))
-    }
+    if code == 0 { Ok(()) } else { Err(failure(call, code)) }
 }
 
 #[cold]
 fn failure(call: &'static str, code: ffi::PetscErrorCode) -> Error {
     let heard = DEEPEST.take().filter(|message| !message.is_empty());
-    Error::Petsc {
-        call,
-        code,
-        message: heard.unwrap_or_else(|| general_message(code)),
-    }
+    Error::Petsc { call, code, message: heard.unwrap_or_else(|| general_message(code)) }
 }
 
 /// What PETSc says in general about a code.
 fn general_message(code: ffi::PetscErrorCode) -> String {
     let mut text: *const c_char = std::ptr::null();
     let unknown = unsafe { ffi::PetscErrorMessage(code, &mut text, std::ptr::null_mut()) };
-    if unknown != 0 || text.is_null() {
-        "unknown error".into()
-    } else {
-        words(text)
-    }
+    if unknown != 0 || text.is_null() { "unknown error".into() } else { words(text) }
 }
 
 /// Rust's copy of a C string without spaces at its ends; empty if there is none.
@@ -85,10 +73,7 @@ pub(super) fn words(text: *const c_char) -> String {
     if text.is_null() {
         return String::new();
     }
-    unsafe { CStr::from_ptr(text) }
-        .to_string_lossy()
-        .trim()
-        .to_owned()
+    unsafe { CStr::from_ptr(text) }.to_string_lossy().trim().to_owned()
 }
 
 /// PETSc's error handler: keeps the words of the function where the error arose, stays silent, hands the code on.

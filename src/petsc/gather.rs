@@ -32,36 +32,15 @@ impl Gather {
         petsc!(VecCreateSeq(alone, length(indices.len()), &mut arrived))?;
         let arrived = Vector::from_raw(session, arrived)?;
         let mut raw = ptr::null_mut();
-        petsc!(VecScatterCreate(
-            layout.raw(),
-            from.raw(),
-            arrived.raw(),
-            ptr::null_mut(),
-            &mut raw
-        ))?;
+        petsc!(VecScatterCreate(layout.raw(), from.raw(), arrived.raw(), ptr::null_mut(), &mut raw))?;
         Ok(Self { raw, arrived })
     }
 
     /// The chosen entries of `vector`, in the order of the indices. **Collective**
     pub fn fetch(&self, vector: &Vector) -> Result<Vec<f64>> {
-        let (insert, forward) = (
-            ffi::InsertMode::INSERT_VALUES,
-            ffi::ScatterMode::SCATTER_FORWARD,
-        );
-        petsc!(VecScatterBegin(
-            self.raw,
-            vector.raw(),
-            self.arrived.raw(),
-            insert,
-            forward
-        ))?;
-        petsc!(VecScatterEnd(
-            self.raw,
-            vector.raw(),
-            self.arrived.raw(),
-            insert,
-            forward
-        ))?;
+        let (insert, forward) = (ffi::InsertMode::INSERT_VALUES, ffi::ScatterMode::SCATTER_FORWARD);
+        petsc!(VecScatterBegin(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;
+        petsc!(VecScatterEnd(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;
         Ok(self.arrived.values().to_vec())
     }
 }

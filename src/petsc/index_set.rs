@@ -16,22 +16,13 @@ impl IndexSet {
     /// The numbers `first .. first + count` on this rank. **Collective**
     pub fn stride(session: &Session, first: usize, count: usize) -> Result<Self> {
         let mut raw = ptr::null_mut();
-        petsc!(ISCreateStride(
-            session.raw(),
-            length(count),
-            length(first),
-            1,
-            &mut raw
-        ))?;
+        petsc!(ISCreateStride(session.raw(), length(count), length(first), 1, &mut raw))?;
         Ok(Self::from_raw(session, raw))
     }
 
     /// Takes over one reference to an index set of PETSc's.
     pub(super) fn from_raw(session: &Session, raw: ffi::IS) -> Self {
-        Self {
-            raw,
-            _session: session.clone(),
-        }
+        Self { raw, _session: session.clone() }
     }
 
     pub(super) fn raw(&self) -> ffi::IS {
@@ -43,11 +34,7 @@ impl IndexSet {
         let (mut count, mut array) = (0, ptr::null());
         petsc!(ISGetLocalSize(self.raw, &mut count))?;
         petsc!(ISGetIndices(self.raw, &mut array))?;
-        let indices = if count == 0 {
-            Vec::new()
-        } else {
-            unsafe { std::slice::from_raw_parts(array, count as usize) }.to_vec()
-        };
+        let indices = if count == 0 { Vec::new() } else { unsafe { std::slice::from_raw_parts(array, count as usize) }.to_vec() };
         petsc!(ISRestoreIndices(self.raw, &mut array))?;
         Ok(indices)
     }

@@ -33,10 +33,7 @@ impl Krylov {
     pub fn new(session: &Session, prefix: &str) -> Result<Self> {
         let mut raw = ptr::null_mut();
         petsc!(KSPCreate(session.raw(), &mut raw))?;
-        let krylov = Self {
-            raw,
-            session: session.clone(),
-        };
+        let krylov = Self { raw, session: session.clone() };
         let prefix = CString::new(prefix).expect("a prefix has no zero byte");
         petsc!(KSPSetOptionsPrefix(raw, prefix.as_ptr()))?;
         krylov.recording_residuals()
@@ -45,51 +42,28 @@ impl Krylov {
     /// Another reference to a solver of PETSc's.
     pub(super) fn share(session: &Session, raw: ffi::KSP) -> Result<Self> {
         petsc!(PetscObjectReference(raw.cast()))?;
-        Self {
-            raw,
-            session: session.clone(),
-        }
-        .recording_residuals()
+        Self { raw, session: session.clone() }.recording_residuals()
     }
 
     fn recording_residuals(self) -> Result<Self> {
-        petsc!(KSPSetResidualHistory(
-            self.raw,
-            ptr::null_mut(),
-            ffi::mezha_determine,
-            ffi::PetscBool::PETSC_TRUE
-        ))?;
+        petsc!(KSPSetResidualHistory(self.raw, ptr::null_mut(), ffi::mezha_determine, ffi::PetscBool::PETSC_TRUE))?;
         Ok(self)
     }
 
     /// Sets the matrix of the system and the one the preconditioner is built from, often the same. **Collective**
     pub fn set_operators(&self, system: &Matrix, preconditioner: &Matrix) -> Result<()> {
-        petsc!(KSPSetOperators(
-            self.raw,
-            system.raw(),
-            preconditioner.raw()
-        ))
+        petsc!(KSPSetOperators(self.raw, system.raw(), preconditioner.raw()))
     }
 
     /// Stops when the residual is below `relative · |b|`, or gives up after `max_iterations`. **Collective**
     pub fn set_tolerance(&self, relative: f64, max_iterations: usize) -> Result<()> {
         let other = ffi::mezha_default_real;
-        petsc!(KSPSetTolerances(
-            self.raw,
-            relative,
-            other,
-            other,
-            length(max_iterations)
-        ))
+        petsc!(KSPSetTolerances(self.raw, relative, other, other, length(max_iterations)))
     }
 
     /// Starts from the `x` given to a solve instead of from zero. **Collective**
     pub fn set_initial_guess_nonzero(&self, nonzero: bool) -> Result<()> {
-        let flag = if nonzero {
-            ffi::PetscBool::PETSC_TRUE
-        } else {
-            ffi::PetscBool::PETSC_FALSE
-        };
+        let flag = if nonzero { ffi::PetscBool::PETSC_TRUE } else { ffi::PetscBool::PETSC_FALSE };
         petsc!(KSPSetInitialGuessNonzero(self.raw, flag))
     }
 
@@ -104,10 +78,10 @@ impl Krylov {
     }
 
     /// Its preconditioner.
-    pub fn preconditioner(&self) -> Result<Preconditioner> {
+    pub fn preconditioner(&self) -> Preconditioner {
         let mut raw = ptr::null_mut();
-        petsc!(KSPGetPC(self.raw, &mut raw))?;
-        Preconditioner::share(&self.session, raw)
+        let shared = petsc!(KSPGetPC(self.raw, &mut raw)).and_then(|()| Preconditioner::share(&self.session, raw));
+        shared.expect("a solver has a preconditioner")
     }
 
     /// Solves `A x = b`. **Collective**
@@ -119,17 +93,8 @@ impl Krylov {
         if solved.converged {
             return Ok(solved);
         }
-        let Solved {
-            iterations,
-            residual,
-            reason,
-            ..
-        } = solved;
-        Err(Error::NotConverged {
-            reason,
-            iterations,
-            residual,
-        })
+        let Solved { iterations, residual, reason, .. } = solved;
+        Err(Error::NotConverged { reason, iterations, residual })
     }
 
     /// As [`Krylov::solve`], but a method that gives up is no error: `converged` tells, `x` holds the last iterate.
@@ -142,12 +107,7 @@ impl Krylov {
         petsc!(KSPGetIterationNumber(self.raw, &mut iterations))?;
         petsc!(KSPGetResidualNorm(self.raw, &mut residual))?;
         let converged = reason.0 > 0;
-        Ok(Solved {
-            converged,
-            iterations: iterations as usize,
-            residual,
-            reason: self.reason(reason)?,
-        })
+        Ok(Solved { converged, iterations: iterations as usize, residual, reason: self.reason(reason)? })
     }
 
     /// Name of the reason to stop, and what failed in the preconditioner.
@@ -158,18 +118,14 @@ impl Krylov {
         if reason != ffi::KSPConvergedReason::KSP_DIVERGED_PC_FAILED {
             return Ok(name);
         }
-        Ok(format!("{name} ({})", self.preconditioner()?.failure()?))
+        Ok(format!("{name} ({})", self.preconditioner().failure()?))
     }
 
     /// Residual norms of the last solve: before it, and after each iteration.
-    pub fn residual_history(&self) -> Result<Vec<f64>> {
+    pub fn residual_history(&self) -> Vec<f64> {
         let (mut array, mut count) = (ptr::null(), 0);
-        petsc!(KSPGetResidualHistory(self.raw, &mut array, &mut count))?;
-        Ok(if count == 0 {
-            Vec::new()
-        } else {
-            unsafe { std::slice::from_raw_parts(array, count as usize) }.to_vec()
-        })
+        petsc!(KSPGetResidualHistory(self.raw, &mut array, &mut count)).expect("a solver records its residuals");
+        if count == 0 { Vec::new() } else { unsafe { std::slice::from_raw_parts(array, count as usize) }.to_vec() }
     }
 }
 

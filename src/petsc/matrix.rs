@@ -32,43 +32,22 @@ impl Matrix {
         off_diagonal: &[i32],
     ) -> Result<Self> {
         assert!(
-            [diagonal.len(), off_diagonal.len()] == [rows / block; 2] && rows % block == 0,
+            [diagonal.len(), off_diagonal.len()] == [rows / block; 2] && rows.is_multiple_of(block),
             "one count for each block row"
         );
         let mut raw = ptr::null_mut();
         petsc!(MatCreate(session.raw(), &mut raw))?;
-        let matrix = Self {
-            raw,
-            session: session.clone(),
-            block,
-        };
-        petsc!(MatSetSizes(
-            raw,
-            length(rows),
-            length(columns),
-            ffi::mezha_determine,
-            ffi::mezha_determine
-        ))?;
+        let matrix = Self { raw, session: session.clone(), block };
+        petsc!(MatSetSizes(raw, length(rows), length(columns), ffi::mezha_determine, ffi::mezha_determine))?;
         petsc!(MatSetType(raw, c"aij".as_ptr()))?;
-        petsc!(MatXAIJSetPreallocation(
-            raw,
-            length(block),
-            diagonal.as_ptr(),
-            off_diagonal.as_ptr(),
-            ptr::null(),
-            ptr::null()
-        ))?;
+        petsc!(MatXAIJSetPreallocation(raw, length(block), diagonal.as_ptr(), off_diagonal.as_ptr(), ptr::null(), ptr::null()))?;
         matrix.set_option(ffi::MatOption::MAT_NEW_NONZERO_ALLOCATION_ERR, true)?;
         Ok(matrix)
     }
 
     /// Takes over one reference to a matrix of PETSc's.
     pub(super) fn from_raw(session: &Session, raw: ffi::Mat) -> Self {
-        Self {
-            raw,
-            session: session.clone(),
-            block: 1,
-        }
+        Self { raw, session: session.clone(), block: 1 }
     }
 
     pub(super) fn raw(&self) -> ffi::Mat {
@@ -90,22 +69,10 @@ impl Matrix {
     /// If `values` has another length.
     #[inline]
     pub fn add_blocks(&mut self, rows: &[i32], columns: &[i32], values: &[f64]) -> Result<()> {
-        assert_eq!(
-            values.len(),
-            rows.len() * columns.len() * self.block * self.block,
-            "values of whole blocks"
-        );
+        assert_eq!(values.len(), rows.len() * columns.len() * self.block * self.block, "values of whole blocks");
         let (m, n) = (length(rows.len()), length(columns.len()));
         let add = ffi::InsertMode::ADD_VALUES;
-        petsc!(MatSetValuesBlocked(
-            self.raw,
-            m,
-            rows.as_ptr(),
-            n,
-            columns.as_ptr(),
-            values.as_ptr(),
-            add
-        ))
+        petsc!(MatSetValuesBlocked(self.raw, m, rows.as_ptr(), n, columns.as_ptr(), values.as_ptr(), add))
     }
 
     /// Adds `values`, row after row, to the entries at `rows` × `columns` (global; negative ones are skipped).
@@ -125,40 +92,16 @@ impl Matrix {
     }
 
     #[inline]
-    fn set_values(
-        &mut self,
-        rows: &[i32],
-        columns: &[i32],
-        values: &[f64],
-        mode: ffi::InsertMode,
-    ) -> Result<()> {
-        assert_eq!(
-            values.len(),
-            rows.len() * columns.len(),
-            "one value for each row and column"
-        );
+    fn set_values(&mut self, rows: &[i32], columns: &[i32], values: &[f64], mode: ffi::InsertMode) -> Result<()> {
+        assert_eq!(values.len(), rows.len() * columns.len(), "one value for each row and column");
         let (m, n) = (length(rows.len()), length(columns.len()));
-        petsc!(MatSetValues(
-            self.raw,
-            m,
-            rows.as_ptr(),
-            n,
-            columns.as_ptr(),
-            values.as_ptr(),
-            mode
-        ))
+        petsc!(MatSetValues(self.raw, m, rows.as_ptr(), n, columns.as_ptr(), values.as_ptr(), mode))
     }
 
     /// Brings added or inserted values to their ranks and closes the pattern. **Collective**
     pub fn assemble(&mut self) -> Result<()> {
-        petsc!(MatAssemblyBegin(
-            self.raw,
-            ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY
-        ))?;
-        petsc!(MatAssemblyEnd(
-            self.raw,
-            ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY
-        ))
+        petsc!(MatAssemblyBegin(self.raw, ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY))?;
+        petsc!(MatAssemblyEnd(self.raw, ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY))
     }
 
     /// Sets every stored entry to zero and keeps the pattern. **Collective**
@@ -210,24 +153,21 @@ impl Matrix {
     /// Global numbers of the rows of this rank.
     pub fn row_range(&self) -> Range<usize> {
         let (mut first, mut end) = (0, 0);
-        petsc!(MatGetOwnershipRange(self.raw, &mut first, &mut end))
-            .expect("a matrix knows its rows");
+        petsc!(MatGetOwnershipRange(self.raw, &mut first, &mut end)).expect("a matrix knows its rows");
         first as usize..end as usize
     }
 
     /// Global numbers of the columns that go with this rank's entries of `x` in `A x`.
     pub fn column_range(&self) -> Range<usize> {
         let (mut first, mut end) = (0, 0);
-        petsc!(MatGetOwnershipRangeColumn(self.raw, &mut first, &mut end))
-            .expect("a matrix knows its columns");
+        petsc!(MatGetOwnershipRangeColumn(self.raw, &mut first, &mut end)).expect("a matrix knows its columns");
         first as usize..end as usize
     }
 
     /// Rows and columns on this rank.
     pub fn local_size(&self) -> (usize, usize) {
         let (mut rows, mut columns) = (0, 0);
-        petsc!(MatGetLocalSize(self.raw, &mut rows, &mut columns))
-            .expect("a matrix knows its size");
+        petsc!(MatGetLocalSize(self.raw, &mut rows, &mut columns)).expect("a matrix knows its size");
         (rows as usize, columns as usize)
     }
 
@@ -250,11 +190,7 @@ impl Matrix {
 
     fn information(&self) -> Result<ffi::MatInfo> {
         let mut information = ffi::MatInfo::default();
-        petsc!(MatGetInfo(
-            self.raw,
-            ffi::MatInfoType::MAT_GLOBAL_SUM,
-            &mut information
-        ))?;
+        petsc!(MatGetInfo(self.raw, ffi::MatInfoType::MAT_GLOBAL_SUM, &mut information))?;
         Ok(information)
     }
 
@@ -269,11 +205,7 @@ impl Matrix {
     }
 
     fn set_option(&self, option: ffi::MatOption, holds: bool) -> Result<()> {
-        let flag = if holds {
-            ffi::PetscBool::PETSC_TRUE
-        } else {
-            ffi::PetscBool::PETSC_FALSE
-        };
+        let flag = if holds { ffi::PetscBool::PETSC_TRUE } else { ffi::PetscBool::PETSC_FALSE };
         petsc!(MatSetOption(self.raw, option, flag))
     }
 
@@ -289,12 +221,7 @@ impl Matrix {
     /// A sparse copy, as direct solvers want it. **Collective**
     pub fn convert_aij(&self) -> Result<Self> {
         let mut raw = ptr::null_mut();
-        petsc!(MatConvert(
-            self.raw,
-            c"aij".as_ptr(),
-            ffi::MatReuse::MAT_INITIAL_MATRIX,
-            &mut raw
-        ))?;
+        petsc!(MatConvert(self.raw, c"aij".as_ptr(), ffi::MatReuse::MAT_INITIAL_MATRIX, &mut raw))?;
         Ok(Self::from_raw(&self.session, raw))
     }
 }
@@ -303,11 +230,7 @@ impl Clone for Matrix {
     /// Another reference to the same matrix.
     fn clone(&self) -> Self {
         petsc!(PetscObjectReference(self.raw.cast())).expect("PETSc counts references");
-        Self {
-            raw: self.raw,
-            session: self.session.clone(),
-            block: self.block,
-        }
+        Self { raw: self.raw, session: self.session.clone(), block: self.block }
     }
 }
 

@@ -23,38 +23,20 @@ impl Preconditioner {
     /// # Panics
     /// If interpolations are missing or the coarsest level has one.
     pub fn multigrid(&self, levels: &[Level<'_>]) -> Result<()> {
-        let complete = levels
-            .iter()
-            .enumerate()
-            .all(|(l, level)| level.interpolation.is_some() == (l > 0));
-        assert!(
-            complete && !levels.is_empty(),
-            "an interpolation on every level but the coarsest"
-        );
+        let complete = levels.iter().enumerate().all(|(l, level)| level.interpolation.is_some() == (l > 0));
+        assert!(complete && !levels.is_empty(), "an interpolation on every level but the coarsest");
         // An earlier default such as "none" would win again when options are read.
         options::set_default(self.session(), &format!("-{}pc_type", self.prefix()), "mg")?;
         self.set_kind("mg")?;
-        petsc!(PCMGSetLevels(
-            self.raw(),
-            length(levels.len()),
-            ptr::null_mut()
-        ))?;
+        petsc!(PCMGSetLevels(self.raw(), length(levels.len()), ptr::null_mut()))?;
         petsc!(PCMGSetType(self.raw(), ffi::PCMGType::PC_MG_FULL))?;
         for (l, level) in levels.iter().enumerate() {
             if let Some(interpolation) = level.interpolation {
-                petsc!(PCMGSetInterpolation(
-                    self.raw(),
-                    length(l),
-                    interpolation.raw()
-                ))?;
+                petsc!(PCMGSetInterpolation(self.raw(), length(l), interpolation.raw()))?;
             }
             let mut smoother = ptr::null_mut();
             petsc!(PCMGGetSmoother(self.raw(), length(l), &mut smoother))?;
-            petsc!(KSPSetOperators(
-                smoother,
-                level.operator.raw(),
-                level.operator.raw()
-            ))?;
+            petsc!(KSPSetOperators(smoother, level.operator.raw(), level.operator.raw()))?;
         }
         self.set_from_options()
     }

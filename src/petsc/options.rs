@@ -6,14 +6,7 @@ use std::ffi::{CString, c_char};
 use std::ptr;
 
 /// Beginnings of options that PETSc reads only at its end.
-const READ_LATER: [&str; 6] = [
-    "-log_",
-    "-malloc_",
-    "-objects_",
-    "-options_",
-    "-memory_",
-    "-no_signal_handler",
-];
+const READ_LATER: [&str; 6] = ["-log_", "-malloc_", "-objects_", "-options_", "-memory_", "-no_signal_handler"];
 
 /// Sets option `name` (`"-ksp_type"`) to `value`, unless the user has set it; an empty value stands for a bare flag.
 pub fn set_default(session: &Session, name: &str, value: &str) -> Result<()> {
@@ -21,11 +14,7 @@ pub fn set_default(session: &Session, name: &str, value: &str) -> Result<()> {
         return Ok(());
     }
     let (key, text) = (c_string(name), c_string(value));
-    petsc!(PetscOptionsSetValue(
-        ptr::null_mut(),
-        key.as_ptr(),
-        text.as_ptr()
-    ))?;
+    petsc!(PetscOptionsSetValue(ptr::null_mut(), key.as_ptr(), text.as_ptr()))?;
     session.defaults().borrow_mut().insert(name.to_lowercase());
     Ok(())
 }
@@ -33,10 +22,7 @@ pub fn set_default(session: &Session, name: &str, value: &str) -> Result<()> {
 /// Takes back a default that [`set_default`] or the start has set; a value of the user's stays.
 pub fn clear(session: &Session, name: &str) -> Result<()> {
     if session.defaults().borrow_mut().remove(&name.to_lowercase()) {
-        petsc!(PetscOptionsClearValue(
-            ptr::null_mut(),
-            c_string(name).as_ptr()
-        ))?;
+        petsc!(PetscOptionsClearValue(ptr::null_mut(), c_string(name).as_ptr()))?;
     }
     Ok(())
 }
@@ -44,42 +30,23 @@ pub fn clear(session: &Session, name: &str) -> Result<()> {
 /// Value of option `name`, empty for a bare flag; `None` if nobody has set it. Does not count as a use of the option.
 pub fn get(_session: &Session, name: &str) -> Option<String> {
     let options = all().expect("PETSc lists its options");
-    options
-        .into_iter()
-        .find(|(other, _)| other.eq_ignore_ascii_case(name))
-        .map(|(_, value)| value)
+    options.into_iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, value)| value)
 }
 
 /// Options of the user's that no object has asked for so far, each as `-name value`: a typing mistake is among them.
 /// Options that PETSc reads only at its end are left out.
 pub fn unused(session: &Session) -> Result<Vec<String>> {
     let mut count = 0;
-    let (mut names, mut values): (*mut *mut c_char, *mut *mut c_char) =
-        (ptr::null_mut(), ptr::null_mut());
-    petsc!(PetscOptionsLeftGet(
-        ptr::null_mut(),
-        &mut count,
-        &mut names,
-        &mut values
-    ))?;
-    let left: Vec<(String, String)> = (0..count as usize)
-        .map(|i| unsafe { (format!("-{}", words(*names.add(i))), words(*values.add(i))) })
-        .collect();
-    petsc!(PetscOptionsLeftRestore(
-        ptr::null_mut(),
-        &mut count,
-        &mut names,
-        &mut values
-    ))?;
+    let (mut names, mut values): (*mut *mut c_char, *mut *mut c_char) = (ptr::null_mut(), ptr::null_mut());
+    petsc!(PetscOptionsLeftGet(ptr::null_mut(), &mut count, &mut names, &mut values))?;
+    let left: Vec<(String, String)> =
+        (0..count as usize).map(|i| unsafe { (format!("-{}", words(*names.add(i))), words(*values.add(i))) }).collect();
+    petsc!(PetscOptionsLeftRestore(ptr::null_mut(), &mut count, &mut names, &mut values))?;
     let defaults = session.defaults().borrow();
     Ok(left
         .into_iter()
         .filter(|(name, _)| !defaults.contains(&name.to_lowercase()))
-        .filter(|(name, _)| {
-            !READ_LATER
-                .iter()
-                .any(|start| name.to_lowercase().starts_with(start))
-        })
+        .filter(|(name, _)| !READ_LATER.iter().any(|start| name.to_lowercase().starts_with(start)))
         .map(|(name, value)| format!("{name} {value}").trim_end().to_owned())
         .collect())
 }

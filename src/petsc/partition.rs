@@ -29,58 +29,34 @@ pub fn partition(
     edge_weights: &[i32],
     vertex_weights: Option<&[i32]>,
 ) -> Result<Vec<i32>> {
-    let vertices = offsets
-        .len()
-        .checked_sub(1)
-        .expect("offsets has vertices + 1 entries");
+    let vertices = offsets.len().checked_sub(1).expect("offsets has vertices + 1 entries");
     assert!(
         neighbours.len() == offsets[vertices] as usize && edge_weights.len() == neighbours.len(),
         "neighbours end at the last offset"
     );
-    assert!(
-        vertex_weights.is_none_or(|weights| weights.len() == vertices),
-        "one weight for each vertex"
-    );
+    assert!(vertex_weights.is_none_or(|weights| weights.len() == vertices), "one weight for each vertex");
     if parts == 1 {
         return Ok(vec![0; vertices]);
     }
 
     // This rank's share: vertices first .. end.
-    let [first, end] =
-        [session.rank(), session.rank() + 1].map(|rank| rank * vertices / session.size());
+    let [first, end] = [session.rank(), session.rank() + 1].map(|rank| rank * vertices / session.size());
     let entries = offsets[first] as usize..offsets[end] as usize;
-    let own_offsets: Vec<i32> = offsets[first..=end]
-        .iter()
-        .map(|offset| offset - offsets[first])
-        .collect();
+    let own_offsets: Vec<i32> = offsets[first..=end].iter().map(|offset| offset - offsets[first]).collect();
     let rows = handed_over(&own_offsets)?;
     let columns = handed_over(&neighbours[entries.clone()])?;
     let weights = handed_over(&edge_weights[entries])?;
     let mut graph = ptr::null_mut();
-    petsc!(MatCreateMPIAdj(
-        session.raw(),
-        length(end - first),
-        length(vertices),
-        rows,
-        columns,
-        weights,
-        &mut graph
-    ))?;
+    petsc!(MatCreateMPIAdj(session.raw(), length(end - first), length(vertices), rows, columns, weights, &mut graph))?;
     let graph = Matrix::from_raw(session, graph);
 
     let partitioning = Partitioning::new(session)?;
     petsc!(MatPartitioningSetAdjacency(partitioning.0, graph.raw()))?;
     petsc!(MatPartitioningSetType(partitioning.0, c"ptscotch".as_ptr()))?;
     petsc!(MatPartitioningSetNParts(partitioning.0, length(parts)))?;
-    petsc!(MatPartitioningSetUseEdgeWeights(
-        partitioning.0,
-        ffi::PetscBool::PETSC_TRUE
-    ))?;
+    petsc!(MatPartitioningSetUseEdgeWeights(partitioning.0, ffi::PetscBool::PETSC_TRUE))?;
     if let Some(weights) = vertex_weights {
-        petsc!(MatPartitioningSetVertexWeights(
-            partitioning.0,
-            handed_over(&weights[first..end])?
-        ))?;
+        petsc!(MatPartitioningSetVertexWeights(partitioning.0, handed_over(&weights[first..end])?))?;
     }
     // Scotch draws random numbers: from the same start, so that a partition does not depend on earlier ones.
     unsafe { ffi::mezha_restart_scotch() };

@@ -19,10 +19,7 @@ impl Preconditioner {
     /// Another reference to a preconditioner of PETSc's.
     pub(super) fn share(session: &Session, raw: ffi::PC) -> Result<Self> {
         petsc!(PetscObjectReference(raw.cast()))?;
-        Ok(Self {
-            raw,
-            session: session.clone(),
-        })
+        Ok(Self { raw, session: session.clone() })
     }
 
     pub(super) fn raw(&self) -> ffi::PC {
@@ -39,6 +36,13 @@ impl Preconditioner {
         petsc!(PCSetType(self.raw, kind.as_ptr()))
     }
 
+    /// Its kind by PETSc's name; empty before one has been chosen.
+    pub fn kind(&self) -> String {
+        let mut kind = ptr::null();
+        petsc!(PCGetType(self.raw, &mut kind)).expect("a preconditioner knows its kind");
+        words(kind)
+    }
+
     /// Reads its options. **Collective**
     pub fn set_from_options(&self) -> Result<()> {
         petsc!(PCSetFromOptions(self.raw))
@@ -51,19 +55,14 @@ impl Preconditioner {
 
     /// Keeps what has been prepared although the operators have changed, or not. **Collective**
     pub fn set_reuse(&self, reuse: bool) -> Result<()> {
-        let flag = if reuse {
-            ffi::PetscBool::PETSC_TRUE
-        } else {
-            ffi::PetscBool::PETSC_FALSE
-        };
+        let flag = if reuse { ffi::PetscBool::PETSC_TRUE } else { ffi::PetscBool::PETSC_FALSE };
         petsc!(PCSetReusePreconditioner(self.raw, flag))
     }
 
     /// What its options begin with after the minus; may be empty.
     pub fn prefix(&self) -> String {
         let mut prefix = ptr::null();
-        petsc!(PCGetOptionsPrefix(self.raw, &mut prefix))
-            .expect("a preconditioner knows its prefix");
+        petsc!(PCGetOptionsPrefix(self.raw, &mut prefix)).expect("a preconditioner knows its prefix");
         words(prefix)
     }
 
@@ -76,10 +75,7 @@ impl Preconditioner {
             petsc!(PCFieldSplitSetIS(self.raw, name.as_ptr(), set.raw()))?;
         }
         // PETSc forgets the Schur matrix, and does not say so, if it comes before the type.
-        petsc!(PCFieldSplitSetType(
-            self.raw,
-            ffi::PCCompositeType::PC_COMPOSITE_SCHUR
-        ))?;
+        petsc!(PCFieldSplitSetType(self.raw, ffi::PCCompositeType::PC_COMPOSITE_SCHUR))?;
         let given = ffi::PCFieldSplitSchurPreType::PC_FIELDSPLIT_SCHUR_PRE_USER;
         petsc!(PCFieldSplitSetSchurPre(self.raw, given, schur.raw()))?;
         let upper = ffi::PCFieldSplitSchurFactType::PC_FIELDSPLIT_SCHUR_FACT_UPPER;
@@ -90,9 +86,8 @@ impl Preconditioner {
     pub fn field_split_solvers(&self) -> Result<Vec<Krylov>> {
         let (mut count, mut array) = (0, ptr::null_mut());
         petsc!(PCFieldSplitGetSubKSP(self.raw, &mut count, &mut array))?;
-        let solvers: Result<Vec<Krylov>> = (0..count as usize)
-            .map(|i| Krylov::share(&self.session, unsafe { *array.add(i) }))
-            .collect();
+        let solvers: Result<Vec<Krylov>> =
+            (0..count as usize).map(|i| Krylov::share(&self.session, unsafe { *array.add(i) })).collect();
         petsc!(mezha_free(array.cast()))?;
         solvers
     }
@@ -103,12 +98,8 @@ impl Preconditioner {
         let mut reason = Reason::PC_NOERROR;
         petsc!(PCGetFailedReason(self.raw, &mut reason))?;
         Ok(match reason {
-            Reason::PC_FACTOR_STRUCT_ZEROPIVOT => {
-                "factorisation: a pivot is missing from the pattern"
-            }
-            Reason::PC_FACTOR_NUMERIC_ZEROPIVOT => {
-                "factorisation: zero pivot, the matrix is singular"
-            }
+            Reason::PC_FACTOR_STRUCT_ZEROPIVOT => "factorisation: a pivot is missing from the pattern",
+            Reason::PC_FACTOR_NUMERIC_ZEROPIVOT => "factorisation: zero pivot, the matrix is singular",
             Reason::PC_FACTOR_OUTMEMORY => "factorisation: out of memory",
             Reason::PC_FACTOR_OTHER => "factorisation failed",
             Reason::PC_SUBPC_ERROR => "an inner preconditioner failed",

@@ -47,36 +47,18 @@ impl Session {
             .chain(given.clone())
             .map(|word| CString::new(word).expect("an option has no zero byte"))
             .collect();
-        let mut pointers: Vec<*mut c_char> = words
-            .iter()
-            .map(|word| word.as_ptr().cast_mut())
-            .chain([ptr::null_mut()])
-            .collect();
+        let mut pointers: Vec<*mut c_char> = words.iter().map(|word| word.as_ptr().cast_mut()).chain([ptr::null_mut()]).collect();
         let mut count = words.len() as c_int;
         let mut array = pointers.as_mut_ptr();
-        petsc!(PetscInitialize(
-            &mut count,
-            &mut array,
-            ptr::null(),
-            ptr::null()
-        ))?;
+        petsc!(PetscInitialize(&mut count, &mut array, ptr::null(), ptr::null()))?;
         petsc!(PetscPushErrorHandler(Some(remember), ptr::null_mut()))?;
         end_all_ranks_on_panic();
 
-        let mut own: BTreeSet<String> = defaults
-            .iter()
-            .filter(|word| is_name(word))
-            .map(|word| word.to_lowercase())
-            .collect();
+        let mut own: BTreeSet<String> = defaults.iter().filter(|word| is_name(word)).map(|word| word.to_lowercase()).collect();
         for name in given.filter(|word| is_name(word)) {
             own.remove(&name.to_lowercase());
         }
-        Ok(Self(Rc::new(Inner {
-            world,
-            defaults: RefCell::new(own),
-            _arguments: (pointers, words),
-            _universe: universe,
-        })))
+        Ok(Self(Rc::new(Inner { world, defaults: RefCell::new(own), _arguments: (pointers, words), _universe: universe })))
     }
 
     /// Number of this rank, from 0.
@@ -125,10 +107,10 @@ impl Drop for Inner {
     }
 }
 
-/// Whether a word of the command line is the name of an option: a minus and no number after it.
+/// Whether a word of the command line is the name of an option: one or two minuses and a letter.
 pub(super) fn is_name(word: &str) -> bool {
-    word.strip_prefix('-')
-        .is_some_and(|rest| rest.starts_with(|first: char| first.is_alphabetic() || first == '_'))
+    let rest = word.strip_prefix("--").or_else(|| word.strip_prefix('-'));
+    rest.is_some_and(|rest| rest.starts_with(|first: char| first.is_ascii_alphabetic()))
 }
 
 /// A rank that panics would leave the others waiting: it prints its message and ends them all.

@@ -22,24 +22,12 @@ impl Matrix {
         let any = ffi::mezha_determine;
         let context = Box::into_raw(Box::new(action));
         let mut raw = ptr::null_mut();
-        petsc!(MatCreateShell(
-            session.raw(),
-            length(rows),
-            length(columns),
-            any,
-            any,
-            context.cast(),
-            &mut raw
-        ))?;
+        petsc!(MatCreateShell(session.raw(), length(rows), length(columns), any, any, context.cast(), &mut raw))?;
         let matrix = Self::from_raw(session, raw);
         petsc!(MatShellSetContextDestroy(raw, Some(drop_action)))?;
         // PETSc stores every operation as a function without arguments and calls it as what it is.
         let multiply: unsafe extern "C" fn() = unsafe { mem::transmute(multiply as Multiply) };
-        petsc!(MatShellSetOperation(
-            raw,
-            ffi::MatOperation::MATOP_MULT,
-            Some(multiply)
-        ))?;
+        petsc!(MatShellSetOperation(raw, ffi::MatOperation::MATOP_MULT, Some(multiply)))?;
         Ok(matrix)
     }
 }
@@ -48,20 +36,14 @@ type Multiply = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> ffi::Petsc
 
 /// `y = A x` as PETSc calls it. No panic crosses into C, even where the hook that ends all ranks has been replaced.
 unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> ffi::PetscErrorCode {
-    let outcome = catch_unwind(AssertUnwindSafe(|| apply(matrix, x, y)))
-        .unwrap_or_else(|_| Err("panic in the action of a shell".into()));
+    let outcome =
+        catch_unwind(AssertUnwindSafe(|| apply(matrix, x, y))).unwrap_or_else(|_| Err("panic in the action of a shell".into()));
     let mut failed = 0_i32;
-    SimpleCommunicator::world().all_reduce_into(
-        &i32::from(outcome.is_err()),
-        &mut failed,
-        SystemOperation::max(),
-    );
+    SimpleCommunicator::world().all_reduce_into(&i32::from(outcome.is_err()), &mut failed, SystemOperation::max());
     if failed == 0 {
         return 0;
     }
-    let message = outcome
-        .err()
-        .unwrap_or_else(|| "another rank failed in the action of a shell".into());
+    let message = outcome.err().unwrap_or_else(|| "another rank failed in the action of a shell".into());
     let message = CString::new(message.replace('\0', " ")).expect("no zero byte is left");
     unsafe { ffi::mezha_callback_error(message.as_ptr()) }
 }
@@ -69,10 +51,7 @@ unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> ffi
 fn apply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> std::result::Result<(), String> {
     let arrays = || -> Result<_> {
         let mut context = ptr::null_mut::<c_void>();
-        petsc!(MatShellGetContext(
-            matrix,
-            ptr::from_mut(&mut context).cast()
-        ))?;
+        petsc!(MatShellGetContext(matrix, ptr::from_mut(&mut context).cast()))?;
         Ok((context.cast::<Action>(), Values::of(x)?, ValuesMut::of(y)?))
     };
     let (action, x, mut y) = arrays().map_err(|error| error.to_string())?;

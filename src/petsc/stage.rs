@@ -23,20 +23,13 @@ impl Stage {
         if number < 0 {
             petsc!(PetscLogStageRegister(name.as_ptr(), &mut number))?;
         }
-        Ok(Self {
-            number,
-            seconds: Cell::new(0.0),
-            _session: session.clone(),
-        })
+        Ok(Self { number, seconds: Cell::new(0.0), _session: session.clone() })
     }
 
     /// Enters the stage until the guard is dropped. Stages nest.
     pub fn enter(&self) -> StageGuard<'_> {
         petsc!(PetscLogStagePush(self.number)).expect("a registered stage");
-        StageGuard {
-            stage: self,
-            start: Instant::now(),
-        }
+        StageGuard { stage: self, start: Instant::now() }
     }
 
     /// Wall seconds on this rank inside the stage so far, with the stages entered from there.
@@ -54,8 +47,6 @@ pub struct StageGuard<'a> {
 impl Drop for StageGuard<'_> {
     fn drop(&mut self) {
         unsafe { ffi::PetscLogStagePop() };
-        self.stage
-            .seconds
-            .set(self.stage.seconds.get() + self.start.elapsed().as_secs_f64());
+        self.stage.seconds.set(self.stage.seconds.get() + self.start.elapsed().as_secs_f64());
     }
 }

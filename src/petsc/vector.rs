@@ -17,10 +17,7 @@ impl Vector {
     pub fn new(session: &Session, local: usize) -> Result<Self> {
         let mut raw = ptr::null_mut();
         petsc!(VecCreate(session.raw(), &mut raw))?;
-        let vector = Self {
-            raw,
-            session: session.clone(),
-        };
+        let vector = Self { raw, session: session.clone() };
         petsc!(VecSetSizes(raw, length(local), ffi::mezha_determine))?;
         petsc!(VecSetType(raw, c"standard".as_ptr()))?;
         vector.skipping_negative()
@@ -28,11 +25,7 @@ impl Vector {
 
     /// Takes over one reference to a vector of PETSc's.
     pub(super) fn from_raw(session: &Session, raw: ffi::Vec) -> Result<Self> {
-        Self {
-            raw,
-            session: session.clone(),
-        }
-        .skipping_negative()
+        Self { raw, session: session.clone() }.skipping_negative()
     }
 
     /// A new vector of the same layout. **Collective**
@@ -43,11 +36,7 @@ impl Vector {
     }
 
     fn skipping_negative(self) -> Result<Self> {
-        petsc!(VecSetOption(
-            self.raw,
-            ffi::VecOption::VEC_IGNORE_NEGATIVE_INDICES,
-            ffi::PetscBool::PETSC_TRUE
-        ))?;
+        petsc!(VecSetOption(self.raw, ffi::VecOption::VEC_IGNORE_NEGATIVE_INDICES, ffi::PetscBool::PETSC_TRUE))?;
         Ok(self)
     }
 
@@ -77,13 +66,7 @@ impl Vector {
     #[inline]
     pub fn add(&mut self, indices: &[i32], values: &[f64]) -> Result<()> {
         assert_eq!(indices.len(), values.len(), "as many values as indices");
-        petsc!(VecSetValues(
-            self.raw,
-            length(indices.len()),
-            indices.as_ptr(),
-            values.as_ptr(),
-            ffi::InsertMode::ADD_VALUES
-        ))
+        petsc!(VecSetValues(self.raw, length(indices.len()), indices.as_ptr(), values.as_ptr(), ffi::InsertMode::ADD_VALUES))
     }
 
     /// Brings the added values to the ranks that own them. **Collective**
@@ -146,8 +129,7 @@ impl Vector {
     /// Global numbers of the entries of this rank.
     pub fn range(&self) -> Range<usize> {
         let (mut first, mut end) = (0, 0);
-        petsc!(VecGetOwnershipRange(self.raw, &mut first, &mut end))
-            .expect("a vector knows its range");
+        petsc!(VecGetOwnershipRange(self.raw, &mut first, &mut end)).expect("a vector knows its range");
         first as usize..end as usize
     }
 }
@@ -187,11 +169,7 @@ impl Values<'_> {
         let count = local_length(raw)?;
         let mut array = ptr::null();
         petsc!(VecGetArrayRead(raw, &mut array))?;
-        let values = if count == 0 {
-            &[][..]
-        } else {
-            unsafe { slice::from_raw_parts(array, count) }
-        };
+        let values = if count == 0 { &[][..] } else { unsafe { slice::from_raw_parts(array, count) } };
         Ok(Self { raw, values })
     }
 }
@@ -222,11 +200,7 @@ impl ValuesMut<'_> {
         let count = local_length(raw)?;
         let mut array = ptr::null_mut();
         petsc!(VecGetArray(raw, &mut array))?;
-        let values = if count == 0 {
-            &mut [][..]
-        } else {
-            unsafe { slice::from_raw_parts_mut(array, count) }
-        };
+        let values = if count == 0 { &mut [][..] } else { unsafe { slice::from_raw_parts_mut(array, count) } };
         Ok(Self { raw, values })
     }
 }

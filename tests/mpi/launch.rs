@@ -3,24 +3,35 @@
 
 use mezha::petsc::Session;
 use std::io::{Read, Write};
+use std::path::PathBuf;
 use std::process::{Child, Command, ExitCode, Stdio};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+
+/// A function and its name.
+pub type Named<F> = (&'static str, F);
+
+/// Functions with their names: `named![gather_fetches_any_entry, matrix_in_blocks]`.
+macro_rules! named {
+    ($($function:ident),* $(,)?) => { &[$((stringify!($function), $function)),*] };
+}
+pub(crate) use named;
 
 /// The checks of one test program.
 pub struct Suite {
-    /// Options that the session starts with, mezha's and the user's.
+    /// Options that the session starts with: mezha's word by word, the user's each as `-name value`.
     pub options: (&'static [&'static str], &'static [&'static str]),
     /// Checks that run on every number of ranks, all of them inside one session. They fail by panicking.
-    pub checks: &'static [(&'static str, fn(&Session))],
+    pub checks: &'static [Named<fn(&Session)>],
     /// Checks that run outside of MPI and start [`Suite::scenarios`].
-    pub outside: &'static [(&'static str, fn())],
+    pub outside: &'static [Named<fn()>],
     /// What a process does that [`mpirun`] has started for a scenario.
-    pub scenarios: &'static [(&'static str, fn())],
+    pub scenarios: &'static [Named<fn()>],
 }
 
-/// How a run under `mpirun` ended.
+/// How a run ended.
 pub struct Ended {
-    /// Exit code of `mpirun`.
+    /// Its exit code.
     pub code: Option<i32>,
     /// Standard output of all ranks.
     pub output: String,
@@ -33,32 +44,28 @@ pub const LIST_LEAKS: &str = "-malloc_debug -malloc_dump -objects_dump";
 
 const RANKS: [usize; 3] = [1, 2, 3];
 const SCENARIO: &str = "MEZHA_TEST_SCENARIO";
+/// Root may run `mpirun`; ranks that wait leave the processor to others.
+const ENVIRONMENT: [(&str, &str); 4] = [
+    ("OMPI_ALLOW_RUN_AS_ROOT", "1"),
+    ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"),
+    ("OMPI_MCA_mpi_yield_when_idle", "1"),
+    ("OMP_NUM_THREADS", "1"),
+];
 const PATIENCE: Duration = Duration::from_secs(120);
 
 impl Suite {
     /// Does what this process has been started for.
     pub fn run(&self) -> ExitCode {
-        let words: Vec<String> = std::env::args()
-            .skip(1)
-            .filter(|word| !word.starts_with('-'))
-            .collect();
+        let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
         if let Ok(name) = std::env::var(SCENARIO) {
-            let (_, scenario) = self
-                .scenarios
-                .iter()
-                .find(|(other, _)| *other == name)
-                .expect("a known scenario");
+            let (_, scenario) = self.scenarios.iter().find(|(other, _)| *other == name).expect("a known scenario");
             scenario();
             ExitCode::SUCCESS
         } else if std::env::var_os("OMPI_COMM_WORLD_SIZE").is_some() {
             self.check_inside(&words);
             ExitCode::SUCCESS
         } else if std::env::args().any(|word| word == "--list") {
-            let names = self
-                .checks
-                .iter()
-                .map(|(name, _)| name)
-                .chain(self.outside.iter().map(|(name, _)| name));
+            let names = self.checks.iter().map(|(name, _)| name).chain(self.outside.iter().map(|(name, _)| name));
             names.for_each(|name| println!("{name}: test"));
             ExitCode::SUCCESS
         } else {
@@ -72,23 +79,13 @@ impl Suite {
         let (mut passed, mut failed) = (0, 0);
         if self.checks.iter().any(|(name, _)| wanted(name, words)) {
             for ranks in RANKS {
-                println!(
-                    "\nrunning on {ranks} {}",
-                    if ranks == 1 { "rank" } else { "ranks" }
-                );
+                println!("\nrunning on {ranks} {}", if ranks == 1 { "rank" } else { "ranks" });
                 let ended = mpirun(ranks, None, words, LIST_LEAKS);
                 print!("{}{}", ended.output, ended.errors);
-                passed += ended
-                    .output
-                    .lines()
-                    .filter(|line| line.ends_with("... ok"))
-                    .count();
+                passed += ended.output.lines().filter(|line| line.ends_with("... ok")).count();
                 let (_, left) = ended.output.rsplit_once("... ok\n").unwrap_or_default();
                 if ended.code != Some(0) || !left.is_empty() {
-                    println!(
-                        "FAILED on {ranks} ranks: exit code {:?}, output after the last check: {left:?}",
-                        ended.code
-                    );
+                    println!("FAILED on {ranks} ranks: exit code {:?}, output after the last check: {left:?}", ended.code);
                     failed += 1;
                 }
             }
@@ -100,24 +97,15 @@ impl Suite {
             println!("{}", if good { "ok" } else { "FAILED" });
             *(if good { &mut passed } else { &mut failed }) += 1;
         }
-        let (word, seconds) = (
-            if failed == 0 { "ok" } else { "FAILED" },
-            start.elapsed().as_secs_f64(),
-        );
-        println!(
-            "\ntest result: {word}. {passed} passed; {failed} failed; finished in {seconds:.2}s\n"
-        );
-        if failed == 0 {
-            ExitCode::SUCCESS
-        } else {
-            ExitCode::FAILURE
-        }
+        let (word, seconds) = (if failed == 0 { "ok" } else { "FAILED" }, start.elapsed().as_secs_f64());
+        println!("\ntest result: {word}. {passed} passed; {failed} failed; finished in {seconds:.2}s\n");
+        if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }
 
     /// The checks, on this rank of a run.
     fn check_inside(&self, words: &[String]) {
         let (defaults, user) = self.options;
-        let user: Vec<String> = user.iter().map(|word| word.to_string()).collect();
+        let user: Vec<String> = user.iter().flat_map(|option| option.split(' ')).map(String::from).collect();
         let session = Session::start(defaults, &user).expect("a session starts");
         let say = |text: String| {
             if session.rank() == 0 {
@@ -145,51 +133,47 @@ fn wanted(name: &str, words: &[String]) -> bool {
 /// If it takes too long.
 pub fn mpirun(ranks: usize, scenario: Option<&str>, words: &[String], options: &str) -> Ended {
     let mut command = Command::new("mpirun");
-    command.args([
-        "-n",
-        &ranks.to_string(),
-        "--oversubscribe",
-        "--bind-to",
-        "none",
-    ]);
-    command
-        .arg(std::env::current_exe().expect("this program has a file"))
-        .args(words);
-    command.envs([
-        ("OMPI_ALLOW_RUN_AS_ROOT", "1"),
-        ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"),
-    ]);
-    command.envs([
-        ("OMPI_MCA_mpi_yield_when_idle", "1"),
-        ("OMP_NUM_THREADS", "1"),
-        ("PETSC_OPTIONS", options),
-    ]);
+    command.args(["-n", &ranks.to_string()]);
+    command.args(["--oversubscribe", "--bind-to", "none"]);
+    command.arg(this_program()).args(words);
+    finish(command, scenario, options)
+}
+
+/// Starts this program again for a scenario, without `mpirun`.
+///
+/// # Panics
+/// If it takes too long.
+pub fn alone(scenario: &str) -> Ended {
+    finish(Command::new(this_program()), Some(scenario), "")
+}
+
+fn this_program() -> PathBuf {
+    std::env::current_exe().expect("this program has a file")
+}
+
+/// Runs a command to its end.
+fn finish(mut command: Command, scenario: Option<&str>, options: &str) -> Ended {
+    for (name, value) in ENVIRONMENT {
+        command.env(name, value);
+    }
+    command.env("PETSC_OPTIONS", options);
     if let Some(name) = scenario {
         command.env(SCENARIO, name);
     }
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    let mut child = command
-        .spawn()
-        .expect("mpirun starts (Debian: apt-get install openmpi-bin)");
+    command.stdin(Stdio::null());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let missing = "mpirun starts (Debian: apt-get install openmpi-bin)";
+    let mut child = command.spawn().expect(missing);
     let output = reader(child.stdout.take().expect("piped"));
     let errors = reader(child.stderr.take().expect("piped"));
     let code = wait(&mut child);
-    let [output, errors] = [output, errors].map(|thread| thread.join().expect("a reader ends"));
-    assert!(
-        code.is_some(),
-        "{ranks} ranks were ended after {PATIENCE:?}:\n{output}{errors}"
-    );
-    Ended {
-        code,
-        output,
-        errors,
-    }
+    let text = |thread: JoinHandle<String>| thread.join().expect("a reader ends");
+    let (output, errors) = (text(output), text(errors));
+    assert!(code.is_some(), "{command:?} was ended after {PATIENCE:?}:\n{output}{errors}");
+    Ended { code, output, errors }
 }
 
-fn reader(mut pipe: impl Read + Send + 'static) -> std::thread::JoinHandle<String> {
+fn reader(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
     std::thread::spawn(move || {
         let mut bytes = Vec::new();
         pipe.read_to_end(&mut bytes).expect("a pipe can be read");
@@ -197,7 +181,7 @@ fn reader(mut pipe: impl Read + Send + 'static) -> std::thread::JoinHandle<Strin
     })
 }
 
-/// Exit code; `None` if `mpirun` was told to end because it took too long.
+/// Exit code; `None` if the command was told to end because it took too long.
 fn wait(child: &mut Child) -> Option<i32> {
     let start = Instant::now();
     while start.elapsed() < PATIENCE {
@@ -207,10 +191,7 @@ fn wait(child: &mut Child) -> Option<i32> {
         std::thread::sleep(Duration::from_millis(10));
     }
     // The polite signal: mpirun passes it on to the ranks.
-    Command::new("kill")
-        .arg(child.id().to_string())
-        .status()
-        .expect("kill runs");
+    Command::new("kill").arg(child.id().to_string()).status().expect("kill runs");
     child.wait().expect("a child can be waited for");
     None
 }
