@@ -111,12 +111,25 @@ impl Multipliers {
         }
     }
 
+    /// `κ_i = γ_i / ∫ψ_i`: what one unit of mean penetration is worth in pressure (stress per length squared).
+    pub fn penalty(&self, multiplier: usize, modulus: f64) -> f64 {
+        ALPHA * modulus / (self.length(multiplier) * self.weight(multiplier))
+    }
+
+    /// Augmentation weight `D_ii` of a multiplier alone (stress per length squared).
+    pub fn single_weight(&self, multiplier: usize, modulus: f64) -> f64 {
+        let mass = match self.space {
+            MultiplierSpace::P1Discontinuous => self.length(multiplier) / 3.0,
+            _ => self.length(multiplier),
+        };
+        ALPHA * modulus / (self.length(multiplier) * mass)
+    }
+
     /// Augmentation weights `D = √γ W⁻¹ √γ` with `γ_i = ALPHA E_c / H_i` over the active multipliers; `W` is the mass
     /// matrix, lumped for P1 continuous. `modulus` is `E_c` (stress); entries have the unit stress per length squared.
     pub fn augmentation(&self, modulus: f64, active: &[bool]) -> Vec<DiagonalBlock> {
-        let gamma = |i: usize| ALPHA * modulus / self.length(i);
+        let one = |i: usize| DiagonalBlock::single(i, self.single_weight(i, modulus));
         if self.space != MultiplierSpace::P1Discontinuous {
-            let one = |i: usize| DiagonalBlock::single(i, gamma(i) / self.weight(i));
             return (0..self.count()).filter(|&i| active[i]).map(one).collect();
         }
         let pair = |k: usize| {
@@ -124,10 +137,10 @@ impl Multipliers {
             match (active[i], active[i + 1]) {
                 (false, false) => None,
                 (true, true) => {
-                    let unit = gamma(i) * 2.0 / h;
+                    let unit = ALPHA * modulus / h * 2.0 / h;
                     Some(DiagonalBlock { rows: vec![i, i + 1], values: [[2.0 * unit, -unit], [-unit, 2.0 * unit]] })
                 }
-                (first, _) => Some(DiagonalBlock::single(if first { i } else { i + 1 }, gamma(i) * 3.0 / h)),
+                (first, _) => Some(one(if first { i } else { i + 1 })),
             }
         };
         (0..self.lengths.len()).filter_map(pair).collect()
@@ -151,7 +164,7 @@ mod tests {
     fn values_sum_to_one_and_weights_to_the_length() {
         for space in SPACES {
             let m = multipliers(space);
-            assert_eq!(m.value(&vec![3.0; m.count()], 1, 0.3), 3.0);
+            assert!((m.value(&vec![3.0; m.count()], 1, 0.3) - 3.0).abs() < 1e-14);
             assert!(((0..m.count()).map(|i| m.weight(i)).sum::<f64>() - 2.0).abs() < 1e-15);
         }
     }

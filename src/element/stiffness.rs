@@ -149,7 +149,7 @@ mod tests {
         let nodes = curved();
         let k = stiffness(&nodes, &LAW, false).expect("a good triangle");
         let scale = k[0][0][0][0];
-        for motion in [|_: Point| Point::new(1.0, 0.0), |_| Point::new(0.0, 1.0), |x| Point::new(-x.y, x.x)] {
+        for motion in [|_: Point| Point::new(1.0, 0.0), |_: Point| Point::new(0.0, 1.0), |x: Point| Point::new(-x.y, x.x)] {
             assert!(energy(&k, &nodes.map(motion)).abs() < 1e-14 * scale);
         }
     }

@@ -1,12 +1,71 @@
-//! The saddle-point system.
+//! The saddle-point system: it alone builds matrices and solvers.
+//!
+//! A [`Scene`] gets its [`Space`]s (one per multigrid level), its [`Contact`]s and their [`Coupling`]; from these come
+//! the blocks of the [`SaddlePoint`], a [`LinearSolver`] for them, and the [`ContactLoop`] over active sets. What the
+//! solution means on the bodies is in [`recovery`].
+
+mod contact_loop;
+mod coupling_rows;
+mod field;
+mod interpolation;
+pub mod recovery;
+mod saddle_point;
+mod scene;
+mod solver;
+mod space;
+mod stiffness_matrix;
+
+pub use contact_loop::{ContactLoop, OuterStep, Solution, Verdict};
+pub use coupling_rows::CouplingRows;
+pub use field::Field;
+pub use interpolation::interpolation;
+pub use saddle_point::{Form, SaddlePoint};
+pub use scene::{Contact, Coupled, Coupling, Scene, bilateral};
+pub use solver::{Ending, LinearSolve, LinearSolver};
+pub use space::Space;
+pub use stiffness_matrix::{fill_stiffness, prepare_stiffness};
+
+use crate::body::SupportError;
+use crate::contact::PlacingError;
+use crate::element::BadJacobian;
+use crate::petsc;
 
 /// Which linear solver the case asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolverChoice {
-    /// Direct for small systems, field split else.
+    /// The field split.
     Auto,
     /// Block preconditioner and Krylov iteration.
     FieldSplit,
-    /// Sparse factorisation.
+    /// Sparse factorisation of the whole system.
     Direct,
+}
+
+/// Why a system cannot be set up or solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SystemError {
+    /// The case asks for something that cannot be; in words.
+    #[error("{0}")]
+    Case(String),
+    /// PETSc or MPI failed.
+    #[error(transparent)]
+    Petsc(#[from] petsc::Error),
+}
+
+impl From<BadJacobian> for SystemError {
+    fn from(error: BadJacobian) -> Self {
+        Self::Case(format!("mesh: {error}; refine the mesh along the curved boundary, or correct its [geometry]"))
+    }
+}
+
+impl From<PlacingError> for SystemError {
+    fn from(error: PlacingError) -> Self {
+        Self::Case(error.to_string())
+    }
+}
+
+impl From<SupportError> for SystemError {
+    fn from(error: SupportError) -> Self {
+        Self::Case(error.0)
+    }
 }

@@ -1,0 +1,287 @@
+//! The loop over active sets.
+
+use super::scene::{Contact, Coupled, bilateral};
+use super::solver::Ending;
+use super::{Coupling, LinearSolver, SaddlePoint, Scene, Space, SystemError};
+use crate::body::Constraints;
+use crate::contact::{ActiveSet, Condition, Mechanism, Step, find_mechanism};
+use crate::element::Order;
+use crate::geometry::Point;
+use crate::mesh::{Level, Numbering};
+use crate::petsc::{Session, Vector};
+
+/// Relative residual of the solves inside the loop: enough to find the right set.
+const LOOSE: f64 = 1e-4;
+
+/// Active sets tried at most.
+const MOST_SETS: usize = 60;
+
+/// One pass of the loop, in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OuterStep {
+    /// Number of the pass, from 1.
+    pub iteration: usize,
+    /// Active multipliers of the solve.
+    pub active: usize,
+    /// Multipliers that became active after it.
+    pub added: usize,
+    /// Multipliers that were released after it.
+    pub released: usize,
+    /// Krylov iterations of its linear solve.
+    pub krylov_iterations: usize,
+    /// Its relative residual.
+    pub residual: f64,
+    /// Largest mean penetration over a multiplier (length).
+    pub max_penetration: f64,
+    /// Change of the displacement, relative to its norm.
+    pub du: f64,
+}
+
+/// How the loop ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Everything stands still within its tolerance; in words.
+    Converged(String),
+    /// It does not, or a body is not held; in words.
+    NotConverged(String),
+}
+
+/// State of the loop: the solution so far.
+pub struct Solution {
+    /// How it ended.
+    pub verdict: Verdict,
+    /// This rank's displacements, in the nodes' frames, prescribed components included.
+    pub displacement: Vec<f64>,
+    /// Contact pressures of all multipliers, along the boundaries (stress).
+    pub multipliers: Vec<f64>,
+    /// Which multipliers are active.
+    pub active: Vec<bool>,
+    /// Every pass.
+    pub steps: Vec<OuterStep>,
+    /// Relative residual of the augmented system.
+    pub residual: f64,
+    /// Relative residual of the plain system.
+    pub plain_residual: f64,
+}
+
+/// What the loop works on.
+pub struct ContactLoop<'a> {
+    /// The physics.
+    pub scene: &'a Scene,
+    /// The contacts.
+    pub contacts: &'a [Contact],
+    /// Their couplings.
+    pub coupling: &'a Coupling,
+    /// All levels, coarsest first.
+    pub spaces: &'a [Space],
+    /// All ranks.
+    pub session: &'a Session,
+}
+
+impl ContactLoop<'_> {
+    /// A body that neither supports nor the active multipliers hold.
+    pub fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
+        let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &self.scene.partition);
+        let mut conditions = support_conditions(self.scene, &numbering);
+        let place = |coupled: &Coupled| {
+            (coupled.body, coupled.node.place(&self.scene.mesh, &self.finest().numbering), coupled.value)
+        };
+        let rows = self.coupling.rows.iter().zip(active).filter(|(_, active)| **active);
+        conditions.extend(rows.map(|(row, _)| row.iter().map(place).collect::<Condition>()));
+        find_mechanism(&self.scene.extents(), &conditions)
+    }
+
+    fn finest(&self) -> &Space {
+        &self.spaces[self.spaces.len() - 1]
+    }
+
+    /// Words for a body that is not held.
+    pub fn not_held(&self, mechanism: &Mechanism, any_active: bool) -> String {
+        let by = if any_active { "supports and contact do not hold it" } else { "contact is open everywhere and supports do not hold it" };
+        format!("body {} can {}: {by}", self.scene.bodies[mechanism.body].name, mechanism.motion)
+    }
+
+    /// Solves until the active set stands and the last residual is below `tolerance`; `report` hears every pass. **Collective**
+    pub fn solve(
+        &self,
+        system: &mut SaddlePoint,
+        solver: &mut LinearSolver,
+        set: &mut ActiveSet,
+        tolerance: f64,
+        mut report: impl FnMut(&OuterStep),
+    ) -> Result<Solution, SystemError> {
+        let (mut x, _) = system.nest.create_vectors()?;
+        let mut before = vec![0.0; self.finest().local_unknowns()];
+        let mut goal = if set.may_change() { tolerance.max(LOOSE) } else { tolerance };
+        let mut steps = Vec::new();
+        let verdict = loop {
+            let active = set.active().to_vec();
+            let b = system.right_hand_side(&active, self.finest())?;
+            let solve = solver.solve(system, &b, &mut x, goal)?;
+            let lambda = self.pressures(system, &x);
+            let penetration = self.penetration(system, &x);
+            let outcome = match solve.ending {
+                Ending::Failed(_) => Step::Settled,
+                _ => set.update(|i| self.force(i, &active, &lambda, &penetration)),
+            };
+            let mut step = OuterStep {
+                iteration: steps.len() + 1,
+                active: active.iter().filter(|active| **active).count(),
+                added: 0,
+                released: 0,
+                krylov_iterations: solve.iterations,
+                residual: solve.residual,
+                max_penetration: self.largest_penetration(&penetration),
+                du: self.change(&x, &mut before),
+            };
+            if let Step::Changed { added, released } = outcome {
+                (step.added, step.released) = (added, released);
+            }
+            report(&step);
+            steps.push(step);
+            match (outcome, solve.ending) {
+                (_, Ending::Failed(words)) => break Verdict::NotConverged(words),
+                (Step::Settled, _) if goal > tolerance => goal = tolerance,
+                (Step::Settled, Ending::Rounding(words)) => break Verdict::Converged(words),
+                (Step::Settled, Ending::Converged) => break Verdict::Converged(settled(set)),
+                (Step::Repeated(flipping), _) if goal <= tolerance => break Verdict::NotConverged(self.cycle(&flipping)),
+                (Step::Repeated(_), _) => {
+                    goal = tolerance;
+                    set.forget();
+                }
+                (Step::Changed { .. }, _) if steps.len() >= MOST_SETS => {
+                    break Verdict::NotConverged(format!("the active set still changes after {MOST_SETS} solves"));
+                }
+                (Step::Changed { .. }, _) => {}
+            }
+            if set.active() != active {
+                if let Some(mechanism) = self.mechanism(set.active()) {
+                    break Verdict::NotConverged(self.not_held(&mechanism, set.active().contains(&true)));
+                }
+                system.activate(self.contacts, set.active(), self.spaces)?;
+                solver.refresh(system)?;
+                self.release(system, &mut x, set.active());
+            }
+        };
+        self.finish(system, &x, set, steps, verdict)
+    }
+
+    fn finish(&self, system: &SaddlePoint, x: &Vector, set: &ActiveSet, steps: Vec<OuterStep>, verdict: Verdict) -> Result<Solution, SystemError> {
+        let b = system.right_hand_side(set.active(), self.finest())?;
+        let mut r = b.duplicate()?;
+        system.nest.residual(&b, x, &mut r)?;
+        let norm = b.norm()?;
+        let unknowns = self.finest().local_unknowns();
+        let mut displacement = x.values()[..unknowns].to_vec();
+        for (node, constraint) in self.finest().constraints.iter().filter(|(node, _)| self.finest().own.contains(node)) {
+            for k in (0..2).filter(|&k| constraint.fixed[k]) {
+                displacement[2 * (node - self.finest().own.start) + k] = constraint.value[k];
+            }
+        }
+        Ok(Solution {
+            verdict,
+            displacement,
+            multipliers: self.pressures(system, x),
+            active: set.active().to_vec(),
+            residual: if norm > 0.0 { r.norm()? / norm } else { 0.0 },
+            plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)?,
+            steps,
+        })
+    }
+
+    /// `λ_i = s_i λ̂_i` of all multipliers. **Collective**
+    fn pressures(&self, system: &SaddlePoint, x: &Vector) -> Vec<f64> {
+        let all = system.collect(&x.values()[self.finest().local_unknowns()..], self.session);
+        all.iter().zip(&system.scale).map(|(value, scale)| value * scale).collect()
+    }
+
+    /// `(B u - c)_i` of all multipliers, active or not (length squared). **Collective**
+    fn penetration(&self, system: &SaddlePoint, x: &Vector) -> Vec<f64> {
+        let values = x.values();
+        let own = &self.finest().own;
+        let mut all = vec![0.0; system.gap.len()];
+        for (i, sum) in all.iter_mut().enumerate() {
+            for &(node, entry) in system.finest_rows().row(i) {
+                if own.contains(&node) {
+                    let at = 2 * (node - own.start);
+                    *sum += entry.x * values[at] + entry.y * values[at + 1];
+                }
+            }
+        }
+        self.session.sum(&mut all);
+        all.iter_mut().zip(&system.gap).for_each(|(sum, gap)| *sum -= gap);
+        all
+    }
+
+    /// `λ_i + κ_i (B u - c)_i`: positive where the next set is active.
+    fn force(&self, i: usize, active: &[bool], lambda: &[f64], penetration: &[f64]) -> f64 {
+        let contact = self.contacts.iter().find(|contact| contact.range().contains(&i)).expect("a multiplier has a contact");
+        let penalty = contact.multipliers.penalty(i - contact.first, contact.modulus);
+        (if active[i] { lambda[i] } else { 0.0 }) + penalty * penetration[i]
+    }
+
+    fn largest_penetration(&self, penetration: &[f64]) -> f64 {
+        let mean = |contact: &Contact| {
+            let own = |i: usize| penetration[i] / contact.multipliers.weight(i - contact.first);
+            contact.range().map(own).fold(0.0, f64::max)
+        };
+        self.contacts.iter().map(mean).fold(0.0, f64::max)
+    }
+
+    /// Change of the displacement since the last call, relative to its norm. **Collective**
+    fn change(&self, x: &Vector, before: &mut [f64]) -> f64 {
+        let mut squares = [0.0; 2];
+        for (now, then) in x.values().iter().zip(before.iter_mut()) {
+            squares[0] += (now - *then).powi(2);
+            squares[1] += now * now;
+            *then = *now;
+        }
+        self.session.sum(&mut squares);
+        if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 }
+    }
+
+    /// Released multipliers start the next solve from zero.
+    fn release(&self, system: &SaddlePoint, x: &mut Vector, active: &[bool]) {
+        let unknowns = self.finest().local_unknowns();
+        let mut values = x.values_mut();
+        for (at, &i) in system.numbers.own.iter().enumerate() {
+            if !active[i] {
+                values[unknowns + at] = 0.0;
+            }
+        }
+    }
+
+    fn cycle(&self, flipping: &[usize]) -> String {
+        let name = |&i: &usize| {
+            let contact = self.contacts.iter().find(|contact| contact.range().contains(&i)).expect("a multiplier has a contact");
+            let segment = contact.multipliers.segment_of(i - contact.first);
+            let [s, t] = [contact.boundary.arcs()[segment], contact.boundary.arcs()[segment + 1]];
+            format!("{} segment {segment} (s = {s:.4} ... {t:.4})", contact.pair.name)
+        };
+        let names: Vec<String> = flipping.iter().map(name).collect();
+        format!("the active set repeats itself; these flip: {}; use fewer segments or another multiplier space", names.join(", "))
+    }
+}
+
+fn settled(set: &ActiveSet) -> String {
+    if set.may_change() { "the active set stands and the residual is below its tolerance".into() } else { "the residual is below its tolerance".into() }
+}
+
+/// Everything that supports hold, at the macro vertices.
+fn support_conditions(scene: &Scene, numbering: &Numbering) -> Vec<Condition> {
+    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports) else { return Vec::new() };
+    let mut body = vec![0; scene.mesh.vertices.len()];
+    for triangle in &scene.mesh.triangles {
+        triangle.vertices.iter().for_each(|&vertex| body[vertex as usize] = triangle.body as usize);
+    }
+    let mut conditions = Vec::new();
+    for (vertex, &x) in scene.mesh.vertices.iter().enumerate() {
+        let Some(constraint) = constraints.get(numbering.vertex(vertex as u32)) else { continue };
+        for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
+            if constraint.fixed[k] {
+                conditions.push(vec![(body[vertex], x, constraint.to_global(axis))]);
+            }
+        }
+    }
+    conditions
+}

@@ -1,0 +1,86 @@
+//! Interpolation of displacements from one level to the next finer one.
+
+use super::{Scene, Space, SystemError};
+use crate::geometry::Point;
+use crate::mesh::lattice::{self, Place};
+use crate::petsc::{Matrix, Session};
+
+/// Linear interpolation `P` (fine unknowns x coarse unknowns): a node takes over the value of its coarse twin, or the
+/// mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns of
+/// prescribed coarse ones are zero. **Collective**
+pub fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Matrix, SystemError> {
+    let rows = Rows::new(scene, fine, coarse, session);
+    let mut diagonal = vec![0; fine.local_unknowns()];
+    let mut off_diagonal = vec![0; fine.local_unknowns()];
+    for (node, parents) in rows.iter() {
+        let at = 2 * (node - fine.own.start);
+        for parent in distinct(parents) {
+            let turned = fine.constraints.get(node).is_some() || coarse.constraints.get(parent).is_some();
+            let counts = if coarse.own.contains(&parent) { &mut diagonal } else { &mut off_diagonal };
+            counts[at] += if turned { 2 } else { 1 };
+            counts[at + 1] += if turned { 2 } else { 1 };
+        }
+    }
+    let mut matrix = Matrix::aij(session, fine.local_unknowns(), coarse.local_unknowns(), 1, &diagonal, &off_diagonal)?;
+    for (node, parents) in rows.iter() {
+        let weight = 1.0 / distinct(parents).count() as f64;
+        for parent in distinct(parents) {
+            insert(&mut matrix, fine, coarse, node, parent, weight)?;
+        }
+    }
+    matrix.assemble()?;
+    Ok(matrix)
+}
+
+fn distinct([a, b]: [usize; 2]) -> impl Iterator<Item = usize> {
+    [Some(a), (a != b).then_some(b)].into_iter().flatten()
+}
+
+fn insert(matrix: &mut Matrix, fine: &Space, coarse: &Space, node: usize, parent: usize, weight: f64) -> Result<(), SystemError> {
+    let (row, column) = (2 * node as i32, 2 * parent as i32);
+    let constraint = coarse.constraints.get(parent);
+    if constraint.is_none() && fine.constraints.get(node).is_none() {
+        matrix.insert(&[row], &[column], &[weight])?;
+        matrix.insert(&[row + 1], &[column + 1], &[weight])?;
+        return Ok(());
+    }
+    let image = |k: usize| {
+        let axis = Point::new(if k == 0 { 1.0 } else { 0.0 }, if k == 1 { 1.0 } else { 0.0 });
+        let free = constraint.map_or(axis, |c| c.free(axis));
+        fine.free(node, coarse.to_global(parent, free)) * weight
+    };
+    let (x, y) = (image(0), image(1));
+    matrix.insert(&[row, row + 1], &[column, column + 1], &[x.x, y.x, x.y, y.y])?;
+    Ok(())
+}
+
+/// Owned fine nodes with their coarse parents, each node once.
+struct Rows(Vec<[u32; 3]>);
+
+impl Rows {
+    fn new(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Self {
+        let n = fine.numbering.level.intervals;
+        let mut seen = vec![false; fine.own.len()];
+        let mut rows = Vec::with_capacity(fine.own.len());
+        for &triangle in scene.partition.triangles_of(session.rank()) {
+            let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
+            let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
+            for (i, j) in lattice::nodes(n) {
+                let node = numbers.node(i, j);
+                if !matches!(lattice::place(n, i, j), Place::Inside(_)) {
+                    if !fine.own.contains(&node) || seen[node - fine.own.start] {
+                        continue;
+                    }
+                    seen[node - fine.own.start] = true;
+                }
+                let [a, b] = lattice::parents(i, j).map(|(i, j)| below.node(i, j) as u32);
+                rows.push([node as u32, a, b]);
+            }
+        }
+        Self(rows)
+    }
+
+    fn iter(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
+        self.0.iter().map(|&[node, a, b]| (node as usize, [a as usize, b as usize]))
+    }
+}

@@ -1,0 +1,217 @@
+//! Linear solvers of the saddle point.
+//!
+//! `fieldsplit`: GMRES, preconditioned from the right by the block upper triangle of `K + BᵀDB` and `S = -D⁻¹`; one
+//! geometric multigrid F-cycle stands for the inverse of the first, or BoomerAMG where the mesh has no levels.
+//! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override.
+
+use super::saddle_point::SchurPattern;
+use super::{Form, SaddlePoint, SolverChoice, SystemError};
+use crate::petsc::{Krylov, Level, Matrix, Session, Vector, options};
+
+/// Iterations after which a solve has failed.
+const MOST_ITERATIONS: usize = 300;
+
+/// Unknowns up to which the coarsest level is factorised on every rank.
+const SMALL: usize = 3000;
+
+/// A solver, ready for one system.
+pub struct LinearSolver {
+    krylov: Krylov,
+    session: Session,
+    form: Form,
+    /// The converted system of the direct solver.
+    converted: Option<Matrix>,
+    /// What preconditions the displacement block, in words.
+    pub name: String,
+}
+
+/// How a linear solve ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// The tolerance is reached.
+    Converged,
+    /// Rounding allows no smaller residual; in words.
+    Rounding(String),
+    /// The residual stays too large; in words.
+    Failed(String),
+}
+
+/// A linear solve in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearSolve {
+    /// How it ended.
+    pub ending: Ending,
+    /// Krylov iterations.
+    pub iterations: usize,
+    /// True residual of the augmented system, relative to the right-hand side.
+    pub residual: f64,
+}
+
+impl SolverChoice {
+    /// Whether the system is augmented for this solver.
+    pub fn form(self) -> Form {
+        match self {
+            Self::Auto | Self::FieldSplit => Form::Augmented,
+            Self::Direct => Form::Plain,
+        }
+    }
+}
+
+impl LinearSolver {
+    /// Sets a solver up; `interpolations[l]` leads from level `l` to level `l + 1`. **Collective**
+    pub fn new(system: &SaddlePoint, interpolations: &[Matrix], choice: SolverChoice, session: &Session) -> Result<Self, SystemError> {
+        match choice.form() {
+            Form::Augmented => Self::field_split(system, interpolations, session),
+            Form::Plain => Self::direct(system, session),
+        }
+    }
+
+    fn field_split(system: &SaddlePoint, interpolations: &[Matrix], session: &Session) -> Result<Self, SystemError> {
+        let multigrid = !interpolations.is_empty();
+        let (coarse_rows, _) = system.stiffness[0].size();
+        for (name, value) in field_split_options(system.pattern, multigrid, coarse_rows, session.size()) {
+            options::set_default(session, name, value)?;
+        }
+        let krylov = Krylov::new(session, "")?;
+        krylov.set_operators(&system.nest, &system.nest)?;
+        let [u, lambda] = system.nest.nest_index_sets()?;
+        let preconditioner = krylov.preconditioner();
+        preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.schur)?;
+        krylov.set_from_options()?;
+        krylov.set_up()?;
+        if multigrid {
+            let solvers = preconditioner.field_split_solvers()?;
+            let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
+            let levels: Vec<Level> =
+                system.stiffness.iter().zip(steps).map(|(operator, interpolation)| Level { operator, interpolation }).collect();
+            options::clear(session, "-fieldsplit_u_pc_type")?;
+            solvers[0].preconditioner().multigrid(&levels)?;
+            solvers[0].set_up()?;
+        }
+        let inner = if multigrid { "multigrid F-cycle" } else { "BoomerAMG" };
+        let name = format!("fieldsplit ({inner})");
+        Ok(Self { krylov, session: session.clone(), form: Form::Augmented, converted: None, name })
+    }
+
+    fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {
+        for (name, value) in [
+            ("-ksp_type", "gmres"),
+            ("-ksp_pc_side", "right"),
+            ("-ksp_norm_type", "unpreconditioned"),
+            ("-pc_type", "cholesky"),
+            ("-pc_factor_mat_solver_type", "mumps"),
+        ] {
+            options::set_default(session, name, value)?;
+        }
+        let krylov = Krylov::new(session, "")?;
+        let mut solver = Self { krylov, session: session.clone(), form: Form::Plain, converted: None, name: "direct (MUMPS)".into() };
+        solver.refresh(system)?;
+        solver.krylov.set_from_options()?;
+        solver.krylov.set_up()?;
+        Ok(solver)
+    }
+
+    /// Takes over changed blocks. **Collective**
+    pub fn refresh(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
+        if self.form == Form::Plain {
+            let mut converted = system.nest.convert_aij()?;
+            converted.set_symmetric(true)?;
+            self.krylov.set_operators(&converted, &converted)?;
+            self.converted = Some(converted);
+        } else {
+            self.krylov.set_operators(&system.nest, &system.nest)?;
+        }
+        Ok(())
+    }
+
+    /// Options that the user gave and no object of this solver has asked for.
+    pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
+        Ok(options::unused(&self.session)?)
+    }
+
+    /// Solves from the `x` that is given, until the residual is below `tolerance |b|` or rounding stops it. **Collective**
+    pub fn solve(&self, system: &SaddlePoint, b: &Vector, x: &mut Vector, tolerance: f64) -> Result<LinearSolve, SystemError> {
+        let norm = b.norm()?;
+        if norm == 0.0 {
+            x.set(0.0)?;
+            return Ok(LinearSolve { ending: Ending::Converged, iterations: 0, residual: 0.0 });
+        }
+        self.krylov.set_initial_guess_nonzero(true)?;
+        self.krylov.set_tolerance(tolerance, MOST_ITERATIONS)?;
+        let mut r = b.duplicate()?;
+        let (mut iterations, mut before) = (0, f64::INFINITY);
+        loop {
+            let solved = self.krylov.solve_allowing(b, x)?;
+            iterations += solved.iterations;
+            system.nest.residual(b, x, &mut r)?;
+            let residual = r.norm()? / norm;
+            if residual <= tolerance {
+                return Ok(LinearSolve { ending: Ending::Converged, iterations, residual });
+            }
+            if !(residual < 0.5 * before) || iterations >= MOST_ITERATIONS {
+                let floor = self.rounding(system, x, norm)?;
+                let ending = if residual <= floor {
+                    Ending::Rounding(format!("the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"))
+                } else {
+                    let reason = if solved.converged { "the residual no longer falls".to_string() } else { solved.reason };
+                    Ending::Failed(format!("linear solver: {reason} after {iterations} iterations, residual {residual:.1e}"))
+                };
+                return Ok(LinearSolve { ending, iterations, residual });
+            }
+            before = residual;
+        }
+    }
+
+    /// Size that rounding alone can give the relative residual: `10 ε |K| |x| / |b|`.
+    fn rounding(&self, system: &SaddlePoint, x: &Vector, norm: f64) -> Result<f64, SystemError> {
+        let stiffness = system.stiffness[system.stiffness.len() - 1].norm_infinity()?;
+        Ok(10.0 * f64::EPSILON * stiffness * x.norm()? / norm)
+    }
+}
+
+/// Defaults of the field split; what a user gives after `--` wins.
+fn field_split_options(pattern: SchurPattern, multigrid: bool, coarse_rows: usize, ranks: usize) -> Vec<(&'static str, &'static str)> {
+    let alone = ranks == 1;
+    let mut all = vec![
+        ("-ksp_type", "gmres"),
+        ("-ksp_pc_side", "right"),
+        ("-ksp_gmres_restart", "60"),
+        ("-ksp_norm_type", "unpreconditioned"),
+        ("-pc_type", "fieldsplit"),
+        ("-fieldsplit_u_ksp_type", "preonly"),
+        ("-fieldsplit_lambda_ksp_type", "preonly"),
+    ];
+    let lambda = match pattern {
+        SchurPattern::Diagonal => "jacobi",
+        SchurPattern::Pairs => "pbjacobi",
+        SchurPattern::Mixed if alone => "lu",
+        SchurPattern::Mixed => "redundant",
+    };
+    all.push(("-fieldsplit_lambda_pc_type", lambda));
+    if !multigrid {
+        all.extend([
+            ("-fieldsplit_u_pc_type", "hypre"),
+            ("-fieldsplit_u_pc_hypre_type", "boomeramg"),
+            ("-fieldsplit_u_pc_hypre_boomeramg_coarsen_type", "HMIS"),
+            ("-fieldsplit_u_pc_hypre_boomeramg_interp_type", "ext+i"),
+            ("-fieldsplit_u_pc_hypre_boomeramg_strong_threshold", "0.25"),
+        ]);
+        return all;
+    }
+    all.extend([
+        // Multigrid takes its place once the block solvers exist.
+        ("-fieldsplit_u_pc_type", "none"),
+        ("-fieldsplit_u_mg_levels_ksp_type", "richardson"),
+        ("-fieldsplit_u_mg_levels_ksp_max_it", "1"),
+        ("-fieldsplit_u_mg_levels_pc_type", "sor"),
+        ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
+    ]);
+    if coarse_rows > SMALL {
+        all.extend([("-fieldsplit_u_mg_coarse_pc_type", "cholesky"), ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps")]);
+    } else if alone {
+        all.push(("-fieldsplit_u_mg_coarse_pc_type", "lu"));
+    } else {
+        all.extend([("-fieldsplit_u_mg_coarse_pc_type", "redundant"), ("-fieldsplit_u_mg_coarse_redundant_pc_type", "lu")]);
+    }
+    all
+}
