@@ -189,9 +189,12 @@ fn write_file(
     write().map_err(OutputError::io("write", path))
 }
 
-/// The opening tag of an array, up to its last attribute.
+/// The opening tag of an array, up to its last attribute. One component goes unsaid: meshio would make columns of scalars.
 fn declaration(tag: &str, kind: &str, name: &str, components: usize, labels: &[&str]) -> String {
-    let mut text = format!("<{tag} type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\"");
+    let mut text = format!("<{tag} type=\"{kind}\" Name=\"{name}\"");
+    if components > 1 {
+        text += &format!(" NumberOfComponents=\"{components}\"");
+    }
     for (number, label) in labels.iter().enumerate() {
         text += &format!(" ComponentName{number}=\"{label}\"");
     }

@@ -1,21 +1,14 @@
-//! Figures.
-use std::path::Path;
-use super::{ContactPoint, OutputError};
+//! Figures, as SVG: the contact boundary in two diagrams, and the deformed bodies.
+//!
+//! Units are the user's own, so axes name the quantity: *unit of length*, *unit of stress*. Text is left to the fonts of the viewer;
+//! plotters is built without its font libraries, and nothing of the layout hangs on the exact width of a text.
 
-/// A triangle of a body as the figure of the deformed bodies shows it; midside nodes are left out.
-#[derive(Clone, Copy, Debug)]
-pub struct Facet {
-    /// Undeformed corners.
-    pub corners: [[f64; 2]; 3],
-    /// Their displacements.
-    pub displacement: [[f64; 2]; 3],
-    /// Von Mises stress of the triangle.
-    pub von_mises: f64,
-}
+mod along;
+mod deformed;
+mod outline;
+mod palette;
+mod sheet;
+mod ticks;
 
-/// Draws pressure.
-pub fn write_pressure(path: &Path, title: &str, points: &[ContactPoint]) -> Result<(), OutputError> { let _ = (path, title, points); Ok(()) }
-/// Draws displacement.
-pub fn write_displacement(path: &Path, title: &str, points: &[ContactPoint]) -> Result<(), OutputError> { let _ = (path, title, points); Ok(()) }
-/// Draws the deformed bodies.
-pub fn write_deformed(path: &Path, title: &str, scale: Option<f64>, facets: &[Facet], contacts: &[&[ContactPoint]]) -> Result<(), OutputError> { let _ = (path, title, scale, facets, contacts); Ok(()) }
+pub use along::{write_displacement, write_pressure};
+pub use deformed::{Facet, write_deformed};
