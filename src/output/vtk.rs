@@ -56,8 +56,7 @@ pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S]) -> Res
     write_file(path, "PUnstructuredGrid", |out| {
         writeln!(out, "<PPoints>\n{}\n</PPoints>", declaration("PDataArray", "Float64", "Points", 3, &[]) + "/>")?;
         writeln!(out, "<PPointData>")?;
-        for (name, components, labels) in
-            [("displacement", 3, &[][..]), ("stress", 4, &STRESS_COMPONENTS), ("von_mises", 1, &[])]
+        for (name, components, labels) in [("displacement", 3, &[][..]), ("stress", 4, &STRESS_COMPONENTS), ("von_mises", 1, &[])]
         {
             writeln!(out, "{}/>", declaration("PDataArray", "Float64", name, components, labels))?;
         }
@@ -122,9 +121,7 @@ impl Piece<'_> {
             ("the list of nodes of the triangles", self.cells.len(), self.body.len() * self.nodes_per_cell()),
         ];
         match lengths.into_iter().find(|(_, found, expected)| found != expected) {
-            Some((what, found, expected)) => {
-                Err(OutputError::Length { path: path.to_path_buf(), what, found, expected })
-            }
+            Some((what, found, expected)) => Err(OutputError::Length { path: path.to_path_buf(), what, found, expected }),
             None => Ok(()),
         }
     }
@@ -172,11 +169,7 @@ fn write_mesh(
 }
 
 /// Writes a file of VTK's XML format around a data set of the given kind.
-fn write_file(
-    path: &Path,
-    kind: &str,
-    body: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), OutputError> {
+fn write_file(path: &Path, kind: &str, body: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), OutputError> {
     let write = || {
         let mut out = BufWriter::with_capacity(1 << 20, File::create(path)?);
         writeln!(out, "<?xml version=\"1.0\"?>\n<!--\n{}\n-->", SIGNS.join("\n"))?;
@@ -256,4 +249,87 @@ number!(u8, "UInt8");
 /// Text as an XML attribute.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The bytes of the numbers of an array, without the count before them, which is checked.
+    fn decoded(text: &str, name: &str) -> Vec<u8> {
+        let (_, after) = text.split_once(&format!("Name=\"{name}\"")).unwrap();
+        let bytes = STANDARD.decode(after.lines().nth(1).unwrap()).unwrap();
+        let (count, numbers) = bytes.split_at(8);
+        assert_eq!(u64::from_le_bytes(count.try_into().unwrap()), numbers.len() as u64, "{name}");
+        numbers.to_vec()
+    }
+
+    fn doubles(bytes: &[u8]) -> Vec<f64> {
+        bytes.chunks_exact(8).map(|number| f64::from_le_bytes(number.try_into().unwrap())).collect()
+    }
+
+    #[test]
+    fn arrays_survive_every_chunk_boundary() {
+        for count in [0, 1, 2, 3_070, 3_071, 3_072, 10_000] {
+            let mut text = Vec::new();
+            write_array(&mut text, "a", 1, &[], count, (0..count).map(|i| i as f64 / 3.0)).unwrap();
+            let text = String::from_utf8(text).unwrap();
+            let values = doubles(&decoded(&text, "a"));
+            assert!(values.len() == count && values.iter().enumerate().all(|(i, &value)| value == i as f64 / 3.0), "{count}");
+        }
+    }
+
+    #[test]
+    fn piece_holds_what_was_given() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.vtu");
+        let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let piece = Piece {
+            points: &points,
+            cells: &[0, 1, 2],
+            order: Order::P1,
+            displacement: &points,
+            stress: &[[1.0, 2.0, 3.0, 4.0]; 3],
+            von_mises: &[5.0, 6.0, 7.0],
+            body: &[9],
+            rank: 4,
+        };
+        write_piece(&path, &piece).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(doubles(&decoded(&text, "displacement")), [0., 0., 0., 1., 0., 0., 0., 1., 0.]);
+        assert_eq!(doubles(&decoded(&text, "stress")), [1.0, 2.0, 3.0, 4.0].repeat(3));
+        assert_eq!(decoded(&text, "connectivity"), [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
+        assert_eq!(decoded(&text, "offsets"), [3, 0, 0, 0]);
+        assert_eq!(decoded(&text, "types"), [VTK_TRIANGLE]);
+        assert_eq!((decoded(&text, "body"), decoded(&text, "rank")), (vec![9, 0, 0, 0], vec![4, 0, 0, 0]));
+        assert!(text.contains("ComponentName3=\"ZZ\"") && SIGNS.iter().all(|sign| text.contains(sign)));
+    }
+
+    #[test]
+    fn arrays_of_unequal_length_are_refused() {
+        let piece = Piece {
+            points: &[[0.0; 2]; 3],
+            cells: &[0, 1, 2],
+            order: Order::P2,
+            displacement: &[[0.0; 2]; 3],
+            stress: &[[0.0; 4]; 3],
+            von_mises: &[0.0; 3],
+            body: &[0],
+            rank: 0,
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let refusal = write_piece(&folder.path().join("fields.vtu"), &piece).unwrap_err();
+        assert!(matches!(refusal, OutputError::Length { found: 3, expected: 6, .. }), "{refusal}");
+        let short = Piece { order: Order::P1, von_mises: &[0.0; 2], ..piece };
+        assert!(write_piece(&folder.path().join("fields.vtu"), &short).unwrap_err().to_string().contains("von Mises"));
+        assert!(!folder.path().join("fields.vtu").exists());
+    }
+
+    #[test]
+    fn curve_of_no_points_is_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        write_curve(&folder.path().join("contact_a.vtu"), &[]).unwrap();
+        write_parallel(&folder.path().join("fields.pvtu"), &["a&b.vtu"]).unwrap();
+        assert!(std::fs::read_to_string(folder.path().join("fields.pvtu")).unwrap().contains("Source=\"a&amp;b.vtu\""));
+    }
 }

@@ -10,9 +10,9 @@ use super::sheet::{AxisSpec, Chart, DrawResult, Sheet, line};
 use super::ticks::{Ticks, cut_off, number_text};
 use crate::output::{ContactPoint, OutputError};
 
-const SHEET: Sheet = Sheet { width: 820, height: 460, margins: [74, 26, 62, 56] };
+const SHEET: Sheet = Sheet { width: 820, height: 460, margins: [68, 24, 62, 54] };
 
-/// A quantity of the contact boundary and how it is drawn.
+/// A quantity of the contact boundary and how it is drawn; in a list, the first is drawn on top.
 struct Curve {
     name: &'static str,
     style: ShapeStyle,
@@ -28,9 +28,9 @@ struct Curve {
 /// No point has a finite pressure; the operating system refuses.
 pub fn write_pressure(path: &Path, title: &str, points: &[ContactPoint]) -> Result<(), OutputError> {
     let curves = [
+        Curve { name: "contact pressure λ", style: line(&BLUE, 2.0), value: |p| p.lambda },
         Curve { name: "−σ₁ of body 1", style: line(&VERMILION, 1.1), value: |p| -p.sigma_1 },
         Curve { name: "−σ₂ of body 2", style: line(&GREEN, 1.1), value: |p| -p.sigma_2 },
-        Curve { name: "contact pressure λ", style: line(&BLUE, 2.0), value: |p| p.lambda },
     ];
     let mut range = finite_range(path, points, &curves)?;
     range = [range[0].min(0.0), range[1].max(0.0)];
@@ -45,8 +45,8 @@ pub fn write_pressure(path: &Path, title: &str, points: &[ContactPoint]) -> Resu
 /// No point has a finite displacement; the operating system refuses.
 pub fn write_displacement(path: &Path, title: &str, points: &[ContactPoint]) -> Result<(), OutputError> {
     let curves = [
-        Curve { name: "n·u of body 1", style: line(&VERMILION, 2.4), value: |p| p.un_1 },
-        Curve { name: "n·u of body 2", style: line(&BLUE, 1.0), value: |p| p.un_2 },
+        Curve { name: "n·u of body 1", style: line(&VERMILION, 1.1), value: |p| p.un_1 },
+        Curve { name: "n·u of body 2", style: line(&GREEN, 2.6), value: |p| p.un_2 },
     ];
     let range = finite_range(path, points, &curves)?;
     let quantity = Quantity { name: "normal displacement", unit: "length" };
@@ -79,7 +79,7 @@ fn write_curves(
 
     SHEET.write(path, |sheet, area| {
         sheet.draw_title(area, title)?;
-        let legend: Vec<_> = curves.iter().rev().map(|curve| (curve.name, std::slice::from_ref(&curve.style))).collect();
+        let legend: Vec<_> = curves.iter().map(|curve| (curve.name, std::slice::from_ref(&curve.style))).collect();
         sheet.draw_legend(area, &legend)?;
         if let Some(remark) = remark {
             sheet.draw_remark(area, remark)?;
@@ -89,7 +89,7 @@ fn write_curves(
             let zero = vec![(x.range[0], 0.0), (x.range[1], 0.0)];
             chart.draw_series([PathElement::new(zero, line(&GREY, 0.8))])?;
         }
-        for curve in curves {
+        for curve in curves.iter().rev() {
             draw_curve(&mut chart, points, curve)?;
         }
         Ok(String::new())
@@ -141,4 +141,60 @@ fn widened([low, high]: [f64; 2], fraction: f64) -> [f64; 2] {
     let size = high - low;
     let room = if size > 1e-12 * low.abs().max(high.abs()) { fraction * size } else { low.abs().max(high.abs()).max(1e-12) };
     [low - room, high + room]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pressure that steps from 1 to 2 at s = 1, and beyond s = 1.99 to `peak`.
+    fn stepped(peak: f64) -> Vec<ContactPoint> {
+        let values = [(0.0, 1.0), (1.0, 1.0), (1.0, 2.0), (1.99, 2.0), (1.99, peak), (2.0, peak)];
+        let point = |(s, lambda)| ContactPoint {
+            s,
+            x: s,
+            ny: 1.0,
+            lambda,
+            sigma_1: -lambda,
+            sigma_2: -lambda,
+            ..ContactPoint::default()
+        };
+        values.into_iter().map(point).collect()
+    }
+
+    fn draw(
+        write: fn(&Path, &str, &[ContactPoint]) -> Result<(), OutputError>,
+        points: &[ContactPoint],
+    ) -> Result<String, OutputError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("figure.svg");
+        write(&path, "bars <1 & 2>", points).map(|()| std::fs::read_to_string(path).unwrap())
+    }
+
+    #[test]
+    fn jumps_break_the_line() {
+        let figure = draw(write_pressure, &stepped(2.0)).unwrap();
+        let blue: Vec<&str> = figure.lines().filter(|line| line.contains("polyline") && line.contains("#0072B2")).collect();
+        let faint = blue.iter().filter(|line| line.contains("opacity")).count();
+        assert_eq!((blue.len(), faint), (5, 1), "the legend, one jump, three runs: {blue:#?}");
+        assert!(figure.contains("bars &lt;1 &amp; 2&gt;") && figure.ends_with("</svg>\n"));
+        assert!(!figure.contains("peaks"));
+    }
+
+    #[test]
+    fn peaks_are_named_when_cut_off() {
+        assert!(draw(write_pressure, &stepped(40.0)).unwrap().contains("peaks cut off; full range 0 … 40"));
+    }
+
+    #[test]
+    fn gaps_in_the_numbers_are_left_out() {
+        let mut points = stepped(2.0);
+        points[1].un_1 = f64::NAN;
+        assert!(!draw(write_displacement, &points).unwrap().contains("NaN"));
+        for point in &mut points {
+            (point.un_1, point.un_2) = (f64::NAN, f64::INFINITY);
+        }
+        assert!(matches!(draw(write_displacement, &points), Err(OutputError::Figure { .. })));
+        assert!(matches!(draw(write_displacement, &[]), Err(OutputError::Figure { .. })));
+    }
 }

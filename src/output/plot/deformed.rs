@@ -30,9 +30,9 @@ const SHOWN_DISPLACEMENT: f64 = 0.05;
 /// Room for the plot (pixels).
 const ROOM: [f64; 2] = [640.0, 560.0];
 /// A plot is at least this large (pixels).
-const LEAST: [f64; 2] = [260.0, 200.0];
+const LEAST: [f64; 2] = [280.0, 220.0];
 /// Room for the colour bar beside the plot (pixels).
-const BAR_ROOM: i32 = 130;
+const BAR_ROOM: i32 = 120;
 
 /// Draws `deformed.svg`: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact boundaries.
 ///
@@ -57,7 +57,8 @@ pub fn write_deformed(
     let (casing, core, undeformed) = (line(&INK, 3.0), line(&RGBColor(255, 255, 255), 1.4), line(&GREY, 0.7));
     view.sheet.write(path, |sheet, area| {
         sheet.draw_title(area, &format!("{title}, displacements × {}", number_text(scale)))?;
-        sheet.draw_legend(area, &[("contact boundary", &[casing, core]), ("undeformed", &[undeformed])])?;
+        let legend = [("undeformed", &[undeformed][..]), ("contact boundary", &[casing, core])];
+        sheet.draw_legend(area, if contacts.is_empty() { &legend[..1] } else { &legend })?;
         let mut chart = sheet.draw_axes(area, &view.x, &view.y, false)?;
         for contact in contacts {
             let moved = moved_contact(contact, &boundary, scale);
@@ -65,7 +66,9 @@ pub fn write_deformed(
         }
         draw_colour_bar(sheet, area, &colours)?;
         let place = |x: [f64; 2]| chart.backend_coord(&x.into());
-        Ok(outlines(&boundary, 0.0, GREY, place) + &fills(facets, scale, &colours, place) + &outlines(&boundary, scale, INK, place))
+        Ok(outlines(&boundary, 0.0, GREY, place)
+            + &fills(facets, scale, &colours, place)
+            + &outlines(&boundary, scale, INK, place))
     })
 }
 
@@ -99,9 +102,10 @@ impl Facet {
 /// Lower left and upper right corner of the box around all facets.
 fn bounds(facets: &[Facet], scale: f64) -> [[f64; 2]; 2] {
     let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    facets.iter().flat_map(|facet| facet.deformed(scale)).fold(start, |[low, high], x| {
-        [[low[0].min(x[0]), low[1].min(x[1])], [high[0].max(x[0]), high[1].max(x[1])]]
-    })
+    facets
+        .iter()
+        .flat_map(|facet| facet.deformed(scale))
+        .fold(start, |[low, high], x| [[low[0].min(x[0]), low[1].min(x[1])], [high[0].max(x[0]), high[1].max(x[1])]])
 }
 
 /// The part of the plane that is shown, and the sheet that shows it without distortion.
@@ -127,7 +131,7 @@ impl View {
             let ticks = Ticks::new(range, (pixels[axis] / 80.0).ceil() as usize);
             AxisSpec { name: format!("{name} [{}]", ticks.unit("length")), range, ticks }
         };
-        let margins = [66, BAR_ROOM, 62, 56];
+        let margins = [62, BAR_ROOM, 62, 54];
         let [width, height] = pixels.map(|pixels| pixels as i32);
         let sheet = Sheet { width: width + margins[0] + margins[1], height: height + margins[2] + margins[3], margins };
         View { sheet, x: axis_spec(0, "x"), y: axis_spec(1, "y") }
@@ -244,8 +248,8 @@ fn draw_colour_bar(sheet: &Sheet, area: &Area, colours: &Colours) -> DrawResult<
     let [top, bottom] = [sheet.margins[2], sheet.height - sheet.margins[3]].map(|y| y * PIXEL);
     let height_of = |fraction: f64| bottom - (f64::from(bottom - top) * fraction).round() as i32;
     for level in 0..LEVELS {
-        let [low, high] = [level, level + 1].map(|level| height_of(level as f64 / LEVELS as f64));
-        area.draw(&Rectangle::new([(left, high), (right, low)], Colours::colour(level).filled()))?;
+        let low = height_of(level as f64 / LEVELS as f64); // up to the top: the next ones lie on it, without hairlines between
+        area.draw(&Rectangle::new([(left, top), (right, low)], Colours::colour(level).filled()))?;
     }
     area.draw(&Rectangle::new([(left, top), (right, bottom)], line(&GREY, 0.8)))?;
     let ticks = Ticks::new([0.0, colours.top], 5);
@@ -258,9 +262,79 @@ fn draw_colour_bar(sheet: &Sheet, area: &Area, colours: &Colours) -> DrawResult<
     let name = format!("von Mises stress [{}]", ticks.unit("stress"));
     let upright = text_style(12.0, FontStyle::Normal, INK).transform(FontTransform::Rotate270);
     let upright = upright.pos(Pos::new(HPos::Center, VPos::Bottom));
-    area.draw(&Text::new(name, ((sheet.width - 10) * PIXEL, (top + bottom) / 2), upright))?;
+    area.draw(&Text::new(name, (right + 62 * PIXEL, (top + bottom) / 2), upright))?;
     match colours.peak {
         Some(peak) => sheet.draw_remark(area, &format!("stress up to {}", number_text(peak))),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square block [x, x+1] × [0, 1] of n × n × 2 facets.
+    fn block(x: f64, n: usize, displacement: fn(f64, f64) -> [f64; 2], von_mises: fn(f64, f64) -> f64) -> Vec<Facet> {
+        let corner = |i: usize, j: usize| [x + i as f64 / n as f64, j as f64 / n as f64];
+        let mut facets = Vec::new();
+        for (i, j) in (0..n * n).map(|k| (k % n, k / n)) {
+            let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+            facets.extend([[a, b, c], [a, c, d]].map(|corners| Facet {
+                corners,
+                displacement: corners.map(|[x, y]| displacement(x, y)),
+                von_mises: von_mises(a[0], a[1]),
+            }));
+        }
+        facets
+    }
+
+    fn draw(scale: Option<f64>, facets: &[Facet]) -> Result<String, OutputError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deformed.svg");
+        let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
+        write_deformed(&path, "blocks", scale, facets, &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
+    }
+
+    #[test]
+    fn scale_is_round_and_stated() {
+        let facets = block(0.0, 4, |x, _| [3e-5 * x, 0.0], |x, _| x);
+        assert_eq!(automatic_scale(&facets), 2000.0);
+        assert!(draw(None, &facets).unwrap().contains("blocks, displacements × 2000"));
+        assert!(draw(Some(0.5), &facets).unwrap().contains("blocks, displacements × 0.5"));
+        assert_eq!(automatic_scale(&block(0.0, 1, |_, _| [0.0, 0.0], |_, _| 0.0)), 1.0);
+    }
+
+    #[test]
+    fn twenty_thousand_facets_make_a_small_file() {
+        let facets = block(0.0, 100, |x, y| [1e-4 * y, 2e-4 * x * y], |x, y| 1.0 + (7.0 * x).sin() * (9.0 * y).cos());
+        let figure = draw(None, &facets).unwrap();
+        assert!(figure.len() < 200_000, "{} bytes", figure.len());
+    }
+
+    #[test]
+    fn bodies_that_touch_keep_their_own_outlines() {
+        let mut facets = block(0.0, 3, |_, _| [0.0, 0.0], |_, _| 1.0);
+        assert_eq!(boundary_edges(&facets).len(), 12);
+        facets.extend(block(1.0, 3, |_, y| [0.0, 1e-6 + y], |_, _| 1.0));
+        assert_eq!(boundary_edges(&facets).len(), 24);
+        assert_eq!(loops(&boundary_edges(&facets)).len(), 2);
+    }
+
+    #[test]
+    fn contact_moves_with_the_bodies() {
+        let facets = block(0.0, 3, |_, y| [0.0, 0.1 * y], |_, _| 1.0);
+        let point = ContactPoint { x: 1.0, y: 0.5, nx: 1.0, un_1: 0.2, un_2: 0.4, ..ContactPoint::default() };
+        let moved = moved_contact(&[point], &boundary_edges(&facets), 10.0);
+        assert!((moved[0].0 - 4.0).abs() < 1e-6 && (moved[0].1 - 1.0).abs() < 1e-6, "{moved:?}");
+    }
+
+    #[test]
+    fn peaks_of_stress_take_the_last_colour() {
+        let mut facets = block(0.0, 20, |_, _| [0.0, 0.0], |_, _| 2.0);
+        facets[0].von_mises = 100.0;
+        assert!(draw(None, &facets).unwrap().contains("stress up to 100"));
+        facets[0].von_mises = f64::NAN;
+        assert!(matches!(draw(None, &facets), Err(OutputError::Figure { .. })));
+        assert!(matches!(draw(None, &[]), Err(OutputError::Figure { .. })));
     }
 }

@@ -101,9 +101,15 @@ mod tests {
 
     #[test]
     fn labels_are_short_and_exact() {
-        assert_eq!(labels([0.0, 6.1], 6), (["0", "1", "2", "3", "4", "5", "6"].map(String::from).to_vec(), "unit of length".into()));
+        assert_eq!(
+            labels([0.0, 6.1], 6),
+            (["0", "1", "2", "3", "4", "5", "6"].map(String::from).to_vec(), "unit of length".into())
+        );
         assert_eq!(labels([-0.11, 0.21], 3).0, ["−0.1", "0.0", "0.1", "0.2"]);
-        assert_eq!(labels([-7.6e-4, -3.9e-4], 4), (["−7", "−6", "−5", "−4"].map(String::from).to_vec(), "10⁻⁴ units of length".into()));
+        assert_eq!(
+            labels([-7.6e-4, -3.9e-4], 4),
+            (["−7", "−6", "−5", "−4"].map(String::from).to_vec(), "10⁻⁴ units of length".into())
+        );
         assert_eq!(labels([0.0, 2.4e5], 3), (["0", "1", "2"].map(String::from).to_vec(), "10⁵ units of length".into()));
         assert_eq!(labels([1000.0, 1000.2], 2).0, ["1000.0", "1000.1", "1000.2"]);
     }
@@ -128,7 +134,15 @@ mod tests {
 
     #[test]
     fn numbers_for_people() {
-        let cases = [(500.0, "500"), (0.5, "0.5"), (1e6, "10⁶"), (2e6, "2 × 10⁶"), (-1.23456, "−1.235"), (4.5678e-7, "4.568 × 10⁻⁷"), (0.0, "0")];
+        let cases = [
+            (500.0, "500"),
+            (0.5, "0.5"),
+            (1e6, "10⁶"),
+            (2e6, "2 × 10⁶"),
+            (-1.23456, "−1.235"),
+            (4.5678e-7, "4.568 × 10⁻⁷"),
+            (0.0, "0"),
+        ];
         for (number, text) in cases {
             assert_eq!(number_text(number), text);
         }
