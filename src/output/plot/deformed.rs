@@ -30,7 +30,7 @@ const SHOWN_DISPLACEMENT: f64 = 0.05;
 /// Room for the plot (pixels).
 const ROOM: [f64; 2] = [640.0, 560.0];
 /// A plot is at least this large (pixels).
-const LEAST: [f64; 2] = [280.0, 220.0];
+const LEAST: [f64; 2] = [320.0, 220.0];
 /// Room for the colour bar beside the plot (pixels).
 const BAR_ROOM: i32 = 120;
 
