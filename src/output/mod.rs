@@ -1,1 +1,32 @@
-//! The result folder.
+//! The result folder: what a run leaves behind, from plain numbers to files.
+//!
+//! | file | written by |
+//! |---|---|
+//! | `summary.json` | [`Summary::write`] |
+//! | `contact_NAME.csv` | [`write_contact`] |
+//! | `fields.vtu`, or `fields.pvtu` and its pieces; `contact_NAME.vtu` | [`vtk`] |
+//! | `pressure_NAME.svg`, `displacement_NAME.svg`, `deformed.svg` | [`plot`] |
+//!
+//! All of it goes through a [`ResultFolder`], which appears under its name only when it is whole.
+//! Nothing here communicates: in parallel every rank writes its own piece of the fields, and rank 0 the rest.
+
+mod csv;
+mod error;
+mod folder;
+pub mod plot;
+pub mod summary;
+pub mod vtk;
+
+pub use csv::{ContactPoint, write_contact};
+pub use error::OutputError;
+pub use folder::ResultFolder;
+pub use summary::Summary;
+
+/// The signs of a result, as its files state them in their header.
+pub const SIGNS: [&str; 5] = [
+    "n: unit normal of the contact boundary, from body 1 to body 2",
+    "lambda: contact pressure, positive in compression",
+    "gap: n . (x2 - x1) of the deformed bodies; open > 0, touching 0, penetration < 0",
+    "un_i: n . u of body i, positive from body 1 to body 2",
+    "sigma_i: n . sigma n on the trace of body i, tension positive: -lambda where the bodies press",
+];

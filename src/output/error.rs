@@ -1,0 +1,59 @@
+//! What can go wrong on the way to the disk.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A result that could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The folder holds a result, which is kept.
+    #[error("`{}` already holds a result; replace it with --force, or choose another folder with --out", .0.display())]
+    HoldsResult(PathBuf),
+    /// The folder holds files, but no result: they are somebody else's, even with `--force`.
+    #[error("`{}` holds files but no summary.json, so it is not a result that may be replaced; choose another folder with --out", .0.display())]
+    HoldsOtherFiles(PathBuf),
+    /// The target exists and is not a folder.
+    #[error("`{}` is not a folder; choose another one with --out", .0.display())]
+    NotAFolder(PathBuf),
+    /// The target has no name of its own, such as `.` or `/`.
+    #[error("`{}` does not name a folder that can be made; name one with --out, such as out/result", .0.display())]
+    NoName(PathBuf),
+    /// The operating system refused.
+    #[error("cannot {action} `{}`: {source}", path.display())]
+    Io {
+        /// What was tried, in the infinitive.
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The reason of the operating system.
+        source: io::Error,
+    },
+    /// Arrays that belong together differ in length.
+    #[error("cannot write `{}`: {what} has {found} entries, expected {expected}", path.display())]
+    Length {
+        /// The file.
+        path: PathBuf,
+        /// The array.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it should have.
+        expected: usize,
+    },
+    /// A figure that cannot be drawn.
+    #[error("cannot draw `{}`: {reason}", path.display())]
+    Figure {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl OutputError {
+    /// Turns an error of the operating system into ours; for `map_err`.
+    pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> OutputError {
+        let path = path.to_path_buf();
+        move |source| OutputError::Io { action, path, source }
+    }
+}

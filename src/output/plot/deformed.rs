@@ -1,0 +1,340 @@
+//! The deformed bodies.
+
+use std::path::Path;
+
+use plotters::element::{PathElement, Rectangle, Text};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontStyle, FontTransform, RGBColor};
+
+use super::outline::{loops, path_data, unmatched};
+use super::palette::{GREY, INK, viridis};
+use super::sheet::{Area, AxisSpec, DrawResult, PIXEL, Sheet, line, text_style};
+use super::ticks::{Ticks, cut_off, number_text, round_number};
+use crate::output::{ContactPoint, OutputError};
+
+/// A triangle of a body as the figure shows it: corners alone, one colour.
+#[derive(Clone, Copy, Debug)]
+pub struct Facet {
+    /// Undeformed corners, counter-clockwise.
+    pub corners: [[f64; 2]; 3],
+    /// Their displacements.
+    pub displacement: [[f64; 2]; 3],
+    /// Von Mises stress of the triangle.
+    pub von_mises: f64,
+}
+
+/// Steps of the colour bar.
+const LEVELS: usize = 40;
+/// The largest displacement is drawn as about this fraction of the size of the bodies.
+const SHOWN_DISPLACEMENT: f64 = 0.05;
+/// Room for the plot (pixels).
+const ROOM: [f64; 2] = [640.0, 560.0];
+/// A plot is at least this large (pixels).
+const LEAST: [f64; 2] = [320.0, 220.0];
+/// Room for the colour bar beside the plot (pixels).
+const BAR_ROOM: i32 = 120;
+
+/// Draws `deformed.svg`: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact boundaries.
+///
+/// Displacements are multiplied by `scale`; without one, by a round number that makes the largest about 5 % of the size of the bodies.
+/// The title states the factor. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements,
+/// along themselves with the nearest boundary. Neighbouring triangles of nearly the same colour are merged, which keeps the file small.
+///
+/// # Errors
+/// There is no facet, or a number is not finite; the operating system refuses.
+pub fn write_deformed(
+    path: &Path,
+    title: &str,
+    scale: Option<f64>,
+    facets: &[Facet],
+    contacts: &[&[ContactPoint]],
+) -> Result<(), OutputError> {
+    check_facets(path, facets)?;
+    let scale = scale.unwrap_or_else(|| automatic_scale(facets));
+    let view = View::around(facets, scale);
+    let colours = Colours::of(facets);
+    let boundary = boundary_edges(facets);
+    let (casing, core, undeformed) = (line(&INK, 3.0), line(&RGBColor(255, 255, 255), 1.4), line(&GREY, 0.7));
+    view.sheet.write(path, |sheet, area| {
+        sheet.draw_title(area, &format!("{title}, displacements × {}", number_text(scale)))?;
+        let legend = [("undeformed", &[undeformed][..]), ("contact boundary", &[casing, core])];
+        sheet.draw_legend(area, if contacts.is_empty() { &legend[..1] } else { &legend })?;
+        let mut chart = sheet.draw_axes(area, &view.x, &view.y, false)?;
+        for contact in contacts {
+            let moved = moved_contact(contact, &boundary, scale);
+            chart.draw_series([casing, core].map(|style| PathElement::new(moved.clone(), style)))?;
+        }
+        draw_colour_bar(sheet, area, &colours)?;
+        let place = |x: [f64; 2]| chart.backend_coord(&x.into());
+        Ok(outlines(&boundary, 0.0, GREY, place)
+            + &fills(facets, scale, &colours, place)
+            + &outlines(&boundary, scale, INK, place))
+    })
+}
+
+fn check_facets(path: &Path, facets: &[Facet]) -> Result<(), OutputError> {
+    let finite = |facet: &Facet| {
+        let numbers = facet.corners.iter().chain(&facet.displacement).flatten();
+        numbers.chain([&facet.von_mises]).all(|number| number.is_finite())
+    };
+    let reason = match facets {
+        [] => "there is no triangle",
+        _ if !facets.iter().all(finite) => "a displacement or stress is not finite",
+        _ => return Ok(()),
+    };
+    Err(OutputError::Figure { path: path.into(), reason: reason.into() })
+}
+
+/// The round number that makes the largest displacement about 5 % of the size of the bodies; 1 if nothing moves.
+fn automatic_scale(facets: &[Facet]) -> f64 {
+    let [low, high] = bounds(facets, 0.0);
+    let size = (high[0] - low[0]).max(high[1] - low[1]);
+    let largest = facets.iter().flat_map(|facet| facet.displacement).map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);
+    if largest > 1e-300 * size { round_number(SHOWN_DISPLACEMENT * size / largest) } else { 1.0 }
+}
+
+impl Facet {
+    fn deformed(&self, scale: f64) -> [[f64; 2]; 3] {
+        std::array::from_fn(|k| [0, 1].map(|axis| self.corners[k][axis] + scale * self.displacement[k][axis]))
+    }
+}
+
+/// Lower left and upper right corner of the box around all facets.
+fn bounds(facets: &[Facet], scale: f64) -> [[f64; 2]; 2] {
+    let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    facets
+        .iter()
+        .flat_map(|facet| facet.deformed(scale))
+        .fold(start, |[low, high], x| [[low[0].min(x[0]), low[1].min(x[1])], [high[0].max(x[0]), high[1].max(x[1])]])
+}
+
+/// The part of the plane that is shown, and the sheet that shows it without distortion.
+struct View {
+    sheet: Sheet,
+    x: AxisSpec,
+    y: AxisSpec,
+}
+
+impl View {
+    /// Holds the bodies with and without their displacements.
+    fn around(facets: &[Facet], scale: f64) -> View {
+        let [before, after] = [bounds(facets, 0.0), bounds(facets, scale)];
+        let low = [0, 1].map(|axis| before[0][axis].min(after[0][axis]));
+        let high = [0, 1].map(|axis| before[1][axis].max(after[1][axis]));
+        let room = 0.03 * (high[0] - low[0]).max(high[1] - low[1]);
+        let needed = [0, 1].map(|axis| high[axis] - low[axis] + 2.0 * room);
+        let pixels_per_length = (ROOM[0] / needed[0]).min(ROOM[1] / needed[1]);
+        let pixels = [0, 1].map(|axis| (needed[axis] * pixels_per_length).max(LEAST[axis]).round());
+        let axis_spec = |axis: usize, name: &str| {
+            let (middle, half) = (0.5 * (low[axis] + high[axis]), 0.5 * pixels[axis] / pixels_per_length);
+            let range = [middle - half, middle + half];
+            let ticks = Ticks::new(range, (pixels[axis] / 80.0).ceil() as usize);
+            AxisSpec { name: format!("{name} [{}]", ticks.unit("length")), range, ticks }
+        };
+        let margins = [62, BAR_ROOM, 62, 54];
+        let [width, height] = pixels.map(|pixels| pixels as i32);
+        let sheet = Sheet { width: width + margins[0] + margins[1], height: height + margins[2] + margins[3], margins };
+        View { sheet, x: axis_spec(0, "x"), y: axis_spec(1, "y") }
+    }
+}
+
+/// Von Mises stress from zero to `top` in equal steps of colour; peaks above take the last one.
+struct Colours {
+    top: f64,
+    peak: Option<f64>,
+}
+
+impl Colours {
+    fn of(facets: &[Facet]) -> Colours {
+        let area = |[a, b, c]: [[f64; 2]; 3]| ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])).abs();
+        let weighted: Vec<(f64, f64)> = facets.iter().map(|facet| (facet.von_mises, area(facet.corners))).collect();
+        let high = facets.iter().map(|facet| facet.von_mises).fold(0.0, f64::max);
+        match cut_off(high, weighted) {
+            Some(top) => Colours { top, peak: Some(high) },
+            None => Colours { top: if high > 0.0 { high } else { 1.0 }, peak: None },
+        }
+    }
+
+    fn level(&self, von_mises: f64) -> usize {
+        ((von_mises / self.top * LEVELS as f64) as usize).min(LEVELS - 1)
+    }
+
+    fn colour(level: usize) -> RGBColor {
+        viridis(level as f64 / (LEVELS - 1) as f64)
+    }
+}
+
+/// The coloured triangles, merged where neighbours have the same colour. A line of that colour closes the hairlines between merged areas.
+fn fills(facets: &[Facet], scale: f64, colours: &Colours, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    let mut edges = vec![Vec::new(); LEVELS];
+    for facet in facets {
+        let [a, b, c] = facet.deformed(scale).map(&place);
+        edges[colours.level(facet.von_mises)].extend([[a, b], [b, c], [c, a]]);
+    }
+    let path = |(level, edges): (usize, Vec<_>)| {
+        let RGBColor(red, green, blue) = Colours::colour(level);
+        let data = path_data(&loops(&unmatched(edges)));
+        let colour = format!("#{red:02x}{green:02x}{blue:02x}");
+        format!("<path fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"4\" d=\"{data}\"/>\n")
+    };
+    edges.into_iter().enumerate().filter(|(_, edges)| !edges.is_empty()).map(path).collect()
+}
+
+/// The outlines of the bodies as one path.
+fn outlines(boundary: &[[Node; 2]], scale: f64, colour: RGBColor, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    let placed = |points: Vec<Node>| points.into_iter().map(|node| place(node.deformed(scale))).collect();
+    let loops: Vec<Vec<(i32, i32)>> = loops(boundary).into_iter().map(placed).collect();
+    let RGBColor(red, green, blue) = colour;
+    let data = path_data(&loops);
+    format!("<path fill=\"none\" stroke=\"#{red:02x}{green:02x}{blue:02x}\" stroke-width=\"7\" d=\"{data}\"/>\n")
+}
+
+/// A corner of a facet in single precision, by its bits: position and displacement, so that bodies that touch keep their own corners.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Node([u32; 4]);
+
+impl Node {
+    fn new([x, y]: [f64; 2], [ux, uy]: [f64; 2]) -> Node {
+        Node([x, y, ux, uy].map(|number| (number as f32 + 0.0).to_bits()))
+    }
+
+    fn displacement(self) -> [f64; 2] {
+        [self.0[2], self.0[3]].map(|bits| f64::from(f32::from_bits(bits)))
+    }
+
+    fn deformed(self, scale: f64) -> [f64; 2] {
+        let u = self.displacement();
+        [0, 1].map(|axis| f64::from(f32::from_bits(self.0[axis])) + scale * u[axis])
+    }
+}
+
+/// The edges of facets that have a body on one side only.
+fn boundary_edges(facets: &[Facet]) -> Vec<[Node; 2]> {
+    unmatched(facets.iter().flat_map(|facet| {
+        let [a, b, c] = [0, 1, 2].map(|k| Node::new(facet.corners[k], facet.displacement[k]));
+        [[a, b], [b, c], [c, a]]
+    }))
+}
+
+/// A contact boundary moved along with the bodies.
+fn moved_contact(contact: &[ContactPoint], boundary: &[[Node; 2]], scale: f64) -> Vec<(f64, f64)> {
+    let moved = |p: &ContactPoint| {
+        let u = displacement_near([p.x, p.y], boundary);
+        let (along, across) = (p.nx * u[1] - p.ny * u[0], 0.5 * (p.un_1 + p.un_2));
+        (p.x + scale * (across * p.nx - along * p.ny), p.y + scale * (across * p.ny + along * p.nx))
+    };
+    contact.iter().map(moved).filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
+}
+
+/// The displacement at the point of the boundary that is nearest to a point.
+fn displacement_near(point: [f64; 2], boundary: &[[Node; 2]]) -> [f64; 2] {
+    let nearest = boundary.iter().map(|edge| {
+        let [a, b] = edge.map(|node| node.deformed(0.0));
+        let (edge_x, edge_y) = (b[0] - a[0], b[1] - a[1]);
+        let (from_x, from_y) = (point[0] - a[0], point[1] - a[1]);
+        let fraction = ((from_x * edge_x + from_y * edge_y) / (edge_x * edge_x + edge_y * edge_y)).clamp(0.0, 1.0);
+        ((from_x - fraction * edge_x).hypot(from_y - fraction * edge_y), fraction, edge)
+    });
+    nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map_or([0.0; 2], |(_, fraction, edge)| {
+        let [first, second] = edge.map(Node::displacement);
+        [0, 1].map(|axis| (1.0 - fraction) * first[axis] + fraction * second[axis])
+    })
+}
+
+/// Draws the bar of colours at the right of the plot, with its ticks and its name.
+fn draw_colour_bar(sheet: &Sheet, area: &Area, colours: &Colours) -> DrawResult<()> {
+    let left = (sheet.width - BAR_ROOM + 24) * PIXEL;
+    let right = left + 16 * PIXEL;
+    let [top, bottom] = [sheet.margins[2], sheet.height - sheet.margins[3]].map(|y| y * PIXEL);
+    let height_of = |fraction: f64| bottom - (f64::from(bottom - top) * fraction).round() as i32;
+    for level in 0..LEVELS {
+        let low = height_of(level as f64 / LEVELS as f64); // up to the top: the next ones lie on it, without hairlines between
+        area.draw(&Rectangle::new([(left, top), (right, low)], Colours::colour(level).filled()))?;
+    }
+    area.draw(&Rectangle::new([(left, top), (right, bottom)], line(&GREY, 0.8)))?;
+    let ticks = Ticks::new([0.0, colours.top], 5);
+    let label = text_style(11.0, FontStyle::Normal, INK).pos(Pos::new(HPos::Left, VPos::Center));
+    for &value in &ticks.values {
+        let y = height_of(value / colours.top);
+        area.draw(&PathElement::new(vec![(right, y), (right + 4 * PIXEL, y)], line(&GREY, 0.8)))?;
+        area.draw(&Text::new(ticks.label(value), (right + 7 * PIXEL, y), label.clone()))?;
+    }
+    let name = format!("von Mises stress [{}]", ticks.unit("stress"));
+    let upright = text_style(12.0, FontStyle::Normal, INK).transform(FontTransform::Rotate270);
+    let upright = upright.pos(Pos::new(HPos::Center, VPos::Bottom));
+    area.draw(&Text::new(name, (right + 62 * PIXEL, (top + bottom) / 2), upright))?;
+    match colours.peak {
+        Some(peak) => sheet.draw_remark(area, &format!("stress up to {}", number_text(peak))),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square block [x, x+1] × [0, 1] of n × n × 2 facets.
+    fn block(x: f64, n: usize, displacement: fn(f64, f64) -> [f64; 2], von_mises: fn(f64, f64) -> f64) -> Vec<Facet> {
+        let corner = |i: usize, j: usize| [x + i as f64 / n as f64, j as f64 / n as f64];
+        let mut facets = Vec::new();
+        for (i, j) in (0..n * n).map(|k| (k % n, k / n)) {
+            let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+            facets.extend([[a, b, c], [a, c, d]].map(|corners| Facet {
+                corners,
+                displacement: corners.map(|[x, y]| displacement(x, y)),
+                von_mises: von_mises(a[0], a[1]),
+            }));
+        }
+        facets
+    }
+
+    fn draw(scale: Option<f64>, facets: &[Facet]) -> Result<String, OutputError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deformed.svg");
+        let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
+        write_deformed(&path, "blocks", scale, facets, &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
+    }
+
+    #[test]
+    fn scale_is_round_and_stated() {
+        let facets = block(0.0, 4, |x, _| [3e-5 * x, 0.0], |x, _| x);
+        assert_eq!(automatic_scale(&facets), 2000.0);
+        assert!(draw(None, &facets).unwrap().contains("blocks, displacements × 2000"));
+        assert!(draw(Some(0.5), &facets).unwrap().contains("blocks, displacements × 0.5"));
+        assert_eq!(automatic_scale(&block(0.0, 1, |_, _| [0.0, 0.0], |_, _| 0.0)), 1.0);
+    }
+
+    #[test]
+    fn twenty_thousand_facets_make_a_small_file() {
+        let facets = block(0.0, 100, |x, y| [1e-4 * y, 2e-4 * x * y], |x, y| 1.0 + (7.0 * x).sin() * (9.0 * y).cos());
+        let figure = draw(None, &facets).unwrap();
+        assert!(figure.len() < 200_000, "{} bytes", figure.len());
+    }
+
+    #[test]
+    fn bodies_that_touch_keep_their_own_outlines() {
+        let mut facets = block(0.0, 3, |_, _| [0.0, 0.0], |_, _| 1.0);
+        assert_eq!(boundary_edges(&facets).len(), 12);
+        facets.extend(block(1.0, 3, |_, y| [0.0, 1e-6 + y], |_, _| 1.0));
+        assert_eq!(boundary_edges(&facets).len(), 24);
+        assert_eq!(loops(&boundary_edges(&facets)).len(), 2);
+    }
+
+    #[test]
+    fn contact_moves_with_the_bodies() {
+        let facets = block(0.0, 3, |_, y| [0.0, 0.1 * y], |_, _| 1.0);
+        let point = ContactPoint { x: 1.0, y: 0.5, nx: 1.0, un_1: 0.2, un_2: 0.4, ..ContactPoint::default() };
+        let moved = moved_contact(&[point], &boundary_edges(&facets), 10.0);
+        assert!((moved[0].0 - 4.0).abs() < 1e-6 && (moved[0].1 - 1.0).abs() < 1e-6, "{moved:?}");
+    }
+
+    #[test]
+    fn peaks_of_stress_take_the_last_colour() {
+        let mut facets = block(0.0, 20, |_, _| [0.0, 0.0], |_, _| 2.0);
+        facets[0].von_mises = 100.0;
+        assert!(draw(None, &facets).unwrap().contains("stress up to 100"));
+        facets[0].von_mises = f64::NAN;
+        assert!(matches!(draw(None, &facets), Err(OutputError::Figure { .. })));
+        assert!(matches!(draw(None, &[]), Err(OutputError::Figure { .. })));
+    }
+}

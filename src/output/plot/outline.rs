@@ -1,0 +1,117 @@
+//! From triangles to the loops around them.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// The directed edges without a partner in the opposite direction: of triangles that all run the same way round, their boundary.
+pub(super) fn unmatched<K: Ord + Copy>(edges: impl IntoIterator<Item = [K; 2]>) -> Vec<[K; 2]> {
+    let sorted = |[from, to]: [K; 2]| if from < to { ([from, to], 1) } else { ([to, from], -1) };
+    let mut edges: Vec<([K; 2], i32)> = edges.into_iter().filter(|[from, to]| from != to).map(sorted).collect();
+    edges.sort_unstable();
+    let surplus = edges.chunk_by(|a, b| a.0 == b.0).flat_map(|same| {
+        let ([low, high], count) = (same[0].0, same.iter().map(|(_, direction)| direction).sum::<i32>());
+        let edge = if count > 0 { [low, high] } else { [high, low] };
+        std::iter::repeat_n(edge, count.unsigned_abs() as usize)
+    });
+    surplus.collect()
+}
+
+/// Joins directed edges head to tail into closed loops. As many edges must leave each point as arrive at it, which holds for every boundary.
+pub(super) fn loops<K: Ord + Copy>(edges: &[[K; 2]]) -> Vec<Vec<K>> {
+    let mut leaving: BTreeMap<K, Vec<K>> = BTreeMap::new();
+    for &[from, to] in edges {
+        leaving.entry(from).or_default().push(to);
+    }
+    let mut found = Vec::new();
+    while let Some((&start, _)) = leaving.first_key_value() {
+        let mut points = vec![start];
+        while let Some(next) = take_edge(&mut leaving, points[points.len() - 1]) {
+            points.push(next);
+        }
+        points.pop(); // the start again
+        found.push(points);
+    }
+    found
+}
+
+/// Removes an edge that leaves a point, and returns its other end.
+fn take_edge<K: Ord + Copy>(leaving: &mut BTreeMap<K, Vec<K>>, from: K) -> Option<K> {
+    let ends = leaving.get_mut(&from)?;
+    let end = ends.pop();
+    if ends.is_empty() {
+        leaving.remove(&from);
+    }
+    end
+}
+
+/// Closed loops of figure coordinates as the `d` of an SVG path; points inside straight runs are left out.
+pub(super) fn path_data(loops: &[Vec<(i32, i32)>]) -> String {
+    let mut text = String::new();
+    for points in loops {
+        let corners: Vec<(i32, i32)> = (0..points.len()).filter(|&i| is_corner(points, i)).map(|i| points[i]).collect();
+        let Some(&(mut x, mut y)) = corners.first() else { continue };
+        let _ = write!(text, "M{x} {y}l");
+        for &(next_x, next_y) in &corners[1..] {
+            let _ = write!(text, "{} {} ", next_x - x, next_y - y);
+            (x, y) = (next_x, next_y);
+        }
+        text.truncate(text.trim_end().len());
+        text.push('z');
+    }
+    text
+}
+
+/// Whether a loop changes its direction at a point.
+fn is_corner(points: &[(i32, i32)], i: usize) -> bool {
+    let count = points.len();
+    let [a, b, c] = [points[(i + count - 1) % count], points[i], points[(i + 1) % count]];
+    let (first, second) = ((b.0 - a.0, b.1 - a.1), (c.0 - b.0, c.1 - b.1));
+    let cross = i64::from(first.0) * i64::from(second.1) - i64::from(first.1) * i64::from(second.0);
+    let dot = i64::from(first.0) * i64::from(second.0) + i64::from(first.1) * i64::from(second.1);
+    cross != 0 || dot < 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles of each unit square, counter-clockwise.
+    fn triangles(squares: &[(i32, i32)]) -> Vec<[(i32, i32); 2]> {
+        let mut edges = Vec::new();
+        for &(x, y) in squares {
+            let [a, b, c, d] = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)];
+            for [p, q, r] in [[a, b, c], [a, c, d]] {
+                edges.extend([[p, q], [q, r], [r, p]]);
+            }
+        }
+        edges
+    }
+
+    /// Twice the area inside loops: counter-clockwise positive, holes negative.
+    fn twice_area(loops: &[Vec<(i32, i32)>]) -> i32 {
+        let cross = |p: (i32, i32), q: (i32, i32)| p.0 * q.1 - p.1 * q.0;
+        loops.iter().map(|points| (0..points.len()).map(|i| cross(points[i], points[(i + 1) % points.len()])).sum::<i32>()).sum()
+    }
+
+    #[test]
+    fn ring_of_squares_has_two_loops() {
+        let squares: Vec<(i32, i32)> = (0..9).filter(|&i| i != 4).map(|i| (i % 3, i / 3)).collect();
+        let found = loops(&unmatched(triangles(&squares)));
+        assert_eq!(found.len(), 2);
+        assert_eq!(twice_area(&found), 16);
+    }
+
+    #[test]
+    fn collapsed_and_doubled_triangles_keep_the_balance() {
+        let mut edges = triangles(&[(0, 0), (5, 5), (5, 5)]);
+        edges.extend([[(0, 0), (1, 0)], [(1, 0), (1, 0)], [(1, 0), (0, 0)]]);
+        let found = loops(&unmatched(edges));
+        assert_eq!(twice_area(&found), 6);
+    }
+
+    #[test]
+    fn straight_runs_become_one_line() {
+        let found = loops(&unmatched(triangles(&[(0, 0), (1, 0), (2, 0)])));
+        assert_eq!(path_data(&found), "M0 0l3 0 0 1 -3 0z");
+    }
+}

@@ -1,0 +1,150 @@
+//! Round numbers for axes and colour bars.
+
+/// The ticks of an axis: multiples of 1, 2 or 5 times a power of ten, shown with a common power of ten where that is shorter.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Ticks {
+    /// Values, ascending, within the range.
+    pub values: Vec<f64>,
+    exponent: i32,
+    decimals: usize,
+}
+
+impl Ticks {
+    /// About `count` ticks, and at most one more, for a range of finite length.
+    pub fn new(range: [f64; 2], count: usize) -> Ticks {
+        let step = round_number((range[1] - range[0]) / count as f64);
+        let (first, last) = ((range[0] / step - 1e-9).ceil() as i64, (range[1] / step + 1e-9).floor() as i64);
+        let values: Vec<f64> = (first..=last).map(|number| number as f64 * step).collect();
+        let largest = values.iter().fold(step, |largest, value| value.abs().max(largest));
+        let magnitude = (largest * (1.0 + 1e-9)).log10().floor() as i32;
+        let exponent = if (-2..5).contains(&magnitude) { 0 } else { magnitude };
+        let digit = (step * (1.0 + 1e-9)).log10().floor() as i32;
+        Ticks { values, exponent, decimals: (exponent - digit).max(0) as usize }
+    }
+
+    /// The text beside a tick, without the common power of ten.
+    pub fn label(&self, value: f64) -> String {
+        let text = format!("{:.*}", self.decimals, value / 10f64.powi(self.exponent));
+        let is_zero = !text.contains(|digit: char| digit.is_ascii_digit() && digit != '0');
+        if is_zero { text.replace('-', "") } else { text.replace('-', "−") }
+    }
+
+    /// The unit of the labels: `unit of length`, or `10⁻⁴ units of length`.
+    pub fn unit(&self, quantity: &str) -> String {
+        match self.exponent {
+            0 => format!("unit of {quantity}"),
+            exponent => format!("{} units of {quantity}", power_of_ten(exponent)),
+        }
+    }
+}
+
+/// The number 1, 2 or 5 times a power of ten that is nearest to a positive number, by ratio.
+pub(super) fn round_number(number: f64) -> f64 {
+    let exponent = number.log10().floor() as i32;
+    // Negative powers by division: 2 / 10 is the double nearest to 0.2.
+    let power = 10f64.powi(exponent.abs());
+    let candidates = [1.0, 2.0, 5.0, 10.0].map(|digit| if exponent < 0 { digit / power } else { digit * power });
+    let distance = |candidate: &f64| (number / candidate).ln().abs();
+    candidates.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(number)
+}
+
+/// Where a scale should end so that a peak does not squeeze the rest: at one and a half times the value below which 98 %
+/// of the weight lies, if the highest value exceeds three times that one. Pairs of value and weight.
+pub(super) fn cut_off(high: f64, mut weighted: Vec<(f64, f64)>) -> Option<f64> {
+    weighted.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut peaks = 0.02 * weighted.iter().map(|(_, weight)| weight).sum::<f64>();
+    let (usual, _) = weighted.into_iter().find(|(_, weight)| {
+        peaks -= weight;
+        peaks < 0.0
+    })?;
+    (usual > 0.0 && high > 3.0 * usual).then_some(1.5 * usual)
+}
+
+/// A number for people: four digits, and a power of ten where that is shorter.
+pub(super) fn number_text(number: f64) -> String {
+    let magnitude = if number == 0.0 { 0 } else { (number.abs() * (1.0 + 1e-9)).log10().floor() as i32 };
+    let trimmed = |number: f64, decimals: usize| {
+        let text = format!("{number:.decimals$}");
+        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        text.replace('-', "−")
+    };
+    if (-3..5).contains(&magnitude) {
+        return trimmed(number, (3 - magnitude).max(0) as usize);
+    }
+    match trimmed(number / 10f64.powi(magnitude), 3) {
+        one if one == "1" => power_of_ten(magnitude),
+        digits => format!("{digits} × {}", power_of_ten(magnitude)),
+    }
+}
+
+/// `10⁻⁴`.
+fn power_of_ten(exponent: i32) -> String {
+    let raised = |digit: char| match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '0' => '⁰',
+        digit => char::from_u32('⁴' as u32 + digit as u32 - '4' as u32).unwrap_or(digit),
+    };
+    std::iter::once("10".to_string()).chain(exponent.to_string().chars().map(|digit| raised(digit).to_string())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(range: [f64; 2], count: usize) -> (Vec<String>, String) {
+        let ticks = Ticks::new(range, count);
+        (ticks.values.iter().map(|&value| ticks.label(value)).collect(), ticks.unit("length"))
+    }
+
+    #[test]
+    fn labels_are_short_and_exact() {
+        assert_eq!(
+            labels([0.0, 6.1], 6),
+            (["0", "1", "2", "3", "4", "5", "6"].map(String::from).to_vec(), "unit of length".into())
+        );
+        assert_eq!(labels([-0.11, 0.21], 3).0, ["−0.1", "0.0", "0.1", "0.2"]);
+        assert_eq!(
+            labels([-7.6e-4, -3.9e-4], 4),
+            (["−7", "−6", "−5", "−4"].map(String::from).to_vec(), "10⁻⁴ units of length".into())
+        );
+        assert_eq!(labels([0.0, 2.4e5], 3), (["0", "1", "2"].map(String::from).to_vec(), "10⁵ units of length".into()));
+        assert_eq!(labels([1000.0, 1000.2], 2).0, ["1000.0", "1000.1", "1000.2"]);
+    }
+
+    #[test]
+    fn round_numbers_are_nearest_by_ratio() {
+        let cases = [(1.3, 1.0), (1.5, 2.0), (3.1, 2.0), (3.2, 5.0), (7.2, 10.0), (0.021, 0.02), (480.0, 500.0), (3e-13, 2e-13)];
+        for (number, round) in cases {
+            assert_eq!(round_number(number), round, "{number}");
+        }
+    }
+
+    #[test]
+    fn peaks_are_cut_off_only_where_they_squeeze_the_rest() {
+        let scale = |peak: f64, width: f64| cut_off(peak, vec![(1.0, 1.0 - width), (peak, width)]);
+        assert_eq!(scale(20.0, 0.01), Some(1.5));
+        assert_eq!(scale(20.0, 0.03), None);
+        assert_eq!(scale(2.5, 0.01), None);
+        assert_eq!(cut_off(0.0, vec![(0.0, 1.0)]), None);
+        assert_eq!(cut_off(0.0, vec![]), None);
+    }
+
+    #[test]
+    fn numbers_for_people() {
+        let cases = [
+            (500.0, "500"),
+            (0.5, "0.5"),
+            (1e6, "10⁶"),
+            (2e6, "2 × 10⁶"),
+            (-1.23456, "−1.235"),
+            (4.5678e-7, "4.568 × 10⁻⁷"),
+            (0.0, "0"),
+        ];
+        for (number, text) in cases {
+            assert_eq!(number_text(number), text);
+        }
+    }
+}

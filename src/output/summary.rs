@@ -1,0 +1,374 @@
+//! `summary.json`: the numbers of a run, for people and for other tools.
+//!
+//! The names of the fields are the keys of the file. `None` is written as `null`, and so is every number that is not finite:
+//! what does not apply, or was not reached, never shows as a made-up number.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::OutputError;
+
+/// The summary of a run. Start from [`Summary::new`] and fill in what is known.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Version of mezha.
+    pub mezha: String,
+    /// Name of the case.
+    pub case: String,
+    /// Verdict.
+    pub status: Status,
+    /// The verdict in words.
+    pub reason: Option<String>,
+    /// Number of ranks.
+    pub ranks: usize,
+    /// The mesh after refinement.
+    pub mesh: Mesh,
+    /// Sizes of the linear system.
+    pub unknowns: Unknowns,
+    /// One entry per outer iteration.
+    pub outer: Vec<OuterIteration>,
+    /// By name of the contact.
+    pub contact: BTreeMap<String, Contact>,
+    /// Energies of the solution.
+    pub energy: Energy,
+    /// Estimated discretisation errors.
+    pub estimate: Estimate,
+    /// Relative residuals of force, moment and energy balance.
+    pub balance: Balance,
+    /// By name of the probe.
+    pub probe: BTreeMap<String, Probe>,
+    /// The linear solver.
+    pub solver: Solver,
+    /// Wall time of the stages in seconds, slowest rank.
+    pub time_s: Time,
+    /// Memory in MiB.
+    pub memory_mib: Memory,
+    /// Relative errors against exact or reference values: `energy`, `force_CONTACT`, `lambda_CONTACT`, `displacement_BODY`, `energy_norm_BODY`.
+    pub errors: BTreeMap<String, Option<f64>>,
+}
+
+/// Verdict of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// The result can be used.
+    Converged,
+    /// It cannot; see the reason.
+    #[default]
+    NotConverged,
+}
+
+/// The mesh after refinement.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Mesh {
+    /// Number of triangles.
+    pub triangles: Option<u64>,
+    /// Number of vertices, without midside nodes.
+    pub vertices: Option<u64>,
+    /// Polynomial degree of the displacement, 1 or 2.
+    pub order: Option<u8>,
+    /// Shortest edge (length).
+    pub h_min: Option<f64>,
+    /// Longest edge (length).
+    pub h_max: Option<f64>,
+}
+
+/// Sizes of the linear system.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Unknowns {
+    /// Displacement components.
+    pub displacement: Option<u64>,
+    /// Contact pressures.
+    pub multiplier: Option<u64>,
+}
+
+/// One outer iteration.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct OuterIteration {
+    /// Number, from 1.
+    pub iteration: usize,
+    /// Active multipliers.
+    pub active: Option<usize>,
+    /// Multipliers that became active.
+    pub added: Option<usize>,
+    /// Multipliers that became inactive.
+    pub released: Option<usize>,
+    /// Krylov iterations of its linear solves.
+    pub krylov_iterations: Option<usize>,
+    /// Relative residual.
+    pub residual: Option<f64>,
+    /// Largest penetration (length).
+    pub max_penetration: Option<f64>,
+    /// Relative change of the displacement.
+    pub du: Option<f64>,
+}
+
+/// One contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// Length of the contact boundary.
+    pub length: Option<f64>,
+    /// Number of its segments.
+    pub segments: Option<usize>,
+    /// Multiplier space, as in the case: `p0`, `p1-discontinuous`, `p1-continuous`.
+    pub multiplier: Option<String>,
+    /// Segment length by edge length of the softer body.
+    pub h_ratio: Option<f64>,
+    /// Inf-sup constant.
+    pub inf_sup: Option<f64>,
+    /// The two ends of the contact boundary.
+    pub ends: Option<[[f64; 2]; 2]>,
+    /// Intervals of arc length in contact.
+    pub closed: Option<Vec<[f64; 2]>>,
+    /// Their ends in the plane.
+    pub closed_points: Option<Vec<[[f64; 2]; 2]>>,
+    /// ∫ λ ds (force per thickness).
+    pub force: Option<f64>,
+    /// Resultant on body 2 (force per thickness).
+    #[serde(deserialize_with = "numbers")]
+    pub resultant: Option<[f64; 2]>,
+    /// Moment on body 2 about the origin.
+    pub moment: Option<f64>,
+    /// Largest contact pressure.
+    pub pressure_max: Option<f64>,
+    /// Oscillation figure of the contact pressure.
+    pub oscillation: Option<f64>,
+    /// Quadrature points without a corresponding point.
+    pub lost_points: Option<usize>,
+    /// Whether the contact pressure can be trusted.
+    pub trust: Option<bool>,
+}
+
+/// Energies per thickness.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// Strain energy by name of the body.
+    pub strain: BTreeMap<String, Option<f64>>,
+    /// Total strain energy U.
+    #[serde(rename = "U")]
+    pub total: Option<f64>,
+    /// f·u + r·u_D, without the factor one half.
+    pub external_work: Option<f64>,
+}
+
+/// Estimated discretisation errors.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// Relative error in the energy norm.
+    pub energy: Option<f64>,
+    /// By name of the contact, on the same level of the file as `energy`.
+    #[serde(flatten)]
+    pub contact: BTreeMap<String, ContactEstimate>,
+}
+
+/// Estimated relative errors of a contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactEstimate {
+    /// Of ∫ λ ds.
+    pub force: Option<f64>,
+    /// Of λ.
+    pub lambda: Option<f64>,
+}
+
+/// Relative residuals of the balances.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Balance {
+    /// Of the contact forces on both bodies.
+    pub force: Option<f64>,
+    /// Of the contact moments on both bodies.
+    pub moment: Option<f64>,
+    /// Of twice the strain energy and the work done.
+    pub energy: Option<f64>,
+}
+
+/// The solution at a point.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Probe {
+    /// The point, undeformed.
+    #[serde(deserialize_with = "numbers")]
+    pub x: Option<[f64; 2]>,
+    /// Displacement.
+    #[serde(deserialize_with = "numbers")]
+    pub u: Option<[f64; 2]>,
+    /// Stress xx, yy, xy.
+    #[serde(deserialize_with = "numbers")]
+    pub stress: Option<[f64; 3]>,
+}
+
+/// The linear solver.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Solver {
+    /// `fieldsplit` or `direct`.
+    pub name: Option<String>,
+    /// Krylov method.
+    pub krylov: Option<String>,
+    /// One number per linear solve.
+    pub iterations: Vec<usize>,
+    /// Relative residual of the scaled augmented system.
+    pub residual: Option<f64>,
+    /// Relative residual of the system as it stands.
+    pub plain_residual: Option<f64>,
+    /// The BLAS in use.
+    pub blas: Option<String>,
+}
+
+/// Wall time in seconds, slowest rank.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Time {
+    /// Reading, partition, refinement.
+    pub mesh: Option<f64>,
+    /// Stiffness and loads.
+    pub assemble: Option<f64>,
+    /// Contact boundary and coupling.
+    pub contact: Option<f64>,
+    /// Setting up the solver.
+    pub setup: Option<f64>,
+    /// Linear solves.
+    pub solve: Option<f64>,
+    /// Writing the result.
+    pub output: Option<f64>,
+    /// From the start of the program to its end.
+    pub total: Option<f64>,
+}
+
+/// Largest resident memory in MiB.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// Of the rank that uses most.
+    pub max_rank: Option<f64>,
+    /// Of all ranks together.
+    pub sum: Option<f64>,
+}
+
+impl Summary {
+    /// An empty summary of this version of mezha: not converged, nothing known.
+    pub fn new(case: &str, ranks: usize) -> Summary {
+        Summary { mezha: env!("CARGO_PKG_VERSION").into(), case: case.into(), ranks, ..Summary::default() }
+    }
+
+    /// Writes `summary.json`, indented.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        serde_json::to_string_pretty(self)
+            .map_err(std::io::Error::from)
+            .and_then(|text| fs::write(path, text + "\n"))
+            .map_err(OutputError::io("write", path))
+    }
+
+    /// Reads a `summary.json` back; numbers that are null inside a vector become NaN.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is no summary.
+    pub fn read(path: &Path) -> Result<Summary, OutputError> {
+        fs::read_to_string(path)
+            .and_then(|text| serde_json::from_str(&text).map_err(std::io::Error::from))
+            .map_err(OutputError::io("read", path))
+    }
+}
+
+/// Reads a vector whose numbers may be null.
+fn numbers<'de, D, const N: usize>(source: D) -> Result<Option<[f64; N]>, D::Error>
+where
+    D: Deserializer<'de>,
+    [Option<f64>; N]: Deserialize<'de>,
+{
+    let vector = Option::<[Option<f64>; N]>::deserialize(source)?;
+    Ok(vector.map(|vector| vector.map(|number| number.unwrap_or(f64::NAN))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn written(summary: &Summary) -> Value {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("summary.json");
+        summary.write(&path).unwrap();
+        serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+    }
+
+    fn filled() -> Summary {
+        let mut summary = Summary::new("bars", 2);
+        summary.status = Status::Converged;
+        summary.outer.push(OuterIteration { iteration: 1, active: Some(60), du: Some(0.1), ..OuterIteration::default() });
+        let contact = Contact {
+            ends: Some([[0.0, 3.0], [6.0, 4.0]]),
+            closed: Some(vec![[0.0, 6.0]]),
+            closed_points: Some(vec![[[0.0, 3.0], [6.0, 4.0]]]),
+            resultant: Some([1.0, -6.0]),
+            trust: Some(true),
+            ..Contact::default()
+        };
+        summary.contact.insert("seam".into(), contact);
+        summary.energy.strain.insert("lower".into(), Some(1e-3));
+        summary.estimate.contact.insert("seam".into(), ContactEstimate { force: Some(1e-9), lambda: None });
+        summary.probe.insert("corner".into(), Probe { x: Some([6.0, 4.0]), ..Probe::default() });
+        summary.solver.iterations = vec![12, 7];
+        summary.errors.insert("energy".into(), Some(1e-6));
+        summary
+    }
+
+    #[test]
+    fn summary_reads_back_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("summary.json");
+        filled().write(&path).unwrap();
+        assert_eq!(Summary::read(&path).unwrap(), filled());
+    }
+
+    #[test]
+    fn keys_are_the_names_that_other_tools_rely_on() {
+        let value = written(&filled());
+        let keys = |pointer: &str| {
+            let mut keys: Vec<String> = value.pointer(pointer).unwrap().as_object().unwrap().keys().cloned().collect();
+            keys.sort();
+            keys.join(" ")
+        };
+        let expected = [
+            (
+                "",
+                "balance case contact energy errors estimate memory_mib mesh mezha outer probe ranks reason solver status time_s unknowns",
+            ),
+            ("/mesh", "h_max h_min order triangles vertices"),
+            ("/unknowns", "displacement multiplier"),
+            ("/outer/0", "active added du iteration krylov_iterations max_penetration released residual"),
+            (
+                "/contact/seam",
+                "closed closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",
+            ),
+            ("/energy", "U external_work strain"),
+            ("/estimate", "energy seam"),
+            ("/estimate/seam", "force lambda"),
+            ("/balance", "energy force moment"),
+            ("/probe/corner", "stress u x"),
+            ("/solver", "blas iterations krylov name plain_residual residual"),
+            ("/time_s", "assemble contact mesh output setup solve total"),
+            ("/memory_mib", "max_rank sum"),
+        ];
+        for (pointer, names) in expected {
+            assert_eq!(keys(pointer), names, "{pointer}");
+        }
+        assert_eq!(value["status"], json!("converged"));
+        assert_eq!(value["mezha"], json!(env!("CARGO_PKG_VERSION")));
+    }
+
+    #[test]
+    fn what_is_unknown_or_not_finite_is_null() {
+        let mut summary = filled();
+        summary.energy.total = Some(f64::NAN);
+        summary.balance.force = Some(f64::INFINITY);
+        summary.probe.insert("lost".into(), Probe { u: Some([f64::NAN, 1.0]), ..Probe::default() });
+        let value = written(&summary);
+        for pointer in ["/energy/U", "/balance/force", "/balance/moment", "/probe/lost/u/0", "/probe/lost/x", "/reason"] {
+            assert_eq!(value.pointer(pointer), Some(&Value::Null), "{pointer}");
+        }
+        let read: Summary = serde_json::from_value(value).unwrap();
+        assert!(read.energy.total.is_none() && read.probe["lost"].u.unwrap()[0].is_nan());
+    }
+}

@@ -1,0 +1,82 @@
+//! Files for ParaView are read back by the Python packages `vtk` and `meshio`, value by value.
+//!
+//! Set `MEZHA_PYTHON` to an interpreter that has both; without it the test says so and checks nothing.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use mezha::element::Order;
+use mezha::output::ContactPoint;
+use mezha::output::vtk::{Piece, write_curve, write_parallel, write_piece};
+
+/// Two triangles of the rectangle with the given lower left corner, with fields that are formulas of the place.
+fn write_rectangle(path: &Path, order: Order, corner: [f64; 2], rank: i32) {
+    let (offsets, cells): (&[[f64; 2]], &[u32]) = match order {
+        Order::P1 => (&[[0., 0.], [2., 0.], [2., 1.], [0., 1.]], &[0, 1, 2, 0, 2, 3]),
+        Order::P2 => (
+            &[[0., 0.], [2., 0.], [2., 1.], [0., 1.], [1., 0.], [2., 0.5], [1., 0.5], [1., 1.], [0., 0.5]],
+            &[0, 1, 2, 4, 5, 6, 0, 2, 3, 6, 7, 8],
+        ),
+    };
+    let points: Vec<[f64; 2]> = offsets.iter().map(|d| [corner[0] + d[0], corner[1] + d[1]]).collect();
+    let displacement: Vec<[f64; 2]> = points.iter().map(|[x, y]| [0.1 * x + y / 3.0, x * y]).collect();
+    let stress: Vec<[f64; 4]> = points.iter().map(|[x, y]| [x + y, x - y, x * y, 0.3 * x]).collect();
+    let von_mises: Vec<f64> = points.iter().map(|[x, y]| 1e-7 * x + 1e7 * y).collect();
+    let piece = Piece {
+        points: &points,
+        cells,
+        order,
+        displacement: &displacement,
+        stress: &stress,
+        von_mises: &von_mises,
+        body: &[7, 8],
+        rank,
+    };
+    write_piece(path, &piece).unwrap();
+}
+
+/// A quarter circle; the fourth and fifth point share their place, where λ jumps.
+fn quarter_circle() -> Vec<ContactPoint> {
+    let point = |number: usize, s: f64| ContactPoint {
+        s,
+        x: s.cos(),
+        y: s.sin(),
+        nx: s.cos(),
+        ny: s.sin(),
+        lambda: number as f64 + 0.5,
+        gap: 1e-9 * s,
+        un_1: 2.0 * s,
+        un_2: 3.0 * s,
+        sigma_1: -s,
+        sigma_2: -2.0 * s,
+    };
+    [0.0, 0.3, 0.6, 0.9, 0.9, 1.2, 1.5].iter().enumerate().map(|(number, &s)| point(number, s)).collect()
+}
+
+#[test]
+fn python_reads_what_was_written() {
+    let Some(python) = std::env::var_os("MEZHA_PYTHON") else {
+        println!("skipped: MEZHA_PYTHON is not set, so nobody has read the files");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    write_rectangle(&path("p1.vtu"), Order::P1, [-1.0, 3.0], 0);
+    write_rectangle(&path("p2.vtu"), Order::P2, [5.0, -2.0], 4);
+    let pieces = ["fields_0.vtu", "fields_1.vtu", "fields_2.vtu"];
+    write_rectangle(&path(pieces[0]), Order::P2, [0.0, 0.0], 0);
+    write_rectangle(&path(pieces[1]), Order::P2, [2.0, 0.0], 1);
+    let empty =
+        Piece { points: &[], cells: &[], order: Order::P2, displacement: &[], stress: &[], von_mises: &[], body: &[], rank: 2 };
+    write_piece(&path(pieces[2]), &empty).unwrap();
+    write_parallel(&path("fields.pvtu"), &pieces).unwrap();
+    write_curve(&path("contact_arc.vtu"), &quarter_circle()).unwrap();
+    assert!(fs::read_to_string(path("fields.pvtu")).unwrap().contains("fields_2.vtu"));
+
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/vtk_readable.py");
+    let run = Command::new(python).arg(script).arg(folder.path()).output().unwrap();
+    let said = String::from_utf8_lossy(&run.stdout);
+    assert!(run.status.success(), "{said}{}", String::from_utf8_lossy(&run.stderr));
+    assert!(said.ends_with("all files read\n"), "{said}");
+}
