@@ -1,6 +1,7 @@
 //! Multiplier spaces on the segments of a contact boundary.
 
 use super::{ContactBoundary, MultiplierSpace};
+use crate::geometry::gauss_points;
 
 /// Strength of the augmentation, `γ = ALPHA E_c / H`: flat optimum between 2 and 10 for every pair of spaces.
 pub const ALPHA: f64 = 5.0;
@@ -39,12 +40,24 @@ pub struct Multipliers {
     pub space: MultiplierSpace,
     /// Segment lengths.
     lengths: Vec<f64>,
+    /// `∫ψ_i ds`.
+    weights: Vec<f64>,
 }
 
 impl Multipliers {
     /// The multipliers of a space on a boundary's segments.
     pub fn new(space: MultiplierSpace, boundary: &ContactBoundary) -> Self {
-        Self { space, lengths: (0..boundary.segments()).map(|k| boundary.segment_length(k)).collect() }
+        let lengths = (0..boundary.segments()).map(|k| boundary.segment_length(k)).collect();
+        let mut multipliers = Self { space, lengths, weights: Vec::new() };
+        multipliers.weights = vec![0.0; multipliers.count()];
+        for (k, ends) in boundary.knots().windows(2).enumerate() {
+            for (z, weight) in gauss_points(10) {
+                let ds = weight * (ends[1] - ends[0]) * boundary.speed(ends[0] + z * (ends[1] - ends[0]));
+                let (rows, values) = multipliers.on_segment(k, *z);
+                (0..2).for_each(|a| multipliers.weights[rows[a]] += ds * values[a]);
+            }
+        }
+        multipliers
     }
 
     /// How many there are.
@@ -103,12 +116,9 @@ impl Multipliers {
         }
     }
 
-    /// `∫ψ_i ds`: row sum of the mass matrix.
+    /// `∫ψ_i ds` (length).
     pub fn weight(&self, multiplier: usize) -> f64 {
-        match self.space {
-            MultiplierSpace::P1Discontinuous => 0.5 * self.length(multiplier),
-            _ => self.length(multiplier),
-        }
+        self.weights[multiplier]
     }
 
     /// `κ_i = γ_i / ∫ψ_i`: what one unit of mean penetration is worth in pressure (stress per length squared).

@@ -1,6 +1,6 @@
 //! The small edges of a boundary at one level.
 
-use super::{MacroMesh, Numbering};
+use super::{MacroMesh, Numbering, lattice};
 use crate::element::Order;
 use crate::geometry::Point;
 
@@ -40,6 +40,12 @@ pub struct BoundaryEdge {
     pub points: Vec<Point>,
     /// Whether it is straight.
     pub straight: bool,
+    /// Macro triangle beside it.
+    pub triangle: usize,
+    /// Triangle of that macro triangle's lattice beside it.
+    pub beside: lattice::Triangle,
+    /// Which edge of both triangles it is.
+    side: usize,
 }
 
 impl BoundaryEdge {
@@ -57,9 +63,24 @@ impl BoundaryEdge {
                 Order::P2 => vec![node(k * step), node(k * step + 2), node(k * step + 1)],
             };
             let points = nodes.iter().map(|node| node.place(mesh, numbering)).collect();
-            Self { nodes, points, straight }
+            let last = n - step;
+            let (i, j) = match side {
+                0 => (k * step, 0),
+                1 => (last - k * step, k * step),
+                _ => (0, last - k * step),
+            };
+            let beside = lattice::Triangle::at(i, j, numbering.level.order, false);
+            Self { nodes, points, straight, triangle: triangle as usize, beside, side }
         };
         (0..n / step).map(one).collect()
+    }
+
+    /// Barycentric coordinates in the triangle beside it, at the fraction `t` of the edge.
+    pub fn barycentric(&self, t: f64) -> [f64; 3] {
+        let mut l = [0.0; 3];
+        l[self.side] = 1.0 - t;
+        l[(self.side + 1) % 3] = t;
+        l
     }
 
     /// Length of the chord.

@@ -182,6 +182,8 @@ pub struct Balance {
     pub moment: Option<f64>,
     /// Of twice the strain energy and the work done.
     pub energy: Option<f64>,
+    /// Largest sum of loads, reactions and contact forces on a body, over the sum of their magnitudes.
+    pub bodies: Option<f64>,
 }
 
 /// The solution at a point.

@@ -1,6 +1,6 @@
 //! The loop over active sets.
 
-use super::scene::{Contact, Coupled, bilateral};
+use super::scene::{Contact, Coupled};
 use super::solver::Ending;
 use super::{Coupling, LinearSolver, SaddlePoint, Scene, Space, SystemError};
 use crate::body::Constraints;
@@ -62,6 +62,26 @@ pub struct Solution {
     pub residual: f64,
     /// Relative residual of the plain system.
     pub plain_residual: f64,
+}
+
+impl Solution {
+    /// No solution at all, because a body is not held.
+    pub fn nothing(verdict: Verdict, space: &Space, active: &[bool]) -> Self {
+        Self {
+            verdict,
+            displacement: vec![0.0; space.local_unknowns()],
+            multipliers: vec![0.0; active.len()],
+            active: active.to_vec(),
+            steps: Vec::new(),
+            residual: f64::NAN,
+            plain_residual: f64::NAN,
+        }
+    }
+
+    /// Whether there are displacements to look at.
+    pub fn is_solved(&self) -> bool {
+        !self.steps.is_empty()
+    }
 }
 
 /// What the loop works on.

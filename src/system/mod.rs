@@ -41,6 +41,17 @@ pub enum SolverChoice {
     Direct,
 }
 
+impl SolverChoice {
+    /// Its name in the case file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::FieldSplit => "fieldsplit",
+            Self::Direct => "direct",
+        }
+    }
+}
+
 /// Why a system cannot be set up or solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SystemError {

@@ -1,0 +1,48 @@
+//! `mezha check` and `mezha info`.
+
+use super::{RunError, scene};
+use crate::case::Case;
+use crate::element::Order;
+use crate::mesh::Partition;
+use crate::petsc::{Session, versions};
+use crate::system::Contact;
+
+/// Reads everything, solves nothing, and says what would be solved.
+///
+/// # Errors
+/// [`RunError::Input`] with words.
+pub fn check(case: &Case) -> Result<String, RunError> {
+    let mesh = scene::read_mesh(case).map_err(RunError::Input)?;
+    let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
+    let scene = scene::assemble(case, mesh, partition);
+    let spaces = scene::spaces(&scene, 0)?;
+    let finest = &spaces[spaces.len() - 1];
+    let contacts = Contact::all(&scene, &finest.numbering, 0)?;
+    let triangles = scene.mesh.triangles.len() * finest.numbering.level.triangles_per_edge().pow(2);
+    let order = if scene.order == Order::P1 { "P1" } else { "P2" };
+    let mut lines = vec![
+        format!("{}: {}", case.name, case.title),
+        format!(
+            "mesh: {} macro triangles, {triangles} {order} triangles after {} refinements, {} unknowns of displacement",
+            scene.mesh.triangles.len(), scene.refine, 2 * finest.numbering.node_count()
+        ),
+    ];
+    for body in &scene.bodies {
+        lines.push(format!("body {}: E = {}, ν = {}", body.name, body.material.young, body.material.poisson));
+    }
+    for contact in &contacts {
+        lines.push(format!(
+            "contact {}: {} segments over a length of {:.6}, {} multipliers",
+            contact.pair.name, contact.boundary.segments(), contact.boundary.length(), contact.multipliers.count()
+        ));
+    }
+    Ok(lines.join("\n"))
+}
+
+/// Versions of everything that matters.
+pub fn info(session: &Session) -> String {
+    format!(
+        "mezha {}\nPETSc {}\nMPI   {}\nBLAS  {}\nranks {}",
+        env!("CARGO_PKG_VERSION"), versions::petsc(), versions::mpi(), versions::blas(), session.size()
+    )
+}

@@ -1,0 +1,117 @@
+//! A solution against the exact or reference values of its case.
+
+use super::{Problem, RunError};
+use crate::case::{Case, LambdaExact};
+use crate::geometry::Point;
+use crate::petsc::Session;
+use crate::system::recovery::{Balance, energy_error, pressure_at, pressure_error, probe};
+use crate::system::{Field, Solution};
+use std::collections::BTreeMap;
+
+/// Relative errors by name, and words for each that misses its tolerance.
+#[derive(Default)]
+pub struct Errors {
+    /// As the summary names them.
+    pub values: BTreeMap<String, Option<f64>>,
+    /// Values outside their tolerance.
+    pub missed: Vec<String>,
+}
+
+impl Errors {
+    fn add(&mut self, name: String, error: f64, tolerance: Option<f64>) {
+        if let Some(tolerance) = tolerance.filter(|tolerance| !(error <= *tolerance)) {
+            self.missed.push(format!("{name}: relative error {error:.2e}, tolerance {tolerance:.0e}"));
+        }
+        self.values.insert(name, Some(error));
+    }
+}
+
+/// Compares everything that `[exact]` lists. **Collective**
+///
+/// # Errors
+/// [`RunError::Input`] if a point of `[exact]` lies outside its body.
+pub fn compare(case: &Case, problem: &Problem, solution: &Solution, balance: &Balance, u: &Field<2>, session: &Session) -> Result<Errors, RunError> {
+    let mut errors = Errors::default();
+    if let Some(energy) = &case.exact.energy {
+        let found: f64 = balance.strain.iter().sum();
+        errors.add("energy".into(), (found / energy.value - 1.0).abs(), Some(energy.tolerance));
+    }
+    for exact in &case.exact.contacts {
+        let at = problem.contacts.iter().position(|contact| contact.pair.name == exact.name).expect("checked names");
+        let contact = &problem.contacts[at];
+        let lambda = &solution.multipliers[contact.range()];
+        if let Some(force) = &exact.force {
+            let found = balance.contacts[at].force;
+            errors.add(format!("force_{}", exact.name), (found / force.value - 1.0).abs(), Some(force.tolerance));
+        }
+        let (error, tolerance) = match &exact.lambda {
+            None => continue,
+            Some(LambdaExact::Formula { formula, tolerance }) => (pressure_error(contact, lambda, formula), *tolerance),
+            Some(LambdaExact::Points { at, value, tolerance }) => {
+                let one = |(x, value): (&[f64; 2], &f64)| (pressure_at(contact, lambda, Point::new(x[0], x[1])) / value - 1.0).abs();
+                (at.iter().zip(value).map(one).fold(0.0, f64::max), *tolerance)
+            }
+        };
+        errors.add(format!("lambda_{}", exact.name), error, Some(tolerance));
+    }
+    compare_bodies(case, problem, u, &mut errors, session)?;
+    Ok(errors)
+}
+
+fn compare_bodies(case: &Case, problem: &Problem, u: &Field<2>, errors: &mut Errors, session: &Session) -> Result<(), RunError> {
+    let space = problem.finest();
+    for exact in &case.exact.bodies {
+        let body = problem.scene.bodies.iter().position(|body| body.name == exact.name).expect("checked names");
+        let size = largest(u, session);
+        if let Some(displacement) = &exact.displacement {
+            let mut worst: f64 = 0.0;
+            for (x, value) in displacement.at.iter().zip(&displacement.value) {
+                let Some(found) = probe(&problem.scene, space, u, body, Point::new(x[0], x[1]), session)? else {
+                    return Err(RunError::Input(format!(
+                        "{}: exact.body.{}.displacement.at: ({}, {}) lies outside the body",
+                        case.file.display(), exact.name, x[0], x[1]
+                    )));
+                };
+                worst = worst.max((found.displacement - Point::new(value[0], value[1])).norm() / size);
+            }
+            errors.add(format!("displacement_{}", exact.name), worst, Some(displacement.tolerance));
+        }
+        if let Some(stress) = &exact.stress {
+            let [difference, whole] = energy_error(&problem.scene, space, u, body, stress, session)?;
+            errors.add(format!("energy_norm_{}", exact.name), (difference / whole).sqrt(), None);
+        }
+        if let Some(formulas) = &exact.u {
+            let error = displacement_error(problem, u, body, formulas, session);
+            errors.add(format!("u_{}", exact.name), error, None);
+        }
+    }
+    Ok(())
+}
+
+/// Largest displacement of a node. **Collective**
+fn largest(u: &Field<2>, session: &Session) -> f64 {
+    let mut size = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
+    session.max(&mut size);
+    size[0]
+}
+
+/// Root mean square error of the nodal displacements of a body, relative to their root mean square. **Collective**
+fn displacement_error(problem: &Problem, u: &Field<2>, body: usize, exact: &[crate::geometry::Formula; 2], session: &Session) -> f64 {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let n = numbering.level.intervals;
+    let mut sums = [0.0; 2];
+    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
+        if mesh.triangles[triangle as usize].body as usize != body {
+            continue;
+        }
+        let numbers = numbering.triangle(mesh, triangle as usize);
+        for (i, j) in crate::mesh::lattice::nodes(n) {
+            let x = mesh.position(triangle as usize, i as f64 / n as f64, j as f64 / n as f64);
+            let wanted = Point::new(exact[0].value(&[x.x, x.y]), exact[1].value(&[x.x, x.y]));
+            sums[0] += (u.point(numbers.node(i, j)) - wanted).norm_squared();
+            sums[1] += wanted.norm_squared();
+        }
+    }
+    session.sum(&mut sums);
+    (sums[0] / sums[1]).sqrt()
+}

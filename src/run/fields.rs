@@ -1,0 +1,122 @@
+//! Fields of the bodies in files: one piece per rank, and the facets of the figure.
+
+use super::{Problem, RunError};
+use crate::element::{Order, von_mises};
+use crate::mesh::lattice::{self, Triangle};
+use crate::output::plot::Facet;
+use crate::output::vtk::{Piece, write_parallel, write_piece};
+use crate::petsc::Session;
+use crate::system::Field;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Facets of the figure at most.
+const MOST_FACETS: usize = 20_000;
+
+/// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own.
+pub fn write(folder: &Path, problem: &Problem, u: &Field<2>, stress: &Field<5>, session: &Session) -> Result<(), RunError> {
+    let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
+    let piece = Nodes::new(problem, session.rank());
+    let points: Vec<[f64; 2]> = piece.places.clone();
+    let displacement: Vec<[f64; 2]> = piece.numbers.iter().map(|&node| u.at(node)).collect();
+    let stresses: Vec<[f64; 4]> = piece.numbers.iter().map(|&node| first_four(stress.at(node))).collect();
+    let mises: Vec<f64> = stresses.iter().map(|&s| von_mises(s)).collect();
+    let file = folder.join(name(session.rank()));
+    write_piece(
+        &file,
+        &Piece {
+            points: &points,
+            cells: &piece.cells,
+            order: problem.scene.order,
+            displacement: &displacement,
+            stress: &stresses,
+            von_mises: &mises,
+            body: &piece.bodies,
+            rank: session.rank() as i32,
+        },
+    )?;
+    if session.size() > 1 && session.rank() == 0 {
+        let pieces: Vec<String> = (0..session.size()).map(name).collect();
+        write_parallel(&folder.join("fields.pvtu"), &pieces)?;
+    }
+    Ok(())
+}
+
+fn first_four([xx, yy, xy, zz, _]: [f64; 5]) -> [f64; 4] {
+    [xx, yy, xy, zz]
+}
+
+/// Nodes and cells of the macro triangles of one rank.
+struct Nodes {
+    numbers: Vec<usize>,
+    places: Vec<[f64; 2]>,
+    cells: Vec<u32>,
+    bodies: Vec<i32>,
+}
+
+impl Nodes {
+    fn new(problem: &Problem, rank: usize) -> Self {
+        let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+        let (n, order) = (numbering.level.intervals, numbering.level.order);
+        let mut piece = Self { numbers: Vec::new(), places: Vec::new(), cells: Vec::new(), bodies: Vec::new() };
+        let mut known: HashMap<usize, u32> = HashMap::new();
+        for &triangle in problem.scene.partition.triangles_of(rank) {
+            let numbers = numbering.triangle(mesh, triangle as usize);
+            let mut local = Vec::with_capacity(lattice::node_count(n));
+            for (i, j) in lattice::nodes(n) {
+                let node = numbers.node(i, j);
+                let next = piece.numbers.len() as u32;
+                let inside = matches!(lattice::place(n, i, j), lattice::Place::Inside(_));
+                let at = if inside { next } else { *known.entry(node).or_insert(next) };
+                if at == next {
+                    let x = mesh.position(triangle as usize, i as f64 / n as f64, j as f64 / n as f64);
+                    piece.numbers.push(node);
+                    piece.places.push([x.x, x.y]);
+                }
+                local.push(at);
+            }
+            let body = mesh.triangles[triangle as usize].body as i32;
+            for small in lattice::triangles(n, order) {
+                match order {
+                    Order::P1 => piece.cells.extend(small.nodes::<3>().map(|(i, j)| local[lattice::index(n, i, j)])),
+                    Order::P2 => piece.cells.extend(small.nodes::<6>().map(|(i, j)| local[lattice::index(n, i, j)])),
+                }
+                piece.bodies.push(body);
+            }
+        }
+        piece
+    }
+}
+
+/// Facets for the figure of the deformed bodies, coarse enough to draw, from all ranks. **Collective**
+pub fn facets(problem: &Problem, u: &Field<2>, stress: &Field<5>, session: &Session) -> Vec<Facet> {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let n = numbering.level.intervals;
+    let mut shown = n;
+    while shown > 1 && mesh.triangles.len() * shown * shown > MOST_FACETS {
+        shown /= 2;
+    }
+    let step = n / shown;
+    let mut values: Vec<f64> = Vec::new();
+    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
+        let numbers = numbering.triangle(mesh, triangle as usize);
+        for small in lattice::triangles(shown, Order::P1) {
+            let corners = Triangle::nodes::<3>(&small).map(|(i, j)| (step * i, step * j));
+            let mut mean = 0.0;
+            for (i, j) in corners {
+                let x = mesh.position(triangle as usize, i as f64 / n as f64, j as f64 / n as f64);
+                let node = numbers.node(i, j);
+                values.extend([x.x, x.y]);
+                values.extend(u.at(node));
+                mean += von_mises(first_four(stress.at(node))) / 3.0;
+            }
+            values.push(mean);
+        }
+    }
+    let facet = |v: &[f64]| Facet {
+        corners: [[v[0], v[1]], [v[4], v[5]], [v[8], v[9]]],
+        displacement: [[v[2], v[3]], [v[6], v[7]], [v[10], v[11]]],
+        von_mises: v[12],
+    };
+    session.gather_all(&values).chunks_exact(13).map(facet).collect()
+}

@@ -1,0 +1,98 @@
+//! What a run prints on rank 0 while it lives.
+
+use super::{Problem, RunOptions, Stages};
+use crate::case::Case;
+use crate::element::Order;
+use crate::output::Summary;
+use crate::output::summary::{Memory, Time};
+use crate::petsc::Session;
+use crate::system::OuterStep;
+use std::time::Instant;
+
+/// Prints to standard output, on rank 0 only and unless the run is quiet.
+pub struct Report {
+    speaks: bool,
+    ranks: usize,
+    started: Instant,
+}
+
+impl Report {
+    /// A report of one run.
+    pub fn new(_case: &Case, options: &RunOptions, session: &Session) -> Self {
+        Self { speaks: session.rank() == 0 && !options.quiet, ranks: session.size(), started: options.started }
+    }
+
+    /// Prints a line.
+    pub fn say(&self, line: &str) {
+        if self.speaks {
+            println!("{line}");
+        }
+    }
+
+    /// Title of the case.
+    pub fn start(&self, case: &Case) {
+        let ranks = if self.ranks == 1 { "1 rank".into() } else { format!("{} ranks", self.ranks) };
+        self.say(&format!("mezha {}: {} on {ranks}", env!("CARGO_PKG_VERSION"), if case.title.is_empty() { &case.name } else { &case.title }));
+    }
+
+    /// Sizes of mesh and contacts.
+    pub fn sizes(&self, problem: &Problem) {
+        let level = problem.finest().numbering.level;
+        let order = if level.order == Order::P1 { "P1" } else { "P2" };
+        let triangles = problem.scene.mesh.triangles.len() * level.triangles_per_edge().pow(2);
+        let unknowns = 2 * problem.finest().numbering.node_count();
+        self.say(&format!("{triangles} {order} triangles, {unknowns} unknowns, {} multipliers", problem.coupling.gap.len()));
+        for contact in &problem.contacts {
+            self.say(&format!("contact {}: {} segments over {:.6}", contact.pair.name, contact.boundary.segments(), contact.boundary.length()));
+        }
+        self.say("outer  active       +/-  Krylov  residual  penetration     du");
+    }
+
+    /// A pass of the contact loop.
+    pub fn step(&self, step: &OuterStep, all: usize) {
+        self.say(&format!(
+            "{:5}  {:>6}/{:<6} {:>+3}/{:<+3} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
+            step.iteration, step.active, all, step.added, -(step.released as i64), step.krylov_iterations, step.residual, step.max_penetration, step.du
+        ));
+    }
+
+    /// Times of the stages on the slowest rank. **Collective**
+    pub fn times(&self, stages: &Stages, session: &Session) -> Time {
+        let mut seconds = [&stages.mesh, &stages.assemble, &stages.contact, &stages.setup, &stages.solve, &stages.output].map(|stage| stage.seconds()).to_vec();
+        seconds.push(self.started.elapsed().as_secs_f64());
+        session.max(&mut seconds);
+        Time {
+            mesh: Some(seconds[0]),
+            assemble: Some(seconds[1]),
+            contact: Some(seconds[2]),
+            setup: Some(seconds[3]),
+            solve: Some(seconds[4]),
+            output: Some(seconds[5]),
+            total: Some(seconds[6]),
+        }
+    }
+
+    /// The table of stages.
+    pub fn table(&self, summary: &Summary) {
+        let time = &summary.time_s;
+        let cell = |name: &str, seconds: Option<f64>| format!("{name} {:.3}", seconds.unwrap_or(0.0));
+        let cells = [
+            cell("mesh", time.mesh), cell("contact", time.contact), cell("assemble", time.assemble), cell("setup", time.setup),
+            cell("solve", time.solve), cell("output", time.output), cell("total", time.total),
+        ];
+        self.say(&format!("seconds: {}", cells.join("  ")));
+        let memory = &summary.memory_mib;
+        self.say(&format!("memory: {:.0} MiB on the largest rank, {:.0} MiB in all", memory.max_rank.unwrap_or(0.0), memory.sum.unwrap_or(0.0)));
+    }
+}
+
+/// Largest resident memory so far, as the system knows it. **Collective**
+pub fn memory(session: &Session) -> Memory {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).and_then(|rest| rest.split_whitespace().next());
+    let own = peak.and_then(|kib| kib.parse::<f64>().ok()).unwrap_or(f64::NAN) / 1024.0;
+    let (mut largest, mut sum) = ([own], [own]);
+    session.max(&mut largest);
+    session.sum(&mut sum);
+    Memory { max_rank: Some(largest[0]), sum: Some(sum[0]) }
+}

@@ -1,0 +1,161 @@
+//! Case and mesh brought together: names resolved, geometries applied, macro triangles spread over ranks.
+
+use super::RunError;
+use crate::case::Case;
+use crate::contact::{CurveChoice, GapChoice};
+use crate::mesh::{Graph, MacroMesh, Partition, levels, read_gmsh};
+use crate::petsc::{Session, partition};
+use crate::system::{Scene, Space, SystemError};
+use std::rc::Rc;
+
+/// Reads the mesh of a case, bends it, and checks that every name of the case is in it.
+///
+/// # Errors
+/// Words with file, key, value and remedy.
+pub fn read_mesh(case: &Case) -> Result<MacroMesh, String> {
+    let mut mesh = read_gmsh(&case.mesh.file).map_err(|error| error.to_string())?;
+    let names = Names { case, mesh: &mesh };
+    names.check_bodies()?;
+    for (key, boundaries) in names.used() {
+        for name in boundaries {
+            names.check_boundary(&key, name)?;
+        }
+    }
+    for pair in &case.contacts {
+        names.check_sides(&pair.name, &pair.between)?;
+    }
+    for geometry in &case.geometries {
+        mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
+    }
+    check_gaps(case, &mesh)?;
+    Ok(mesh)
+}
+
+/// A scene with its macro triangles spread over the ranks. **Collective**
+pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, RunError> {
+    let side = |name: &String| mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+    let pairs: Vec<[&[u32]; 2]> = case.contacts.iter().map(|pair| [side(&pair.between[0]), side(&pair.between[1])]).collect();
+    let graph = Graph::new(&mesh, &pairs);
+    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.weights, None)?;
+    let partition = Partition::new(&mesh, &ranks, session.size());
+    Ok(assemble(case, mesh, partition))
+}
+
+/// The scene of a case on a mesh that is spread already.
+pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
+    let body = |name: &String| case.bodies.iter().find(|body| body.name == *name).expect("checked names").clone();
+    Scene {
+        bodies: mesh.bodies.iter().map(body).collect(),
+        partition: Rc::new(partition),
+        order: case.mesh.order,
+        refine: case.mesh.refine,
+        supports: case.supports.clone(),
+        loads: case.loads.clone(),
+        pairs: case.contacts.clone(),
+        mesh,
+    }
+}
+
+/// Spaces of all levels, coarsest first; a mesh that is not refined has none below its own.
+pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
+    let all = levels(scene.order, scene.refine);
+    let first = if scene.refine == 0 { all.len() - 1 } else { 0 };
+    all[first..].iter().map(|&level| Space::new(scene, level, rank)).collect()
+}
+
+/// Names of a case against those of its mesh.
+struct Names<'a> {
+    case: &'a Case,
+    mesh: &'a MacroMesh,
+}
+
+impl Names<'_> {
+    fn error(&self, key: &str, words: &str) -> String {
+        format!("{}: {key}: {words}", self.case.file.display())
+    }
+
+    /// What the mesh has instead of a name that it has not.
+    fn instead<'n>(&self, name: &str, known: impl Iterator<Item = &'n String> + Clone) -> String {
+        let near = known.clone().min_by_key(|other| strsim::damerau_levenshtein(name, other));
+        let all: Vec<String> = known.clone().map(|other| format!("\"{other}\"")).collect();
+        let near = near.filter(|other| strsim::damerau_levenshtein(name, other) <= 3);
+        let guess = near.map_or(String::new(), |other| format!("; did you mean \"{other}\"?"));
+        format!("{} has no such name{guess} It has {}", self.mesh.file.display(), all.join(", "))
+    }
+
+    fn check_bodies(&self) -> Result<(), String> {
+        for body in &self.case.bodies {
+            if !self.mesh.bodies.contains(&body.name) {
+                let words = format!("no physical surface \"{}\": {}", body.name, self.instead(&body.name, self.mesh.bodies.iter()));
+                return Err(self.error(&format!("body.{}", body.name), &words));
+            }
+        }
+        for name in &self.mesh.bodies {
+            if !self.case.bodies.iter().any(|body| body.name == *name) {
+                let words = format!("missing, but {} has the physical surface \"{name}\"; give its young and poisson", self.mesh.file.display());
+                return Err(self.error(&format!("body.{name}"), &words));
+            }
+        }
+        Ok(())
+    }
+
+    /// Every key of the case that names physical curves.
+    fn used(&self) -> Vec<(String, &[String])> {
+        let case = self.case;
+        let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
+        let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
+        let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
+        let contacts = case.contacts.iter().map(|c| (format!("contact.{}.between", c.name), c.between.as_slice()));
+        supports.chain(loads).chain(geometries).chain(contacts).collect()
+    }
+
+    fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
+        if self.mesh.boundary(name).is_some() {
+            return Ok(());
+        }
+        let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
+        Err(self.error(key, &format!("no physical curve \"{name}\": {}", self.instead(name, known))))
+    }
+
+    /// Each side of a contact lies on one body, and they are two.
+    fn check_sides(&self, pair: &str, between: &[String; 2]) -> Result<(), String> {
+        let key = format!("contact.{pair}.between");
+        let mut bodies = Vec::new();
+        for name in between {
+            let mut found: Vec<usize> =
+                self.mesh.boundary(name).iter().flat_map(|b| &b.edges).map(|&edge| self.mesh.body_beside(edge)).collect();
+            found.sort_unstable();
+            found.dedup();
+            if let [body] = found[..] {
+                bodies.push(body);
+            } else {
+                let words = format!("\"{name}\" lies on {} bodies; name each body's part by itself in the mesh", found.len());
+                return Err(self.error(&key, &words));
+            }
+        }
+        if bodies[0] == bodies[1] {
+            let words = format!("both sides lie on body \"{}\"; contact of a body with itself is not modelled", self.mesh.bodies[bodies[0]]);
+            return Err(self.error(&key, &words));
+        }
+        Ok(())
+    }
+}
+
+/// A gap can be measured only from declared or straight boundaries.
+fn check_gaps(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
+    for pair in &case.contacts {
+        let declared = pair.curve == CurveChoice::Line || !matches!(pair.gap, GapChoice::Geometry);
+        for name in &pair.between {
+            let edges = mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+            let bent = edges.iter().all(|&edge| mesh.edges[edge as usize].shape.is_some());
+            if !declared && !bent {
+                return Err(format!(
+                    "{}: contact.{}.gap = \"geometry\": \"{name}\" has no [geometry]; splines through its nodes are not available yet: give a [geometry], or gap = \"closed\"",
+                    case.file.display(),
+                    pair.name
+                ));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,116 @@
+//! Values at the nodes that a rank can see: those of the macro triangles it owns.
+
+use super::{Scene, Space, SystemError};
+use crate::geometry::Point;
+use crate::mesh::lattice;
+use crate::petsc::{Gather, Session, Vector};
+use std::collections::HashMap;
+
+/// `K` numbers at every node of the macro triangles that this rank owns.
+pub struct Field<const K: usize> {
+    first: usize,
+    own: Vec<[f64; K]>,
+    others: HashMap<usize, [f64; K]>,
+}
+
+impl<const K: usize> Field<K> {
+    /// Zeros.
+    pub fn zeros(scene: &Scene, space: &Space, session: &Session) -> Self {
+        let others = seen_nodes(scene, space, session.rank()).into_iter().map(|node| (node, [0.0; K])).collect();
+        Self { first: space.own.start, own: vec![[0.0; K]; space.own.len()], others }
+    }
+
+    /// Values at a node.
+    ///
+    /// # Panics
+    /// If this rank owns no macro triangle with that node.
+    #[inline]
+    pub fn at(&self, node: usize) -> [f64; K] {
+        match self.own.get(node.wrapping_sub(self.first)) {
+            Some(values) => *values,
+            None => self.others[&node],
+        }
+    }
+
+    /// Values at a node, to change.
+    #[inline]
+    pub fn at_mut(&mut self, node: usize) -> &mut [f64; K] {
+        match self.own.get_mut(node.wrapping_sub(self.first)) {
+            Some(values) => values,
+            None => self.others.get_mut(&node).expect("a node of a macro triangle of this rank"),
+        }
+    }
+
+    /// Values at the nodes that this rank owns.
+    pub fn own(&self) -> &[[f64; K]] {
+        &self.own
+    }
+
+    /// Adds up what all ranks have gathered at each node, and shares the sums. **Collective**
+    pub fn sum(mut self, session: &Session) -> Result<Self, SystemError> {
+        let mut sums = Vector::new(session, K * self.own.len())?;
+        sums.values_mut().copy_from_slice(self.own.as_flattened());
+        for (&node, values) in &self.others {
+            sums.add(&indices::<K>(node), values)?;
+        }
+        sums.assemble()?;
+        self.own.as_flattened_mut().copy_from_slice(&sums.values());
+        self.fetch(&sums)?;
+        Ok(self)
+    }
+
+    /// Takes the values of other ranks' nodes from their owners.
+    fn fetch(&mut self, values: &Vector) -> Result<(), SystemError> {
+        let nodes: Vec<usize> = self.others.keys().copied().collect();
+        let wanted: Vec<i32> = nodes.iter().flat_map(|&node| indices::<K>(node)).collect();
+        let found = Gather::new(values, &wanted)?.fetch(values)?;
+        for (node, values) in nodes.iter().zip(found.chunks_exact(K)) {
+            self.others.insert(*node, std::array::from_fn(|k| values[k]));
+        }
+        Ok(())
+    }
+}
+
+impl Field<2> {
+    /// Displacements in global axes, from this rank's unknowns in the nodes' frames. **Collective**
+    pub fn displacement(scene: &Scene, space: &Space, unknowns: &[f64], session: &Session) -> Result<Self, SystemError> {
+        let mut field = Self::zeros(scene, space, session);
+        for (at, (own, u)) in field.own.iter_mut().zip(unknowns.chunks_exact(2)).enumerate() {
+            let u = space.to_global(space.own.start + at, Point::new(u[0], u[1]));
+            *own = [u.x, u.y];
+        }
+        let mut values = Vector::new(session, unknowns.len())?;
+        values.values_mut().copy_from_slice(field.own.as_flattened());
+        field.fetch(&values)?;
+        Ok(field)
+    }
+
+    /// Displacement of a node.
+    #[inline]
+    pub fn point(&self, node: usize) -> Point {
+        let [x, y] = self.at(node);
+        Point::new(x, y)
+    }
+}
+
+fn indices<const K: usize>(node: usize) -> [i32; K] {
+    std::array::from_fn(|k| (K * node + k) as i32)
+}
+
+/// Nodes of this rank's macro triangles that other ranks own.
+fn seen_nodes(scene: &Scene, space: &Space, rank: usize) -> Vec<usize> {
+    let n = space.numbering.level.intervals;
+    let mut seen: Vec<usize> = scene
+        .partition
+        .triangles_of(rank)
+        .iter()
+        .flat_map(|&triangle| {
+            let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
+            (0..3).flat_map(move |side| (0..n).map(move |p| lattice::side_node(n, side, p))).map(move |(i, j)| numbers.node(i, j))
+        })
+        .filter(|node| !space.own.contains(node))
+        .collect();
+    seen.sort_unstable();
+    seen.dedup();
+    seen
+}

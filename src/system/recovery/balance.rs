@@ -1,0 +1,192 @@
+//! Energies, reactions, and the balances of forces, moments and energy.
+
+use crate::body::{MacroStiffness, applied_forces};
+use crate::contact::Side;
+use crate::geometry::{Point, cross};
+use crate::mesh::lattice;
+use crate::petsc::Session;
+use crate::system::{Contact, Coupling, Field, Scene, Solution, Space, SystemError};
+
+/// Resultants of one contact, from each body's own integrals.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactForce {
+    /// `∫λ ds` (force per thickness).
+    pub force: f64,
+    /// Force on body 1 and on body 2.
+    pub resultants: [Point; 2],
+    /// Their moments about the origin.
+    pub moments: [f64; 2],
+}
+
+/// Energies and balances of a solution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Balance {
+    /// Strain energy of each body, `½∫σ:ε`.
+    pub strain: Vec<f64>,
+    /// `f·u + r·u_D`.
+    pub external_work: f64,
+    /// Resultants of each contact.
+    pub contacts: Vec<ContactForce>,
+    /// Largest `|F₁ + F₂| / |F₂|`.
+    pub force: Option<f64>,
+    /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C.
+    pub moment: Option<f64>,
+    /// `|2U - (f·u + r·u_D - λᵀc)|` over the largest of the terms.
+    pub energy: Option<f64>,
+    /// Largest `|loads + reactions + contact|` of a body over the sum of magnitudes of these.
+    pub bodies: Option<f64>,
+}
+
+/// Integrates energies and reactions of a solution. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc or an inverted triangle.
+pub fn balance(
+    scene: &Scene,
+    space: &Space,
+    contacts: &[Contact],
+    coupling: &Coupling,
+    solution: &Solution,
+    u: &Field<2>,
+    session: &Session,
+) -> Result<Balance, SystemError> {
+    let (mut strain, internal) = internal_forces(scene, space, u, session)?;
+    session.sum(&mut strain);
+    let mut applied = Field::<2>::zeros(scene, space, session);
+    applied_forces(&scene.mesh, &scene.partition, session.rank(), &space.numbering, &scene.bodies, &scene.loads, |node, force| {
+        let sum = applied.at_mut(node);
+        sum[0] += force.x;
+        sum[1] += force.y;
+    })?;
+    let applied = applied.sum(session)?;
+    let pressed = contact_forces(scene, space, coupling, solution);
+    let mut work = [0.0; 2];
+    let body_of = body_of_nodes(scene, space, session.rank());
+    let mut totals = vec![[0.0; 6]; scene.bodies.len()];
+    for (at, node) in space.own.clone().enumerate() {
+        let [f, k] = [applied.own()[at], internal.own()[at]].map(|[x, y]| Point::new(x, y));
+        work[0] += f.dot(&u.point(node));
+        let Some(constraint) = space.constraints.get(node) else {
+            add_total(&mut totals[body_of[at]], f, Point::zeros());
+            continue;
+        };
+        // Contact pushes body 1 along -n: K u + Bᵀλ = f + r.
+        let all = constraint.to_frame(k + pressed.get(&node).copied().unwrap_or_default() - f);
+        let reaction = Point::new(if constraint.fixed[0] { all.x } else { 0.0 }, if constraint.fixed[1] { all.y } else { 0.0 });
+        work[1] += reaction.dot(&constraint.prescribed());
+        add_total(&mut totals[body_of[at]], f, constraint.to_global(reaction));
+    }
+    session.sum(&mut work);
+    session.sum(totals.as_flattened_mut());
+    let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(scene, space, contact, coupling, solution)).collect();
+    let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
+    let (twice, external) = (2.0 * strain.iter().sum::<f64>(), work[0] + work[1]);
+    let largest = [twice, work[0], work[1], lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
+    let worst = |ratio: &dyn Fn(&Contact, &ContactForce) -> f64| {
+        contacts.iter().zip(&forces).map(|(contact, force)| ratio(contact, force)).filter(|v| v.is_finite()).reduce(f64::max)
+    };
+    Ok(Balance {
+        external_work: external,
+        force: worst(&|_, force| (force.resultants[0] + force.resultants[1]).norm() / force.resultants[1].norm()),
+        moment: worst(&|contact, force| {
+            let middle = contact.boundary.point(contact.boundary.parameter_at(0.5 * contact.boundary.length()));
+            let sum = force.moments[0] + force.moments[1] - cross(middle, force.resultants[0] + force.resultants[1]);
+            sum.abs() / (force.resultants[1].norm() * contact.boundary.length())
+        }),
+        energy: (largest > 0.0).then(|| (twice - (external - lambda_gap)).abs() / largest),
+        bodies: body_balance(contacts, &forces, &totals),
+        strain,
+        contacts: forces,
+    })
+}
+
+fn add_total(total: &mut [f64; 6], load: Point, reaction: Point) {
+    for (k, v) in [load.x, load.y, reaction.x, reaction.y].into_iter().enumerate() {
+        total[k] += v;
+    }
+    total[4] += load.norm();
+    total[5] += reaction.norm();
+}
+
+/// Largest sum of loads, reactions and contact forces on a body, over the sum of their magnitudes.
+fn body_balance(contacts: &[Contact], forces: &[ContactForce], totals: &[[f64; 6]]) -> Option<f64> {
+    let ratio = |(body, total): (usize, &[f64; 6])| {
+        let mut sum = Point::new(total[0] + total[2], total[1] + total[3]);
+        let mut size = total[4] + total[5];
+        for (contact, force) in contacts.iter().zip(forces) {
+            for k in (0..2).filter(|&k| contact.bodies[k] == body) {
+                sum += force.resultants[k];
+                size += force.resultants[k].norm();
+            }
+        }
+        sum.norm() / size
+    };
+    totals.iter().enumerate().map(ratio).filter(|v| v.is_finite()).reduce(f64::max)
+}
+
+/// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
+fn internal_forces(scene: &Scene, space: &Space, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
+    let laws = scene.laws();
+    let n = space.numbering.level.intervals;
+    let mut strain = vec![0.0; scene.bodies.len()];
+    let mut forces = Field::<2>::zeros(scene, space, session);
+    for &triangle in scene.partition.triangles_of(session.rank()) {
+        let body = scene.mesh.triangles[triangle as usize].body as usize;
+        let stiffness = MacroStiffness::new(&scene.mesh, triangle as usize, space.numbering.level, &laws[body])?;
+        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
+        let local: Vec<Point> = lattice::nodes(n).map(|(i, j)| u.point(numbers.node(i, j))).collect();
+        for (at, (i, j)) in lattice::nodes(n).enumerate() {
+            let mut force = Point::zeros();
+            for ((k, l), block) in stiffness.row(i, j) {
+                let u = local[lattice::index(n, k, l)];
+                force.x += block[0][0] * u.x + block[0][1] * u.y;
+                force.y += block[1][0] * u.x + block[1][1] * u.y;
+            }
+            strain[body] += 0.5 * force.dot(&local[at]);
+            let sum = forces.at_mut(numbers.node(i, j));
+            sum[0] += force.x;
+            sum[1] += force.y;
+        }
+    }
+    Ok((strain, forces.sum(session)?))
+}
+
+/// `Bᵀλ` at the contact nodes.
+fn contact_forces(scene: &Scene, space: &Space, coupling: &Coupling, solution: &Solution) -> std::collections::HashMap<usize, Point> {
+    let mut forces = std::collections::HashMap::new();
+    for (row, lambda) in coupling.rows.iter().zip(&solution.multipliers) {
+        for coupled in row {
+            *forces.entry(coupled.node.number(&scene.mesh, &space.numbering)).or_insert(Point::zeros()) += *lambda * coupled.value;
+        }
+    }
+    forces
+}
+
+fn contact_force(scene: &Scene, space: &Space, contact: &Contact, coupling: &Coupling, solution: &Solution) -> ContactForce {
+    let mut sum = ContactForce::default();
+    for i in contact.range() {
+        let lambda = solution.multipliers[i];
+        sum.force += lambda * contact.multipliers.weight(i - contact.first);
+        for coupled in &coupling.rows[i] {
+            let k = if coupled.side == Side::First { 0 } else { 1 };
+            let force = -lambda * coupled.value;
+            sum.resultants[k] += force;
+            sum.moments[k] += cross(coupled.node.place(&scene.mesh, &space.numbering), force);
+        }
+    }
+    sum
+}
+
+/// Body of each owned node.
+fn body_of_nodes(scene: &Scene, space: &Space, rank: usize) -> Vec<usize> {
+    let mut body = vec![0; space.own.len()];
+    for &triangle in scene.partition.triangles_of(rank) {
+        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
+        for (i, j) in lattice::nodes(space.numbering.level.intervals) {
+            if let Some(at) = numbers.node(i, j).checked_sub(space.own.start).filter(|&at| at < body.len()) {
+                body[at] = scene.mesh.triangles[triangle as usize].body as usize;
+            }
+        }
+    }
+    body
+}

@@ -1,0 +1,58 @@
+//! Error of the stress in the energy norm, against formulas.
+
+use super::nodal;
+use crate::body::positions;
+use crate::element::{Order, PlaneStrain, jacobian, shape, stress};
+use crate::geometry::{Formula, Point};
+use crate::mesh::lattice;
+use crate::petsc::Session;
+use crate::system::{Field, Scene, Space, SystemError};
+
+/// Quadrature of degree 4 on the triangle, also for P1: the exact stress is no polynomial.
+const STRAIGHT: bool = false;
+
+/// Integrals over one body (`∫(σ_h - σ):C⁻¹(σ_h - σ)`, `∫σ:C⁻¹σ`) of the computed stress against formulas
+/// `xx, yy, xy` of `x, y`. Summed over bodies, the root of their ratio is the relative energy-norm error. **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn energy_error(scene: &Scene, space: &Space, u: &Field<2>, body: usize, exact: &[Formula; 3], session: &Session) -> Result<[f64; 2], SystemError> {
+    let law = scene.laws()[body];
+    let mut sums = [0.0; 2];
+    for &triangle in scene.partition.triangles_of(session.rank()) {
+        if scene.mesh.triangles[triangle as usize].body as usize == body {
+            match space.numbering.level.order {
+                Order::P1 => add::<3>(scene, space, u, triangle as usize, &law, exact, &mut sums)?,
+                Order::P2 => add::<6>(scene, space, u, triangle as usize, &law, exact, &mut sums)?,
+            }
+        }
+    }
+    session.sum(&mut sums);
+    Ok(sums)
+}
+
+fn add<const N: usize>(
+    scene: &Scene,
+    space: &Space,
+    u: &Field<2>,
+    triangle: usize,
+    law: &PlaneStrain,
+    exact: &[Formula; 3],
+    sums: &mut [f64; 2],
+) -> Result<(), SystemError> {
+    let n = space.numbering.level.intervals;
+    for small in lattice::triangles(n, space.numbering.level.order) {
+        let x = positions(&scene.mesh, triangle, n, &small.nodes::<N>());
+        let u = nodal::<N>(scene, space, u, triangle, &small);
+        for &(l, weight) in crate::element::quadrature::<6>(STRAIGHT) {
+            let (_, determinant) = jacobian(&x, l)?;
+            let here = x.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (x, value)| sum + value * x);
+            let found = stress(&x, &u, l, law)?;
+            let wanted = [0, 1, 2].map(|k| exact[k].value(&[here.x, here.y]));
+            let area = 0.5 * weight * determinant;
+            sums[0] += area * law.compliance([found[0] - wanted[0], found[1] - wanted[1], found[2] - wanted[2]]);
+            sums[1] += area * law.compliance(wanted);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,25 @@
+//! What a solution means on the bodies: energies, reactions, stresses, traces on Γ_C, values at points, errors.
+
+mod balance;
+mod error_norm;
+mod exact_pressure;
+mod probe;
+mod stress;
+mod traces;
+
+pub use balance::{Balance, ContactForce, balance};
+pub use error_norm::energy_error;
+pub use exact_pressure::{pressure_at, pressure_error};
+pub use probe::{Probed, probe};
+pub use stress::nodal_stress;
+pub use traces::{TracePoint, trace_points};
+
+use super::{Field, Scene, Space};
+use crate::geometry::Point;
+use crate::mesh::lattice::Triangle;
+
+/// Displacements at the nodes of one triangle of a macro triangle's lattice.
+fn nodal<const N: usize>(scene: &Scene, space: &Space, u: &Field<2>, triangle: usize, small: &Triangle) -> [Point; N] {
+    let numbers = space.numbering.triangle(&scene.mesh, triangle);
+    small.nodes::<N>().map(|(i, j)| u.point(numbers.node(i, j)))
+}

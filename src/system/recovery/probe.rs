@@ -1,0 +1,103 @@
+//! Displacement and stress at a point of a body.
+
+use super::nodal;
+use crate::body::positions;
+use crate::element::{Order, PlaneStrain, shape, stress};
+use crate::geometry::Point;
+use crate::mesh::{MacroMesh, lattice::Triangle};
+use crate::petsc::Session;
+use crate::system::{Field, Scene, Space, SystemError};
+use nalgebra::Matrix2;
+
+/// Points so close to a macro triangle (barycentric) count as inside.
+const NEAR: f64 = 1e-8;
+
+/// Values at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Probed {
+    /// Displacement.
+    pub displacement: Point,
+    /// Stress (xx, yy, xy, zz).
+    pub stress: [f64; 4],
+}
+
+/// Values at a point of a body, the same on every rank; nothing if the body does not hold the point. On an edge
+/// between macro triangles it is the mean over them. **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn probe(scene: &Scene, space: &Space, u: &Field<2>, body: usize, x: Point, session: &Session) -> Result<Option<Probed>, SystemError> {
+    let law = scene.laws()[body];
+    let mut sums = [0.0; 7];
+    for &triangle in scene.partition.triangles_of(session.rank()) {
+        let triangle = triangle as usize;
+        if scene.mesh.triangles[triangle].body as usize != body {
+            continue;
+        }
+        let Some(at) = reference_coordinates(&scene.mesh, triangle, x) else { continue };
+        let values = match space.numbering.level.order {
+            Order::P1 => values_at::<3>(scene, space, u, triangle, at, &law)?,
+            Order::P2 => values_at::<6>(scene, space, u, triangle, at, &law)?,
+        };
+        values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
+    }
+    session.sum(&mut sums);
+    let mean = sums.map(|sum| sum / sums[6]);
+    Ok((sums[6] > 0.0).then(|| Probed {
+        displacement: Point::new(mean[0], mean[1]),
+        stress: [mean[2], mean[3], mean[4], mean[5]],
+    }))
+}
+
+/// Reference coordinates of a point in a macro triangle by Newton's method on its map, or nothing if it lies outside.
+fn reference_coordinates(mesh: &MacroMesh, triangle: usize, x: Point) -> Option<Point> {
+    let [a, b, c] = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+    let size = (b - a).norm().max((c - a).norm()).max((c - b).norm());
+    if (x - (a + b + c) / 3.0).norm() > 1.5 * size {
+        return None;
+    }
+    let straight = Matrix2::from_columns(&[b - a, c - a]).try_inverse()?;
+    let mut at = straight * (x - a);
+    if mesh.is_curved(triangle) {
+        for _ in 0..30 {
+            let step = straight * (x - mesh.position(triangle, at.x, at.y));
+            at += step;
+            if step.norm() < 1e-14 {
+                break;
+            }
+        }
+    }
+    let inside = at.x >= -NEAR && at.y >= -NEAR && at.x + at.y <= 1.0 + NEAR;
+    inside.then_some(at)
+}
+
+/// Displacement and stress at reference coordinates of a macro triangle.
+fn values_at<const N: usize>(
+    scene: &Scene,
+    space: &Space,
+    u: &Field<2>,
+    triangle: usize,
+    at: Point,
+    law: &PlaneStrain,
+) -> Result<[f64; 6], SystemError> {
+    let level = space.numbering.level;
+    let count = level.triangles_per_edge();
+    let scaled = at.map(|v| v.max(0.0)) * count as f64;
+    let step = level.order.degree();
+    let [mut i, mut j] = [scaled.x as usize, scaled.y as usize].map(|k| k.min(count - 1));
+    while i + j >= count {
+        if i > j { i -= 1 } else { j -= 1 }
+    }
+    let (xi, eta) = (scaled.x - i as f64, scaled.y - j as f64);
+    let down = xi + eta > 1.0 && i + j + 2 <= count;
+    let (small, l) = if down {
+        (Triangle::at(step * (i + 1), step * (j + 1), level.order, true), [xi + eta - 1.0, 1.0 - xi, 1.0 - eta])
+    } else {
+        (Triangle::at(step * i, step * j, level.order, false), [1.0 - xi - eta, xi, eta])
+    };
+    let x = positions(&scene.mesh, triangle, level.intervals, &small.nodes::<N>());
+    let nodal = nodal::<N>(scene, space, u, triangle, &small);
+    let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
+    let s = stress(&x, &nodal, l, law)?;
+    Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])
+}

@@ -1,0 +1,156 @@
+//! Both bodies' traces along Γ_C.
+
+use super::nodal;
+use crate::body::positions;
+use crate::contact::{pieces, trace};
+use crate::element::{Order, PlaneStrain, stress};
+use crate::geometry::{Point, gauss_points};
+use crate::mesh::BoundaryEdge;
+use crate::petsc::Session;
+use crate::system::{Contact, Field, Scene, Space, SystemError};
+
+/// Gauss points of each part of Γ_C that results are given at.
+const POINTS: usize = 2;
+
+/// Values at one point of Γ_C.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TracePoint {
+    /// Parameter of Γ_C.
+    pub parameter: f64,
+    /// Arc length from the start.
+    pub arc: f64,
+    /// The point.
+    pub x: Point,
+    /// Normal, from body 1 to body 2.
+    pub normal: Point,
+    /// Contact pressure.
+    pub lambda: f64,
+    /// Normal displacement of body 1 and of body 2; not a number where a body has no corresponding point.
+    pub displacement: [f64; 2],
+    /// `n·σn` of each body.
+    pub stress: [f64; 2],
+    /// Undeformed distance along the normal from Γ_C to each corresponding point.
+    pub distance: [f64; 2],
+}
+
+impl TracePoint {
+    /// Whether both bodies have a corresponding point here.
+    pub fn is_complete(&self) -> bool {
+        self.displacement.iter().all(|u| u.is_finite())
+    }
+}
+
+/// Values along Γ_C at both ends, at the Gauss points of the union of segment ends and both bodies' projected nodes,
+/// and on both sides of every jump of λ; in order of arc length, the same on every rank. **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn trace_points(
+    scene: &Scene,
+    space: &Space,
+    contact: &Contact,
+    lambda: &[f64],
+    u: &Field<2>,
+    session: &Session,
+) -> Result<Vec<TracePoint>, SystemError> {
+    let own = [0, 1].map(|k| pieces(&contact.boundary, &contact.edges[k]));
+    let (parameters, segments) = parameters(contact, &own.iter().flatten().flat_map(|piece| piece.range).collect::<Vec<_>>(), session);
+    // Sums over ranks of (count, displacement, stress, distance) for both bodies.
+    let mut sums = vec![[0.0; 8]; parameters.len()];
+    let tolerance = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
+    let laws = scene.laws();
+    for k in 0..2 {
+        for piece in &own[k] {
+            let [from, to] = piece.range;
+            let first = parameters.partition_point(|&t| t < from - tolerance);
+            let last = parameters.partition_point(|&t| t <= to + tolerance);
+            for at in first..last {
+                let small = &contact.edges[k][piece.edge];
+                let values = on_edge(scene, space, contact, small, parameters[at], u, &laws[contact.bodies[k]])?;
+                sums[at][4 * k] += 1.0;
+                values.iter().enumerate().for_each(|(i, value)| sums[at][4 * k + 1 + i] += value);
+            }
+        }
+    }
+    session.sum(sums.as_flattened_mut());
+    let knots = contact.boundary.knots();
+    let point = |(at, &t): (usize, &f64)| {
+        let k = segments[at];
+        let mean = |side: usize, i: usize| sums[at][4 * side + 1 + i] / sums[at][4 * side];
+        let z = ((t - knots[k]) / (knots[k + 1] - knots[k])).clamp(0.0, 1.0);
+        TracePoint {
+            parameter: t,
+            arc: contact.boundary.arc(t),
+            x: contact.boundary.point(t),
+            normal: contact.boundary.normal(t),
+            lambda: contact.multipliers.value(lambda, k, z),
+            displacement: [mean(0, 0), mean(1, 0)],
+            stress: [mean(0, 1), mean(1, 1)],
+            distance: [mean(0, 2), mean(1, 2)],
+        }
+    };
+    Ok(parameters.iter().enumerate().map(point).collect())
+}
+
+/// Parameters of all points, ascending, and the segment each belongs to.
+fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, Vec<usize>) {
+    let knots = contact.boundary.knots();
+    let mut all = session.gather_all(cuts);
+    all.extend_from_slice(knots);
+    all.sort_by(f64::total_cmp);
+    let least = 1e-10 * (knots[knots.len() - 1] - knots[0]);
+    all.dedup_by(|b, a| *b - *a < least);
+    let (mut parameters, mut segments) = (vec![knots[0]], vec![0]);
+    for ends in all.windows(2) {
+        let segment = contact.boundary.locate(0.5 * (ends[0] + ends[1])).0;
+        if segment != segments[segments.len() - 1] {
+            // Both values of a jump.
+            parameters.extend([knots[segment], knots[segment]]);
+            segments.extend([segment - 1, segment]);
+        }
+        for (z, _) in gauss_points(POINTS) {
+            parameters.push(ends[0] + z * (ends[1] - ends[0]));
+            segments.push(segment);
+        }
+    }
+    parameters.push(knots[knots.len() - 1]);
+    segments.push(contact.boundary.segments() - 1);
+    (parameters, segments)
+}
+
+/// Normal displacement, `n·σn` and distance of the trace on one edge.
+fn on_edge(
+    scene: &Scene,
+    space: &Space,
+    contact: &Contact,
+    small: &BoundaryEdge,
+    t: f64,
+    u: &Field<2>,
+    law: &PlaneStrain,
+) -> Result<[f64; 3], SystemError> {
+    let here = trace(&contact.boundary, 0, small, t);
+    let normal = contact.boundary.normal(t);
+    let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
+        sum + value * u.point(node.number(&scene.mesh, &space.numbering))
+    });
+    let s = match space.numbering.level.order {
+        Order::P1 => stress_beside::<3>(scene, space, small, here.fraction, u, law)?,
+        Order::P2 => stress_beside::<6>(scene, space, small, here.fraction, u, law)?,
+    };
+    let pressure = s[0] * normal.x * normal.x + s[1] * normal.y * normal.y + 2.0 * s[2] * normal.x * normal.y;
+    Ok([moved.dot(&normal), pressure, (here.point - contact.boundary.point(t)).dot(&normal)])
+}
+
+/// Stress on a boundary edge, in the triangle beside it.
+fn stress_beside<const N: usize>(
+    scene: &Scene,
+    space: &Space,
+    small: &BoundaryEdge,
+    fraction: f64,
+    u: &Field<2>,
+    law: &PlaneStrain,
+) -> Result<[f64; 4], SystemError> {
+    let x = positions(&scene.mesh, small.triangle, space.numbering.level.intervals, &small.beside.nodes::<N>());
+    let nodal = nodal::<N>(scene, space, u, small.triangle, &small.beside);
+    Ok(stress(&x, &nodal, small.barycentric(fraction), law)?)
+}
