@@ -1,7 +1,9 @@
-// Two bars on an inclined line, y = 3 + x/6. Macro mesh: each triangle is cut again by mezha.
+// Two bars on an inclined line, y = 3 + x/6, 0 <= x <= 6. Macro mesh: each triangle is cut again by mezha.
 //   gmsh -2 -format msh41 bars.geo -o bars.msh
+//   gmsh -2 -format msh41 -setnumber even 1 bars.geo -o even.msh
 // The bodies share no point: each has its own side of the contact line.
-Mesh.Algorithm = 5;
+DefineConstant[ even = 0 ];   // 0: fine towards the corner (6, 4); 1: even triangles
+
 
 // Lower bar, body 1.
 Point(1) = {0, 0, 0};
@@ -28,14 +30,28 @@ Curve Loop(2) = {11:14};
 Plane Surface(2) = {2};
 
 // Edges per curve. The two sides of the contact line never match: 6 against 7.
-Transfinite Curve{1} = 4 + 1;
-Transfinite Curve{2} = 2 + 1;
-Transfinite Curve{3} = 6 + 1;
-Transfinite Curve{4} = 2 + 1;
-Transfinite Curve{11} = 7 + 1;
-Transfinite Curve{12} = 1 + 1;
-Transfinite Curve{13} = 4 + 1;
-Transfinite Curve{14} = 2 + 1;
+// A progression q makes each edge q times as long as the one before it, in the direction of the line.
+If (even)
+  Mesh.Algorithm = 5;
+  Transfinite Curve{1} = 4 + 1;
+  Transfinite Curve{2} = 2 + 1;
+  Transfinite Curve{3} = 6 + 1;
+  Transfinite Curve{4} = 2 + 1;
+  Transfinite Curve{11} = 7 + 1;
+  Transfinite Curve{12} = 1 + 1;
+  Transfinite Curve{13} = 4 + 1;
+  Transfinite Curve{14} = 2 + 1;
+Else
+  Mesh.Algorithm = 6;
+  Transfinite Curve{1} = 2 + 1;
+  Transfinite Curve{2} = 5 + 1 Using Progression 1 / 2.2;
+  Transfinite Curve{3} = 6 + 1 Using Progression 1.9;
+  Transfinite Curve{4} = 1 + 1;
+  Transfinite Curve{11} = 7 + 1 Using Progression 1 / 1.7;
+  Transfinite Curve{12} = 4 + 1 Using Progression 1.8;
+  Transfinite Curve{13} = 2 + 1;
+  Transfinite Curve{14} = 1 + 1;
+EndIf
 
 Physical Surface("lower") = {1};
 Physical Surface("upper") = {2};

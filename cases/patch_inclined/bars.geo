@@ -1,4 +1,4 @@
-// The two bars of example 1 on the line y = 3 + x/6, with a mesh of their own. Macro mesh: each triangle is cut again by mezha.
+// Two bars on the inclined line y = 3 + x/6, 0 <= x <= 6: the shape of bars_inclined with a mesh of their own. Macro mesh: each triangle is cut again by mezha.
 //   gmsh -2 -format msh41 bars.geo -o bars.msh
 // The bodies share no point: each has its own side of the contact line.
 Mesh.Algorithm = 5;
