@@ -102,7 +102,7 @@ impl SaddlePoint {
             let neighbours: ContactNeighbours = rows[l].neighbours(&groups);
             let mut matrix = prepare_stiffness(scene, space, &neighbours, session)?;
             let last = l + 1 == spaces.len();
-            fill_stiffness(&mut matrix, scene, space, session, |node, force| {
+            fill_stiffness(&mut matrix, scene, space, &neighbours, session, |node, force| {
                 if last {
                     *lifted.entry(node).or_insert(Point::zeros()) += force;
                 }

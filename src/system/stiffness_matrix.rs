@@ -102,13 +102,14 @@ impl<'a> Counts<'a> {
     }
 }
 
-/// Adds the stiffness of the macro triangles that this rank owns and assembles. Rows and columns of prescribed
+/// Adds the stiffness of the macro triangles that this rank owns, keeps room for contact by explicit zeros, and assembles. Rows and columns of prescribed
 /// components are zero but for the diagonal; what their displacement does to free rows goes to
 /// `lift(node, force in the node's frame)`. **Collective**
 pub fn fill_stiffness(
     matrix: &mut Matrix,
     scene: &Scene,
     space: &Space,
+    contact: &ContactNeighbours,
     session: &Session,
     mut lift: impl FnMut(usize, Point),
 ) -> Result<(), SystemError> {
@@ -120,8 +121,15 @@ pub fn fill_stiffness(
         }
         Ok(())
     };
-    let filled = fill();
-    session.agree(filled).map_err(SystemError::Case)?;
+    match fill() {
+        Err(SystemError::Petsc(error)) => return Err(error.into()),
+        filled => session.agree(filled).map_err(SystemError::Case)?,
+    }
+    for (&row, columns) in contact.range(space.own.clone()) {
+        for &column in columns {
+            matrix.add_blocks(&[row as i32], &[column as i32], &[0.0; 4])?;
+        }
+    }
     matrix.assemble()?;
     Ok(())
 }
