@@ -26,7 +26,10 @@ fn main() {
 
 /// Whether this process speaks for all, also before MPI has started.
 fn is_first_rank() -> bool {
-    ["OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"].iter().find_map(|name| std::env::var(name).ok()).is_none_or(|rank| rank == "0")
+    ["OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"]
+        .iter()
+        .find_map(|name| std::env::var(name).ok())
+        .is_none_or(|rank| rank == "0")
 }
 
 fn run_case(arguments: &Run, started: Instant) -> i32 {
@@ -34,10 +37,8 @@ fn run_case(arguments: &Run, started: Instant) -> i32 {
         Ok(session) => session,
         Err(error) => return print(&RunError::Failed(error.to_string())),
     };
-    let outcome = session
-        .agree(Case::read(&arguments.case.case, &arguments.case.overrides))
-        .map_err(RunError::Input)
-        .and_then(|case| {
+    let outcome =
+        session.agree(Case::read(&arguments.case.case, &arguments.case.overrides)).map_err(RunError::Input).and_then(|case| {
             let out = arguments.folder(&case.name);
             run::run(&case, &RunOptions { out, force: arguments.force, quiet: arguments.quiet, started }, &session)
         });

@@ -155,10 +155,17 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
     for hold in holds {
         let found = u.dot(&hold.direction);
         if (found - hold.value).abs() > 1e-9 * (found.abs() + hold.value.abs()) {
-            let others: Vec<_> = holds.iter().filter(|h| h.support != hold.support).map(|h| format!("support.{}", h.support)).collect();
+            let others: Vec<_> =
+                holds.iter().filter(|h| h.support != hold.support).map(|h| format!("support.{}", h.support)).collect();
             return Err(SupportError(format!(
                 "support.{} asks for displacement {} in direction ({:.6}, {:.6}) at ({}, {}), {} for {found}; leave one of them out there",
-                hold.support, hold.value, hold.direction.x, hold.direction.y, x.x, x.y, others.join(" and ")
+                hold.support,
+                hold.value,
+                hold.direction.x,
+                hold.direction.y,
+                x.x,
+                x.y,
+                others.join(" and ")
             )));
         }
     }

@@ -10,8 +10,25 @@ use crate::mesh::{Level, MacroMesh, lattice};
 pub fn neighbours(order: Order, i: usize, j: usize) -> &'static [(isize, isize)] {
     const LINEAR: [(isize, isize); 7] = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, -1), (-1, 1)];
     const CORNER: [(isize, isize); 19] = [
-        (0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, -1), (-1, 1), (2, 0), (-2, 0), (0, 2), (0, -2), (2, -2), (-2, 2),
-        (1, 1), (-1, -1), (2, -1), (-2, 1), (1, -2), (-1, 2),
+        (0, 0),
+        (1, 0),
+        (-1, 0),
+        (0, 1),
+        (0, -1),
+        (1, -1),
+        (-1, 1),
+        (2, 0),
+        (-2, 0),
+        (0, 2),
+        (0, -2),
+        (2, -2),
+        (-2, 2),
+        (1, 1),
+        (-1, -1),
+        (2, -1),
+        (-2, 1),
+        (1, -2),
+        (-1, 2),
     ];
     const HORIZONTAL: [(isize, isize); 9] = [(0, 0), (1, 0), (-1, 0), (-1, 2), (0, 1), (-1, 1), (1, -2), (0, -1), (1, -1)];
     const VERTICAL: [(isize, isize); 9] = [(0, 0), (0, 1), (0, -1), (2, -1), (1, 0), (1, -1), (-2, 1), (-1, 0), (-1, 1)];
@@ -55,7 +72,13 @@ impl MacroStiffness {
         Ok(all)
     }
 
-    fn integrate<const N: usize>(&mut self, mesh: &MacroMesh, triangle: usize, law: &PlaneStrain, curved: bool) -> Result<(), BadJacobian> {
+    fn integrate<const N: usize>(
+        &mut self,
+        mesh: &MacroMesh,
+        triangle: usize,
+        law: &PlaneStrain,
+        curved: bool,
+    ) -> Result<(), BadJacobian> {
         let mut same = None;
         for small in lattice::triangles(self.stored, self.order) {
             let nodes = small.nodes::<N>();

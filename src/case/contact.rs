@@ -22,11 +22,7 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
         ]),
     );
     let segments = section.or("segments", "auto", read_segments);
-    let law = section.or(
-        "law",
-        "unilateral",
-        choice(&[("unilateral", Ok(Law::Unilateral)), ("bilateral", Ok(Law::Bilateral))]),
-    );
+    let law = section.or("law", "unilateral", choice(&[("unilateral", Ok(Law::Unilateral)), ("bilateral", Ok(Law::Bilateral))]));
     refuse_what_is_not_built(section);
     if !section.name().chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
         section.problem(&[], "its name is part of a file name; use letters, digits, - and _".into());

@@ -40,10 +40,7 @@ impl CaseError {
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
         let message = error.message().replace('\n', ", ");
-        Self::of_file(
-            file,
-            format!("line {line}, column {column}: {message}; the file is written in TOML, see toml.io"),
-        )
+        Self::of_file(file, format!("line {line}, column {column}: {message}; the file is written in TOML, see toml.io"))
     }
 }
 

@@ -145,8 +145,7 @@ fn read_points<T>(
     let value = section.required("value", example, read);
     let (at, value) = (at?, value?);
     if at.is_empty() || at.len() != value.len() {
-        let words =
-            format!("holds {} for {} points in at; give one for each point, at least one", value.len(), at.len());
+        let words = format!("holds {} for {} points in at; give one for each point, at least one", value.len(), at.len());
         section.problem(&["value"], words);
         return None;
     }

@@ -38,9 +38,7 @@ pub fn read_body(section: &Section) -> Option<Body> {
     let young = section.required("young", "7000.0", values::positive);
     let poisson = section.required("poisson", "0.3", |value| match values::number(value)? {
         ratio if ratio > -1.0 && ratio < 0.5 => Ok(ratio),
-        _ => {
-            Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into())
-        }
+        _ => Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into()),
     });
     let force = section.or("body_force", vec![0.0, 0.0], values::formulas);
     let material = Material { young: young?, poisson: poisson? };

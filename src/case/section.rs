@@ -45,12 +45,7 @@ impl<'a> Section<'a> {
     }
 
     /// A value that must be given; `example` shows how.
-    pub fn required<T>(
-        &self,
-        key: &'static str,
-        example: &str,
-        read: impl Fn(&Value) -> Result<T, String>,
-    ) -> Option<T> {
+    pub fn required<T>(&self, key: &'static str, example: &str, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
         match self.get(key) {
             Some(value) => self.checked(key, value, read),
             None => {
@@ -66,12 +61,7 @@ impl<'a> Section<'a> {
     }
 
     /// A value with a default, which is read in the same way and written into the resolved case.
-    pub fn or<T>(
-        &self,
-        key: &'static str,
-        default: impl Into<Value>,
-        read: impl Fn(&Value) -> Result<T, String>,
-    ) -> Option<T> {
+    pub fn or<T>(&self, key: &'static str, default: impl Into<Value>, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
         if let Some(value) = self.get(key) {
             return self.checked(key, value, read);
         }
@@ -94,12 +84,7 @@ impl<'a> Section<'a> {
         if value.is_some_and(|value| !value.is_table()) {
             self.problem(&[key], format!("must be a table; write [{}]", dotted(&self.child(key))));
         }
-        Section {
-            table: value.and_then(Value::as_table),
-            path: self.child(key),
-            log: self.log,
-            asked: RefCell::default(),
-        }
+        Section { table: value.and_then(Value::as_table), path: self.child(key), log: self.log, asked: RefCell::default() }
     }
 
     /// The table under a key, if it is in the file.

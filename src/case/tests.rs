@@ -86,18 +86,13 @@ fn error_of(text: &str, overrides: &[&str]) -> String {
 #[test]
 fn a_full_case_is_read() {
     let case = parse(FULL, &[]).unwrap();
-    assert_eq!(
-        (case.name.as_str(), case.title.as_str(), case.folder.as_path()),
-        ("bars", "Two bars", Path::new("bars"))
-    );
+    assert_eq!((case.name.as_str(), case.title.as_str(), case.folder.as_path()), ("bars", "Two bars", Path::new("bars")));
     assert_eq!(case.mesh, MeshChoice { file: "bars/bars.msh".into(), order: Order::P1, refine: 3 });
     let [lower, upper] = &case.bodies[..] else { panic!("{:?}", case.bodies) };
     assert_eq!((lower.name.as_str(), lower.material.young, lower.material.poisson), ("lower", 7000.0, 0.227));
     assert_eq!(lower.force[1].value(&[0.0, 2.0]), -19.62);
     assert_eq!((upper.name.as_str(), upper.force[0].as_constant()), ("upper.left", Some(0.0)));
-    assert!(
-        matches!(&case.geometries[0].curve, Curve::Parametric { y, range: [0.0, 4.0], .. } if y.value(&[2.0]) == 5.0)
-    );
+    assert!(matches!(&case.geometries[0].curve, Curve::Parametric { y, range: [0.0, 4.0], .. } if y.value(&[2.0]) == 5.0));
     assert_eq!(case.geometries[1].curve, Curve::Circle { centre: [1.0, 2.5], radius: 0.5 });
     assert_eq!(case.geometries[1].curves, ["hole"]);
     let [table, roller] = &case.supports[..] else { panic!("{:?}", case.supports) };
@@ -234,8 +229,7 @@ fn the_file_names_the_case() {
 
 #[test]
 fn all_errors_are_reported_at_once() {
-    let text =
-        "[body.a]\nyung = 1\npoisson = 0.5\n[probe.p]\npoint = [1]\nbody = 'b'\n[contact.c]\n[exact.contact.d]\n";
+    let text = "[body.a]\nyung = 1\npoisson = 0.5\n[probe.p]\npoint = [1]\nbody = 'b'\n[contact.c]\n[exact.contact.d]\n";
     let words = parse(text, &[]).unwrap_err().to_string();
     for expected in [
         "bars/case.toml: mesh.file: missing; write file = \"bars.msh\"",
@@ -289,14 +283,8 @@ fn every_error_names_key_value_and_remedy() {
         ("geometry.g.x=1/t", "geometry.g.x = \"1/t\" (--set): is not finite at t = 0"),
         ("geometry.g.x=x", "found `x`; allowed here: a number, t, pi"),
         (&format!("geometry.g.circle={circle}"), "geometry.g.circle: stands beside x, y, t"),
-        (
-            "geometry.h={curves='h', circle={centre=[0, 0], radius=0}}",
-            "geometry.h.circle.radius = 0 (--set): must be > 0",
-        ),
-        (
-            &format!("geometry.h={{curves='p', circle={circle}}}"),
-            "geometry.h.curves = \"p\" (--set): geometry.g lists \"p\" too",
-        ),
+        ("geometry.h={curves='h', circle={centre=[0, 0], radius=0}}", "geometry.h.circle.radius = 0 (--set): must be > 0"),
+        (&format!("geometry.h={{curves='p', circle={circle}}}"), "geometry.h.curves = \"p\" (--set): geometry.g lists \"p\" too"),
         ("support.s.normal=0", "cannot stand beside ux or uy"),
         ("support.r.on=left", "support.r: prescribes nothing; give ux, uy or normal"),
         ("support.s.ux=1/0", "support.s.ux = \"1/0\" (--set): is not finite"),
@@ -312,14 +300,8 @@ fn every_error_names_key_value_and_remedy() {
         ),
         ("contact.c.curve=lines", "must be \"line\" or \"geometry\"; did you mean \"line\"?"),
         ("contact.c.curve=geometry", "needs one [geometry] with curves = [\"p\", \"q\"]; geometry.g lists \"p\""),
-        (
-            "contact.c.gap=clsoed",
-            "must be \"closed\", \"geometry\", a number or a formula of x, y; column 1: found `clsoed`",
-        ),
-        (
-            "contact.c.multiplier=p1",
-            "must be \"p0\" or \"p1-discontinuous\" or \"p1-continuous\"; did you mean \"p0\"?",
-        ),
+        ("contact.c.gap=clsoed", "must be \"closed\", \"geometry\", a number or a formula of x, y; column 1: found `clsoed`"),
+        ("contact.c.multiplier=p1", "must be \"p0\" or \"p1-discontinuous\" or \"p1-continuous\"; did you mean \"p0\"?"),
         ("contact.c.multiplier=0", "not of type integer"),
         ("contact.c.segments=0", "must be \"auto\", a whole number >= 1, or fractions"),
         ("contact.c.segments=many", "must be \"auto\", a whole number >= 1, or fractions"),
@@ -343,10 +325,7 @@ fn every_error_names_key_value_and_remedy() {
         ("exact.energy=3", "exact.energy = 3 (--set): must be a table; write [exact.energy]"),
         ("exact.energy={value = 3}", "exact.energy.tolerance: missing; write tolerance = 1e-3"),
         ("exact.contact.d={}", "exact.contact.d: no such contact; did you mean \"c\"?"),
-        (
-            "exact.contact.c.lambda.at=[[0, 0], [0, 1]]",
-            "exact.contact.c.lambda.value = [1]: holds 1 for 2 points in at",
-        ),
+        ("exact.contact.c.lambda.at=[[0, 0], [0, 1]]", "exact.contact.c.lambda.value = [1]: holds 1 for 2 points in at"),
         ("exact.contact.c.lambda.formula=x", "stands beside at and value"),
         ("exact.body.b.u=[0, 0]", "exact.body.b: no such body; did you mean \"a\"?"),
         ("exact.body.a.stress=[0, 0]", "must be a list of 3 numbers or formulas of x, y, not a list of length 2"),
@@ -374,8 +353,7 @@ fn good() -> String {
 
 #[test]
 fn a_pressure_may_be_known_by_formula() {
-    let text =
-        format!("{LEAST}{CONTACT}[exact.contact.c]\nlambda = {{ formula = 'sqrt(1 - x^2)', tolerance = 1e-2 }}\n");
+    let text = format!("{LEAST}{CONTACT}[exact.contact.c]\nlambda = {{ formula = 'sqrt(1 - x^2)', tolerance = 1e-2 }}\n");
     let case = parse(&text, &[]).unwrap();
     assert!(
         matches!(&case.exact.contacts[0].lambda, Some(LambdaExact::Formula { formula, tolerance: 1e-2 }) if formula.value(&[0.6, 0.0]) == 0.8)

@@ -1,7 +1,7 @@
 //! Coupling of one body's boundary to the multipliers of Γ_C, and its share of the initial gap.
 
-use super::{ContactBoundary, Multipliers};
 use super::trace::{pieces, quadrature, trace};
+use super::{ContactBoundary, Multipliers};
 use crate::geometry::{Curve, Formula, Point, gauss_points};
 use crate::mesh::{BoundaryEdge, EdgeNode};
 
@@ -75,7 +75,8 @@ pub fn integrate(
             for k in 0..multipliers.per_segment() {
                 gap[rows[k]] -= side.sign() * weight * values[k] * d;
                 for a in 0..small.nodes.len() {
-                    entries[first + k * small.nodes.len() + a].value += side.sign() * weight * values[k] * here.values[a] * normal;
+                    entries[first + k * small.nodes.len() + a].value +=
+                        side.sign() * weight * values[k] * here.values[a] * normal;
                 }
             }
         }

@@ -27,7 +27,10 @@ impl DiagonalBlock {
             1 => Self::single(self.rows[0], 1.0 / a),
             _ => {
                 let determinant = a * d - b * b;
-                Self { rows: self.rows.clone(), values: [[d / determinant, -b / determinant], [-b / determinant, a / determinant]] }
+                Self {
+                    rows: self.rows.clone(),
+                    values: [[d / determinant, -b / determinant], [-b / determinant, a / determinant]],
+                }
             }
         }
     }

@@ -51,16 +51,23 @@ fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Cu
         }
         let own = (b - a).normalize();
         if (own.dot(&along).abs() - 1.0).abs() > 1e-9 {
-            return Err(format!("curve = \"line\", but \"{}\" and \"{}\" are not parallel; give a [geometry] that lists both, and curve = \"geometry\"", pair.between[0], pair.between[1]));
+            return Err(format!(
+                "curve = \"line\", but \"{}\" and \"{}\" are not parallel; give a [geometry] that lists both, and curve = \"geometry\"",
+                pair.between[0], pair.between[1]
+            ));
         }
         let length = (b - a).norm();
         for &edge in edges {
             let bent = mesh.edges[edge as usize].shape.is_some();
-            let off = mesh.edges[edge as usize].vertices.iter().any(|&vertex| {
-                crate::geometry::cross(own, mesh.vertices[vertex as usize] - a).abs() > 1e-9 * length
-            });
+            let off = mesh.edges[edge as usize]
+                .vertices
+                .iter()
+                .any(|&vertex| crate::geometry::cross(own, mesh.vertices[vertex as usize] - a).abs() > 1e-9 * length);
             if bent || off {
-                return Err(format!("curve = \"line\", but \"{}\" is not straight; give a [geometry] that lists both boundaries, and curve = \"geometry\"", pair.between[side]));
+                return Err(format!(
+                    "curve = \"line\", but \"{}\" is not straight; give a [geometry] that lists both boundaries, and curve = \"geometry\"",
+                    pair.between[side]
+                ));
             }
         }
         let (s, t) = ((a - origin).dot(&along), (b - origin).dot(&along));
@@ -69,7 +76,10 @@ fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Cu
     }
     let (start, end) = (extents[0][0].max(extents[1][0]), extents[0][1].min(extents[1][1]));
     if end - start <= 1e-9 * (extents[0][1] - extents[0][0]) {
-        return Err(format!("\"{}\" and \"{}\" do not face each other: they have no extent in common", pair.between[0], pair.between[1]));
+        return Err(format!(
+            "\"{}\" and \"{}\" do not face each other: they have no extent in common",
+            pair.between[0], pair.between[1]
+        ));
     }
     // `cross(along, left) = 1`: the mean of both lines, where they lie apart.
     let lift = Point::new(-along.y, along.x) * (0.5 * (offsets[0] + offsets[1]));
@@ -82,7 +92,8 @@ fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Cu
 
 /// The two vertices of a set of edges that are farthest apart, seen from the first vertex.
 fn ends(mesh: &MacroMesh, edges: &[u32]) -> (Point, Point) {
-    let points = || edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
+    let points =
+        || edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
     let farthest = |from: Point| points().max_by(|a, b| (a - from).norm().total_cmp(&(b - from).norm())).unwrap_or(from);
     let a = points().next().map(farthest).unwrap_or_default();
     (a, farthest(a))
@@ -97,7 +108,8 @@ fn shared_geometry(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<
             let Some(shape) = &mesh.edges[edge as usize].shape else {
                 return Err(format!("curve = \"geometry\", but no curved [geometry] lists \"{}\"", pair.between[side]));
             };
-            let reference = common.as_ref().map(|(_, [a, b])| 0.5 * (a + b)).or(extent.map(|[a, b]| 0.5 * (a + b)));
+            let middle_of = |[a, b]: [f64; 2]| 0.5 * (a + b);
+            let reference = extent.or(common.as_ref().map(|(_, range)| *range)).map(middle_of).filter(|t| t.is_finite());
             let middle = 0.5 * (shape.range[0] + shape.range[1]);
             let turn = match (shape.curve.period(), reference) {
                 (Some(period), Some(reference)) => ((reference - middle) / period).round() * period,
@@ -114,17 +126,28 @@ fn shared_geometry(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<
     }
     match common {
         Some((curve, range)) if range[1] > range[0] => Ok((curve, range)),
-        _ => Err(format!("\"{}\" and \"{}\" do not face each other: they have no extent in common", pair.between[0], pair.between[1])),
+        _ => Err(format!(
+            "\"{}\" and \"{}\" do not face each other: they have no extent in common",
+            pair.between[0], pair.between[1]
+        )),
     }
 }
 
-fn fractions(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, sides: [&[u32]; 2], young: [f64; 2], boundary: &ContactBoundary) -> Vec<f64> {
+fn fractions(
+    mesh: &MacroMesh,
+    numbering: &Numbering,
+    pair: &Pair,
+    sides: [&[u32]; 2],
+    young: [f64; 2],
+    boundary: &ContactBoundary,
+) -> Vec<f64> {
     let equal = |count: usize| (0..=count).map(|k| k as f64 / count as f64).collect();
     match &pair.segments {
         SegmentRule::Fractions(fractions) => fractions.clone(),
         SegmentRule::Count(count) => equal(*count),
         SegmentRule::Auto => {
-            let edges = sides.map(|edges| edges.iter().flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering)).collect::<Vec<_>>());
+            let edges =
+                sides.map(|edges| edges.iter().flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering)).collect::<Vec<_>>());
             let ratio = safe_ratio(numbering.level.order, pair.space, matching(&edges));
             let least = ratio * softer_edge_length(&edges, young);
             equal(((boundary.length() / least * (1.0 + 1e-9)) as usize).max(1))
@@ -149,7 +172,13 @@ pub fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
         (Order::P1, MultiplierSpace::P0) => 1.5,
         (Order::P1, MultiplierSpace::P1Continuous) => 1.25,
         (Order::P1, MultiplierSpace::P1Discontinuous) => 3.0,
-        (Order::P2, MultiplierSpace::P1Discontinuous) => if matching { 2.0 } else { 1.5 },
+        (Order::P2, MultiplierSpace::P1Discontinuous) => {
+            if matching {
+                2.0
+            } else {
+                1.5
+            }
+        }
         (Order::P2, _) => 0.75,
     }
 }

@@ -61,7 +61,8 @@ mod tests {
         let linear = triangle_load(&corners, |_| Point::new(0.0, -3.0)).expect("a good triangle");
         assert!(linear.iter().all(|f| (f - Point::new(0.0, -1.0)).norm() < 1e-14));
         let [a, b, c] = corners;
-        let quadratic = triangle_load(&[a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)], |_| Point::new(3.0, 0.0)).expect("a good triangle");
+        let quadratic = triangle_load(&[a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)], |_| Point::new(3.0, 0.0))
+            .expect("a good triangle");
         assert!(quadratic[..3].iter().all(|f| f.norm() < 1e-14));
         assert!(quadratic[3..].iter().all(|f| (f - Point::new(1.0, 0.0)).norm() < 1e-14));
     }

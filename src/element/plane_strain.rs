@@ -14,10 +14,7 @@ pub struct PlaneStrain {
 impl PlaneStrain {
     /// From Young's modulus and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
-        Self {
-            lambda: young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)),
-            mu: young / (2.0 * (1.0 + poisson)),
-        }
+        Self { lambda: young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), mu: young / (2.0 * (1.0 + poisson)) }
     }
 
     /// Stress (xx, yy, xy, zz) of a displacement gradient `g[i][j] = ∂u_i/∂x_j`.

@@ -112,7 +112,12 @@ pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneStrain, straight
 ///
 /// # Errors
 /// [`BadJacobian`] where the map folds over.
-pub fn stress<const N: usize>(nodes: &[Point; N], u: &[Point; N], l: [f64; 3], law: &PlaneStrain) -> Result<[f64; 4], BadJacobian> {
+pub fn stress<const N: usize>(
+    nodes: &[Point; N],
+    u: &[Point; N],
+    l: [f64; 3],
+    law: &PlaneStrain,
+) -> Result<[f64; 4], BadJacobian> {
     let (gradients, _) = jacobian(nodes, l)?;
     let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
     Ok(law.stress(&gradient))

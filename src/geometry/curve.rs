@@ -137,11 +137,7 @@ mod tests {
 
     #[test]
     fn the_nearest_point_sees_its_origin_along_the_normal() {
-        let curves = [
-            Curve::Line([[0.0, 3.0], [6.0, 4.0]]),
-            Curve::Circle { centre: [1.0, -1.0], radius: 2.0 },
-            parabola(),
-        ];
+        let curves = [Curve::Line([[0.0, 3.0], [6.0, 4.0]]), Curve::Circle { centre: [1.0, -1.0], radius: 2.0 }, parabola()];
         for curve in &curves {
             for p in [Point::new(1.2, 3.9), Point::new(2.9, 5.1), Point::new(0.1, 4.2)] {
                 let t = curve.nearest(p);

@@ -1,7 +1,7 @@
 //! Reader of Gmsh 4.1 ASCII files.
 
-use super::macro_mesh::{MacroMesh, RawMesh};
 use super::MeshError;
+use super::macro_mesh::{MacroMesh, RawMesh};
 use crate::geometry::Point;
 use std::collections::HashMap;
 use std::path::Path;
@@ -102,7 +102,10 @@ impl<'a> Reader<'a> {
             seen.push(section);
         }
         for (section, remedy) in [
-            ("PhysicalNames", "name the bodies with `Physical Surface(\"name\") = {...}` and the boundaries with `Physical Curve(\"name\") = {...}` in the .geo file"),
+            (
+                "PhysicalNames",
+                "name the bodies with `Physical Surface(\"name\") = {...}` and the boundaries with `Physical Curve(\"name\") = {...}` in the .geo file",
+            ),
             ("Entities", "save the file as format 4.1"),
             ("Nodes", "mesh it with `gmsh -2`"),
             ("Elements", "mesh it with `gmsh -2`"),
@@ -133,10 +136,9 @@ impl<'a> Reader<'a> {
         let mut words = line.split_whitespace();
         let (version, kind) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
         if version != "4.1" {
-            return Err(self.error(format!(
-                "mesh format {version} is not read, only 4.1 ASCII; convert it with {}",
-                self.convert
-            )));
+            return Err(
+                self.error(format!("mesh format {version} is not read, only 4.1 ASCII; convert it with {}", self.convert))
+            );
         }
         if kind != "0" {
             return Err(self.error(format!(
@@ -230,9 +232,7 @@ impl<'a> Reader<'a> {
     }
 
     fn corners(&self, tags: &[i64]) -> Result<Vec<usize>, MeshError> {
-        let find = |tag| {
-            self.nodes.get(tag).copied().ok_or_else(|| self.error(format!("node {tag} is not among the $Nodes")))
-        };
+        let find = |tag| self.nodes.get(tag).copied().ok_or_else(|| self.error(format!("node {tag} is not among the $Nodes")));
         tags.iter().map(find).collect()
     }
 

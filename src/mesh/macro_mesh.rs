@@ -1,7 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
-use super::shape::EdgeShape;
 use super::MeshError;
+use super::shape::EdgeShape;
 use crate::geometry::{Point, cross};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -99,7 +99,9 @@ impl MacroMesh {
     fn body_of(&mut self, names: &[String], line: usize) -> Result<u32, MeshError> {
         let [name] = names else {
             let found = if names.is_empty() { "no physical surface".into() } else { names.join(", ") };
-            return Err(self.syntax(line, format!("a triangle must lie in exactly one physical surface (its body); found {found}")));
+            return Err(
+                self.syntax(line, format!("a triangle must lie in exactly one physical surface (its body); found {found}"))
+            );
         };
         if let Some(body) = self.bodies.iter().position(|body| body == name) {
             return Ok(body as u32);
@@ -126,7 +128,13 @@ impl MacroMesh {
         Ok(if area > 0.0 { [a, b, c] } else { [a, c, b] })
     }
 
-    fn add_triangle(&mut self, vertices: [u32; 3], body: u32, line: usize, known: &mut HashMap<[u32; 2], u32>) -> Result<(), MeshError> {
+    fn add_triangle(
+        &mut self,
+        vertices: [u32; 3],
+        body: u32,
+        line: usize,
+        known: &mut HashMap<[u32; 2], u32>,
+    ) -> Result<(), MeshError> {
         let triangle = self.triangles.len() as u32;
         let (mut edges, mut forward) = ([0; 3], [true; 3]);
         for k in 0..3 {
@@ -137,7 +145,10 @@ impl MacroMesh {
             } else {
                 let there = &mut self.edges[edge as usize];
                 if there.triangles[1].is_some() || there.vertices[0] == a {
-                    return Err(self.syntax(line, "overlaps a triangle before it: they lie on the same side of an edge; mesh the scene again".into()));
+                    return Err(self.syntax(
+                        line,
+                        "overlaps a triangle before it: they lie on the same side of an edge; mesh the scene again".into(),
+                    ));
                 }
                 there.triangles[1] = Some(triangle);
                 forward[k] = false;
@@ -175,7 +186,10 @@ impl MacroMesh {
             Some(&edge) if self.edges[edge as usize].triangles[1].is_none() => edge,
             found => {
                 let place = if found.is_some() { "lies inside a body" } else { "is not an edge of a triangle" };
-                return Err(self.syntax(line, format!("a line of the physical curve \"{name}\" {place}; physical curves must bound bodies")));
+                return Err(self.syntax(
+                    line,
+                    format!("a line of the physical curve \"{name}\" {place}; physical curves must bound bodies"),
+                ));
             }
         };
         match self.boundaries.iter_mut().find(|boundary| boundary.name == name) {

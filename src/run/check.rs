@@ -24,7 +24,9 @@ pub fn check(case: &Case) -> Result<String, RunError> {
         format!("{}: {}", case.name, case.title),
         format!(
             "mesh: {} macro triangles, {triangles} {order} triangles after {} refinements, {} unknowns of displacement",
-            scene.mesh.triangles.len(), scene.refine, 2 * finest.numbering.node_count()
+            scene.mesh.triangles.len(),
+            scene.refine,
+            2 * finest.numbering.node_count()
         ),
     ];
     for body in &scene.bodies {
@@ -33,7 +35,10 @@ pub fn check(case: &Case) -> Result<String, RunError> {
     for contact in &contacts {
         lines.push(format!(
             "contact {}: {} segments over a length of {:.6}, {} multipliers",
-            contact.pair.name, contact.boundary.segments(), contact.boundary.length(), contact.multipliers.count()
+            contact.pair.name,
+            contact.boundary.segments(),
+            contact.boundary.length(),
+            contact.multipliers.count()
         ));
     }
     Ok(lines.join("\n"))
@@ -43,6 +48,10 @@ pub fn check(case: &Case) -> Result<String, RunError> {
 pub fn info(session: &Session) -> String {
     format!(
         "mezha {}\nPETSc {}\nMPI   {}\nBLAS  {}\nranks {}",
-        env!("CARGO_PKG_VERSION"), versions::petsc(), versions::mpi(), versions::blas(), session.size()
+        env!("CARGO_PKG_VERSION"),
+        versions::petsc(),
+        versions::mpi(),
+        versions::blas(),
+        session.size()
     )
 }

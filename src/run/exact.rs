@@ -30,7 +30,14 @@ impl Errors {
 ///
 /// # Errors
 /// [`RunError::Input`] if a point of `[exact]` lies outside its body.
-pub fn compare(case: &Case, problem: &Problem, solution: &Solution, balance: &Balance, u: &Field<2>, session: &Session) -> Result<Errors, RunError> {
+pub fn compare(
+    case: &Case,
+    problem: &Problem,
+    solution: &Solution,
+    balance: &Balance,
+    u: &Field<2>,
+    session: &Session,
+) -> Result<Errors, RunError> {
     let mut errors = Errors::default();
     if let Some(energy) = &case.exact.energy {
         let found: f64 = balance.strain.iter().sum();
@@ -48,7 +55,8 @@ pub fn compare(case: &Case, problem: &Problem, solution: &Solution, balance: &Ba
             None => continue,
             Some(LambdaExact::Formula { formula, tolerance }) => (pressure_error(contact, lambda, formula), *tolerance),
             Some(LambdaExact::Points { at, value, tolerance }) => {
-                let one = |(x, value): (&[f64; 2], &f64)| (pressure_at(contact, lambda, Point::new(x[0], x[1])) / value - 1.0).abs();
+                let one =
+                    |(x, value): (&[f64; 2], &f64)| (pressure_at(contact, lambda, Point::new(x[0], x[1])) / value - 1.0).abs();
                 (at.iter().zip(value).map(one).fold(0.0, f64::max), *tolerance)
             }
         };
@@ -69,7 +77,10 @@ fn compare_bodies(case: &Case, problem: &Problem, u: &Field<2>, errors: &mut Err
                 let Some(found) = probe(&problem.scene, space, u, body, Point::new(x[0], x[1]), session)? else {
                     return Err(RunError::Input(format!(
                         "{}: exact.body.{}.displacement.at: ({}, {}) lies outside the body",
-                        case.file.display(), exact.name, x[0], x[1]
+                        case.file.display(),
+                        exact.name,
+                        x[0],
+                        x[1]
                     )));
                 };
                 worst = worst.max((found.displacement - Point::new(value[0], value[1])).norm() / size);
@@ -96,7 +107,13 @@ fn largest(u: &Field<2>, session: &Session) -> f64 {
 }
 
 /// Root mean square error of the nodal displacements of a body, relative to their root mean square. **Collective**
-fn displacement_error(problem: &Problem, u: &Field<2>, body: usize, exact: &[crate::geometry::Formula; 2], session: &Session) -> f64 {
+fn displacement_error(
+    problem: &Problem,
+    u: &Field<2>,
+    body: usize,
+    exact: &[crate::geometry::Formula; 2],
+    session: &Session,
+) -> f64 {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
     let mut sums = [0.0; 2];

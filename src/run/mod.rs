@@ -13,7 +13,8 @@ use crate::case::Case;
 use crate::output::{OutputError, ResultFolder};
 use crate::petsc::{self, Matrix, Session, Stage};
 use crate::system::{
-    Contact, ContactLoop, Coupling, LinearSolver, SaddlePoint, Scene, Solution, Space, SystemError, Verdict, bilateral, interpolation,
+    Contact, ContactLoop, Coupling, LinearSolver, SaddlePoint, Scene, Solution, Space, SystemError, Verdict, bilateral,
+    interpolation,
 };
 use crate::{body, contact::ActiveSet};
 use report::Report;
@@ -189,7 +190,8 @@ fn solve(
         return Err(RunError::Input(format!("PETSc options that nothing has used: {}; check their spelling", unused.join(", "))));
     }
     let _stage = stages.solve.enter();
-    let solution = contact_loop.solve(&mut system, &mut solver, &mut set, case.solver.tolerance, |step| report.step(step, coupling.gap.len()))?;
+    let solution = contact_loop
+        .solve(&mut system, &mut solver, &mut set, case.solver.tolerance, |step| report.step(step, coupling.gap.len()))?;
     Ok((solution, solver.name))
 }
 
@@ -197,11 +199,19 @@ fn solve(
 fn nodal_load(problem: &Problem, session: &Session) -> Result<Vec<f64>, RunError> {
     let (scene, space) = (&problem.scene, problem.finest());
     let mut forces = crate::system::Field::<2>::zeros(scene, space, session);
-    let applied = body::applied_forces(&scene.mesh, &scene.partition, session.rank(), &space.numbering, &scene.bodies, &scene.loads, |node, force| {
-        let sum = forces.at_mut(node);
-        sum[0] += force.x;
-        sum[1] += force.y;
-    });
+    let applied = body::applied_forces(
+        &scene.mesh,
+        &scene.partition,
+        session.rank(),
+        &space.numbering,
+        &scene.bodies,
+        &scene.loads,
+        |node, force| {
+            let sum = forces.at_mut(node);
+            sum[0] += force.x;
+            sum[1] += force.y;
+        },
+    );
     session.agree(applied.map_err(SystemError::from)).map_err(RunError::Input)?;
     let forces = forces.sum(session)?;
     let frame = |(node, [x, y]): (usize, &[f64; 2])| {

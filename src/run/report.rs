@@ -32,7 +32,11 @@ impl Report {
     /// Title of the case.
     pub fn start(&self, case: &Case) {
         let ranks = if self.ranks == 1 { "1 rank".into() } else { format!("{} ranks", self.ranks) };
-        self.say(&format!("mezha {}: {} on {ranks}", env!("CARGO_PKG_VERSION"), if case.title.is_empty() { &case.name } else { &case.title }));
+        self.say(&format!(
+            "mezha {}: {} on {ranks}",
+            env!("CARGO_PKG_VERSION"),
+            if case.title.is_empty() { &case.name } else { &case.title }
+        ));
     }
 
     /// Sizes of mesh and contacts.
@@ -43,7 +47,12 @@ impl Report {
         let unknowns = 2 * problem.finest().numbering.node_count();
         self.say(&format!("{triangles} {order} triangles, {unknowns} unknowns, {} multipliers", problem.coupling.gap.len()));
         for contact in &problem.contacts {
-            self.say(&format!("contact {}: {} segments over {:.6}", contact.pair.name, contact.boundary.segments(), contact.boundary.length()));
+            self.say(&format!(
+                "contact {}: {} segments over {:.6}",
+                contact.pair.name,
+                contact.boundary.segments(),
+                contact.boundary.length()
+            ));
         }
         self.say("outer  active       +/-  Krylov  residual  penetration     du");
     }
@@ -51,14 +60,24 @@ impl Report {
     /// A pass of the contact loop.
     pub fn step(&self, step: &OuterStep, all: usize) {
         self.say(&format!(
-            "{:5}  {:>6}/{:<6} {:>+3}/{:<+3} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
-            step.iteration, step.active, all, step.added, -(step.released as i64), step.krylov_iterations, step.residual, step.max_penetration, step.du
+            "{:5}  {:>6}/{:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
+            step.iteration,
+            step.active,
+            all,
+            format!("+{}", step.added),
+            format!("-{}", step.released),
+            step.krylov_iterations,
+            step.residual,
+            step.max_penetration,
+            step.du
         ));
     }
 
     /// Times of the stages on the slowest rank. **Collective**
     pub fn times(&self, stages: &Stages, session: &Session) -> Time {
-        let mut seconds = [&stages.mesh, &stages.assemble, &stages.contact, &stages.setup, &stages.solve, &stages.output].map(|stage| stage.seconds()).to_vec();
+        let mut seconds = [&stages.mesh, &stages.assemble, &stages.contact, &stages.setup, &stages.solve, &stages.output]
+            .map(|stage| stage.seconds())
+            .to_vec();
         seconds.push(self.started.elapsed().as_secs_f64());
         session.max(&mut seconds);
         Time {
@@ -77,12 +96,21 @@ impl Report {
         let time = &summary.time_s;
         let cell = |name: &str, seconds: Option<f64>| format!("{name} {:.3}", seconds.unwrap_or(0.0));
         let cells = [
-            cell("mesh", time.mesh), cell("contact", time.contact), cell("assemble", time.assemble), cell("setup", time.setup),
-            cell("solve", time.solve), cell("output", time.output), cell("total", time.total),
+            cell("mesh", time.mesh),
+            cell("contact", time.contact),
+            cell("assemble", time.assemble),
+            cell("setup", time.setup),
+            cell("solve", time.solve),
+            cell("output", time.output),
+            cell("total", time.total),
         ];
         self.say(&format!("seconds: {}", cells.join("  ")));
         let memory = &summary.memory_mib;
-        self.say(&format!("memory: {:.0} MiB on the largest rank, {:.0} MiB in all", memory.max_rank.unwrap_or(0.0), memory.sum.unwrap_or(0.0)));
+        self.say(&format!(
+            "memory: {:.0} MiB on the largest rank, {:.0} MiB in all",
+            memory.max_rank.unwrap_or(0.0),
+            memory.sum.unwrap_or(0.0)
+        ));
     }
 }
 

@@ -64,8 +64,11 @@ pub fn write(
 
 fn finish(case: &Case, summary: &Summary, folder: ResultFolder) -> Result<(), crate::output::OutputError> {
     let file = folder.path("case.toml");
-    std::fs::write(&file, case.resolved())
-        .map_err(|source| crate::output::OutputError::Io { action: "write", path: file.clone(), source })?;
+    std::fs::write(&file, case.resolved()).map_err(|source| crate::output::OutputError::Io {
+        action: "write",
+        path: file.clone(),
+        source,
+    })?;
     summary.write(&folder.path("summary.json"))?;
     folder.commit()
 }
@@ -88,16 +91,20 @@ fn describe(summary: &mut Summary, case: &Case, problem: &Problem, solution: &So
         displacement: Some(2 * numbering.node_count() as u64),
         multiplier: Some(problem.coupling.gap.len() as u64),
     };
-    summary.outer = solution.steps.iter().map(|step| summary::OuterIteration {
-        iteration: step.iteration,
-        active: Some(step.active),
-        added: Some(step.added),
-        released: Some(step.released),
-        krylov_iterations: Some(step.krylov_iterations),
-        residual: Some(step.residual),
-        max_penetration: Some(step.max_penetration),
-        du: Some(step.du),
-    }).collect();
+    summary.outer = solution
+        .steps
+        .iter()
+        .map(|step| summary::OuterIteration {
+            iteration: step.iteration,
+            active: Some(step.active),
+            added: Some(step.added),
+            released: Some(step.released),
+            krylov_iterations: Some(step.krylov_iterations),
+            residual: Some(step.residual),
+            max_penetration: Some(step.max_penetration),
+            du: Some(step.du),
+        })
+        .collect();
     summary.solver = summary::Solver {
         name: Some(case.solver.choice.name().into()),
         krylov: Some(solver_name.into()),
@@ -116,7 +123,14 @@ fn edge_count(problem: &Problem) -> usize {
 }
 
 /// Fields, traces, balances and errors; their files too. **Collective**
-fn evaluate(summary: &mut Summary, case: &Case, options: &RunOptions, problem: &Problem, solution: &Solution, session: &Session) -> Result<Errors, RunError> {
+fn evaluate(
+    summary: &mut Summary,
+    case: &Case,
+    options: &RunOptions,
+    problem: &Problem,
+    solution: &Solution,
+    session: &Session,
+) -> Result<Errors, RunError> {
     let (scene, space) = (&problem.scene, problem.finest());
     let u = Field::displacement(scene, space, &solution.displacement, session)?;
     let balance = balance(scene, space, &problem.contacts, &problem.coupling, solution, &u, session)?;
@@ -126,7 +140,8 @@ fn evaluate(summary: &mut Summary, case: &Case, options: &RunOptions, problem: &
         total: Some(balance.strain.iter().sum()),
         external_work: Some(balance.external_work),
     };
-    summary.balance = summary::Balance { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
+    summary.balance =
+        summary::Balance { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
     let mut traces = Vec::new();
     for (at, contact) in problem.contacts.iter().enumerate() {
         let points = trace_points(scene, space, contact, &solution.multipliers[contact.range()], &u, session)?;
@@ -136,7 +151,12 @@ fn evaluate(summary: &mut Summary, case: &Case, options: &RunOptions, problem: &
     for point in &case.probes {
         let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
         let Some(found) = probe(scene, space, &u, body, Point::new(point.point[0], point.point[1]), session)? else {
-            return Err(RunError::Input(format!("{}: probe.{}.point lies outside body \"{}\"", case.file.display(), point.name, point.body)));
+            return Err(RunError::Input(format!(
+                "{}: probe.{}.point lies outside body \"{}\"",
+                case.file.display(),
+                point.name,
+                point.body
+            )));
         };
         let [xx, yy, xy, _] = found.stress;
         let values = summary::Probe { x: Some(point.point), u: Some(found.displacement.into()), stress: Some([xx, yy, xy]) };
@@ -147,7 +167,14 @@ fn evaluate(summary: &mut Summary, case: &Case, options: &RunOptions, problem: &
     Ok(errors)
 }
 
-fn write_files(case: &Case, options: &RunOptions, problem: &Problem, u: &Field<2>, traces: &[Vec<ContactPoint>], session: &Session) -> Result<(), RunError> {
+fn write_files(
+    case: &Case,
+    options: &RunOptions,
+    problem: &Problem,
+    u: &Field<2>,
+    traces: &[Vec<ContactPoint>],
+    session: &Session,
+) -> Result<(), RunError> {
     let folder = ResultFolder::temporary_path(&options.out);
     let stress = nodal_stress(&problem.scene, problem.finest(), u, session)?;
     let written = fields::write(&folder, problem, u, &stress, session);
@@ -169,7 +196,14 @@ fn write_files(case: &Case, options: &RunOptions, problem: &Problem, u: &Field<2
     Ok(())
 }
 
-fn contact_summary(contact: &Contact, at: usize, problem: &Problem, solution: &Solution, balance: &Balance, points: &[TracePoint]) -> summary::Contact {
+fn contact_summary(
+    contact: &Contact,
+    at: usize,
+    problem: &Problem,
+    solution: &Solution,
+    balance: &Balance,
+    points: &[TracePoint],
+) -> summary::Contact {
     let boundary = &contact.boundary;
     let knots = boundary.knots();
     let pair = |p: Point| [p.x, p.y];

@@ -86,13 +86,17 @@ impl Names<'_> {
     fn check_bodies(&self) -> Result<(), String> {
         for body in &self.case.bodies {
             if !self.mesh.bodies.contains(&body.name) {
-                let words = format!("no physical surface \"{}\": {}", body.name, self.instead(&body.name, self.mesh.bodies.iter()));
+                let words =
+                    format!("no physical surface \"{}\": {}", body.name, self.instead(&body.name, self.mesh.bodies.iter()));
                 return Err(self.error(&format!("body.{}", body.name), &words));
             }
         }
         for name in &self.mesh.bodies {
             if !self.case.bodies.iter().any(|body| body.name == *name) {
-                let words = format!("missing, but {} has the physical surface \"{name}\"; give its young and poisson", self.mesh.file.display());
+                let words = format!(
+                    "missing, but {} has the physical surface \"{name}\"; give its young and poisson",
+                    self.mesh.file.display()
+                );
                 return Err(self.error(&format!("body.{name}"), &words));
             }
         }
@@ -134,7 +138,10 @@ impl Names<'_> {
             }
         }
         if bodies[0] == bodies[1] {
-            let words = format!("both sides lie on body \"{}\"; contact of a body with itself is not modelled", self.mesh.bodies[bodies[0]]);
+            let words = format!(
+                "both sides lie on body \"{}\"; contact of a body with itself is not modelled",
+                self.mesh.bodies[bodies[0]]
+            );
             return Err(self.error(&key, &words));
         }
         Ok(())

@@ -103,9 +103,8 @@ impl ContactLoop<'_> {
     pub fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
         let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &self.scene.partition);
         let mut conditions = support_conditions(self.scene, &numbering);
-        let place = |coupled: &Coupled| {
-            (coupled.body, coupled.node.place(&self.scene.mesh, &self.finest().numbering), coupled.value)
-        };
+        let place =
+            |coupled: &Coupled| (coupled.body, coupled.node.place(&self.scene.mesh, &self.finest().numbering), coupled.value);
         let rows = self.coupling.rows.iter().zip(active).filter(|(_, active)| **active);
         conditions.extend(rows.map(|(row, _)| row.iter().map(place).collect::<Condition>()));
         find_mechanism(&self.scene.extents(), &conditions)
@@ -117,7 +116,11 @@ impl ContactLoop<'_> {
 
     /// Words for a body that is not held.
     pub fn not_held(&self, mechanism: &Mechanism, any_active: bool) -> String {
-        let by = if any_active { "supports and contact do not hold it" } else { "contact is open everywhere and supports do not hold it" };
+        let by = if any_active {
+            "supports and contact do not hold it"
+        } else {
+            "contact is open everywhere and supports do not hold it"
+        };
         format!("body {} can {}: {by}", self.scene.bodies[mechanism.body].name, mechanism.motion)
     }
 
@@ -186,7 +189,14 @@ impl ContactLoop<'_> {
         self.finish(system, &x, set, steps, verdict)
     }
 
-    fn finish(&self, system: &SaddlePoint, x: &Vector, set: &ActiveSet, steps: Vec<OuterStep>, verdict: Verdict) -> Result<Solution, SystemError> {
+    fn finish(
+        &self,
+        system: &SaddlePoint,
+        x: &Vector,
+        set: &ActiveSet,
+        steps: Vec<OuterStep>,
+        verdict: Verdict,
+    ) -> Result<Solution, SystemError> {
         let b = system.right_hand_side(set.active(), self.finest())?;
         let mut r = b.duplicate()?;
         system.nest.residual(&b, x, &mut r)?;
@@ -284,7 +294,11 @@ impl ContactLoop<'_> {
 }
 
 fn settled(set: &ActiveSet) -> String {
-    if set.may_change() { "the active set stands and the residual is below its tolerance".into() } else { "the residual is below its tolerance".into() }
+    if set.may_change() {
+        "the active set stands and the residual is below its tolerance".into()
+    } else {
+        "the residual is below its tolerance".into()
+    }
 }
 
 /// Everything that supports hold, at the macro vertices.

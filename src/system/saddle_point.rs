@@ -111,7 +111,10 @@ impl SaddlePoint {
         }
         subtract(&mut load, &lifted, finest, session)?;
         let gap = coupling.gap.iter().zip(&coupling.rows).map(|(c, row)| {
-            let moved: f64 = row.iter().map(|coupled| coupled.value.dot(&finest.prescribed(coupled.node.number(&scene.mesh, &finest.numbering)))).sum();
+            let moved: f64 = row
+                .iter()
+                .map(|coupled| coupled.value.dot(&finest.prescribed(coupled.node.number(&scene.mesh, &finest.numbering))))
+                .sum();
             c - moved
         });
         let scale: Vec<f64> =
@@ -125,7 +128,20 @@ impl SaddlePoint {
         let nest = Matrix::nest(session, [[&stiffness[stiffness.len() - 1], &transpose], [&to_multipliers, &corner]])?;
         let gap = gap.collect();
         let mut system = Self {
-            stiffness, coupling: to_multipliers, transpose, corner, schur, pattern, nest, numbers, scale, weights: Vec::new(), rows, form, load, gap,
+            stiffness,
+            coupling: to_multipliers,
+            transpose,
+            corner,
+            schur,
+            pattern,
+            nest,
+            numbers,
+            scale,
+            weights: Vec::new(),
+            rows,
+            form,
+            load,
+            gap,
         };
         system.activate(contacts, set.active(), spaces)?;
         Ok(system)
@@ -139,7 +155,8 @@ impl SaddlePoint {
                 let values = block.values.map(|row| row.map(|value| -value));
                 DiagonalBlock { rows: block.rows.clone(), values }
             });
-            let change: Vec<DiagonalBlock> = gone.chain(next.iter().filter(|block| !self.weights.contains(block)).cloned()).collect();
+            let change: Vec<DiagonalBlock> =
+                gone.chain(next.iter().filter(|block| !self.weights.contains(block)).cloned()).collect();
             for ((matrix, rows), space) in self.stiffness.iter_mut().zip(&self.rows).zip(spaces) {
                 let mut result = Ok(());
                 rows.weighted_square(&change, |a, b, values| {
@@ -188,7 +205,8 @@ impl SaddlePoint {
             let number = self.numbers.number[i];
             if own.contains(&number) {
                 let number = [number as i32];
-                let alone = contact.multipliers.single_weight(i - contact.first, contact.modulus) / (self.scale[i] * self.scale[i]);
+                let alone =
+                    contact.multipliers.single_weight(i - contact.first, contact.modulus) / (self.scale[i] * self.scale[i]);
                 self.corner.insert(&number, &number, &[if active[i] { 0.0 } else { -1.0 / alone }])?;
                 if !active[i] {
                     self.schur.insert(&number, &number, &[-1.0 / alone])?;
@@ -311,7 +329,12 @@ fn subtract(load: &mut [f64], lifted: &HashMap<usize, Point>, space: &Space, ses
 }
 
 /// Empty `B̂` and `B̂ᵀ` with exact room.
-fn coupling_matrices(rows: &CouplingRows, numbers: &MultiplierNumbers, space: &Space, session: &Session) -> Result<(Matrix, Matrix), SystemError> {
+fn coupling_matrices(
+    rows: &CouplingRows,
+    numbers: &MultiplierNumbers,
+    space: &Space,
+    session: &Session,
+) -> Result<(Matrix, Matrix), SystemError> {
     let unknowns = space.local_unknowns();
     let own = |node: usize| space.own.contains(&node);
     let mut counts = [vec![0; numbers.own.len()], vec![0; numbers.own.len()], vec![0; unknowns], vec![0; unknowns]];

@@ -87,9 +87,9 @@ impl Contact {
         let young = bodies.map(|body| scene.bodies[body].material.young);
         let boundary = place(&scene.mesh, numbering, pair, young)?;
         let own = |edge: &&u32| scene.partition.owner(scene.mesh.beside(**edge).0) == rank;
-        let edges = sides.each_ref().map(|edges| {
-            edges.iter().filter(own).flat_map(|&edge| BoundaryEdge::all_of(&scene.mesh, edge, numbering)).collect()
-        });
+        let edges = sides
+            .each_ref()
+            .map(|edges| edges.iter().filter(own).flat_map(|&edge| BoundaryEdge::all_of(&scene.mesh, edge, numbering)).collect());
         let multipliers = Multipliers::new(pair.space, &boundary);
         let modulus = 2.0 / (1.0 / young[0] + 1.0 / young[1]);
         Ok(Self { pair: pair.clone(), boundary, multipliers, first, modulus, bodies, edges })

@@ -59,7 +59,12 @@ impl SolverChoice {
 
 impl LinearSolver {
     /// Sets a solver up; `interpolations[l]` leads from level `l` to level `l + 1`. **Collective**
-    pub fn new(system: &SaddlePoint, interpolations: &[Matrix], choice: SolverChoice, session: &Session) -> Result<Self, SystemError> {
+    pub fn new(
+        system: &SaddlePoint,
+        interpolations: &[Matrix],
+        choice: SolverChoice,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
         match choice.form() {
             Form::Augmented => Self::field_split(system, interpolations, session),
             Form::Plain => Self::direct(system, session),
@@ -104,7 +109,8 @@ impl LinearSolver {
             options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
-        let mut solver = Self { krylov, session: session.clone(), form: Form::Plain, converted: None, name: "direct (MUMPS)".into() };
+        let mut solver =
+            Self { krylov, session: session.clone(), form: Form::Plain, converted: None, name: "direct (MUMPS)".into() };
         solver.refresh(system)?;
         solver.krylov.set_from_options()?;
         solver.krylov.set_up()?;
@@ -151,7 +157,9 @@ impl LinearSolver {
             if !(residual < 0.5 * before) || iterations >= MOST_ITERATIONS {
                 let floor = self.rounding(system, x, norm)?;
                 let ending = if residual <= floor {
-                    Ending::Rounding(format!("the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"))
+                    Ending::Rounding(format!(
+                        "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
+                    ))
                 } else {
                     let reason = if solved.converged { "the residual no longer falls".to_string() } else { solved.reason };
                     Ending::Failed(format!("linear solver: {reason} after {iterations} iterations, residual {residual:.1e}"))
@@ -170,7 +178,12 @@ impl LinearSolver {
 }
 
 /// Defaults of the field split; what a user gives after `--` wins.
-fn field_split_options(pattern: SchurPattern, multigrid: bool, coarse_rows: usize, ranks: usize) -> Vec<(&'static str, &'static str)> {
+fn field_split_options(
+    pattern: SchurPattern,
+    multigrid: bool,
+    coarse_rows: usize,
+    ranks: usize,
+) -> Vec<(&'static str, &'static str)> {
     let alone = ranks == 1;
     let mut all = vec![
         ("-ksp_type", "gmres"),
@@ -207,7 +220,10 @@ fn field_split_options(pattern: SchurPattern, multigrid: bool, coarse_rows: usiz
         ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
     ]);
     if coarse_rows > SMALL {
-        all.extend([("-fieldsplit_u_mg_coarse_pc_type", "cholesky"), ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps")]);
+        all.extend([
+            ("-fieldsplit_u_mg_coarse_pc_type", "cholesky"),
+            ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps"),
+        ]);
     } else if alone {
         all.push(("-fieldsplit_u_mg_coarse_pc_type", "lu"));
     } else {

@@ -12,7 +12,12 @@ use std::collections::{BTreeMap, BTreeSet};
 pub type ContactNeighbours = BTreeMap<usize, BTreeSet<usize>>;
 
 /// An empty matrix with exact room for the stiffness of a level and its contact couplings. **Collective**
-pub fn prepare_stiffness(scene: &Scene, space: &Space, contact: &ContactNeighbours, session: &Session) -> Result<Matrix, SystemError> {
+pub fn prepare_stiffness(
+    scene: &Scene,
+    space: &Space,
+    contact: &ContactNeighbours,
+    session: &Session,
+) -> Result<Matrix, SystemError> {
     let mut counts = Counts::new(space, contact);
     let n = space.numbering.level.intervals;
     let order = space.numbering.level.order;
@@ -30,7 +35,8 @@ pub fn prepare_stiffness(scene: &Scene, space: &Space, contact: &ContactNeighbou
             continue;
         }
         let numbers = space.numbering.triangle(&scene.mesh, triangle);
-        let first = scene.mesh.triangles[triangle].edges.map(|e| scene.mesh.edges[e as usize].triangles[0] == Some(triangle as u32));
+        let first =
+            scene.mesh.triangles[triangle].edges.map(|e| scene.mesh.edges[e as usize].triangles[0] == Some(triangle as u32));
         for (i, j) in lattice::nodes(n) {
             let place = lattice::place(n, i, j);
             let row = numbers.node(i, j);
@@ -42,7 +48,8 @@ pub fn prepare_stiffness(scene: &Scene, space: &Space, contact: &ContactNeighbou
                 if (di, dj) == (0, 0) || k > n || l > n || k + l > n {
                     continue;
                 }
-                let shared = !matches!(place, Place::Inside(_)) && (0..3).any(|s| !first[s] && on_side(n, s, i, j) && on_side(n, s, k, l));
+                let shared =
+                    !matches!(place, Place::Inside(_)) && (0..3).any(|s| !first[s] && on_side(n, s, i, j) && on_side(n, s, k, l));
                 if !shared {
                     counts.add(row, numbers.node(k, l));
                 }
@@ -175,7 +182,13 @@ fn add_triangle(
 }
 
 /// A block in the frames of its nodes, without the couplings of prescribed components.
-fn constrained(block: &Block, row: Option<&Constraint>, column: Option<&Constraint>, diagonal: bool, mut lift: impl FnMut(Point)) -> Block {
+fn constrained(
+    block: &Block,
+    row: Option<&Constraint>,
+    column: Option<&Constraint>,
+    diagonal: bool,
+    mut lift: impl FnMut(Point),
+) -> Block {
     let mut k = nalgebra::Matrix2::new(block[0][0], block[0][1], block[1][0], block[1][1]);
     if let Some(row) = row {
         k = row.frame().transpose() * k;

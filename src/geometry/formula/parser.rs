@@ -12,8 +12,7 @@ const NESTING: usize = 64;
 
 /// Reads a whole formula; the column of an error counts characters from 1.
 pub fn parse(text: &str, variables: &[&str]) -> Result<Vec<Step>, FormulaError> {
-    let mut parser =
-        Parser { text: text.chars().collect(), next: 0, variables, program: Vec::new(), waiting: 0, nesting: 0 };
+    let mut parser = Parser { text: text.chars().collect(), next: 0, variables, program: Vec::new(), waiting: 0, nesting: 0 };
     parser.sum()?;
     match parser.peek() {
         None => Ok(parser.program),

@@ -53,11 +53,19 @@ pub fn balance(
     let (mut strain, internal) = internal_forces(scene, space, u, session)?;
     session.sum(&mut strain);
     let mut applied = Field::<2>::zeros(scene, space, session);
-    applied_forces(&scene.mesh, &scene.partition, session.rank(), &space.numbering, &scene.bodies, &scene.loads, |node, force| {
-        let sum = applied.at_mut(node);
-        sum[0] += force.x;
-        sum[1] += force.y;
-    })?;
+    applied_forces(
+        &scene.mesh,
+        &scene.partition,
+        session.rank(),
+        &space.numbering,
+        &scene.bodies,
+        &scene.loads,
+        |node, force| {
+            let sum = applied.at_mut(node);
+            sum[0] += force.x;
+            sum[1] += force.y;
+        },
+    )?;
     let applied = applied.sum(session)?;
     let pressed = contact_forces(scene, space, coupling, solution);
     let mut work = [0.0; 2];
@@ -78,7 +86,8 @@ pub fn balance(
     }
     session.sum(&mut work);
     session.sum(totals.as_flattened_mut());
-    let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(scene, space, contact, coupling, solution)).collect();
+    let forces: Vec<ContactForce> =
+        contacts.iter().map(|contact| contact_force(scene, space, contact, coupling, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let (twice, external) = (2.0 * strain.iter().sum::<f64>(), work[0] + work[1]);
     let largest = [twice, work[0], work[1], lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
@@ -152,11 +161,17 @@ fn internal_forces(scene: &Scene, space: &Space, u: &Field<2>, session: &Session
 }
 
 /// `Bᵀλ` at the contact nodes.
-fn contact_forces(scene: &Scene, space: &Space, coupling: &Coupling, solution: &Solution) -> std::collections::HashMap<usize, Point> {
+fn contact_forces(
+    scene: &Scene,
+    space: &Space,
+    coupling: &Coupling,
+    solution: &Solution,
+) -> std::collections::HashMap<usize, Point> {
     let mut forces = std::collections::HashMap::new();
     for (row, lambda) in coupling.rows.iter().zip(&solution.multipliers) {
         for coupled in row {
-            *forces.entry(coupled.node.number(&scene.mesh, &space.numbering)).or_insert(Point::zeros()) += *lambda * coupled.value;
+            *forces.entry(coupled.node.number(&scene.mesh, &space.numbering)).or_insert(Point::zeros()) +=
+                *lambda * coupled.value;
         }
     }
     forces

@@ -16,7 +16,14 @@ const STRAIGHT: bool = false;
 ///
 /// # Errors
 /// [`SystemError`] where a triangle is inverted.
-pub fn energy_error(scene: &Scene, space: &Space, u: &Field<2>, body: usize, exact: &[Formula; 3], session: &Session) -> Result<[f64; 2], SystemError> {
+pub fn energy_error(
+    scene: &Scene,
+    space: &Space,
+    u: &Field<2>,
+    body: usize,
+    exact: &[Formula; 3],
+    session: &Session,
+) -> Result<[f64; 2], SystemError> {
     let law = scene.laws()[body];
     let mut sums = [0.0; 2];
     for &triangle in scene.partition.triangles_of(session.rank()) {

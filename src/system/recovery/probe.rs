@@ -26,7 +26,14 @@ pub struct Probed {
 ///
 /// # Errors
 /// [`SystemError`] where a triangle is inverted.
-pub fn probe(scene: &Scene, space: &Space, u: &Field<2>, body: usize, x: Point, session: &Session) -> Result<Option<Probed>, SystemError> {
+pub fn probe(
+    scene: &Scene,
+    space: &Space,
+    u: &Field<2>,
+    body: usize,
+    x: Point,
+    session: &Session,
+) -> Result<Option<Probed>, SystemError> {
     let law = scene.laws()[body];
     let mut sums = [0.0; 7];
     for &triangle in scene.partition.triangles_of(session.rank()) {
@@ -43,10 +50,8 @@ pub fn probe(scene: &Scene, space: &Space, u: &Field<2>, body: usize, x: Point, 
     }
     session.sum(&mut sums);
     let mean = sums.map(|sum| sum / sums[6]);
-    Ok((sums[6] > 0.0).then(|| Probed {
-        displacement: Point::new(mean[0], mean[1]),
-        stress: [mean[2], mean[3], mean[4], mean[5]],
-    }))
+    Ok((sums[6] > 0.0)
+        .then(|| Probed { displacement: Point::new(mean[0], mean[1]), stress: [mean[2], mean[3], mean[4], mean[5]] }))
 }
 
 /// Reference coordinates of a point in a macro triangle by Newton's method on its map, or nothing if it lies outside.

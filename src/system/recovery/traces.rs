@@ -54,7 +54,8 @@ pub fn trace_points(
     session: &Session,
 ) -> Result<Vec<TracePoint>, SystemError> {
     let own = [0, 1].map(|k| pieces(&contact.boundary, &contact.edges[k]));
-    let (parameters, segments) = parameters(contact, &own.iter().flatten().flat_map(|piece| piece.range).collect::<Vec<_>>(), session);
+    let (parameters, segments) =
+        parameters(contact, &own.iter().flatten().flat_map(|piece| piece.range).collect::<Vec<_>>(), session);
     // Sums over ranks of (count, displacement, stress, distance) for both bodies.
     let mut sums = vec![[0.0; 8]; parameters.len()];
     let tolerance = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
@@ -130,9 +131,11 @@ fn on_edge(
 ) -> Result<[f64; 3], SystemError> {
     let here = trace(&contact.boundary, 0, small, t);
     let normal = contact.boundary.normal(t);
-    let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
-        sum + value * u.point(node.number(&scene.mesh, &space.numbering))
-    });
+    let moved = small
+        .nodes
+        .iter()
+        .zip(here.values)
+        .fold(Point::zeros(), |sum, (node, value)| sum + value * u.point(node.number(&scene.mesh, &space.numbering)));
     let s = match space.numbering.level.order {
         Order::P1 => stress_beside::<3>(scene, space, small, here.fraction, u, law)?,
         Order::P2 => stress_beside::<6>(scene, space, small, here.fraction, u, law)?,
