@@ -20,6 +20,11 @@ impl DiagonalBlock {
         Self { rows: vec![row], values: [[value, 0.0], [0.0, 0.0]] }
     }
 
+    /// The block with its sign changed.
+    pub fn negative(&self) -> Self {
+        Self { rows: self.rows.clone(), values: self.values.map(|row| row.map(|value| -value)) }
+    }
+
     /// The inverse block.
     pub fn inverse(&self) -> Self {
         let [[a, b], [_, d]] = self.values;

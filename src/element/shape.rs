@@ -80,10 +80,10 @@ mod tests {
         let step = 1e-6;
         let at = |xi: f64, eta: f64| shape::<6>([1.0 - xi - eta, xi, eta]);
         let slopes = slopes::<6>([0.5, 0.2, 0.3]);
-        for a in 0..6 {
+        for (a, slope) in slopes.iter().enumerate() {
             let dx = (at(0.2 + step, 0.3)[a] - at(0.2 - step, 0.3)[a]) / (2.0 * step);
             let dy = (at(0.2, 0.3 + step)[a] - at(0.2, 0.3 - step)[a]) / (2.0 * step);
-            assert!((slopes[a][0] - dx).abs() < 1e-9 && (slopes[a][1] - dy).abs() < 1e-9);
+            assert!((slope[0] - dx).abs() < 1e-9 && (slope[1] - dy).abs() < 1e-9);
         }
     }
 }

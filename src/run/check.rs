@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::element::Order;
 use crate::mesh::Partition;
 use crate::petsc::{Session, versions};
-use crate::system::Contact;
+use crate::system::{Contact, spaces};
 
 /// Reads everything, solves nothing, and says what would be solved.
 ///
@@ -15,7 +15,7 @@ pub fn check(case: &Case) -> Result<String, RunError> {
     let mesh = scene::read_mesh(case).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);
-    let spaces = scene::spaces(&scene, 0)?;
+    let spaces = spaces(&scene, 0)?;
     let finest = &spaces[spaces.len() - 1];
     let contacts = Contact::all(&scene, &finest.numbering, 0)?;
     let triangles = scene.mesh.triangles.len() * finest.numbering.level.triangles_per_edge().pow(2);

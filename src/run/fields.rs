@@ -1,12 +1,12 @@
 //! Fields of the bodies in files: one piece per rank, and the facets of the figure.
 
-use super::{Problem, RunError};
+use super::RunError;
 use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::Facet;
 use crate::output::vtk::{Piece, write_parallel, write_piece};
 use crate::petsc::Session;
-use crate::system::Field;
+use crate::system::{Discretisation, Field};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -14,7 +14,13 @@ use std::path::Path;
 const MOST_FACETS: usize = 20_000;
 
 /// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own.
-pub fn write(folder: &Path, problem: &Problem, u: &Field<2>, stress: &Field<5>, session: &Session) -> Result<(), RunError> {
+pub fn write(
+    folder: &Path,
+    problem: &Discretisation,
+    u: &Field<2>,
+    stress: &Field<5>,
+    session: &Session,
+) -> Result<(), RunError> {
     let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
     let piece = Nodes::new(problem, session.rank());
     let points: Vec<[f64; 2]> = piece.places.clone();
@@ -55,7 +61,7 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn new(problem: &Problem, rank: usize) -> Self {
+    fn new(problem: &Discretisation, rank: usize) -> Self {
         let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
         let (n, order) = (numbering.level.intervals, numbering.level.order);
         let mut piece = Self { numbers: Vec::new(), places: Vec::new(), cells: Vec::new(), bodies: Vec::new() };
@@ -89,7 +95,7 @@ impl Nodes {
 }
 
 /// Facets for the figure of the deformed bodies, coarse enough to draw, from all ranks. **Collective**
-pub fn facets(problem: &Problem, u: &Field<2>, stress: &Field<5>, session: &Session) -> Vec<Facet> {
+pub fn facets(problem: &Discretisation, u: &Field<2>, stress: &Field<5>, session: &Session) -> Vec<Facet> {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
     let mut shown = n;

@@ -9,14 +9,16 @@ mod scene;
 
 pub use check::{check, info};
 
+use crate::body;
 use crate::case::Case;
+use crate::contact::ActiveSet;
+use crate::geometry::Point;
 use crate::output::{OutputError, ResultFolder};
-use crate::petsc::{self, Matrix, Session, Stage};
+use crate::petsc::{self, Session, Stage};
 use crate::system::{
-    Contact, ContactLoop, Coupling, LinearSolver, SaddlePoint, Scene, Solution, Space, SystemError, Verdict, bilateral,
-    interpolation,
+    ContactLoop, Discretisation, Field, LinearSolver, SaddlePoint, Solution, SystemError, Verdict, bilateral, interpolation,
+    spaces,
 };
-use crate::{body, contact::ActiveSet};
 use report::Report;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -102,21 +104,6 @@ impl Stages {
     }
 }
 
-/// A system that is set up, with all it was made of.
-pub(crate) struct Problem {
-    pub scene: Scene,
-    pub spaces: Vec<Space>,
-    pub contacts: Vec<Contact>,
-    pub coupling: Coupling,
-}
-
-impl Problem {
-    /// Space of the finest level.
-    pub fn finest(&self) -> &Space {
-        &self.spaces[self.spaces.len() - 1]
-    }
-}
-
 /// Solves a case and writes its results. **Collective**
 ///
 /// # Errors
@@ -144,32 +131,28 @@ fn claim_folder(options: &RunOptions, session: &Session) -> Result<Option<Result
 }
 
 /// Reads the mesh, spreads it, and couples the contacts. **Collective**
-fn set_up(case: &Case, stages: &Stages, session: &Session) -> Result<Problem, RunError> {
+fn set_up(case: &Case, stages: &Stages, session: &Session) -> Result<Discretisation, RunError> {
     let (scene, spaces) = {
         let _stage = stages.mesh.enter();
         let mesh = session.agree(scene::read_mesh(case)).map_err(RunError::Input)?;
         let scene = scene::spread(case, mesh, session)?;
-        let spaces = scene::spaces(&scene, session.rank())?;
+        let spaces = spaces(&scene, session.rank())?;
         (scene, spaces)
     };
     let _stage = stages.contact.enter();
-    let finest = &spaces[spaces.len() - 1];
-    let contacts = Contact::all(&scene, &finest.numbering, session.rank())?;
-    let coupling = Coupling::new(&scene, &contacts, session)?;
-    Ok(Problem { scene, spaces, contacts, coupling })
+    Ok(Discretisation::new(scene, spaces, session)?)
 }
 
 /// Assembles and solves. A body that nothing holds is found before anything is assembled. **Collective**
 fn solve(
     case: &Case,
-    problem: &Problem,
+    problem: &Discretisation,
     stages: &Stages,
     report: &Report,
     session: &Session,
 ) -> Result<(Solution, String), RunError> {
-    let Problem { scene, spaces, contacts, coupling } = problem;
-    let contact_loop = ContactLoop { scene, contacts, coupling, spaces, session };
-    let mut set = ActiveSet::new(bilateral(contacts));
+    let contact_loop = ContactLoop { problem, session };
+    let mut set = ActiveSet::new(bilateral(&problem.contacts));
     if let Some(mechanism) = contact_loop.mechanism(set.active()) {
         let words = contact_loop.not_held(&mechanism, true);
         return Ok((Solution::nothing(Verdict::NotConverged(words), problem.finest(), set.active()), "none".into()));
@@ -177,28 +160,28 @@ fn solve(
     let mut system = {
         let _stage = stages.assemble.enter();
         let load = nodal_load(problem, session)?;
-        SaddlePoint::new(scene, spaces, contacts, coupling, load, &set, case.solver.choice.form(), session)?
+        SaddlePoint::new(problem, load, set.active(), case.solver.choice.form(), session)?
     };
     let mut solver = {
         let _stage = stages.setup.enter();
-        let interpolations: Vec<Matrix> =
-            spaces.windows(2).map(|pair| interpolation(scene, &pair[1], &pair[0], session)).collect::<Result<_, _>>()?;
-        LinearSolver::new(&system, &interpolations, case.solver.choice, session)?
+        let steps = problem.spaces.windows(2).map(|pair| interpolation(&problem.scene, &pair[1], &pair[0], session));
+        LinearSolver::new(&system, &steps.collect::<Result<Vec<_>, _>>()?, case.solver.choice, session)?
     };
     let unused = solver.unused_options()?;
     if !unused.is_empty() {
         return Err(RunError::Input(format!("PETSc options that nothing has used: {}; check their spelling", unused.join(", "))));
     }
     let _stage = stages.solve.enter();
-    let solution = contact_loop
-        .solve(&mut system, &mut solver, &mut set, case.solver.tolerance, |step| report.step(step, coupling.gap.len()))?;
+    let count = problem.multiplier_count();
+    let solution =
+        contact_loop.solve(&mut system, &mut solver, &mut set, case.solver.tolerance, |step| report.step(step, count))?;
     Ok((solution, solver.name))
 }
 
 /// Nodal forces of this rank's unknowns, in the nodes' frames, zero where displacement is prescribed. **Collective**
-fn nodal_load(problem: &Problem, session: &Session) -> Result<Vec<f64>, RunError> {
+fn nodal_load(problem: &Discretisation, session: &Session) -> Result<Vec<f64>, RunError> {
     let (scene, space) = (&problem.scene, problem.finest());
-    let mut forces = crate::system::Field::<2>::zeros(scene, space, session);
+    let mut forces = Field::<2>::zeros(problem, session);
     let applied = body::applied_forces(
         &scene.mesh,
         &scene.partition,
@@ -215,7 +198,7 @@ fn nodal_load(problem: &Problem, session: &Session) -> Result<Vec<f64>, RunError
     session.agree(applied.map_err(SystemError::from)).map_err(RunError::Input)?;
     let forces = forces.sum(session)?;
     let frame = |(node, [x, y]): (usize, &[f64; 2])| {
-        let force = space.free(node, crate::geometry::Point::new(*x, *y));
+        let force = space.free(node, Point::new(*x, *y));
         [force.x, force.y]
     };
     Ok(space.own.clone().zip(forces.own()).flat_map(frame).collect())

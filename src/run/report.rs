@@ -1,12 +1,12 @@
 //! What a run prints on rank 0 while it lives.
 
-use super::{Problem, RunOptions, Stages};
+use super::{RunOptions, Stages};
 use crate::case::Case;
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
-use crate::system::OuterStep;
+use crate::system::{Discretisation, OuterStep};
 use std::time::Instant;
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
@@ -40,12 +40,12 @@ impl Report {
     }
 
     /// Sizes of mesh and contacts.
-    pub fn sizes(&self, problem: &Problem) {
+    pub fn sizes(&self, problem: &Discretisation) {
         let level = problem.finest().numbering.level;
         let order = if level.order == Order::P1 { "P1" } else { "P2" };
         let triangles = problem.scene.mesh.triangles.len() * level.triangles_per_edge().pow(2);
         let unknowns = 2 * problem.finest().numbering.node_count();
-        self.say(&format!("{triangles} {order} triangles, {unknowns} unknowns, {} multipliers", problem.coupling.gap.len()));
+        self.say(&format!("{triangles} {order} triangles, {unknowns} unknowns, {} multipliers", problem.multiplier_count()));
         for contact in &problem.contacts {
             self.say(&format!(
                 "contact {}: {} segments over {:.6}",

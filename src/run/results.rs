@@ -2,7 +2,7 @@
 
 use super::exact::{Errors, compare};
 use super::report::{Report, memory};
-use super::{Outcome, Problem, RunError, RunOptions, Stages, fields};
+use super::{Outcome, RunError, RunOptions, Stages, fields};
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, softer_edge_length};
 use crate::element::Order;
@@ -12,14 +12,14 @@ use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, ResultFolder, plot, vtk, write_contact};
 use crate::petsc::{Session, versions};
 use crate::system::recovery::{Balance, TracePoint, balance, nodal_stress, probe, trace_points};
-use crate::system::{Contact, Field, Solution, Verdict};
+use crate::system::{Contact, Discretisation, Field, Solution, Verdict};
 
 /// Evaluates a solution, writes everything, prints the verdict. **Collective**
 #[allow(clippy::too_many_arguments)]
 pub fn write(
     case: &Case,
     options: &RunOptions,
-    problem: &Problem,
+    problem: &Discretisation,
     solution: &Solution,
     solver_name: &str,
     stages: &Stages,
@@ -74,7 +74,7 @@ fn finish(case: &Case, summary: &Summary, folder: ResultFolder) -> Result<(), cr
 }
 
 /// What is known without the solution's fields.
-fn describe(summary: &mut Summary, case: &Case, problem: &Problem, solution: &Solution, solver_name: &str) {
+fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solution: &Solution, solver_name: &str) {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let count = numbering.level.triangles_per_edge();
     let triangles = scene.mesh.triangles.len() * count * count;
@@ -89,7 +89,7 @@ fn describe(summary: &mut Summary, case: &Case, problem: &Problem, solution: &So
     };
     summary.unknowns = summary::Unknowns {
         displacement: Some(2 * numbering.node_count() as u64),
-        multiplier: Some(problem.coupling.gap.len() as u64),
+        multiplier: Some(problem.multiplier_count() as u64),
     };
     summary.outer = solution
         .steps
@@ -116,7 +116,7 @@ fn describe(summary: &mut Summary, case: &Case, problem: &Problem, solution: &So
 }
 
 /// Triangle edges of the finest level: the midside nodes of P2.
-fn edge_count(problem: &Problem) -> usize {
+fn edge_count(problem: &Discretisation) -> usize {
     let count = problem.finest().numbering.level.triangles_per_edge();
     let mesh = &problem.scene.mesh;
     mesh.edges.len() * count + mesh.triangles.len() * (3 * count * (count - 1) / 2)
@@ -127,13 +127,13 @@ fn evaluate(
     summary: &mut Summary,
     case: &Case,
     options: &RunOptions,
-    problem: &Problem,
+    problem: &Discretisation,
     solution: &Solution,
     session: &Session,
 ) -> Result<Errors, RunError> {
-    let (scene, space) = (&problem.scene, problem.finest());
-    let u = Field::displacement(scene, space, &solution.displacement, session)?;
-    let balance = balance(scene, space, &problem.contacts, &problem.coupling, solution, &u, session)?;
+    let scene = &problem.scene;
+    let u = Field::displacement(problem, &solution.displacement, session)?;
+    let balance = balance(problem, solution, &u, session)?;
     let names = scene.bodies.iter().map(|body| body.name.clone());
     summary.energy = summary::Energy {
         strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),
@@ -144,13 +144,13 @@ fn evaluate(
         summary::Balance { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
     let mut traces = Vec::new();
     for (at, contact) in problem.contacts.iter().enumerate() {
-        let points = trace_points(scene, space, contact, &solution.multipliers[contact.range()], &u, session)?;
+        let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
         summary.contact.insert(contact.pair.name.clone(), contact_summary(contact, at, problem, solution, &balance, &points));
         traces.push(contact_points(contact, &points));
     }
     for point in &case.probes {
         let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
-        let Some(found) = probe(scene, space, &u, body, Point::new(point.point[0], point.point[1]), session)? else {
+        let Some(found) = probe(problem, &u, body, Point::new(point.point[0], point.point[1]), session)? else {
             return Err(RunError::Input(format!(
                 "{}: probe.{}.point lies outside body \"{}\"",
                 case.file.display(),
@@ -170,13 +170,13 @@ fn evaluate(
 fn write_files(
     case: &Case,
     options: &RunOptions,
-    problem: &Problem,
+    problem: &Discretisation,
     u: &Field<2>,
     traces: &[Vec<ContactPoint>],
     session: &Session,
 ) -> Result<(), RunError> {
     let folder = ResultFolder::temporary_path(&options.out);
-    let stress = nodal_stress(&problem.scene, problem.finest(), u, session)?;
+    let stress = nodal_stress(problem, u, session)?;
     let written = fields::write(&folder, problem, u, &stress, session);
     session.agree(written).map_err(RunError::Failed)?;
     let facets = fields::facets(problem, u, &stress, session);
@@ -199,7 +199,7 @@ fn write_files(
 fn contact_summary(
     contact: &Contact,
     at: usize,
-    problem: &Problem,
+    problem: &Discretisation,
     solution: &Solution,
     balance: &Balance,
     points: &[TracePoint],

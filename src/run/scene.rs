@@ -3,9 +3,9 @@
 use super::RunError;
 use crate::case::Case;
 use crate::contact::{CurveChoice, GapChoice};
-use crate::mesh::{Graph, MacroMesh, Partition, levels, read_gmsh};
+use crate::mesh::{Graph, MacroMesh, Partition, read_gmsh};
 use crate::petsc::{Session, partition};
-use crate::system::{Scene, Space, SystemError};
+use crate::system::Scene;
 use std::rc::Rc;
 
 /// Reads the mesh of a case, bends it, and checks that every name of the case is in it.
@@ -54,13 +54,6 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         pairs: case.contacts.clone(),
         mesh,
     }
-}
-
-/// Spaces of all levels, coarsest first; a mesh that is not refined has none below its own.
-pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
-    let all = levels(scene.order, scene.refine);
-    let first = if scene.refine == 0 { all.len() - 1 } else { 0 };
-    all[first..].iter().map(|&level| Space::new(scene, level, rank)).collect()
 }
 
 /// Names of a case against those of its mesh.

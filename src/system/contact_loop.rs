@@ -1,8 +1,6 @@
 //! The loop over active sets.
 
-use super::scene::{Contact, Coupled};
-use super::solver::Ending;
-use super::{Coupling, LinearSolver, SaddlePoint, Scene, Space, SystemError};
+use super::{Contact, Coupled, Discretisation, Ending, LinearSolver, SaddlePoint, Scene, Space, SystemError};
 use crate::body::Constraints;
 use crate::contact::{ActiveSet, Condition, Mechanism, Step, find_mechanism};
 use crate::element::Order;
@@ -86,14 +84,8 @@ impl Solution {
 
 /// What the loop works on.
 pub struct ContactLoop<'a> {
-    /// The physics.
-    pub scene: &'a Scene,
-    /// The contacts.
-    pub contacts: &'a [Contact],
-    /// Their couplings.
-    pub coupling: &'a Coupling,
-    /// All levels, coarsest first.
-    pub spaces: &'a [Space],
+    /// What the system is assembled from.
+    pub problem: &'a Discretisation,
     /// All ranks.
     pub session: &'a Session,
 }
@@ -101,17 +93,18 @@ pub struct ContactLoop<'a> {
 impl ContactLoop<'_> {
     /// A body that neither supports nor the active multipliers hold.
     pub fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
-        let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &self.scene.partition);
-        let mut conditions = support_conditions(self.scene, &numbering);
-        let place =
-            |coupled: &Coupled| (coupled.body, coupled.node.place(&self.scene.mesh, &self.finest().numbering), coupled.value);
-        let rows = self.coupling.rows.iter().zip(active).filter(|(_, active)| **active);
+        let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &self.problem.scene.partition);
+        let mut conditions = support_conditions(&self.problem.scene, &numbering);
+        let place = |coupled: &Coupled| {
+            (coupled.body, coupled.node.place(&self.problem.scene.mesh, &self.finest().numbering), coupled.value)
+        };
+        let rows = self.problem.coupling.rows.iter().zip(active).filter(|(_, active)| **active);
         conditions.extend(rows.map(|(row, _)| row.iter().map(place).collect::<Condition>()));
-        find_mechanism(&self.scene.extents(), &conditions)
+        find_mechanism(&self.problem.scene.extents(), &conditions)
     }
 
     fn finest(&self) -> &Space {
-        &self.spaces[self.spaces.len() - 1]
+        self.problem.finest()
     }
 
     /// Words for a body that is not held.
@@ -121,7 +114,7 @@ impl ContactLoop<'_> {
         } else {
             "contact is open everywhere and supports do not hold it"
         };
-        format!("body {} can {}: {by}", self.scene.bodies[mechanism.body].name, mechanism.motion)
+        format!("body {} can {}: {by}", self.problem.scene.bodies[mechanism.body].name, mechanism.motion)
     }
 
     /// Solves until the active set stands and the last residual is below `tolerance`; `report` hears every pass. **Collective**
@@ -181,7 +174,7 @@ impl ContactLoop<'_> {
                 if let Some(mechanism) = self.mechanism(set.active()) {
                     break Verdict::NotConverged(self.not_held(&mechanism, set.active().contains(&true)));
                 }
-                system.activate(self.contacts, set.active(), self.spaces)?;
+                system.activate(self.problem, set.active())?;
                 solver.refresh(system)?;
                 self.release(system, &mut x, set.active());
             }
@@ -221,8 +214,8 @@ impl ContactLoop<'_> {
 
     /// `λ_i = s_i λ̂_i` of all multipliers. **Collective**
     fn pressures(&self, system: &SaddlePoint, x: &Vector) -> Vec<f64> {
-        let all = system.collect(&x.values()[self.finest().local_unknowns()..], self.session);
-        all.iter().zip(&system.scale).map(|(value, scale)| value * scale).collect()
+        let all = system.multipliers.collect(&x.values()[self.finest().local_unknowns()..], self.session);
+        all.iter().zip(&system.multipliers.scale).map(|(value, scale)| value * scale).collect()
     }
 
     /// `(B u - c)_i` of all multipliers, active or not (length squared). **Collective**
@@ -245,7 +238,7 @@ impl ContactLoop<'_> {
 
     /// `λ_i + κ_i (B u - c)_i`: positive where the next set is active.
     fn force(&self, i: usize, active: &[bool], lambda: &[f64], penetration: &[f64]) -> f64 {
-        let contact = self.contacts.iter().find(|contact| contact.range().contains(&i)).expect("a multiplier has a contact");
+        let contact = self.problem.contact_of(i);
         let penalty = contact.multipliers.penalty(i - contact.first, contact.modulus);
         (if active[i] { lambda[i] } else { 0.0 }) + penalty * penetration[i]
     }
@@ -255,7 +248,7 @@ impl ContactLoop<'_> {
             let own = |i: usize| penetration[i] / contact.multipliers.weight(i - contact.first);
             contact.range().map(own).fold(0.0, f64::max)
         };
-        self.contacts.iter().map(mean).fold(0.0, f64::max)
+        self.problem.contacts.iter().map(mean).fold(0.0, f64::max)
     }
 
     /// Change of the displacement since the last call, relative to its norm. **Collective**
@@ -274,7 +267,7 @@ impl ContactLoop<'_> {
     fn release(&self, system: &SaddlePoint, x: &mut Vector, active: &[bool]) {
         let unknowns = self.finest().local_unknowns();
         let mut values = x.values_mut();
-        for (at, &i) in system.numbers.own.iter().enumerate() {
+        for (at, &i) in system.multipliers.own.iter().enumerate() {
             if !active[i] {
                 values[unknowns + at] = 0.0;
             }
@@ -283,7 +276,7 @@ impl ContactLoop<'_> {
 
     fn cycle(&self, flipping: &[usize]) -> String {
         let name = |&i: &usize| {
-            let contact = self.contacts.iter().find(|contact| contact.range().contains(&i)).expect("a multiplier has a contact");
+            let contact = self.problem.contact_of(i);
             let segment = contact.multipliers.segment_of(i - contact.first);
             let [s, t] = [contact.boundary.arcs()[segment], contact.boundary.arcs()[segment + 1]];
             format!("{} segment {segment} (s = {s:.4} ... {t:.4})", contact.pair.name)

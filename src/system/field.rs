@@ -1,6 +1,6 @@
 //! Values at the nodes that a rank can see: those of the macro triangles it owns.
 
-use super::{Scene, Space, SystemError};
+use super::{Discretisation, SystemError};
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::{Gather, Session, Vector};
@@ -15,9 +15,10 @@ pub struct Field<const K: usize> {
 
 impl<const K: usize> Field<K> {
     /// Zeros.
-    pub fn zeros(scene: &Scene, space: &Space, session: &Session) -> Self {
-        let others = seen_nodes(scene, space, session.rank()).into_iter().map(|node| (node, [0.0; K])).collect();
-        Self { first: space.own.start, own: vec![[0.0; K]; space.own.len()], others }
+    pub fn zeros(problem: &Discretisation, session: &Session) -> Self {
+        let others = seen_nodes(problem, session.rank()).into_iter().map(|node| (node, [0.0; K])).collect();
+        let own = problem.finest().own.clone();
+        Self { first: own.start, own: vec![[0.0; K]; own.len()], others }
     }
 
     /// Values at a node.
@@ -73,8 +74,9 @@ impl<const K: usize> Field<K> {
 
 impl Field<2> {
     /// Displacements in global axes, from this rank's unknowns in the nodes' frames. **Collective**
-    pub fn displacement(scene: &Scene, space: &Space, unknowns: &[f64], session: &Session) -> Result<Self, SystemError> {
-        let mut field = Self::zeros(scene, space, session);
+    pub fn displacement(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Result<Self, SystemError> {
+        let mut field = Self::zeros(problem, session);
+        let space = problem.finest();
         for (at, (own, u)) in field.own.iter_mut().zip(unknowns.chunks_exact(2)).enumerate() {
             let u = space.to_global(space.own.start + at, Point::new(u[0], u[1]));
             *own = [u.x, u.y];
@@ -98,7 +100,8 @@ fn indices<const K: usize>(node: usize) -> [i32; K] {
 }
 
 /// Nodes of this rank's macro triangles that other ranks own.
-fn seen_nodes(scene: &Scene, space: &Space, rank: usize) -> Vec<usize> {
+fn seen_nodes(problem: &Discretisation, rank: usize) -> Vec<usize> {
+    let (scene, space) = (&problem.scene, problem.finest());
     let n = space.numbering.level.intervals;
     let mut seen: Vec<usize> = scene
         .partition

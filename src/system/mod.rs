@@ -1,13 +1,15 @@
 //! The saddle-point system: it alone builds matrices and solvers.
 //!
-//! A [`Scene`] gets its [`Space`]s (one per multigrid level), its [`Contact`]s and their [`Coupling`]; from these come
-//! the blocks of the [`SaddlePoint`], a [`LinearSolver`] for them, and the [`ContactLoop`] over active sets. What the
-//! solution means on the bodies is in [`recovery`].
+//! A [`Scene`] becomes a [`Discretisation`]: [`Space`]s (one per multigrid level), [`Contact`]s and their [`Coupling`].
+//! From it come the blocks of the [`SaddlePoint`], a [`LinearSolver`] for them, and the [`ContactLoop`] over active
+//! sets. What the solution means on the bodies is in [`recovery`].
 
 mod contact_loop;
 mod coupling_rows;
+mod discretisation;
 mod field;
 mod interpolation;
+mod multiplier_blocks;
 pub mod recovery;
 mod saddle_point;
 mod scene;
@@ -17,8 +19,10 @@ mod stiffness_matrix;
 
 pub use contact_loop::{ContactLoop, OuterStep, Solution, Verdict};
 pub use coupling_rows::CouplingRows;
+pub use discretisation::{Discretisation, spaces};
 pub use field::Field;
 pub use interpolation::interpolation;
+pub use multiplier_blocks::{MultiplierBlocks, SchurPattern};
 pub use saddle_point::{Form, SaddlePoint};
 pub use scene::{Contact, Coupled, Coupling, Scene, bilateral};
 pub use solver::{Ending, LinearSolve, LinearSolver};

@@ -4,8 +4,7 @@
 //! geometric multigrid F-cycle stands for the inverse of the first, or BoomerAMG where the mesh has no levels.
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override.
 
-use super::saddle_point::SchurPattern;
-use super::{Form, SaddlePoint, SolverChoice, SystemError};
+use super::{Form, SaddlePoint, SchurPattern, SolverChoice, SystemError};
 use crate::petsc::{Krylov, Level, Matrix, Session, Vector, options};
 
 /// Iterations after which a solve has failed.
@@ -74,14 +73,14 @@ impl LinearSolver {
     fn field_split(system: &SaddlePoint, interpolations: &[Matrix], session: &Session) -> Result<Self, SystemError> {
         let multigrid = !interpolations.is_empty();
         let (coarse_rows, _) = system.stiffness[0].size();
-        for (name, value) in field_split_options(system.pattern, multigrid, coarse_rows, session.size()) {
+        for (name, value) in field_split_options(system.multipliers.pattern, multigrid, coarse_rows, session.size()) {
             options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
         krylov.set_operators(&system.nest, &system.nest)?;
         let [u, lambda] = system.nest.nest_index_sets()?;
         let preconditioner = krylov.preconditioner();
-        preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.schur)?;
+        preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
         krylov.set_from_options()?;
         krylov.set_up()?;
         if multigrid {
@@ -154,7 +153,8 @@ impl LinearSolver {
             if residual <= tolerance {
                 return Ok(LinearSolve { ending: Ending::Converged, iterations, residual });
             }
-            if !(residual < 0.5 * before) || iterations >= MOST_ITERATIONS {
+            let falls = residual < 0.5 * before;
+            if !falls || iterations >= MOST_ITERATIONS {
                 let floor = self.rounding(system, x, norm)?;
                 let ending = if residual <= floor {
                     Ending::Rounding(format!(

@@ -88,11 +88,11 @@ impl<'a> Counts<'a> {
 
     fn add(&mut self, row: usize, column: usize) {
         let at = row - self.space.own.start;
-        if !self.contact.is_empty() {
-            if let Some(columns) = self.contact.get_mut(&row) {
-                columns.insert(column);
-                return;
-            }
+        if !self.contact.is_empty()
+            && let Some(columns) = self.contact.get_mut(&row)
+        {
+            columns.insert(column);
+            return;
         }
         if self.space.own.contains(&column) { self.diagonal[at] += 1 } else { self.off_diagonal[at] += 1 }
     }

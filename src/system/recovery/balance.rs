@@ -5,7 +5,7 @@ use crate::contact::Side;
 use crate::geometry::{Point, cross};
 use crate::mesh::lattice;
 use crate::petsc::Session;
-use crate::system::{Contact, Coupling, Field, Scene, Solution, Space, SystemError};
+use crate::system::{Contact, Discretisation, Field, Solution, SystemError};
 
 /// Resultants of one contact, from each body's own integrals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,18 +41,12 @@ pub struct Balance {
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn balance(
-    scene: &Scene,
-    space: &Space,
-    contacts: &[Contact],
-    coupling: &Coupling,
-    solution: &Solution,
-    u: &Field<2>,
-    session: &Session,
-) -> Result<Balance, SystemError> {
-    let (mut strain, internal) = internal_forces(scene, space, u, session)?;
+pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, session: &Session) -> Result<Balance, SystemError> {
+    let Discretisation { scene, contacts, coupling, .. } = problem;
+    let space = problem.finest();
+    let (mut strain, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
-    let mut applied = Field::<2>::zeros(scene, space, session);
+    let mut applied = Field::<2>::zeros(problem, session);
     applied_forces(
         &scene.mesh,
         &scene.partition,
@@ -67,9 +61,9 @@ pub fn balance(
         },
     )?;
     let applied = applied.sum(session)?;
-    let pressed = contact_forces(scene, space, coupling, solution);
+    let pressed = contact_forces(problem, solution);
     let mut work = [0.0; 2];
-    let body_of = body_of_nodes(scene, space, session.rank());
+    let body_of = body_of_nodes(problem, session.rank());
     let mut totals = vec![[0.0; 6]; scene.bodies.len()];
     for (at, node) in space.own.clone().enumerate() {
         let [f, k] = [applied.own()[at], internal.own()[at]].map(|[x, y]| Point::new(x, y));
@@ -86,8 +80,7 @@ pub fn balance(
     }
     session.sum(&mut work);
     session.sum(totals.as_flattened_mut());
-    let forces: Vec<ContactForce> =
-        contacts.iter().map(|contact| contact_force(scene, space, contact, coupling, solution)).collect();
+    let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let (twice, external) = (2.0 * strain.iter().sum::<f64>(), work[0] + work[1]);
     let largest = [twice, work[0], work[1], lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
@@ -134,11 +127,12 @@ fn body_balance(contacts: &[Contact], forces: &[ContactForce], totals: &[[f64; 6
 }
 
 /// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
-fn internal_forces(scene: &Scene, space: &Space, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
+fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
+    let (scene, space) = (&problem.scene, problem.finest());
     let laws = scene.laws();
     let n = space.numbering.level.intervals;
     let mut strain = vec![0.0; scene.bodies.len()];
-    let mut forces = Field::<2>::zeros(scene, space, session);
+    let mut forces = Field::<2>::zeros(problem, session);
     for &triangle in scene.partition.triangles_of(session.rank()) {
         let body = scene.mesh.triangles[triangle as usize].body as usize;
         let stiffness = MacroStiffness::new(&scene.mesh, triangle as usize, space.numbering.level, &laws[body])?;
@@ -161,39 +155,35 @@ fn internal_forces(scene: &Scene, space: &Space, u: &Field<2>, session: &Session
 }
 
 /// `Bᵀλ` at the contact nodes.
-fn contact_forces(
-    scene: &Scene,
-    space: &Space,
-    coupling: &Coupling,
-    solution: &Solution,
-) -> std::collections::HashMap<usize, Point> {
+fn contact_forces(problem: &Discretisation, solution: &Solution) -> std::collections::HashMap<usize, Point> {
     let mut forces = std::collections::HashMap::new();
-    for (row, lambda) in coupling.rows.iter().zip(&solution.multipliers) {
+    for (row, lambda) in problem.coupling.rows.iter().zip(&solution.multipliers) {
         for coupled in row {
-            *forces.entry(coupled.node.number(&scene.mesh, &space.numbering)).or_insert(Point::zeros()) +=
+            *forces.entry(coupled.node.number(&problem.scene.mesh, &problem.finest().numbering)).or_insert(Point::zeros()) +=
                 *lambda * coupled.value;
         }
     }
     forces
 }
 
-fn contact_force(scene: &Scene, space: &Space, contact: &Contact, coupling: &Coupling, solution: &Solution) -> ContactForce {
+fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solution) -> ContactForce {
     let mut sum = ContactForce::default();
     for i in contact.range() {
         let lambda = solution.multipliers[i];
         sum.force += lambda * contact.multipliers.weight(i - contact.first);
-        for coupled in &coupling.rows[i] {
+        for coupled in &problem.coupling.rows[i] {
             let k = if coupled.side == Side::First { 0 } else { 1 };
             let force = -lambda * coupled.value;
             sum.resultants[k] += force;
-            sum.moments[k] += cross(coupled.node.place(&scene.mesh, &space.numbering), force);
+            sum.moments[k] += cross(coupled.node.place(&problem.scene.mesh, &problem.finest().numbering), force);
         }
     }
     sum
 }
 
 /// Body of each owned node.
-fn body_of_nodes(scene: &Scene, space: &Space, rank: usize) -> Vec<usize> {
+fn body_of_nodes(problem: &Discretisation, rank: usize) -> Vec<usize> {
+    let (scene, space) = (&problem.scene, problem.finest());
     let mut body = vec![0; space.own.len()];
     for &triangle in scene.partition.triangles_of(rank) {
         let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);

@@ -6,7 +6,7 @@ use crate::element::{Order, PlaneStrain, jacobian, shape, stress};
 use crate::geometry::{Formula, Point};
 use crate::mesh::lattice;
 use crate::petsc::Session;
-use crate::system::{Field, Scene, Space, SystemError};
+use crate::system::{Discretisation, Field, SystemError};
 
 /// Quadrature of degree 4 on the triangle, also for P1: the exact stress is no polynomial.
 const STRAIGHT: bool = false;
@@ -17,20 +17,19 @@ const STRAIGHT: bool = false;
 /// # Errors
 /// [`SystemError`] where a triangle is inverted.
 pub fn energy_error(
-    scene: &Scene,
-    space: &Space,
+    problem: &Discretisation,
     u: &Field<2>,
     body: usize,
     exact: &[Formula; 3],
     session: &Session,
 ) -> Result<[f64; 2], SystemError> {
-    let law = scene.laws()[body];
+    let law = problem.scene.laws()[body];
     let mut sums = [0.0; 2];
-    for &triangle in scene.partition.triangles_of(session.rank()) {
-        if scene.mesh.triangles[triangle as usize].body as usize == body {
-            match space.numbering.level.order {
-                Order::P1 => add::<3>(scene, space, u, triangle as usize, &law, exact, &mut sums)?,
-                Order::P2 => add::<6>(scene, space, u, triangle as usize, &law, exact, &mut sums)?,
+    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
+        if problem.scene.mesh.triangles[triangle as usize].body as usize == body {
+            match problem.finest().numbering.level.order {
+                Order::P1 => add::<3>(problem, u, triangle as usize, &law, exact, &mut sums)?,
+                Order::P2 => add::<6>(problem, u, triangle as usize, &law, exact, &mut sums)?,
             }
         }
     }
@@ -39,18 +38,17 @@ pub fn energy_error(
 }
 
 fn add<const N: usize>(
-    scene: &Scene,
-    space: &Space,
+    problem: &Discretisation,
     u: &Field<2>,
     triangle: usize,
     law: &PlaneStrain,
     exact: &[Formula; 3],
     sums: &mut [f64; 2],
 ) -> Result<(), SystemError> {
-    let n = space.numbering.level.intervals;
-    for small in lattice::triangles(n, space.numbering.level.order) {
-        let x = positions(&scene.mesh, triangle, n, &small.nodes::<N>());
-        let u = nodal::<N>(scene, space, u, triangle, &small);
+    let n = problem.finest().numbering.level.intervals;
+    for small in lattice::triangles(n, problem.finest().numbering.level.order) {
+        let x = positions(&problem.scene.mesh, triangle, n, &small.nodes::<N>());
+        let u = nodal::<N>(problem, u, triangle, &small);
         for &(l, weight) in crate::element::quadrature::<6>(STRAIGHT) {
             let (_, determinant) = jacobian(&x, l)?;
             let here = x.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (x, value)| sum + value * x);

@@ -14,12 +14,12 @@ pub use probe::{Probed, probe};
 pub use stress::nodal_stress;
 pub use traces::{TracePoint, trace_points};
 
-use super::{Field, Scene, Space};
+use super::{Discretisation, Field};
 use crate::geometry::Point;
 use crate::mesh::lattice::Triangle;
 
 /// Displacements at the nodes of one triangle of a macro triangle's lattice.
-fn nodal<const N: usize>(scene: &Scene, space: &Space, u: &Field<2>, triangle: usize, small: &Triangle) -> [Point; N] {
-    let numbers = space.numbering.triangle(&scene.mesh, triangle);
+fn nodal<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: usize, small: &Triangle) -> [Point; N] {
+    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
     small.nodes::<N>().map(|(i, j)| u.point(numbers.node(i, j)))
 }

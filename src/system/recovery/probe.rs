@@ -6,7 +6,7 @@ use crate::element::{Order, PlaneStrain, shape, stress};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, lattice::Triangle};
 use crate::petsc::Session;
-use crate::system::{Field, Scene, Space, SystemError};
+use crate::system::{Discretisation, Field, SystemError};
 use nalgebra::Matrix2;
 
 /// Points so close to a macro triangle (barycentric) count as inside.
@@ -27,24 +27,23 @@ pub struct Probed {
 /// # Errors
 /// [`SystemError`] where a triangle is inverted.
 pub fn probe(
-    scene: &Scene,
-    space: &Space,
+    problem: &Discretisation,
     u: &Field<2>,
     body: usize,
     x: Point,
     session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
-    let law = scene.laws()[body];
+    let law = problem.scene.laws()[body];
     let mut sums = [0.0; 7];
-    for &triangle in scene.partition.triangles_of(session.rank()) {
+    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
         let triangle = triangle as usize;
-        if scene.mesh.triangles[triangle].body as usize != body {
+        if problem.scene.mesh.triangles[triangle].body as usize != body {
             continue;
         }
-        let Some(at) = reference_coordinates(&scene.mesh, triangle, x) else { continue };
-        let values = match space.numbering.level.order {
-            Order::P1 => values_at::<3>(scene, space, u, triangle, at, &law)?,
-            Order::P2 => values_at::<6>(scene, space, u, triangle, at, &law)?,
+        let Some(at) = reference_coordinates(&problem.scene.mesh, triangle, x) else { continue };
+        let values = match problem.finest().numbering.level.order {
+            Order::P1 => values_at::<3>(problem, u, triangle, at, &law)?,
+            Order::P2 => values_at::<6>(problem, u, triangle, at, &law)?,
         };
         values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
     }
@@ -78,14 +77,13 @@ fn reference_coordinates(mesh: &MacroMesh, triangle: usize, x: Point) -> Option<
 
 /// Displacement and stress at reference coordinates of a macro triangle.
 fn values_at<const N: usize>(
-    scene: &Scene,
-    space: &Space,
+    problem: &Discretisation,
     u: &Field<2>,
     triangle: usize,
     at: Point,
     law: &PlaneStrain,
 ) -> Result<[f64; 6], SystemError> {
-    let level = space.numbering.level;
+    let level = problem.finest().numbering.level;
     let count = level.triangles_per_edge();
     let scaled = at.map(|v| v.max(0.0)) * count as f64;
     let step = level.order.degree();
@@ -100,8 +98,8 @@ fn values_at<const N: usize>(
     } else {
         (Triangle::at(step * i, step * j, level.order, false), [1.0 - xi - eta, xi, eta])
     };
-    let x = positions(&scene.mesh, triangle, level.intervals, &small.nodes::<N>());
-    let nodal = nodal::<N>(scene, space, u, triangle, &small);
+    let x = positions(&problem.scene.mesh, triangle, level.intervals, &small.nodes::<N>());
+    let nodal = nodal::<N>(problem, u, triangle, &small);
     let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
     let s = stress(&x, &nodal, l, law)?;
     Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])

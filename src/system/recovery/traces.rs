@@ -7,7 +7,7 @@ use crate::element::{Order, PlaneStrain, stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
-use crate::system::{Contact, Field, Scene, Space, SystemError};
+use crate::system::{Contact, Discretisation, Field, SystemError};
 
 /// Gauss points of each part of Γ_C that results are given at.
 const POINTS: usize = 2;
@@ -46,8 +46,7 @@ impl TracePoint {
 /// # Errors
 /// [`SystemError`] where a triangle is inverted.
 pub fn trace_points(
-    scene: &Scene,
-    space: &Space,
+    problem: &Discretisation,
     contact: &Contact,
     lambda: &[f64],
     u: &Field<2>,
@@ -59,7 +58,7 @@ pub fn trace_points(
     // Sums over ranks of (count, displacement, stress, distance) for both bodies.
     let mut sums = vec![[0.0; 8]; parameters.len()];
     let tolerance = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
-    let laws = scene.laws();
+    let laws = problem.scene.laws();
     for k in 0..2 {
         for piece in &own[k] {
             let [from, to] = piece.range;
@@ -67,7 +66,7 @@ pub fn trace_points(
             let last = parameters.partition_point(|&t| t <= to + tolerance);
             for at in first..last {
                 let small = &contact.edges[k][piece.edge];
-                let values = on_edge(scene, space, contact, small, parameters[at], u, &laws[contact.bodies[k]])?;
+                let values = on_edge(problem, contact, small, parameters[at], u, &laws[contact.bodies[k]])?;
                 sums[at][4 * k] += 1.0;
                 values.iter().enumerate().for_each(|(i, value)| sums[at][4 * k + 1 + i] += value);
             }
@@ -121,8 +120,7 @@ fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, 
 
 /// Normal displacement, `n·σn` and distance of the trace on one edge.
 fn on_edge(
-    scene: &Scene,
-    space: &Space,
+    problem: &Discretisation,
     contact: &Contact,
     small: &BoundaryEdge,
     t: f64,
@@ -131,14 +129,12 @@ fn on_edge(
 ) -> Result<[f64; 3], SystemError> {
     let here = trace(&contact.boundary, 0, small, t);
     let normal = contact.boundary.normal(t);
-    let moved = small
-        .nodes
-        .iter()
-        .zip(here.values)
-        .fold(Point::zeros(), |sum, (node, value)| sum + value * u.point(node.number(&scene.mesh, &space.numbering)));
-    let s = match space.numbering.level.order {
-        Order::P1 => stress_beside::<3>(scene, space, small, here.fraction, u, law)?,
-        Order::P2 => stress_beside::<6>(scene, space, small, here.fraction, u, law)?,
+    let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
+        sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))
+    });
+    let s = match problem.finest().numbering.level.order {
+        Order::P1 => stress_beside::<3>(problem, small, here.fraction, u, law)?,
+        Order::P2 => stress_beside::<6>(problem, small, here.fraction, u, law)?,
     };
     let pressure = s[0] * normal.x * normal.x + s[1] * normal.y * normal.y + 2.0 * s[2] * normal.x * normal.y;
     Ok([moved.dot(&normal), pressure, (here.point - contact.boundary.point(t)).dot(&normal)])
@@ -146,14 +142,14 @@ fn on_edge(
 
 /// Stress on a boundary edge, in the triangle beside it.
 fn stress_beside<const N: usize>(
-    scene: &Scene,
-    space: &Space,
+    problem: &Discretisation,
     small: &BoundaryEdge,
     fraction: f64,
     u: &Field<2>,
     law: &PlaneStrain,
 ) -> Result<[f64; 4], SystemError> {
-    let x = positions(&scene.mesh, small.triangle, space.numbering.level.intervals, &small.beside.nodes::<N>());
-    let nodal = nodal::<N>(scene, space, u, small.triangle, &small.beside);
+    let x =
+        positions(&problem.scene.mesh, small.triangle, problem.finest().numbering.level.intervals, &small.beside.nodes::<N>());
+    let nodal = nodal::<N>(problem, u, small.triangle, &small.beside);
     Ok(stress(&x, &nodal, small.barycentric(fraction), law)?)
 }
