@@ -37,6 +37,13 @@ impl Run<'_> {
                 }
             }
             summary.errors = errors.values;
+            if let Some(words) = summarise::distrust(&summary) {
+                reason = match status {
+                    Status::Converged => format!("pressure unreliable: {words}"),
+                    Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
+                };
+                self.report.warn(&format!("pressure unreliable: {words}"));
+            }
         }
         summary.status = status;
         summary.reason = Some(reason.clone());
