@@ -225,7 +225,9 @@ pub fn mezha<S: AsRef<str>>(ranks: Option<usize>, words: &[S]) -> (Option<i32>, 
             &mut command
         }
     };
-    command.args(words.iter().map(S::as_ref)).envs(ENVIRONMENT);
+    // Runs at the same time must not clear away each other's session folder.
+    let sessions = tempfile::tempdir().expect("a temporary folder");
+    command.args(words.iter().map(S::as_ref)).envs(ENVIRONMENT).env("OMPI_MCA_orte_tmpdir_base", sessions.path());
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("mpirun starts (Debian: apt-get install openmpi-bin)");
     let output = reader(child.stdout.take().expect("piped"));
