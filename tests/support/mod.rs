@@ -29,14 +29,8 @@ const PATIENCE: Duration = Duration::from_secs(120);
 pub const RANKS: [usize; 3] = [1, 2, 3];
 
 /// All pairs of a displacement order and a multiplier space.
-pub const PAIRS: [(usize, &str); 6] = [
-    (1, "p0"),
-    (1, "p1-discontinuous"),
-    (1, "p1-continuous"),
-    (2, "p0"),
-    (2, "p1-discontinuous"),
-    (2, "p1-continuous"),
-];
+pub const PAIRS: [(usize, &str); 6] =
+    [(1, "p0"), (1, "p1-discontinuous"), (1, "p1-continuous"), (2, "p0"), (2, "p1-discontinuous"), (2, "p1-continuous")];
 
 /// A run of `mezha run`, to be started.
 #[derive(Clone)]
