@@ -39,7 +39,8 @@ pub fn place(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 
     Ok(boundary)
 }
 
-/// A straight line between two straight boundaries, over the extent that both have.
+/// A straight line between two straight boundaries, over the extent that both have. It runs to larger x, or upwards if
+/// it is vertical: given segments stay where they are, whichever body is named first and however the mesh is numbered.
 fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Curve, [f64; 2]), String> {
     let mut extents = [[0.0; 2]; 2];
     let mut offsets = [0.0; 2];
@@ -47,7 +48,9 @@ fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Cu
     for (side, edges) in sides.into_iter().enumerate() {
         let (a, b) = ends(mesh, edges);
         if side == 0 {
-            (origin, along) = (a, (b - a).normalize());
+            let towards = (b - a).normalize();
+            let falls = towards.x < -1e-9 || (towards.x <= 1e-9 && towards.y < 0.0);
+            (origin, along) = (a, if falls { -towards } else { towards });
         }
         let own = (b - a).normalize();
         if (own.dot(&along).abs() - 1.0).abs() > 1e-9 {

@@ -37,15 +37,28 @@ pub enum RunError {
     /// The input cannot be used, on every rank alike: 2.
     #[error("{0}")]
     Input(String),
+    /// The same, in words that begin with a key; the caller puts the case file before them.
+    #[error("{0}")]
+    Key(String),
     /// PETSc, MPI or the disk failed, perhaps on this rank alone: 1.
     #[error("{0}")]
     Failed(String),
 }
 
+impl RunError {
+    /// With the case file before words that begin with a key.
+    fn in_case(self, case: &Case) -> Self {
+        match self {
+            Self::Key(words) => Self::Input(format!("{}: {words}", case.file.display())),
+            error => error,
+        }
+    }
+}
+
 impl From<SystemError> for RunError {
     fn from(error: SystemError) -> Self {
         match error {
-            SystemError::Case(words) => Self::Input(words),
+            SystemError::Case(words) => Self::Key(words),
             SystemError::Petsc(error) => Self::Failed(error.to_string()),
         }
     }
@@ -111,6 +124,10 @@ impl Stages {
 /// # Errors
 /// [`RunError`] if there is no result at all; nothing is left on the disk then.
 pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
+    start(case, options, session).map_err(|error| error.in_case(case))
+}
+
+fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
     let folder = claim_folder(options, session)?;
     let report = Report::new(options, session);
     let run = Run { case, options, session, stages: Stages::new(session)?, report };

@@ -3,7 +3,7 @@
 use super::RunError;
 use crate::case::Case;
 use crate::contact::{CurveChoice, GapChoice};
-use crate::mesh::{Graph, MacroMesh, Partition, read_gmsh};
+use crate::mesh::{Graph, MacroMesh, MeshError, Partition, read_gmsh};
 use crate::petsc::{Session, partition};
 use crate::system::Scene;
 use std::rc::Rc;
@@ -13,7 +13,12 @@ use std::rc::Rc;
 /// # Errors
 /// Words with file, key, value and remedy.
 pub fn read_mesh(case: &Case) -> Result<MacroMesh, String> {
-    let mut mesh = read_gmsh(&case.mesh.file).map_err(|error| error.to_string())?;
+    let mut mesh = read_gmsh(&case.mesh.file).map_err(|error| match error {
+        MeshError::Unreadable { .. } => {
+            format!("{}: mesh.file: {error}; name a Gmsh 4.1 file by its path from the case file", case.file.display())
+        }
+        error => error.to_string(),
+    })?;
     let names = Names { case, mesh: &mesh };
     names.check_bodies()?;
     for (key, boundaries) in names.used() {
