@@ -4,12 +4,15 @@
 //!
 //! # Model
 //!
-//! Bodies 1, 2, ... in plane strain: `ε = sym ∇u`, `σ = C ε`, `div σ + b = 0`; small strain, no friction. A contact pair names body 1 and body 2.
+//! Bodies 1, 2, ... in plane strain: `ε = sym ∇u`, `σ = C ε`, `div σ + b = 0`; small strain, no friction. A contact
+//! pair names body 1 and body 2.
 //!
-//! - `Γ_C` is a curve between the two with unit normal `n` **from body 1 to body 2**. The *corresponding points* `x⁽¹⁾`, `x⁽²⁾` of `x` on `Γ_C`
-//!   are where the line through `x` along `n` meets the boundaries of the bodies, taken in the undeformed configuration.
-//! - **Gap** `g = n · (x⁽²⁾ - x⁽¹⁾)` with `x⁽ⁱ⁾ = X⁽ⁱ⁾ + u⁽ⁱ⁾`: open `g > 0`, touching `0`, penetration `g < 0`; `g₀` is that of the unloaded bodies.
-//! - **Multiplier** `λ = -n · σ n`, the contact pressure, positive in compression. Unilateral: `λ ≥ 0`, `g ≥ 0`, `λ g = 0`; bilateral: `g = 0`.
+//! - `Γ_C` is a curve between the two with unit normal `n` **from body 1 to body 2**. The *corresponding points*
+//!   `x⁽¹⁾`, `x⁽²⁾` of `x` on `Γ_C` are where the line through `x` along `n` meets the undeformed boundaries of the bodies.
+//! - **Gap** `g = n · (x⁽²⁾ - x⁽¹⁾)` with `x⁽ⁱ⁾ = X⁽ⁱ⁾ + u⁽ⁱ⁾`: open `g > 0`, touching `0`, penetration `g < 0`; `g₀`
+//!   is that of the unloaded bodies.
+//! - **Multiplier** `λ = -n · σ n`, the contact pressure, positive in compression. Unilateral: `λ ≥ 0`, `g ≥ 0`,
+//!   `λ g = 0`; bilateral: `g = 0`.
 //!
 //! The Lagrangian `½ uᵀKu - fᵀu - ∫ λ g ds` with `λ = Σ ψ_i λ_i` on the segments of `Γ_C` gives, stationary in `u` and `λ`,
 //!
@@ -23,10 +26,12 @@
 //!
 //! Each body is coupled to `Γ_C` alone. `K` may be singular: contact may be all that holds a body.
 //!
-//! - **Energy** `U = ½ ∫ σ:ε`; `2U = f·u + r·u_D - λᵀc - λᵀCλ` with the reactions `r` of the supports, the prescribed `u_D`, and `C` the multiplier block
-//!   (`Bu - Cλ = c`; zero so far). `external_work = f·u + r·u_D`; `balance.energy` is the difference of both sides over the largest term.
-//! - **Balance**: `Fₖ`, `Mₖ` are the resultants of `λ` through body k's own integrals, `Mₖ` about the middle of `Γ_C`. `balance.force = |F₁ + F₂| / |F₂|`,
-//!   `balance.moment = |M₁ + M₂| / (|F₂| length)`, `balance.bodies` is what is left of loads + reactions + contact of a body.
+//! - **Energy** `U = ½ ∫ σ:ε`; `2U = f·u + r·u_D - λᵀc - λᵀCλ` with the reactions `r` of the supports, the prescribed
+//!   `u_D`, and `C` the multiplier block (`Bu - Cλ = c`; zero so far). `external_work = f·u + r·u_D`; `balance.energy` is
+//!   the difference of both sides over the largest term.
+//! - **Balance**: `Fₖ`, `Mₖ` are the resultants of `λ` through body k's own integrals, `Mₖ` about the middle of `Γ_C`.
+//!   `balance.force = |F₁ + F₂| / |F₂|`, `balance.moment = |M₁ + M₂| / (|F₂| length)`; `balance.bodies` is what is left of
+//!   loads + reactions + contact of a body, over the sum of their magnitudes.
 //!
 //! # Symbols
 //!
@@ -41,10 +46,11 @@
 //!
 //! # References
 //!
-//! - The independent contact boundary: Galanin, Lukin, Solomentseva, Herald of the Bauman Moscow State Technical University, Natural Sciences,
-//!   2022, no. 6, 17-32, doi 10.18698/1812-3368-2022-6-17-32.
+//! - The independent contact boundary: Galanin, Lukin, Solomentseva, Herald of the Bauman Moscow State Technical
+//!   University, Natural Sciences, 2022, no. 6, 17-32, doi 10.18698/1812-3368-2022-6-17-32.
 //! - The active set: Hintermüller, Ito, Kunisch, SIAM Journal on Optimization 13 (2002), 865-888.
-//! - Augmentation of saddle points: Benzi, Golub, Liesen, Acta Numerica 14 (2005), 1-137; Benzi, Olshanskii, SIAM Journal on Scientific Computing 28 (2006), 2095-2113.
+//! - Augmentation of saddle points: Benzi, Golub, Liesen, Acta Numerica 14 (2005), 1-137; Benzi, Olshanskii, SIAM
+//!   Journal on Scientific Computing 28 (2006), 2095-2113.
 //! - Macro triangles refined regularly: Bergen, Hülsemann, *Numerical Linear Algebra with Applications* 11 (2004), 279-291.
 
 // The floors, from the ground up: a module imports only from those above it in this list.
