@@ -8,7 +8,7 @@ use crate::petsc::Session;
 pub struct Discretisation {
     /// The physics.
     pub scene: Scene,
-    /// Displacement spaces, coarsest first; a mesh that is not refined has none below its own.
+    /// Displacement spaces, coarsest first: the macro mesh with P1.
     pub spaces: Vec<Space>,
     /// The contacts, on the finest level.
     pub contacts: Vec<Contact>,
@@ -50,7 +50,5 @@ impl Discretisation {
 /// # Errors
 /// [`SystemError::Case`] if supports contradict each other.
 pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
-    let all = levels(scene.order, scene.refine);
-    let first = if scene.refine == 0 { all.len() - 1 } else { 0 };
-    all[first..].iter().map(|&level| Space::new(scene, level, rank)).collect()
+    levels(scene.order, scene.refine).into_iter().map(|level| Space::new(scene, level, rank)).collect()
 }

@@ -1,7 +1,8 @@
 //! Linear solvers of the saddle point.
 //!
 //! `fieldsplit`: GMRES, preconditioned from the right by the block upper triangle of `K + BᵀDB` and `S = -D⁻¹`; one
-//! geometric multigrid F-cycle stands for the inverse of the first, or BoomerAMG where the mesh has no levels.
+//! geometric multigrid F-cycle stands for the inverse of the first, or BoomerAMG where the mesh has no levels (for P2
+//! below one smoothing step, on the P1 space of the same triangles).
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override.
 
 use super::{Form, SaddlePoint, SchurPattern, SolverChoice, SystemError};
@@ -72,8 +73,9 @@ impl LinearSolver {
 
     fn field_split(system: &SaddlePoint, interpolations: &[Matrix], session: &Session) -> Result<Self, SystemError> {
         let multigrid = !interpolations.is_empty();
-        let (coarse_rows, _) = system.stiffness[0].size();
-        for (name, value) in field_split_options(system.multipliers.pattern, multigrid, coarse_rows, session.size()) {
+        let coarse = CoarseSolver::of(system.stiffness[0].size().0, system.stiffness.len(), session.size());
+        let lambda = lambda_options(system.multipliers.pattern, session.size());
+        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options(multigrid)) {
             options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
@@ -92,8 +94,7 @@ impl LinearSolver {
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;
         }
-        let inner = if multigrid { "multigrid F-cycle" } else { "BoomerAMG" };
-        let name = format!("fieldsplit ({inner})");
+        let name = format!("fieldsplit ({})", coarse.words(multigrid));
         Ok(Self { krylov, session: session.clone(), form: Form::Augmented, converted: None, name })
     }
 
@@ -177,57 +178,95 @@ impl LinearSolver {
     }
 }
 
-/// Defaults of the field split; what a user gives after `--` wins.
-fn field_split_options(
-    pattern: SchurPattern,
-    multigrid: bool,
-    coarse_rows: usize,
-    ranks: usize,
-) -> Vec<(&'static str, &'static str)> {
-    let alone = ranks == 1;
-    let mut all = vec![
-        ("-ksp_type", "gmres"),
-        ("-ksp_pc_side", "right"),
-        ("-ksp_gmres_restart", "60"),
-        ("-ksp_norm_type", "unpreconditioned"),
-        ("-pc_type", "fieldsplit"),
-        ("-fieldsplit_u_ksp_type", "preonly"),
-        ("-fieldsplit_lambda_ksp_type", "preonly"),
-    ];
-    let lambda = match pattern {
-        SchurPattern::Diagonal => "jacobi",
-        SchurPattern::Pairs => "pbjacobi",
-        SchurPattern::Mixed if alone => "lu",
-        SchurPattern::Mixed => "redundant",
-    };
-    all.push(("-fieldsplit_lambda_pc_type", lambda));
-    if !multigrid {
-        all.extend([
-            ("-fieldsplit_u_pc_type", "hypre"),
-            ("-fieldsplit_u_pc_hypre_type", "boomeramg"),
-            ("-fieldsplit_u_pc_hypre_boomeramg_coarsen_type", "HMIS"),
-            ("-fieldsplit_u_pc_hypre_boomeramg_interp_type", "ext+i"),
-            ("-fieldsplit_u_pc_hypre_boomeramg_strong_threshold", "0.25"),
-        ]);
-        return all;
+/// Names and values of PETSc options.
+type Options = &'static [(&'static str, &'static str)];
+
+/// Defaults of the outer method and the block solvers; what a user gives after `--` wins.
+const FIELD_SPLIT: Options = &[
+    ("-ksp_type", "gmres"),
+    ("-ksp_pc_side", "right"),
+    ("-ksp_gmres_restart", "60"),
+    ("-ksp_norm_type", "unpreconditioned"),
+    ("-pc_type", "fieldsplit"),
+    ("-fieldsplit_u_ksp_type", "preonly"),
+    ("-fieldsplit_lambda_ksp_type", "preonly"),
+    ("-fieldsplit_u_mg_levels_ksp_type", "richardson"),
+    ("-fieldsplit_u_mg_levels_ksp_max_it", "1"),
+    ("-fieldsplit_u_mg_levels_pc_type", "sor"),
+    ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
+];
+
+/// The exact inverse of `S`, for each of its patterns.
+fn lambda_options(pattern: SchurPattern, ranks: usize) -> Options {
+    match (pattern, ranks) {
+        (SchurPattern::Diagonal, _) => &[("-fieldsplit_lambda_pc_type", "jacobi")],
+        (SchurPattern::Pairs, _) => &[("-fieldsplit_lambda_pc_type", "pbjacobi")],
+        (SchurPattern::Mixed, 1) => &[("-fieldsplit_lambda_pc_type", "lu")],
+        (SchurPattern::Mixed, _) => &[("-fieldsplit_lambda_pc_type", "redundant")],
     }
-    all.extend([
-        // Multigrid takes its place once the block solvers exist.
-        ("-fieldsplit_u_pc_type", "none"),
-        ("-fieldsplit_u_mg_levels_ksp_type", "richardson"),
-        ("-fieldsplit_u_mg_levels_ksp_max_it", "1"),
-        ("-fieldsplit_u_mg_levels_pc_type", "sor"),
-        ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
-    ]);
-    if coarse_rows > SMALL {
-        all.extend([
-            ("-fieldsplit_u_mg_coarse_pc_type", "cholesky"),
-            ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps"),
-        ]);
-    } else if alone {
-        all.push(("-fieldsplit_u_mg_coarse_pc_type", "lu"));
-    } else {
-        all.extend([("-fieldsplit_u_mg_coarse_pc_type", "redundant"), ("-fieldsplit_u_mg_coarse_redundant_pc_type", "lu")]);
+}
+
+/// What solves on the coarsest level.
+#[derive(Clone, Copy)]
+enum CoarseSolver {
+    /// Factorisation by one rank.
+    Alone,
+    /// Factorisation by every rank for itself.
+    Redundant,
+    /// Factorisation by all ranks together.
+    Shared,
+    /// One cycle of BoomerAMG: the mesh has no coarser levels.
+    Algebraic,
+}
+
+impl CoarseSolver {
+    fn of(rows: usize, levels: usize, ranks: usize) -> Self {
+        match (rows, levels, ranks) {
+            (_, 1, _) => Self::Algebraic,
+            (..=SMALL, _, 1) => Self::Alone,
+            (..=SMALL, ..) => Self::Redundant,
+            (_, 2, _) => Self::Algebraic,
+            _ => Self::Shared,
+        }
     }
-    all
+
+    fn words(self, multigrid: bool) -> &'static str {
+        match (self, multigrid) {
+            (Self::Algebraic, false) => "BoomerAMG",
+            (Self::Algebraic, true) => "P2 smoother over BoomerAMG",
+            _ => "multigrid F-cycle",
+        }
+    }
+
+    fn options(self, multigrid: bool) -> Options {
+        match (self, multigrid) {
+            // Multigrid takes the place of `none` once the block solvers exist.
+            (Self::Alone, _) => &[("-fieldsplit_u_pc_type", "none"), ("-fieldsplit_u_mg_coarse_pc_type", "lu")],
+            (Self::Redundant, _) => &[
+                ("-fieldsplit_u_pc_type", "none"),
+                ("-fieldsplit_u_mg_coarse_pc_type", "redundant"),
+                ("-fieldsplit_u_mg_coarse_redundant_pc_type", "lu"),
+            ],
+            (Self::Shared, _) => &[
+                ("-fieldsplit_u_pc_type", "none"),
+                ("-fieldsplit_u_mg_coarse_pc_type", "cholesky"),
+                ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps"),
+            ],
+            (Self::Algebraic, true) => &[
+                ("-fieldsplit_u_pc_type", "none"),
+                ("-fieldsplit_u_mg_coarse_pc_type", "hypre"),
+                ("-fieldsplit_u_mg_coarse_pc_hypre_type", "boomeramg"),
+                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_coarsen_type", "HMIS"),
+                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_interp_type", "ext+i"),
+                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_strong_threshold", "0.25"),
+            ],
+            (Self::Algebraic, false) => &[
+                ("-fieldsplit_u_pc_type", "hypre"),
+                ("-fieldsplit_u_pc_hypre_type", "boomeramg"),
+                ("-fieldsplit_u_pc_hypre_boomeramg_coarsen_type", "HMIS"),
+                ("-fieldsplit_u_pc_hypre_boomeramg_interp_type", "ext+i"),
+                ("-fieldsplit_u_pc_hypre_boomeramg_strong_threshold", "0.25"),
+            ],
+        }
+    }
 }
