@@ -6,18 +6,17 @@ mod fields;
 mod report;
 mod results;
 mod scene;
+mod summarise;
 
 pub use check::{check, info};
 
-use crate::body;
 use crate::case::Case;
 use crate::contact::ActiveSet;
-use crate::geometry::Point;
 use crate::output::{OutputError, ResultFolder};
 use crate::petsc::{self, Session, Stage};
 use crate::system::{
-    ContactLoop, Discretisation, Field, LinearSolver, SaddlePoint, Solution, SystemError, Verdict, bilateral, interpolation,
-    spaces,
+    ContactLoop, Discretisation, LinearSolver, OuterStep, SaddlePoint, Solution, SystemError, Verdict, bilateral, load,
+    nodal_forces, spaces,
 };
 use report::Report;
 use std::path::PathBuf;
@@ -81,13 +80,13 @@ pub struct RunOptions {
 }
 
 /// Stages of a run, as the summary times them.
-pub(crate) struct Stages {
-    pub mesh: Stage,
-    pub assemble: Stage,
-    pub contact: Stage,
-    pub setup: Stage,
-    pub solve: Stage,
-    pub output: Stage,
+struct Stages {
+    mesh: Stage,
+    assemble: Stage,
+    contact: Stage,
+    setup: Stage,
+    solve: Stage,
+    output: Stage,
 }
 
 impl Stages {
@@ -109,15 +108,14 @@ impl Stages {
 /// # Errors
 /// [`RunError`] if there is no result at all; nothing is left on the disk then.
 pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
-    let stages = Stages::new(session)?;
-    let report = Report::new(case, options, session);
     let folder = claim_folder(options, session)?;
-    report.start(case);
-    let problem = set_up(case, &stages, session)?;
-    report.sizes(&problem);
-    let (solution, solver_name) = solve(case, &problem, &stages, &report, session)?;
-    let outcome = results::write(case, options, &problem, &solution, &solver_name, &stages, &report, folder, session)?;
-    Ok(outcome)
+    let report = Report::new(options, session);
+    let run = Run { case, options, session, stages: Stages::new(session)?, report };
+    run.report.start(case);
+    let problem = run.set_up()?;
+    run.report.sizes(&problem);
+    let (solution, solver) = run.solve(&problem)?;
+    run.write(&problem, &solution, &solver, folder)
 }
 
 /// The folder of the results: made by rank 0, known to all. **Collective**
@@ -130,76 +128,56 @@ fn claim_folder(options: &RunOptions, session: &Session) -> Result<Option<Result
     }
 }
 
-/// Reads the mesh, spreads it, and couples the contacts. **Collective**
-fn set_up(case: &Case, stages: &Stages, session: &Session) -> Result<Discretisation, RunError> {
-    let (scene, spaces) = {
-        let _stage = stages.mesh.enter();
-        let mesh = session.agree(scene::read_mesh(case)).map_err(RunError::Input)?;
-        let scene = scene::spread(case, mesh, session)?;
-        let spaces = spaces(&scene, session.rank())?;
-        (scene, spaces)
-    };
-    let _stage = stages.contact.enter();
-    Ok(Discretisation::new(scene, spaces, session)?)
+/// A run on its way.
+struct Run<'a> {
+    case: &'a Case,
+    options: &'a RunOptions,
+    session: &'a Session,
+    stages: Stages,
+    report: Report,
 }
 
-/// Assembles and solves. A body that nothing holds is found before anything is assembled. **Collective**
-fn solve(
-    case: &Case,
-    problem: &Discretisation,
-    stages: &Stages,
-    report: &Report,
-    session: &Session,
-) -> Result<(Solution, String), RunError> {
-    let contact_loop = ContactLoop { problem, session };
-    let mut set = ActiveSet::new(bilateral(&problem.contacts));
-    if let Some(mechanism) = contact_loop.mechanism(set.active()) {
-        let words = contact_loop.not_held(&mechanism, true);
-        return Ok((Solution::nothing(Verdict::NotConverged(words), problem.finest(), set.active()), "none".into()));
+impl Run<'_> {
+    /// Reads the mesh, spreads it, and couples the contacts. **Collective**
+    fn set_up(&self) -> Result<Discretisation, RunError> {
+        let (scene, spaces) = {
+            let _stage = self.stages.mesh.enter();
+            let mesh = self.session.agree(scene::read_mesh(self.case)).map_err(RunError::Input)?;
+            let scene = scene::spread(self.case, mesh, self.session)?;
+            let spaces = spaces(&scene, self.session.rank())?;
+            (scene, spaces)
+        };
+        let _stage = self.stages.contact.enter();
+        Ok(Discretisation::new(scene, spaces, self.session)?)
     }
-    let mut system = {
-        let _stage = stages.assemble.enter();
-        let load = nodal_load(problem, session)?;
-        SaddlePoint::new(problem, load, set.active(), case.solver.choice.form(), session)?
-    };
-    let mut solver = {
-        let _stage = stages.setup.enter();
-        let steps = problem.spaces.windows(2).map(|pair| interpolation(&problem.scene, &pair[1], &pair[0], session));
-        LinearSolver::new(&system, &steps.collect::<Result<Vec<_>, _>>()?, case.solver.choice, session)?
-    };
-    let unused = solver.unused_options()?;
-    if !unused.is_empty() {
-        return Err(RunError::Input(format!("PETSc options that nothing has used: {}; check their spelling", unused.join(", "))));
-    }
-    let _stage = stages.solve.enter();
-    let count = problem.multiplier_count();
-    let solution =
-        contact_loop.solve(&mut system, &mut solver, &mut set, case.solver.tolerance, |step| report.step(step, count))?;
-    Ok((solution, solver.name))
-}
 
-/// Nodal forces of this rank's unknowns, in the nodes' frames, zero where displacement is prescribed. **Collective**
-fn nodal_load(problem: &Discretisation, session: &Session) -> Result<Vec<f64>, RunError> {
-    let (scene, space) = (&problem.scene, problem.finest());
-    let mut forces = Field::<2>::zeros(problem, session);
-    let applied = body::applied_forces(
-        &scene.mesh,
-        &scene.partition,
-        session.rank(),
-        &space.numbering,
-        &scene.bodies,
-        &scene.loads,
-        |node, force| {
-            let sum = forces.at_mut(node);
-            sum[0] += force.x;
-            sum[1] += force.y;
-        },
-    );
-    session.agree(applied.map_err(SystemError::from)).map_err(RunError::Input)?;
-    let forces = forces.sum(session)?;
-    let frame = |(node, [x, y]): (usize, &[f64; 2])| {
-        let force = space.free(node, Point::new(*x, *y));
-        [force.x, force.y]
-    };
-    Ok(space.own.clone().zip(forces.own()).flat_map(frame).collect())
+    /// Assembles and solves; the solution comes with what solved it, in words. A body that nothing holds is found
+    /// before anything is assembled. **Collective**
+    fn solve(&self, problem: &Discretisation) -> Result<(Solution, String), RunError> {
+        let contact_loop = ContactLoop { problem, session: self.session };
+        let mut set = ActiveSet::new(bilateral(&problem.contacts));
+        if let Some(mechanism) = contact_loop.mechanism(set.active()) {
+            let words = contact_loop.not_held(&mechanism, true);
+            return Ok((Solution::nothing(Verdict::NotConverged(words), problem.finest(), set.active()), "none".into()));
+        }
+        let choice = self.case.solver.choice;
+        let mut system = {
+            let _stage = self.stages.assemble.enter();
+            let load = load(problem, &nodal_forces(problem, self.session)?);
+            SaddlePoint::new(problem, load, set.active(), choice.form(), self.session)?
+        };
+        let mut solver = {
+            let _stage = self.stages.setup.enter();
+            LinearSolver::new(problem, &system, choice, self.session)?
+        };
+        let unused = solver.unused_options()?;
+        if !unused.is_empty() {
+            let words = format!("PETSc options that nothing has used: {}; check their spelling", unused.join(", "));
+            return Err(RunError::Input(words));
+        }
+        let _stage = self.stages.solve.enter();
+        let report = |step: &OuterStep| self.report.step(step, problem.multiplier_count());
+        let solution = contact_loop.solve(&mut system, &mut solver, &mut set, self.case.solver.tolerance, report)?;
+        Ok((solution, solver.name))
+    }
 }

@@ -1,25 +1,28 @@
 //! What a run prints on rank 0 while it lives.
 
-use super::{RunOptions, Stages};
+use super::{Outcome, RunOptions, Stages};
 use crate::case::Case;
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
 use crate::system::{Discretisation, OuterStep};
+use std::path::Path;
 use std::time::Instant;
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
 pub struct Report {
     speaks: bool,
+    first: bool,
     ranks: usize,
     started: Instant,
 }
 
 impl Report {
     /// A report of one run.
-    pub fn new(_case: &Case, options: &RunOptions, session: &Session) -> Self {
-        Self { speaks: session.rank() == 0 && !options.quiet, ranks: session.size(), started: options.started }
+    pub fn new(options: &RunOptions, session: &Session) -> Self {
+        let first = session.rank() == 0;
+        Self { speaks: first && !options.quiet, first, ranks: session.size(), started: options.started }
     }
 
     /// Prints a line.
@@ -71,6 +74,16 @@ impl Report {
             step.max_penetration,
             step.du
         ));
+    }
+
+    /// The last words: the verdict, and where the results are. A bad one is heard even if the run is quiet.
+    pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
+        match outcome {
+            Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),
+            Outcome::NotConverged if self.first && !self.speaks => eprintln!("mezha: NOT converged: {reason}"),
+            Outcome::NotConverged => self.say(&format!("mezha: NOT converged: {reason}")),
+        }
+        self.say(&format!("results in {}", out.display()));
     }
 
     /// Times of the stages on the slowest rank. **Collective**

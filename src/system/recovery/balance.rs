@@ -1,11 +1,11 @@
 //! Energies, reactions, and the balances of forces, moments and energy.
 
-use crate::body::{MacroStiffness, applied_forces};
+use crate::body::MacroStiffness;
 use crate::contact::Side;
 use crate::geometry::{Point, cross};
 use crate::mesh::lattice;
 use crate::petsc::Session;
-use crate::system::{Contact, Discretisation, Field, Solution, SystemError};
+use crate::system::{Contact, Discretisation, Field, Solution, SystemError, nodal_forces};
 
 /// Resultants of one contact, from each body's own integrals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,21 +46,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let space = problem.finest();
     let (mut strain, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
-    let mut applied = Field::<2>::zeros(problem, session);
-    applied_forces(
-        &scene.mesh,
-        &scene.partition,
-        session.rank(),
-        &space.numbering,
-        &scene.bodies,
-        &scene.loads,
-        |node, force| {
-            let sum = applied.at_mut(node);
-            sum[0] += force.x;
-            sum[1] += force.y;
-        },
-    )?;
-    let applied = applied.sum(session)?;
+    let applied = nodal_forces(problem, session)?;
     let pressed = contact_forces(problem, solution);
     let mut work = [0.0; 2];
     let body_of = body_of_nodes(problem, session.rank());

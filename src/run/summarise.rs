@@ -1,0 +1,136 @@
+//! A solution in the terms of `summary.json`.
+
+use crate::case::Case;
+use crate::contact::{MultiplierSpace, softer_edge_length};
+use crate::element::Order;
+use crate::geometry::Point;
+use crate::mesh::BoundaryEdge;
+use crate::output::summary::{self, Summary};
+use crate::petsc::versions;
+use crate::system::recovery::{Balance, TracePoint};
+use crate::system::{Contact, Discretisation, Solution};
+
+/// What is known without the solution's fields.
+pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solution: &Solution, solver_name: &str) {
+    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+    let count = numbering.level.triangles_per_edge();
+    let triangles = scene.mesh.triangles.len() * count * count;
+    let lengths = (0..scene.mesh.edges.len()).map(|edge| scene.mesh.edge_length(edge as u32) / count as f64);
+    let corners = if scene.order == Order::P1 { numbering.node_count() } else { numbering.node_count() - edge_count(problem) };
+    summary.mesh = summary::Mesh {
+        triangles: Some(triangles as u64),
+        vertices: Some(corners as u64),
+        order: Some(scene.order.degree() as u8),
+        h_min: Some(lengths.clone().fold(f64::INFINITY, f64::min)),
+        h_max: Some(lengths.fold(0.0, f64::max)),
+    };
+    summary.unknowns = summary::Unknowns {
+        displacement: Some(2 * numbering.node_count() as u64),
+        multiplier: Some(problem.multiplier_count() as u64),
+    };
+    summary.outer = solution
+        .steps
+        .iter()
+        .map(|step| summary::OuterIteration {
+            iteration: step.iteration,
+            active: Some(step.active),
+            added: Some(step.added),
+            released: Some(step.released),
+            krylov_iterations: Some(step.krylov_iterations),
+            residual: Some(step.residual),
+            max_penetration: Some(step.max_penetration),
+            du: Some(step.du),
+        })
+        .collect();
+    summary.solver = summary::Solver {
+        name: Some(case.solver.choice.name().into()),
+        krylov: Some(solver_name.into()),
+        iterations: solution.steps.iter().map(|step| step.krylov_iterations).collect(),
+        residual: Some(solution.residual),
+        plain_residual: Some(solution.plain_residual),
+        blas: Some(versions::blas()),
+    };
+}
+
+/// Triangle edges of the finest level: the midside nodes of P2.
+fn edge_count(problem: &Discretisation) -> usize {
+    let count = problem.finest().numbering.level.triangles_per_edge();
+    let mesh = &problem.scene.mesh;
+    mesh.edges.len() * count + mesh.triangles.len() * (3 * count * (count - 1) / 2)
+}
+
+/// Energies and balances.
+pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balance) {
+    let names = problem.scene.bodies.iter().map(|body| body.name.clone());
+    summary.energy = summary::Energy {
+        strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),
+        total: Some(balance.strain.iter().sum()),
+        external_work: Some(balance.external_work),
+    };
+    summary.balance =
+        summary::Balance { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
+}
+
+/// One contact; `at` is its place among all.
+pub fn contact(
+    contact: &Contact,
+    at: usize,
+    problem: &Discretisation,
+    solution: &Solution,
+    balance: &Balance,
+    points: &[TracePoint],
+) -> summary::Contact {
+    let boundary = &contact.boundary;
+    let knots = boundary.knots();
+    let pair = |p: Point| [p.x, p.y];
+    let force = &balance.contacts[at];
+    let closed = closed(contact, &solution.active[contact.range()]);
+    let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
+    let young = contact.bodies.map(|body| problem.scene.bodies[body].material.young);
+    let edges = [0, 1].map(|k| {
+        let edges = problem.scene.mesh.boundary(&contact.pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+        edges.iter().flat_map(|&edge| BoundaryEdge::all_of(&problem.scene.mesh, edge, &problem.finest().numbering)).collect()
+    });
+    let shortest = (0..boundary.segments()).map(|k| boundary.segment_length(k)).fold(f64::INFINITY, f64::min);
+    summary::Contact {
+        length: Some(boundary.length()),
+        segments: Some(boundary.segments()),
+        multiplier: Some(space_name(contact.pair.space).into()),
+        h_ratio: Some(shortest / softer_edge_length(&edges, young)),
+        ends: Some([pair(boundary.point(knots[0])), pair(boundary.point(knots[knots.len() - 1]))]),
+        closed_points: Some(closed.iter().map(|&[a, b]| [end(a), end(b)]).collect()),
+        closed: Some(closed),
+        force: Some(force.force),
+        resultant: Some(pair(force.resultants[1])),
+        moment: Some(force.moments[1]),
+        pressure_max: Some(solution.multipliers[contact.range()].iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+        lost_points: Some(points.iter().filter(|point| !point.is_complete()).count()),
+        ..Default::default()
+    }
+}
+
+/// Name of a multiplier space in the case file.
+fn space_name(space: MultiplierSpace) -> &'static str {
+    match space {
+        MultiplierSpace::P0 => "p0",
+        MultiplierSpace::P1Discontinuous => "p1-discontinuous",
+        MultiplierSpace::P1Continuous => "p1-continuous",
+    }
+}
+
+/// Arc-length intervals of segments with an active multiplier.
+fn closed(contact: &Contact, active: &[bool]) -> Vec<[f64; 2]> {
+    let arcs = contact.boundary.arcs();
+    let mut intervals: Vec<[f64; 2]> = Vec::new();
+    for k in 0..contact.boundary.segments() {
+        let rows = contact.multipliers.on_segment(k, 0.0).0;
+        if !rows.iter().any(|&i| active[i]) {
+            continue;
+        }
+        match intervals.last_mut() {
+            Some([_, end]) if *end == arcs[k] => *end = arcs[k + 1],
+            _ => intervals.push([arcs[k], arcs[k + 1]]),
+        }
+    }
+    intervals
+}

@@ -1,0 +1,32 @@
+//! Nodal forces of all loads.
+
+use super::{Discretisation, Field, SystemError};
+use crate::body::applied_forces;
+use crate::geometry::Point;
+use crate::petsc::Session;
+
+/// Forces of loads and body forces at the nodes, in global axes. **Collective**
+///
+/// # Errors
+/// [`SystemError::Case`] if a triangle is turned inside out.
+pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
+    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+    let mut forces = Field::<2>::zeros(problem, session);
+    let add = |node, force: Point| {
+        let sum = forces.at_mut(node);
+        sum[0] += force.x;
+        sum[1] += force.y;
+    };
+    let rank = session.rank();
+    let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &scene.bodies, &scene.loads, add);
+    session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
+    forces.sum(session)
+}
+
+/// Nodal forces as the right-hand side wants them: this rank's unknowns in the nodes' frames, zero where displacement
+/// is prescribed.
+pub fn load(problem: &Discretisation, forces: &Field<2>) -> Vec<f64> {
+    let space = problem.finest();
+    let free = |(node, [x, y]): (usize, &[f64; 2])| <[f64; 2]>::from(space.free(node, Point::new(*x, *y)));
+    space.own.clone().zip(forces.own()).flat_map(free).collect()
+}
