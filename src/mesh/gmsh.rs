@@ -320,7 +320,7 @@ $EndElements
             ("2 6 2 2", "2 6 3 2", "quadrangles (Gmsh element type 3)"),
             ("2 6 2 2", "2 6 9 2", "`gmsh -2 -order 1`"),
             ("3 10 13 12", "3 10 13 99", "line 34: node 99 is not among the $Nodes"),
-            ("0 1 0\n9", "0 2 0\n9 9", "expected 3 numbers"),
+            ("0 1 0\n9", "0 1\n9", "expected 3 numbers, found `0 1`"),
             ("1 1 0\n0 1 0", "1 0 0\n0 1 0", "degenerate triangle"),
             ("1 1 0\n0", "1 1 0.5\n0", "plane z = 0"),
             ("1 10 11\n", "1 11 13\n", "\"lower edge\" is not an edge of a triangle"),
