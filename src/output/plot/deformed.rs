@@ -176,10 +176,11 @@ fn fills(facets: &[Facet], scale: f64, colours: &Colours, place: impl Fn([f64; 2
     for facet in facets {
         let (corners, steps) = (facet.deformed(scale), colours.steps(facet));
         let [low, high] = [steps.iter().copied().fold(f64::INFINITY, f64::min), steps.iter().copied().fold(0.0, f64::max)];
-        for level in Colours::level(low)..=Colours::level(high) {
+        let [first, last] = [low, high].map(Colours::level);
+        for (level, edges) in edges.iter_mut().enumerate().take(last + 1).skip(first) {
             let upper = if level + 1 < LEVELS { level as f64 + 1.0 } else { f64::INFINITY };
             let polygon: Vec<(i32, i32)> = band(&corners, &steps, [level as f64, upper]).into_iter().map(&place).collect();
-            edges[level].extend((0..polygon.len()).map(|k| [polygon[k], polygon[(k + 1) % polygon.len()]]));
+            edges.extend((0..polygon.len()).map(|k| [polygon[k], polygon[(k + 1) % polygon.len()]]));
         }
     }
     let path = |(level, edges): (usize, Vec<_>)| {
