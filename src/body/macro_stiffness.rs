@@ -145,3 +145,64 @@ impl MacroStiffness {
 pub fn positions<const N: usize>(mesh: &MacroMesh, triangle: usize, n: usize, nodes: &[(usize, usize); N]) -> [Point; N] {
     nodes.map(|(i, j)| mesh.position(triangle, i as f64 / n as f64, j as f64 / n as f64))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Curve;
+    use crate::mesh::samples::two_blocks;
+
+    const LAW: PlaneStrain = PlaneStrain { lambda: 3.0, mu: 2.0 };
+
+    /// Rows of a straight macro triangle, once from the few stored ones and once integrated one by one.
+    fn both(order: Order, intervals: usize) -> [MacroStiffness; 2] {
+        let mesh = two_blocks();
+        let level = Level { intervals, order };
+        let few = MacroStiffness::new(&mesh, 3, level, &LAW).expect("a good triangle");
+        let width = few.width();
+        let rows = vec![[[0.0; 2]; 2]; lattice::node_count(intervals) * width * width];
+        let mut all = MacroStiffness { n: intervals, stored: intervals, order, rows };
+        match order {
+            Order::P1 => all.integrate::<3>(&mesh, 3, &LAW, true),
+            Order::P2 => all.integrate::<6>(&mesh, 3, &LAW, true),
+        }
+        .expect("a good triangle");
+        [few, all]
+    }
+
+    #[test]
+    fn the_stored_rows_stand_for_all_rows() {
+        for (order, n) in [(Order::P1, 1), (Order::P1, 2), (Order::P1, 7), (Order::P2, 2), (Order::P2, 4), (Order::P2, 10)] {
+            let [few, all] = both(order, n);
+            for (i, j) in lattice::nodes(n) {
+                let pairs: Vec<_> = few.row(i, j).zip(all.row(i, j)).collect();
+                assert_eq!(pairs.len(), all.row(i, j).count());
+                for ((node, block), (other, exact)) in pairs {
+                    assert_eq!(node, other);
+                    let difference = (0..4).map(|k| (block[k / 2][k % 2] - exact[k / 2][k % 2]).abs()).fold(0.0, f64::max);
+                    assert!(difference < 1e-12, "{order:?}, n = {n}, node ({i}, {j}) to {node:?}: {difference:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rigid_motions_have_no_force_on_a_bent_triangle() {
+        let mut mesh = two_blocks();
+        let circle = Curve::Circle { centre: [1.0, -2.0], radius: 10f64.sqrt() };
+        mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
+        let bent = (0..2).find(|&t| mesh.is_curved(t)).expect("one triangle has the arc");
+        for (order, n) in [(Order::P1, 4), (Order::P2, 4)] {
+            let k = MacroStiffness::new(&mesh, bent, Level { intervals: n, order }, &LAW).expect("a good triangle");
+            for (i, j) in lattice::nodes(n) {
+                let mut force = Point::zeros();
+                for ((k, l), block) in k.row(i, j) {
+                    let x = mesh.position(bent, k as f64 / n as f64, l as f64 / n as f64);
+                    let u = Point::new(0.3 - x.y, 0.1 + x.x);
+                    force += Point::new(block[0][0] * u.x + block[0][1] * u.y, block[1][0] * u.x + block[1][1] * u.y);
+                }
+                assert!(force.norm() < 1e-12, "{order:?}: {force}");
+            }
+        }
+    }
+}

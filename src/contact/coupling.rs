@@ -111,3 +111,59 @@ pub fn declared_gap(boundary: &ContactBoundary, multipliers: &Multipliers, formu
     }
     gap
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::MultiplierSpace;
+    use crate::element::Order;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{Level, MacroMesh, Numbering, Partition};
+    use std::rc::Rc;
+
+    /// A bent seam between the sample blocks, five segments, P2 edges at one refinement.
+    fn setting(space: MultiplierSpace) -> (MacroMesh, ContactBoundary, Multipliers, [Vec<BoundaryEdge>; 2]) {
+        let mut mesh = two_blocks();
+        let read = |text| Formula::parse(text, &["t"]).expect("a formula");
+        let curve = Curve::Parametric { x: read("t"), y: read("1 + 0.1*t*(2-t)*(t-0.9)"), range: [0.0, 2.0] };
+        mesh.bend("seam", &["lower.seam".into(), "upper.seam".into()], &curve).expect("the vertices lie on it");
+        let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
+        let numbering = Numbering::new(Level { intervals: 4, order: Order::P2 }, &partition);
+        let mut boundary = ContactBoundary::new(curve, [0.0, 2.0], Point::new(0.0, 1.0));
+        boundary.cut(&[0.0, 0.2, 0.35, 0.6, 0.8, 1.0]);
+        let edges = ["lower.seam", "upper.seam"].map(|name| {
+            let edges = &mesh.boundary(name).expect("named").edges;
+            edges.iter().flat_map(|&edge| BoundaryEdge::all_of(&mesh, edge, &numbering)).collect()
+        });
+        let multipliers = Multipliers::new(space, &boundary);
+        (mesh, boundary, multipliers, edges)
+    }
+
+    #[test]
+    fn both_bodies_feel_the_same_force_and_moment_of_every_multiplier() {
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
+            let (mesh, boundary, multipliers, edges) = setting(space);
+            let mut sums = vec![[0.0; 3]; multipliers.count()];
+            let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
+            let numbering = Numbering::new(Level { intervals: 4, order: Order::P2 }, &partition);
+            for (side, edges) in [Side::First, Side::Second].into_iter().zip(&edges) {
+                let (entries, _) = integrate(&boundary, &multipliers, side, edges, &Distance::Declared).expect("declared");
+                for entry in entries {
+                    let x = entry.node.place(&mesh, &numbering);
+                    let sum = &mut sums[entry.multiplier];
+                    sum[0] += entry.value.x;
+                    sum[1] += entry.value.y;
+                    sum[2] += crate::geometry::cross(x, entry.value);
+                }
+            }
+            assert!(sums.iter().flatten().all(|sum| sum.abs() < 1e-12), "{space:?}: {sums:?}");
+        }
+    }
+
+    #[test]
+    fn a_declared_gap_is_weighted_by_the_shape_functions() {
+        let (_, boundary, multipliers, _) = setting(MultiplierSpace::P1Continuous);
+        let gap = declared_gap(&boundary, &multipliers, &Formula::constant(-0.5));
+        assert!((gap.iter().sum::<f64>() + 0.5 * boundary.length()).abs() < 1e-13);
+    }
+}

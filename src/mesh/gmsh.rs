@@ -253,3 +253,83 @@ fn refused_element(kind: i64) -> String {
     };
     format!("holds {what} (Gmsh element type {kind}); {remedy}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: &str = "$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 7 \"lower edge\"
+2 8 \"plate\"
+$EndPhysicalNames
+$Entities
+0 1 1 0
+5 0 0 0 1 0 0 1 7 0
+6 0 0 0 1 1 0 1 8 0
+$EndEntities
+$Nodes
+1 5 10 14
+2 6 0 5
+10
+11
+12
+13
+14
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+9 9 0
+$EndNodes
+$Elements
+2 3 1 3
+1 5 1 1
+1 10 11
+2 6 2 2
+2 10 11 12
+3 10 13 12
+$EndElements
+";
+
+    fn read(text: &str) -> Result<MacroMesh, String> {
+        let file = Path::new("square.msh");
+        Reader::new(file, text).read().and_then(|raw| MacroMesh::build(raw, file)).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn names_nodes_and_triangles_are_read_and_clockwise_ones_turned() {
+        let mesh = read(SQUARE).expect("a good file");
+        assert_eq!(mesh.bodies, ["plate"]);
+        assert_eq!(mesh.boundary("lower edge").expect("named").edges.len(), 1);
+        assert_eq!((mesh.vertices.len(), mesh.triangles.len(), mesh.edges.len()), (4, 2, 5), "the loose node is dropped");
+        for triangle in &mesh.triangles {
+            let [a, b, c] = triangle.vertices.map(|v| mesh.vertices[v as usize]);
+            assert!(crate::geometry::cross(b - a, c - a) > 0.0);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_refused_with_line_and_remedy() {
+        let table = [
+            ("4.1 0 8", "2.2 0 8", "line 2: mesh format 2.2 is not read, only 4.1 ASCII; convert it with `gmsh square.msh"),
+            ("4.1 0 8", "4.1 1 8", "line 2: binary files are not read"),
+            ("2 6 2 2", "2 6 3 2", "quadrangles (Gmsh element type 3)"),
+            ("2 6 2 2", "2 6 9 2", "`gmsh -2 -order 1`"),
+            ("3 10 13 12", "3 10 13 99", "line 34: node 99 is not among the $Nodes"),
+            ("0 1 0\n9", "0 1\n9", "expected 3 numbers, found `0 1`"),
+            ("1 1 0\n0 1 0", "1 0 0\n0 1 0", "degenerate triangle"),
+            ("1 1 0\n0", "1 1 0.5\n0", "plane z = 0"),
+            ("1 10 11\n", "1 11 13\n", "\"lower edge\" is not an edge of a triangle"),
+            ("1 10 11\n", "1 10 12\n", "\"lower edge\" lies inside a body"),
+        ];
+        for (good, bad, words) in table {
+            let found = read(&SQUARE.replacen(good, bad, 1)).expect_err(words);
+            assert!(found.contains(words), "{found} instead of {words}");
+        }
+        assert!(read("solid\n").expect_err("no mesh").contains("not a Gmsh mesh"));
+    }
+}

@@ -10,6 +10,8 @@ pub mod lattice;
 mod macro_mesh;
 mod numbering;
 mod partition;
+#[cfg(test)]
+pub(crate) mod samples;
 mod shape;
 
 pub use edge_trace::{BoundaryEdge, EdgeNode};

@@ -126,3 +126,52 @@ impl MacroMesh {
         if self.triangles[triangle as usize].forward[side] { outward } else { -outward }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::two_blocks;
+    use super::*;
+
+    fn bent() -> (MacroMesh, Curve) {
+        let mut mesh = two_blocks();
+        let circle = Curve::Circle { centre: [1.0, -2.0], radius: 10f64.sqrt() };
+        mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
+        (mesh, circle)
+    }
+
+    #[test]
+    fn the_map_follows_the_curve_on_its_edge_and_is_straight_on_the_others() {
+        let (mesh, circle) = bent();
+        let edge = mesh.boundary("lower.seam").expect("it has one").edges[0];
+        let (triangle, side) = mesh.beside(edge);
+        for k in 0..=8 {
+            let (i, j) = super::super::lattice::side_node(8, side, k);
+            let x = mesh.position(triangle as usize, i as f64 / 8.0, j as f64 / 8.0);
+            assert!((x - circle.point(circle.nearest(x))).norm() < 1e-14);
+            let (i, j) = super::super::lattice::side_node(8, (side + 1) % 3, k);
+            let (a, b) = (
+                mesh.triangles[triangle as usize].vertices[(side + 1) % 3],
+                mesh.triangles[triangle as usize].vertices[(side + 2) % 3],
+            );
+            let t = k as f64 / 8.0;
+            let straight = mesh.vertices[a as usize] * (1.0 - t) + mesh.vertices[b as usize] * t;
+            assert!((mesh.position(triangle as usize, i as f64 / 8.0, j as f64 / 8.0) - straight).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn normals_point_out_of_the_body() {
+        let (mesh, _) = bent();
+        let seam = mesh.boundary("lower.seam").expect("it has one").edges[0];
+        let bottom = mesh.boundary("bottom").expect("it has one").edges[0];
+        assert!(mesh.edge_normal(seam, 0.3).y > 0.9);
+        assert!((mesh.edge_normal(bottom, 0.3) - Point::new(0.0, -1.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_mesh_far_from_its_geometry_is_refused_with_the_node() {
+        let circle = Curve::Circle { centre: [1.0, -2.0], radius: 2.0 };
+        let words = two_blocks().bend("arc", &["top".into()], &circle).unwrap_err().to_string();
+        assert!(words.contains("geometry.arc") && words.contains("(0.9, 2)"), "{words}");
+    }
+}

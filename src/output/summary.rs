@@ -346,7 +346,7 @@ mod tests {
             ("/energy", "U external_work strain"),
             ("/estimate", "energy seam"),
             ("/estimate/seam", "force lambda"),
-            ("/balance", "energy force moment"),
+            ("/balance", "bodies energy force moment"),
             ("/probe/corner", "stress u x"),
             ("/solver", "blas iterations krylov name plain_residual residual"),
             ("/time_s", "assemble contact mesh output setup solve total"),

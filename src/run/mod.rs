@@ -15,7 +15,7 @@ use crate::contact::ActiveSet;
 use crate::output::{OutputError, ResultFolder};
 use crate::petsc::{self, Session, Stage};
 use crate::system::{
-    ContactLoop, Discretisation, LinearSolver, OuterStep, SaddlePoint, Solution, SystemError, Verdict, bilateral, load,
+    Contact, ContactLoop, Discretisation, LinearSolver, OuterStep, SaddlePoint, Solution, SystemError, Verdict, bilateral, load,
     nodal_forces, spaces,
 };
 use report::Report;
@@ -79,6 +79,9 @@ impl From<OutputError> for RunError {
     }
 }
 
+/// Displacement unknowns up to which the inf-sup constants take less than a tenth of a run.
+const CHEAP_INF_SUP: usize = 10_000;
+
 /// Where results go and what is printed.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
@@ -131,6 +134,7 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     run.report.start(case);
     let problem = run.set_up()?;
     run.report.sizes(&problem);
+    run.report.warnings(&problem);
     let (solution, solver) = run.solve(&problem)?;
     run.write(&problem, &solution, &solver, folder)
 }
@@ -194,7 +198,13 @@ impl Run<'_> {
         }
         let _stage = self.stages.solve.enter();
         let report = |step: &OuterStep| self.report.step(step, problem.multiplier_count());
-        let solution = contact_loop.solve(&mut system, &mut solver, &mut set, self.case.solver.tolerance, report)?;
+        let mut solution = contact_loop.solve(&mut system, &mut solver, &mut set, self.case.solver.tolerance, report)?;
+        let failed = matches!(solution.verdict, Verdict::NotConverged(_));
+        let cheap = problem.unknown_count() <= CHEAP_INF_SUP;
+        if self.case.solver.inf_sup.unwrap_or(cheap || failed) {
+            let one = |contact: &Contact| solver.inf_sup(&system, contact.range(), &solution.active);
+            solution.inf_sup = problem.contacts.iter().map(one).collect::<Result<_, _>>()?;
+        }
         Ok((solution, solver.name))
     }
 }

@@ -10,6 +10,9 @@ use crate::system::{Discretisation, OuterStep};
 use std::path::Path;
 use std::time::Instant;
 
+/// Poisson's ratio from which P1 triangles are too stiff.
+const LOCKING: f64 = 0.45;
+
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
 pub struct Report {
     speaks: bool,
@@ -58,6 +61,25 @@ impl Report {
             ));
         }
         self.say("outer  active       +/-  Krylov  residual  penetration     du");
+    }
+
+    /// A line of warning on standard error, also if the run is quiet.
+    pub fn warn(&self, line: &str) {
+        if self.first {
+            eprintln!("mezha: warning: {line}");
+        }
+    }
+
+    /// What is known to spoil the result before it is computed.
+    pub fn warnings(&self, problem: &Discretisation) {
+        for body in problem.scene.bodies.iter().filter(|body| body.material.poisson > LOCKING) {
+            if problem.scene.order == Order::P1 {
+                self.warn(&format!(
+                    "body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2",
+                    body.name, body.material.poisson
+                ));
+            }
+        }
     }
 
     /// A pass of the contact loop.

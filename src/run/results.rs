@@ -29,12 +29,21 @@ impl Run<'_> {
         if solution.is_solved() {
             let _stage = self.stages.output.enter();
             let errors = self.evaluate(&mut summary, problem, solution)?;
-            errors.missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
-            if !errors.missed.is_empty() && self.case.exact.must_hold && status == Status::Converged {
-                status = Status::NotConverged;
-                reason = format!("expected values are missed ({})", errors.missed.join("; "));
+            if status == Status::Converged && !errors.missed.is_empty() {
+                errors.missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
+                if self.case.exact.must_hold {
+                    status = Status::NotConverged;
+                    reason = format!("expected values are missed ({})", errors.missed.join("; "));
+                }
             }
             summary.errors = errors.values;
+            if let Some(words) = summarise::distrust(&summary) {
+                reason = match status {
+                    Status::Converged => format!("pressure unreliable: {words}"),
+                    Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
+                };
+                self.report.warn(&format!("pressure unreliable: {words}"));
+            }
         }
         summary.status = status;
         summary.reason = Some(reason.clone());

@@ -1,0 +1,26 @@
+//! Small meshes for unit tests.
+
+use super::macro_mesh::{MacroMesh, RawMesh};
+use crate::geometry::Point;
+use std::path::Path;
+
+/// Two blocks, `[0, 2] x [0, 1]` under `[0, 2] x [1, 2]`: one quadrangle below the line y = 1, two above, each of two
+/// triangles. Boundaries "lower.seam", "upper.seam", "bottom", "top".
+pub fn two_blocks() -> MacroMesh {
+    let mut raw = RawMesh::default();
+    block(&mut raw, "lower", &[0.0, 2.0], [0.0, 1.0], ["bottom", "lower.seam"]);
+    block(&mut raw, "upper", &[0.0, 0.9, 2.0], [1.0, 2.0], ["upper.seam", "top"]);
+    MacroMesh::build(raw, Path::new("blocks.msh")).expect("a good mesh")
+}
+
+fn block(raw: &mut RawMesh, body: &str, xs: &[f64], [low, high]: [f64; 2], names: [&str; 2]) {
+    let first = raw.vertices.len();
+    for &x in xs {
+        raw.vertices.extend([Point::new(x, low), Point::new(x, high)]);
+    }
+    for k in 0..xs.len() - 1 {
+        let [a, d, b, c] = [0, 1, 2, 3].map(|corner| first + 2 * k + corner);
+        raw.triangles.extend([[a, b, c], [a, c, d]].map(|corners| (corners, vec![body.to_string()], 0)));
+        raw.lines.extend([(names[0].to_string(), [a, b], 0), (names[1].to_string(), [d, c], 0)]);
+    }
+}
