@@ -20,5 +20,5 @@ pub use mechanism::{Condition, Extent, Mechanism, find_mechanism};
 pub use multiplier::{ALPHA, DiagonalBlock, Multipliers};
 pub use oscillation::oscillation;
 pub use pair::{CurveChoice, GapChoice, Law, MultiplierSpace, Pair, SegmentRule};
-pub use placing::{PlacingError, place, safe_ratio, softer_edge_length};
+pub use placing::{PlacingError, all_edges, place, safe_ratio_of, segment_ratio};
 pub use trace::{Piece, Trace, pieces, quadrature, trace};

@@ -343,7 +343,7 @@ mod tests {
                 "/contact/seam",
                 "closed closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",
             ),
-            ("/energy", "U external_work strain"),
+            ("/energy", "external_work strain total"),
             ("/estimate", "energy seam"),
             ("/estimate/seam", "force lambda"),
             ("/balance", "bodies energy force moment"),

@@ -1,10 +1,9 @@
 //! A solution in the terms of `summary.json`.
 
 use crate::case::Case;
-use crate::contact::{MultiplierSpace, oscillation, softer_edge_length};
+use crate::contact::{MultiplierSpace, all_edges, oscillation, segment_ratio};
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::BoundaryEdge;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Balance, TracePoint};
@@ -87,11 +86,7 @@ pub fn contact(
     let closed = closed(contact, &solution.active[contact.range()]);
     let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
     let young = contact.bodies.map(|body| problem.scene.bodies[body].material.young);
-    let edges = [0, 1].map(|k| {
-        let edges = problem.scene.mesh.boundary(&contact.pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-        edges.iter().flat_map(|&edge| BoundaryEdge::all_of(&problem.scene.mesh, edge, &problem.finest().numbering)).collect()
-    });
-    let shortest = (0..boundary.segments()).map(|k| boundary.segment_length(k)).fold(f64::INFINITY, f64::min);
+    let ratio = segment_ratio(boundary, &all_edges(&problem.scene.mesh, &problem.finest().numbering, &contact.pair), young);
     let lambda = &solution.multipliers[contact.range()];
     let oscillation = oscillation(boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
     let inf_sup = solution.inf_sup.get(at).copied().flatten();
@@ -99,7 +94,7 @@ pub fn contact(
         length: Some(boundary.length()),
         segments: Some(boundary.segments()),
         multiplier: Some(space_name(contact.pair.space).into()),
-        h_ratio: Some(shortest / softer_edge_length(&edges, young)),
+        h_ratio: Some(ratio),
         ends: Some([pair(boundary.point(knots[0])), pair(boundary.point(knots[knots.len() - 1]))]),
         closed_points: Some(closed.iter().map(|&[a, b]| [end(a), end(b)]).collect()),
         closed: Some(closed),
@@ -111,7 +106,6 @@ pub fn contact(
         inf_sup,
         trust: trust(inf_sup, oscillation),
         lost_points: Some(points.iter().filter(|point| !point.is_complete()).count()),
-        ..Default::default()
     }
 }
 

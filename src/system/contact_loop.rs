@@ -81,7 +81,7 @@ impl Solution {
 
     /// Whether there are displacements to look at.
     pub fn is_solved(&self) -> bool {
-        !self.steps.is_empty()
+        !self.steps.is_empty() && self.residual.is_finite()
     }
 }
 
