@@ -33,6 +33,10 @@ fn is_first_rank() -> bool {
 }
 
 fn run_case(arguments: &Run, started: Instant) -> i32 {
+    if let Some(word) = arguments.petsc_options.first().filter(|word| !word.starts_with('-')) {
+        let words = format!("`{word}` after -- is not a PETSc option: their names begin with a minus");
+        return if is_first_rank() { print(&RunError::Input(words)) } else { 2 };
+    }
     let session = match Session::start(&[], &arguments.petsc_options) {
         Ok(session) => session,
         Err(error) => return print(&RunError::Failed(error.to_string())),
@@ -59,6 +63,9 @@ fn run_case(arguments: &Run, started: Instant) -> i32 {
 }
 
 fn check_case(arguments: &CaseArguments) -> i32 {
+    if !is_first_rank() {
+        return 0;
+    }
     let checked = Case::read(&arguments.case, &arguments.overrides)
         .map_err(|error| RunError::Input(error.to_string()))
         .and_then(|case| run::check(&case));

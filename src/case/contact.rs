@@ -114,6 +114,13 @@ pub fn check_contacts(contacts: &[Pair], geometries: &[Geometry], root: &Section
     if geometries.len() < root.names_below("geometry").count() {
         return; // A geometry could not be read; its own error comes first.
     }
+    for (at, pair) in contacts.iter().enumerate() {
+        let same = |other: &&Pair| pair.between.iter().all(|name| other.between.contains(name));
+        if let Some(other) = contacts[..at].iter().find(same) {
+            let words = format!("contact.{} joins the same boundaries; leave one of them out", other.name);
+            root.problem(&["contact", &pair.name, "between"], words);
+        }
+    }
     for pair in contacts.iter().filter(|pair| pair.curve == CurveChoice::Geometry) {
         let [first, second] = &pair.between;
         let lists = |geometry: &&Geometry, name| geometry.curves.contains(name);

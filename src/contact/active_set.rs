@@ -47,9 +47,10 @@ impl ActiveSet {
         self.bilateral.contains(&false)
     }
 
-    /// The next set: active where `λ_i + κ_i (Bu - c)_i > 0`.
+    /// The next set: active where `λ_i + κ_i (Bu - c)_i > 0`; where it is zero nothing changes.
     pub fn update(&mut self, force: impl Fn(usize) -> f64) -> Step {
-        let next: Vec<bool> = self.bilateral.iter().enumerate().map(|(i, &bilateral)| bilateral || force(i) > 0.0).collect();
+        let stays = |i: usize| force(i) > 0.0 || (force(i) == 0.0 && self.active[i]);
+        let next: Vec<bool> = self.bilateral.iter().enumerate().map(|(i, &bilateral)| bilateral || stays(i)).collect();
         if next == self.active {
             return Step::Settled;
         }

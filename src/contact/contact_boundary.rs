@@ -100,6 +100,21 @@ impl ContactBoundary {
         }
     }
 
+    /// Feet of the two ends of an edge, lower first; on a closed curve the edge is followed, not the long way round.
+    pub fn feet(&self, ends: [Point; 2]) -> [f64; 2] {
+        let [a, b] = ends.map(|p| self.foot(p));
+        let b = match self.curve.period() {
+            Some(period) => a + (b - a + 0.5 * period).rem_euclid(period) - 0.5 * period,
+            None => b,
+        };
+        [a.min(b), a.max(b)]
+    }
+
+    /// Parameter of one full turn, if the curve closes in itself.
+    pub fn period(&self) -> Option<f64> {
+        self.curve.period()
+    }
+
     /// Arc length between two parameters: exact for lines and circles, otherwise by 16 Gauss points on each of 32 pieces.
     fn arc_between(&self, from: f64, to: f64) -> f64 {
         if !matches!(self.curve, Curve::Parametric { .. }) {

@@ -3,8 +3,8 @@
 use super::{ContactBoundary, MultiplierSpace};
 use crate::geometry::gauss_points;
 
-/// Strength of the augmentation, `γ = α E_c / H`: flat optimum between 2 and 10 for every pair of spaces.
-const ALPHA: f64 = 5.0;
+/// Strength of the augmentation, `γ = α E_c / H`: a flat optimum, for every pair of spaces and up to three ranks.
+const ALPHA: f64 = 3.0;
 
 /// The same beside a jump term.
 const ALPHA_STABILISED: f64 = 2.0;

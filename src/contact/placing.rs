@@ -35,8 +35,39 @@ pub fn place(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 
     let Some(&nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
     let towards = mesh.edge_normal(nearest, 0.5);
     let mut boundary = ContactBoundary::new(curve, range, towards);
+    check_cover(mesh, pair, sides, &boundary).map_err(error)?;
     boundary.cut(&fractions(mesh, numbering, pair, young, &boundary));
     Ok(boundary)
+}
+
+/// Both boundaries must cover Γ_C without a hole, and must not close around it.
+fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &ContactBoundary) -> Result<(), String> {
+    let (first, last) = (boundary.knots()[0], boundary.knots()[1]);
+    let least = 1e-6 * (last - first);
+    for (side, edges) in sides.into_iter().enumerate() {
+        let part = |edge: &u32| boundary.feet(mesh.edges[*edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]));
+        let mut parts: Vec<[f64; 2]> = edges.iter().map(part).collect();
+        let whole: f64 = parts.iter().map(|[a, b]| b - a).sum();
+        if boundary.period().is_some_and(|period| whole > (1.0 - 1e-6) * period) {
+            return Err(format!(
+                "\"{}\" is a closed curve; closed contact boundaries are not available yet: name an arc of it that is open",
+                pair.between[side]
+            ));
+        }
+        parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut reached = first;
+        for [from, to] in parts.iter().copied().filter(|[_, to]| *to > first) {
+            if from.min(last) > reached + least {
+                let [a, b] = [reached, from].map(|t| boundary.point(t));
+                return Err(format!(
+                    "\"{}\" has a hole between ({}, {}) and ({}, {}); give each part a name and a contact of its own",
+                    pair.between[side], a.x, a.y, b.x, b.y
+                ));
+            }
+            reached = reached.max(to);
+        }
+    }
+    Ok(())
 }
 
 /// A straight line between two straight boundaries, over the extent that both have. It runs to larger x, or upwards if
@@ -171,8 +202,8 @@ fn softer_edges<'a>(
     let (first, last) = (knots[0], knots[knots.len() - 1]);
     let least = 1e-9 * (last - first);
     ruling.filter_map(move |edge| {
-        let feet = [boundary.foot(edge.points[0]), boundary.foot(edge.points[1])];
-        let part = [feet[0].min(feet[1]).max(first), feet[0].max(feet[1]).min(last)];
+        let feet = boundary.feet([edge.points[0], edge.points[1]]);
+        let part = [feet[0].max(first), feet[1].min(last)];
         (part[1] - part[0] > least).then(|| (part, edge.length()))
     })
 }

@@ -38,8 +38,8 @@ pub fn pieces(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<Piece> 
     let least = 1e-13 * (last - first);
     let mut pieces = Vec::new();
     for (edge, small) in edges.iter().enumerate() {
-        let feet = [boundary.foot(small.points[0]), boundary.foot(small.points[1])];
-        let (start, end) = (feet[0].min(feet[1]).max(first), feet[0].max(feet[1]).min(last));
+        let feet = boundary.feet([small.points[0], small.points[1]]);
+        let (start, end) = (feet[0].max(first), feet[1].min(last));
         if end - start <= least {
             continue;
         }

@@ -85,10 +85,11 @@ fn hidden_sibling(out: &Path, suffix: &str) -> PathBuf {
 
 /// Refuses a target that must not be replaced.
 fn check_target(out: &Path, force: bool) -> Result<(), OutputError> {
-    if !out.exists() {
+    if !out.exists() && !out.is_symlink() {
         return Ok(());
     }
-    if !out.is_dir() {
+    // A link is not followed: replacing the result would replace the link.
+    if !out.is_dir() || out.is_symlink() {
         return Err(OutputError::NotAFolder(out.to_path_buf()));
     }
     let empty = fs::read_dir(out).map_err(OutputError::io("read the folder", out))?.next().is_none();

@@ -5,8 +5,17 @@ use super::session::{Session, is_name};
 use std::ffi::{CString, c_char};
 use std::ptr;
 
-/// Beginnings of options that PETSc reads only at its end.
-const READ_LATER: [&str; 6] = ["-log_", "-malloc_", "-objects_", "-options_", "-memory_", "-no_signal_handler"];
+/// Beginnings of options that PETSc reads only at its end, and of those of a later solver.
+const READ_LATER: [&str; 7] = ["-log_", "-malloc_", "-objects_", "-options_", "-memory_", "-no_signal_handler", "-inf_sup_"];
+
+/// Parts of options that PETSc reads only in a solve.
+const READ_IN_SOLVES: [&str; 2] = ["converged_reason", "_view"];
+
+/// Whether an option may be unread before the first solve.
+fn is_read_later(name: &str) -> bool {
+    let name = name.to_lowercase();
+    READ_LATER.iter().any(|start| name.starts_with(start)) || READ_IN_SOLVES.iter().any(|part| name.contains(part))
+}
 
 /// Sets option `name` (`"-ksp_type"`) to `value`, unless the user has set it; an empty value stands for a bare flag.
 pub fn set_default(session: &Session, name: &str, value: &str) -> Result<()> {
@@ -46,7 +55,7 @@ pub fn unused(session: &Session) -> Result<Vec<String>> {
     Ok(left
         .into_iter()
         .filter(|(name, _)| !defaults.contains(&name.to_lowercase()))
-        .filter(|(name, _)| !READ_LATER.iter().any(|start| name.to_lowercase().starts_with(start)))
+        .filter(|(name, _)| !is_read_later(name))
         .map(|(name, value)| format!("{name} {value}").trim_end().to_owned())
         .collect())
 }

@@ -15,8 +15,8 @@ use crate::contact::ActiveSet;
 use crate::output::{OutputError, ResultFolder};
 use crate::petsc::{self, Session, Stage};
 use crate::system::{
-    Contact, ContactLoop, Discretisation, LinearSolver, OuterStep, SaddlePoint, Solution, SystemError, Verdict, bilateral, load,
-    nodal_forces, spaces,
+    ContactLoop, Discretisation, Form, LinearSolver, OuterStep, SaddlePoint, Solution, SystemError, Verdict, bilateral, inf_sup,
+    load, nodal_forces, spaces,
 };
 use report::Report;
 use std::path::PathBuf;
@@ -79,6 +79,9 @@ impl From<OutputError> for RunError {
     }
 }
 
+/// Displacement unknowns up to which a failed solve is looked into.
+const LARGE_INF_SUP: usize = 200_000;
+
 /// Displacement unknowns up to which the inf-sup constants take less than a tenth of a run.
 const CHEAP_INF_SUP: usize = 10_000;
 
@@ -128,6 +131,7 @@ pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outco
 }
 
 fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
+    refuse_options(session)?;
     let folder = claim_folder(options, session)?;
     let report = Report::new(options, session);
     let run = Run { case, options, session, stages: Stages::new(session)?, report };
@@ -137,6 +141,18 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     run.report.warnings(&problem);
     let (solution, solver) = run.solve(&problem)?;
     run.write(&problem, &solution, &solver, folder)
+}
+
+/// What the case says is not said again to PETSc.
+fn refuse_options(session: &Session) -> Result<(), RunError> {
+    for (name, remedy) in
+        [("-ksp_rtol", "give `--set solver.tolerance=...`"), ("-ksp_max_it", "it is 300; a solve that needs more has failed")]
+    {
+        if petsc::options::get(session, name).is_some() {
+            return Err(RunError::Input(format!("PETSc option {name} has no effect here: {remedy}")));
+        }
+    }
+    Ok(())
 }
 
 /// The folder of the results: made by rank 0, known to all. **Collective**
@@ -185,7 +201,7 @@ impl Run<'_> {
         let mut system = {
             let _stage = self.stages.assemble.enter();
             let load = load(problem, &nodal_forces(problem, self.session)?);
-            SaddlePoint::new(problem, load, set.active(), choice.form(), self.session)?
+            SaddlePoint::new(problem, load, choice.form(), self.session)?
         };
         let mut solver = {
             let _stage = self.stages.setup.enter();
@@ -199,11 +215,11 @@ impl Run<'_> {
         let _stage = self.stages.solve.enter();
         let report = |step: &OuterStep| self.report.step(step, problem.multiplier_count());
         let mut solution = contact_loop.solve(&mut system, &mut solver, &mut set, self.case.solver.tolerance, report)?;
-        let failed = matches!(solution.verdict, Verdict::NotConverged(_));
+        let failed = matches!(solution.verdict, Verdict::NotConverged(_)) && problem.unknown_count() <= LARGE_INF_SUP;
         let cheap = problem.unknown_count() <= CHEAP_INF_SUP;
-        if self.case.solver.inf_sup.unwrap_or(cheap || failed) {
-            let one = |contact: &Contact| solver.inf_sup(&system, contact, &solution.active);
-            solution.inf_sup = problem.contacts.iter().map(one).collect::<Result<_, _>>()?;
+        let possible = choice.form() == Form::Augmented && !problem.contacts.is_empty();
+        if possible && self.case.solver.inf_sup.unwrap_or(cheap || failed) {
+            solution.inf_sup = inf_sup(&system, &problem.contacts, &solution.active, self.session)?;
         }
         Ok((solution, solver.name))
     }

@@ -68,6 +68,7 @@ impl Run<'_> {
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
             summary.contact.insert(contact.pair.name.clone(), summarise::contact(contact, at, solution, &balance, &points));
+            self.warn_if_apart(contact, &points);
             traces.push(contact_points(contact, &points));
         }
         for point in &case.probes {
@@ -80,6 +81,19 @@ impl Run<'_> {
         let errors = compare(case, problem, solution, &balance, &u, session)?;
         self.write_files(problem, &u, &traces)?;
         Ok(errors)
+    }
+
+    /// Boundaries that are said to touch, but lie apart by more than their polygons can.
+    fn warn_if_apart(&self, contact: &Contact, points: &[TracePoint]) {
+        let apart = points.iter().filter(|point| point.is_complete()).map(|point| (point.distance[1] - point.distance[0]).abs());
+        let most = apart.fold(0.0, f64::max);
+        let segment = contact.boundary.length() / contact.boundary.segments() as f64;
+        if matches!(contact.pair.gap, GapChoice::Closed) && most > 0.1 * segment {
+            self.report.warn(&format!(
+                "contact {}: gap = \"closed\", but the boundaries lie up to {most:.3e} apart; if that is no error of the mesh, give gap = \"geometry\"",
+                contact.pair.name
+            ));
+        }
     }
 
     /// Fields, traces and figures in files. **Collective**

@@ -44,6 +44,16 @@ pub enum Verdict {
     NotConverged(String),
 }
 
+/// What the loop does next.
+enum Next {
+    /// It ends.
+    End(Verdict),
+    /// It solves again to the final tolerance.
+    Tighten,
+    /// It solves again.
+    Go,
+}
+
 /// State of the loop: the solution so far.
 pub struct Solution {
     /// How it ended.
@@ -133,7 +143,8 @@ impl ContactLoop<'_> {
         let mut before = vec![0.0; self.finest().local_unknowns()];
         let mut goal = if set.may_change() { tolerance.max(LOOSE) } else { tolerance };
         let mut steps = Vec::new();
-        let verdict = loop {
+        loop {
+            // The set that the blocks hold and the solution belongs to; `set` may run ahead of it.
             let active = set.active().to_vec();
             let b = system.right_hand_side(&active, self.finest())?;
             let solve = solver.solve(system, &b, &mut x, goal)?;
@@ -143,57 +154,66 @@ impl ContactLoop<'_> {
                 Ending::Failed(_) => Step::Settled,
                 _ => set.update(|i| self.force(i, &active, &lambda, &penetration)),
             };
-            let mut step = OuterStep {
+            let (added, released) = if let Step::Changed { added, released } = outcome { (added, released) } else { (0, 0) };
+            let step = OuterStep {
                 iteration: steps.len() + 1,
                 active: active.iter().filter(|active| **active).count(),
-                added: 0,
-                released: 0,
+                added,
+                released,
                 krylov_iterations: solve.iterations,
                 residual: solve.residual,
                 max_penetration: self.largest_penetration(&penetration),
                 du: self.change(&x, &mut before),
             };
-            if let Step::Changed { added, released } = outcome {
-                (step.added, step.released) = (added, released);
-            }
             report(&step);
             steps.push(step);
-            match (outcome, solve.ending) {
-                (_, Ending::Failed(words)) => break Verdict::NotConverged(words),
-                (Step::Settled, _) if goal > tolerance => goal = tolerance,
-                (Step::Settled, Ending::Rounding(words)) => break Verdict::Converged(words),
-                (Step::Settled, Ending::Converged) => break Verdict::Converged(settled(set)),
-                (Step::Repeated(flipping), _) if goal <= tolerance => break Verdict::NotConverged(self.cycle(&flipping)),
-                (Step::Repeated(_), _) => {
-                    goal = tolerance;
-                    set.forget();
-                }
-                (Step::Changed { .. }, _) if steps.len() >= MOST_SETS => {
-                    break Verdict::NotConverged(format!("the active set still changes after {MOST_SETS} solves"));
-                }
-                (Step::Changed { .. }, _) => {}
+            match self.judge(outcome, solve.ending, goal > tolerance, steps.len(), set) {
+                Next::End(verdict) => return self.finish(system, &x, active, steps, verdict),
+                Next::Tighten => goal = tolerance,
+                Next::Go => {}
             }
             if set.active() != active {
-                if let Some(mechanism) = self.mechanism(set.active()) {
-                    break Verdict::NotConverged(self.not_held(&mechanism, set.active().contains(&true)));
-                }
                 system.activate(self.problem, set.active())?;
                 solver.refresh(system)?;
                 self.release(system, &mut x, set.active());
             }
-        };
-        self.finish(system, &x, set, steps, verdict)
+        }
     }
 
+    /// What follows from a solve and the set it leads to.
+    fn judge(&self, outcome: Step, ending: Ending, loose: bool, passes: usize, set: &mut ActiveSet) -> Next {
+        let lost =
+            |set: &ActiveSet| self.mechanism(set.active()).map(|found| self.not_held(&found, set.active().contains(&true)));
+        match (outcome, ending) {
+            (_, Ending::Failed(words)) => Next::End(Verdict::NotConverged(words)),
+            (Step::Settled, _) if loose => Next::Tighten,
+            (Step::Settled, Ending::Rounding(words)) => Next::End(Verdict::Converged(words)),
+            (Step::Settled, Ending::Converged) => Next::End(Verdict::Converged(settled(set))),
+            (Step::Repeated(flipping), _) if !loose => Next::End(Verdict::NotConverged(self.cycle(&flipping))),
+            (outcome, _) => match lost(set) {
+                Some(words) => Next::End(Verdict::NotConverged(words)),
+                None if passes >= MOST_SETS => {
+                    Next::End(Verdict::NotConverged(format!("the active set still changes after {MOST_SETS} solves")))
+                }
+                None if matches!(outcome, Step::Repeated(_)) => {
+                    set.forget();
+                    Next::Tighten
+                }
+                None => Next::Go,
+            },
+        }
+    }
+
+    /// The solution of the last pass, with the set it was solved for. **Collective**
     fn finish(
         &self,
         system: &SaddlePoint,
         x: &Vector,
-        set: &ActiveSet,
+        active: Vec<bool>,
         steps: Vec<OuterStep>,
         verdict: Verdict,
     ) -> Result<Solution, SystemError> {
-        let b = system.right_hand_side(set.active(), self.finest())?;
+        let b = system.right_hand_side(&active, self.finest())?;
         let mut r = b.duplicate()?;
         system.nest.residual(&b, x, &mut r)?;
         let norm = b.norm()?;
@@ -208,8 +228,8 @@ impl ContactLoop<'_> {
             verdict,
             displacement,
             multipliers: self.pressures(system, x),
-            active: set.active().to_vec(),
-            residual: if norm > 0.0 { r.norm()? / norm } else { 0.0 },
+            active,
+            residual: if norm == 0.0 { 0.0 } else { r.norm()? / norm },
             plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)?,
             steps,
             inf_sup: Vec::new(),
@@ -286,7 +306,8 @@ impl ContactLoop<'_> {
             let [s, t] = [contact.boundary.arcs()[segment], contact.boundary.arcs()[segment + 1]];
             format!("{} segment {segment} (s = {s:.4} ... {t:.4})", contact.pair.name)
         };
-        let names: Vec<String> = flipping.iter().map(name).collect();
+        let mut names: Vec<String> = flipping.iter().map(name).collect();
+        names.dedup();
         format!("the active set repeats itself; these flip: {}; use fewer segments or another multiplier space", names.join(", "))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Contact, Coupling, Scene, Space, SystemError};
 use crate::contact::Jump;
-use crate::mesh::levels;
+use crate::mesh::{Level, levels};
 use crate::petsc::Session;
 
 /// Everything that a system is assembled from.
@@ -56,10 +56,25 @@ impl Discretisation {
     }
 }
 
+/// PETSc counts with 32 bits: the five numbers of a node's stress must still be counted.
+fn check_size(scene: &Scene, level: Level) -> Result<(), SystemError> {
+    let n = level.intervals as u64;
+    let inner = if n < 3 { 0 } else { (n - 1) * (n - 2) / 2 };
+    let mesh = &scene.mesh;
+    let nodes = mesh.vertices.len() as u64 + mesh.edges.len() as u64 * (n - 1) + mesh.triangles.len() as u64 * inner;
+    if 5 * nodes > i32::MAX as u64 {
+        let words = format!("mesh.refine = {}: {nodes} nodes are more than 32-bit numbers can count; refine less", scene.refine);
+        return Err(SystemError::Case(words));
+    }
+    Ok(())
+}
+
 /// Spaces of all levels that multigrid uses, coarsest first.
 ///
 /// # Errors
-/// [`SystemError::Case`] if supports contradict each other.
+/// [`SystemError::Case`] if supports contradict each other, or the mesh is too fine.
 pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
-    levels(scene.order, scene.refine).into_iter().map(|level| Space::new(scene, level, rank)).collect()
+    let levels = levels(scene.order, scene.refine);
+    check_size(scene, levels[levels.len() - 1])?;
+    levels.into_iter().map(|level| Space::new(scene, level, rank)).collect()
 }

@@ -20,6 +20,11 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
     let rank = session.rank();
     let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &scene.bodies, &scene.loads, add);
     session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
+    let bad = forces.own().iter().flatten().any(|force| !force.is_finite());
+    if session.any(bad) {
+        let words = "load or body_force: a formula has no finite value somewhere on its boundary or body; correct it";
+        return Err(SystemError::Case(words.into()));
+    }
     forces.sum(session)
 }
 

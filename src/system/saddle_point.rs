@@ -48,15 +48,9 @@ pub struct SaddlePoint {
 }
 
 impl SaddlePoint {
-    /// Assembles all blocks for an active set. `load` are the nodal forces of this rank's unknowns, in the nodes'
+    /// Assembles all blocks, with every multiplier active. `load` are the nodal forces of this rank's unknowns, in the nodes'
     /// frames, zero where displacement is prescribed; what prescribed displacements add is put in here. **Collective**
-    pub fn new(
-        problem: &Discretisation,
-        mut load: Vec<f64>,
-        active: &[bool],
-        form: Form,
-        session: &Session,
-    ) -> Result<Self, SystemError> {
+    pub fn new(problem: &Discretisation, mut load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
         let rows = CouplingRows::of_levels(&problem.scene.mesh, &problem.coupling, &problem.spaces);
         let mut lifted = HashMap::new();
         let stiffness = all_levels(problem, &rows, form, session, &mut lifted)?;
@@ -67,7 +61,7 @@ impl SaddlePoint {
         let gap = moved_gap(problem);
         let mut system =
             Self { stiffness, multipliers: blocks, nest, gap, weights: Vec::new(), jumps: Vec::new(), rows, form, load };
-        system.activate(problem, active)?;
+        system.activate(problem, &vec![true; problem.multiplier_count()])?;
         Ok(system)
     }
 

@@ -218,6 +218,12 @@ impl Coupling {
             let segments = contact.segment_owners(scene);
             owners.extend((0..contact.multipliers.count()).map(|i| segments[contact.multipliers.segment_of(i)]));
         }
+        for contact in contacts {
+            if gap[contact.range()].iter().any(|value| !value.is_finite()) {
+                let words = "its gap has no finite value somewhere on the contact boundary; correct the formula";
+                return Err(SystemError::Case(format!("contact.{}.gap: {words}", contact.pair.name)));
+            }
+        }
         Ok(Self { rows, gap, owners })
     }
 }

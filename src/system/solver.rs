@@ -5,18 +5,20 @@
 //! below one smoothing step, on the P1 space of the same triangles).
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override.
 
-use super::{Contact, Discretisation, Form, SaddlePoint, SchurPattern, SolverChoice, SystemError, interpolation};
+use super::{Discretisation, Form, SaddlePoint, SchurPattern, SolverChoice, SystemError, interpolation};
 use crate::petsc::{Krylov, Level, Matrix, Session, Vector, options};
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
 
+/// Relative residual above which rounding is no excuse.
+const MOST_ROUNDING: f64 = 1e-6;
+
+/// Rows up to which the coarsest level is factorised by all ranks together.
+const LARGE: usize = 50_000;
+
 /// Unknowns up to which the coarsest level is factorised on every rank.
 const SMALL: usize = 3000;
-
-/// Accuracy and length of the solve that shows the inf-sup constant.
-const INF_SUP_TOLERANCE: f64 = 1e-5;
-const INF_SUP_ITERATIONS: usize = 40;
 
 /// A solver, ready for one system.
 pub struct LinearSolver {
@@ -87,7 +89,6 @@ impl LinearSolver {
             options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
-        krylov.keep_eigenvalues()?;
         krylov.set_operators(&system.nest, &system.nest)?;
         let [u, lambda] = system.nest.nest_index_sets()?;
         let preconditioner = krylov.preconditioner();
@@ -103,7 +104,10 @@ impl LinearSolver {
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;
         }
-        let name = format!("fieldsplit ({})", coarse.words(multigrid));
+        let name = match preconditioner.field_split_solvers()?[0].preconditioner().kind().as_str() {
+            "mg" | "hypre" => format!("fieldsplit ({})", coarse.words(multigrid)),
+            other => format!("fieldsplit ({other})"),
+        };
         Ok(Self { krylov, session: session.clone(), form: Form::Augmented, converted: None, name })
     }
 
@@ -112,6 +116,7 @@ impl LinearSolver {
             ("-ksp_type", "gmres"),
             ("-ksp_pc_side", "right"),
             ("-ksp_norm_type", "unpreconditioned"),
+            ("-ksp_divtol", "1e30"),
             ("-pc_type", "cholesky"),
             ("-pc_factor_mat_solver_type", "mumps"),
         ] {
@@ -154,6 +159,10 @@ impl LinearSolver {
         self.krylov.set_initial_guess_nonzero(true)?;
         self.krylov.set_tolerance(tolerance, MOST_ITERATIONS)?;
         let mut r = b.duplicate()?;
+        system.nest.residual(b, x, &mut r)?;
+        if r.norm()? > norm {
+            x.set(0.0)?;
+        }
         let (mut iterations, mut before) = (0, f64::INFINITY);
         loop {
             let solved = self.krylov.solve_allowing(b, x)?;
@@ -166,7 +175,7 @@ impl LinearSolver {
             let falls = residual < 0.5 * before;
             if !falls || iterations >= MOST_ITERATIONS {
                 let floor = self.rounding(system, x, norm)?;
-                let ending = if residual <= floor {
+                let ending = if residual <= floor.min(MOST_ROUNDING) {
                     Ending::Rounding(format!(
                         "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
                     ))
@@ -178,31 +187,6 @@ impl LinearSolver {
             }
             before = residual;
         }
-    }
-
-    /// Discrete inf-sup constant of one contact, `β² = g / (α (1 - g))` with `g` the smallest eigenvalue of
-    /// `D (B K_γ⁻¹ Bᵀ)` over the active multipliers: the preconditioned system has no other eigenvalues but 1, so the
-    /// Ritz values of one solve with an erratic right-hand side on the contact's own multipliers show it. Nothing for
-    /// the direct solver, and beside a jump term, which makes up for a small one. **Collective**
-    pub fn inf_sup(&self, system: &SaddlePoint, contact: &Contact, active: &[bool]) -> Result<Option<f64>, SystemError> {
-        let own = contact.range();
-        if self.form == Form::Plain || !contact.jumps.is_empty() || !own.clone().any(|i| active[i]) {
-            return Ok(None);
-        }
-        let (mut x, mut b) = system.nest.create_vectors()?;
-        let unknowns = b.local_len() - system.multipliers.own.len();
-        for (at, &i) in system.multipliers.own.iter().enumerate().filter(|(_, i)| own.contains(i) && active[**i]) {
-            // A fixed erratic sequence, the same for every number of ranks.
-            b.values_mut()[unknowns + at] = (12.9898 * (i + 1) as f64).sin().mul_add(43758.5453, 0.5).rem_euclid(1.0) - 0.5;
-        }
-        self.krylov.set_initial_guess_nonzero(false)?;
-        self.krylov.set_tolerance(INF_SUP_TOLERANCE, INF_SUP_ITERATIONS)?;
-        let solved = self.krylov.solve_allowing(&b, &mut x)?;
-        let ritz = self.krylov.eigenvalues(solved.iterations)?;
-        Ok(ritz.first().map(|g| {
-            let g = g.clamp(0.0, 1.0 - 1e-12);
-            (g / (contact.multipliers.alpha * (1.0 - g))).sqrt()
-        }))
     }
 
     /// Size that rounding alone can give the relative residual: `10 ε |K| |x| / |b|`.
@@ -221,6 +205,8 @@ const FIELD_SPLIT: Options = &[
     ("-ksp_pc_side", "right"),
     ("-ksp_gmres_restart", "60"),
     ("-ksp_norm_type", "unpreconditioned"),
+    // A start from another active set may be far off.
+    ("-ksp_divtol", "1e30"),
     ("-pc_type", "fieldsplit"),
     ("-fieldsplit_u_ksp_type", "preonly"),
     ("-fieldsplit_lambda_ksp_type", "preonly"),
@@ -259,7 +245,7 @@ impl CoarseSolver {
             (_, 1, _) => Self::Algebraic,
             (..=SMALL, _, 1) => Self::Alone,
             (..=SMALL, ..) => Self::Redundant,
-            (_, 2, _) => Self::Algebraic,
+            (LARGE.., ..) | (_, 2, _) => Self::Algebraic,
             _ => Self::Shared,
         }
     }

@@ -1,5 +1,6 @@
 //! Energies, reactions, and the balances of forces, moments and energy.
 
+use super::agreed;
 use crate::body::MacroStiffness;
 use crate::contact::Side;
 use crate::geometry::{Point, cross};
@@ -124,7 +125,7 @@ fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) ->
     let n = space.numbering.level.intervals;
     let mut strain = vec![0.0; scene.bodies.len()];
     let mut forces = Field::<2>::zeros(problem, session);
-    for &triangle in scene.partition.triangles_of(session.rank()) {
+    let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
         let body = scene.mesh.triangles[triangle as usize].body as usize;
         let stiffness = MacroStiffness::new(&scene.mesh, triangle as usize, space.numbering.level, &laws[body])?;
         let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
@@ -141,7 +142,9 @@ fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) ->
             sum[0] += force.x;
             sum[1] += force.y;
         }
-    }
+        Ok::<(), SystemError>(())
+    });
+    agreed(session, added)?;
     Ok((strain, forces.sum(session)?))
 }
 

@@ -1,6 +1,6 @@
 //! Error of the stress in the energy norm, against formulas.
 
-use super::nodal;
+use super::{agreed, nodal};
 use crate::body::positions;
 use crate::element::{Order, PlaneStrain, jacobian, shape, stress};
 use crate::geometry::{Formula, Point};
@@ -25,14 +25,15 @@ pub fn energy_error(
 ) -> Result<[f64; 2], SystemError> {
     let law = problem.scene.laws()[body];
     let mut sums = [0.0; 2];
-    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
-        if problem.scene.mesh.triangles[triangle as usize].body as usize == body {
-            match problem.finest().numbering.level.order {
-                Order::P1 => add::<3>(problem, u, triangle as usize, &law, exact, &mut sums)?,
-                Order::P2 => add::<6>(problem, u, triangle as usize, &law, exact, &mut sums)?,
-            }
-        }
-    }
+    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
+    let added =
+        own.filter(|&triangle| problem.scene.mesh.triangles[triangle].body as usize == body).try_for_each(
+            |triangle| match problem.finest().numbering.level.order {
+                Order::P1 => add::<3>(problem, u, triangle, &law, exact, &mut sums),
+                Order::P2 => add::<6>(problem, u, triangle, &law, exact, &mut sums),
+            },
+        );
+    agreed(session, added)?;
     session.sum(&mut sums);
     Ok(sums)
 }

@@ -14,12 +14,18 @@ pub use probe::{Probed, probe};
 pub use stress::nodal_stress;
 pub use traces::{TracePoint, trace_points};
 
-use super::{Discretisation, Field};
+use super::{Discretisation, Field, SystemError};
 use crate::geometry::Point;
 use crate::mesh::lattice::Triangle;
+use crate::petsc::Session;
 
 /// Displacements at the nodes of one triangle of a macro triangle's lattice.
 fn nodal<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: usize, small: &Triangle) -> [Point; N] {
     let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
     small.nodes::<N>().map(|(i, j)| u.point(numbers.node(i, j)))
+}
+
+/// A result on which all ranks agree: an inverted triangle on one of them is an error of all. **Collective**
+fn agreed<T>(session: &Session, outcome: Result<T, SystemError>) -> Result<T, SystemError> {
+    session.agree(outcome).map_err(SystemError::Case)
 }

@@ -1,6 +1,6 @@
 //! Displacement and stress at a point of a body.
 
-use super::nodal;
+use super::{agreed, nodal};
 use crate::body::positions;
 use crate::element::{Order, PlaneStrain, shape, stress};
 use crate::geometry::Point;
@@ -31,18 +31,20 @@ pub fn probe(
 ) -> Result<Option<Probed>, SystemError> {
     let law = problem.scene.laws()[body];
     let mut sums = [0.0; 7];
-    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
+    let added = problem.scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
         let triangle = triangle as usize;
         if problem.scene.mesh.triangles[triangle].body as usize != body {
-            continue;
+            return Ok(());
         }
-        let Some(at) = problem.scene.mesh.locate(triangle, x) else { continue };
+        let Some(at) = problem.scene.mesh.locate(triangle, x) else { return Ok(()) };
         let values = match problem.finest().numbering.level.order {
             Order::P1 => values_at::<3>(problem, u, triangle, at, &law)?,
             Order::P2 => values_at::<6>(problem, u, triangle, at, &law)?,
         };
         values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
-    }
+        Ok::<(), SystemError>(())
+    });
+    agreed(session, added)?;
     session.sum(&mut sums);
     let mean = sums.map(|sum| sum / sums[6]);
     Ok((sums[6] > 0.0)

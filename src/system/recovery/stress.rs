@@ -1,6 +1,6 @@
 //! Stress at the nodes.
 
-use super::nodal;
+use super::{agreed, nodal};
 use crate::body::positions;
 use crate::element::{Order, PlaneStrain, jacobian, stress};
 use crate::mesh::lattice;
@@ -14,13 +14,15 @@ use crate::system::{Discretisation, Field, SystemError};
 pub fn nodal_stress(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Field<5>, SystemError> {
     let laws = problem.scene.laws();
     let mut sums = Field::<5>::zeros(problem, session);
-    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
+    let own = problem.scene.partition.triangles_of(session.rank());
+    let added = own.iter().try_for_each(|&triangle| {
         let law = &laws[problem.scene.mesh.triangles[triangle as usize].body as usize];
         match problem.finest().numbering.level.order {
-            Order::P1 => add::<3>(problem, u, triangle as usize, law, &mut sums)?,
-            Order::P2 => add::<6>(problem, u, triangle as usize, law, &mut sums)?,
+            Order::P1 => add::<3>(problem, u, triangle as usize, law, &mut sums),
+            Order::P2 => add::<6>(problem, u, triangle as usize, law, &mut sums),
         }
-    }
+    });
+    agreed(session, added)?;
     let mut sums = sums.sum(session)?;
     for &triangle in problem.scene.partition.triangles_of(session.rank()) {
         let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle as usize);

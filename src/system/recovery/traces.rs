@@ -1,6 +1,6 @@
 //! Both bodies' traces along Γ_C.
 
-use super::nodal;
+use super::{agreed, nodal};
 use crate::body::positions;
 use crate::contact::{pieces, trace};
 use crate::element::{Order, PlaneStrain, stress};
@@ -59,7 +59,7 @@ pub fn trace_points(
     let mut sums = vec![[0.0; 8]; parameters.len()];
     let tolerance = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
     let laws = problem.scene.laws();
-    for k in 0..2 {
+    let mut add = |k: usize| -> Result<(), SystemError> {
         for piece in &own[k] {
             let [from, to] = piece.range;
             let first = parameters.partition_point(|&t| t < from - tolerance);
@@ -71,7 +71,10 @@ pub fn trace_points(
                 values.iter().enumerate().for_each(|(i, value)| sums[at][4 * k + 1 + i] += value);
             }
         }
-    }
+        Ok(())
+    };
+    let added = add(0).and_then(|()| add(1));
+    agreed(session, added)?;
     session.sum(sums.as_flattened_mut());
     let knots = contact.boundary.knots();
     let point = |(at, &t): (usize, &f64)| {

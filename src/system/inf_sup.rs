@@ -1,0 +1,67 @@
+//! The discrete inf-sup constant of a contact.
+
+use super::{Contact, SaddlePoint, SystemError};
+use crate::petsc::{Krylov, Session, options};
+
+/// Accuracy and length of the solve that shows the constant.
+const TOLERANCE: f64 = 1e-6;
+const MOST_ITERATIONS: usize = 60;
+
+/// Above this eigenvalue the constant is so large that the figure would be rounding.
+const MOST_EIGENVALUE: f64 = 0.9999;
+
+/// Own options: the recipe of the solver, with a factor of `K + BᵀDB` for the displacements.
+const OPTIONS: [(&str, &str); 9] = [
+    ("-inf_sup_ksp_type", "gmres"),
+    ("-inf_sup_ksp_pc_side", "right"),
+    ("-inf_sup_ksp_gmres_restart", "60"),
+    ("-inf_sup_ksp_norm_type", "unpreconditioned"),
+    ("-inf_sup_fieldsplit_u_ksp_type", "preonly"),
+    ("-inf_sup_fieldsplit_u_pc_type", "cholesky"),
+    ("-inf_sup_fieldsplit_u_pc_factor_mat_solver_type", "mumps"),
+    ("-inf_sup_fieldsplit_lambda_ksp_type", "preonly"),
+    ("-inf_sup_fieldsplit_lambda_pc_type", "redundant"),
+];
+
+/// Discrete inf-sup constants, `β² = g / (α (1 - g))` with `g` the smallest eigenvalue of `D (B K_γ⁻¹ Bᵀ)` over the
+/// active multipliers of the contact. With an exact `K_γ⁻¹` the preconditioned system has no other eigenvalues but 1,
+/// so the Ritz values of one solve with an erratic right-hand side on those multipliers show it. The cost is a
+/// factorisation of `K_γ`. Nothing beside a jump term, which makes up for a small constant. **Collective**
+///
+/// # Errors
+/// PETSc's own.
+pub fn inf_sup(
+    system: &SaddlePoint,
+    contacts: &[Contact],
+    active: &[bool],
+    session: &Session,
+) -> Result<Vec<Option<f64>>, SystemError> {
+    for (name, value) in OPTIONS {
+        options::set_default(session, name, value)?;
+    }
+    let krylov = Krylov::new(session, "inf_sup_")?;
+    krylov.keep_eigenvalues()?;
+    krylov.set_operators(&system.nest, &system.nest)?;
+    let [u, lambda] = system.nest.nest_index_sets()?;
+    krylov.preconditioner().field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
+    krylov.set_from_options()?;
+    krylov.set_tolerance(TOLERANCE, MOST_ITERATIONS)?;
+    contacts.iter().map(|contact| of_contact(&krylov, system, contact, active)).collect()
+}
+
+fn of_contact(krylov: &Krylov, system: &SaddlePoint, contact: &Contact, active: &[bool]) -> Result<Option<f64>, SystemError> {
+    if !contact.jumps.is_empty() || !contact.range().any(|i| active[i]) {
+        return Ok(None);
+    }
+    let (mut x, mut b) = system.nest.create_vectors()?;
+    let unknowns = b.local_len() - system.multipliers.own.len();
+    let own = system.multipliers.own.iter().enumerate();
+    for (at, &i) in own.filter(|(_, i)| contact.range().contains(i) && active[**i]) {
+        // A fixed erratic sequence, the same for every number of ranks.
+        b.values_mut()[unknowns + at] = (12.9898 * (i + 1) as f64).sin().mul_add(43758.5453, 0.5).rem_euclid(1.0) - 0.5;
+    }
+    let solved = krylov.solve_allowing(&b, &mut x)?;
+    let ritz = krylov.eigenvalues(solved.iterations)?;
+    let smallest = ritz.first().copied().filter(|g| *g < MOST_EIGENVALUE);
+    Ok(smallest.map(|g| (g.max(0.0) / (contact.multipliers.alpha * (1.0 - g))).sqrt()))
+}
