@@ -24,3 +24,4 @@ pub mod output;
 pub mod arguments;
 
 pub mod run;
+pub mod study;
