@@ -106,7 +106,11 @@ impl Execution {
         }
         let summary = read_summary(&result.join("summary.json"));
         let (status, reason) = match ending {
-            Ok(Some(ending)) => judge(ending, &summary, &String::from_utf8_lossy(&text)),
+            Ok(Some(ending)) => {
+                let (status, reason) = judge(ending, &summary, &String::from_utf8_lossy(&text));
+                let file = format!("{}: ", run.file.display());
+                (status, reason.strip_prefix(&file).unwrap_or(&reason).to_owned())
+            }
             Ok(None) => (Status::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout)),
             Err(error) => (Status::Failed, format!("cannot start {}: {error}", command.get_program().to_string_lossy())),
         };

@@ -3,12 +3,12 @@
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use serde_json::Value;
 
-use super::table::Table;
+use super::table::{Column, Kind, Table};
 
 /// Comma-separated values: names of the columns, then one line per run. What is not known is empty.
 pub fn csv(table: &Table) -> String {
     let line = |cells: Vec<String>| cells.join(",") + "\n";
-    let header = line(table.columns.iter().map(|name| quote(name)).collect());
+    let header = line(table.columns.iter().map(|column| quote(&column.name)).collect());
     let rows = table.rows.iter().map(|row| line(row.iter().map(|value| quote(&plain(value))).collect()));
     header + &rows.collect::<String>()
 }
@@ -18,22 +18,24 @@ pub fn json(table: &Table) -> String {
     serde_json::to_string_pretty(table).expect("a table of JSON values is JSON") + "\n"
 }
 
-/// A page to read: numbers to four digits, no column that is empty, reasons at the end and of bad runs only.
+/// A page to read: main columns that are not empty, results to four digits, reasons at the end and of bad runs only.
 pub fn markdown(table: &Table) -> String {
-    let at = |name: &str| table.columns.iter().position(|column| column == name).expect("a column of every table");
+    let at = |name: &str| table.columns.iter().position(|column| column.name == name).expect("a column of every table");
     let (status, reason) = (at("status"), at("reason"));
     let cell = |row: &[Value], column: usize| match row[status].as_str() {
         Some("converged") if column == reason => String::new(),
+        _ if table.columns[column].kind == Kind::Given => escape(&plain(&row[column])),
         _ => escape(&rounded(&row[column])),
     };
     let order = (0..table.columns.len()).filter(|&column| column != reason).chain([reason]);
-    let shown: Vec<usize> = order.filter(|&column| table.rows.iter().any(|row| !cell(row, column).is_empty())).collect();
+    let main = order.filter(|&column| table.columns[column].kind != Kind::Detail);
+    let shown: Vec<usize> = main.filter(|&column| table.rows.iter().any(|row| !cell(row, column).is_empty())).collect();
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-    let header = line(shown.iter().map(|&column| escape(&table.columns[column])).collect());
+    let header = line(shown.iter().map(|&column| escape(&table.columns[column].name)).collect());
     let rows = table.rows.iter().map(|row| line(shown.iter().map(|&column| cell(row, column)).collect()));
     let error = table.error.as_ref().map_or(String::new(), |path| format!(" The column error is `{path}`."));
     format!(
-        "# Study {}\n\n{} runs, {} converged; mezha {}.{error} All digits stand in study.csv and study.json.\n\n{header}|{}\n{}",
+        "# Study {}\n\n{} runs, {} converged; mezha {}.{error} All columns and digits stand in study.csv and study.json.\n\n{header}|{}\n{}",
         table.study,
         table.rows.len(),
         table.converged,
@@ -50,7 +52,7 @@ impl Serialize for Table {
         object.serialize_field("mezha", env!("CARGO_PKG_VERSION"))?;
         object.serialize_field("study", &self.study)?;
         object.serialize_field("error", &self.error)?;
-        object.serialize_field("columns", &self.columns)?;
+        object.serialize_field("columns", &self.columns.iter().map(|column| &column.name).collect::<Vec<_>>())?;
         object.serialize_field("rows", &rows)?;
         object.end()
     }
@@ -58,13 +60,13 @@ impl Serialize for Table {
 
 /// A row that keeps the order of the columns.
 struct Row<'a> {
-    columns: &'a [String],
+    columns: &'a [Column],
     cells: &'a [Value],
 }
 
 impl Serialize for Row<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.columns.iter().zip(self.cells))
+        serializer.collect_map(self.columns.iter().map(|column| &column.name).zip(self.cells))
     }
 }
 
@@ -112,10 +114,19 @@ mod tests {
         Table {
             study: "hard".into(),
             error: Some("errors.energy".into()),
-            columns: ["case", "status", "reason", "error", "contact.\"a,b\".trust"].map(String::from).to_vec(),
+            columns: [
+                ("case", Kind::Given),
+                ("status", Kind::Main),
+                ("reason", Kind::Main),
+                ("error", Kind::Main),
+                ("contact.\"a,b\".trust", Kind::Main),
+                ("wall_s", Kind::Detail),
+            ]
+            .map(|(name, kind)| Column::new(name, kind))
+            .to_vec(),
             rows: vec![
-                row(json!(["bars", "converged", "residual", 0.1 + 0.2, null])),
-                row(json!(["bars, \"bent\"", "failed", "a | b\nc", null, null])),
+                row(json!(["bars", "converged", "residual", 0.1 + 0.2, null, 1.5])),
+                row(json!(["bars, \"bent\"", "failed", "a | b\nc", null, null, 2.5])),
             ],
             converged: 1,
         }
@@ -124,9 +135,9 @@ mod tests {
     #[test]
     fn csv_is_quoted_and_exact() {
         let expected = concat!(
-            "case,status,reason,error,\"contact.\"\"a,b\"\".trust\"\n",
-            "bars,converged,residual,0.30000000000000004,\n",
-            "\"bars, \"\"bent\"\"\",failed,\"a | b\nc\",,\n"
+            "case,status,reason,error,\"contact.\"\"a,b\"\".trust\",wall_s\n",
+            "bars,converged,residual,0.30000000000000004,,1.5\n",
+            "\"bars, \"\"bent\"\"\",failed,\"a | b\nc\",,,2.5\n"
         );
         assert_eq!(csv(&table()), expected);
     }
@@ -160,7 +171,6 @@ mod tests {
     fn numbers_for_people_have_four_digits() {
         let table = [
             (json!(1234.56), "1235"),
-            (json!(9.99999), "10.0000"),
             (json!(1.0), "1.000"),
             (json!(-0.012345), "-0.01235"),
             (json!(1e-9), "1.000e-9"),

@@ -18,41 +18,82 @@ pub struct Table {
     pub study: String,
     /// Where the error axis stands in `summary.json`.
     pub error: Option<String>,
-    /// Names of the columns.
-    pub columns: Vec<String>,
+    /// What the values of a row are.
+    pub columns: Vec<Column>,
     /// As many values as columns each.
     pub rows: Vec<Vec<Value>>,
     /// Number of runs that converged.
     pub converged: usize,
 }
 
+/// A column of the table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its name: a word, a key of the case, or a place in `summary.json`.
+    pub name: String,
+    /// What it is for a reader.
+    pub kind: Kind,
+}
+
+/// What a column is for a reader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// What the study has asked for, in its own words.
+    Given,
+    /// A result that everybody wants to see.
+    Main,
+    /// A result for programs, and for those who look closer.
+    Detail,
+}
+
+impl Column {
+    /// A column of this name.
+    pub fn new(name: &str, kind: Kind) -> Self {
+        Self { name: name.into(), kind }
+    }
+}
+
 impl Table {
     /// Puts the results of all runs side by side, in the order of the plan.
     pub fn new(plan: &Plan, results: &[Ended]) -> Self {
-        let mut columns: Vec<String> = ["case", "curve", "ranks", "repeat"].map(String::from).to_vec();
-        columns.extend(plan.keys.iter().cloned());
-        columns.extend(
-            ["status", "reason", "unknowns", "multipliers", "krylov_iterations", "outer_iterations", "wall_s", "error"]
-                .map(String::from),
-        );
-        let paths = summary_columns(plan, results);
-        columns.extend(paths.iter().map(|path| path.text.clone()));
-        columns.push("result".into());
+        let places = places(plan, results);
         let row = |(planned, ended): (&PlannedRun, &Ended)| {
             let mut cells = of_plan(planned);
             cells.extend(of_result(plan, ended));
-            cells.extend(paths.iter().map(|path| path.of(&ended.summary)));
+            cells.extend(places.iter().map(|(place, _)| place.of(&ended.summary)));
             cells.push(text(&ended.result));
             cells
         };
         Self {
             study: plan.name.clone(),
             error: plan.error.as_ref().map(|path| path.text.clone()),
-            columns,
+            columns: columns(plan, &places),
             rows: plan.runs.iter().zip(results).map(row).collect(),
             converged: results.iter().filter(|ended| ended.status == Status::Converged).count(),
         }
     }
+}
+
+/// All columns; in the order of [`of_plan`], [`of_result`], the places in `summary.json`, and the folder of the result.
+fn columns(plan: &Plan, places: &[(SummaryPath, Kind)]) -> Vec<Column> {
+    let repeated = plan.runs.iter().any(|run| run.repeat > 1);
+    let column = |&(name, kind): &(&str, Kind)| Column::new(name, kind);
+    let (given, main, detail) = (Kind::Given, Kind::Main, Kind::Detail);
+    let of_plan = [("case", given), ("curve", given), ("ranks", given), ("repeat", if repeated { given } else { detail })];
+    let of_result = [
+        ("status", main),
+        ("reason", main),
+        ("unknowns", main),
+        ("multipliers", main),
+        ("krylov_iterations", main),
+        ("outer_iterations", main),
+        ("wall_s", detail),
+        ("error", main),
+    ];
+    let keys = plan.keys.iter().map(|key| Column::new(key, given));
+    let places = places.iter().map(|(place, kind)| Column::new(&place.text, *kind));
+    let result = Column::new("result", detail);
+    of_plan.iter().map(column).chain(keys).chain(of_result.iter().map(column)).chain(places).chain([result]).collect()
 }
 
 /// What the study says of a run.
@@ -81,24 +122,28 @@ fn of_result(plan: &Plan, ended: &Ended) -> [Value; 8] {
 
 /// Places in `summary.json` that have a column: those that every study has, errors, balances and contacts that any of the
 /// results has, and those that the study asks for.
-fn summary_columns(plan: &Plan, results: &[Ended]) -> Vec<SummaryPath> {
-    let mut paths: Vec<SummaryPath> =
-        [["time_s", "solve"], ["time_s", "total"], ["memory_mib", "max_rank"], ["memory_mib", "sum"], ["energy", "U"]]
-            .iter()
-            .map(|names| SummaryPath::new(names))
-            .collect();
+fn places(plan: &Plan, results: &[Ended]) -> Vec<(SummaryPath, Kind)> {
+    let (main, detail) = (Kind::Main, Kind::Detail);
+    let mut places = vec![
+        (SummaryPath::new(&["time_s", "solve"]), main),
+        (SummaryPath::new(&["time_s", "total"]), main),
+        (SummaryPath::new(&["memory_mib", "max_rank"]), detail),
+        (SummaryPath::new(&["memory_mib", "sum"]), detail),
+        (SummaryPath::new(&["energy", "U"]), detail),
+    ];
     for table in ["errors", "balance"] {
-        paths.extend(names(results, table).iter().map(|name| SummaryPath::new(&[table, name])));
+        places.extend(names(results, table).iter().map(|name| (SummaryPath::new(&[table, name]), detail)));
     }
     for contact in names(results, "contact") {
-        paths.extend(CONTACT.map(|figure| SummaryPath::new(&["contact", contact, figure])));
+        places.extend(CONTACT.map(|figure| (SummaryPath::new(&["contact", contact, figure]), main)));
     }
     for path in &plan.columns {
-        if !paths.contains(path) {
-            paths.push(path.clone());
+        match places.iter_mut().find(|(place, _)| place == path) {
+            Some((_, kind)) => *kind = main,
+            None => places.push((path.clone(), main)),
         }
     }
-    paths
+    places
 }
 
 /// Names that any result has in a table of its summary.

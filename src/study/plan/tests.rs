@@ -143,7 +143,7 @@ fn errors_name_key_value_and_remedy() {
             "curve.1.set.\"mesh.ordr\": unknown key; did you mean \"order\"?",
         ),
         ("CASES\n[[curve]]\nname = 'a'\n[[curve]]\nname = 'a'", "curve.2.name: \"a\" is another curve's name"),
-        ("CASES\n[[curve]]\nname = 'a'\ncases = ['bars.toml']", "\"bars.toml\" does not stand in cases"),
+        ("CASES\n[[curve]]\nname = 'a'\ncases = ['rings.toml', 'bars.toml']", "\"bars.toml\" does not stand in cases"),
         (
             "CASES\ngrid.'mesh.order' = [1]\n[[curve]]\nname = 'a'\nset = { 'mesh.order' = 1 }",
             "is also set by grid.\"mesh.order\"; a key moves in one place",
@@ -167,4 +167,16 @@ fn a_case_that_no_curve_is_drawn_for_has_no_runs_and_is_told() {
 fn a_file_that_is_not_there_is_told() {
     let words = Plan::read(Path::new("nowhere/study.toml")).unwrap_err().to_string();
     assert!(words.contains("cannot be read") && words.contains("path of a study file"), "{words}");
+}
+
+#[test]
+fn the_example_of_the_documentation_is_a_study() {
+    let page = include_str!("../../../docs/studies.md");
+    let example = page.split("```toml").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("study.toml");
+    let plan = Plan::parse(example, &file).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(plan.runs.len(), 2 * 3 * 2 * 2 * 3);
+    for run in &plan.runs {
+        Case::read(&run.file, &run.overrides).unwrap_or_else(|error| panic!("{error}"));
+    }
 }

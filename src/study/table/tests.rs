@@ -44,7 +44,8 @@ fn summary() -> Value {
 }
 
 fn cell(table: &Table, row: usize, column: &str) -> Value {
-    let at = table.columns.iter().position(|name| name == column).unwrap_or_else(|| panic!("{column}: {:?}", table.columns));
+    let at =
+        table.columns.iter().position(|other| other.name == column).unwrap_or_else(|| panic!("{column}: {:?}", table.columns));
     table.rows[row][at].clone()
 }
 
@@ -89,7 +90,7 @@ fn a_run_without_a_result_has_its_plan_and_its_reason() {
     let table = Table::new(&plan(), &[ended(Status::Converged, summary()), ended(Status::Timeout, Value::Null)]);
     let known = ["case", "curve", "ranks", "repeat", "mesh.refine", "status", "reason", "wall_s"];
     for (column, value) in table.columns.iter().zip(&table.rows[1]) {
-        assert_eq!(value.is_null(), !known.contains(&column.as_str()), "{column}");
+        assert_eq!(value.is_null(), !known.contains(&column.name.as_str()), "{column:?}");
     }
     assert_eq!(cell(&table, 1, "status"), json!("timeout"));
     assert_eq!(cell(&table, 1, "mesh.refine"), json!(2));
@@ -98,7 +99,7 @@ fn a_run_without_a_result_has_its_plan_and_its_reason() {
 #[test]
 fn every_column_stands_once_and_every_row_is_whole() {
     let table = Table::new(&plan(), &[ended(Status::Converged, summary()), ended(Status::Failed, Value::Null)]);
-    let mut columns = table.columns.clone();
+    let mut columns: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
     columns.sort();
     columns.dedup();
     assert_eq!(columns.len(), table.columns.len());
