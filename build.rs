@@ -26,7 +26,7 @@ const FUNCTIONS: &[&str] = &[
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",
     "KSP(SetInitialGuessNonzero|Solve|GetConvergedReason|GetConvergedReasonString|GetIterationNumber|GetResidualNorm)",
-    "KSP(SetResidualHistory|GetResidualHistory)",
+    "KSP(SetResidualHistory|GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
     "PC(Destroy|SetType|GetType|SetFromOptions|SetUp|SetReusePreconditioner|GetOptionsPrefix|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
     "PCMG(SetLevels|SetType|SetInterpolation|GetSmoother)",

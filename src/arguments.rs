@@ -43,7 +43,7 @@ pub struct Run {
     /// The case.
     #[command(flatten)]
     pub case: CaseArguments,
-    /// Folder of the results [default: out/<case name>]
+    /// Folder of the results; by default out/NAME, NAME the folder of the case
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Overwrite a folder that holds a result

@@ -49,7 +49,7 @@ fn run_case(arguments: &Run, started: Instant) -> i32 {
     match outcome {
         Ok(Outcome::Converged) => 0,
         Ok(Outcome::NotConverged) => 3,
-        Err(error @ RunError::Input(_)) => {
+        Err(error @ (RunError::Input(_) | RunError::Key(_))) => {
             let code = if session.rank() == 0 { print(&error) } else { 2 };
             session.barrier();
             code
@@ -107,7 +107,7 @@ fn info() -> i32 {
 fn print(error: &RunError) -> i32 {
     eprintln!("mezha: {error}");
     match error {
-        RunError::Input(_) => 2,
+        RunError::Input(_) | RunError::Key(_) => 2,
         RunError::Failed(_) => 1,
     }
 }

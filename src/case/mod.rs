@@ -89,6 +89,8 @@ pub struct Solver {
     pub choice: SolverChoice,
     /// Relative residual of the scaled augmented system, in (0, 0.01].
     pub tolerance: f64,
+    /// Whether the inf-sup constants are reported; by default where that is cheap.
+    pub inf_sup: Option<bool>,
 }
 
 /// A point whose displacement and stress are reported.

@@ -138,7 +138,12 @@ pub fn read_solver(root: &Section) -> Option<Solver> {
             _ => Err("must lie in (0, 0.01]; 1e-8 is the default".into()),
         },
     });
-    Some(Solver { choice: choice?, tolerance: tolerance? })
+    let inf_sup = section.or("inf_sup", "auto", |value| match value {
+        Value::String(word) if word == "auto" => Ok(None),
+        Value::Boolean(wanted) => Ok(Some(*wanted)),
+        other => Err(values::must_be("\"auto\", true or false", other)),
+    });
+    Some(Solver { choice: choice?, tolerance: tolerance?, inf_sup: inf_sup? })
 }
 
 /// `[probe.NAME]`

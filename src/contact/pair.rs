@@ -59,7 +59,8 @@ pub enum SegmentRule {
     Auto,
     /// So many of equal arc length.
     Count(usize),
-    /// At these fractions of the arc length, from 0 to 1, ascending.
+    /// At these fractions of the arc length, from 0 to 1, ascending; along the parameter of a geometry, along a line to
+    /// larger x (upwards if it is vertical).
     Fractions(Vec<f64>),
 }
 

@@ -35,11 +35,12 @@ pub fn place(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 
     let Some(&nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
     let towards = mesh.edge_normal(nearest, 0.5);
     let mut boundary = ContactBoundary::new(curve, range, towards);
-    boundary.cut(&fractions(mesh, numbering, pair, sides, young, &boundary));
+    boundary.cut(&fractions(mesh, numbering, pair, young, &boundary));
     Ok(boundary)
 }
 
-/// A straight line between two straight boundaries, over the extent that both have.
+/// A straight line between two straight boundaries, over the extent that both have. It runs to larger x, or upwards if
+/// it is vertical: given segments stay where they are, whichever body is named first and however the mesh is numbered.
 fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Curve, [f64; 2]), String> {
     let mut extents = [[0.0; 2]; 2];
     let mut offsets = [0.0; 2];
@@ -47,7 +48,9 @@ fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Cu
     for (side, edges) in sides.into_iter().enumerate() {
         let (a, b) = ends(mesh, edges);
         if side == 0 {
-            (origin, along) = (a, (b - a).normalize());
+            let towards = (b - a).normalize();
+            let falls = towards.x < -1e-9 || (towards.x <= 1e-9 && towards.y < 0.0);
+            (origin, along) = (a, if falls { -towards } else { towards });
         }
         let own = (b - a).normalize();
         if (own.dot(&along).abs() - 1.0).abs() > 1e-9 {
@@ -133,41 +136,62 @@ fn shared_geometry(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<
     }
 }
 
-fn fractions(
-    mesh: &MacroMesh,
-    numbering: &Numbering,
-    pair: &Pair,
-    sides: [&[u32]; 2],
-    young: [f64; 2],
-    boundary: &ContactBoundary,
-) -> Vec<f64> {
+fn fractions(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 2], boundary: &ContactBoundary) -> Vec<f64> {
     let equal = |count: usize| (0..=count).map(|k| k as f64 / count as f64).collect();
     match &pair.segments {
         SegmentRule::Fractions(fractions) => fractions.clone(),
         SegmentRule::Count(count) => equal(*count),
         SegmentRule::Auto => {
-            let edges =
-                sides.map(|edges| edges.iter().flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering)).collect::<Vec<_>>());
-            let ratio = safe_ratio(numbering.level.order, pair.space, matching(&edges));
-            let least = ratio * softer_edge_length(&edges, young);
-            equal(((boundary.length() / least * (1.0 + 1e-9)) as usize).max(1))
+            let edges = all_edges(mesh, numbering, pair);
+            let ratio = safe_ratio_of(numbering.level.order, pair.space, &edges);
+            let longest = softer_edges(boundary, &edges, young).map(|(_, length)| length).fold(0.0, f64::max);
+            equal(((boundary.length() / (ratio * longest) * (1.0 + 1e-9)) as usize).max(1))
         }
     }
 }
 
-/// Length of the longest interface edge of the softer body; of the longer edges where the moduli are within a factor 3.
-pub fn softer_edge_length(edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
-    let longest = [0, 1].map(|k| edges[k].iter().map(BoundaryEdge::length).fold(0.0, f64::max));
-    match young[0] / young[1] {
-        r if r < 1.0 / 3.0 => longest[0],
-        r if r > 3.0 => longest[1],
-        _ => longest[0].max(longest[1]),
-    }
+/// All element edges of a pair's two boundaries, at the level that is numbered.
+pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair) -> [Vec<BoundaryEdge>; 2] {
+    [0, 1].map(|k| {
+        let edges = mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+        edges.iter().flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering)).collect()
+    })
+}
+
+/// Edges that rule the segment length, as `(part of Γ_C that sees the edge, its length)`: those of the softer body, or
+/// of both where the moduli are within a factor 3. Edges beyond the ends of Γ_C are left out.
+fn softer_edges<'a>(
+    boundary: &'a ContactBoundary,
+    edges: &'a [Vec<BoundaryEdge>; 2],
+    young: [f64; 2],
+) -> impl Iterator<Item = ([f64; 2], f64)> + 'a {
+    let counts = [young[0] <= 3.0 * young[1], young[1] <= 3.0 * young[0]];
+    let ruling = edges.iter().zip(counts).filter(|(_, counts)| *counts).flat_map(|(edges, _)| edges);
+    let knots = boundary.knots();
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let least = 1e-9 * (last - first);
+    ruling.filter_map(move |edge| {
+        let feet = [boundary.foot(edge.points[0]), boundary.foot(edge.points[1])];
+        let part = [feet[0].min(feet[1]).max(first), feet[0].max(feet[1]).min(last)];
+        (part[1] - part[0] > least).then(|| (part, edge.length()))
+    })
+}
+
+/// Smallest ratio of a segment's length to the longest ruling edge that it meets.
+pub fn segment_ratio(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
+    let ruling: Vec<([f64; 2], f64)> = softer_edges(boundary, edges, young).collect();
+    let ratio = |(k, ends): (usize, &[f64])| {
+        let least = 1e-9 * (ends[1] - ends[0]);
+        let meets = |part: &[f64; 2]| part[1] > ends[0] + least && part[0] < ends[1] - least;
+        let longest = ruling.iter().filter(|(part, _)| meets(part)).map(|(_, length)| *length).fold(0.0, f64::max);
+        boundary.segment_length(k) / longest
+    };
+    boundary.knots().windows(2).enumerate().map(ratio).fold(f64::INFINITY, f64::min)
 }
 
 /// Smallest safe segment length, in edges of the softer body: the discrete inf-sup constant stays above 0.3 with some
 /// margin. P2 with discontinuous multipliers needs more where the meshes match.
-pub fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
+fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
     match (order, space) {
         (Order::P1, MultiplierSpace::P0) => 1.5,
         (Order::P1, MultiplierSpace::P1Continuous) => 1.25,
@@ -181,6 +205,11 @@ pub fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
         }
         (Order::P2, _) => 0.75,
     }
+}
+
+/// Smallest safe segment length of a pair on its meshes, in edges of the softer body.
+pub fn safe_ratio_of(order: Order, space: MultiplierSpace, edges: &[Vec<BoundaryEdge>; 2]) -> f64 {
+    safe_ratio(order, space, matching(edges))
 }
 
 /// Whether every edge end of body 2 coincides with one of body 1.

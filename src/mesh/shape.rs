@@ -2,7 +2,11 @@
 
 use super::{MacroMesh, MeshError};
 use crate::geometry::{Curve, Point};
+use nalgebra::Matrix2;
 use std::sync::Arc;
+
+/// Points so close to a macro triangle (barycentric) count as inside.
+const NEAR: f64 = 1e-8;
 
 /// The true shape of a macro edge: a piece of a curve.
 #[derive(Clone, Debug)]
@@ -97,6 +101,29 @@ impl MacroMesh {
             x += (shape.curve.point(shape.parameter(along)) - straight) * (a * b / (t * (1.0 - t)));
         }
         x
+    }
+
+    /// Reference coordinates `(xi, eta)` of a point in a macro triangle by Newton's method on its map; nothing if the
+    /// point lies outside.
+    pub fn locate(&self, triangle: usize, x: Point) -> Option<Point> {
+        let [a, b, c] = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
+        let size = (b - a).norm().max((c - a).norm()).max((c - b).norm());
+        if (x - (a + b + c) / 3.0).norm() > 1.5 * size {
+            return None;
+        }
+        let straight = Matrix2::from_columns(&[b - a, c - a]).try_inverse()?;
+        let mut at = straight * (x - a);
+        if self.is_curved(triangle) {
+            for _ in 0..30 {
+                let step = straight * (x - self.position(triangle, at.x, at.y));
+                at += step;
+                if step.norm() < 1e-14 {
+                    break;
+                }
+            }
+        }
+        let inside = at.x >= -NEAR && at.y >= -NEAR && at.x + at.y <= 1.0 + NEAR;
+        inside.then_some(at)
     }
 
     /// Position at the fraction `t` of a macro edge from its first vertex.

@@ -148,7 +148,6 @@ pub struct Energy {
     /// Strain energy by name of the body.
     pub strain: BTreeMap<String, Option<f64>>,
     /// Total strain energy U.
-    #[serde(rename = "U")]
     pub total: Option<f64>,
     /// f·u + r·u_D, without the factor one half.
     pub external_work: Option<f64>,
@@ -344,7 +343,7 @@ mod tests {
                 "/contact/seam",
                 "closed closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",
             ),
-            ("/energy", "U external_work strain"),
+            ("/energy", "external_work strain total"),
             ("/estimate", "energy seam"),
             ("/estimate/seam", "force lambda"),
             ("/balance", "bodies energy force moment"),
@@ -367,7 +366,7 @@ mod tests {
         summary.balance.force = Some(f64::INFINITY);
         summary.probe.insert("lost".into(), Probe { u: Some([f64::NAN, 1.0]), ..Probe::default() });
         let value = written(&summary);
-        for pointer in ["/energy/U", "/balance/force", "/balance/moment", "/probe/lost/u/0", "/probe/lost/x", "/reason"] {
+        for pointer in ["/energy/total", "/balance/force", "/balance/moment", "/probe/lost/u/0", "/probe/lost/x", "/reason"] {
             assert_eq!(value.pointer(pointer), Some(&Value::Null), "{pointer}");
         }
         let read: Summary = serde_json::from_value(value).unwrap();

@@ -121,6 +121,22 @@ impl Krylov {
         Ok(format!("{name} ({})", self.preconditioner().failure()?))
     }
 
+    /// Keeps what [`Krylov::eigenvalues`] needs; before the first solve. **Collective**
+    pub fn keep_eigenvalues(&self) -> Result<()> {
+        petsc!(KSPSetComputeEigenvalues(self.raw, ffi::PetscBool::PETSC_TRUE))
+    }
+
+    /// Real parts of the eigenvalues of the preconditioned system as the last solve has seen them (Ritz values),
+    /// ascending: one for each iteration since the last restart.
+    pub fn eigenvalues(&self, iterations: usize) -> Result<Vec<f64>> {
+        let (mut real, mut imaginary) = (vec![0.0; iterations], vec![0.0; iterations]);
+        let mut count = 0;
+        petsc!(KSPComputeEigenvalues(self.raw, length(iterations), real.as_mut_ptr(), imaginary.as_mut_ptr(), &mut count))?;
+        real.truncate(count as usize);
+        real.sort_by(f64::total_cmp);
+        Ok(real)
+    }
+
     /// Residual norms of the last solve: before it, and after each iteration.
     pub fn residual_history(&self) -> Vec<f64> {
         let (mut array, mut count) = (ptr::null(), 0);

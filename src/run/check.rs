@@ -12,6 +12,10 @@ use crate::system::{Contact, spaces};
 /// # Errors
 /// [`RunError::Input`] with words.
 pub fn check(case: &Case) -> Result<String, RunError> {
+    describe(case).map_err(|error| error.in_case(case))
+}
+
+fn describe(case: &Case) -> Result<String, RunError> {
     let mesh = scene::read_mesh(case).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);

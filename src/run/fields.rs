@@ -108,21 +108,19 @@ pub fn facets(problem: &Discretisation, u: &Field<2>, stress: &Field<5>, session
         let numbers = numbering.triangle(mesh, triangle as usize);
         for small in lattice::triangles(shown, Order::P1) {
             let corners = Triangle::nodes::<3>(&small).map(|(i, j)| (step * i, step * j));
-            let mut mean = 0.0;
             for (i, j) in corners {
                 let x = mesh.position(triangle as usize, i as f64 / n as f64, j as f64 / n as f64);
                 let node = numbers.node(i, j);
                 values.extend([x.x, x.y]);
                 values.extend(u.at(node));
-                mean += von_mises(first_four(stress.at(node))) / 3.0;
+                values.push(von_mises(first_four(stress.at(node))));
             }
-            values.push(mean);
         }
     }
     let facet = |v: &[f64]| Facet {
-        corners: [[v[0], v[1]], [v[4], v[5]], [v[8], v[9]]],
-        displacement: [[v[2], v[3]], [v[6], v[7]], [v[10], v[11]]],
-        von_mises: v[12],
+        corners: [[v[0], v[1]], [v[5], v[6]], [v[10], v[11]]],
+        displacement: [[v[2], v[3]], [v[7], v[8]], [v[12], v[13]]],
+        von_mises: [v[4], v[9], v[14]],
     };
-    session.gather_all(&values).chunks_exact(13).map(facet).collect()
+    session.gather_all(&values).chunks_exact(15).map(facet).collect()
 }

@@ -15,7 +15,7 @@ use crate::contact::ActiveSet;
 use crate::output::{OutputError, ResultFolder};
 use crate::petsc::{self, Session, Stage};
 use crate::system::{
-    ContactLoop, Discretisation, LinearSolver, OuterStep, SaddlePoint, Solution, SystemError, Verdict, bilateral, load,
+    Contact, ContactLoop, Discretisation, LinearSolver, OuterStep, SaddlePoint, Solution, SystemError, Verdict, bilateral, load,
     nodal_forces, spaces,
 };
 use report::Report;
@@ -37,15 +37,28 @@ pub enum RunError {
     /// The input cannot be used, on every rank alike: 2.
     #[error("{0}")]
     Input(String),
+    /// The same, in words that begin with a key; the caller puts the case file before them.
+    #[error("{0}")]
+    Key(String),
     /// PETSc, MPI or the disk failed, perhaps on this rank alone: 1.
     #[error("{0}")]
     Failed(String),
 }
 
+impl RunError {
+    /// With the case file before words that begin with a key.
+    fn in_case(self, case: &Case) -> Self {
+        match self {
+            Self::Key(words) => Self::Input(format!("{}: {words}", case.file.display())),
+            error => error,
+        }
+    }
+}
+
 impl From<SystemError> for RunError {
     fn from(error: SystemError) -> Self {
         match error {
-            SystemError::Case(words) => Self::Input(words),
+            SystemError::Case(words) => Self::Key(words),
             SystemError::Petsc(error) => Self::Failed(error.to_string()),
         }
     }
@@ -65,6 +78,9 @@ impl From<OutputError> for RunError {
         }
     }
 }
+
+/// Displacement unknowns up to which the inf-sup constants take less than a tenth of a run.
+const CHEAP_INF_SUP: usize = 10_000;
 
 /// Where results go and what is printed.
 #[derive(Clone, Debug)]
@@ -108,12 +124,17 @@ impl Stages {
 /// # Errors
 /// [`RunError`] if there is no result at all; nothing is left on the disk then.
 pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
+    start(case, options, session).map_err(|error| error.in_case(case))
+}
+
+fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
     let folder = claim_folder(options, session)?;
     let report = Report::new(options, session);
     let run = Run { case, options, session, stages: Stages::new(session)?, report };
     run.report.start(case);
     let problem = run.set_up()?;
     run.report.sizes(&problem);
+    run.report.warnings(&problem);
     let (solution, solver) = run.solve(&problem)?;
     run.write(&problem, &solution, &solver, folder)
 }
@@ -177,7 +198,13 @@ impl Run<'_> {
         }
         let _stage = self.stages.solve.enter();
         let report = |step: &OuterStep| self.report.step(step, problem.multiplier_count());
-        let solution = contact_loop.solve(&mut system, &mut solver, &mut set, self.case.solver.tolerance, report)?;
+        let mut solution = contact_loop.solve(&mut system, &mut solver, &mut set, self.case.solver.tolerance, report)?;
+        let failed = matches!(solution.verdict, Verdict::NotConverged(_));
+        let cheap = problem.unknown_count() <= CHEAP_INF_SUP;
+        if self.case.solver.inf_sup.unwrap_or(cheap || failed) {
+            let one = |contact: &Contact| solver.inf_sup(&system, contact.range(), &solution.active);
+            solution.inf_sup = problem.contacts.iter().map(one).collect::<Result<_, _>>()?;
+        }
         Ok((solution, solver.name))
     }
 }

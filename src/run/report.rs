@@ -2,13 +2,18 @@
 
 use super::{Outcome, RunOptions, Stages};
 use crate::case::Case;
+use crate::contact::{all_edges, safe_ratio_of, segment_ratio};
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
 use crate::system::{Discretisation, OuterStep};
+use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
+
+/// Poisson's ratio from which P1 triangles are too stiff.
+const LOCKING: f64 = 0.45;
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
 pub struct Report {
@@ -28,7 +33,8 @@ impl Report {
     /// Prints a line.
     pub fn say(&self, line: &str) {
         if self.speaks {
-            println!("{line}");
+            // A reader that has gone away is no reason to stop.
+            let _ = writeln!(std::io::stdout(), "{line}");
         }
     }
 
@@ -58,6 +64,42 @@ impl Report {
             ));
         }
         self.say("outer  active       +/-  Krylov  residual  penetration     du");
+    }
+
+    /// A line of warning on standard error, also if the run is quiet.
+    pub fn warn(&self, line: &str) {
+        if self.first {
+            eprintln!("mezha: warning: {line}");
+        }
+    }
+
+    /// What is known to spoil the result before it is computed.
+    pub fn warnings(&self, problem: &Discretisation) {
+        self.short_segments(problem);
+        for body in problem.scene.bodies.iter().filter(|body| body.material.poisson > LOCKING) {
+            if problem.scene.order == Order::P1 {
+                self.warn(&format!(
+                    "body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2",
+                    body.name, body.material.poisson
+                ));
+            }
+        }
+    }
+
+    /// Segments shorter than the safe rule.
+    fn short_segments(&self, problem: &Discretisation) {
+        for contact in &problem.contacts {
+            let edges = all_edges(&problem.scene.mesh, &problem.finest().numbering, &contact.pair);
+            let young = contact.bodies.map(|body| problem.scene.bodies[body].material.young);
+            let (found, safe) =
+                (segment_ratio(&contact.boundary, &edges, young), safe_ratio_of(problem.scene.order, contact.pair.space, &edges));
+            if found < 0.99 * safe {
+                self.warn(&format!(
+                    "contact {}: segments of {found:.2} edges of the softer body, {safe} or more are safe: watch inf_sup and oscillation",
+                    contact.pair.name
+                ));
+            }
+        }
     }
 
     /// A pass of the contact loop.

@@ -37,6 +37,13 @@ impl Run<'_> {
                 }
             }
             summary.errors = errors.values;
+            if let Some(words) = summarise::distrust(&summary) {
+                reason = match status {
+                    Status::Converged => format!("pressure unreliable: {words}"),
+                    Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
+                };
+                self.report.warn(&format!("pressure unreliable: {words}"));
+            }
         }
         summary.status = status;
         summary.reason = Some(reason.clone());
@@ -67,14 +74,7 @@ impl Run<'_> {
         }
         for point in &case.probes {
             let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
-            let Some(found) = probe(problem, &u, body, Point::new(point.point[0], point.point[1]), session)? else {
-                return Err(RunError::Input(format!(
-                    "{}: probe.{}.point lies outside body \"{}\"",
-                    case.file.display(),
-                    point.name,
-                    point.body
-                )));
-            };
+            let found = probe(problem, &u, body, Point::new(point.point[0], point.point[1]), session)?.expect("checked points");
             let [xx, yy, xy, _] = found.stress;
             let values = summary::Probe { x: Some(point.point), u: Some(found.displacement.into()), stress: Some([xx, yy, xy]) };
             summary.probe.insert(point.name.clone(), values);

@@ -3,7 +3,8 @@
 use super::RunError;
 use crate::case::Case;
 use crate::contact::{CurveChoice, GapChoice};
-use crate::mesh::{Graph, MacroMesh, Partition, read_gmsh};
+use crate::geometry::Point;
+use crate::mesh::{Graph, MacroMesh, MeshError, Partition, read_gmsh};
 use crate::petsc::{Session, partition};
 use crate::system::Scene;
 use std::rc::Rc;
@@ -13,7 +14,12 @@ use std::rc::Rc;
 /// # Errors
 /// Words with file, key, value and remedy.
 pub fn read_mesh(case: &Case) -> Result<MacroMesh, String> {
-    let mut mesh = read_gmsh(&case.mesh.file).map_err(|error| error.to_string())?;
+    let mut mesh = read_gmsh(&case.mesh.file).map_err(|error| match error {
+        MeshError::Unreadable { .. } => {
+            format!("{}: mesh.file: {error}; name a Gmsh 4.1 file by its path from the case file", case.file.display())
+        }
+        error => error.to_string(),
+    })?;
     let names = Names { case, mesh: &mesh };
     names.check_bodies()?;
     for (key, boundaries) in names.used() {
@@ -28,6 +34,7 @@ pub fn read_mesh(case: &Case) -> Result<MacroMesh, String> {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }
     check_gaps(case, &mesh)?;
+    check_points(case, &mesh)?;
     Ok(mesh)
 }
 
@@ -139,6 +146,23 @@ impl Names<'_> {
         }
         Ok(())
     }
+}
+
+/// Points of probes and of exact displacements lie in their bodies.
+fn check_points(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
+    let probes = case.probes.iter().map(|probe| (format!("probe.{}.point", probe.name), &probe.body, probe.point));
+    let exact = case.exact.bodies.iter().flat_map(|exact| {
+        let points = exact.displacement.iter().flat_map(|displacement| &displacement.at);
+        points.map(|&point| (format!("exact.body.{}.displacement.at", exact.name), &exact.name, point))
+    });
+    for (key, name, [x, y]) in probes.chain(exact) {
+        let own = |triangle: &usize| mesh.bodies[mesh.triangles[*triangle].body as usize] == *name;
+        let holds = |triangle: usize| mesh.locate(triangle, Point::new(x, y)).is_some();
+        if !(0..mesh.triangles.len()).filter(own).any(holds) {
+            return Err(format!("{}: {key} = [{x}, {y}]: lies outside body \"{name}\"; move it inside", case.file.display()));
+        }
+    }
+    Ok(())
 }
 
 /// A gap can be measured only from declared or straight boundaries.

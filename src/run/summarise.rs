@@ -1,10 +1,9 @@
 //! A solution in the terms of `summary.json`.
 
 use crate::case::Case;
-use crate::contact::{MultiplierSpace, softer_edge_length};
+use crate::contact::{MultiplierSpace, all_edges, oscillation, segment_ratio};
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::BoundaryEdge;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Balance, TracePoint};
@@ -87,26 +86,57 @@ pub fn contact(
     let closed = closed(contact, &solution.active[contact.range()]);
     let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
     let young = contact.bodies.map(|body| problem.scene.bodies[body].material.young);
-    let edges = [0, 1].map(|k| {
-        let edges = problem.scene.mesh.boundary(&contact.pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-        edges.iter().flat_map(|&edge| BoundaryEdge::all_of(&problem.scene.mesh, edge, &problem.finest().numbering)).collect()
-    });
-    let shortest = (0..boundary.segments()).map(|k| boundary.segment_length(k)).fold(f64::INFINITY, f64::min);
+    let ratio = segment_ratio(boundary, &all_edges(&problem.scene.mesh, &problem.finest().numbering, &contact.pair), young);
+    let lambda = &solution.multipliers[contact.range()];
+    let oscillation = oscillation(boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
+    let inf_sup = solution.inf_sup.get(at).copied().flatten();
     summary::Contact {
         length: Some(boundary.length()),
         segments: Some(boundary.segments()),
         multiplier: Some(space_name(contact.pair.space).into()),
-        h_ratio: Some(shortest / softer_edge_length(&edges, young)),
+        h_ratio: Some(ratio),
         ends: Some([pair(boundary.point(knots[0])), pair(boundary.point(knots[knots.len() - 1]))]),
         closed_points: Some(closed.iter().map(|&[a, b]| [end(a), end(b)]).collect()),
         closed: Some(closed),
         force: Some(force.force),
         resultant: Some(pair(force.resultants[1])),
         moment: Some(force.moments[1]),
-        pressure_max: Some(solution.multipliers[contact.range()].iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+        pressure_max: Some(lambda.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+        oscillation,
+        inf_sup,
+        trust: trust(inf_sup, oscillation),
         lost_points: Some(points.iter().filter(|point| !point.is_complete()).count()),
-        ..Default::default()
     }
+}
+
+/// A contact whose inf-sup constant is below this has pressures that its displacements do not control.
+pub const LEAST_INF_SUP: f64 = 0.1;
+
+/// A pressure with more alternation than this is not one.
+pub const MOST_OSCILLATION: f64 = 0.05;
+
+/// Whether a pressure can be trusted, as far as there are figures.
+fn trust(inf_sup: Option<f64>, oscillation: Option<f64>) -> Option<bool> {
+    let stable = inf_sup.map(|beta| beta >= LEAST_INF_SUP);
+    let smooth = oscillation.map(|share| share <= MOST_OSCILLATION);
+    match (stable, smooth) {
+        (None, None) => None,
+        (stable, smooth) => Some(stable.unwrap_or(true) && smooth.unwrap_or(true)),
+    }
+}
+
+/// Why the pressures of some contacts cannot be trusted, and what to do; nothing if all can.
+pub fn distrust(summary: &Summary) -> Option<String> {
+    let words = |(name, contact): (&String, &summary::Contact)| {
+        let figures = [
+            contact.inf_sup.map(|beta| format!("inf-sup constant {beta:.3}, at least {LEAST_INF_SUP} wanted")),
+            contact.oscillation.map(|share| format!("oscillation {share:.3}, at most {MOST_OSCILLATION} wanted")),
+            contact.h_ratio.map(|ratio| format!("shortest segment {ratio:.2} edges of the softer body")),
+        ];
+        format!("contact {name} ({})", figures.into_iter().flatten().collect::<Vec<_>>().join("; "))
+    };
+    let bad: Vec<String> = summary.contact.iter().filter(|(_, contact)| contact.trust == Some(false)).map(words).collect();
+    (!bad.is_empty()).then(|| format!("{}; take fewer segments (\"auto\" is safe) or another multiplier space", bad.join(", ")))
 }
 
 /// Name of a multiplier space in the case file.

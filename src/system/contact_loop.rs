@@ -60,6 +60,8 @@ pub struct Solution {
     pub residual: f64,
     /// Relative residual of the plain system.
     pub plain_residual: f64,
+    /// Discrete inf-sup constant of each contact, where it was asked for.
+    pub inf_sup: Vec<Option<f64>>,
 }
 
 impl Solution {
@@ -73,12 +75,13 @@ impl Solution {
             steps: Vec::new(),
             residual: f64::NAN,
             plain_residual: f64::NAN,
+            inf_sup: Vec::new(),
         }
     }
 
     /// Whether there are displacements to look at.
     pub fn is_solved(&self) -> bool {
-        !self.steps.is_empty()
+        !self.steps.is_empty() && self.residual.is_finite()
     }
 }
 
@@ -209,6 +212,7 @@ impl ContactLoop<'_> {
             residual: if norm > 0.0 { r.norm()? / norm } else { 0.0 },
             plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)?,
             steps,
+            inf_sup: Vec::new(),
         })
     }
 

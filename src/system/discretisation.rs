@@ -39,6 +39,11 @@ impl Discretisation {
         &self.contacts[at - 1]
     }
 
+    /// Number of displacement unknowns of all ranks.
+    pub fn unknown_count(&self) -> usize {
+        2 * self.finest().numbering.node_count()
+    }
+
     /// Number of multipliers of all contacts.
     pub fn multiplier_count(&self) -> usize {
         self.coupling.gap.len()

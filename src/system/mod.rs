@@ -48,11 +48,10 @@ pub enum SolverChoice {
 }
 
 impl SolverChoice {
-    /// Its name in the case file.
+    /// Name of the solver that is used.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Auto => "auto",
-            Self::FieldSplit => "fieldsplit",
+            Self::Auto | Self::FieldSplit => "fieldsplit",
             Self::Direct => "direct",
         }
     }

@@ -6,13 +6,19 @@
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override.
 
 use super::{Discretisation, Form, SaddlePoint, SchurPattern, SolverChoice, SystemError, interpolation};
+use crate::contact::ALPHA;
 use crate::petsc::{Krylov, Level, Matrix, Session, Vector, options};
+use std::ops::Range;
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
 
 /// Unknowns up to which the coarsest level is factorised on every rank.
 const SMALL: usize = 3000;
+
+/// Accuracy and length of the solve that shows the inf-sup constant.
+const INF_SUP_TOLERANCE: f64 = 1e-5;
+const INF_SUP_ITERATIONS: usize = 40;
 
 /// A solver, ready for one system.
 pub struct LinearSolver {
@@ -83,6 +89,7 @@ impl LinearSolver {
             options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
+        krylov.keep_eigenvalues()?;
         krylov.set_operators(&system.nest, &system.nest)?;
         let [u, lambda] = system.nest.nest_index_sets()?;
         let preconditioner = krylov.preconditioner();
@@ -173,6 +180,30 @@ impl LinearSolver {
             }
             before = residual;
         }
+    }
+
+    /// Discrete inf-sup constant of one contact, `β² = g / (α (1 - g))` with `g` the smallest eigenvalue of
+    /// `D (B K_γ⁻¹ Bᵀ)` over the active multipliers: the preconditioned system has no other eigenvalues but 1, so the
+    /// Ritz values of one solve with an erratic right-hand side on the contact's `own` multipliers show it. Nothing
+    /// for the direct solver. **Collective**
+    pub fn inf_sup(&self, system: &SaddlePoint, own: Range<usize>, active: &[bool]) -> Result<Option<f64>, SystemError> {
+        if self.form == Form::Plain || !own.clone().any(|i| active[i]) {
+            return Ok(None);
+        }
+        let (mut x, mut b) = system.nest.create_vectors()?;
+        let unknowns = b.local_len() - system.multipliers.own.len();
+        for (at, &i) in system.multipliers.own.iter().enumerate().filter(|(_, i)| own.contains(i) && active[**i]) {
+            // A fixed erratic sequence, the same for every number of ranks.
+            b.values_mut()[unknowns + at] = (12.9898 * (i + 1) as f64).sin().mul_add(43758.5453, 0.5).rem_euclid(1.0) - 0.5;
+        }
+        self.krylov.set_initial_guess_nonzero(false)?;
+        self.krylov.set_tolerance(INF_SUP_TOLERANCE, INF_SUP_ITERATIONS)?;
+        let solved = self.krylov.solve_allowing(&b, &mut x)?;
+        let ritz = self.krylov.eigenvalues(solved.iterations)?;
+        Ok(ritz.first().map(|g| {
+            let g = g.clamp(0.0, 1.0 - 1e-12);
+            (g / (ALPHA * (1.0 - g))).sqrt()
+        }))
     }
 
     /// Size that rounding alone can give the relative residual: `10 ε |K| |x| / |b|`.

@@ -4,13 +4,9 @@ use super::nodal;
 use crate::body::positions;
 use crate::element::{Order, PlaneStrain, shape, stress};
 use crate::geometry::Point;
-use crate::mesh::{MacroMesh, lattice::Triangle};
+use crate::mesh::lattice::Triangle;
 use crate::petsc::Session;
 use crate::system::{Discretisation, Field, SystemError};
-use nalgebra::Matrix2;
-
-/// Points so close to a macro triangle (barycentric) count as inside.
-const NEAR: f64 = 1e-8;
 
 /// Values at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +36,7 @@ pub fn probe(
         if problem.scene.mesh.triangles[triangle].body as usize != body {
             continue;
         }
-        let Some(at) = reference_coordinates(&problem.scene.mesh, triangle, x) else { continue };
+        let Some(at) = problem.scene.mesh.locate(triangle, x) else { continue };
         let values = match problem.finest().numbering.level.order {
             Order::P1 => values_at::<3>(problem, u, triangle, at, &law)?,
             Order::P2 => values_at::<6>(problem, u, triangle, at, &law)?,
@@ -51,28 +47,6 @@ pub fn probe(
     let mean = sums.map(|sum| sum / sums[6]);
     Ok((sums[6] > 0.0)
         .then(|| Probed { displacement: Point::new(mean[0], mean[1]), stress: [mean[2], mean[3], mean[4], mean[5]] }))
-}
-
-/// Reference coordinates of a point in a macro triangle by Newton's method on its map, or nothing if it lies outside.
-fn reference_coordinates(mesh: &MacroMesh, triangle: usize, x: Point) -> Option<Point> {
-    let [a, b, c] = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
-    let size = (b - a).norm().max((c - a).norm()).max((c - b).norm());
-    if (x - (a + b + c) / 3.0).norm() > 1.5 * size {
-        return None;
-    }
-    let straight = Matrix2::from_columns(&[b - a, c - a]).try_inverse()?;
-    let mut at = straight * (x - a);
-    if mesh.is_curved(triangle) {
-        for _ in 0..30 {
-            let step = straight * (x - mesh.position(triangle, at.x, at.y));
-            at += step;
-            if step.norm() < 1e-14 {
-                break;
-            }
-        }
-    }
-    let inside = at.x >= -NEAR && at.y >= -NEAR && at.x + at.y <= 1.0 + NEAR;
-    inside.then_some(at)
 }
 
 /// Displacement and stress at reference coordinates of a macro triangle.

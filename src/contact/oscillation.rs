@@ -1,0 +1,108 @@
+//! How much of a contact pressure is checkerboard.
+
+use super::{ContactBoundary, MultiplierSpace, Multipliers};
+
+/// Share of the contact length at each of its ends that is left out: there the pressure may have a singularity.
+const END: f64 = 0.1;
+
+/// Root mean square of the alternating part of the pressure over that of the pressure, in the inner part of the contact.
+///
+/// The pressure is sampled where each space is most accurate: in the middle of the segments (P0), at their two Gauss
+/// points (P1 discontinuous), at their ends (P1 continuous). At each sample the cubic through the two neighbours on
+/// both sides is taken off, and what is left divided by what would be left of a pure alternation: so the figure is
+/// the amplitude of a checkerboard, and of order `H⁴` for a smooth pressure. Only samples whose five multipliers are
+/// all active count; nothing if there is none.
+pub fn oscillation(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool]) -> Option<f64> {
+    let samples = samples(boundary, multipliers, lambda, active);
+    let carried: Vec<f64> = samples.iter().filter(|sample| sample.active).map(|sample| sample.arc).collect();
+    let (first, last) = (*carried.first()?, *carried.last()?);
+    let inner = (first + END * (last - first))..=(last - END * (last - first));
+    let mut sums = [0.0; 2];
+    for five in samples.windows(5).filter(|five| five.iter().all(|s| s.active) && inner.contains(&five[2].arc)) {
+        sums[0] += alternation(five).powi(2);
+        sums[1] += five[2].value.powi(2);
+    }
+    (sums[1] > 0.0).then(|| (sums[0] / sums[1]).sqrt())
+}
+
+struct Sample {
+    arc: f64,
+    value: f64,
+    active: bool,
+}
+
+fn samples(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool]) -> Vec<Sample> {
+    let arcs = boundary.arcs();
+    let at = |k: usize, z: f64| {
+        let rows = multipliers.on_segment(k, z).0;
+        let active = rows.iter().take(multipliers.per_segment()).all(|&i| active[i]);
+        Sample { arc: arcs[k] + z * (arcs[k + 1] - arcs[k]), value: multipliers.value(lambda, k, z), active }
+    };
+    let gauss = 0.5 / 3f64.sqrt();
+    match multipliers.space {
+        MultiplierSpace::P0 => (0..boundary.segments()).map(|k| at(k, 0.5)).collect(),
+        MultiplierSpace::P1Discontinuous => {
+            (0..boundary.segments()).flat_map(|k| [at(k, 0.5 - gauss), at(k, 0.5 + gauss)]).collect()
+        }
+        MultiplierSpace::P1Continuous => {
+            let end = |i: usize| Sample { arc: arcs[i], value: lambda[i], active: active[i] };
+            (0..arcs.len()).map(end).collect()
+        }
+    }
+}
+
+/// Amplitude of the alternation at the middle one of five samples.
+fn alternation(five: &[Sample]) -> f64 {
+    const OTHERS: [usize; 4] = [0, 1, 3, 4];
+    let (mut rest, mut whole) = (five[2].value, 1.0);
+    for j in OTHERS {
+        let factor = |k: &usize| (five[2].arc - five[*k].arc) / (five[j].arc - five[*k].arc);
+        let weight: f64 = OTHERS.iter().filter(|&&k| k != j).map(factor).product();
+        rest -= weight * five[j].value;
+        whole -= weight * if j % 2 == 0 { 1.0 } else { -1.0 };
+    }
+    rest / whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Curve, Point};
+
+    fn setting(space: MultiplierSpace, segments: usize) -> (ContactBoundary, Multipliers) {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [2.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&(0..=segments).map(|k| k as f64 / segments as f64).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(space, &boundary);
+        (boundary, multipliers)
+    }
+
+    /// A smooth pressure with an alternation of amplitude `a` on top.
+    fn figure(space: MultiplierSpace, a: f64) -> f64 {
+        let (boundary, multipliers) = setting(space, 20);
+        let place = |i: usize| match space {
+            MultiplierSpace::P0 => (i as f64 + 0.5) / 20.0,
+            MultiplierSpace::P1Discontinuous => (i.div_ceil(2)) as f64 / 20.0,
+            MultiplierSpace::P1Continuous => i as f64 / 20.0,
+        };
+        let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let lambda: Vec<f64> = (0..multipliers.count()).map(|i| 1.0 + (2.0 * place(i)).sin() + a * sign(i)).collect();
+        oscillation(&boundary, &multipliers, &lambda, &vec![true; lambda.len()]).expect("enough samples")
+    }
+
+    #[test]
+    fn a_smooth_pressure_has_none_and_a_checkerboard_its_amplitude() {
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Continuous] {
+            assert!(figure(space, 0.0) < 1e-5, "{space:?}");
+            let mean = 1.0 + 0.7;
+            assert!((figure(space, 0.5) * mean / 0.5 - 1.0).abs() < 0.1, "{space:?}");
+        }
+        assert!(figure(MultiplierSpace::P1Discontinuous, 0.0) < 1e-3);
+        assert!(figure(MultiplierSpace::P1Discontinuous, 0.5) > 0.1);
+    }
+
+    #[test]
+    fn a_contact_of_few_segments_has_no_figure() {
+        let (boundary, multipliers) = setting(MultiplierSpace::P0, 4);
+        assert_eq!(oscillation(&boundary, &multipliers, &[1.0; 4], &[true; 4]), None);
+    }
+}

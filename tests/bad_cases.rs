@@ -1,0 +1,237 @@
+//! Bad cases are refused with words that name file, key, value and remedy; no result folder is left behind.
+
+mod support;
+
+use support::mesh::{Mesh, grid, write_scene};
+use support::{Ended, Run, names_in};
+
+/// Two blocks that work.
+const GOOD: &str = r#"
+mesh.file = "mesh.msh"
+body.lower = { young = 7000.0, poisson = 0.227 }
+body.upper = { young = 3000.0, poisson = 0.3 }
+support.table = { on = "bottom", uy = 0.0 }
+support.wall = { on = "left", ux = 0.0 }
+load.top = { on = "top", pressure = 1.0 }
+contact.seam = { between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed" }
+"#;
+
+fn blocks() -> Mesh {
+    let lower = grid(3, 2, 1, |u, v| [2.0 * u, v]);
+    let upper = grid(4, 2, 2, |u, v| [2.0 * u, 1.0 + v]);
+    Mesh {
+        bodies: vec![
+            ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
+            ("upper", upper, ["upper.seam", "right", "top", "left"]),
+        ],
+    }
+}
+
+/// A case and a mesh in a folder of their own, run alone and on 2 ranks.
+fn ended(mesh: &str, case: &str, change: impl Fn(Run) -> Run) -> [Ended; 2] {
+    [None, Some(2)].map(|ranks| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = write_scene(folder.path(), mesh, case);
+        let run = change(Run::file(&file));
+        let ended = ranks.map_or_else(|| run.clone().alone(), |ranks| run.clone().ranks(ranks)).ended();
+        assert_eq!(names_in(folder.path()), ["case.toml", "mesh.msh"], "nothing beside the case");
+        ended
+    })
+}
+
+/// Refused with exit code 2 and these words, with nothing written.
+fn refused(mesh: &str, case: &str, change: impl Fn(Run) -> Run, words: &[&str]) {
+    for ended in ended(mesh, case, change) {
+        assert_eq!(ended.code, Some(2), "{}", ended.said());
+        for word in words {
+            assert!(ended.errors.contains(word), "no `{word}` in:\n{}", ended.errors);
+        }
+        let told = ended.errors.lines().filter(|line| line.starts_with("mezha: ")).count();
+        assert_eq!(told, 1, "told once, by one rank:\n{}", ended.errors);
+        assert_eq!(ended.left_behind(), Vec::<String>::new(), "a result folder is left");
+    }
+}
+
+/// A key of the good case set to something bad.
+fn bad_key(key: &str, value: &str, words: &[&str]) {
+    refused(&blocks().text(), GOOD, |run| run.set(key, value), &[words, &["case.toml"]].concat());
+}
+
+/// A piece of the good mesh in place of another.
+fn bad_mesh(from: &str, to: &str, words: &[&str]) {
+    let good = blocks().text();
+    let text = good.replacen(from, to, 1);
+    assert_ne!(text, good, "the mesh has no `{from}`");
+    refused(&text, GOOD, |run| run, &[words, &["mesh.msh"]].concat());
+}
+
+#[test]
+fn the_good_case_runs() {
+    for ended in ended(&blocks().text(), GOOD, |run| run) {
+        assert_eq!(ended.code, Some(0), "{}", ended.said());
+    }
+}
+
+#[test]
+fn an_unknown_key() {
+    bad_key("body.lower.yuong", "1.0", &["body.lower.yuong", "young"]);
+    bad_key("mesh.refin", "1", &["mesh.refin", "refine"]);
+}
+
+#[test]
+fn a_value_out_of_range() {
+    bad_key("body.upper.young", "-3000.0", &["body.upper.young", "-3000"]);
+    bad_key("body.upper.poisson", "0.5", &["body.upper.poisson", "0.5", "0.49"]);
+    bad_key("body.upper.poisson", "0.7", &["body.upper.poisson", "0.7"]);
+    bad_key("solver.tolerance", "0", &["solver.tolerance"]);
+}
+
+#[test]
+fn a_missing_file() {
+    bad_key("mesh.file", "\"nothing.msh\"", &["mesh.file", "nothing.msh", "name a Gmsh 4.1 file"]);
+    let file = std::path::Path::new("no/such/case.toml");
+    for run in [Run::file(file).alone(), Run::file(file).ranks(2)] {
+        let ended = run.ended();
+        assert_eq!(ended.code, Some(2), "{}", ended.said());
+        assert!(ended.errors.contains("no/such/case.toml: cannot be read"), "{}", ended.errors);
+    }
+}
+
+#[test]
+fn an_unknown_name() {
+    bad_key("support.table.on", "\"botom\"", &["support.table.on", "botom", "did you mean \"bottom\""]);
+    bad_key("contact.seam.between", "[\"lower.seam\", \"uper.seam\"]", &["contact.seam.between", "uper.seam", "\"upper.seam\""]);
+    bad_key("body.middle", "{ young = 1.0, poisson = 0.3 }", &["body.middle", "\"lower\"", "\"upper\""]);
+}
+
+#[test]
+fn contradicting_supports() {
+    bad_key("support.pull", "{ on = \"bottom\", uy = 0.1 }", &["support.pull", "support.table", "0.1", "leave one"]);
+}
+
+#[test]
+fn contact_of_a_body_with_itself() {
+    bad_key("contact.seam.between", "[\"lower.seam\", \"bottom\"]", &["contact.seam.between", "lower", "itself"]);
+}
+
+#[test]
+fn boundaries_that_do_not_face_each_other() {
+    let mut apart = blocks();
+    apart.bodies[1].1.points.iter_mut().for_each(|x| x[0] += 5.0);
+    refused(&apart.text(), GOOD, |run| run, &["case.toml", "contact.seam", "do not face each other"]);
+}
+
+#[test]
+fn what_is_not_built_yet() {
+    bad_key("contact.seam.curve", "\"fit\"", &["contact.seam.curve", "not available yet"]);
+}
+
+/// Nothing holds the upper block in x: exit code 3, and a summary that says so.
+#[test]
+fn a_body_that_nothing_holds() {
+    let mut mesh = blocks();
+    mesh.bodies[1].2[3] = "upper.left";
+    for ended in ended(&mesh.text(), GOOD, |run| run) {
+        assert_eq!(ended.code, Some(3), "{}", ended.said());
+        assert_eq!(ended.value("/status"), "not_converged");
+        let reason = ended.value("/reason").as_str().expect("words").to_string();
+        for word in ["upper", "move by (1, 0)"] {
+            assert!(reason.contains(word), "{reason}");
+        }
+        assert!(ended.output.contains("mezha: NOT converged: "), "{}", ended.output);
+    }
+}
+
+/// Contact may not pull: a body that is lifted off has nothing left that holds it.
+#[test]
+fn a_body_that_is_lifted_off() {
+    for ended in ended(&blocks().text(), GOOD, |run| run.set("load.top.pressure", "-1.0")) {
+        assert_eq!(ended.code, Some(3), "{}", ended.said());
+        let reason = ended.value("/reason").as_str().expect("words").to_string();
+        assert!(reason.contains("upper") && reason.contains("open"), "{reason}");
+    }
+}
+
+#[test]
+fn meshes_of_other_kinds() {
+    bad_mesh("4.1 0 8", "2.2 0 8", &["line 2", "2.2", "-format msh41"]);
+    bad_mesh("4.1 0 8", "4.1 1 8", &["line 2", "binary", "gmsh mesh.msh"]);
+    bad_mesh("$MeshFormat\n", "# a comment\n", &["line 1", "$MeshFormat"]);
+    let triangles = blocks().text().lines().find(|line| line.starts_with("2 1 2 ")).expect("a block of triangles").to_string();
+    bad_mesh(&format!("\n{triangles}\n"), &format!("\n{}\n", triangles.replacen("2 1 2", "2 1 3", 1)), &["quadrangles"]);
+    bad_mesh(&format!("\n{triangles}\n"), &format!("\n{}\n", triangles.replacen("2 1 2", "2 1 9", 1)), &["-order 1"]);
+    bad_mesh("$EndElements\n", "", &["cut off"]);
+}
+
+#[test]
+fn a_binary_mesh_is_not_taken_for_text() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), "", GOOD);
+    let bytes = [b"$MeshFormat\n4.1 1 8\n".as_slice(), &[1, 0, 0, 0, 255, 254, 0, 10, 128]].concat();
+    std::fs::write(folder.path().join("mesh.msh"), bytes).expect("a mesh can be written");
+    let ended = Run::file(&file).alone().ended();
+    assert_eq!(ended.code, Some(2), "{}", ended.said());
+    assert!(ended.errors.contains("mesh.msh, line 2: binary"), "{}", ended.errors);
+}
+
+#[test]
+fn a_degenerate_triangle() {
+    let mut mesh = blocks();
+    let [a, b, c] = mesh.bodies[0].1.triangles[3];
+    let points = &mut mesh.bodies[0].1.points;
+    points[c] = [0.5 * (points[a][0] + points[b][0]), 0.5 * (points[a][1] + points[b][1])];
+    refused(&mesh.text(), GOOD, |run| run, &["mesh.msh, line", "degenerate triangle", "mesh the scene again"]);
+}
+
+#[test]
+fn clockwise_triangles_are_turned_round() {
+    let mut mesh = blocks();
+    mesh.bodies[1].1.triangles.iter_mut().step_by(2).for_each(|corners| corners.swap(0, 2));
+    for ended in ended(&mesh.text(), GOOD, |run| run.set("solver.tolerance", "1e-12")) {
+        assert_eq!(ended.code, Some(0), "{}", ended.said());
+        assert!((ended.number("/contact/seam/force") - 2.0).abs() < 1e-9);
+    }
+}
+
+/// Gmsh makes one if both bodies are drawn on one line.
+#[test]
+fn bodies_that_share_nodes() {
+    let block = grid(3, 4, 1, |u, v| [2.0 * u, 2.0 * v]);
+    let text = Mesh { bodies: vec![("lower", block, ["bottom", "right", "top", "left"])] }.text();
+    let upper = text.lines().rfind(|line| line.starts_with("2 1 2 ")).expect("triangles");
+    let shared = text
+        .replace("\n1 \"lower\"", "")
+        .replace("2 1 \"lower\"", "2 1 \"lower\"\n2 2 \"upper\"")
+        .replace("$PhysicalNames\n5", "$PhysicalNames\n6")
+        .replace("0 4 1 0\n", "0 4 2 0\n")
+        .replace("\n$EndEntities", "\n2 0 0 0 0 0 0 1 2 0\n$EndEntities")
+        .replace(upper, "2 1 2 12")
+        .replace("\n5 38 1 38\n", "\n6 38 1 38\n");
+    let lines: Vec<&str> = shared.lines().collect();
+    let at = lines.iter().position(|line| *line == "2 1 2 12").expect("triangles") + 13;
+    let shared = [&lines[..at], &["2 2 2 12"], &lines[at..]].concat().join("\n") + "\n";
+    refused(&shared, GOOD, |run| run, &["mesh.msh", "\"lower\" and \"upper\" share the node", "of its own"]);
+}
+
+#[test]
+fn an_option_that_nothing_uses() {
+    for ended in ended(&blocks().text(), GOOD, |run| run.petsc("-fieldsplit_u_pc_typ lu")) {
+        assert_eq!(ended.code, Some(2), "{}", ended.said());
+        assert!(ended.errors.contains("-fieldsplit_u_pc_typ"), "{}", ended.errors);
+        assert_eq!(ended.left_behind(), Vec::<String>::new());
+    }
+}
+
+#[test]
+fn a_result_is_not_overwritten() {
+    let first = Run::case("patch_flat").set("mesh.refine", 0).converged();
+    let before = std::fs::read_to_string(first.out.join("summary.json")).expect("a summary");
+    let second = Run::case("patch_flat").set("mesh.refine", 1).ranks(2).ended_in(first.into_folder());
+    assert_eq!(second.code, Some(2), "{}", second.said());
+    assert!(second.errors.contains("--force") && second.errors.contains("result"), "{}", second.errors);
+    assert_eq!(std::fs::read_to_string(second.out.join("summary.json")).expect("a summary"), before);
+    let third = Run::case("patch_flat").set("mesh.refine", 1).word("--force").ended_in(second.into_folder());
+    assert_eq!(third.code, Some(0), "{}", third.said());
+    assert_ne!(std::fs::read_to_string(third.out.join("summary.json")).expect("a summary"), before);
+    assert_eq!(third.left_behind(), ["result"]);
+}

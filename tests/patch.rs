@@ -1,0 +1,80 @@
+//! Patch tests: a constant stress field is met exactly by every pair of spaces, on any mesh, on any number of ranks.
+
+mod support;
+
+use support::{Ended, PAIRS, RANKS, Run};
+
+const EXACT: f64 = 1e-9;
+
+/// λ = 1 and n·σn = -1 from both sides, at every point of the trace.
+fn pressed_evenly(ended: &Ended, contact: &str, words: &str) {
+    let points = ended.trace(contact);
+    assert!(points.len() > 10, "{words}: {} points", points.len());
+    for point in points {
+        let errors = [point.lambda - 1.0, point.sigma[0] + 1.0, point.sigma[1] + 1.0];
+        assert!(errors.iter().all(|error| error.abs() <= EXACT), "{words}: contact {contact}: {point:?}");
+    }
+}
+
+fn holds(case: &str, contacts: &[&str], refine: usize) {
+    for (order, space) in PAIRS {
+        for ranks in RANKS {
+            let words = format!("{case}, P{order} and {space}, refine {refine}, {ranks} ranks");
+            let mut run = Run::case(case).ranks(ranks).set("mesh.order", order).set("mesh.refine", refine);
+            for contact in contacts {
+                run = run.set(&format!("contact.{contact}.multiplier"), space);
+            }
+            let ended = run.set("solver.tolerance", "1e-12").converged();
+            contacts.iter().for_each(|contact| pressed_evenly(&ended, contact, &words));
+            let errors = ended.value("/errors");
+            let errors = errors.as_object().expect("errors by name");
+            assert!(errors.len() >= 8, "{errors:?}");
+            for (name, error) in errors {
+                assert!(error.as_f64().is_some_and(|error| error <= EXACT), "{words}: {name} {error}");
+            }
+            for balance in ["force", "moment", "energy"] {
+                let off = ended.number(&format!("/balance/{balance}"));
+                assert!(off <= EXACT, "{words}: balance of {balance} {off:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn flat_line_on_the_meshes_of_the_file() {
+    holds("patch_flat", &["seam"], 0);
+}
+
+#[test]
+fn flat_line_on_refined_meshes() {
+    holds("patch_flat", &["seam"], 2);
+}
+
+#[test]
+fn inclined_line_on_the_meshes_of_the_file() {
+    holds("patch_inclined", &["seam"], 0);
+}
+
+#[test]
+fn inclined_line_on_refined_meshes() {
+    holds("patch_inclined", &["seam"], 2);
+}
+
+#[test]
+fn three_blocks_on_the_meshes_of_the_file() {
+    holds("stack", &["first", "second"], 0);
+}
+
+#[test]
+fn three_blocks_on_refined_meshes() {
+    holds("stack", &["first", "second"], 2);
+}
+
+/// Exact also by the direct solver, which sees no levels and no augmentation.
+#[test]
+fn by_the_direct_solver() {
+    for ranks in RANKS {
+        let ended = Run::case("patch_inclined").ranks(ranks).set("solver.name", "direct").converged();
+        pressed_evenly(&ended, "seam", &format!("direct, {ranks} ranks"));
+    }
+}

@@ -1,0 +1,88 @@
+//! Krylov iterations of the field split: few with levels, on meshes of any size, for every pair of spaces, whatever the
+//! ratio of the moduli. The law is bilateral, so that one linear solve counts.
+
+mod support;
+
+use support::mesh::{Mesh, write_scene};
+use support::{PAIRS, RANKS, Run};
+
+const LEVELS: u64 = 15;
+const NO_LEVELS: u64 = 60;
+const STIFF_ON_SOFT: u64 = 20;
+
+/// Example 1 without its own segments and expected values.
+const BARS: &str = r#"
+mesh.file = "mesh.msh"
+body.lower = { young = 7000.0, poisson = 0.227 }
+body.upper = { young = 7000.0, poisson = 0.227 }
+support.table = { on = "bottom", uy = 0.0 }
+support.wall = { on = "left", ux = 0.0 }
+load.top = { on = "top", pressure = 1.0 }
+contact.seam = { between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed", law = "bilateral" }
+"#;
+
+fn bars() -> Run {
+    let run = Run::case("bars_inclined/even.toml").set("contact.seam.law", "bilateral").set("exact.must_hold", false);
+    run.set("contact.seam.segments", "auto").set("solver.tolerance", "1e-8")
+}
+
+/// Every pair of spaces on every number of ranks needs at most `most` iterations.
+fn at_most(most: u64, words: &str, run: impl Fn(usize) -> Run) {
+    let mut missed = Vec::new();
+    for (order, space) in PAIRS {
+        for ranks in RANKS {
+            let run = run(order).ranks(ranks).set("mesh.order", order).set("contact.seam.multiplier", space);
+            let ended = run.converged();
+            let (count, unknowns) = (ended.iterations(), ended.number("/unknowns/displacement"));
+            assert_eq!(ended.value("/solver/iterations").as_array().map(Vec::len), Some(1), "one linear solve");
+            assert!(ended.number("/solver/residual") <= 1e-8);
+            let line = format!("{words}, P{order} and {space}, {unknowns} unknowns, {ranks} ranks: {count} iterations");
+            println!("{line}");
+            if count > most {
+                missed.push(line);
+            }
+        }
+    }
+    assert!(missed.is_empty(), "more than {most}:\n{}", missed.join("\n"));
+}
+
+#[test]
+fn with_levels_near_1e4_unknowns() {
+    at_most(LEVELS, "levels", |order| bars().set("mesh.refine", 5 - order));
+}
+
+#[test]
+fn with_levels_near_1e5_unknowns() {
+    at_most(LEVELS, "levels", |order| bars().set("mesh.refine", 6 - order));
+}
+
+#[test]
+fn a_stiff_bar_on_a_soft_one() {
+    at_most(STIFF_ON_SOFT, "E2/E1 = 1e6", |order| bars().set("mesh.refine", 5 - order).set("body.upper.young", "7e9"));
+}
+
+#[test]
+fn a_soft_bar_on_a_stiff_one() {
+    at_most(STIFF_ON_SOFT, "E2/E1 = 1e-6", |order| bars().set("mesh.refine", 5 - order).set("body.upper.young", "7e-3"));
+}
+
+/// A fine mesh of the file's own, without anything to coarsen.
+fn without_levels(n: [usize; 2], words: &str) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let files = n.map(|n| {
+        let folder = folder.path().join(n.to_string());
+        std::fs::create_dir(&folder).expect("a folder");
+        write_scene(&folder, &Mesh::inclined_bars(n).text(), BARS)
+    });
+    at_most(NO_LEVELS, words, |order| Run::file(&files[order - 1]));
+}
+
+#[test]
+fn without_levels_near_1e4_unknowns() {
+    without_levels([10, 5], "no levels");
+}
+
+#[test]
+fn without_levels_near_1e5_unknowns() {
+    without_levels([32, 16], "no levels");
+}

@@ -1,0 +1,257 @@
+//! What the tests of the whole program share: [`Run`] starts it under `mpirun` and reads its results back, [`mesh`] writes
+//! meshes for it.
+
+#![allow(dead_code)] // Each test program uses a part of it.
+
+pub mod mesh;
+
+use serde_json::Value;
+use std::fmt::Display;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Root may run `mpirun`; ranks that wait leave the processor to others.
+const ENVIRONMENT: [(&str, &str); 6] = [
+    ("OMPI_ALLOW_RUN_AS_ROOT", "1"),
+    ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"),
+    ("OMPI_MCA_mpi_yield_when_idle", "1"),
+    ("OMP_NUM_THREADS", "1"),
+    ("OPENBLAS_NUM_THREADS", "1"),
+    ("PETSC_OPTIONS", ""),
+];
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// The numbers of ranks that everything must hold on.
+pub const RANKS: [usize; 3] = [1, 2, 3];
+
+/// All pairs of a displacement order and a multiplier space.
+pub const PAIRS: [(usize, &str); 6] =
+    [(1, "p0"), (1, "p1-discontinuous"), (1, "p1-continuous"), (2, "p0"), (2, "p1-discontinuous"), (2, "p1-continuous")];
+
+/// A run of `mezha run`, to be started.
+#[derive(Clone)]
+pub struct Run {
+    file: PathBuf,
+    ranks: Option<usize>,
+    words: Vec<String>,
+    petsc: Vec<String>,
+}
+
+/// How a run ended, with its result folder while this lives.
+pub struct Ended {
+    /// Its exit code.
+    pub code: Option<i32>,
+    /// Standard output of all ranks.
+    pub output: String,
+    /// Standard error of all ranks.
+    pub errors: String,
+    /// How long it took.
+    pub time: Duration,
+    /// The folder it was told to write to.
+    pub out: PathBuf,
+    folder: TempDir,
+}
+
+/// One line of `contact_NAME.csv`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TracePoint {
+    pub s: f64,
+    pub x: [f64; 2],
+    pub lambda: f64,
+    pub gap: f64,
+    pub un: [f64; 2],
+    pub sigma: [f64; 2],
+}
+
+impl Run {
+    /// A case of the project: the name of its folder, or a file in `cases`.
+    pub fn case(name: &str) -> Self {
+        let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+        Self::file(&if name.ends_with(".toml") { cases.join(name) } else { cases.join(name).join("case.toml") })
+    }
+
+    /// Any case file.
+    pub fn file(file: &Path) -> Self {
+        Self { file: file.to_path_buf(), ranks: Some(1), words: Vec::new(), petsc: Vec::new() }
+    }
+
+    /// On so many ranks.
+    pub fn ranks(mut self, ranks: usize) -> Self {
+        self.ranks = Some(ranks);
+        self
+    }
+
+    /// Without `mpirun`.
+    pub fn alone(mut self) -> Self {
+        self.ranks = None;
+        self
+    }
+
+    /// Overrides a key of the case.
+    pub fn set(self, key: &str, value: impl Display) -> Self {
+        self.word("--set").word(&format!("{key}={value}"))
+    }
+
+    /// Adds a word to the command line.
+    pub fn word(mut self, word: &str) -> Self {
+        self.words.push(word.into());
+        self
+    }
+
+    /// Adds PETSc options, separated by blanks.
+    pub fn petsc(mut self, options: &str) -> Self {
+        self.petsc.extend(options.split(' ').map(String::from));
+        self
+    }
+
+    /// Runs to its end, into a folder of its own.
+    pub fn ended(self) -> Ended {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        self.ended_in(folder)
+    }
+
+    /// Runs to its end, into `result` of that folder.
+    pub fn ended_in(self, folder: TempDir) -> Ended {
+        let out = folder.path().join("result");
+        let mut words = vec!["run".into(), self.file.display().to_string()];
+        words.extend(["--out".into(), out.display().to_string()]);
+        words.extend(self.words);
+        if !self.petsc.is_empty() {
+            words.push("--".into());
+            words.extend(self.petsc);
+        }
+        let start = Instant::now();
+        let (code, output, errors) = mezha(self.ranks, &words);
+        Ended { code, output, errors, time: start.elapsed(), out, folder }
+    }
+
+    /// Runs to its end, which must be exit code 0.
+    pub fn converged(self) -> Ended {
+        let ended = self.ended();
+        assert_eq!(ended.code, Some(0), "{}", ended.said());
+        ended
+    }
+}
+
+impl Ended {
+    /// Everything it printed.
+    pub fn said(&self) -> String {
+        format!("{}{}", self.output, self.errors)
+    }
+
+    /// The folder itself, for a second run.
+    pub fn into_folder(self) -> TempDir {
+        self.folder
+    }
+
+    /// Everything in the folder that it was started in; empty after a run that left no result.
+    pub fn left_behind(&self) -> Vec<String> {
+        names_in(self.folder.path())
+    }
+
+    /// The whole `summary.json`.
+    pub fn summary(&self) -> Value {
+        let file = self.out.join("summary.json");
+        let text = std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{file:?}: {error}\n{}", self.said()));
+        serde_json::from_str(&text).expect("summary.json is JSON")
+    }
+
+    /// A value of the summary by its path, as in `/energy/total`.
+    pub fn value(&self, path: &str) -> Value {
+        let summary = self.summary();
+        summary.pointer(path).unwrap_or_else(|| panic!("summary.json has no {path}: {summary:#}")).clone()
+    }
+
+    /// A number of the summary by its path.
+    pub fn number(&self, path: &str) -> f64 {
+        self.value(path).as_f64().unwrap_or_else(|| panic!("{path} is no number: {}", self.value(path)))
+    }
+
+    /// Krylov iterations of all linear solves.
+    pub fn iterations(&self) -> u64 {
+        self.value("/solver/iterations").as_array().expect("a list").iter().filter_map(Value::as_u64).sum()
+    }
+
+    /// The trace along a contact boundary.
+    pub fn trace(&self, contact: &str) -> Vec<TracePoint> {
+        let text = std::fs::read_to_string(self.out.join(format!("contact_{contact}.csv"))).expect("a contact table");
+        let mut lines = text.lines().skip_while(|line| line.starts_with('#'));
+        assert_eq!(lines.next(), Some("s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2"));
+        let point = |line: &str| {
+            let v: Vec<f64> = line.split(',').map(|number| number.parse().expect("a number")).collect();
+            TracePoint { s: v[0], x: [v[1], v[2]], lambda: v[5], gap: v[6], un: [v[7], v[8]], sigma: [v[9], v[10]] }
+        };
+        lines.map(point).collect()
+    }
+}
+
+/// Sorted names of what is in a folder.
+pub fn names_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let mut names: Vec<String> = entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// Largest difference of two lists of numbers, relative to the largest of the second.
+pub fn difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let size = b.iter().fold(0.0, |size: f64, v| size.max(v.abs()));
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / size
+}
+
+/// Runs mezha with these words, under `mpirun` unless `ranks` is `None`: exit code, standard output, standard error.
+///
+/// # Panics
+/// If it takes too long.
+pub fn mezha<S: AsRef<str>>(ranks: Option<usize>, words: &[S]) -> (Option<i32>, String, String) {
+    let mut command = Command::new("mpirun");
+    match ranks {
+        Some(ranks) => {
+            command.args(["-n", &ranks.to_string(), "--oversubscribe", "--bind-to", "none"]).arg(env!("CARGO_BIN_EXE_mezha"))
+        }
+        None => {
+            command = Command::new(env!("CARGO_BIN_EXE_mezha"));
+            &mut command
+        }
+    };
+    // Runs at the same time must not clear away each other's session folder.
+    let sessions = tempfile::tempdir().expect("a temporary folder");
+    command.args(words.iter().map(S::as_ref)).envs(ENVIRONMENT).env("OMPI_MCA_orte_tmpdir_base", sessions.path());
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("mpirun starts (Debian: apt-get install openmpi-bin)");
+    let output = reader(child.stdout.take().expect("piped"));
+    let errors = reader(child.stderr.take().expect("piped"));
+    let code = wait(&mut child);
+    let text = |thread: JoinHandle<String>| thread.join().expect("a reader ends");
+    let (output, errors) = (text(output), text(errors));
+    assert!(code.is_some(), "{command:?} was ended after {PATIENCE:?}:\n{output}{errors}");
+    (code, output, errors)
+}
+
+fn reader(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
+    std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        pipe.read_to_end(&mut bytes).expect("a pipe can be read");
+        String::from_utf8_lossy(&bytes).into_owned()
+    })
+}
+
+/// Exit code; `None` if the command was told to end because it took too long.
+fn wait(child: &mut Child) -> Option<i32> {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        if let Some(status) = child.try_wait().expect("a child can be waited for") {
+            return Some(status.code().unwrap_or(-1));
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    // The polite signal: mpirun passes it on to the ranks.
+    Command::new("kill").arg(child.id().to_string()).status().expect("kill runs");
+    child.wait().expect("a child can be waited for");
+    None
+}
