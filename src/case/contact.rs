@@ -5,7 +5,7 @@ use toml::Value;
 use super::Geometry;
 use super::section::Section;
 use super::values::{self, PLANE, choice, must_be};
-use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Pair, SegmentRule};
+use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Pair, SegmentRule, Stabilise};
 
 /// `[contact.NAME]`
 pub fn read_contact(section: &Section) -> Option<Pair> {
@@ -24,6 +24,16 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
     let segments = section.or("segments", "auto", read_segments);
     let law = section.or("law", "unilateral", choice(&[("unilateral", Ok(Law::Unilateral)), ("bilateral", Ok(Law::Bilateral))]));
     refuse_what_is_not_built(section);
+    let stabilise = section.or("stabilise", "auto", |value| match value {
+        Value::Boolean(true) => Ok(Stabilise::On),
+        Value::Boolean(false) => Ok(Stabilise::Off),
+        Value::String(word) if word == "auto" => Ok(Stabilise::Auto),
+        other => Err(must_be("\"auto\", true or false", other)),
+    });
+    if (space, stabilise) == (Some(MultiplierSpace::P1Continuous), Some(Stabilise::On)) {
+        let words = "\"p1-continuous\" has no jumps to weigh; take fewer segments, or another multiplier";
+        section.problem(&["stabilise"], words.into());
+    }
     if !section.name().chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
         section.problem(&[], "its name is part of a file name; use letters, digits, - and _".into());
     }
@@ -35,6 +45,7 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
         space: space?,
         segments: segments?,
         law: law?,
+        stabilise: stabilise?,
     })
 }
 
@@ -43,12 +54,6 @@ fn refuse_what_is_not_built(section: &Section) {
     let remedy = "leave it out: \"cut\" integrates exactly between the projected nodes";
     section.or("quadrature", "cut", choice(&[("cut", Ok(())), ("segment", Err("write quadrature = \"cut\""))]));
     section.not_yet("points", remedy);
-    section.or("stabilise", "auto", |value| match value {
-        Value::Boolean(false) => Ok(()),
-        Value::Boolean(true) => Err("not available yet; write \"auto\" or false".into()),
-        Value::String(word) if word == "auto" => Ok(()),
-        other => Err(must_be("\"auto\" or false", other)),
-    });
     section.or(
         "configuration",
         "reference",

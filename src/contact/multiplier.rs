@@ -3,8 +3,11 @@
 use super::{ContactBoundary, MultiplierSpace};
 use crate::geometry::gauss_points;
 
-/// Strength of the augmentation, `γ = ALPHA E_c / H`: flat optimum between 2 and 10 for every pair of spaces.
-pub const ALPHA: f64 = 5.0;
+/// Strength of the augmentation, `γ = α E_c / H`: flat optimum between 2 and 10 for every pair of spaces.
+const ALPHA: f64 = 5.0;
+
+/// The same beside a jump term.
+const ALPHA_STABILISED: f64 = 2.0;
 
 /// A diagonal block over one multiplier, or over the two of a discontinuous segment.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +49,8 @@ impl DiagonalBlock {
 pub struct Multipliers {
     /// Their space.
     pub space: MultiplierSpace,
+    /// Strength `α` of the augmentation.
+    pub alpha: f64,
     /// Segment lengths.
     lengths: Vec<f64>,
     /// `∫ψ_i ds`.
@@ -56,7 +61,7 @@ impl Multipliers {
     /// The multipliers of a space on a boundary's segments.
     pub fn new(space: MultiplierSpace, boundary: &ContactBoundary) -> Self {
         let lengths = (0..boundary.segments()).map(|k| boundary.segment_length(k)).collect();
-        let mut multipliers = Self { space, lengths, weights: Vec::new() };
+        let mut multipliers = Self { space, alpha: ALPHA, lengths, weights: Vec::new() };
         multipliers.weights = vec![0.0; multipliers.count()];
         for (k, ends) in boundary.knots().windows(2).enumerate() {
             for (z, weight) in gauss_points(10) {
@@ -66,6 +71,11 @@ impl Multipliers {
             }
         }
         multipliers
+    }
+
+    /// The same multipliers beside a jump term, with its weaker augmentation.
+    pub fn stabilised(self) -> Self {
+        Self { alpha: ALPHA_STABILISED, ..self }
     }
 
     /// How many there are.
@@ -131,7 +141,7 @@ impl Multipliers {
 
     /// `κ_i = γ_i / ∫ψ_i`: what one unit of mean penetration is worth in pressure (stress per length squared).
     pub fn penalty(&self, multiplier: usize, modulus: f64) -> f64 {
-        ALPHA * modulus / (self.length(multiplier) * self.weight(multiplier))
+        self.alpha * modulus / (self.length(multiplier) * self.weight(multiplier))
     }
 
     /// Augmentation weight `D_ii` of a multiplier alone (stress per length squared).
@@ -140,10 +150,10 @@ impl Multipliers {
             MultiplierSpace::P1Discontinuous => self.length(multiplier) / 3.0,
             _ => self.length(multiplier),
         };
-        ALPHA * modulus / (self.length(multiplier) * mass)
+        self.alpha * modulus / (self.length(multiplier) * mass)
     }
 
-    /// Augmentation weights `D = √γ W⁻¹ √γ` with `γ_i = ALPHA E_c / H_i` over the active multipliers; `W` is the mass
+    /// Augmentation weights `D = √γ W⁻¹ √γ` with `γ_i = α E_c / H_i` over the active multipliers; `W` is the mass
     /// matrix, lumped for P1 continuous. `modulus` is `E_c` (stress); entries have the unit stress per length squared.
     pub fn augmentation(&self, modulus: f64, active: &[bool]) -> Vec<DiagonalBlock> {
         let one = |i: usize| DiagonalBlock::single(i, self.single_weight(i, modulus));
@@ -155,7 +165,7 @@ impl Multipliers {
             match (active[i], active[i + 1]) {
                 (false, false) => None,
                 (true, true) => {
-                    let unit = ALPHA * modulus / h * 2.0 / h;
+                    let unit = self.alpha * modulus / h * 2.0 / h;
                     Some(DiagonalBlock { rows: vec![i, i + 1], values: [[2.0 * unit, -unit], [-unit, 2.0 * unit]] })
                 }
                 (first, _) => Some(one(if first { i } else { i + 1 })),

@@ -19,6 +19,19 @@ pub struct Pair {
     pub segments: SegmentRule,
     /// Contact law.
     pub law: Law,
+    /// Whether the jump term is added.
+    pub stabilise: Stabilise,
+}
+
+/// When the jump term is added to the multiplier block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stabilise {
+    /// Where the segments are shorter than the safe rule allows.
+    Auto,
+    /// Always.
+    On,
+    /// Never.
+    Off,
 }
 
 /// Where the contact boundary comes from.

@@ -144,7 +144,7 @@ fn fractions(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 
         SegmentRule::Auto => {
             let edges = all_edges(mesh, numbering, pair);
             let ratio = safe_ratio_of(numbering.level.order, pair.space, &edges);
-            let longest = softer_edges(boundary, &edges, young).map(|(_, length)| length).fold(0.0, f64::max);
+            let longest = softer_edge_length(boundary, &edges, young);
             equal(((boundary.length() / (ratio * longest) * (1.0 + 1e-9)) as usize).max(1))
         }
     }
@@ -175,6 +175,11 @@ fn softer_edges<'a>(
         let part = [feet[0].min(feet[1]).max(first), feet[0].max(feet[1]).min(last)];
         (part[1] - part[0] > least).then(|| (part, edge.length()))
     })
+}
+
+/// Length of the longest ruling edge: the `h` of the jump term.
+pub fn softer_edge_length(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
+    softer_edges(boundary, edges, young).map(|(_, length)| length).fold(0.0, f64::max)
 }
 
 /// Smallest ratio of a segment's length to the longest ruling edge that it meets.

@@ -123,3 +123,149 @@ impl TriangleNumbers {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::mesh::{EdgeNode, read_gmsh};
+    use std::collections::{HashMap, HashSet};
+    use std::path::Path;
+
+    /// Three bodies of 70 triangles, straight.
+    fn mesh() -> MacroMesh {
+        read_gmsh(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/stack/stack.msh")).expect("a mesh")
+    }
+
+    /// Macro triangles dealt to ranks as cards are, some ranks with nothing.
+    fn deal(mesh: &MacroMesh, size: usize, seed: u64) -> Rc<Partition> {
+        let rank = |triangle: usize| ((triangle as u64 + 1).wrapping_mul(seed * 0x9e37_79b9 + 1) >> 7) as usize % size;
+        let ranks: Vec<i32> = (0..mesh.triangles.len()).map(|triangle| (rank(triangle) / seed as usize) as i32).collect();
+        Rc::new(Partition::new(mesh, &ranks, size))
+    }
+
+    /// Every level of both orders, every number of ranks, several partitions.
+    fn everywhere(check: impl Fn(&MacroMesh, &Partition, &Numbering, Option<&Numbering>)) {
+        let mesh = mesh();
+        for (size, seed) in (1..=4).flat_map(|size| (1..=3).map(move |seed| (size, seed))) {
+            let partition = deal(&mesh, size, seed);
+            for (order, refine) in [(Order::P1, 3), (Order::P2, 2)] {
+                let all = levels(order, refine).into_iter().map(|level| Numbering::new(level, &partition));
+                let mut coarse: Option<Numbering> = None;
+                for numbering in all {
+                    check(&mesh, &partition, &numbering, coarse.as_ref());
+                    coarse = Some(numbering);
+                }
+            }
+        }
+    }
+
+    /// Every node of every macro triangle: its triangle, its place in the lattice, its number, its position.
+    fn all_nodes(mesh: &MacroMesh, numbering: &Numbering) -> Vec<(usize, (usize, usize), usize, Point)> {
+        let n = numbering.level.intervals;
+        let of = |triangle: usize| {
+            let numbers = numbering.triangle(mesh, triangle);
+            lattice::nodes(n).map(move |(i, j)| {
+                let x = mesh.position(triangle, i as f64 / n as f64, j as f64 / n as f64);
+                (triangle, (i, j), numbers.node(i, j), x)
+            })
+        };
+        (0..mesh.triangles.len()).flat_map(of).collect()
+    }
+
+    /// Positions by number.
+    fn positions(mesh: &MacroMesh, numbering: &Numbering) -> HashMap<usize, Point> {
+        all_nodes(mesh, numbering).into_iter().map(|(.., number, x)| (number, x)).collect()
+    }
+
+    #[test]
+    fn numbers_are_a_bijection() {
+        everywhere(|mesh, _, numbering, _| {
+            let nodes = all_nodes(mesh, numbering);
+            let numbers: HashSet<usize> = nodes.iter().map(|(.., number, _)| *number).collect();
+            assert_eq!(numbers.len(), numbering.node_count());
+            assert_eq!(numbers.into_iter().max(), Some(numbering.node_count() - 1));
+        });
+    }
+
+    #[test]
+    fn one_node_has_one_number_from_whichever_triangle_it_is_seen() {
+        everywhere(|mesh, _, numbering, _| {
+            let mut seen: HashMap<(u32, i64, i64), usize> = HashMap::new();
+            let mut places: HashMap<usize, Point> = HashMap::new();
+            for (triangle, _, number, x) in all_nodes(mesh, numbering) {
+                let key = (mesh.triangles[triangle].body, (x.x * 1e8).round() as i64, (x.y * 1e8).round() as i64);
+                assert_eq!(*seen.entry(key).or_insert(number), number, "two numbers at {x}");
+                assert!((places.entry(number).or_insert(x).xy() - x).norm() < 1e-12, "number {number} at two places");
+            }
+        });
+    }
+
+    #[test]
+    fn each_rank_has_one_range_of_nodes_that_it_sees() {
+        everywhere(|mesh, partition, numbering, _| {
+            let ends: Vec<usize> =
+                (0..partition.size()).flat_map(|rank| [numbering.range(rank).start, numbering.range(rank).end]).collect();
+            assert!(ends[0] == 0 && ends[ends.len() - 1] == numbering.node_count());
+            assert!(ends.is_sorted() && ends[1..ends.len() - 1].chunks(2).all(|pair| pair[0] == pair[1]));
+            let mut seen = vec![HashSet::new(); partition.size()];
+            for (triangle, (i, j), number, _) in all_nodes(mesh, numbering) {
+                let rank = partition.owner(triangle as u32);
+                seen[rank].insert(number);
+                if matches!(lattice::place(numbering.level.intervals, i, j), Place::Inside(_)) {
+                    assert!(numbering.range(rank).contains(&number));
+                }
+            }
+            for (rank, seen) in seen.iter().enumerate() {
+                assert!(numbering.range(rank).all(|number| seen.contains(&number)), "rank {rank} owns what it does not see");
+                assert_eq!(seen.is_empty(), partition.triangles_of(rank).is_empty());
+            }
+        });
+    }
+
+    #[test]
+    fn rows_inside_a_macro_triangle_are_contiguous() {
+        everywhere(|mesh, _, numbering, _| {
+            let n = numbering.level.intervals;
+            let numbers = numbering.triangle(mesh, 5);
+            for j in 1..n {
+                assert!((2..n - j).all(|i| numbers.node(i, j) == numbers.node(i - 1, j) + 1));
+            }
+        });
+    }
+
+    #[test]
+    fn nodes_on_edges_are_those_of_the_triangles_beside() {
+        everywhere(|mesh, _, numbering, _| {
+            let places = positions(mesh, numbering);
+            let n = numbering.level.intervals;
+            for (edge, position) in (0..mesh.edges.len() as u32).flat_map(|edge| (0..=n).map(move |p| (edge, p))) {
+                let node = EdgeNode { edge, position: position as u32 };
+                let x = node.place(mesh, numbering);
+                assert!((places[&node.number(mesh, numbering)] - x).norm() < 1e-12);
+            }
+        });
+    }
+
+    #[test]
+    fn parents_interpolate_linear_functions_exactly() {
+        everywhere(|mesh, _, fine, coarse| {
+            let Some(coarse) = coarse else { return };
+            assert_eq!(fine.level.intervals, 2 * coarse.level.intervals);
+            let places = positions(mesh, coarse);
+            let linear = |x: Point| 0.3 - 1.7 * x.x + 0.9 * x.y;
+            for (triangle, (i, j), _, x) in all_nodes(mesh, fine) {
+                let numbers = coarse.triangle(mesh, triangle);
+                let parents = lattice::parents(i, j).map(|(i, j)| linear(places[&numbers.node(i, j)]));
+                assert!((0.5 * (parents[0] + parents[1]) - linear(x)).abs() < 1e-12);
+            }
+            for (edge, position) in
+                (0..mesh.edges.len() as u32).flat_map(|edge| (0..=fine.level.intervals).map(move |p| (edge, p)))
+            {
+                let node = EdgeNode { edge, position: position as u32 };
+                let parents = node.parents().map(|parent| linear(places[&parent.number(mesh, coarse)]));
+                assert!((0.5 * (parents[0] + parents[1]) - linear(node.place(mesh, fine))).abs() < 1e-12);
+            }
+        });
+    }
+}

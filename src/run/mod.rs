@@ -202,7 +202,7 @@ impl Run<'_> {
         let failed = matches!(solution.verdict, Verdict::NotConverged(_));
         let cheap = problem.unknown_count() <= CHEAP_INF_SUP;
         if self.case.solver.inf_sup.unwrap_or(cheap || failed) {
-            let one = |contact: &Contact| solver.inf_sup(&system, contact.range(), &solution.active);
+            let one = |contact: &Contact| solver.inf_sup(&system, contact, &solution.active);
             solution.inf_sup = problem.contacts.iter().map(one).collect::<Result<_, _>>()?;
         }
         Ok((solution, solver.name))

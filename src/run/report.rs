@@ -2,7 +2,6 @@
 
 use super::{Outcome, RunOptions, Stages};
 use crate::case::Case;
-use crate::contact::{all_edges, safe_ratio_of, segment_ratio};
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
@@ -86,19 +85,15 @@ impl Report {
         }
     }
 
-    /// Segments shorter than the safe rule.
+    /// Segments shorter than the safe rule, and what is done about them.
     fn short_segments(&self, problem: &Discretisation) {
-        for contact in &problem.contacts {
-            let edges = all_edges(&problem.scene.mesh, &problem.finest().numbering, &contact.pair);
-            let young = contact.bodies.map(|body| problem.scene.bodies[body].material.young);
-            let (found, safe) =
-                (segment_ratio(&contact.boundary, &edges, young), safe_ratio_of(problem.scene.order, contact.pair.space, &edges));
-            if found < 0.99 * safe {
-                self.warn(&format!(
-                    "contact {}: segments of {found:.2} edges of the softer body, {safe} or more are safe: watch inf_sup and oscillation",
-                    contact.pair.name
-                ));
-            }
+        for contact in problem.contacts.iter().filter(|contact| contact.has_short_segments()) {
+            let remedy =
+                if contact.jumps.is_empty() { "watch inf_sup and oscillation" } else { "the jump term is added (stabilise)" };
+            self.warn(&format!(
+                "contact {}: segments of {:.2} edges of the softer body, {} or more are safe: {remedy}",
+                contact.pair.name, contact.segment_ratio, contact.safe_ratio
+            ));
         }
     }
 

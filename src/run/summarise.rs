@@ -1,7 +1,7 @@
 //! A solution in the terms of `summary.json`.
 
 use crate::case::Case;
-use crate::contact::{MultiplierSpace, all_edges, oscillation, segment_ratio};
+use crate::contact::{MultiplierSpace, oscillation};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
@@ -71,22 +71,13 @@ pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balan
 }
 
 /// One contact; `at` is its place among all.
-pub fn contact(
-    contact: &Contact,
-    at: usize,
-    problem: &Discretisation,
-    solution: &Solution,
-    balance: &Balance,
-    points: &[TracePoint],
-) -> summary::Contact {
+pub fn contact(contact: &Contact, at: usize, solution: &Solution, balance: &Balance, points: &[TracePoint]) -> summary::Contact {
     let boundary = &contact.boundary;
     let knots = boundary.knots();
     let pair = |p: Point| [p.x, p.y];
     let force = &balance.contacts[at];
     let closed = closed(contact, &solution.active[contact.range()]);
     let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
-    let young = contact.bodies.map(|body| problem.scene.bodies[body].material.young);
-    let ratio = segment_ratio(boundary, &all_edges(&problem.scene.mesh, &problem.finest().numbering, &contact.pair), young);
     let lambda = &solution.multipliers[contact.range()];
     let oscillation = oscillation(boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
     let inf_sup = solution.inf_sup.get(at).copied().flatten();
@@ -94,7 +85,7 @@ pub fn contact(
         length: Some(boundary.length()),
         segments: Some(boundary.segments()),
         multiplier: Some(space_name(contact.pair.space).into()),
-        h_ratio: Some(ratio),
+        h_ratio: Some(contact.segment_ratio),
         ends: Some([pair(boundary.point(knots[0])), pair(boundary.point(knots[knots.len() - 1]))]),
         closed_points: Some(closed.iter().map(|&[a, b]| [end(a), end(b)]).collect()),
         closed: Some(closed),
@@ -136,7 +127,9 @@ pub fn distrust(summary: &Summary) -> Option<String> {
         format!("contact {name} ({})", figures.into_iter().flatten().collect::<Vec<_>>().join("; "))
     };
     let bad: Vec<String> = summary.contact.iter().filter(|(_, contact)| contact.trust == Some(false)).map(words).collect();
-    (!bad.is_empty()).then(|| format!("{}; take fewer segments (\"auto\" is safe) or another multiplier space", bad.join(", ")))
+    (!bad.is_empty()).then(|| {
+        format!("{}; take fewer segments (\"auto\" is safe), stabilise = true, or another multiplier space", bad.join(", "))
+    })
 }
 
 /// Name of a multiplier space in the case file.

@@ -138,7 +138,7 @@ impl ContactLoop<'_> {
             let b = system.right_hand_side(&active, self.finest())?;
             let solve = solver.solve(system, &b, &mut x, goal)?;
             let lambda = self.pressures(system, &x);
-            let penetration = self.penetration(system, &x);
+            let penetration = self.penetration(system, &x, &lambda);
             let outcome = match solve.ending {
                 Ending::Failed(_) => Step::Settled,
                 _ => set.update(|i| self.force(i, &active, &lambda, &penetration)),
@@ -222,8 +222,8 @@ impl ContactLoop<'_> {
         all.iter().zip(&system.multipliers.scale).map(|(value, scale)| value * scale).collect()
     }
 
-    /// `(B u - c)_i` of all multipliers, active or not (length squared). **Collective**
-    fn penetration(&self, system: &SaddlePoint, x: &Vector) -> Vec<f64> {
+    /// `(B u - C λ - c)_i` of all multipliers, active or not (length squared). **Collective**
+    fn penetration(&self, system: &SaddlePoint, x: &Vector, lambda: &[f64]) -> Vec<f64> {
         let values = x.values();
         let own = &self.finest().own;
         let mut all = vec![0.0; system.gap.len()];
@@ -236,11 +236,12 @@ impl ContactLoop<'_> {
             }
         }
         self.session.sum(&mut all);
-        all.iter_mut().zip(&system.gap).for_each(|(sum, gap)| *sum -= gap);
+        let jumps = system.jump_term(lambda);
+        all.iter_mut().zip(system.gap.iter().zip(&jumps)).for_each(|(sum, (gap, jump))| *sum -= gap + jump);
         all
     }
 
-    /// `λ_i + κ_i (B u - c)_i`: positive where the next set is active.
+    /// `λ_i + κ_i (B u - C λ - c)_i`: positive where the next set is active.
     fn force(&self, i: usize, active: &[bool], lambda: &[f64], penetration: &[f64]) -> f64 {
         let contact = self.problem.contact_of(i);
         let penalty = contact.multipliers.penalty(i - contact.first, contact.modulus);

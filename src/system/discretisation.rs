@@ -1,6 +1,7 @@
 //! A scene cut into unknowns: spaces of all levels, contacts, couplings.
 
 use super::{Contact, Coupling, Scene, Space, SystemError};
+use crate::contact::Jump;
 use crate::mesh::levels;
 use crate::petsc::Session;
 
@@ -37,6 +38,11 @@ impl Discretisation {
     pub fn contact_of(&self, multiplier: usize) -> &Contact {
         let at = self.contacts.partition_point(|contact| contact.first <= multiplier);
         &self.contacts[at - 1]
+    }
+
+    /// The jump terms of all contacts.
+    pub fn jumps(&self) -> impl Iterator<Item = &Jump> {
+        self.contacts.iter().flat_map(|contact| &contact.jumps)
     }
 
     /// Number of displacement unknowns of all ranks.

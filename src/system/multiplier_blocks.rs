@@ -1,9 +1,11 @@
 //! The blocks of the saddle point that have a multiplier side: `B̂`, `B̂ᵀ`, `-Ĉ` and the approximate Schur complement.
 
+use super::saddle_point::weights;
 use super::{Contact, CouplingRows, Discretisation, Space, SystemError};
-use crate::contact::{DiagonalBlock, MultiplierSpace};
+use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
+use crate::geometry::Point;
 use crate::petsc::{Matrix, Session};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the approximate Schur complement couples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,28 +14,30 @@ pub enum SchurPattern {
     Diagonal,
     /// The two of each discontinuous segment.
     Pairs,
-    /// Contacts of both kinds.
+    /// Contacts of both kinds, or a jump term: a band.
     Mixed,
 }
 
 impl SchurPattern {
     fn of(contacts: &[Contact]) -> Self {
         let paired = |contact: &Contact| contact.pair.space == MultiplierSpace::P1Discontinuous;
-        match (contacts.iter().any(paired), contacts.iter().all(paired)) {
-            (false, _) => Self::Diagonal,
-            (true, true) => Self::Pairs,
-            (true, false) => Self::Mixed,
+        let stabilised = contacts.iter().any(|contact| !contact.jumps.is_empty());
+        match (stabilised, contacts.iter().any(paired), contacts.iter().all(paired)) {
+            (false, false, _) => Self::Diagonal,
+            (false, true, true) => Self::Pairs,
+            _ => Self::Mixed,
         }
     }
 
     /// An empty matrix of this pattern over `own` multipliers of this rank.
     fn matrix(self, own: usize, session: &Session) -> Result<Matrix, SystemError> {
-        let (block, most) = match self {
-            Self::Diagonal => (1, 1),
-            Self::Pairs => (2, 1),
-            Self::Mixed => (1, 2),
+        let (block, diagonal, off_diagonal) = match self {
+            Self::Diagonal => (1, 1, 0),
+            Self::Pairs => (2, 1, 0),
+            Self::Mixed => (1, 3, 2),
         };
-        Ok(Matrix::aij(session, own, own, block, &vec![most; own / block], &vec![0; own / block])?)
+        let rows = own / block;
+        Ok(Matrix::aij(session, own, own, block, &vec![diagonal.min(own as i32); rows], &vec![off_diagonal; rows])?)
     }
 }
 
@@ -41,11 +45,11 @@ impl SchurPattern {
 pub struct MultiplierBlocks {
     /// `B̂ = s B`.
     pub coupling: Matrix,
-    /// `B̂ᵀ`.
+    /// `B̂ᵀ (I - D̂ Ĉ)`; without a jump term `B̂ᵀ` but for inactive multipliers, whose columns are zero either way.
     pub transpose: Matrix,
     /// `-Ĉ`.
     pub corner: Matrix,
-    /// `-D̂⁻¹`.
+    /// `-(D̂⁻¹ + Ĉ)`.
     pub schur: Matrix,
     /// Pattern of the approximate Schur complement.
     pub pattern: SchurPattern,
@@ -55,6 +59,8 @@ pub struct MultiplierBlocks {
     pub own: Vec<usize>,
     /// Number of each multiplier: by rank, along the boundaries within a rank.
     number: Vec<usize>,
+    /// Nodes in each column of the transpose, whatever the active set.
+    columns: Vec<BTreeSet<usize>>,
 }
 
 impl MultiplierBlocks {
@@ -72,66 +78,85 @@ impl MultiplierBlocks {
             lengths.into_iter().map(move |length| modulus / length)
         };
         let pattern = SchurPattern::of(&problem.contacts);
-        let (coupling, transpose) = coupling_matrices(rows, &own, problem.finest(), session)?;
+        let all = vec![true; owners.len()];
+        let jumps = jump_matrix(problem.jumps(), &all);
+        let columns: Vec<BTreeSet<usize>> = corrected(rows, &weights(&problem.contacts, &all), &jumps)
+            .into_iter()
+            .map(|column| column.into_keys().collect())
+            .collect();
+        let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
         Ok(Self {
-            coupling,
-            transpose,
-            corner: SchurPattern::Diagonal.matrix(own.len(), session)?,
+            coupling: coupling_matrix(rows, &own, problem.finest(), session)?,
+            transpose: transpose_matrix(&columns, &own, problem.finest(), session)?,
+            corner: corner.matrix(own.len(), session)?,
             schur: pattern.matrix(own.len(), session)?,
             pattern,
             scale: problem.contacts.iter().flat_map(scale).collect(),
             own,
             number,
+            columns,
         })
     }
 
-    /// Values for an active set with its weights `D`: `-C` is zero and `S = -D⁻¹` on active multipliers; an inactive
-    /// one has a zero row of `B` and `-1/D_ii` in both. **Collective**
+    /// Values for an active set with its weights `D` and its jump term `C`: on active multipliers `-C` and
+    /// `S = -(D⁻¹ + C)`; an inactive one has a zero row of `B` and `-1/D_ii` in both. **Collective**
     pub fn fill(
         &mut self,
         problem: &Discretisation,
         rows: &CouplingRows,
         active: &[bool],
         weights: &[DiagonalBlock],
+        jumps: &SparseRows,
     ) -> Result<(), SystemError> {
+        let transposed = corrected(rows, weights, jumps);
         let (own_rows, own_nodes) = (self.coupling.row_range(), &problem.finest().own);
         self.corner.zero_entries()?;
         self.schur.zero_entries()?;
-        for (i, &active) in active.iter().enumerate() {
-            let number = self.number[i];
-            let here = own_rows.contains(&number);
-            let at = [number as i32];
-            for &(node, value) in rows.row(i) {
-                let (columns, value) = ([2 * node as i32, 2 * node as i32 + 1], value * if active { self.scale[i] } else { 0.0 });
-                if here {
-                    self.coupling.insert(&at, &columns, &[value.x, value.y])?;
-                }
-                if own_nodes.contains(&node) {
-                    self.transpose.insert(&columns, &at, &[value.x, value.y])?;
-                }
+        for i in 0..active.len() {
+            let at = [self.number[i] as i32];
+            let here = own_rows.contains(&self.number[i]);
+            let scale = if active[i] { self.scale[i] } else { 0.0 };
+            for &(node, value) in rows.row(i).iter().filter(|_| here) {
+                let columns = [2 * node as i32, 2 * node as i32 + 1];
+                self.coupling.insert(&at, &columns, &[value.x * scale, value.y * scale])?;
+            }
+            for node in self.columns[i].iter().filter(|node| own_nodes.contains(node)) {
+                let value = transposed[i].get(node).copied().unwrap_or_default() * scale;
+                self.transpose.insert(&[2 * *node as i32, 2 * *node as i32 + 1], &at, &[value.x, value.y])?;
             }
             if here {
                 let contact = problem.contact_of(i);
                 let alone = contact.multipliers.single_weight(i - contact.first, contact.modulus) / self.scale[i].powi(2);
-                self.corner.insert(&at, &at, &[if active { 0.0 } else { -1.0 / alone }])?;
-                if !active {
-                    self.schur.insert(&at, &at, &[-1.0 / alone])?;
-                }
+                let value = if active[i] { 0.0 } else { -1.0 / alone };
+                self.corner.add(&at, &at, &[value])?;
+                self.schur.add(&at, &at, &[value])?;
             }
         }
-        for block in weights {
-            let inverse = block.inverse();
-            for (p, &i) in block.rows.iter().enumerate() {
-                for (q, &j) in block.rows.iter().enumerate() {
-                    if own_rows.contains(&self.number[i]) {
-                        let value = -self.scale[i] * self.scale[j] * inverse.values[p][q];
-                        self.schur.insert(&[self.number[i] as i32], &[self.number[j] as i32], &[value])?;
-                    }
-                }
-            }
-        }
+        self.fill_bands(weights, jumps)?;
         for matrix in [&mut self.coupling, &mut self.transpose, &mut self.corner, &mut self.schur] {
             matrix.assemble()?;
+        }
+        Ok(())
+    }
+
+    /// Adds `-D⁻¹` to the Schur complement and `-C` to both.
+    fn fill_bands(&mut self, weights: &[DiagonalBlock], jumps: &SparseRows) -> Result<(), SystemError> {
+        let own = self.coupling.row_range();
+        let place = |i: usize, j: usize| ([self.number[i] as i32], [self.number[j] as i32], self.scale[i] * self.scale[j]);
+        for block in weights.iter().map(DiagonalBlock::inverse) {
+            for (p, &i) in block.rows.iter().enumerate().filter(|(_, i)| own.contains(&self.number[**i])) {
+                for (q, &j) in block.rows.iter().enumerate() {
+                    let (row, column, scale) = place(i, j);
+                    self.schur.add(&row, &column, &[-scale * block.values[p][q]])?;
+                }
+            }
+        }
+        for (i, row) in jumps.iter().enumerate().filter(|(i, _)| own.contains(&self.number[*i])) {
+            for (&j, value) in row {
+                let (row, column, scale) = place(i, j);
+                self.corner.add(&row, &column, &[-scale * value])?;
+                self.schur.add(&row, &column, &[-scale * value])?;
+            }
         }
         Ok(())
     }
@@ -145,31 +170,43 @@ impl MultiplierBlocks {
     }
 }
 
-/// Empty `B̂` and `B̂ᵀ` with exact room.
-fn coupling_matrices(
-    rows: &CouplingRows,
-    own: &[usize],
-    space: &Space,
-    session: &Session,
-) -> Result<(Matrix, Matrix), SystemError> {
-    let unknowns = space.local_unknowns();
-    let mut counts = [vec![0; own.len()], vec![0; own.len()], vec![0; unknowns], vec![0; unknowns]];
-    let places: HashMap<usize, usize> = own.iter().enumerate().map(|(at, &i)| (i, at)).collect();
-    for i in 0..rows.count() {
-        for &(node, _) in rows.row(i) {
-            let own_node = space.own.contains(&node);
-            if let Some(&at) = places.get(&i) {
-                counts[if own_node { 0 } else { 1 }][at] += 2;
-            }
-            if own_node {
-                let row = 2 * (node - space.own.start);
-                let counts = &mut counts[if places.contains_key(&i) { 2 } else { 3 }];
-                counts[row] += 1;
-                counts[row + 1] += 1;
+/// Columns of `Bᵀ (I - D C)`: for each multiplier its nodes with their entries.
+fn corrected(rows: &CouplingRows, weights: &[DiagonalBlock], jumps: &SparseRows) -> Vec<BTreeMap<usize, Point>> {
+    let mut columns: Vec<BTreeMap<usize, Point>> = (0..rows.count()).map(|i| rows.row(i).iter().copied().collect()).collect();
+    for block in weights {
+        for (p, &i) in block.rows.iter().enumerate() {
+            for (q, &k) in block.rows.iter().enumerate() {
+                for (&j, c) in &jumps[k] {
+                    for &(node, value) in rows.row(i) {
+                        *columns[j].entry(node).or_default() -= block.values[p][q] * c * value;
+                    }
+                }
             }
         }
     }
-    let coupling = Matrix::aij(session, own.len(), unknowns, 1, &counts[0], &counts[1])?;
-    let transpose = Matrix::aij(session, unknowns, own.len(), 1, &counts[2], &counts[3])?;
-    Ok((coupling, transpose))
+    columns
+}
+
+/// Empty `B̂` with exact room.
+fn coupling_matrix(rows: &CouplingRows, own: &[usize], space: &Space, session: &Session) -> Result<Matrix, SystemError> {
+    let count =
+        |i: &usize, here: bool| 2 * rows.row(*i).iter().filter(|(node, _)| space.own.contains(node) == here).count() as i32;
+    let [diagonal, off_diagonal] = [true, false].map(|here| own.iter().map(|i| count(i, here)).collect::<Vec<_>>());
+    Ok(Matrix::aij(session, own.len(), space.local_unknowns(), 1, &diagonal, &off_diagonal)?)
+}
+
+/// Empty `B̂ᵀ (I - D̂ Ĉ)` with exact room for the given columns.
+fn transpose_matrix(columns: &[BTreeSet<usize>], own: &[usize], space: &Space, session: &Session) -> Result<Matrix, SystemError> {
+    let unknowns = space.local_unknowns();
+    let mut counts = [vec![0; unknowns], vec![0; unknowns]];
+    let mine: BTreeSet<usize> = own.iter().copied().collect();
+    for (i, column) in columns.iter().enumerate() {
+        for node in column.range(space.own.clone()) {
+            let row = 2 * (node - space.own.start);
+            let counts = &mut counts[if mine.contains(&i) { 0 } else { 1 }];
+            counts[row] += 1;
+            counts[row + 1] += 1;
+        }
+    }
+    Ok(Matrix::aij(session, unknowns, own.len(), 1, &counts[0], &counts[1])?)
 }

@@ -1,11 +1,12 @@
 //! The saddle point in PETSc, and its change with the active set.
 //!
 //! ```text
-//! [ K + Bᵀ D B   Bᵀ ] [u]   [ f + Bᵀ D c ]
-//! [ B           -C  ] [λ] = [ c          ]
+//! [ K + Bᵀ D B   Bᵀ (I - D C) ] [u]   [ f + Bᵀ D c ]
+//! [ B           -C            ] [λ] = [ c          ]
 //! ```
 //! The system itself is augmented, not only its preconditioner: row 1 plus `Bᵀ D` times row 2 has the same solution,
-//! and `K + Bᵀ D B` is definite where `K` alone is singular because a body floats. `C` is zero on active multipliers;
+//! and `K + Bᵀ D B` is definite where `K` alone is singular because a body floats. `C` is zero on active multipliers
+//! but for a jump term;
 //! an inactive one has a zero row of `B` and `C_ii = 1 / D_ii`, so that sizes and patterns survive every change of
 //! the set. Multipliers are scaled by `s_i = E_c / H_i`: `λ = s λ̂`, `B̂ = s B`, `ĉ = s c`, `D̂ = D / s²`; then the
 //! residuals of this and of the plain system agree in size.
@@ -13,7 +14,7 @@
 use super::multiplier_blocks::MultiplierBlocks;
 use super::stiffness_matrix::{ContactNeighbours, fill_stiffness, prepare_stiffness};
 use super::{Contact, CouplingRows, Discretisation, Space, SystemError};
-use crate::contact::DiagonalBlock;
+use crate::contact::{DiagonalBlock, SparseRows, jump_matrix};
 use crate::geometry::Point;
 use crate::petsc::{Matrix, Session, Vector};
 use std::collections::HashMap;
@@ -39,6 +40,8 @@ pub struct SaddlePoint {
     pub gap: Vec<f64>,
     /// `D` of the active multipliers, unscaled, all contacts numbered through.
     weights: Vec<DiagonalBlock>,
+    /// `C` of the active multipliers, unscaled.
+    jumps: SparseRows,
     rows: Vec<CouplingRows>,
     form: Form,
     load: Vec<f64>,
@@ -62,7 +65,8 @@ impl SaddlePoint {
         let finest = &stiffness[stiffness.len() - 1];
         let nest = Matrix::nest(session, [[finest, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?;
         let gap = moved_gap(problem);
-        let mut system = Self { stiffness, multipliers: blocks, nest, gap, weights: Vec::new(), rows, form, load };
+        let mut system =
+            Self { stiffness, multipliers: blocks, nest, gap, weights: Vec::new(), jumps: Vec::new(), rows, form, load };
         system.activate(problem, active)?;
         Ok(system)
     }
@@ -73,7 +77,10 @@ impl SaddlePoint {
         if self.form == Form::Augmented {
             self.augment(problem, &next)?;
         }
-        self.multipliers.fill(problem, &self.rows[self.rows.len() - 1], active, &next)?;
+        let jumps = jump_matrix(problem.jumps(), active);
+        let in_transpose = if self.form == Form::Augmented { next.as_slice() } else { &[] };
+        self.multipliers.fill(problem, &self.rows[self.rows.len() - 1], active, in_transpose, &jumps)?;
+        self.jumps = jumps;
         self.weights = next;
         self.nest.refresh()?;
         Ok(())
@@ -95,6 +102,11 @@ impl SaddlePoint {
             matrix.assemble()?;
         }
         Ok(())
+    }
+
+    /// `C λ` (length squared).
+    pub fn jump_term(&self, lambda: &[f64]) -> Vec<f64> {
+        self.jumps.iter().map(|row| row.iter().map(|(&j, value)| value * lambda[j]).sum()).collect()
     }
 
     /// Rows of `B` on the finest level, unscaled, whatever the active set.
@@ -189,7 +201,7 @@ fn moved_gap(problem: &Discretisation) -> Vec<f64> {
 }
 
 /// `D` of all contacts, numbered through.
-fn weights(contacts: &[Contact], active: &[bool]) -> Vec<DiagonalBlock> {
+pub(super) fn weights(contacts: &[Contact], active: &[bool]) -> Vec<DiagonalBlock> {
     let own = |contact: &Contact| {
         let mut blocks = contact.multipliers.augmentation(contact.modulus, &active[contact.range()]);
         blocks.iter_mut().flat_map(|block| &mut block.rows).for_each(|row| *row += contact.first);

@@ -3,13 +3,17 @@
 use super::SystemError;
 use crate::body::{Body, Load, Support};
 use crate::contact::{
-    ContactBoundary, Distance, Extent, GapChoice, Law, Multipliers, Pair, Side, declared_gap, integrate, place,
+    ContactBoundary, Distance, Extent, GapChoice, Jump, Law, MultiplierSpace, Multipliers, Pair, Side, Stabilise, all_edges,
+    declared_gap, integrate, jumps, place, safe_ratio_of, segment_ratio, softer_edge_length,
 };
 use crate::element::{Order, PlaneStrain};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, EdgeNode, MacroMesh, Numbering, Partition};
 use crate::petsc::Session;
 use std::rc::Rc;
+
+/// Segments are short if they miss the safe ratio by more than rounding to a whole number can.
+const SHORT: f64 = 0.95;
 
 /// Everything that defines the system, the same on every rank.
 pub struct Scene {
@@ -63,6 +67,12 @@ pub struct Contact {
     pub bodies: [usize; 2],
     /// Edges of body 1 and of body 2 whose macro triangle this rank owns.
     pub edges: [Vec<BoundaryEdge>; 2],
+    /// Smallest ratio of a segment's length to the edges of the softer body that it meets.
+    pub segment_ratio: f64,
+    /// Ratio from which the pair of spaces is stable.
+    pub safe_ratio: f64,
+    /// The jump term, all contacts numbered through; empty if there is none.
+    pub jumps: Vec<Jump>,
 }
 
 impl Contact {
@@ -90,9 +100,30 @@ impl Contact {
         let edges = sides
             .each_ref()
             .map(|edges| edges.iter().filter(own).flat_map(|&edge| BoundaryEdge::all_of(&scene.mesh, edge, numbering)).collect());
+        let all = all_edges(&scene.mesh, numbering, pair);
+        let segment_ratio = segment_ratio(&boundary, &all, young);
+        let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
         let multipliers = Multipliers::new(pair.space, &boundary);
         let modulus = 2.0 / (1.0 / young[0] + 1.0 / young[1]);
-        Ok(Self { pair: pair.clone(), boundary, multipliers, first, modulus, bodies, edges })
+        let stabilised = pair.space != MultiplierSpace::P1Continuous
+            && match pair.stabilise {
+                Stabilise::On => true,
+                Stabilise::Auto => segment_ratio < SHORT * safe_ratio,
+                Stabilise::Off => false,
+            };
+        let (multipliers, jumps) = if stabilised {
+            let own = jumps(&multipliers, softer_edge_length(&boundary, &all, young), modulus);
+            let numbered = own.into_iter().map(|jump| Jump { rows: jump.rows.map(|i| first + i), ..jump });
+            (multipliers.stabilised(), numbered.collect())
+        } else {
+            (multipliers, Vec::new())
+        };
+        Ok(Self { pair: pair.clone(), boundary, multipliers, first, modulus, bodies, edges, segment_ratio, safe_ratio, jumps })
+    }
+
+    /// Whether its segments are shorter than its pair of spaces allows.
+    pub fn has_short_segments(&self) -> bool {
+        self.segment_ratio < SHORT * self.safe_ratio
     }
 
     /// Numbers of its multipliers.

@@ -5,10 +5,8 @@
 //! below one smoothing step, on the P1 space of the same triangles).
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override.
 
-use super::{Discretisation, Form, SaddlePoint, SchurPattern, SolverChoice, SystemError, interpolation};
-use crate::contact::ALPHA;
+use super::{Contact, Discretisation, Form, SaddlePoint, SchurPattern, SolverChoice, SystemError, interpolation};
 use crate::petsc::{Krylov, Level, Matrix, Session, Vector, options};
-use std::ops::Range;
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
@@ -184,10 +182,11 @@ impl LinearSolver {
 
     /// Discrete inf-sup constant of one contact, `β² = g / (α (1 - g))` with `g` the smallest eigenvalue of
     /// `D (B K_γ⁻¹ Bᵀ)` over the active multipliers: the preconditioned system has no other eigenvalues but 1, so the
-    /// Ritz values of one solve with an erratic right-hand side on the contact's `own` multipliers show it. Nothing
-    /// for the direct solver. **Collective**
-    pub fn inf_sup(&self, system: &SaddlePoint, own: Range<usize>, active: &[bool]) -> Result<Option<f64>, SystemError> {
-        if self.form == Form::Plain || !own.clone().any(|i| active[i]) {
+    /// Ritz values of one solve with an erratic right-hand side on the contact's own multipliers show it. Nothing for
+    /// the direct solver, and beside a jump term, which makes up for a small one. **Collective**
+    pub fn inf_sup(&self, system: &SaddlePoint, contact: &Contact, active: &[bool]) -> Result<Option<f64>, SystemError> {
+        let own = contact.range();
+        if self.form == Form::Plain || !contact.jumps.is_empty() || !own.clone().any(|i| active[i]) {
             return Ok(None);
         }
         let (mut x, mut b) = system.nest.create_vectors()?;
@@ -202,7 +201,7 @@ impl LinearSolver {
         let ritz = self.krylov.eigenvalues(solved.iterations)?;
         Ok(ritz.first().map(|g| {
             let g = g.clamp(0.0, 1.0 - 1e-12);
-            (g / (ALPHA * (1.0 - g))).sqrt()
+            (g / (contact.multipliers.alpha * (1.0 - g))).sqrt()
         }))
     }
 

@@ -31,7 +31,7 @@ pub struct Balance {
     pub force: Option<f64>,
     /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C.
     pub moment: Option<f64>,
-    /// `|2U - (f·u + r·u_D - λᵀc)|` over the largest of the terms.
+    /// `|2U - (f·u + r·u_D - λᵀc - λᵀCλ)|` over the largest of the terms.
     pub energy: Option<f64>,
     /// Largest `|loads + reactions + contact|` of a body over the sum of magnitudes of these.
     pub bodies: Option<f64>,
@@ -68,6 +68,11 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     session.sum(totals.as_flattened_mut());
     let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
+    let jumped: f64 = problem
+        .jumps()
+        .filter(|jump| jump.rows.iter().all(|&i| solution.active[i]))
+        .map(|jump| jump.weight * (solution.multipliers[jump.rows[0]] - solution.multipliers[jump.rows[1]]).powi(2))
+        .sum();
     let (twice, external) = (2.0 * strain.iter().sum::<f64>(), work[0] + work[1]);
     let largest = [twice, work[0], work[1], lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
     let worst = |ratio: &dyn Fn(&Contact, &ContactForce) -> f64| {
@@ -81,7 +86,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
             let sum = force.moments[0] + force.moments[1] - cross(middle, force.resultants[0] + force.resultants[1]);
             sum.abs() / (force.resultants[1].norm() * contact.boundary.length())
         }),
-        energy: (largest > 0.0).then(|| (twice - (external - lambda_gap)).abs() / largest),
+        energy: (largest > 0.0).then(|| (twice - (external - lambda_gap - jumped)).abs() / largest),
         bodies: body_balance(contacts, &forces, &totals),
         strain,
         contacts: forces,

@@ -1,0 +1,81 @@
+//! The jump term that heals a multiplier space too rich for the displacements.
+//!
+//! `C = δ (h / E_c) Σ H [ψ_i] [ψ_j]` in place of the zero block, over the jumps between neighbouring values: at the
+//! inner segment ends and, for discontinuous P1, across each segment. `h` is the longest ruling edge of the softer
+//! body, `H` the mean length of the segments beside. It vanishes with `h H` for a smooth pressure.
+
+use super::{MultiplierSpace, Multipliers};
+use std::collections::BTreeMap;
+
+/// `δ`: the results change little between 0.1 and 1.
+const DELTA: f64 = 0.5;
+
+/// A weighted jump between two neighbouring multipliers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// The two multipliers.
+    pub rows: [usize; 2],
+    /// Weight of the squared jump (length squared per stress).
+    pub weight: f64,
+}
+
+/// Sparse rows: for each row its columns and values.
+pub type SparseRows = Vec<BTreeMap<usize, f64>>;
+
+/// Jumps of one contact boundary; none for continuous multipliers, which have no jumps.
+pub fn jumps(multipliers: &Multipliers, edge: f64, modulus: f64) -> Vec<Jump> {
+    let neighbours: Vec<[usize; 2]> = match multipliers.space {
+        MultiplierSpace::P1Continuous => Vec::new(),
+        _ => (1..multipliers.count()).map(|i| [i - 1, i]).collect(),
+    };
+    let jump = |rows: [usize; 2]| {
+        let length = 0.5 * (multipliers.length(rows[0]) + multipliers.length(rows[1]));
+        Jump { rows, weight: DELTA * edge * length / modulus }
+    };
+    neighbours.into_iter().map(jump).collect()
+}
+
+/// `C` over all `count` multipliers; jumps next to an inactive multiplier are left out.
+pub fn jump_matrix<'a>(jumps: impl Iterator<Item = &'a Jump>, active: &[bool]) -> SparseRows {
+    let mut rows = vec![BTreeMap::new(); active.len()];
+    for Jump { rows: [i, j], weight } in jumps.filter(|jump| jump.rows.iter().all(|&i| active[i])) {
+        for (a, b, sign) in [(i, i, 1.0), (j, j, 1.0), (i, j, -1.0), (j, i, -1.0)] {
+            *rows[*a].entry(*b).or_insert(0.0) += sign * weight;
+        }
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::ContactBoundary;
+    use crate::geometry::{Curve, Point};
+
+    fn matrix(space: MultiplierSpace, active: impl Fn(usize) -> bool) -> SparseRows {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [2.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&[0.0, 0.2, 0.5, 1.0]);
+        let multipliers = Multipliers::new(space, &boundary);
+        let active: Vec<bool> = (0..multipliers.count()).map(active).collect();
+        jump_matrix(jumps(&multipliers, 0.1, 7.0).iter(), &active)
+    }
+
+    #[test]
+    fn a_constant_pressure_costs_nothing_and_an_alternation_does() {
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous] {
+            let rows = matrix(space, |_| true);
+            assert!(rows.iter().all(|row| row.values().sum::<f64>().abs() < 1e-16));
+            let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let energy: f64 =
+                rows.iter().enumerate().map(|(i, row)| row.iter().map(|(&j, v)| sign(i) * v * sign(j)).sum::<f64>()).sum();
+            assert!(energy > 0.0);
+        }
+        assert!(matrix(MultiplierSpace::P1Continuous, |_| true).iter().all(BTreeMap::is_empty));
+    }
+
+    #[test]
+    fn jumps_to_an_open_segment_are_free() {
+        let rows = matrix(MultiplierSpace::P0, |i| i != 1);
+        assert!(rows.iter().all(BTreeMap::is_empty));
+    }
+}
