@@ -76,6 +76,14 @@ impl Status {
     }
 }
 
+impl Ended {
+    /// Whether the run converged to a pressure that can be trusted, as far as is known; the reason goes without saying then.
+    pub fn is_good(&self) -> bool {
+        let mut contacts = self.summary["contact"].as_object().into_iter().flat_map(|contacts| contacts.values());
+        self.status == Status::Converged && contacts.all(|contact| contact["trust"] != false)
+    }
+}
+
 impl Execution {
     /// Runs of this very program, with results in the study's folder `out`.
     ///
@@ -239,6 +247,19 @@ mod tests {
         for (ending, summary, said, status, reason) in table {
             assert_eq!(judge(ending, summary, said), (status, reason.to_owned()), "{ending:?} {said}");
         }
+    }
+
+    #[test]
+    fn a_pressure_not_to_be_trusted_is_not_good() {
+        let ended = |trust: Value, status| Ended {
+            status,
+            reason: String::new(),
+            summary: json!({ "contact": { "a": { "trust": null }, "b": { "trust": trust } } }),
+            wall: PULSE,
+            result: String::new(),
+        };
+        assert!(ended(json!(true), Status::Converged).is_good() && ended(Value::Null, Status::Converged).is_good());
+        assert!(!ended(json!(false), Status::Converged).is_good() && !ended(json!(true), Status::NotConverged).is_good());
     }
 
     #[test]

@@ -18,21 +18,21 @@ pub fn json(table: &Table) -> String {
     serde_json::to_string_pretty(table).expect("a table of JSON values is JSON") + "\n"
 }
 
-/// A page to read: main columns that are not empty, results to four digits, reasons at the end and of bad runs only.
+/// A page to read: main columns that are not empty, results to four digits, reasons at the end and not of good runs.
 pub fn markdown(table: &Table) -> String {
     let at = |name: &str| table.columns.iter().position(|column| column.name == name).expect("a column of every table");
-    let (status, reason) = (at("status"), at("reason"));
-    let cell = |row: &[Value], column: usize| match row[status].as_str() {
-        Some("converged") if column == reason => String::new(),
-        _ if table.columns[column].kind == Kind::Given => escape(&plain(&row[column])),
-        _ => escape(&rounded(&row[column])),
+    let reason = table.columns.iter().position(|column| column.name == "reason").expect("a column of every table");
+    let cell = |index: usize, column: usize| match (table.columns[column].kind, &table.rows[index][column]) {
+        _ if column == reason && table.good[index] => String::new(),
+        (Kind::Given, value) => escape(&plain(value)),
+        (_, value) => escape(&rounded(value)),
     };
     let order = (0..table.columns.len()).filter(|&column| column != reason).chain([reason]);
     let main = order.filter(|&column| table.columns[column].kind != Kind::Detail);
-    let shown: Vec<usize> = main.filter(|&column| table.rows.iter().any(|row| !cell(row, column).is_empty())).collect();
+    let shown: Vec<usize> = main.filter(|&column| (0..table.rows.len()).any(|index| !cell(index, column).is_empty())).collect();
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     let header = line(shown.iter().map(|&column| escape(&table.columns[column].name)).collect());
-    let rows = table.rows.iter().map(|row| line(shown.iter().map(|&column| cell(row, column)).collect()));
+    let rows = (0..table.rows.len()).map(|index| line(shown.iter().map(|&column| cell(index, column)).collect()));
     let error = table.error.as_ref().map_or(String::new(), |path| format!(" The column error is `{path}`."));
     format!(
         "# Study {}\n\n{} runs, {} converged; mezha {}.{error} All columns and digits stand in study.csv and study.json.\n\n{header}|{}\n{}",
@@ -128,6 +128,7 @@ mod tests {
                 row(json!(["bars", "converged", "residual", 0.1 + 0.2, null, 1.5])),
                 row(json!(["bars, \"bent\"", "failed", "a | b\nc", null, null, 2.5])),
             ],
+            good: vec![true, false],
             converged: 1,
         }
     }

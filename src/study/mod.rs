@@ -69,7 +69,7 @@ fn progress(plan: &Plan, index: usize, planned: &PlannedRun, ended: &Ended) -> S
     let (all, ranks, seconds) = (plan.runs.len(), count(planned.ranks, "rank"), ended.wall.as_secs_f64());
     let number = format!("{:>width$}/{all}", index + 1, width = all.to_string().len());
     let line = format!("{number}  {}  {ranks}  {seconds:.2} s  {}", words.join("  "), ended.status.words());
-    if ended.status == Status::Converged { line } else { format!("{line}: {}", ended.reason) }
+    if ended.is_good() { line } else { format!("{line}: {}", ended.reason) }
 }
 
 /// How many runs ended how, and the usual ending first.

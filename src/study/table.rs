@@ -22,6 +22,8 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// As many values as columns each.
     pub rows: Vec<Vec<Value>>,
+    /// For each row, whether its reason goes without saying.
+    pub good: Vec<bool>,
     /// Number of runs that converged.
     pub converged: usize,
 }
@@ -69,6 +71,7 @@ impl Table {
             error: plan.error.as_ref().map(|path| path.text.clone()),
             columns: columns(plan, &places),
             rows: plan.runs.iter().zip(results).map(row).collect(),
+            good: results.iter().map(Ended::is_good).collect(),
             converged: results.iter().filter(|ended| ended.status == Status::Converged).count(),
         }
     }
