@@ -20,7 +20,6 @@ pub fn json(table: &Table) -> String {
 
 /// A page to read: main columns that are not empty, results to four digits, reasons at the end and not of good runs.
 pub fn markdown(table: &Table) -> String {
-    let at = |name: &str| table.columns.iter().position(|column| column.name == name).expect("a column of every table");
     let reason = table.columns.iter().position(|column| column.name == "reason").expect("a column of every table");
     let cell = |index: usize, column: usize| match (table.columns[column].kind, &table.rows[index][column]) {
         _ if column == reason && table.good[index] => String::new(),
