@@ -20,6 +20,8 @@ pub enum Command {
     Run(Run),
     /// Read everything, solve nothing, say what would be solved
     Check(CaseArguments),
+    /// Make every run of a grid, each a row of one table; start it without mpirun
+    Study(Study),
     /// Print versions of mezha, PETSc, MPI and BLAS, and the number of ranks
     Info,
 }
@@ -53,6 +55,20 @@ pub struct Run {
     /// Options for PETSc, which win over mezha's own
     #[arg(last = true, value_name = "PETSC OPTIONS")]
     pub petsc_options: Vec<String>,
+}
+
+/// Arguments of `mezha study`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct Study {
+    /// The study file
+    #[arg(value_name = "STUDY.toml")]
+    pub file: PathBuf,
+    /// Folder of the table and of all results
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Overwrite a folder that holds a study
+    #[arg(long)]
+    pub force: bool,
 }
 
 impl Run {
@@ -99,7 +115,9 @@ mod tests {
         let table = [
             ("mezha run", ErrorKind::MissingRequiredArgument),
             ("mezha solve a.toml", ErrorKind::InvalidSubcommand),
-            ("mezha study a.toml", ErrorKind::InvalidSubcommand),
+            ("mezha study a.toml", ErrorKind::MissingRequiredArgument),
+            ("mezha study --out r", ErrorKind::MissingRequiredArgument),
+            ("mezha study a.toml --out r --set a=1", ErrorKind::UnknownArgument),
             ("mezha check a.toml --out r", ErrorKind::UnknownArgument),
             ("mezha run a.toml -ksp_view", ErrorKind::UnknownArgument),
             ("mezha run a.toml --set", ErrorKind::InvalidValue),

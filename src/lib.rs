@@ -75,3 +75,4 @@ pub mod output;
 pub mod arguments;
 
 pub mod run;
+pub mod study;

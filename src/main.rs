@@ -1,10 +1,11 @@
 //! The command `mezha`: arguments → case → run → exit code. Errors are printed and ranks ended here and nowhere else.
 
 use clap::Parser;
-use mezha::arguments::{Arguments, CaseArguments, Command, Run};
+use mezha::arguments::{Arguments, CaseArguments, Command, Run, Study};
 use mezha::case::Case;
 use mezha::petsc::Session;
 use mezha::run::{self, Outcome, RunError, RunOptions};
+use mezha::study::{self, StudyError};
 use std::process::exit;
 use std::time::Instant;
 
@@ -19,17 +20,20 @@ fn main() {
     let code = match arguments.command {
         Command::Run(arguments) => run_case(&arguments, started),
         Command::Check(arguments) => check_case(&arguments),
+        Command::Study(arguments) => study(&arguments),
         Command::Info => info(),
     };
     exit(code)
 }
 
-/// Whether this process speaks for all, also before MPI has started.
+/// The rank that mpirun has given to this process, known before MPI has started; None without mpirun.
+fn given_rank() -> Option<String> {
+    ["OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"].iter().find_map(|name| std::env::var(name).ok())
+}
+
+/// Whether this process speaks for all.
 fn is_first_rank() -> bool {
-    ["OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"]
-        .iter()
-        .find_map(|name| std::env::var(name).ok())
-        .is_none_or(|rank| rank == "0")
+    given_rank().is_none_or(|rank| rank == "0")
 }
 
 fn run_case(arguments: &Run, started: Instant) -> i32 {
@@ -75,6 +79,22 @@ fn check_case(arguments: &CaseArguments) -> i32 {
             0
         }
         Err(error) => print(&error),
+    }
+}
+
+fn study(arguments: &Study) -> i32 {
+    if given_rank().is_some() {
+        if is_first_rank() {
+            eprintln!(
+                "mezha: a study starts its runs itself: start it without mpirun, and write ranks = [...] into the study file"
+            );
+        }
+        return 2;
+    }
+    match study::run(&arguments.file, &arguments.out, arguments.force) {
+        Ok(()) => 0,
+        Err(StudyError::Input(words)) => print(&RunError::Input(words)),
+        Err(StudyError::Failed(words)) => print(&RunError::Failed(words)),
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules and their floors. A module imports from lower floors, from itself, and from its own floor where
 /// [`SIDEWAYS`] says so.
-const FLOORS: [(&str, u8); 12] = [
+const FLOORS: [(&str, u8); 13] = [
     ("petsc", 0),
     ("geometry", 0),
     ("element", 1),
@@ -16,6 +16,7 @@ const FLOORS: [(&str, u8); 12] = [
     ("output", 6),
     ("arguments", 6),
     ("run", 7),
+    ("study", 7),
     ("main", 8),
 ];
 

@@ -1,4 +1,4 @@
-//! What is wrong with a case, in words.
+//! What is wrong with a case or a study, in words.
 
 use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
@@ -7,17 +7,19 @@ use toml::Value;
 
 /// Longest value that is quoted in full.
 const LONGEST_VALUE: usize = 60;
+/// How the words begin for a key that does not exist.
+const UNKNOWN: &str = "unknown key";
 
-/// Everything that is wrong with a case file, one line each.
+/// Everything that is wrong with a case file or a study file, one line each.
 #[derive(Clone, Debug, thiserror::Error)]
 pub struct CaseError {
-    /// The case file.
+    /// The file.
     pub file: PathBuf,
     /// At least one, in the order found.
     pub problems: Vec<Problem>,
 }
 
-/// One thing that is wrong with a case.
+/// One thing that is wrong with a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Dotted key; empty if the whole file is meant.
@@ -30,17 +32,29 @@ pub struct Problem {
 
 impl CaseError {
     /// An error of the file as a whole.
-    pub(super) fn of_file(file: &Path, words: String) -> Self {
+    pub(crate) fn of_file(file: &Path, words: String) -> Self {
         Self { file: file.into(), problems: vec![Problem { key: String::new(), value: None, words }] }
     }
 
     /// An error of TOML itself.
-    pub(super) fn of_syntax(file: &Path, text: &str, error: &toml::de::Error) -> Self {
+    pub(crate) fn of_syntax(file: &Path, text: &str, error: &toml::de::Error) -> Self {
         let before = &text[..error.span().map_or(0, |span| span.start)];
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
         let message = error.message().replace('\n', ", ");
         Self::of_file(file, format!("line {line}, column {column}: {message}; the file is written in TOML, see toml.io"))
+    }
+}
+
+impl Problem {
+    /// A key that does not exist.
+    pub(crate) fn unknown(key: String, remedy: &str) -> Self {
+        Self { key, value: None, words: format!("{UNKNOWN}; {remedy}") }
+    }
+
+    /// Whether the key does not exist.
+    pub(crate) fn is_unknown(&self) -> bool {
+        self.words.starts_with(UNKNOWN)
     }
 }
 
@@ -65,7 +79,7 @@ impl Display for Problem {
 }
 
 /// Dotted key as TOML wants it: names with dots in quotes.
-pub(super) fn dotted(path: &[String]) -> String {
+pub(crate) fn dotted(path: &[String]) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     let quote = |name: &String| match !name.is_empty() && name.chars().all(bare) {
         true => name.clone(),
@@ -75,7 +89,7 @@ pub(super) fn dotted(path: &[String]) -> String {
 }
 
 /// A value as TOML on one line, cut if long.
-pub(super) fn quoted(value: &Value) -> String {
+pub(crate) fn quoted(value: &Value) -> String {
     let text = value.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
     match text.char_indices().nth(LONGEST_VALUE) {
         None => text,
@@ -84,7 +98,7 @@ pub(super) fn quoted(value: &Value) -> String {
 }
 
 /// ` did you mean "young"?` for the nearest of some names, or the list of them.
-pub(super) fn suggest<'a>(found: &str, names: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn suggest<'a>(found: &str, names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
     let distance = |name: &str| strsim::damerau_levenshtein(&found.to_lowercase(), &name.to_lowercase());
     let nearest = names.iter().min_by_key(|name| distance(name));

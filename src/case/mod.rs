@@ -3,12 +3,12 @@
 //! Everything that needs no mesh is checked here, and all that is wrong is reported at once, each with file, key, value and remedy.
 
 mod contact;
-mod error;
+pub(crate) mod error;
 mod exact;
 mod model;
-mod overrides;
-mod section;
-mod values;
+pub(crate) mod overrides;
+pub(crate) mod section;
+pub(crate) mod values;
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 
 use overrides::{apply_override, set_value};
-use section::{Log, Section};
+use section::{Log, Section, read_text};
 
 /// A checked case: what to solve, on which mesh, and what is known of the result.
 #[derive(Clone, Debug)]
@@ -110,11 +110,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     pub fn read(file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let text = std::fs::read_to_string(file).map_err(|error| {
-            let words = format!("cannot be read: {error}; the first argument is the path of a case file");
-            CaseError::of_file(file, words)
-        })?;
-        Self::parse(&text, file, overrides)
+        Self::parse(&read_text(file, "case")?, file, overrides)
     }
 
     /// Checks the text of a case file; `file` gives names to the case and to errors, and a folder to the mesh.
@@ -172,7 +168,7 @@ impl Case {
         contact::check_contacts(&contacts, &geometries, root);
         exact::check_exact(&exact, root);
         Some(Self {
-            name: name_of(file, &folder),
+            name: name_of(file, "case.toml"),
             file: file.into(),
             folder,
             title: title?,
@@ -190,13 +186,13 @@ impl Case {
     }
 }
 
-/// Name of the folder if the file is called `case.toml`, else the file's stem.
-fn name_of(file: &Path, folder: &Path) -> String {
+/// Name of the folder if the file is called as most are, `case.toml`, say; else the file's stem.
+pub(crate) fn name_of(file: &Path, usual: &str) -> String {
     let stem = file.file_stem().unwrap_or_default();
-    if file.file_name() != Some("case.toml".as_ref()) {
+    if file.file_name() != Some(usual.as_ref()) {
         return stem.to_string_lossy().into_owned();
     }
-    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let here = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = here.canonicalize().or_else(|_| std::path::absolute(here)).unwrap_or_default();
     folder.file_name().unwrap_or(stem).to_string_lossy().into_owned()
 }

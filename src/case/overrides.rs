@@ -38,7 +38,7 @@ pub fn set_value(table: &mut Table, path: &[String], value: Value) -> Result<(),
 }
 
 /// Names of a dotted key, read by TOML's own rules.
-fn read_key(key: &str) -> Option<Vec<String>> {
+pub fn read_key(key: &str) -> Option<Vec<String>> {
     let mut table: Table = toml::from_str(&format!("{} = 0", key.trim())).ok()?;
     let mut path = Vec::new();
     loop {

@@ -1,12 +1,23 @@
-//! A table of the case file that remembers which of its keys were asked for.
+//! A table of a case or a study file that remembers which of its keys were asked for.
 
 use std::cell::RefCell;
+use std::path::Path;
 
 use toml::{Table, Value};
 
-use super::error::{Problem, dotted, quoted, suggest};
+use super::error::{CaseError, Problem, dotted, quoted, suggest};
 
-/// What was found while reading a case.
+/// Text of a file; `kind` says which one the command wants.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn read_text(file: &Path, kind: &str) -> Result<String, CaseError> {
+    std::fs::read_to_string(file).map_err(|error| {
+        CaseError::of_file(file, format!("cannot be read: {error}; the first argument is the path of a {kind} file"))
+    })
+}
+
+/// What was found while reading a file.
 #[derive(Default)]
 pub struct Log {
     /// Everything that is wrong.
@@ -17,7 +28,7 @@ pub struct Log {
     pub overridden: Vec<Vec<String>>,
 }
 
-/// One table of a case. When it is dropped, keys that nobody asked for are reported: read every key before giving up on one.
+/// One table of a file. When it is dropped, keys that nobody asked for are reported: read every key before giving up on one.
 ///
 /// Readers turn a value into a checked one, or into words that name the remedy; `None` means that the log knows what is wrong.
 pub struct Section<'a> {
@@ -109,6 +120,23 @@ impl<'a> Section<'a> {
         results
     }
 
+    /// Reads every table of a list, as in `[[curve]]`; the first one is called 1.
+    pub fn listed<T>(&self, key: &'static str, read: impl Fn(&Section) -> Option<T>) -> Vec<T> {
+        let list = match self.get(key) {
+            None => return Vec::new(),
+            Some(Value::Array(list)) if list.iter().all(Value::is_table) => list,
+            Some(_) => {
+                self.problem(&[key], format!("must be a list of tables; write [[{}]]", dotted(&self.child(key))));
+                return Vec::new();
+            }
+        };
+        let numbered = list.iter().enumerate().map(|(index, value)| {
+            let path = self.child(key).into_iter().chain([(index + 1).to_string()]).collect();
+            Section { table: value.as_table(), path, log: self.log, asked: RefCell::default() }
+        });
+        numbered.filter_map(|section| read(&section)).collect()
+    }
+
     /// Reports what is wrong with the value at a path below this table, as found in the file.
     pub fn problem(&self, below: &[&str], words: String) {
         let mut value = None;
@@ -162,7 +190,8 @@ impl Drop for Section<'_> {
         for (name, value) in self.table.into_iter().flatten().filter(|(name, _)| !asked.contains(&name.as_str())) {
             let remedy = suggest(name, asked.iter().copied());
             let quotes = if value.is_table() { " (a name that holds dots stands in quotes)" } else { "" };
-            self.record(&[name.as_str()], None, format!("unknown key; {remedy}{quotes}"));
+            let key = dotted(&self.child(name));
+            self.log.borrow_mut().problems.push(Problem::unknown(key, &format!("{remedy}{quotes}")));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Readers of single values. Each gives a checked value, or words that say what it must be.
 
-use toml::Value;
+use toml::{Table, Value};
 
 use super::error::suggest;
 use crate::geometry::Formula;
@@ -115,6 +115,29 @@ pub fn must_be(wanted: &str, found: &Value) -> String {
         Value::Float(number) if !number.is_finite() => format!("must be {wanted}"),
         Value::Array(list) => format!("must be {wanted}, not a list of length {}", list.len()),
         found => format!("must be {wanted}, not of type {}", found.type_str()),
+    }
+}
+
+/// A whole number of at least 1.
+pub fn count(value: &Value) -> Result<usize, String> {
+    let count = value.as_integer().and_then(|number| usize::try_from(number).ok());
+    count.filter(|count| *count > 0).ok_or_else(|| "must be a whole number of at least 1".into())
+}
+
+/// A table.
+pub fn table(value: &Value) -> Result<Table, String> {
+    value.as_table().cloned().ok_or_else(|| must_be("a table", value))
+}
+
+/// A list of at least one entry, each once.
+pub fn list<T: PartialEq>(wanted: &str, read: impl Fn(&Value) -> Result<T, String>) -> impl Fn(&Value) -> Result<Vec<T>, String> {
+    move |value| {
+        let list = entries(value, wanted, &read)?;
+        match list.iter().enumerate().find(|(index, entry)| list[..*index].contains(entry)) {
+            _ if list.is_empty() => Err(format!("must not be empty: give {wanted}")),
+            Some((index, _)) => Err(format!("entry {} stands there twice; list each once", index + 1)),
+            None => Ok(list),
+        }
     }
 }
 

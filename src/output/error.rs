@@ -52,7 +52,7 @@ pub enum OutputError {
 
 impl OutputError {
     /// Turns an error of the operating system into ours; for `map_err`.
-    pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> OutputError {
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> OutputError {
         let path = path.to_path_buf();
         move |source| OutputError::Io { action, path, source }
     }

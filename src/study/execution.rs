@@ -1,0 +1,286 @@
+//! One run as a process of its own: started, watched, and what became of it.
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::num::NonZero;
+use std::os::unix::process::ExitStatusExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread::{available_parallelism, sleep};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use super::folder;
+use super::plan::PlannedRun;
+use crate::output::OutputError;
+
+/// How often it is asked whether a run has ended.
+const PULSE: Duration = Duration::from_millis(20);
+/// How long a run may take to end that was told to.
+const GRACE: Duration = Duration::from_secs(10);
+/// How mezha's own lines on standard error begin.
+const OWN: &str = "mezha: ";
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Exit code 0.
+    Converged,
+    /// Exit code 3: not converged, a mechanism, or an expected value missed.
+    NotConverged,
+    /// Exit code 2: the case cannot be used as the study makes it.
+    Refused,
+    /// It took too long and was stopped.
+    Timeout,
+    /// Anything else.
+    Failed,
+}
+
+/// What is left of a run.
+#[derive(Clone, Debug)]
+pub struct Ended {
+    /// How it ended.
+    pub status: Status,
+    /// Why, in words.
+    pub reason: String,
+    /// `summary.json`; null if there is none.
+    pub summary: Value,
+    /// From its start to its end, with mpirun.
+    pub wall: Duration,
+    /// Name of its result under the folder of the study.
+    pub result: String,
+}
+
+/// What all runs of a study have in common.
+pub struct Execution {
+    program: PathBuf,
+    cores: usize,
+    runs: PathBuf,
+    timeout: Duration,
+}
+
+impl Status {
+    /// All of them, the good one first.
+    pub const ALL: [Status; 5] = [Status::Converged, Status::NotConverged, Status::Refused, Status::Timeout, Status::Failed];
+
+    /// As the table has it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::NotConverged => "not_converged",
+            Self::Refused => "refused",
+            Self::Timeout => "timeout",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+impl Ended {
+    /// Whether the run converged to a pressure that can be trusted, as far as is known; the reason goes without saying then.
+    pub fn is_good(&self) -> bool {
+        let mut contacts = self.summary["contact"].as_object().into_iter().flat_map(|contacts| contacts.values());
+        self.status == Status::Converged && contacts.all(|contact| contact["trust"] != false)
+    }
+}
+
+impl Execution {
+    /// Runs of this very program, with results in the study's folder `out`.
+    ///
+    /// # Errors
+    /// The operating system does not say where this program is.
+    pub fn new(out: &Path, timeout: Duration) -> Result<Self, OutputError> {
+        let program = std::env::current_exe().map_err(OutputError::io("find", Path::new("mezha")))?;
+        let cores = available_parallelism().map_or(1, NonZero::get);
+        Ok(Self { program, cores, runs: folder::runs(out), timeout })
+    }
+
+    /// Makes the run with this number, from 1. What it says on standard error stays beside its result.
+    ///
+    /// # Errors
+    /// The disk refuses; a run that fails is no error.
+    pub fn execute(&self, run: &PlannedRun, number: usize) -> Result<Ended, OutputError> {
+        let name = format!("{number:03}");
+        let (result, said) = (self.runs.join(&name), self.runs.join(format!("{name}.stderr")));
+        let errors = File::create(&said).map_err(OutputError::io("write", &said))?;
+        let mut command = self.command(run, &result);
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors);
+        let start = Instant::now();
+        let ending = command.spawn().and_then(|child| wait(child, self.timeout));
+        let wall = start.elapsed();
+        let text = fs::read(&said).map_err(OutputError::io("read", &said))?;
+        if text.is_empty() {
+            fs::remove_file(&said).map_err(OutputError::io("remove", &said))?;
+        }
+        let summary = read_summary(&result.join("summary.json"));
+        let (status, reason) = match ending {
+            Ok(Some(ending)) => {
+                let (status, reason) = judge(ending, &summary, &String::from_utf8_lossy(&text));
+                let file = format!("{}: ", run.file.display());
+                (status, reason.strip_prefix(&file).unwrap_or(&reason).to_owned())
+            }
+            Ok(None) => (Status::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout)),
+            Err(error) => (Status::Failed, format!("cannot start {}: {error}", command.get_program().to_string_lossy())),
+        };
+        let result = if summary.is_null() { String::new() } else { format!("runs/{name}") };
+        Ok(Ended { status, reason, summary, wall, result })
+    }
+
+    /// `mezha run`, under mpirun if there are several ranks. More ranks than cores share them: those that wait give way.
+    fn command(&self, run: &PlannedRun, result: &Path) -> Command {
+        let mut command = if run.ranks == 1 {
+            Command::new(&self.program)
+        } else {
+            let mut mpirun = Command::new("mpirun");
+            mpirun.args(["-n", &run.ranks.to_string(), "--bind-to", "none"]);
+            if run.ranks > self.cores {
+                mpirun.arg("--oversubscribe").env("OMPI_MCA_mpi_yield_when_idle", "1");
+            }
+            mpirun.arg(&self.program);
+            mpirun
+        };
+        let words =
+            [OsString::from("run"), run.file.clone().into(), "--out".into(), result.into(), "--force".into(), "--quiet".into()];
+        command.args(words).args(run.overrides.iter().flat_map(|text| ["--set", text]));
+        command
+    }
+}
+
+/// How a child ended; None if it took too long and was ended.
+fn wait(mut child: Child, timeout: Duration) -> std::io::Result<Option<ExitStatus>> {
+    if let Some(status) = wait_for(&mut child, timeout)? {
+        return Ok(Some(status));
+    }
+    // The polite signal first: mpirun passes it on to the ranks.
+    let asked = Command::new("kill").arg(child.id().to_string()).stderr(Stdio::null()).status();
+    if asked.is_err() || wait_for(&mut child, GRACE)?.is_none() {
+        child.kill()?;
+        child.wait()?;
+    }
+    Ok(None)
+}
+
+fn wait_for(child: &mut Child, patience: Duration) -> std::io::Result<Option<ExitStatus>> {
+    let start = Instant::now();
+    loop {
+        let status = child.try_wait()?;
+        if status.is_some() || start.elapsed() > patience {
+            return Ok(status);
+        }
+        sleep(PULSE);
+    }
+}
+
+/// Null if there is no summary that can be read.
+fn read_summary(path: &Path) -> Value {
+    fs::read_to_string(path).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+}
+
+/// The ending of a run in the terms of the table.
+fn judge(ending: ExitStatus, summary: &Value, said: &str) -> (Status, String) {
+    let reason = summary["reason"].as_str();
+    let status = match ending.code() {
+        Some(0) if summary["status"] == "converged" => Status::Converged,
+        Some(3) if summary["status"] == "not_converged" => Status::NotConverged,
+        Some(2) => Status::Refused,
+        _ => Status::Failed,
+    };
+    let words = match (status, reason) {
+        (Status::Converged | Status::NotConverged, Some(reason)) => Some(reason.to_owned()),
+        _ => last_words(said),
+    };
+    let how = || match (ending.code(), ending.signal()) {
+        (Some(code @ (0 | 3)), _) => format!("exit code {code}, but summary.json does not say so"),
+        (Some(code), _) => format!("exit code {code}, without a word"),
+        (None, signal) => format!("ended by signal {}", signal.unwrap_or_default()),
+    };
+    (status, words.unwrap_or_else(how))
+}
+
+/// What a run said last: mezha's own words, else those of a library, else those of mpirun, which stand between rulers of dashes.
+fn last_words(said: &str) -> Option<String> {
+    let lines = || said.lines().map(str::trim).filter(|line| !line.is_empty());
+    if let Some(own) = lines().filter_map(|line| line.strip_prefix(OWN)).next_back() {
+        return Some(own.to_owned());
+    }
+    let is_ruler = |line: &str| line.chars().all(|c| c == '-');
+    let (mut inside, mut outer, mut inner) = (false, None, None);
+    for line in lines() {
+        match (is_ruler(line), inside) {
+            (true, _) => inside = !inside,
+            (false, true) => inner = inner.or(Some(line)),
+            (false, false) => outer = Some(line),
+        }
+    }
+    outer.or(inner).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn ending(code: i32) -> ExitStatus {
+        ExitStatus::from_raw(code << 8)
+    }
+
+    #[test]
+    fn exit_codes_and_summary_must_agree() {
+        let good = json!({ "status": "converged", "reason": "residual" });
+        let bad = json!({ "status": "not_converged", "reason": "body upper can move" });
+        let table = [
+            (ending(0), &good, "", Status::Converged, "residual"),
+            (ending(3), &bad, "mezha: NOT converged: body upper can move", Status::NotConverged, "body upper can move"),
+            (
+                ending(2),
+                &Value::Null,
+                "mezha: a.toml: mesh.order = 7: must be 1 or 2",
+                Status::Refused,
+                "a.toml: mesh.order = 7: must be 1 or 2",
+            ),
+            (ending(1), &Value::Null, "mezha: PETSc failed", Status::Failed, "PETSc failed"),
+            (ending(0), &Value::Null, "", Status::Failed, "exit code 0, but summary.json does not say so"),
+            (ending(0), &bad, "", Status::Failed, "exit code 0, but summary.json does not say so"),
+            (ending(139), &Value::Null, "", Status::Failed, "exit code 139, without a word"),
+            (ExitStatus::from_raw(9), &Value::Null, "", Status::Failed, "ended by signal 9"),
+        ];
+        for (ending, summary, said, status, reason) in table {
+            assert_eq!(judge(ending, summary, said), (status, reason.to_owned()), "{ending:?} {said}");
+        }
+    }
+
+    #[test]
+    fn a_pressure_not_to_be_trusted_is_not_good() {
+        let ended = |trust: Value, status| Ended {
+            status,
+            reason: String::new(),
+            summary: json!({ "contact": { "a": { "trust": null }, "b": { "trust": trust } } }),
+            wall: PULSE,
+            result: String::new(),
+        };
+        assert!(ended(json!(true), Status::Converged).is_good() && ended(Value::Null, Status::Converged).is_good());
+        assert!(!ended(json!(false), Status::Converged).is_good() && !ended(json!(true), Status::NotConverged).is_good());
+    }
+
+    #[test]
+    fn the_chatter_of_mpirun_is_not_a_reason() {
+        let chatter = "-----\nmpirun detected that one or more processes exited\n  Exit code: 2\n-----\n";
+        assert_eq!(last_words(&format!("mezha: no mesh\n{chatter}")).unwrap(), "no mesh");
+        assert_eq!(last_words(&format!("[0]PETSC ERROR: out of memory\n{chatter}")).unwrap(), "[0]PETSC ERROR: out of memory");
+        assert_eq!(
+            last_words("-----\nThere are not enough slots\nin the system\n-----\n").unwrap(),
+            "There are not enough slots"
+        );
+        assert_eq!(last_words("\n"), None);
+    }
+
+    #[test]
+    fn a_run_that_takes_too_long_is_ended() {
+        let start = Instant::now();
+        let child = Command::new("sleep").arg("60").spawn().unwrap();
+        assert_eq!(wait(child, Duration::from_millis(50)).unwrap(), None);
+        assert!(start.elapsed() < GRACE);
+        let child = Command::new("true").spawn().unwrap();
+        assert!(wait(child, GRACE).unwrap().unwrap().success());
+    }
+}

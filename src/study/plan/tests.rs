@@ -1,0 +1,182 @@
+use super::*;
+
+const CASE: &str = "mesh.file = 'a.msh'\n[body.a]\nyoung = 1\npoisson = 0.3\n";
+
+/// A folder with the cases `bars/case.toml`, `rings.toml` and `deep/bars/case.toml`, and what the study in it is.
+fn parse(text: &str) -> Result<Plan, String> {
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["bars/case.toml", "rings.toml", "deep/bars/case.toml"] {
+        let path = folder.path().join(file);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, CASE).unwrap();
+    }
+    let file = folder.path().join("study.toml");
+    Plan::parse(text, &file).map_err(|error| error.to_string().replace(&format!("{}: ", file.display()), ""))
+}
+
+fn runs(text: &str) -> Vec<PlannedRun> {
+    parse(text).unwrap_or_else(|error| panic!("{error}")).runs
+}
+
+fn only_error(text: &str) -> String {
+    let words = parse(text).map(|plan| panic!("accepted: {plan:?}")).unwrap_err();
+    assert_eq!(words.lines().count(), 1, "{words}");
+    words
+}
+
+#[test]
+fn every_combination_is_a_run() {
+    let text = r#"
+        cases = ["bars/case.toml", "rings.toml"]
+        ranks = [1, 2]
+        repeat = 2
+        [grid]
+        "mesh.refine" = [2, 3, 4]
+        "solver.name" = ["auto", "direct"]
+        [[curve]]
+        name = "P1"
+        set = { "mesh.order" = 1, "body.a.young" = 7e6 }
+        [[curve]]
+        name = "as it stands"
+    "#;
+    let plan = parse(text).unwrap();
+    assert_eq!(plan.keys, ["mesh.refine", "solver.name"]);
+    assert_eq!(plan.runs.len(), 2 * 2 * 2 * 3 * 2 * 2);
+    let mut different: Vec<String> = plan.runs.iter().map(|run| format!("{run:?}")).collect();
+    different.sort();
+    different.dedup();
+    assert_eq!(different.len(), plan.runs.len());
+    let first = &plan.runs[0];
+    assert_eq!(
+        first.overrides,
+        ["mesh.order=1", "body.a.young=7e6", "mesh.refine=2", "solver.name=\"auto\""]
+            .map(|text| text.replace("7e6", "7000000.0"))
+    );
+    assert_eq!((first.case.as_str(), first.curve.as_deref(), first.ranks, first.repeat), ("bars", Some("P1"), 1, 1));
+    let order: Vec<_> = plan.runs[..6].iter().map(|run| (run.overrides[3].as_str(), run.ranks, run.repeat)).collect();
+    let (auto, direct) = ("solver.name=\"auto\"", "solver.name=\"direct\"");
+    assert_eq!(order, [(auto, 1, 1), (auto, 1, 2), (auto, 2, 1), (auto, 2, 2), (direct, 1, 1), (direct, 1, 2)]);
+}
+
+#[test]
+fn the_least_study_is_one_run() {
+    let plan = parse("cases = ['rings.toml']").unwrap();
+    let [run] = &plan.runs[..] else { panic!("{plan:?}") };
+    assert_eq!((run.case.as_str(), run.ranks, run.repeat, run.curve.is_none()), ("rings", 1, 1, true));
+    assert!(run.overrides.is_empty() && plan.error.is_none() && plan.columns.is_empty());
+    assert_eq!(plan.timeout, Duration::from_secs(600));
+}
+
+#[test]
+fn dots_without_quotes_mean_the_same() {
+    let quoted = runs("cases = ['rings.toml']\ngrid.'mesh.refine' = [1, 2]\n[[curve]]\nname = 'a'\nset = { 'mesh.order' = 1 }");
+    let bare = runs("cases = ['rings.toml']\ngrid.mesh.refine = [1, 2]\n[[curve]]\nname = 'a'\nset = { mesh.order = 1 }");
+    assert_eq!(
+        quoted.iter().map(|run| &run.overrides).collect::<Vec<_>>(),
+        bare.iter().map(|run| &run.overrides).collect::<Vec<_>>()
+    );
+    assert_eq!(bare[1].overrides, ["mesh.order=1", "mesh.refine=2"]);
+}
+
+#[test]
+fn a_curve_may_be_drawn_for_some_cases() {
+    let curves = "[[curve]]\nname = 'all'\n[[curve]]\nname = 'one'\ncases = ['rings.toml']";
+    let runs = runs(&format!("cases = ['bars/case.toml', 'rings.toml']\n{curves}"));
+    let drawn: Vec<_> = runs.iter().map(|run| (run.case.as_str(), run.curve.as_deref().unwrap())).collect();
+    assert_eq!(drawn, [("bars", "all"), ("rings", "all"), ("rings", "one")]);
+}
+
+#[test]
+fn cases_of_one_name_are_told_apart_by_their_paths() {
+    let runs = runs("cases = ['bars/case.toml', 'deep/bars/case.toml', 'rings.toml']");
+    let labels: Vec<_> = runs.iter().map(|run| run.case.as_str()).collect();
+    assert_eq!(labels, ["bars/case.toml", "deep/bars/case.toml", "rings"]);
+}
+
+#[test]
+fn values_come_through_as_they_are() {
+    let grid = "grid.'contact.a.segments' = ['auto', 30, [0, 0.2, 1]]\ngrid.'contact.a.between' = [['p', 'q']]";
+    let runs = runs(&format!("cases = ['rings.toml']\n{grid}"));
+    let texts: Vec<_> = runs.iter().map(|run| run.overrides[0].as_str()).collect();
+    assert_eq!(texts, ["contact.a.segments=\"auto\"", "contact.a.segments=30", "contact.a.segments=[0, 0.2, 1]"]);
+    assert_eq!(runs[0].overrides[1], "contact.a.between=[\"p\", \"q\"]");
+}
+
+#[test]
+fn a_value_that_the_case_refuses_is_left_to_its_row() {
+    assert_eq!(runs("cases = ['rings.toml']\ngrid.'mesh.order' = [7, 1]").len(), 2);
+}
+
+#[test]
+fn errors_name_key_value_and_remedy() {
+    let table = [
+        ("ranks = [1]", "cases: missing; write cases = [\"case.toml\"]"),
+        ("cases = []", "cases = []: must not be empty: give a list of case files"),
+        ("cases = 'rings.toml'", "cases = \"rings.toml\": must be a list of case files, not of type string"),
+        ("cases = ['rings.toml', 'rings.toml']", "entry 2 stands there twice"),
+        ("cases = ['ring.toml']", "there is no file"),
+        ("CASES\nrank = [1]", "rank: unknown key; did you mean \"ranks\"?"),
+        ("CASES\nranks = [0]", "ranks = [0]: entry 1: must be a whole number of at least 1"),
+        ("CASES\nranks = 2", "ranks = 2: must be a list of numbers of ranks, not of type integer"),
+        ("CASES\nrepeat = 1.5", "repeat = 1.5: must be a whole number of at least 1"),
+        ("CASES\ntimeout = 0", "timeout = 0: must be > 0"),
+        ("CASES\ntimeout = 1e300", "must be at most"),
+        ("CASES\nerror = 'errors..energy'", "must be a path in summary.json with dots, as in \"errors.energy\""),
+        ("CASES\ncolumns = 'errors.energy'", "must be a list of paths in summary.json"),
+        (
+            "CASES\ngrid.'mesh.refine' = 3",
+            "grid.\"mesh.refine\" = 3: must be a list of values, as in [2, 3], not of type integer",
+        ),
+        ("CASES\ngrid.'mesh.refine' = []", "must not be empty"),
+        ("CASES\ngrid.'mesh..refine' = [1]", "grid.\"mesh..refine\" = [1]: must be a key of the case with dots"),
+        (
+            "CASES\ngrid.'mesh.refin' = [1, 2]",
+            "grid.\"mesh.refin\" = [1, 2]: unknown key; did you mean \"refine\"? (asked of case rings)",
+        ),
+        ("CASES\ngrid.mesh.refin = [1]", "grid.mesh.refin = [1]: unknown key"),
+        ("CASES\ngrid = [1]", "grid = [1]: must be a table"),
+        ("CASES\n[curve]\nname = 'a'", "curve: must be a list of tables; write [[curve]]"),
+        ("CASES\n[[curve]]\nset = {}", "curve.1.name: missing; write name = \"P1/P0\""),
+        ("CASES\n[[curve]]\nname = 'a'\nsets = {}", "curve.1.sets: unknown key; did you mean \"set\"?"),
+        (
+            "CASES\n[[curve]]\nname = 'a'\nset = { 'mesh.ordr' = 1 }",
+            "curve.1.set.\"mesh.ordr\": unknown key; did you mean \"order\"?",
+        ),
+        ("CASES\n[[curve]]\nname = 'a'\n[[curve]]\nname = 'a'", "curve.2.name: \"a\" is another curve's name"),
+        ("CASES\n[[curve]]\nname = 'a'\ncases = ['rings.toml', 'bars.toml']", "\"bars.toml\" does not stand in cases"),
+        (
+            "CASES\ngrid.'mesh.order' = [1]\n[[curve]]\nname = 'a'\nset = { 'mesh.order' = 1 }",
+            "is also set by grid.\"mesh.order\"; a key moves in one place",
+        ),
+        ("CASES\nrepeat = 20000", "the study makes 20000 runs, more than 10000"),
+        ("cases = [", "line 1, column"),
+    ];
+    for (text, words) in table {
+        let error = only_error(&text.replace("CASES", "cases = ['rings.toml']"));
+        assert!(error.contains(words), "{text}\n{error}");
+    }
+}
+
+#[test]
+fn a_case_that_no_curve_is_drawn_for_has_no_runs_and_is_told() {
+    let words = only_error("cases = ['bars/case.toml', 'rings.toml']\n[[curve]]\nname = 'a'\ncases = ['rings.toml']");
+    assert!(words.contains("no [[curve]] is drawn for \"bars/case.toml\""), "{words}");
+}
+
+#[test]
+fn a_file_that_is_not_there_is_told() {
+    let words = Plan::read(Path::new("nowhere/study.toml")).unwrap_err().to_string();
+    assert!(words.contains("cannot be read") && words.contains("path of a study file"), "{words}");
+}
+
+#[test]
+fn the_example_of_the_documentation_is_a_study() {
+    let page = include_str!("../../../docs/studies.md");
+    let example = page.split("```toml").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("study.toml");
+    let plan = Plan::parse(example, &file).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(plan.runs.len(), 2 * 3 * 2 * 2 * 3);
+    for run in &plan.runs {
+        Case::read(&run.file, &run.overrides).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
