@@ -235,3 +235,32 @@ fn a_result_is_not_overwritten() {
     assert_ne!(std::fs::read_to_string(third.out.join("summary.json")).expect("a summary"), before);
     assert_eq!(third.left_behind(), ["result"]);
 }
+
+#[test]
+fn two_contacts_of_the_same_boundaries_are_refused() {
+    let case =
+        format!("{GOOD}contact.again = {{ between = [\"upper.seam\", \"lower.seam\"], curve = \"line\", gap = \"closed\" }}\n");
+    refused(&blocks().text(), &case, |run| run, &["contact.", "joins the same boundaries", "case.toml"]);
+}
+
+#[test]
+fn a_contact_forced_shut_and_then_released_converges() {
+    let change = |run: Run| run.set("support.lid.on", "top").set("support.lid.uy", 0.0).set("contact.seam.gap", 0.1);
+    for ended in ended(&blocks().text(), GOOD, change) {
+        assert_eq!(ended.code, Some(0), "{}", ended.said());
+        assert_eq!(ended.number("/contact/seam/force"), 0.0);
+    }
+}
+
+#[test]
+fn a_formula_without_a_value_is_refused_with_its_key() {
+    bad_key("contact.seam.gap", "sqrt(x-1)", &["contact.seam.gap", "finite"]);
+    bad_key("load.top.pressure", "sqrt(x-1)", &["load", "finite"]);
+}
+
+#[test]
+fn too_fine_a_mesh_and_options_without_effect_are_refused() {
+    refused(&blocks().text(), GOOD, |run| run.set("mesh.refine", 12), &["mesh.refine = 12", "32-bit"]);
+    refused(&blocks().text(), GOOD, |run| run.petsc("-ksp_rtol 1e-3"), &["-ksp_rtol", "solver.tolerance"]);
+    refused(&blocks().text(), GOOD, |run| run.petsc("ksp_monitor"), &["begin with a minus"]);
+}

@@ -120,8 +120,14 @@ fn trust(inf_sup: Option<f64>, oscillation: Option<f64>) -> Option<bool> {
 pub fn distrust(summary: &Summary) -> Option<String> {
     let words = |(name, contact): (&String, &summary::Contact)| {
         let figures = [
-            contact.inf_sup.map(|beta| format!("inf-sup constant {beta:.3}, at least {LEAST_INF_SUP} wanted")),
-            contact.oscillation.map(|share| format!("oscillation {share:.3}, at most {MOST_OSCILLATION} wanted")),
+            contact
+                .inf_sup
+                .filter(|beta| *beta < LEAST_INF_SUP)
+                .map(|beta| format!("inf-sup constant {beta:.3}, at least {LEAST_INF_SUP} wanted")),
+            contact
+                .oscillation
+                .filter(|share| *share > MOST_OSCILLATION)
+                .map(|share| format!("oscillation {share:.3}, at most {MOST_OSCILLATION} wanted")),
             contact.h_ratio.map(|ratio| format!("shortest segment {ratio:.2} edges of the softer body")),
         ];
         format!("contact {name} ({})", figures.into_iter().flatten().collect::<Vec<_>>().join("; "))

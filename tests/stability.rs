@@ -1,0 +1,73 @@
+//! Multiplier spaces too rich for the displacements: told, and healed by the jump term. Example 1 with even segments.
+
+mod support;
+
+use support::{Ended, Run};
+
+fn bars(order: usize, space: &str, segments: usize, solver: &str) -> Run {
+    let run = Run::case("bars_inclined/even.toml").ranks(2).set("exact.must_hold", false).set("solver.tolerance", "1e-8");
+    let run = run.set("contact.seam.law", "bilateral").set("mesh.order", order).set("mesh.refine", 5 - order);
+    run.set("contact.seam.multiplier", space).set("contact.seam.segments", segments).set("solver.name", solver)
+}
+
+fn trusted(ended: &Ended) -> bool {
+    ended.value("/contact/seam/trust").as_bool().expect("a figure of trust")
+}
+
+#[test]
+fn good_spaces_are_trusted() {
+    for (order, space) in support::PAIRS {
+        let ended = bars(order, space, 24, "direct").converged();
+        assert!(trusted(&ended), "P{order} and {space}");
+        assert!(ended.number("/contact/seam/oscillation") < 0.02);
+    }
+}
+
+#[test]
+fn spaces_twice_too_rich_are_not_and_the_words_say_so() {
+    for (order, space, segments) in [(1, "p0", 176), (2, "p0", 176), (2, "p1-discontinuous", 120), (2, "p1-continuous", 176)] {
+        let ended = bars(order, space, segments, "direct").set("contact.seam.stabilise", false).converged();
+        assert!(!trusted(&ended), "P{order} and {space}");
+        assert!(ended.number("/contact/seam/oscillation") > 0.1);
+        assert!(ended.errors.contains("pressure unreliable"), "{}", ended.errors);
+    }
+}
+
+#[test]
+fn the_jump_term_heals_them_with_both_solvers() {
+    for (order, space) in [(1, "p0"), (2, "p0"), (2, "p1-discontinuous")] {
+        let [split, direct] = ["fieldsplit", "direct"].map(|solver| {
+            let ended = bars(order, space, 176, solver).set("contact.seam.stabilise", true).converged();
+            assert!(trusted(&ended), "P{order} and {space}");
+            assert!(ended.number("/errors/lambda_seam") <= 0.01, "P{order} and {space}: {}", ended.number("/errors/lambda_seam"));
+            assert!(ended.number("/balance/energy") <= 1e-9);
+            ended
+        });
+        assert!(split.iterations() <= 20, "{} iterations", split.iterations());
+        let [a, b] = [&split, &direct].map(|ended| ended.number("/energy/total"));
+        assert!((a / b - 1.0).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn auto_adds_the_jump_term_where_segments_are_short_and_says_so() {
+    let ended = bars(2, "p1-discontinuous", 176, "fieldsplit").converged();
+    assert!(ended.errors.contains("the jump term is added"), "{}", ended.errors);
+    assert!(trusted(&ended) && ended.number("/errors/lambda_seam") <= 0.01);
+    let ended = bars(2, "p1-discontinuous", 24, "fieldsplit").converged();
+    assert!(!ended.errors.contains("jump term"), "{}", ended.errors);
+}
+
+#[test]
+fn the_inf_sup_constant_falls_with_the_segments_and_does_not_depend_on_ranks() {
+    let beta = |segments: usize, ranks: usize| {
+        let run = bars(1, "p0", segments, "fieldsplit").ranks(ranks).set("mesh.refine", 3).set("contact.seam.stabilise", false);
+        run.set("solver.inf_sup", true).ended().number("/contact/seam/inf_sup")
+    };
+    let safe = beta(30, 1);
+    assert!(safe > 0.3, "H/h = 1.6: {safe}");
+    for ranks in [2, 3] {
+        assert!((beta(30, ranks) / safe - 1.0).abs() < 0.02, "{ranks} ranks: {} against {safe}", beta(30, ranks));
+    }
+    assert!(beta(88, 1) < 0.05, "H/h = 0.55: {}", beta(88, 1));
+}
