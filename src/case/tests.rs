@@ -292,7 +292,7 @@ fn every_error_names_key_value_and_remedy() {
         ("load.l.traction=[0, 1]", "load.l.pressure = 1: stands beside traction"),
         ("load.k.on=top", "load.k: loads nothing; give pressure or traction"),
         ("contact.c.between=['p', 'p']", "must name two different curves"),
-        ("contact.'a/b'={between=['p', 'q'], curve='line'}", "contact.\"a/b\": its name is part of a file name; use"),
+        ("contact.'a/b'={between=['p', 'r'], curve='line'}", "contact.\"a/b\": its name is part of a file name; use"),
         ("contact.c.between=p", "must be two physical curves, of body 1 and of body 2, not of type string"),
         (
             "contact.c.curve=fit",
