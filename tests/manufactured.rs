@@ -46,6 +46,7 @@ fn layers_bent_together() {
 
 #[test]
 fn contact_that_ends_with_p1_continuous() {
+    orders("open_zone", 2, "p1-discontinuous", 1, [1.8, 1.4]);
     orders("open_zone", 2, "p1-continuous", 1, [1.8, 1.4]);
 }
 

@@ -147,7 +147,8 @@ impl ContactLoop<'_> {
             // The set that the blocks hold and the solution belongs to; `set` may run ahead of it.
             let active = set.active().to_vec();
             let b = system.right_hand_side(&active, self.finest())?;
-            let solve = solver.solve(system, &b, &mut x, goal)?;
+            let residual = self.goal(goal, tolerance, system, &b, &x)?;
+            let solve = solver.solve(system, &b, &mut x, residual)?;
             let lambda = self.pressures(system, &x);
             let penetration = self.penetration(system, &x, &lambda);
             let outcome = match solve.ending {
@@ -169,7 +170,11 @@ impl ContactLoop<'_> {
             steps.push(step);
             match self.judge(outcome, solve.ending, goal > tolerance, steps.len(), set) {
                 Next::End(verdict) => return self.finish(system, &x, active, steps, verdict),
-                Next::Tighten => goal = tolerance,
+                Next::Tighten => {
+                    // Sets that inexact solves led to prove no cycle.
+                    goal = tolerance;
+                    set.forget();
+                }
                 Next::Go => {}
             }
             if set.active() != active {
@@ -178,6 +183,18 @@ impl ContactLoop<'_> {
                 self.release(system, &mut x, set.active());
             }
         }
+    }
+
+    /// Relative residual to reach: `goal`, but in the loop at least a tenth of the present one, so that a good start
+    /// does not hide a changed set; never less than the final `tolerance`. **Collective**
+    fn goal(&self, goal: f64, tolerance: f64, system: &SaddlePoint, b: &Vector, x: &Vector) -> Result<f64, SystemError> {
+        let norm = b.norm()?;
+        if goal <= tolerance || norm == 0.0 {
+            return Ok(goal);
+        }
+        let mut r = b.duplicate()?;
+        system.nest.residual(b, x, &mut r)?;
+        Ok(goal.min((0.1 * r.norm()? / norm).max(tolerance)))
     }
 
     /// What follows from a solve and the set it leads to.
@@ -195,10 +212,7 @@ impl ContactLoop<'_> {
                 None if passes >= MOST_SETS => {
                     Next::End(Verdict::NotConverged(format!("the active set still changes after {MOST_SETS} solves")))
                 }
-                None if matches!(outcome, Step::Repeated(_)) => {
-                    set.forget();
-                    Next::Tighten
-                }
+                None if matches!(outcome, Step::Repeated(_)) => Next::Tighten,
                 None => Next::Go,
             },
         }
