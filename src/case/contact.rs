@@ -10,7 +10,11 @@ use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Pair, Segment
 /// `[contact.NAME]`
 pub fn read_contact(section: &Section) -> Option<Pair> {
     let between = section.required("between", "[\"lower.seam\", \"upper.seam\"]", read_between);
-    let curve = section.or("curve", "fit", read_curve);
+    let curve = section.or(
+        "curve",
+        "fit",
+        choice(&[("line", Ok(CurveChoice::Line)), ("geometry", Ok(CurveChoice::Geometry)), ("fit", Ok(CurveChoice::Fit))]),
+    );
     let gap = section.or("gap", "geometry", read_gap);
     let space = section.or(
         "multiplier",
@@ -70,15 +74,6 @@ fn read_between(value: &Value) -> Result<[String; 2], String> {
         [first, second] if first == second => Err("must name two different curves, one of each body".into()),
         pair => Ok(pair),
     }
-}
-
-/// The default, a fit, is not built yet, so that one of the others must be given.
-fn read_curve(value: &Value) -> Result<CurveChoice, String> {
-    choice(&[
-        ("line", Ok(CurveChoice::Line)),
-        ("geometry", Ok(CurveChoice::Geometry)),
-        ("fit", Err("it is the default, so write curve = \"line\" for straight boundaries, or curve = \"geometry\"")),
-    ])(value)
 }
 
 fn read_gap(value: &Value) -> Result<GapChoice, String> {

@@ -238,12 +238,11 @@ fn all_errors_are_reported_at_once() {
         "bars/case.toml: body.a.poisson = 0.5: must lie in (-1, 0.5); 0.5 is incompressible",
         "bars/case.toml: probe.p.point = [1]: must be two numbers",
         "bars/case.toml: contact.c.between: missing",
-        "bars/case.toml: contact.c.curve = \"fit\": not available yet",
         "bars/case.toml: exact.contact.d: no such contact; did you mean \"c\"?",
     ] {
         assert!(words.lines().any(|line| line.starts_with(expected)), "{expected}\nis not in\n{words}");
     }
-    assert_eq!(words.lines().count(), 8, "{words}");
+    assert_eq!(words.lines().count(), 7, "{words}");
 }
 
 /// Key, value and remedy of one error each, from overrides of a case that is good.
@@ -294,11 +293,7 @@ fn every_error_names_key_value_and_remedy() {
         ("contact.c.between=['p', 'p']", "must name two different curves"),
         ("contact.'a/b'={between=['p', 'r'], curve='line'}", "contact.\"a/b\": its name is part of a file name; use"),
         ("contact.c.between=p", "must be two physical curves, of body 1 and of body 2, not of type string"),
-        (
-            "contact.c.curve=fit",
-            "contact.c.curve = \"fit\" (--set): not available yet; it is the default, so write curve = \"line\"",
-        ),
-        ("contact.c.curve=lines", "must be \"line\" or \"geometry\"; did you mean \"line\"?"),
+        ("contact.c.curve=lines", "did you mean \"line\"?"),
         ("contact.c.curve=geometry", "needs one [geometry] with curves = [\"p\", \"q\"]; geometry.g lists \"p\""),
         ("contact.c.gap=clsoed", "must be \"closed\", \"geometry\", a number or a formula of x, y; column 1: found `clsoed`"),
         ("contact.c.multiplier=p1", "must be \"p0\" or \"p1-discontinuous\" or \"p1-continuous\"; did you mean \"p0\"?"),

@@ -39,10 +39,8 @@ pub struct Entry {
 pub enum Distance<'a> {
     /// Not needed: the gap is declared.
     Declared,
-    /// The true shape.
-    Curve(&'a Curve),
-    /// The edges themselves, which are straight.
-    Edges,
+    /// The body's smooth boundary, in pieces.
+    Curves(&'a [Curve]),
 }
 
 /// Integrates the edges of one body that a rank owns: entries of `B`, and `∫ψ_i d ds` with the distance
@@ -71,7 +69,7 @@ pub fn integrate(
             let knots = boundary.knots();
             let z = (t - knots[piece.segment]) / (knots[piece.segment + 1] - knots[piece.segment]);
             let (rows, values) = multipliers.on_segment(piece.segment, z);
-            let d = distance.at(boundary.point(t), normal, here.point)?;
+            let d = distance.at(boundary.point(t), normal)?;
             for k in 0..multipliers.per_segment() {
                 gap[rows[k]] -= side.sign() * weight * values[k] * d;
                 for a in 0..small.nodes.len() {
@@ -85,14 +83,18 @@ pub fn integrate(
 }
 
 impl Distance<'_> {
-    fn at(&self, x: Point, normal: Point, corresponding: Point) -> Result<f64, String> {
-        match self {
-            Self::Declared => Ok(0.0),
-            Self::Edges => Ok((corresponding - x).dot(&normal)),
-            Self::Curve(curve) => curve.distance_along(x, normal).ok_or_else(|| {
-                format!("the normal of the contact boundary at ({}, {}) misses the declared geometry of the body; give `gap` as a number or a formula", x.x, x.y)
-            }),
-        }
+    /// Distance along the normal from `x` on Γ_C to the boundary; a piece goes on beyond its ends, but one that is met
+    /// within them comes first.
+    fn at(&self, x: Point, normal: Point) -> Result<f64, String> {
+        let Self::Curves(curves) = self else { return Ok(0.0) };
+        let hits = curves.iter().filter_map(|curve| curve.hit(x, normal));
+        let nearer = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1).then(a.0.abs().total_cmp(&b.0.abs()));
+        hits.min_by(nearer).map(|(distance, _)| distance).ok_or_else(|| {
+            format!(
+                "the normal of the contact boundary at ({}, {}) misses the boundary of a body; give `gap` as a number or a formula",
+                x.x, x.y
+            )
+        })
     }
 }
 

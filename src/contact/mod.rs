@@ -6,6 +6,7 @@
 mod active_set;
 mod contact_boundary;
 mod coupling;
+mod fitting;
 mod jump_term;
 mod mechanism;
 mod multiplier;

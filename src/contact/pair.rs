@@ -37,6 +37,8 @@ pub enum Stabilise {
 /// Where the contact boundary comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveChoice {
+    /// A spline fitted to the nodes of both boundaries that touch or penetrate, unloaded.
+    Fit,
     /// Both boundaries are straight; the line between them over their overlap.
     Line,
     /// The declared geometry that lists both boundaries.
@@ -48,7 +50,7 @@ pub enum CurveChoice {
 pub enum GapChoice {
     /// The bodies touch along the curve: zero.
     Closed,
-    /// Measured from declared geometries or straight boundaries.
+    /// Measured between the bodies' smooth boundaries: declared geometries, straight lines, or splines through nodes.
     Geometry,
     /// A formula of `x, y` on the curve (a number is a constant formula; negative: interference).
     Formula(Formula),

@@ -1,5 +1,6 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
+use super::fitting::fitted;
 use super::{ContactBoundary, CurveChoice, MultiplierSpace, Pair, SegmentRule};
 use crate::element::Order;
 use crate::geometry::{Curve, Point};
@@ -24,6 +25,7 @@ pub fn place(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 
     let error = |words: String| PlacingError { pair: pair.name.clone(), words };
     let sides = [0, 1].map(|k| mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]));
     let (curve, range) = match pair.curve {
+        CurveChoice::Fit => fitted(mesh, numbering, pair, sides).map_err(error)?,
         CurveChoice::Line => line_between(mesh, pair, sides).map_err(error)?,
         CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,
     };

@@ -1,6 +1,6 @@
 //! Plane curves with a parameter.
 
-use super::{Formula, Point, cross};
+use super::{Formula, Point, Spline, cross};
 use std::f64::consts::TAU;
 
 /// A plane curve `t -> (x, y)` over a range of its parameter.
@@ -24,6 +24,8 @@ pub enum Curve {
         /// First and last value of t.
         range: [f64; 2],
     },
+    /// A spline through or near points.
+    Spline(Spline),
 }
 
 impl Curve {
@@ -33,6 +35,7 @@ impl Curve {
             Self::Line(_) => [0.0, 1.0],
             Self::Circle { .. } => [0.0, TAU],
             Self::Parametric { range, .. } => *range,
+            Self::Spline(spline) => spline.range(),
         }
     }
 
@@ -52,6 +55,7 @@ impl Curve {
             Self::Line([a, b]) => Point::new(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])),
             Self::Circle { centre, radius } => Point::new(centre[0] + radius * t.cos(), centre[1] + radius * t.sin()),
             Self::Parametric { x, y, .. } => Point::new(x.value(&[t]), y.value(&[t])),
+            Self::Spline(spline) => spline.point(t),
         }
     }
 
@@ -61,6 +65,7 @@ impl Curve {
             Self::Line([a, b]) => Point::new(b[0] - a[0], b[1] - a[1]),
             Self::Circle { radius, .. } => Point::new(-radius * t.sin(), radius * t.cos()),
             Self::Parametric { x, y, .. } => Point::new(x.derivative(0, &[t]), y.derivative(0, &[t])),
+            Self::Spline(spline) => spline.derivative(t),
         }
     }
 
@@ -81,18 +86,19 @@ impl Curve {
                 let r = p - Point::new(centre[0], centre[1]);
                 r.y.atan2(r.x).rem_euclid(TAU)
             }
-            Self::Parametric { range, .. } => self.nearest_by_search(p, *range),
+            Self::Parametric { .. } => self.nearest_by_search(p, 64),
+            Self::Spline(spline) => self.nearest_by_search(p, 4 * spline.spans()),
         }
     }
 
     /// Best of a fixed number of samples, then Newton's method on `(p - x(t)) . x'(t) = 0` with the curvature left out
     /// of the slope (Gauss-Newton): quick near the curve, where it is used.
-    fn nearest_by_search(&self, p: Point, [first, last]: [f64; 2]) -> f64 {
-        const SAMPLES: usize = 64;
-        let sample = |k: usize| first + (last - first) * k as f64 / SAMPLES as f64;
+    fn nearest_by_search(&self, p: Point, samples: usize) -> f64 {
+        let [first, last] = self.range();
+        let sample = |k: usize| first + (last - first) * k as f64 / samples as f64;
         let distance = |t: f64| (self.point(t) - p).norm_squared();
-        let mut t = (0..=SAMPLES).map(sample).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(first);
-        let longest = (last - first).abs() / SAMPLES as f64;
+        let mut t = (0..=samples).map(sample).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(first);
+        let longest = (last - first).abs() / samples as f64;
         for _ in 0..200 {
             let slope = self.derivative(t);
             let step = ((p - self.point(t)).dot(&slope) / slope.norm_squared()).clamp(-longest, longest);
@@ -104,9 +110,9 @@ impl Curve {
         t
     }
 
-    /// Signed distance from `origin` along the unit vector `direction` to the curve: the hit nearest to the origin,
-    /// or nothing if the line misses the curve.
-    pub fn distance_along(&self, origin: Point, direction: Point) -> Option<f64> {
+    /// Where the line from `origin` along the unit vector `direction` meets the curve next to the origin: signed
+    /// distance, and by what share of its range the hit lies beyond an end (0 within). Nothing if the line misses.
+    pub fn hit(&self, origin: Point, direction: Point) -> Option<(f64, f64)> {
         let mut t = self.nearest(origin);
         for _ in 0..100 {
             let offset = self.point(t) - origin;
@@ -122,7 +128,9 @@ impl Curve {
         }
         let offset = self.point(t) - origin;
         let missed = cross(direction, offset).abs() > 1e-9 * (offset.norm() + self.derivative(t).norm());
-        (!missed).then(|| offset.dot(&direction))
+        let [first, last] = self.range();
+        let beyond = if self.period().is_some() { 0.0 } else { (first - t).max(t - last) / (last - first) };
+        (!missed).then(|| (offset.dot(&direction), if beyond > 1e-9 { beyond } else { 0.0 }))
     }
 }
 
@@ -151,13 +159,14 @@ mod tests {
         let curve = parabola();
         let (t, d) = (1.7, 0.3);
         let normal = super::super::turn_right(curve.tangent(t));
-        let found = curve.distance_along(curve.point(t) - d * normal, normal);
-        assert!((found.expect("a hit") - d).abs() < 1e-12);
+        let found = curve.hit(curve.point(t) - d * normal, normal);
+        let (distance, beyond) = found.expect("a hit");
+        assert!((distance - d).abs() < 1e-12 && beyond == 0.0);
     }
 
     #[test]
     fn a_line_that_misses_is_told() {
         let circle = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
-        assert_eq!(circle.distance_along(Point::new(0.0, 2.0), Point::new(1.0, 0.0)), None);
+        assert_eq!(circle.hit(Point::new(0.0, 2.0), Point::new(1.0, 0.0)), None);
     }
 }

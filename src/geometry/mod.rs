@@ -3,10 +3,12 @@
 mod curve;
 mod formula;
 mod gauss;
+mod spline;
 
 pub use curve::Curve;
 pub use formula::{Formula, FormulaError};
 pub use gauss::gauss_points;
+pub use spline::Spline;
 
 /// A point, or a vector, of the plane (length).
 pub type Point = nalgebra::Vector2<f64>;

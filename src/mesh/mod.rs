@@ -4,6 +4,7 @@
 //! of [`lattice`]; node numbers follow in closed form ([`Numbering`]) and positions from one smooth map per macro
 //! triangle ([`MacroMesh::position`]), so no rank ever asks another about the mesh.
 
+mod chain;
 mod edge_trace;
 mod gmsh;
 pub mod lattice;

@@ -2,7 +2,6 @@
 
 use super::RunError;
 use crate::case::Case;
-use crate::contact::{CurveChoice, GapChoice};
 use crate::geometry::Point;
 use crate::mesh::{Graph, MacroMesh, MeshError, Partition, read_gmsh};
 use crate::petsc::{Session, partition};
@@ -33,7 +32,6 @@ pub fn read_mesh(case: &Case) -> Result<MacroMesh, String> {
     for geometry in &case.geometries {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }
-    check_gaps(case, &mesh)?;
     check_points(case, &mesh)?;
     Ok(mesh)
 }
@@ -160,25 +158,6 @@ fn check_points(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
         let holds = |triangle: usize| mesh.locate(triangle, Point::new(x, y)).is_some();
         if !(0..mesh.triangles.len()).filter(own).any(holds) {
             return Err(format!("{}: {key} = [{x}, {y}]: lies outside body \"{name}\"; move it inside", case.file.display()));
-        }
-    }
-    Ok(())
-}
-
-/// A gap can be measured only from declared or straight boundaries.
-fn check_gaps(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
-    for pair in &case.contacts {
-        let declared = pair.curve == CurveChoice::Line || !matches!(pair.gap, GapChoice::Geometry);
-        for name in &pair.between {
-            let edges = mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-            let bent = edges.iter().all(|&edge| mesh.edges[edge as usize].shape.is_some());
-            if !declared && !bent {
-                return Err(format!(
-                    "{}: contact.{}.gap = \"geometry\": \"{name}\" has no [geometry]; splines through its nodes are not available yet: give a [geometry], or gap = \"closed\"",
-                    case.file.display(),
-                    pair.name
-                ));
-            }
         }
     }
     Ok(())

@@ -7,7 +7,7 @@ use crate::contact::{
     declared_gap, integrate, jumps, place, safe_ratio_of, segment_ratio, softer_edge_length,
 };
 use crate::element::{Order, PlaneStrain};
-use crate::geometry::Point;
+use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, EdgeNode, MacroMesh, Numbering, Partition};
 use crate::petsc::Session;
 use std::rc::Rc;
@@ -71,6 +71,8 @@ pub struct Contact {
     pub segment_ratio: f64,
     /// Ratio from which the pair of spaces is stable.
     pub safe_ratio: f64,
+    /// Smooth boundaries of both bodies, where the gap is measured between them.
+    pub shapes: Option<[Vec<Curve>; 2]>,
     /// The jump term, all contacts numbered through; empty if there is none.
     pub jumps: Vec<Jump>,
 }
@@ -118,7 +120,21 @@ impl Contact {
         } else {
             (multipliers, Vec::new())
         };
-        Ok(Self { pair: pair.clone(), boundary, multipliers, first, modulus, bodies, edges, segment_ratio, safe_ratio, jumps })
+        let measured = matches!(pair.gap, GapChoice::Geometry);
+        let shapes = measured.then(|| sides.each_ref().map(|edges| scene.mesh.smooth_curves(edges)));
+        Ok(Self {
+            pair: pair.clone(),
+            boundary,
+            multipliers,
+            first,
+            modulus,
+            bodies,
+            edges,
+            segment_ratio,
+            safe_ratio,
+            shapes,
+            jumps,
+        })
     }
 
     /// Whether its segments are shorter than its pair of spaces allows.
@@ -182,7 +198,10 @@ impl Coupling {
         let mut integrate_all = || -> Result<(), SystemError> {
             for (number, contact) in contacts.iter().enumerate() {
                 for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
-                    let distance = distance(scene, contact, k);
+                    let distance = match &contact.shapes {
+                        Some(shapes) => Distance::Curves(&shapes[k]),
+                        None => Distance::Declared,
+                    };
                     let (entries, own) = integrate(&contact.boundary, &contact.multipliers, side, &contact.edges[k], &distance)
                         .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
                     own.iter().enumerate().for_each(|(i, value)| gap[contact.first + i] += value);
@@ -225,18 +244,6 @@ impl Coupling {
             }
         }
         Ok(Self { rows, gap, owners })
-    }
-}
-
-/// Where a body's distances come from: its declared geometry, or its straight edges.
-fn distance<'a>(scene: &'a Scene, contact: &Contact, side: usize) -> Distance<'a> {
-    match contact.pair.gap {
-        GapChoice::Geometry => {
-            let edges = scene.mesh.boundary(&contact.pair.between[side]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-            let shape = edges.first().and_then(|&edge| scene.mesh.edges[edge as usize].shape.as_ref());
-            shape.map_or(Distance::Edges, |shape| Distance::Curve(&shape.curve))
-        }
-        _ => Distance::Declared,
     }
 }
 

@@ -1,0 +1,222 @@
+//! Parametric cubic splines: through points, or fitted to them.
+
+use super::Point;
+use nalgebra::{DMatrix, DVector};
+
+/// A twice continuously differentiable piecewise cubic curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spline {
+    /// Parameters of the span ends, ascending.
+    knots: Vec<f64>,
+    /// For each span the coefficients of 1, τ, τ², τ³ with τ = t - knot.
+    spans: Vec<[Point; 4]>,
+}
+
+impl Spline {
+    /// The spline through `points`, in their order, with the length of the chords as its parameter; at the second
+    /// point from each end the third derivative is continuous too ("not a knot"), so that it is of fourth order up to
+    /// its ends. Two points give a line, three a parabola.
+    ///
+    /// # Panics
+    /// If there are fewer than two points.
+    pub fn through(points: &[Point]) -> Self {
+        assert!(points.len() > 1, "a spline needs two points");
+        let mut knots = vec![0.0];
+        for pair in points.windows(2) {
+            knots.push(knots[knots.len() - 1] + (pair[1] - pair[0]).norm());
+        }
+        let curvature = curvatures(&knots, points);
+        let span = |k: usize| {
+            let h = knots[k + 1] - knots[k];
+            let (m0, m1) = (curvature[k], curvature[k + 1]);
+            let slope = (points[k + 1] - points[k]) / h - h / 6.0 * (2.0 * m0 + m1);
+            [points[k], slope, 0.5 * m0, (m1 - m0) / (6.0 * h)]
+        };
+        let spans = (0..points.len() - 1).map(span).collect();
+        Self { knots, spans }
+    }
+
+    /// The spline with `spans` equal spans over the parameters of `samples` that is nearest to them in the weighted
+    /// mean square. Samples are `(parameter, point, weight)`; samples on a straight line whose parameter is its length
+    /// give that line to rounding.
+    ///
+    /// # Panics
+    /// If there are fewer than two samples or no span.
+    pub fn fit(samples: &[(f64, Point, f64)], spans: usize) -> Self {
+        assert!(samples.len() > 1 && spans > 0, "a fit needs samples and spans");
+        let first = samples.iter().map(|sample| sample.0).fold(f64::INFINITY, f64::min);
+        let last = samples.iter().map(|sample| sample.0).fold(f64::NEG_INFINITY, f64::max);
+        let width = (last - first) / spans as f64;
+        let count = spans + 3;
+        let (mut normal, mut right) = (DMatrix::<f64>::zeros(count, count), DMatrix::<f64>::zeros(count, 2));
+        // The fit is one to the difference from the chord, so that straight data stay straight.
+        let chord = chord(samples);
+        for &(t, point, weight) in samples {
+            let k = (((t - first) / width) as usize).min(spans - 1);
+            let values = basis((t - first) / width - k as f64);
+            let rest = point - chord(t);
+            for (a, &left) in values.iter().enumerate() {
+                for (b, &value) in values.iter().enumerate() {
+                    normal[(k + a, k + b)] += weight * left * value;
+                }
+                right[(k + a, 0)] += weight * left * rest.x;
+                right[(k + a, 1)] += weight * left * rest.y;
+            }
+        }
+        smooth(&mut normal);
+        let control = normal.cholesky().map_or(DMatrix::zeros(count, 2), |factor| factor.solve(&right));
+        let at = |i: usize| Point::new(control[(i, 0)], control[(i, 1)]);
+        let knots: Vec<f64> = (0..=spans).map(|k| first + width * k as f64).collect();
+        let span = |k: usize| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| at(k + i));
+            let line = (chord(knots[k]), (chord(last) - chord(first)) / (last - first));
+            [
+                line.0 + (a + 4.0 * b + c) / 6.0,
+                line.1 + (c - a) / (2.0 * width),
+                (a - 2.0 * b + c) / (2.0 * width * width),
+                (d - a + 3.0 * (b - c)) / (6.0 * width.powi(3)),
+            ]
+        };
+        let spans = (0..spans).map(span).collect();
+        Self { knots, spans }
+    }
+
+    /// Number of spans.
+    pub fn spans(&self) -> usize {
+        self.spans.len()
+    }
+
+    /// First and last parameter.
+    pub fn range(&self) -> [f64; 2] {
+        [self.knots[0], self.knots[self.knots.len() - 1]]
+    }
+
+    fn span(&self, t: f64) -> (&[Point; 4], f64) {
+        let k = self.knots.partition_point(|&knot| knot <= t).clamp(1, self.spans.len()) - 1;
+        (&self.spans[k], t - self.knots[k])
+    }
+
+    /// Point at parameter `t`; beyond its ends the spline goes on along its tangents.
+    pub fn point(&self, t: f64) -> Point {
+        let [first, last] = self.range();
+        let inside = t.clamp(first, last);
+        let (&[a, b, c, d], tau) = self.span(inside);
+        a + tau * (b + tau * (c + tau * d)) + (t - inside) * self.derivative(inside)
+    }
+
+    /// Derivative of the point by the parameter.
+    pub fn derivative(&self, t: f64) -> Point {
+        let [first, last] = self.range();
+        let (&[_, b, c, d], tau) = self.span(t.clamp(first, last));
+        b + tau * (2.0 * c + 3.0 * tau * d)
+    }
+}
+
+/// The line from the mean of the samples along their regression on the parameter.
+fn chord(samples: &[(f64, Point, f64)]) -> impl Fn(f64) -> Point + Copy {
+    let total: f64 = samples.iter().map(|sample| sample.2).sum();
+    let middle = samples.iter().map(|(t, _, w)| w * t).sum::<f64>() / total;
+    let mean = samples.iter().fold(Point::zeros(), |sum, (_, x, w)| sum + *w * x) / total;
+    let spread: f64 = samples.iter().map(|(t, _, w)| w * (t - middle).powi(2)).sum();
+    let slope = samples.iter().fold(Point::zeros(), |sum, (t, x, w)| sum + w * (t - middle) * (x - mean)) / spread;
+    move |t: f64| mean + (t - middle) * slope
+}
+
+/// Uniform cubic B-spline values on one span, at the fraction `z`.
+fn basis(z: f64) -> [f64; 4] {
+    let y = 1.0 - z;
+    [y.powi(3) / 6.0, (3.0 * z.powi(3) - 6.0 * z * z + 4.0) / 6.0, (3.0 * y.powi(3) - 6.0 * y * y + 4.0) / 6.0, z.powi(3) / 6.0]
+}
+
+/// A trace of a penalty on third differences: spans without samples are bridged smoothly.
+fn smooth(normal: &mut DMatrix<f64>) {
+    const THIRD: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
+    let scale = 1e-9 * normal.diagonal().max();
+    for k in 0..normal.nrows() - 3 {
+        for (a, left) in THIRD.iter().enumerate() {
+            for (b, right) in THIRD.iter().enumerate() {
+                normal[(k + a, k + b)] += scale * left * right;
+            }
+        }
+    }
+    for i in 0..normal.nrows() {
+        normal[(i, i)] += 1e-6 * scale;
+    }
+}
+
+/// Second derivatives at the knots of the spline through points.
+fn curvatures(knots: &[f64], points: &[Point]) -> Vec<Point> {
+    let n = points.len();
+    if n == 2 {
+        return vec![Point::zeros(); 2];
+    }
+    let h = |k: usize| knots[k + 1] - knots[k];
+    let slope = |k: usize| (points[k + 1] - points[k]) / h(k);
+    if n == 3 {
+        return vec![2.0 * (slope(1) - slope(0)) / (h(0) + h(1)); 3];
+    }
+    let mut matrix = DMatrix::<f64>::zeros(n, n);
+    let (mut x, mut y) = (DVector::<f64>::zeros(n), DVector::<f64>::zeros(n));
+    for k in 1..n - 1 {
+        (matrix[(k, k - 1)], matrix[(k, k)], matrix[(k, k + 1)]) = (h(k - 1), 2.0 * (h(k - 1) + h(k)), h(k));
+        let right = 6.0 * (slope(k) - slope(k - 1));
+        (x[k], y[k]) = (right.x, right.y);
+    }
+    for (row, [a, b, c]) in [(0, [0, 1, 2]), (n - 1, [n - 1, n - 2, n - 3])] {
+        let (near, far) = ((knots[b] - knots[a]).abs(), (knots[c] - knots[b]).abs());
+        (matrix[(row, a)], matrix[(row, b)], matrix[(row, c)]) = (far, -(near + far), near);
+    }
+    let factor = matrix.lu();
+    let (x, y) = (factor.solve(&x).unwrap_or(DVector::zeros(n)), factor.solve(&y).unwrap_or(DVector::zeros(n)));
+    (0..n).map(|k| Point::new(x[k], y[k])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(count: usize) -> Vec<Point> {
+        (0..=count).map(|k| 1.5 * k as f64 / count as f64).map(|a| Point::new(2.0 * a.cos(), 2.0 * a.sin())).collect()
+    }
+
+    /// Largest distance from the circle of radius 2.
+    fn off(spline: &Spline) -> f64 {
+        let [first, last] = spline.range();
+        (0..=500).map(|k| (spline.point(first + (last - first) * k as f64 / 500.0).norm() - 2.0).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_spline_through_an_arc_is_of_fourth_order() {
+        let errors = [8, 16, 32].map(|count| off(&Spline::through(&arc(count))));
+        for pair in errors.windows(2) {
+            assert!((pair[0] / pair[1]).log2() > 3.7, "{errors:?}");
+        }
+        for (k, point) in arc(8).iter().enumerate() {
+            let spline = Spline::through(&arc(8));
+            assert!((spline.point(spline.knots[k]) - point).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn straight_data_stay_straight() {
+        let line = |t: f64| Point::new(1.0 + 0.6 * t, 3.0 + 0.8 * t);
+        let samples: Vec<(f64, Point, f64)> = [0.0, 0.1, 0.35, 0.5, 1.2, 1.3, 2.0].map(|t| (t, line(t), 0.3 + t)).to_vec();
+        let fit = Spline::fit(&samples, 5);
+        let points: Vec<Point> = samples.iter().map(|sample| sample.1).collect();
+        let through = Spline::through(&points);
+        for t in [0.0, 0.2, 0.77, 1.9, 2.0] {
+            assert!((fit.point(t) - line(t)).norm() < 1e-13 && (through.point(t) - line(t)).norm() < 1e-13);
+            assert!((fit.derivative(t) - Point::new(0.6, 0.8)).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_fit_with_more_spans_is_nearer_to_a_circle() {
+        let samples: Vec<(f64, Point, f64)> = (0..=200)
+            .map(|k| 1.5 * f64::from(k) / 200.0)
+            .map(|a| (2.0 * a, Point::new(2.0 * a.cos(), 2.0 * a.sin()), 1.0))
+            .collect();
+        let errors = [2, 4, 8].map(|spans| off(&Spline::fit(&samples, spans)));
+        assert!(errors[0] < 5e-3 && errors[1] < errors[0] / 8.0 && errors[2] < errors[1] / 8.0, "{errors:?}");
+    }
+}

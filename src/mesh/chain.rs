@@ -1,0 +1,98 @@
+//! Boundaries as chains of vertices, split at corners.
+
+use super::MacroMesh;
+use crate::geometry::{Curve, Point, Spline, cross};
+
+/// A boundary that turns by more than this at a vertex (radians, 20 degrees) has a corner there.
+const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
+
+impl MacroMesh {
+    /// Smooth shapes of a set of boundary edges, one for each stretch between corners and gaps: the declared geometry
+    /// where the edges have one, a straight line where they lie on one, otherwise the spline through their vertices.
+    /// Never the polygon: its error would enter the gap.
+    pub fn smooth_curves(&self, edges: &[u32]) -> Vec<Curve> {
+        self.chains(edges).iter().map(|chain| self.smooth_curve(chain)).collect()
+    }
+
+    fn smooth_curve(&self, chain: &[u32]) -> Curve {
+        if let Some(shape) = &self.edges[chain[0] as usize].shape {
+            return (*shape.curve).clone();
+        }
+        let points = self.chain_points(chain);
+        let (first, last) = (points[0], points[points.len() - 1]);
+        let straight = points.iter().all(|x| cross(last - first, x - first).abs() <= 1e-12 * (last - first).norm_squared());
+        if straight { Curve::Line([first.into(), last.into()]) } else { Curve::Spline(Spline::through(&points)) }
+    }
+
+    /// Edges in the order and direction of the boundary (body on the left), cut at corners and gaps, and where the
+    /// shape changes.
+    fn chains(&self, edges: &[u32]) -> Vec<Vec<u32>> {
+        let ends = |edge: u32| {
+            let (triangle, side) = self.beside(edge);
+            let corners = self.triangles[triangle as usize].vertices;
+            [corners[side], corners[(side + 1) % 3]]
+        };
+        let along = |edge: u32| {
+            let [a, b] = ends(edge).map(|vertex| self.vertices[vertex as usize]);
+            (b - a).normalize()
+        };
+        let alike = |a: u32, b: u32| match (&self.edges[a as usize].shape, &self.edges[b as usize].shape) {
+            (None, None) => along(a).dot(&along(b)) > CORNER.cos(),
+            (Some(a), Some(b)) => a.curve == b.curve,
+            _ => false,
+        };
+        let follows = |a: u32, b: u32| a != b && ends(a)[1] == ends(b)[0] && alike(a, b);
+        let next = |edge: u32| edges.iter().copied().find(|&other| follows(edge, other));
+        let mut left: Vec<u32> = edges.to_vec();
+        let mut chains = Vec::new();
+        while let Some(&start) = left.iter().find(|&&edge| !edges.iter().any(|&other| follows(other, edge))).or(left.first()) {
+            let mut chain = vec![start];
+            left.retain(|&edge| edge != start);
+            while let Some(edge) = next(chain[chain.len() - 1]).filter(|edge| left.contains(edge)) {
+                left.retain(|&other| other != edge);
+                chain.push(edge);
+            }
+            chains.push(chain);
+        }
+        chains
+    }
+
+    /// Vertices of a chain of edges.
+    fn chain_points(&self, chain: &[u32]) -> Vec<Point> {
+        let corner = |edge: u32, end: usize| {
+            let (triangle, side) = self.beside(edge);
+            self.vertices[self.triangles[triangle as usize].vertices[(side + end) % 3] as usize]
+        };
+        let mut points: Vec<Point> = chain.iter().map(|&edge| corner(edge, 0)).collect();
+        points.push(corner(chain[chain.len() - 1], 1));
+        points
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::two_blocks;
+    use super::*;
+
+    #[test]
+    fn a_straight_boundary_of_many_edges_is_one_line() {
+        let mesh = two_blocks();
+        let curves = mesh.smooth_curves(&mesh.boundary("upper.seam").expect("named").edges);
+        assert_eq!(curves.len(), 1);
+        assert!(curves[0].is_line());
+    }
+
+    #[test]
+    fn corners_and_shapes_split_a_boundary() {
+        let mut mesh = two_blocks();
+        let mut edges = mesh.boundary("upper.seam").expect("named").edges.clone();
+        edges.extend(&mesh.boundary("top").expect("named").edges);
+        assert_eq!(mesh.smooth_curves(&edges).len(), 2, "seam and top have no end in common");
+        mesh.vertices.iter_mut().filter(|x| x.x == 0.9 && x.y == 1.0).for_each(|x| x.y = 1.3);
+        let seam = mesh.boundary("upper.seam").expect("named").edges.clone();
+        assert_eq!(mesh.smooth_curves(&seam).len(), 2, "a kink of more than 20 degrees");
+        mesh.vertices.iter_mut().filter(|x| x.x == 0.9 && x.y == 1.3).for_each(|x| x.y = 1.1);
+        let [Curve::Spline(spline)] = &mesh.smooth_curves(&seam)[..] else { panic!("one spline") };
+        assert!((spline.point(spline.range()[0]) - Point::new(0.0, 1.0)).norm() < 1e-14);
+    }
+}
