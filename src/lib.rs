@@ -27,7 +27,7 @@
 //! Each body is coupled to `Γ_C` alone. `K` may be singular: contact may be all that holds a body.
 //!
 //! - **Energy** `U = ½ ∫ σ:ε`; `2U = f·u + r·u_D - λᵀc - λᵀCλ` with the reactions `r` of the supports, the prescribed
-//!   `u_D`, and `C` the multiplier block (`Bu - Cλ = c`; zero so far). `external_work = f·u + r·u_D`; `balance.energy` is
+//!   `u_D`, and `C` the jump term (`Bu - Cλ = c`; zero where none is added). `external_work = f·u + r·u_D`; `balance.energy` is
 //!   the difference of both sides over the largest term.
 //! - **Balance**: `Fₖ`, `Mₖ` are the resultants of `λ` through body k's own integrals, `Mₖ` about the middle of `Γ_C`.
 //!   `balance.force = |F₁ + F₂| / |F₂|`, `balance.moment = |M₁ + M₂| / (|F₂| length)`; `balance.bodies` is what is left of
@@ -41,7 +41,7 @@
 //! | `K`, `B`, `C`, `f`, `c` | stiffness, coupling, multiplier block, loads, weighted initial gaps |
 //! | `ψ_i`, `N_j` | shape functions of multiplier `i` and of node `j` |
 //! | `H`, `h` | length of a segment, of a triangle edge |
-//! | `D`, `γ`, `W` | augmentation `D = √γ W⁻¹ √γ`, `γ = 5 E_c / H`, multiplier mass |
+//! | `D`, `γ`, `W` | augmentation `D = √γ W⁻¹ √γ`, `γ = α E_c / H`, multiplier mass |
 //! | `s`, `t` | arc length along `Γ_C` and its parameter (the scaling of multipliers is `s_i`) |
 //!
 //! # References

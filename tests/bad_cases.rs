@@ -123,7 +123,7 @@ fn boundaries_that_do_not_face_each_other() {
 
 #[test]
 fn what_is_not_built_yet() {
-    bad_key("contact.seam.curve", "\"fit\"", &["contact.seam.curve", "not available yet"]);
+    bad_key("contact.seam.configuration", "deformed", &["contact.seam.configuration", "not available yet"]);
 }
 
 /// Nothing holds the upper block in x: exit code 3, and a summary that says so.

@@ -3,7 +3,8 @@
 //! `fieldsplit`: GMRES, preconditioned from the right by the block upper triangle of `K + BᵀDB` and `S = -D⁻¹`; one
 //! geometric multigrid F-cycle stands for the inverse of the first, or BoomerAMG where the mesh has no levels (for P2
 //! below one smoothing step, on the P1 space of the same triangles).
-//! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override.
+//! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override; only the
+//! tolerance is the case's.
 
 use super::{Discretisation, Form, SaddlePoint, SchurPattern, SolverChoice, SystemError, interpolation};
 use crate::petsc::{Krylov, Level, Matrix, Session, Vector, options};
