@@ -264,3 +264,24 @@ fn too_fine_a_mesh_and_options_without_effect_are_refused() {
     refused(&blocks().text(), GOOD, |run| run.petsc("-ksp_rtol 1e-3"), &["-ksp_rtol", "solver.tolerance"]);
     refused(&blocks().text(), GOOD, |run| run.petsc("ksp_monitor"), &["begin with a minus"]);
 }
+
+/// A boundary so bent that it cuts through its own body.
+#[test]
+fn a_triangle_that_a_geometry_turns_inside_out() {
+    let lower = grid(1, 1, 1, |u, v| [2.0 * u, 0.5 * v]);
+    let upper = grid(1, 1, 2, |u, v| [2.0 * u, 0.5 + v]);
+    let mesh = Mesh {
+        bodies: vec![
+            ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
+            ("upper", upper, ["upper.seam", "right", "top", "left"]),
+        ],
+    };
+    let circle = "geometry.arc = { curves = [\"lower.seam\", \"upper.seam\"], circle = { centre = [1.0, 0.8201562118716424], radius = 1.05 } }\n";
+    let case = GOOD.replace("curve = \"line\"", "curve = \"geometry\"") + circle;
+    refused(
+        &mesh.text(),
+        &case,
+        |run| run.set("mesh.refine", 2),
+        &["turned inside out", "triangle around", "[geometry]", "case.toml"],
+    );
+}
