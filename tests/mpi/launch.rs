@@ -2,11 +2,13 @@
 //! called by `mpirun` it runs its checks, in their order, in one session.
 
 use mezha::petsc::Session;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::PathBuf;
-use std::process::{Child, Command, ExitCode, Stdio};
-use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::process::{Command, ExitCode};
+use std::time::Instant;
+
+#[path = "../support/process.rs"]
+mod process;
 
 /// A function and its name.
 pub type Named<F> = (&'static str, F);
@@ -44,14 +46,6 @@ pub const LIST_LEAKS: &str = "-malloc_debug -malloc_dump -objects_dump";
 
 const RANKS: [usize; 3] = [1, 2, 3];
 const SCENARIO: &str = "MEZHA_TEST_SCENARIO";
-/// Root may run `mpirun`; ranks that wait leave the processor to others.
-const ENVIRONMENT: [(&str, &str); 4] = [
-    ("OMPI_ALLOW_RUN_AS_ROOT", "1"),
-    ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"),
-    ("OMPI_MCA_mpi_yield_when_idle", "1"),
-    ("OMP_NUM_THREADS", "1"),
-];
-const PATIENCE: Duration = Duration::from_secs(120);
 
 impl Suite {
     /// Does what this process has been started for.
@@ -153,45 +147,10 @@ fn this_program() -> PathBuf {
 
 /// Runs a command to its end.
 fn finish(mut command: Command, scenario: Option<&str>, options: &str) -> Ended {
-    for (name, value) in ENVIRONMENT {
-        command.env(name, value);
-    }
     command.env("PETSC_OPTIONS", options);
     if let Some(name) = scenario {
         command.env(SCENARIO, name);
     }
-    command.stdin(Stdio::null());
-    command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    let missing = "mpirun starts (Debian: apt-get install openmpi-bin)";
-    let mut child = command.spawn().expect(missing);
-    let output = reader(child.stdout.take().expect("piped"));
-    let errors = reader(child.stderr.take().expect("piped"));
-    let code = wait(&mut child);
-    let text = |thread: JoinHandle<String>| thread.join().expect("a reader ends");
-    let (output, errors) = (text(output), text(errors));
-    assert!(code.is_some(), "{command:?} was ended after {PATIENCE:?}:\n{output}{errors}");
+    let (code, output, errors) = process::finish(command);
     Ended { code, output, errors }
-}
-
-fn reader(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
-    std::thread::spawn(move || {
-        let mut bytes = Vec::new();
-        pipe.read_to_end(&mut bytes).expect("a pipe can be read");
-        String::from_utf8_lossy(&bytes).into_owned()
-    })
-}
-
-/// Exit code; `None` if the command was told to end because it took too long.
-fn wait(child: &mut Child) -> Option<i32> {
-    let start = Instant::now();
-    while start.elapsed() < PATIENCE {
-        if let Some(status) = child.try_wait().expect("a child can be waited for") {
-            return Some(status.code().unwrap_or(-1));
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    // The polite signal: mpirun passes it on to the ranks.
-    Command::new("kill").arg(child.id().to_string()).status().expect("kill runs");
-    child.wait().expect("a child can be waited for");
-    None
 }

@@ -4,26 +4,14 @@
 #![allow(dead_code)] // Each test program uses a part of it.
 
 pub mod mesh;
+mod process;
 
 use serde_json::Value;
 use std::fmt::Display;
-use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::thread::JoinHandle;
+use std::process::Command;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-/// Root may run `mpirun`; ranks that wait leave the processor to others.
-const ENVIRONMENT: [(&str, &str); 6] = [
-    ("OMPI_ALLOW_RUN_AS_ROOT", "1"),
-    ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"),
-    ("OMPI_MCA_mpi_yield_when_idle", "1"),
-    ("OMP_NUM_THREADS", "1"),
-    ("OPENBLAS_NUM_THREADS", "1"),
-    ("PETSC_OPTIONS", ""),
-];
-const PATIENCE: Duration = Duration::from_secs(120);
 
 /// The numbers of ranks that everything must hold on.
 pub const RANKS: [usize; 3] = [1, 2, 3];
@@ -219,39 +207,6 @@ pub fn mezha<S: AsRef<str>>(ranks: Option<usize>, words: &[S]) -> (Option<i32>, 
             &mut command
         }
     };
-    // Runs at the same time must not clear away each other's session folder.
-    let sessions = tempfile::tempdir().expect("a temporary folder");
-    command.args(words.iter().map(S::as_ref)).envs(ENVIRONMENT).env("OMPI_MCA_orte_tmpdir_base", sessions.path());
-    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().expect("mpirun starts (Debian: apt-get install openmpi-bin)");
-    let output = reader(child.stdout.take().expect("piped"));
-    let errors = reader(child.stderr.take().expect("piped"));
-    let code = wait(&mut child);
-    let text = |thread: JoinHandle<String>| thread.join().expect("a reader ends");
-    let (output, errors) = (text(output), text(errors));
-    assert!(code.is_some(), "{command:?} was ended after {PATIENCE:?}:\n{output}{errors}");
-    (code, output, errors)
-}
-
-fn reader(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
-    std::thread::spawn(move || {
-        let mut bytes = Vec::new();
-        pipe.read_to_end(&mut bytes).expect("a pipe can be read");
-        String::from_utf8_lossy(&bytes).into_owned()
-    })
-}
-
-/// Exit code; `None` if the command was told to end because it took too long.
-fn wait(child: &mut Child) -> Option<i32> {
-    let start = Instant::now();
-    while start.elapsed() < PATIENCE {
-        if let Some(status) = child.try_wait().expect("a child can be waited for") {
-            return Some(status.code().unwrap_or(-1));
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    // The polite signal: mpirun passes it on to the ranks.
-    Command::new("kill").arg(child.id().to_string()).status().expect("kill runs");
-    child.wait().expect("a child can be waited for");
-    None
+    command.args(words.iter().map(S::as_ref)).env("PETSC_OPTIONS", "");
+    process::finish(command)
 }

@@ -1,0 +1,60 @@
+//! A command run to its end, with both its outputs, and not for ever.
+
+use std::io::Read;
+use std::process::{Child, Command, Stdio};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// The longest that a command may take.
+pub const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Root may run `mpirun`; ranks that wait leave the processor to others.
+pub const ENVIRONMENT: [(&str, &str); 5] = [
+    ("OMPI_ALLOW_RUN_AS_ROOT", "1"),
+    ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"),
+    ("OMPI_MCA_mpi_yield_when_idle", "1"),
+    ("OMP_NUM_THREADS", "1"),
+    ("OPENBLAS_NUM_THREADS", "1"),
+];
+
+/// Exit code, standard output and standard error of a command, without standard input, in a session folder of its own:
+/// runs at the same time must not clear away each other's.
+///
+/// # Panics
+/// If it takes too long.
+pub fn finish(mut command: Command) -> (Option<i32>, String, String) {
+    let sessions = tempfile::tempdir().expect("a temporary folder");
+    command.envs(ENVIRONMENT).env("OMPI_MCA_orte_tmpdir_base", sessions.path());
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("mpirun starts (Debian: apt-get install openmpi-bin)");
+    let output = reader(child.stdout.take().expect("piped"));
+    let errors = reader(child.stderr.take().expect("piped"));
+    let code = wait(&mut child);
+    let text = |thread: JoinHandle<String>| thread.join().expect("a reader ends");
+    let (output, errors) = (text(output), text(errors));
+    assert!(code.is_some(), "{command:?} was ended after {PATIENCE:?}:\n{output}{errors}");
+    (code, output, errors)
+}
+
+fn reader(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
+    std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        pipe.read_to_end(&mut bytes).expect("a pipe can be read");
+        String::from_utf8_lossy(&bytes).into_owned()
+    })
+}
+
+/// Exit code; `None` if the command was told to end because it took too long.
+fn wait(child: &mut Child) -> Option<i32> {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        if let Some(status) = child.try_wait().expect("a child can be waited for") {
+            return Some(status.code().unwrap_or(-1));
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    // The polite signal: mpirun passes it on to the ranks.
+    Command::new("kill").arg(child.id().to_string()).status().expect("kill runs");
+    child.wait().expect("a child can be waited for");
+    None
+}
