@@ -40,7 +40,7 @@ impl Constraint {
     }
 
     /// The vector in the frame with its prescribed components set to zero.
-    pub fn free(&self, v: Point) -> Point {
+    pub fn free_part(&self, v: Point) -> Point {
         Point::new(if self.fixed[0] { 0.0 } else { v.x }, if self.fixed[1] { 0.0 } else { v.y })
     }
 

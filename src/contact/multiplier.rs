@@ -44,7 +44,8 @@ impl DiagonalBlock {
     }
 }
 
-/// The multipliers of one contact boundary, numbered along it.
+/// The multipliers of one contact boundary, numbered along it. Linear ones are linear in the parameter of Γ_C, which
+/// is its arc length on lines and circles only.
 #[derive(Clone, Debug)]
 pub struct Multipliers {
     /// Their space.
@@ -139,7 +140,8 @@ impl Multipliers {
         self.weights[multiplier]
     }
 
-    /// `κ_i = γ_i / ∫ψ_i`: what one unit of mean penetration is worth in pressure (stress per length squared).
+    /// `κ_i = γ_i / ∫ψ_i`: the pressure that one unit of weighted penetration is worth (stress per length squared). It
+    /// scales the test of the active set; only its size matters.
     pub fn penalty(&self, multiplier: usize, modulus: f64) -> f64 {
         self.alpha * modulus / (self.length(multiplier) * self.weight(multiplier))
     }

@@ -30,7 +30,7 @@ impl CouplingRows {
                     let number = coupled.node.number(mesh, &finest.numbering);
                     nodes.entry(number).or_insert((coupled.node, Point::zeros())).1 += coupled.value;
                 }
-                nodes.iter_mut().for_each(|(&number, (_, value))| *value = finest.free(number, *value));
+                nodes.iter_mut().for_each(|(&number, (_, value))| *value = finest.free_part(number, *value));
                 nodes
             })
             .collect();
@@ -98,6 +98,6 @@ fn restrict(mesh: &MacroMesh, nodes: &Nodes, fine: &Space, coarse: &Space) -> No
             sums.entry(number).or_insert((parent, Point::zeros())).1 += 0.5 * global;
         }
     }
-    sums.iter_mut().for_each(|(&number, (_, value))| *value = coarse.free(number, *value));
+    sums.iter_mut().for_each(|(&number, (_, value))| *value = coarse.free_part(number, *value));
     sums
 }

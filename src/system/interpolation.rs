@@ -46,8 +46,8 @@ fn insert(matrix: &mut Matrix, fine: &Space, coarse: &Space, node: usize, parent
     }
     let image = |k: usize| {
         let axis = Point::new(if k == 0 { 1.0 } else { 0.0 }, if k == 1 { 1.0 } else { 0.0 });
-        let free = constraint.map_or(axis, |c| c.free(axis));
-        fine.free(node, coarse.to_global(parent, free)) * weight
+        let free = constraint.map_or(axis, |c| c.free_part(axis));
+        fine.free_part(node, coarse.to_global(parent, free)) * weight
     };
     let (x, y) = (image(0), image(1));
     matrix.insert(&[row, row + 1], &[column, column + 1], &[x.x, y.x, x.y, y.y])?;

@@ -32,6 +32,6 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
 /// is prescribed.
 pub fn load(problem: &Discretisation, forces: &Field<2>) -> Vec<f64> {
     let space = problem.finest();
-    let free = |(node, [x, y]): (usize, &[f64; 2])| <[f64; 2]>::from(space.free(node, Point::new(*x, *y)));
+    let free = |(node, [x, y]): (usize, &[f64; 2])| <[f64; 2]>::from(space.free_part(node, Point::new(*x, *y)));
     space.own.clone().zip(forces.own()).flat_map(free).collect()
 }

@@ -35,9 +35,9 @@ impl Space {
 
     /// A force on a node, in its frame, with the part on prescribed components left out.
     #[inline]
-    pub fn free(&self, node: usize, force: Point) -> Point {
+    pub fn free_part(&self, node: usize, force: Point) -> Point {
         match self.constraints.get(node) {
-            Some(constraint) => constraint.free(constraint.to_frame(force)),
+            Some(constraint) => constraint.free_part(constraint.to_frame(force)),
             None => force,
         }
     }

@@ -197,7 +197,7 @@ fn constrained(
         k *= column.frame();
         let force = k * column.prescribed();
         if force != Point::zeros() {
-            lift(row.map_or(force, |row| row.free(force)));
+            lift(row.map_or(force, |row| row.free_part(force)));
         }
     }
     let fixed = |constraint: Option<&Constraint>, a: usize| constraint.is_some_and(|c| c.fixed[a]);
