@@ -57,6 +57,7 @@ fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &Con
             ));
         }
         parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        parts.push([last; 2]);
         let mut reached = first;
         for [from, to] in parts.iter().copied().filter(|[_, to]| *to > first) {
             if from.min(last) > reached + least {
@@ -257,4 +258,68 @@ fn matching(edges: &[Vec<BoundaryEdge>; 2]) -> bool {
         close(a.points[0], b.points[1]) && close(a.points[1], b.points[0])
     };
     edges[0].len() == edges[1].len() && edges[0].iter().all(|a| edges[1].iter().any(|b| near(a, b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{GapChoice, Law, Stabilise};
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{Level, Partition};
+    use std::rc::Rc;
+
+    fn pair(segments: SegmentRule) -> Pair {
+        Pair {
+            name: "seam".into(),
+            between: ["lower.seam".into(), "upper.seam".into()],
+            curve: CurveChoice::Line,
+            gap: GapChoice::Closed,
+            space: MultiplierSpace::P0,
+            segments,
+            law: Law::Unilateral,
+            stabilise: Stabilise::Off,
+        }
+    }
+
+    fn cover(mesh: &MacroMesh, curve: Curve) -> Result<(), String> {
+        let sides = ["lower.seam", "upper.seam"].map(|name| mesh.boundary(name).expect("named").edges.as_slice());
+        let range = curve.range();
+        check_cover(mesh, &pair(SegmentRule::Auto), sides, &ContactBoundary::new(curve, range, Point::new(0.0, 1.0)))
+    }
+
+    #[test]
+    fn holes_at_any_place_are_refused() {
+        let mut mesh = two_blocks();
+        assert_eq!(cover(&mesh, Curve::Line([[0.0, 1.0], [2.0, 1.0]])), Ok(()));
+        for line in [[[-1.0, 1.0], [2.0, 1.0]], [[0.0, 1.0], [3.0, 1.0]]] {
+            assert!(cover(&mesh, Curve::Line(line)).unwrap_err().contains("has a hole between"));
+        }
+        mesh.boundaries.iter_mut().filter(|b| b.name == "upper.seam").for_each(|b| b.edges.truncate(1));
+        assert!(cover(&mesh, Curve::Line([[0.0, 1.0], [2.0, 1.0]])).unwrap_err().contains("\"upper.seam\" has a hole"));
+    }
+
+    #[test]
+    fn automatic_segments_follow_the_longest_edge() {
+        let mesh = two_blocks();
+        let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
+        let numbering = Numbering::new(Level { intervals: 8, order: Order::P1 }, &partition);
+        let boundary = place(&mesh, &numbering, &pair(SegmentRule::Auto), [1.0, 1.0]).expect("a flat seam");
+        // Longest edge 2/8, 1.5 of them on a length of 2.
+        assert_eq!(boundary.segments(), 5);
+        // A stiff lower body leaves the rule to the upper one: longest edge 1.1/8.
+        assert_eq!(place(&mesh, &numbering, &pair(SegmentRule::Auto), [10.0, 1.0]).expect("a flat seam").segments(), 9);
+        assert!(boundary.normal(0.5).y > 0.0);
+    }
+
+    #[test]
+    fn boundaries_that_do_not_face_each_other_are_refused() {
+        let mut mesh = two_blocks();
+        let upper: Vec<u32> = mesh.triangles.iter().filter(|t| t.body == 1).flat_map(|t| t.vertices).collect();
+        let moved: std::collections::BTreeSet<u32> = upper.into_iter().collect();
+        moved.into_iter().for_each(|vertex| mesh.vertices[vertex as usize].x += 5.0);
+        let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
+        let numbering = Numbering::new(Level { intervals: 2, order: Order::P1 }, &partition);
+        let words = place(&mesh, &numbering, &pair(SegmentRule::Count(3)), [1.0, 1.0]).unwrap_err().to_string();
+        assert!(words.starts_with("contact.seam: ") && words.contains("do not face each other"), "{words}");
+    }
 }
