@@ -2,19 +2,8 @@
 
 mod support;
 
-use support::mesh::{Mesh, grid, write_scene};
+use support::mesh::{GOOD, Mesh, grid, write_scene};
 use support::{Ended, Run, names_in};
-
-/// Two blocks that work.
-const GOOD: &str = r#"
-mesh.file = "mesh.msh"
-body.lower = { young = 7000.0, poisson = 0.227 }
-body.upper = { young = 3000.0, poisson = 0.3 }
-support.table = { on = "bottom", uy = 0.0 }
-support.wall = { on = "left", ux = 0.0 }
-load.top = { on = "top", pressure = 1.0 }
-contact.seam = { between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed" }
-"#;
 
 fn blocks() -> Mesh {
     let lower = grid(3, 2, 1, |u, v| [2.0 * u, v]);

@@ -4,7 +4,7 @@ mod support;
 
 use mezha::mesh::read_gmsh;
 use std::collections::HashMap;
-use support::mesh::{Mesh, Random, write_scene};
+use support::mesh::{GOOD, Mesh, Random, write_scene};
 use support::{Run, difference};
 
 /// Shuffles a list (Fisher, Yates).
@@ -86,18 +86,12 @@ fn jumbled(text: &str, seed: u64) -> String {
 fn a_jumbled_mesh_is_the_same_scene() {
     let good = Mesh::inclined_bars(1).text();
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let case = r#"
-        mesh = { file = "mesh.msh", refine = 1 }
-        body.lower = { young = 7000.0, poisson = 0.227 }
-        body.upper = { young = 3000.0, poisson = 0.3 }
-        support.table = { on = "bottom", uy = 0.0 }
-        support.wall = { on = "left", ux = 0.0 }
-        load.top = { on = "top", pressure = 1.0 }
-        contact.seam = { between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed" }
-        solver.tolerance = 1e-12
-        "#;
     let results = |text: &str| {
-        let ended = Run::file(&write_scene(folder.path(), text, case)).ranks(2).converged();
+        let ended = Run::file(&write_scene(folder.path(), text, GOOD))
+            .ranks(2)
+            .set("mesh.refine", 1)
+            .set("solver.tolerance", 1e-12)
+            .converged();
         let lambda = ended.trace("seam").iter().map(|point| point.lambda).collect::<Vec<_>>();
         (ended.number("/energy/total"), lambda, ended.number("/mesh/vertices"))
     };

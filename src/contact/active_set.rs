@@ -47,7 +47,7 @@ impl ActiveSet {
         self.bilateral.contains(&false)
     }
 
-    /// The next set: active where `λ_i + κ_i (Bu - c)_i > 0`; where it is zero nothing changes.
+    /// The next set: active where `force`, that is `λ_i + κ_i (Bu - Cλ - c)_i`, is positive; where it is zero nothing changes.
     pub fn update(&mut self, force: impl Fn(usize) -> f64) -> Step {
         let stays = |i: usize| force(i) > 0.0 || (force(i) == 0.0 && self.active[i]);
         let next: Vec<bool> = self.bilateral.iter().enumerate().map(|(i, &bilateral)| bilateral || stays(i)).collect();

@@ -35,7 +35,7 @@ pub fn jumps(multipliers: &Multipliers, edge: f64, modulus: f64) -> Vec<Jump> {
     neighbours.into_iter().map(jump).collect()
 }
 
-/// `C` over all `count` multipliers; jumps next to an inactive multiplier are left out.
+/// `C` over all multipliers that `active` lists; jumps next to an inactive multiplier are left out.
 pub fn jump_matrix<'a>(jumps: impl Iterator<Item = &'a Jump>, active: &[bool]) -> SparseRows {
     let mut rows = vec![BTreeMap::new(); active.len()];
     for Jump { rows: [i, j], weight } in jumps.filter(|jump| jump.rows.iter().all(|&i| active[i])) {

@@ -3,6 +3,17 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+/// A case that works on meshes of a lower and an upper body.
+pub const GOOD: &str = r#"
+mesh.file = "mesh.msh"
+body.lower = { young = 7000.0, poisson = 0.227 }
+body.upper = { young = 3000.0, poisson = 0.3 }
+support.table = { on = "bottom", uy = 0.0 }
+support.wall = { on = "left", ux = 0.0 }
+load.top = { on = "top", pressure = 1.0 }
+contact.seam = { between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed" }
+"#;
+
 /// Random numbers in [0, 1), the same in each run (Steele, Lea, Flood: splitmix).
 pub struct Random(pub u64);
 
