@@ -56,7 +56,7 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
                 "\"deformed\" wants curve = \"fit\": a declared curve does not follow the bodies".into(),
             );
         }
-        if section.has("spans") {
+        if spans.is_some_and(|spans| spans.is_some()) {
             section.problem(&["spans"], "is for curve = \"fit\"; a declared curve has none".into());
         }
     }

@@ -15,8 +15,9 @@ pub enum End {
     Last,
 }
 
-/// Arc length at which contact ends, by the pressures of the last two segments that carry any; at most one segment
-/// from where the last of them ends. Nothing if there are no two such segments.
+/// Arc length at which contact ends, by the pressures of the last two segments that carry any: at most one segment
+/// from where the last of them ends, half a segment into one that carries nothing. Where only one carries pressure it
+/// is its end. Nothing if that is the only segment, or none does.
 pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool], end: End) -> Option<f64> {
     let carries = |k: &usize| {
         let rows = multipliers.on_segment(*k, 0.0).0;
@@ -30,10 +31,20 @@ pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &
         End::First => (0..boundary.segments()).find(carries)?,
         End::Last => (0..boundary.segments()).rev().find(carries)?,
     };
-    let next = inner(outer).filter(carries)?;
+    let beyond = match end {
+        End::First => outer.checked_sub(1),
+        End::Last => Some(outer + 1).filter(|&k| k < boundary.segments()),
+    };
     let mean = |k: usize| multipliers.value(lambda, k, 0.5);
-    let lengths = [outer, next].map(|k| boundary.segment_length(k));
-    let excess = too_early(lengths, [outer, next].map(mean)).clamp(-lengths[0], lengths[0]);
+    let excess = match inner(outer).filter(carries) {
+        Some(next) => {
+            let lengths = [outer, next].map(|k| boundary.segment_length(k));
+            let most = beyond.map_or(lengths[0], |k| 0.5 * boundary.segment_length(k));
+            too_early(lengths, [outer, next].map(mean)).clamp(-lengths[0], most)
+        }
+        None if beyond.is_some() => 0.0,
+        None => return None,
+    };
     Some(match end {
         End::First => boundary.arcs()[outer] - excess,
         End::Last => boundary.arcs()[outer + 1] + excess,
@@ -67,7 +78,7 @@ mod tests {
             let primitive = |s: f64| -2.0 / 3.0 * (exact - s).max(0.0).powf(1.5);
             (primitive(0.1 * (k + 1) as f64) - primitive(0.1 * k as f64)) / 0.1
         };
-        for (exact, tolerance) in [(1.0, 1e-12), (1.01, 1e-3), (1.03, 6e-3), (0.97, 1e-2)] {
+        for (exact, tolerance) in [(1.0, 1e-12), (1.001, 1e-4), (1.01, 3e-3), (1.03, 1.2e-2), (0.97, 1e-2)] {
             let lambda: Vec<f64> = (0..10).map(|k| mean(exact, k)).collect();
             let found = true_end(&boundary, &multipliers, &lambda, &[true; 10], End::Last).expect("two segments");
             assert!((found - exact).abs() < tolerance, "{found} for {exact}");

@@ -58,7 +58,7 @@ pub fn place(
         CurveChoice::Fit => {
             let smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
             let meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
-            let (curve, limits) = meeting.fit(&smooth, pair.configuration, pair.spans).map_err(error)?;
+            let (curve, limits) = meeting.fit(&smooth, pair.configuration, pair.spans);
             (curve, limits, Some(meeting))
         }
         CurveChoice::Line => line_between(mesh, pair, sides).map(|(curve, range)| (curve, range, None)).map_err(error)?,

@@ -17,6 +17,9 @@ const CHEAP_INF_SUP: usize = 10_000;
 /// Relative residual of solves on boundaries that are still on their way.
 const ON_THE_WAY: f64 = 1e-5;
 
+/// Share of its length by which a boundary moves when it is nearly there.
+const NEARLY: f64 = 1e-2;
+
 /// What no contact boundary changes.
 struct Lasting {
     /// The bodies without contact; only where boundaries follow the solution, otherwise the system holds them.
@@ -24,11 +27,25 @@ struct Lasting {
     interpolations: Vec<Matrix>,
 }
 
-/// One boundary solved for, with what solved it.
-struct Solved {
-    solution: Solution,
+/// The system of one boundary, with what solves it.
+struct Prepared {
     system: SaddlePoint,
-    solver: String,
+    solver: LinearSolver,
+}
+
+/// Where a solve begins: a solution before, with pressures and states of today's multipliers.
+struct Carried<'a> {
+    before: &'a Solution,
+    multipliers: Vec<f64>,
+    active: Vec<bool>,
+}
+
+/// Number of the boundary, passes made before, and relative residual to reach.
+#[derive(Clone, Copy)]
+struct Pass {
+    boundary: usize,
+    passes: usize,
+    tolerance: f64,
 }
 
 impl Run<'_> {
@@ -48,13 +65,15 @@ impl Run<'_> {
             let _stage = self.stages.setup.enter();
             lasting.interpolations = interpolations(problem, self.session)?;
         }
-        let mut solved = if problem.follows() {
+        let (mut solution, prepared) = if problem.follows() {
             self.follow(problem, &lasting)?
         } else {
-            self.solve_once(problem, &lasting, None, self.case.solver.tolerance, (1, 0))?
+            let mut prepared = self.prepare(problem, &lasting)?;
+            let pass = Pass { boundary: 1, passes: 0, tolerance: self.case.solver.tolerance };
+            (self.solve_on(problem, &mut prepared, None, pass)?, prepared)
         };
-        self.measure_inf_sup(problem, &mut solved)?;
-        Ok((solved.solution, solved.solver))
+        self.measure_inf_sup(problem, &prepared.system, &mut solution)?;
+        Ok((solution, prepared.solver.name))
     }
 
     fn load(&self, problem: &Discretisation) -> Result<Vec<f64>, RunError> {
@@ -70,25 +89,17 @@ impl Run<'_> {
         Some(Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all))
     }
 
-    /// Solves for the contact boundaries as they are; `count` tells the number of the boundary and the passes before.
-    /// **Collective**
-    fn solve_once(
-        &self,
-        problem: &Discretisation,
-        lasting: &Lasting,
-        start: Option<(&Solution, Vec<f64>, Vec<bool>)>,
-        tolerance: f64,
-        (boundary, passes): (usize, usize),
-    ) -> Result<Solved, RunError> {
+    /// Sets up system and solver for the contact boundaries as they are. **Collective**
+    fn prepare(&self, problem: &Discretisation, lasting: &Lasting) -> Result<Prepared, RunError> {
         let choice = self.case.solver.choice;
-        let mut system = {
+        let system = {
             let _stage = self.stages.assemble.enter();
             match &lasting.elastic {
                 Some(elastic) => SaddlePoint::around(problem, elastic, choice.form(), self.session)?,
                 None => SaddlePoint::new(problem, self.load(problem)?, choice.form(), self.session)?,
             }
         };
-        let mut solver = {
+        let solver = {
             let _stage = self.stages.setup.enter();
             LinearSolver::new(&system, &lasting.interpolations, choice, self.session)?
         };
@@ -97,69 +108,94 @@ impl Run<'_> {
             let words = format!("PETSc options that nothing has used: {}; check their spelling", unused.join(", "));
             return Err(RunError::Input(words));
         }
+        Ok(Prepared { system, solver })
+    }
+
+    /// Solves on boundaries that stay where they are. **Collective**
+    fn solve_on(
+        &self,
+        problem: &Discretisation,
+        prepared: &mut Prepared,
+        carried: Option<Carried>,
+        Pass { boundary, passes, tolerance }: Pass,
+    ) -> Result<Solution, RunError> {
         let _stage = self.stages.solve.enter();
         let mut set = ActiveSet::new(bilateral(&problem.contacts));
-        if let Some((_, _, active)) = &start {
-            set = set.starting_from(active);
+        if let Some(carried) = &carried {
+            set = set.starting_from(&carried.active);
         }
-        let start = start.as_ref().map(|(before, multipliers, _)| Start { displacement: &before.displacement, multipliers });
+        let start =
+            carried.as_ref().map(|from| Start { displacement: &from.before.displacement, multipliers: &from.multipliers });
         let contact_loop = ContactLoop { problem, session: self.session, boundary, passes, tolerance };
         let report = |step: &OuterStep| self.report.step(step, problem.multiplier_count());
-        let solution = contact_loop.solve(&mut system, &mut solver, &mut set, start, report)?;
-        Ok(Solved { solution, system, solver: solver.name })
+        Ok(contact_loop.solve(&mut prepared.system, &mut prepared.solver, &mut set, start, report)?)
     }
 
     /// Solves, lets the boundaries follow, and solves again, until everything stands; the last solve goes to the case's
     /// tolerance. **Collective**
-    fn follow(&self, problem: &mut Discretisation, lasting: &Lasting) -> Result<Solved, RunError> {
+    fn follow(&self, problem: &mut Discretisation, lasting: &Lasting) -> Result<(Solution, Prepared), RunError> {
         let exact = self.case.solver.tolerance;
         let mut following = Following::new(problem);
-        let (mut passes, mut boundaries) = (Vec::new(), Vec::new());
-        let mut start = None;
-        let mut before: Option<Solved> = None;
-        let mut tolerance = exact.max(ON_THE_WAY);
-        loop {
-            let begin =
-                before.as_ref().zip(start.take()).map(|(solved, (multipliers, active))| (&solved.solution, multipliers, active));
-            let mut solved = self.solve_once(problem, lasting, begin, tolerance, (following.number(), passes.len()))?;
-            passes.append(&mut solved.solution.steps);
-            let done = matches!(solved.solution.verdict, Verdict::NotConverged(_));
-            let onward = if done {
-                None
-            } else {
+        let mut prepared = self.prepare(problem, lasting)?;
+        let mut pass = Pass { boundary: 1, passes: 0, tolerance: exact.max(ON_THE_WAY) };
+        let mut solution = self.solve_on(problem, &mut prepared, None, pass)?;
+        let (mut steps, mut boundaries) = (std::mem::take(&mut solution.steps), Vec::new());
+        while let Verdict::Converged(_) = solution.verdict {
+            let (step, onward) = {
                 let _stage = self.stages.contact.enter();
-                let (step, onward) = following.next(problem, &solved.solution, self.session)?;
-                self.report.boundary(&step);
-                tolerance = if step.moved.is_some_and(|way| way < 1e-2) { exact } else { exact.max(ON_THE_WAY) };
-                boundaries.push(step);
-                Some(onward)
+                following.next(problem, &solution, pass.boundary, self.session)?
             };
-            match onward {
-                Some(Onward::Again(contacts, motion)) => {
-                    let _stage = self.stages.contact.enter();
-                    start = carried(&problem.contacts, &contacts, &solved.solution);
-                    problem.replace(contacts, motion, self.session)?;
-                    before = Some(solved);
-                    continue;
+            let near = step.moved.is_some_and(|way| way < NEARLY);
+            pass.passes = steps.len();
+            let next = match onward {
+                Onward::Stands if pass.tolerance > exact => {
+                    // The place is right, but it was found with a loose solve.
+                    pass.tolerance = exact;
+                    let (multipliers, active) = (solution.multipliers.clone(), solution.active.clone());
+                    self.solve_on(problem, &mut prepared, Some(Carried { before: &solution, multipliers, active }), pass)?
                 }
-                Some(Onward::Stands) => solved.solution.verdict = Verdict::Converged(stands(&boundaries)),
-                Some(Onward::GivenUp(words)) => solved.solution.verdict = Verdict::NotConverged(words),
-                None => {}
-            }
-            solved.solution.steps = passes;
-            solved.solution.boundaries = boundaries;
-            return Ok(solved);
+                Onward::Stands => {
+                    self.report.boundary(&step);
+                    boundaries.push(step);
+                    solution.verdict = Verdict::Converged(stands(&boundaries));
+                    break;
+                }
+                Onward::GivenUp(words) => {
+                    self.report.boundary(&step);
+                    boundaries.push(step);
+                    solution.verdict = Verdict::NotConverged(words);
+                    break;
+                }
+                Onward::Again(contacts, motion) => {
+                    self.report.boundary(&step);
+                    boundaries.push(step);
+                    let carried = carried(&problem.contacts, &contacts, &solution);
+                    {
+                        let _stage = self.stages.contact.enter();
+                        problem.replace(contacts, motion, self.session)?;
+                    }
+                    prepared = self.prepare(problem, lasting)?;
+                    pass =
+                        Pass { boundary: pass.boundary + 1, tolerance: if near { exact } else { exact.max(ON_THE_WAY) }, ..pass };
+                    let carried = carried.map(|(multipliers, active)| Carried { before: &solution, multipliers, active });
+                    self.solve_on(problem, &mut prepared, carried, pass)?
+                }
+            };
+            solution = next;
+            steps.append(&mut solution.steps);
         }
+        (solution.steps, solution.boundaries) = (steps, boundaries);
+        Ok((solution, prepared))
     }
 
     /// The inf-sup constants, where they are cheap, asked for, or may tell why a solve has failed. **Collective**
-    fn measure_inf_sup(&self, problem: &Discretisation, solved: &mut Solved) -> Result<(), RunError> {
-        let failed = matches!(solved.solution.verdict, Verdict::NotConverged(_)) && problem.unknown_count() <= LARGE_INF_SUP;
+    fn measure_inf_sup(&self, problem: &Discretisation, system: &SaddlePoint, solution: &mut Solution) -> Result<(), RunError> {
+        let failed = matches!(solution.verdict, Verdict::NotConverged(_)) && problem.unknown_count() <= LARGE_INF_SUP;
         let cheap = problem.unknown_count() <= CHEAP_INF_SUP;
         let possible = self.case.solver.choice.form() == Form::Augmented && !problem.contacts.is_empty();
         if possible && self.case.solver.inf_sup.unwrap_or(cheap || failed) {
             let _stage = self.stages.solve.enter();
-            solved.solution.inf_sup = inf_sup(&solved.system, &problem.contacts, &solved.solution.active, self.session)?;
+            solution.inf_sup = inf_sup(system, &problem.contacts, &solution.active, self.session)?;
         }
         Ok(())
     }

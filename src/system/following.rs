@@ -8,14 +8,14 @@ use crate::petsc::Session;
 /// Boundaries placed at most.
 const MOST_BOUNDARIES: usize = 30;
 
-/// From this one on, a fitted boundary keeps the nodes it is fitted to, and its ends follow the pressure.
+/// From this one on, a boundary keeps the nodes it is fitted to and its segments, and its ends follow the pressure.
 const FROZEN: usize = 3;
 
 /// Change of the displacement, relative to its norm, at which it stands.
 const STILL_DISPLACEMENT: f64 = 1e-6;
 
 /// Change of the boundary, relative to its length, at which it stands.
-const STILL_BOUNDARY: f64 = 1e-5;
+const STILL_BOUNDARY: f64 = 1e-6;
 
 /// One boundary of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +47,6 @@ type Found = Option<(f64, f64)>;
 
 /// State of the loop over boundaries.
 pub struct Following {
-    count: usize,
     displacement: Vec<f64>,
     active: Vec<bool>,
     ends: Vec<[Found; 2]>,
@@ -56,15 +55,10 @@ pub struct Following {
 impl Following {
     /// Before the first solve.
     pub fn new(problem: &Discretisation) -> Self {
-        Self { count: 0, displacement: Vec::new(), active: Vec::new(), ends: vec![[None; 2]; problem.contacts.len()] }
+        Self { displacement: Vec::new(), active: Vec::new(), ends: vec![[None; 2]; problem.contacts.len()] }
     }
 
-    /// Number of the boundary that is solved for, from 1.
-    pub fn number(&self) -> usize {
-        self.count + 1
-    }
-
-    /// Looks at a solution and places the boundaries again. **Collective**
+    /// Looks at the solution on boundary `number` (from 1) and places the boundaries again. **Collective**
     ///
     /// # Errors
     /// [`SystemError::Case`] if a boundary can no longer be placed.
@@ -72,27 +66,27 @@ impl Following {
         &mut self,
         problem: &Discretisation,
         solution: &Solution,
+        number: usize,
         session: &Session,
     ) -> Result<(BoundaryStep, Onward), SystemError> {
-        self.count += 1;
         let du = self.change(&solution.displacement, session);
         let flipped = (self.active.len() == solution.active.len())
             .then(|| self.active.iter().zip(&solution.active).filter(|(a, b)| a != b).count());
         (self.displacement, self.active) = (solution.displacement.clone(), solution.active.clone());
         let motion = BoundaryMotion::new(problem, &solution.displacement, session);
-        let known = self.proposals(problem, solution, &motion)?;
+        let known = self.proposals(problem, solution, number, &motion)?;
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
         let moved = way(&problem.contacts, &next);
         let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
-        let step = BoundaryStep { iteration: self.count, length, moved, du, flipped };
+        let step = BoundaryStep { iteration: number, length, moved, du, flipped };
         let still = du.is_some_and(|du| du <= STILL_DISPLACEMENT) && flipped == Some(0);
         let onward = match moved {
             // The same boundary has the same solution.
             Some(0.0) => Onward::Stands,
             Some(way) if way <= STILL_BOUNDARY && still => Onward::Stands,
-            _ if self.count >= MOST_BOUNDARIES => Onward::GivenUp(given_up(&step)),
+            _ if number >= MOST_BOUNDARIES => Onward::GivenUp(given_up(&step)),
             _ => Onward::Again(next, motion),
         };
         Ok((step, onward))
@@ -106,7 +100,7 @@ impl Following {
             squares[1] += now * now;
         }
         session.sum(&mut squares);
-        (self.count > 1).then(|| if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 })
+        (!self.displacement.is_empty()).then(|| if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 })
     }
 
     /// What the next boundary of each contact is placed by.
@@ -114,6 +108,7 @@ impl Following {
         &mut self,
         problem: &Discretisation,
         solution: &Solution,
+        number: usize,
         motion: &BoundaryMotion,
     ) -> Result<Vec<Known>, SystemError> {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
@@ -121,22 +116,32 @@ impl Following {
         let mut all = Vec::new();
         for (contact, ends) in problem.contacts.iter().zip(&mut self.ends) {
             let mut known = contact.known.clone();
-            if contact.pair.curve == CurveChoice::Fit && self.count < FROZEN {
+            if contact.pair.curve == CurveChoice::Fit && number < FROZEN {
                 let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
-                if meeting.is_some() && meeting != known.meeting {
-                    all.push(Known { meeting, ends: None, fractions: None });
+                if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
+                    all.push(Known { meeting: Some(meeting), ends: None, fractions: None });
                     continue;
                 }
             }
             if contact.pair.ends == EndRule::Free {
                 known.ends = Some(free_ends(contact, solution, ends));
+                if number < FROZEN {
+                    known.fractions = None;
+                }
             }
             all.push(known);
         }
         Ok(all)
     }
+}
+
+/// Whether a meeting gives a contact other ends than it has.
+fn differs(contact: &Contact, meeting: &Meeting) -> bool {
+    let knots = contact.boundary.knots();
+    let [first, last] = [meeting.ends[0].max(contact.limits[0]), meeting.ends[1].min(contact.limits[1])];
+    (first - knots[0]).abs().max((last - knots[knots.len() - 1]).abs()) > STILL_BOUNDARY * (last - first)
 }
 
 /// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not
