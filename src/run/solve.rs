@@ -135,7 +135,7 @@ impl Run<'_> {
     /// tolerance. **Collective**
     fn follow(&self, problem: &mut Discretisation, lasting: &Lasting) -> Result<(Solution, Prepared), RunError> {
         let exact = self.case.solver.tolerance;
-        let mut following = Following::new(problem);
+        let mut following = Following::new(problem, exact);
         let mut prepared = self.prepare(problem, lasting)?;
         let mut pass = Pass { boundary: 1, passes: 0, tolerance: exact.max(ON_THE_WAY) };
         let mut solution = self.solve_on(problem, &mut prepared, None, pass)?;
