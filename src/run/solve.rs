@@ -5,7 +5,7 @@ use crate::contact::ActiveSet;
 use crate::petsc::Matrix;
 use crate::system::{
     ContactLoop, Discretisation, Elastic, Following, Form, LinearSolver, Onward, OuterStep, SaddlePoint, Solution, Start,
-    Verdict, bilateral, carried, inf_sup, interpolations, load, nodal_forces, stands,
+    Verdict, bilateral, carried, inf_sup, interpolations, load, nodal_forces, not_held, stands,
 };
 
 /// Displacement unknowns up to which a failed solve is looked into.
@@ -52,8 +52,9 @@ impl Run<'_> {
     /// Assembles and solves; the solution comes with what solved it, in words. A body that nothing holds is found
     /// before anything is assembled. **Collective**
     pub(super) fn solve(&self, problem: &mut Discretisation) -> Result<(Solution, String), RunError> {
-        if let Some(nothing) = self.not_held(problem) {
-            return Ok((nothing, "none".into()));
+        let all = vec![true; problem.multiplier_count()];
+        if let Some(words) = not_held(problem, &all) {
+            return Ok((Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all), "none".into()));
         }
         let form = self.case.solver.choice.form();
         let mut lasting = Lasting { elastic: None, interpolations: Vec::new() };
@@ -78,15 +79,6 @@ impl Run<'_> {
 
     fn load(&self, problem: &Discretisation) -> Result<Vec<f64>, RunError> {
         Ok(load(problem, &nodal_forces(problem, self.session)?))
-    }
-
-    /// A body that supports and the whole of all contacts do not hold.
-    fn not_held(&self, problem: &Discretisation) -> Option<Solution> {
-        let all = vec![true; problem.multiplier_count()];
-        let contact_loop = ContactLoop { problem, session: self.session, boundary: 1, passes: 0, tolerance: 0.0 };
-        let mechanism = contact_loop.mechanism(&all)?;
-        let words = contact_loop.not_held(&mechanism, true);
-        Some(Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all))
     }
 
     /// Sets up system and solver for the contact boundaries as they are. **Collective**
