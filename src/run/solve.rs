@@ -4,7 +4,7 @@ use super::{Run, RunError};
 use crate::contact::ActiveSet;
 use crate::petsc::Matrix;
 use crate::system::{
-    ContactLoop, Discretisation, Elastic, Following, Form, LinearSolver, Onward, OuterStep, SaddlePoint, Solution, Start,
+    ContactLoop, Discretisation, Elastic, Following, Form, LinearSolver, Onward, OuterStep, Rung, SaddlePoint, Solution, Start,
     Verdict, bilateral, carried, inf_sup, interpolations, load, nodal_forces, not_held, stands,
 };
 
@@ -69,7 +69,7 @@ impl Run<'_> {
         let (mut solution, prepared) = if problem.follows() {
             self.follow(problem, &lasting)?
         } else {
-            let mut prepared = self.prepare(problem, &lasting)?;
+            let mut prepared = self.prepare(problem, &lasting, Rung::default())?;
             let pass = Pass { boundary: 1, passes: 0, tolerance: self.case.solver.tolerance };
             (self.solve_on(problem, &mut prepared, None, pass)?, prepared)
         };
@@ -81,8 +81,8 @@ impl Run<'_> {
         Ok(load(problem, &nodal_forces(problem, self.session)?))
     }
 
-    /// Sets up system and solver for the contact boundaries as they are. **Collective**
-    fn prepare(&self, problem: &Discretisation, lasting: &Lasting) -> Result<Prepared, RunError> {
+    /// Sets up system and solver for the contact boundaries as they are, on a rung of the ladder. **Collective**
+    fn prepare(&self, problem: &Discretisation, lasting: &Lasting, rung: Rung) -> Result<Prepared, RunError> {
         let choice = self.case.solver.choice;
         let system = {
             let _stage = self.stages.assemble.enter();
@@ -93,7 +93,7 @@ impl Run<'_> {
         };
         let solver = {
             let _stage = self.stages.setup.enter();
-            LinearSolver::new(&system, &lasting.interpolations, choice, self.session)?
+            LinearSolver::new(&system, &lasting.interpolations, choice, rung, self.session)?
         };
         let unused = solver.unused_options()?;
         if !unused.is_empty() {
@@ -128,7 +128,7 @@ impl Run<'_> {
     fn follow(&self, problem: &mut Discretisation, lasting: &Lasting) -> Result<(Solution, Prepared), RunError> {
         let exact = self.case.solver.tolerance;
         let mut following = Following::new(problem, exact);
-        let mut prepared = self.prepare(problem, lasting)?;
+        let mut prepared = self.prepare(problem, lasting, Rung::default())?;
         let mut pass = Pass { boundary: 1, passes: 0, tolerance: exact.max(ON_THE_WAY) };
         let mut solution = self.solve_on(problem, &mut prepared, None, pass)?;
         let (mut steps, mut boundaries) = (std::mem::take(&mut solution.steps), Vec::new());
@@ -166,7 +166,7 @@ impl Run<'_> {
                         let _stage = self.stages.contact.enter();
                         problem.replace(contacts, motion, self.session)?;
                     }
-                    prepared = self.prepare(problem, lasting)?;
+                    prepared = self.prepare(problem, lasting, prepared.solver.rung)?;
                     pass =
                         Pass { boundary: pass.boundary + 1, tolerance: if near { exact } else { exact.max(ON_THE_WAY) }, ..pass };
                     let carried = carried.map(|(multipliers, active)| Carried { before: &solution, multipliers, active });

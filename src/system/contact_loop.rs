@@ -31,6 +31,8 @@ pub struct OuterStep {
     pub max_penetration: f64,
     /// Change of the displacement, relative to its norm.
     pub du: f64,
+    /// The stronger preconditioner that the linear solver went over to, in words.
+    pub climbed: Option<String>,
 }
 
 /// How the loop ended.
@@ -170,6 +172,7 @@ impl ContactLoop<'_> {
                 residual: solve.residual,
                 max_penetration: self.largest_penetration(&penetration),
                 du: self.change(&x, &mut before),
+                climbed: solve.climbed,
             };
             report(&step);
             steps.push(step);
