@@ -263,7 +263,7 @@ fn matching(edges: &[Vec<BoundaryEdge>; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{GapChoice, Law, Stabilise};
+    use crate::contact::{GapChoice, Law, Quadrature, Stabilise};
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Partition};
     use std::rc::Rc;
@@ -277,6 +277,7 @@ mod tests {
             space: MultiplierSpace::P0,
             segments,
             law: Law::Unilateral,
+            quadrature: Quadrature::Cut,
             stabilise: Stabilise::Off,
         }
     }
