@@ -2,7 +2,7 @@
 
 use super::solve::{Begin, Lasting, Pass, Prepared};
 use super::{Run, RunError};
-use crate::system::{Discretisation, Following, Onward, Rung, Solution, Verdict, carried, stands};
+use crate::system::{Discretisation, Following, Onward, Rung, Solution, Tolerance, Verdict, carried, stands};
 
 /// Relative residual of solves on boundaries that are still on their way.
 const ON_THE_WAY: f64 = 1e-5;
@@ -21,10 +21,10 @@ impl Run<'_> {
         rung: Rung,
         pass: Pass,
     ) -> Result<(Solution, Prepared), RunError> {
-        let exact = pass.tolerance;
+        let exact = pass.tolerance.residual();
         let mut following = Following::new(problem, exact, begin.is_some());
         let mut prepared = self.prepare(problem, lasting, rung)?;
-        let mut pass = Pass { tolerance: exact.max(ON_THE_WAY), ..pass };
+        let mut pass = Pass { tolerance: Tolerance::Residual(exact.max(ON_THE_WAY)), ..pass };
         let mut solution = self.solve_on(problem, &mut prepared, begin, pass)?;
         let (mut steps, mut boundaries) = (std::mem::take(&mut solution.steps), Vec::new());
         while let Verdict::Converged(_) = solution.verdict {
@@ -33,7 +33,7 @@ impl Run<'_> {
                 following.next(problem, &solution, pass.boundary, self.session)?
             };
             pass.passes = steps.len();
-            let again = if let Onward::Stands = &onward { pass.tolerance > exact } else { false };
+            let again = if let Onward::Stands = &onward { pass.tolerance != Tolerance::Residual(exact) } else { false };
             if !again {
                 if pass.heard {
                     self.report.boundary(&step);
@@ -43,7 +43,7 @@ impl Run<'_> {
             let next = match onward {
                 Onward::Stands if again => {
                     // The place is right, but it was found with a loose solve.
-                    pass.tolerance = exact;
+                    pass.tolerance = Tolerance::Residual(exact);
                     let begin = from(&solution, Some((solution.multipliers.clone(), solution.active.clone())));
                     self.solve_on(problem, &mut prepared, begin, pass)?
                 }
@@ -63,7 +63,7 @@ impl Run<'_> {
                     }
                     prepared = self.prepare(problem, lasting, prepared.solver.rung)?;
                     let near = step.moved.is_some_and(|way| way < NEARLY);
-                    let tolerance = if near { exact } else { exact.max(ON_THE_WAY) };
+                    let tolerance = Tolerance::Residual(if near { exact } else { exact.max(ON_THE_WAY) });
                     pass = Pass { boundary: pass.boundary + 1, tolerance, ..pass };
                     self.solve_on(problem, &mut prepared, begin, pass)?
                 }

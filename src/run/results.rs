@@ -26,7 +26,7 @@ impl Run<'_> {
             Verdict::Converged(words) => (Status::Converged, words.clone()),
             Verdict::NotConverged(words) => (Status::NotConverged, words.clone()),
         };
-        summarise::describe(&mut summary, self.case, problem, solution, &solved.solver);
+        summarise::describe(&mut summary, self.case, problem, solved);
         summarise::estimate(&mut summary, problem, &solved.estimate);
         if solution.is_solved() {
             let _stage = self.stages.output.enter();

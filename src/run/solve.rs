@@ -3,10 +3,11 @@
 
 use super::{Run, RunError};
 use crate::contact::{ActiveSet, Pair};
+use crate::output::summary::CoarseSolve;
 use crate::petsc::Matrix;
 use crate::system::{
     CoarseSolution, ContactLoop, Difference, Discretisation, Elastic, Estimate, Form, LinearSolver, OuterStep, Rung, SaddlePoint,
-    Solution, Start, Verdict, bilateral, inf_sup, interpolations, load, nodal_forces, not_held,
+    Solution, Start, Tolerance, Verdict, bilateral, inf_sup, interpolations, load, nodal_forces, not_held,
 };
 
 /// Displacement unknowns up to which a failed solve is looked into.
@@ -46,7 +47,7 @@ pub(super) struct Begin {
 pub(super) struct Pass {
     pub boundary: usize,
     pub passes: usize,
-    pub tolerance: f64,
+    pub tolerance: Tolerance,
     pub heard: bool,
 }
 
@@ -56,6 +57,8 @@ pub(super) struct Solved {
     /// What solved it, in words.
     pub solver: String,
     pub estimate: Estimate,
+    /// Coarser meshes that were solved first.
+    pub coarse: Vec<CoarseSolve>,
 }
 
 impl Run<'_> {
@@ -64,11 +67,13 @@ impl Run<'_> {
         let all = vec![true; problem.multiplier_count()];
         if let Some(words) = not_held(problem, &all) {
             let solution = Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all);
-            return Ok(Solved { solution, solver: "none".into(), estimate: Estimate::default() });
+            return Ok(Solved { solution, solver: "none".into(), estimate: Estimate::default(), coarse: Vec::new() });
         }
-        let (coarse, mut differences) = self.coarser_meshes(problem)?;
+        let mut solves = Vec::new();
+        let (coarse, mut differences) = self.coarser_meshes(problem, &mut solves)?;
         let begin = self.refine(problem, coarse.as_ref())?;
         let tolerance = self.case.solver.tolerance;
+        let tolerance = if begin.is_some() { tolerance } else { Tolerance::Residual(tolerance.residual()) };
         let rung = coarse.as_ref().map_or(Rung::default(), |coarse| coarse.rung);
         let (mut solution, prepared) = self.solve_mesh(problem, begin, rung, tolerance, true)?;
         if let Some(coarse) = &coarse {
@@ -76,15 +81,19 @@ impl Run<'_> {
             differences.push(Difference::new(problem, &solution, coarse, self.session)?);
         }
         self.measure_inf_sup(problem, &prepared.system, &mut solution)?;
-        Ok(Solved { solution, solver: prepared.solver.name, estimate: Estimate::new(&differences) })
+        Ok(Solved { solution, solver: prepared.solver.name, estimate: Estimate::new(&differences), coarse: solves })
     }
 
     /// Solutions on coarser meshes, as far as they can be had: the last one, and how they differ. **Collective**
-    fn coarser_meshes(&self, problem: &mut Discretisation) -> Result<(Option<CoarseSolution>, Vec<Difference>), RunError> {
+    fn coarser_meshes(
+        &self,
+        problem: &mut Discretisation,
+        solves: &mut Vec<CoarseSolve>,
+    ) -> Result<(Option<CoarseSolution>, Vec<Difference>), RunError> {
         let target = problem.scene.refine;
         let (mut found, mut differences) = (None, Vec::new());
         for refine in target.saturating_sub(COARSER)..target {
-            match self.coarse_mesh(problem, refine, target, found.take()) {
+            match self.coarse_mesh(problem, refine, found.take(), solves) {
                 Ok((coarse, difference)) => {
                     found = coarse;
                     differences.extend(difference);
@@ -102,18 +111,20 @@ impl Run<'_> {
         &self,
         problem: &mut Discretisation,
         refine: usize,
-        target: usize,
         coarser: Option<CoarseSolution>,
+        solves: &mut Vec<CoarseSolve>,
     ) -> Result<(Option<CoarseSolution>, Option<Difference>), RunError> {
         let begin = {
             let _stage = self.stages.contact.enter();
-            let pairs: Vec<Pair> = self.case.contacts.iter().map(|pair| pair.coarser(target - refine)).collect();
+            let pairs: Vec<Pair> = self.case.contacts.iter().map(|pair| pair.coarser(self.case.mesh.refine - refine)).collect();
             let start = problem.refine_to(refine, pairs, coarser.as_ref(), self.session)?;
             self.begin(problem, coarser.as_ref(), start)
         };
         let rung = coarser.as_ref().map_or(Rung::default(), |coarser| coarser.rung);
-        let tolerance = self.case.solver.tolerance.max(COARSE);
+        let tolerance = Tolerance::Residual(self.case.solver.tolerance.residual().max(COARSE));
         let (solution, prepared) = self.solve_mesh(problem, begin, rung, tolerance, false)?;
+        let iterations = solution.steps.iter().map(|step| step.krylov_iterations).collect();
+        solves.push(CoarseSolve { refine, unknowns: problem.unknown_count(), iterations });
         self.report.coarse(refine, problem, &solution);
         if matches!(solution.verdict, Verdict::NotConverged(_)) {
             return Ok((None, None));
@@ -147,7 +158,7 @@ impl Run<'_> {
         problem: &mut Discretisation,
         begin: Option<Begin>,
         rung: Rung,
-        tolerance: f64,
+        tolerance: Tolerance,
         heard: bool,
     ) -> Result<(Solution, Prepared), RunError> {
         let form = self.case.solver.choice.form();

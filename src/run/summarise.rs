@@ -1,5 +1,6 @@
 //! A solution in the terms of `summary.json`.
 
+use super::solve::Solved;
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, oscillation};
 use crate::element::Order;
@@ -10,7 +11,8 @@ use crate::system::recovery::{Balance, TracePoint};
 use crate::system::{BoundaryStep, Contact, Discretisation, Estimate, Solution};
 
 /// What is known without the solution's fields.
-pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solution: &Solution, solver_name: &str) {
+pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solved: &Solved) {
+    let solution = &solved.solution;
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let count = numbering.level.triangles_per_edge();
     let triangles = scene.mesh.triangles.len() * count * count;
@@ -52,8 +54,9 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
     summary.boundaries = solution.boundaries.iter().map(boundary).collect();
     summary.solver = summary::Solver {
         name: Some(case.solver.choice.name().into()),
-        krylov: Some(solver_name.into()),
+        krylov: Some(solved.solver.clone()),
         iterations: solution.steps.iter().map(|step| step.krylov_iterations).collect(),
+        coarse: solved.coarse.clone(),
         residual: Some(solution.residual),
         plain_residual: Some(solution.plain_residual),
         blas: Some(versions::blas()),

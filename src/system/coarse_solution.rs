@@ -113,9 +113,14 @@ impl CoarseSolution {
             for ((known, new), old) in known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.has_free_ends())
             {
                 let knots = old.boundary.knots();
-                let feet = [knots[0], knots[knots.len() - 1]].map(|t| new.boundary.foot(old.boundary.point(t)));
+                let ends = [knots[0], knots[knots.len() - 1]];
+                let foot = |k: usize| match ends[k] == old.limits[k] {
+                    // Where a body ends, it does so on every mesh.
+                    true => new.limits[k],
+                    false => new.boundary.foot(old.boundary.point(ends[k])),
+                };
                 known.meeting.clone_from(&new.known.meeting);
-                known.ends = Some([feet[0].min(feet[1]), feet[0].max(feet[1])]);
+                known.ends = Some([foot(0), foot(1)]);
             }
             contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         }

@@ -78,6 +78,25 @@ impl SolverChoice {
     }
 }
 
+/// How far a system is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tolerance {
+    /// To this relative residual.
+    Residual(f64),
+    /// Until the algebraic error is a tenth of the discretisation error.
+    Discretisation,
+}
+
+impl Tolerance {
+    /// Relative residual of solves that nothing is known of beforehand.
+    pub fn residual(self) -> f64 {
+        match self {
+            Self::Residual(residual) => residual,
+            Self::Discretisation => 1e-6,
+        }
+    }
+}
+
 /// Why a system cannot be set up or solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SystemError {
