@@ -39,6 +39,8 @@ impl Study {
         ] {
             command.env(name, value);
         }
+        // Runs at the same time must not clear away each other's session folders.
+        command.env("OMPI_MCA_orte_tmpdir_base", self.folder.path());
         command.stdin(Stdio::null()).output().expect("mezha starts")
     }
 
