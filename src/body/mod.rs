@@ -8,6 +8,7 @@ pub use applied_force::applied_forces;
 pub use constraint::{Constraint, Constraints, SupportError};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
 
+use crate::element::PlaneStrain;
 use crate::geometry::Formula;
 
 /// Linear elastic material in plane strain.
@@ -17,6 +18,13 @@ pub struct Material {
     pub young: f64,
     /// Poisson's ratio ν, -1 < ν < 0.5.
     pub poisson: f64,
+}
+
+impl Material {
+    /// Its law in plane strain.
+    pub fn law(&self) -> PlaneStrain {
+        PlaneStrain::new(self.young, self.poisson)
+    }
 }
 
 /// A body: one physical surface of the mesh.

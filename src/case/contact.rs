@@ -5,7 +5,7 @@ use toml::Value;
 use super::Geometry;
 use super::section::Section;
 use super::values::{self, PLANE, choice, must_be};
-use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Pair, SegmentRule, Stabilise};
+use crate::contact::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, SegmentRule, Stabilise};
 
 /// `[contact.NAME]`
 pub fn read_contact(section: &Section) -> Option<Pair> {
@@ -34,6 +34,41 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
         Value::String(word) if word == "auto" => Ok(Stabilise::Auto),
         other => Err(must_be("\"auto\", true or false", other)),
     });
+    let configuration = section.or(
+        "configuration",
+        "reference",
+        choice(&[("reference", Ok(Configuration::Reference)), ("deformed", Ok(Configuration::Deformed))]),
+    );
+    let spans = section.or("spans", "auto", |value| match value {
+        Value::String(word) if word == "auto" => Ok(None),
+        value => values::count(value).map(Some).map_err(|words| format!("{words}, or \"auto\"")),
+    });
+    let grading = section.or("grading", 1, read_grading);
+    let ends = section.or(
+        "ends",
+        if curve == Some(CurveChoice::Fit) { "free" } else { "fixed" },
+        choice(&[("free", Ok(EndRule::Free)), ("fixed", Ok(EndRule::Fixed))]),
+    );
+    if curve.is_some_and(|curve| curve != CurveChoice::Fit) {
+        if configuration == Some(Configuration::Deformed) {
+            section.problem(
+                &["configuration"],
+                "\"deformed\" wants curve = \"fit\": a declared curve does not follow the bodies".into(),
+            );
+        }
+        if spans.is_some_and(|spans| spans.is_some()) {
+            section.problem(&["spans"], "is for curve = \"fit\"; a declared curve has none".into());
+        }
+    }
+    if configuration == Some(Configuration::Deformed) && gap.as_ref().is_some_and(|gap| !matches!(gap, GapChoice::Geometry)) {
+        section.problem(
+            &["gap"],
+            "must be \"geometry\" with configuration = \"deformed\": the bodies slide along each other".into(),
+        );
+    }
+    if matches!(segments, Some(SegmentRule::Fractions(_))) && grading.is_some_and(|grading| grading != [1.0, 1.0]) {
+        section.problem(&["grading"], "stands beside segments that are given one by one; leave one of them out".into());
+    }
     if (space, stabilise) == (Some(MultiplierSpace::P1Continuous), Some(Stabilise::On)) {
         let words = "\"p1-continuous\" has no jumps to weigh; take fewer segments, or another multiplier";
         section.problem(&["stabilise"], words.into());
@@ -50,6 +85,10 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
         segments: segments?,
         law: law?,
         stabilise: stabilise?,
+        configuration: configuration?,
+        spans: spans?,
+        grading: grading?,
+        ends: ends?,
     })
 }
 
@@ -58,12 +97,6 @@ fn refuse_what_is_not_built(section: &Section) {
     let remedy = "leave it out: \"cut\" integrates exactly between the projected nodes";
     section.or("quadrature", "cut", choice(&[("cut", Ok(())), ("segment", Err("write quadrature = \"cut\""))]));
     section.not_yet("points", remedy);
-    section.or(
-        "configuration",
-        "reference",
-        choice(&[("reference", Ok(())), ("deformed", Err("write configuration = \"reference\""))]),
-    );
-    section.not_yet("grading", "leave it out, or give segments as a list of fractions");
 }
 
 fn read_between(value: &Value) -> Result<[String; 2], String> {
@@ -93,6 +126,16 @@ fn read_segments(value: &Value) -> Result<SegmentRule, String> {
         Value::Array(_) => read_fractions(value),
         _ => Err("must be \"auto\", a whole number >= 1, or fractions like [0, 0.2, 1]".into()),
     }
+}
+
+/// One factor for both ends, or one for each.
+fn read_grading(value: &Value) -> Result<[f64; 2], String> {
+    let pair = match value {
+        Value::Array(_) => values::point(value),
+        value => values::number(value).map(|factor| [factor; 2]),
+    };
+    let wanted = "must be a number from 1 to 1000, or two of them for the first and the last end: so many times shorter are segments there";
+    pair.ok().filter(|pair| pair.iter().all(|factor| (1.0..=1000.0).contains(factor))).ok_or_else(|| wanted.into())
 }
 
 fn read_fractions(value: &Value) -> Result<SegmentRule, String> {

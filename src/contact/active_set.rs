@@ -37,6 +37,12 @@ impl ActiveSet {
         Self { tried: vec![active.clone()], active, bilateral }
     }
 
+    /// The same, beginning with another set; bilateral multipliers are active whatever it says.
+    pub fn starting_from(self, active: &[bool]) -> Self {
+        let active: Vec<bool> = active.iter().zip(&self.bilateral).map(|(&active, &bilateral)| active || bilateral).collect();
+        Self { tried: vec![active.clone()], active, ..self }
+    }
+
     /// Which multipliers are active.
     pub fn active(&self) -> &[bool] {
         &self.active

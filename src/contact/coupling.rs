@@ -39,8 +39,10 @@ pub struct Entry {
 pub enum Distance<'a> {
     /// Not needed: the gap is declared.
     Declared,
-    /// The body's smooth boundary, in pieces.
+    /// The body's smooth boundary, in pieces: where the normal meets it.
     Curves(&'a [Curve]),
+    /// The same, for a normal that meets the deformed body: where the corresponding point was before.
+    Places(&'a [Curve]),
 }
 
 /// Integrates the edges of one body that a rank owns: entries of `B`, and `∫ψ_i d ds` with the distance
@@ -69,7 +71,7 @@ pub fn integrate(
             let knots = boundary.knots();
             let z = (t - knots[piece.segment]) / (knots[piece.segment + 1] - knots[piece.segment]);
             let (rows, values) = multipliers.on_segment(piece.segment, z);
-            let d = distance.at(boundary.point(t), normal)?;
+            let d = distance.at(boundary.point(t), normal, here.place)?;
             for k in 0..multipliers.per_segment() {
                 gap[rows[k]] -= side.sign() * weight * values[k] * d;
                 for a in 0..small.nodes.len() {
@@ -83,18 +85,30 @@ pub fn integrate(
 }
 
 impl Distance<'_> {
-    /// Distance along the normal from `x` on Γ_C to the boundary; a piece goes on beyond its ends, but one that is met
-    /// within them comes first.
-    fn at(&self, x: Point, normal: Point) -> Result<f64, String> {
-        let Self::Curves(curves) = self else { return Ok(0.0) };
-        let hits = curves.iter().filter_map(|curve| curve.hit(x, normal));
-        let nearer = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1).then(a.0.abs().total_cmp(&b.0.abs()));
-        hits.min_by(nearer).map(|(distance, _)| distance).ok_or_else(|| {
-            format!(
-                "the normal of the contact boundary at ({}, {}) misses the boundary of a body; give `gap` as a number or a formula",
-                x.x, x.y
-            )
-        })
+    /// Distance along the normal from `x` on Γ_C to the boundary, undeformed; `place` is where the corresponding point
+    /// lies on the mesh. A piece goes on beyond its ends, but one that is met within them comes first.
+    ///
+    /// # Errors
+    /// Words, if the normal meets no piece.
+    pub fn at(&self, x: Point, normal: Point, place: Point) -> Result<f64, String> {
+        match self {
+            Self::Declared => Ok(0.0),
+            Self::Curves(curves) => {
+                let hits = curves.iter().filter_map(|curve| curve.hit(x, normal));
+                let nearer = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1).then(a.0.abs().total_cmp(&b.0.abs()));
+                hits.min_by(nearer).map(|(distance, _)| distance).ok_or_else(|| {
+                    format!(
+                        "the normal of the contact boundary at ({}, {}) misses the boundary of a body; give `gap` as a number or a formula",
+                        x.x, x.y
+                    )
+                })
+            }
+            Self::Places(curves) => {
+                let smooth = curves.iter().map(|curve| curve.point(curve.nearest(place)));
+                let nearest = smooth.min_by(|a, b| (a - place).norm().total_cmp(&(b - place).norm()));
+                Ok((nearest.unwrap_or(place) - x).dot(&normal))
+            }
+        }
     }
 }
 

@@ -1,97 +1,186 @@
-//! Γ_C as a spline fitted to the boundary nodes of both bodies that touch or penetrate the other body unloaded.
+//! Γ_C as a spline fitted between two bodies, where they touch or penetrate each other.
 
-use super::Pair;
+use super::smooth_side::SmoothSide;
+use super::{Configuration, Pair};
 use crate::geometry::{Curve, Point, Spline};
-use crate::mesh::{EdgeNode, MacroMesh, Numbering};
+use std::ops::Range;
 
-/// Nodes closer to the other body than this share of the boundaries' size belong to the cloud.
+/// Before anything is solved, nodes closer to the other body than this share of the boundary's length count as touching.
 const NEAR: f64 = 1e-3;
+
+/// The same once displacements are known.
+const TOUCHING: f64 = 1e-4;
 
 /// Spans at most.
 const MOST_SPANS: usize = 64;
 
+/// Where two sides meet: what Γ_C is fitted to, and its ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meeting {
+    /// Which stretch of each boundary.
+    pub stretches: [usize; 2],
+    /// Nodes of each that the curve is fitted to.
+    pub nodes: [Range<usize>; 2],
+    /// Parameters of the ends of Γ_C, on body 1's stretch.
+    pub ends: [f64; 2],
+}
+
+/// Nodes of one stretch that are near the other body: first and last.
+type Near = Option<[usize; 2]>;
+
+impl Meeting {
+    /// Where undeformed bodies touch, or are about to: the tolerance grows until both have two nodes in reach.
+    ///
+    /// # Errors
+    /// Words, if they are far apart, or touch on more than one stretch.
+    pub fn at_rest(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Result<Self, String> {
+        for factor in [1.0, 4.0, 16.0, 64.0] {
+            if let Some(found) = Self::within(sides, pair, factor * NEAR)? {
+                return Ok(found);
+            }
+        }
+        Err(format!(
+            "curve = \"fit\", but \"{}\" and \"{}\" lie farther apart than 6 % of their length; move the bodies together, or declare the curve",
+            pair.between[0], pair.between[1]
+        ))
+    }
+
+    /// Where the bodies touch or penetrate each other as they lie now; nothing if they are apart.
+    ///
+    /// # Errors
+    /// Words, if they touch on more than one stretch.
+    pub fn now(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Result<Option<Self>, String> {
+        Self::within(sides, pair, TOUCHING)
+    }
+
+    fn within(sides: &[Vec<SmoothSide>; 2], pair: &Pair, share: f64) -> Result<Option<Self>, String> {
+        let near: [Vec<Near>; 2] = [0, 1].map(|k| sides[k].iter().map(|side| near_nodes(side, &sides[1 - k], share)).collect());
+        let mut stretches = [0; 2];
+        for k in 0..2 {
+            let Some(found) = only_stretch(&sides[k], &near[k]).map_err(|count| {
+                format!(
+                    "\"{}\" has corners of more than 20 degrees, and {count} of its smooth stretches touch \"{}\"; give each a name and a contact of its own",
+                    pair.between[k], pair.between[1 - k]
+                )
+            })?
+            else {
+                return Ok(None);
+            };
+            stretches[k] = found;
+        }
+        let of = |k: usize| (&sides[k][stretches[k]], near[k][stretches[k]].unwrap_or([0; 2]));
+        Ok(Some(Self::between([of(0), of(1)], stretches)))
+    }
+
+    /// From the first to the last node that is near, where both bodies have such nodes, and one element farther.
+    fn between(sides: [(&SmoothSide, [usize; 2]); 2], stretches: [usize; 2]) -> Self {
+        let [(first, own), (second, other)] = sides;
+        let foot = |k: usize| first.nearest(second.points[k], Configuration::Deformed);
+        let far = other.map(foot);
+        let [low, high] = [far[0].min(far[1]), far[0].max(far[1])];
+        let element = first.edge_length(own[0], own[1]).max(second.edge_length(other[0], other[1]));
+        let ends = [first.parameters[own[0]].max(low) - element, first.parameters[own[1]].min(high) + element];
+        let inside = |t: f64| t >= ends[0] - element && t <= ends[1] + element;
+        let range = |count: usize, parameter: &dyn Fn(usize) -> f64| {
+            let from = (0..count).find(|&k| inside(parameter(k))).unwrap_or(0);
+            let to = (from..count).rev().find(|&k| inside(parameter(k))).unwrap_or(from);
+            from..to + 1
+        };
+        let nodes = [range(first.points.len(), &|k| first.parameters[k]), range(second.points.len(), &foot)];
+        Self { stretches, nodes, ends }
+    }
+
+    /// Fits a spline to the nodes of both sides in a configuration: least squares, each node weighted by the length it
+    /// stands for, so that a finer body does not pull the curve. Its parameter is that of body 1's stretch. Without a wish
+    /// the data choose the number of spans. The range goes as far as both stretches do.
+    pub fn fit(&self, sides: &[Vec<SmoothSide>; 2], configuration: Configuration, spans: Option<usize>) -> (Curve, [f64; 2]) {
+        let both = [0, 1].map(|k| &sides[k][self.stretches[k]]);
+        let mut samples: Vec<Sample> = Vec::new();
+        for (k, side) in both.into_iter().enumerate() {
+            samples.extend(self.nodes[k].clone().map(|node| {
+                let x = side.positions(configuration)[node];
+                let t = if k == 0 { side.parameters[node] } else { both[0].nearest(x, configuration) };
+                (t, x, side.weight(node))
+            }));
+        }
+        let curve = Curve::Spline(fit_by_the_data(&samples, spans));
+        let [mut first, mut last] = [f64::NEG_INFINITY, f64::INFINITY];
+        for side in both {
+            let positions = side.positions(configuration);
+            let feet = [positions[0], positions[positions.len() - 1]].map(|x| curve.nearest(x));
+            first = first.max(feet[0].min(feet[1]));
+            last = last.min(feet[0].max(feet[1]));
+        }
+        (curve, [first, last])
+    }
+}
+
 /// A node of the cloud: its parameter on body 1's boundary, its place, and the length it stands for.
 type Sample = (f64, Point, f64);
 
-/// Fits a spline to the cloud: least squares, each node weighted by its edges so that a finer body does not pull the
-/// curve, a quarter as many spans as nodes (four at least). Its parameter is that of body 1's smooth boundary; the
-/// range is the part where both bodies have nodes in the cloud. Smooth boundaries, not polygons, decide who is near.
+/// First and last node of a side that is near some stretch of the other body.
+fn near_nodes(side: &SmoothSide, others: &[SmoothSide], share: f64) -> Near {
+    let near = |x: &Point| others.iter().any(|other| other.is_near(*x, share * side.length().max(other.length())));
+    let first = side.points.iter().position(near)?;
+    let last = side.points.iter().rposition(near)?;
+    (last > first).then_some([first, last])
+}
+
+/// The stretch that touches; others may do so at a corner only. Nothing if none does.
 ///
 /// # Errors
-/// Words, if a boundary has corners, or the cloud has fewer than two nodes of one body.
-pub fn fitted(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Curve, [f64; 2]), String> {
-    let mut shapes = Vec::new();
-    for (name, edges) in pair.between.iter().zip(sides) {
-        let [shape] = <[Curve; 1]>::try_from(mesh.smooth_curves(edges)).map_err(|pieces| {
-            format!(
-                "curve = \"fit\" wants smooth boundaries, but \"{name}\" has corners or gaps: {} pieces; name each by itself",
-                pieces.len()
-            )
-        })?;
-        shapes.push(shape);
+/// Number of stretches that touch, if there are several.
+fn only_stretch(sides: &[SmoothSide], near: &[Near]) -> Result<Option<usize>, usize> {
+    let length = |k: usize| near[k].map_or(0.0, |[a, b]| sides[k].parameters[b] - sides[k].parameters[a]);
+    let longest = (0..sides.len()).max_by(|&a, &b| length(a).total_cmp(&length(b)));
+    let Some(longest) = longest.filter(|&k| near[k].is_some()) else { return Ok(None) };
+    match (0..sides.len()).filter(|&k| length(k) > 0.05 * length(longest)).count() {
+        1 => Ok(Some(longest)),
+        several => Err(several),
     }
-    let [low, high] = shapes[0].range();
-    let size = (shapes[0].point(high) - shapes[0].point(low))
-        .norm()
-        .max((shapes[0].point(0.5 * (low + high)) - shapes[0].point(low)).norm());
-    let mut clouds = [Vec::new(), Vec::new()];
-    for (k, cloud) in clouds.iter_mut().enumerate() {
-        for (x, weight) in nodes(mesh, numbering, sides[k]) {
-            if is_near(mesh, &shapes[1 - k], sides[1 - k], x, NEAR * size) {
-                cloud.push((shapes[0].nearest(x), x, weight));
-            }
-        }
-        if cloud.len() < 2 {
-            return Err(format!(
-                "curve = \"fit\", but fewer than two nodes of \"{}\" touch \"{}\" before loading; a fit that follows the deformed bodies is not available yet: declare the curve",
-                pair.between[k],
-                pair.between[1 - k]
-            ));
-        }
-    }
-    let samples: Vec<Sample> = clouds.iter().flatten().copied().collect();
-    let spans = (samples.len() / 4).clamp(4, MOST_SPANS);
-    let curve = Curve::Spline(Spline::fit(&samples, spans));
-    let extent = |cloud: &Vec<Sample>| {
-        let feet = cloud.iter().map(|(_, x, _)| curve.nearest(*x));
-        feet.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], t| [a.min(t), b.max(t)])
-    };
-    let ([a, b], [c, d]) = (extent(&clouds[0]), extent(&clouds[1]));
-    let range = [a.max(c), b.min(d)];
-    if range[1] - range[0] <= 1e-9 * (b - a) {
-        return Err(format!("\"{}\" and \"{}\" touch nowhere over a length", pair.between[0], pair.between[1]));
-    }
-    Ok((curve, range))
 }
 
-/// Nodes of a boundary with the lengths they stand for: those of the finest level on bent edges, otherwise the
-/// vertices, because what lies between them on a chord says nothing of the shape.
-fn nodes(mesh: &MacroMesh, numbering: &Numbering, edges: &[u32]) -> Vec<(Point, f64)> {
-    let mut all = Vec::new();
-    for &edge in edges {
-        let n = numbering.level.intervals;
-        let step = if mesh.edges[edge as usize].shape.is_some() { 1 } else { n };
-        let weight = 0.5 * mesh.edge_length(edge) * step as f64 / n as f64;
-        for position in (0..=n).step_by(step) {
-            let inner = position > 0 && position < n;
-            let node = EdgeNode { edge, position: position as u32 };
-            all.push((node.place(mesh, numbering), if inner { 2.0 * weight } else { weight }));
-        }
+/// The fewest spans whose mean distance from the samples is as small as that of any number, but for a half: more would
+/// follow the scatter between the two bodies.
+fn fit_by_the_data(samples: &[Sample], wish: Option<usize>) -> Spline {
+    if let Some(spans) = wish {
+        return Spline::fit(samples, spans);
     }
-    all
+    let most = (samples.len() / 4).clamp(1, MOST_SPANS);
+    let counts = std::iter::successors(Some(1), |count| (2 * count <= most).then_some(2 * count));
+    let fits: Vec<(f64, Spline)> = counts
+        .map(|count| {
+            let spline = Spline::fit(samples, count);
+            let squares: f64 = samples.iter().map(|(t, x, weight)| weight * (spline.point(*t) - x).norm_squared()).sum();
+            (squares.sqrt(), spline)
+        })
+        .collect();
+    let size = samples.iter().map(|(_, x, weight)| weight * x.norm_squared()).sum::<f64>().sqrt();
+    let least = fits.iter().map(|fit| fit.0).fold(f64::INFINITY, f64::min);
+    let good = fits.iter().position(|fit| fit.0 <= (1.5 * least).max(1e-14 * size)).unwrap_or(0);
+    fits.into_iter().nth(good).map(|fit| fit.1).unwrap_or_else(|| Spline::fit(samples, 1))
 }
 
-/// Whether a point lies in the other body or outside it by less than `tolerance`, with its foot on the boundary.
-fn is_near(mesh: &MacroMesh, shape: &Curve, edges: &[u32], x: Point, tolerance: f64) -> bool {
-    let away = |edge: &&u32| (mesh.edge_position(**edge, 0.5) - x).norm();
-    let Some(&edge) = edges.iter().min_by(|a, b| away(a).total_cmp(&away(b))) else { return false };
-    let [first, last] = shape.range();
-    let t = match shape.period() {
-        Some(_) => shape.nearest(x),
-        None => shape.nearest(x).clamp(first, last),
-    };
-    let offset = x - shape.point(t);
-    let beyond = offset.dot(&shape.tangent(t)).abs() > tolerance;
-    let outside = offset.dot(&mesh.edge_normal(edge, 0.5));
-    !beyond && outside < tolerance && outside > -mesh.edge_length(edge)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn on_arc(radius: f64, count: usize) -> Vec<Sample> {
+        let sample = |k: usize| {
+            let a = k as f64 / count as f64;
+            (a, Point::new(radius * a.sin(), radius * a.cos()), 1.0 / count as f64)
+        };
+        (0..=count).map(sample).collect()
+    }
+
+    #[test]
+    fn the_data_choose_the_spans() {
+        assert!(fit_by_the_data(&on_arc(1.0, 200), None).spans() >= 16, "an arc wants many");
+        let straight: Vec<Sample> = (0..40).map(|k| (f64::from(k), Point::new(f64::from(k), 2.0), 1.0)).collect();
+        assert_eq!(fit_by_the_data(&straight, None).spans(), 1);
+        let mut scattered = on_arc(1.0, 60);
+        scattered.extend(on_arc(1.01, 47));
+        assert!(fit_by_the_data(&scattered, None).spans() <= 2, "scatter between two bodies is not followed");
+        assert_eq!(fit_by_the_data(&on_arc(1.0, 200), Some(7)).spans(), 7);
+    }
 }

@@ -21,6 +21,39 @@ pub struct Pair {
     pub law: Law,
     /// Whether the jump term is added.
     pub stabilise: Stabilise,
+    /// Where contact is modelled.
+    pub configuration: Configuration,
+    /// Spans of a fitted curve; by the data if not given.
+    pub spans: Option<usize>,
+    /// How many times shorter the segments at the first and at the last end are than those in the middle.
+    pub grading: [f64; 2],
+    /// Whether the ends of the contact boundary follow the pressure.
+    pub ends: EndRule,
+}
+
+impl Pair {
+    /// Whether its contact boundary depends on the solution.
+    pub fn follows(&self) -> bool {
+        self.curve == CurveChoice::Fit || self.ends == EndRule::Free
+    }
+}
+
+/// Where normals, corresponding points and distances are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Configuration {
+    /// On the undeformed bodies: the linear theory.
+    Reference,
+    /// On the deformed bodies.
+    Deformed,
+}
+
+/// What becomes of the ends of a contact boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EndRule {
+    /// They stay where the curve is placed.
+    Fixed,
+    /// They move to where the pressure ends.
+    Free,
 }
 
 /// When the jump term is added to the multiplier block.
@@ -37,7 +70,7 @@ pub enum Stabilise {
 /// Where the contact boundary comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveChoice {
-    /// A spline fitted to the nodes of both boundaries that touch or penetrate, unloaded.
+    /// A spline fitted to the nodes of both boundaries where they touch or penetrate, again and again while they deform.
     Fit,
     /// Both boundaries are straight; the line between them over their overlap.
     Line,

@@ -1,8 +1,7 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
-use super::fitting::fitted;
-use super::{ContactBoundary, CurveChoice, MultiplierSpace, Pair, SegmentRule};
-use crate::element::Order;
+use super::cutting::fractions;
+use super::{Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, Side, SmoothSide};
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 
@@ -16,30 +15,74 @@ pub struct PlacingError {
     pub words: String,
 }
 
+/// What is known of a contact boundary from the last time it was placed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Known {
+    /// Where the two sides meet, for a fitted one.
+    pub meeting: Option<Meeting>,
+    /// Parameters of its ends.
+    pub ends: Option<[f64; 2]>,
+    /// Its segments, as fractions of its length.
+    pub fractions: Option<Vec<f64>>,
+}
+
+/// A contact boundary with what it was placed by.
+pub struct Placed {
+    /// Γ_C, cut.
+    pub boundary: ContactBoundary,
+    /// Parameters beyond which one of the bodies has no boundary.
+    pub limits: [f64; 2],
+    /// What a fitted one was fitted to.
+    pub meeting: Option<Meeting>,
+    /// Its segments, as fractions of its length.
+    pub fractions: Vec<f64>,
+}
+
 /// Places Γ_C of a pair and cuts it into segments. `young` are the moduli of body 1 and body 2 (stress); `numbering`
-/// is that of the finest level, whose edge lengths the automatic rule follows. The same on every rank.
+/// is that of the finest level, whose edge lengths the automatic rule follows; a curve that follows the bodies is fitted
+/// to their nodes moved by `displacement`. The same on every rank.
 ///
 /// # Errors
 /// [`PlacingError`] if the boundaries are not straight or do not share a geometry, as the pair claims, or do not overlap.
-pub fn place(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 2]) -> Result<ContactBoundary, PlacingError> {
+pub fn place(
+    mesh: &MacroMesh,
+    numbering: &Numbering,
+    pair: &Pair,
+    young: [f64; 2],
+    known: &Known,
+    displacement: Displacement,
+) -> Result<Placed, PlacingError> {
     let error = |words: String| PlacingError { pair: pair.name.clone(), words };
     let sides = [0, 1].map(|k| mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]));
-    let (curve, range) = match pair.curve {
-        CurveChoice::Fit => fitted(mesh, numbering, pair, sides).map_err(error)?,
-        CurveChoice::Line => line_between(mesh, pair, sides).map_err(error)?,
-        CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,
+    let (curve, limits, meeting) = match pair.curve {
+        CurveChoice::Fit => {
+            let smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
+            let meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
+            let (curve, limits) = meeting.fit(&smooth, pair.configuration, pair.spans);
+            (curve, limits, Some(meeting))
+        }
+        CurveChoice::Line => line_between(mesh, pair, sides).map(|(curve, range)| (curve, range, None)).map_err(error)?,
+        CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map(|(curve, range)| (curve, range, None)).map_err(error)?,
     };
+    let wanted = known.ends.or(meeting.as_ref().map(|meeting| meeting.ends)).unwrap_or(limits);
+    let range = [wanted[0].max(limits[0]), wanted[1].min(limits[1])];
+    if range[1] - range[0] <= 1e-9 * (wanted[1] - wanted[0]) {
+        return Err(error("the two boundaries face each other nowhere over a length".into()));
+    }
     let middle = curve.point(0.5 * (range[0] + range[1]));
-    let nearest = sides[0].iter().min_by(|&&a, &&b| {
-        let away = |edge| (mesh.edge_position(edge, 0.5) - middle).norm();
+    let edges = all_edges(mesh, numbering, pair, displacement);
+    let nearest = edges[0].iter().min_by(|a, b| {
+        let away = |edge: &BoundaryEdge| (0.5 * (edge.points[0] + edge.points[1]) - middle).norm();
         away(a).total_cmp(&away(b))
     });
-    let Some(&nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
-    let towards = mesh.edge_normal(nearest, 0.5);
-    let mut boundary = ContactBoundary::new(curve, range, towards);
-    check_cover(mesh, pair, sides, &boundary).map_err(error)?;
-    boundary.cut(&fractions(mesh, numbering, pair, young, &boundary));
-    Ok(boundary)
+    let Some(nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
+    let mut boundary = ContactBoundary::new(curve, range, nearest.outward());
+    if pair.curve != CurveChoice::Fit {
+        check_cover(mesh, pair, sides, &boundary).map_err(error)?;
+    }
+    let fractions = known.fractions.clone().unwrap_or_else(|| fractions(&edges, numbering.level.order, pair, young, &boundary));
+    boundary.cut(&fractions);
+    Ok(Placed { boundary, limits, meeting, fractions })
 }
 
 /// Both boundaries must cover Γ_C without a hole, and must not close around it.
@@ -170,100 +213,29 @@ fn shared_geometry(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<
     }
 }
 
-fn fractions(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, young: [f64; 2], boundary: &ContactBoundary) -> Vec<f64> {
-    let equal = |count: usize| (0..=count).map(|k| k as f64 / count as f64).collect();
-    match &pair.segments {
-        SegmentRule::Fractions(fractions) => fractions.clone(),
-        SegmentRule::Count(count) => equal(*count),
-        SegmentRule::Auto => {
-            let edges = all_edges(mesh, numbering, pair);
-            let ratio = safe_ratio_of(numbering.level.order, pair.space, &edges);
-            let longest = softer_edge_length(boundary, &edges, young);
-            equal(((boundary.length() / (ratio * longest) * (1.0 + 1e-9)) as usize).max(1))
-        }
-    }
-}
-
-/// All element edges of a pair's two boundaries, at the level that is numbered.
-pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair) -> [Vec<BoundaryEdge>; 2] {
+/// All element edges of a pair's two boundaries, at the level that is numbered, where contact is modelled.
+pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacement: Displacement) -> [Vec<BoundaryEdge>; 2] {
     [0, 1].map(|k| {
         let edges = mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-        edges.iter().flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering)).collect()
-    })
-}
-
-/// Edges that rule the segment length, as `(part of Γ_C that sees the edge, its length)`: those of the softer body, or
-/// of both where the moduli are within a factor 3. Edges beyond the ends of Γ_C are left out.
-fn softer_edges<'a>(
-    boundary: &'a ContactBoundary,
-    edges: &'a [Vec<BoundaryEdge>; 2],
-    young: [f64; 2],
-) -> impl Iterator<Item = ([f64; 2], f64)> + 'a {
-    let counts = [young[0] <= 3.0 * young[1], young[1] <= 3.0 * young[0]];
-    let ruling = edges.iter().zip(counts).filter(|(_, counts)| *counts).flat_map(|(edges, _)| edges);
-    let knots = boundary.knots();
-    let (first, last) = (knots[0], knots[knots.len() - 1]);
-    let least = 1e-9 * (last - first);
-    ruling.filter_map(move |edge| {
-        let feet = boundary.feet([edge.points[0], edge.points[1]]);
-        let part = [feet[0].max(first), feet[1].min(last)];
-        (part[1] - part[0] > least).then(|| (part, edge.length()))
-    })
-}
-
-/// Length of the longest ruling edge: the `h` of the jump term.
-pub fn softer_edge_length(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
-    softer_edges(boundary, edges, young).map(|(_, length)| length).fold(0.0, f64::max)
-}
-
-/// Smallest ratio of a segment's length to the longest ruling edge that it meets.
-pub fn segment_ratio(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
-    let ruling: Vec<([f64; 2], f64)> = softer_edges(boundary, edges, young).collect();
-    let ratio = |(k, ends): (usize, &[f64])| {
-        let least = 1e-9 * (ends[1] - ends[0]);
-        let meets = |part: &[f64; 2]| part[1] > ends[0] + least && part[0] < ends[1] - least;
-        let longest = ruling.iter().filter(|(part, _)| meets(part)).map(|(_, length)| *length).fold(0.0, f64::max);
-        boundary.segment_length(k) / longest
-    };
-    boundary.knots().windows(2).enumerate().map(ratio).fold(f64::INFINITY, f64::min)
-}
-
-/// Smallest safe segment length, in edges of the softer body: the discrete inf-sup constant stays above 0.3 with some
-/// margin. P2 with discontinuous multipliers needs more where the meshes match.
-fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
-    match (order, space) {
-        (Order::P1, MultiplierSpace::P0) => 1.5,
-        (Order::P1, MultiplierSpace::P1Continuous) => 1.25,
-        (Order::P1, MultiplierSpace::P1Discontinuous) => 3.0,
-        (Order::P2, MultiplierSpace::P1Discontinuous) => {
-            if matching {
-                2.0
-            } else {
-                1.5
-            }
+        let all = edges.iter().flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering));
+        match pair.configuration {
+            Configuration::Reference => all.collect(),
+            Configuration::Deformed => all.map(|edge| edge.moved(displacement)).collect(),
         }
-        (Order::P2, _) => 0.75,
-    }
+    })
 }
 
-/// Smallest safe segment length of a pair on its meshes, in edges of the softer body.
-pub fn safe_ratio_of(order: Order, space: MultiplierSpace, edges: &[Vec<BoundaryEdge>; 2]) -> f64 {
-    safe_ratio(order, space, matching(edges))
-}
-
-/// Whether every edge end of body 2 coincides with one of body 1.
-fn matching(edges: &[Vec<BoundaryEdge>; 2]) -> bool {
-    let near = |a: &BoundaryEdge, b: &BoundaryEdge| {
-        let close = |p: Point, q: Point| (p - q).norm() < 1e-6 * a.length();
-        close(a.points[0], b.points[1]) && close(a.points[1], b.points[0])
-    };
-    edges[0].len() == edges[1].len() && edges[0].iter().all(|a| edges[1].iter().any(|b| near(a, b)))
+/// Whether an edge looks at Γ_C: what lies behind a body does not touch.
+pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
+    let middle = 0.5 * (edge.points[0] + edge.points[1]);
+    edge.outward().dot(&boundary.normal(boundary.foot(middle))) * side.sign() > 0.0
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{GapChoice, Law, Stabilise};
+    use crate::contact::{EndRule, GapChoice, Law, MultiplierSpace, SegmentRule, Stabilise};
+    use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Partition};
     use std::rc::Rc;
@@ -278,6 +250,10 @@ mod tests {
             segments,
             law: Law::Unilateral,
             stabilise: Stabilise::Off,
+            configuration: Configuration::Reference,
+            spans: None,
+            grading: [1.0, 1.0],
+            ends: EndRule::Fixed,
         }
     }
 
@@ -298,16 +274,25 @@ mod tests {
         assert!(cover(&mesh, Curve::Line([[0.0, 1.0], [2.0, 1.0]])).unwrap_err().contains("\"upper.seam\" has a hole"));
     }
 
+    fn at_rest(
+        mesh: &MacroMesh,
+        numbering: &Numbering,
+        rule: SegmentRule,
+        young: [f64; 2],
+    ) -> Result<ContactBoundary, PlacingError> {
+        place(mesh, numbering, &pair(rule), young, &Known::default(), &|_| Point::zeros()).map(|placed| placed.boundary)
+    }
+
     #[test]
     fn automatic_segments_follow_the_longest_edge() {
         let mesh = two_blocks();
         let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
         let numbering = Numbering::new(Level { intervals: 8, order: Order::P1 }, &partition);
-        let boundary = place(&mesh, &numbering, &pair(SegmentRule::Auto), [1.0, 1.0]).expect("a flat seam");
+        let boundary = at_rest(&mesh, &numbering, SegmentRule::Auto, [1.0, 1.0]).expect("a flat seam");
         // Longest edge 2/8, 1.5 of them on a length of 2.
         assert_eq!(boundary.segments(), 5);
         // A stiff lower body leaves the rule to the upper one: longest edge 1.1/8.
-        assert_eq!(place(&mesh, &numbering, &pair(SegmentRule::Auto), [10.0, 1.0]).expect("a flat seam").segments(), 9);
+        assert_eq!(at_rest(&mesh, &numbering, SegmentRule::Auto, [10.0, 1.0]).expect("a flat seam").segments(), 9);
         assert!(boundary.normal(0.5).y > 0.0);
     }
 
@@ -319,7 +304,7 @@ mod tests {
         moved.into_iter().for_each(|vertex| mesh.vertices[vertex as usize].x += 5.0);
         let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
         let numbering = Numbering::new(Level { intervals: 2, order: Order::P1 }, &partition);
-        let words = place(&mesh, &numbering, &pair(SegmentRule::Count(3)), [1.0, 1.0]).unwrap_err().to_string();
+        let words = at_rest(&mesh, &numbering, SegmentRule::Count(3), [1.0, 1.0]).unwrap_err().to_string();
         assert!(words.starts_with("contact.seam: ") && words.contains("do not face each other"), "{words}");
     }
 }

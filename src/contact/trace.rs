@@ -27,8 +27,8 @@ pub struct Trace {
     pub fraction: f64,
     /// Values of the edge's shape functions there.
     pub values: [f64; 3],
-    /// The corresponding point.
-    pub point: Point,
+    /// Where the corresponding point lies undeformed.
+    pub place: Point,
 }
 
 /// Cuts Γ_C at the feet of the edges' ends and at the segment ends; edges that see no part of it give no piece.
@@ -78,8 +78,8 @@ pub fn trace(boundary: &ContactBoundary, edge: usize, small: &BoundaryEdge, t: f
     }
     let fraction = fraction.clamp(0.0, 1.0);
     let values = edge_shape(small.points.len(), fraction);
-    let point = small.points.iter().zip(values).fold(Point::zeros(), |sum, (point, value)| sum + value * point);
-    Trace { edge, fraction, values, point }
+    let place = small.places.iter().zip(values).fold(Point::zeros(), |sum, (place, value)| sum + value * place);
+    Trace { edge, fraction, values, place }
 }
 
 /// Gauss points of a piece: parameter of Γ_C and weight (length). Two suffice where everything is straight.

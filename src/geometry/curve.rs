@@ -87,7 +87,8 @@ impl Curve {
                 r.y.atan2(r.x).rem_euclid(TAU)
             }
             Self::Parametric { .. } => self.nearest_by_search(p, 64),
-            Self::Spline(spline) => self.nearest_by_search(p, 4 * spline.spans()),
+            // A spline through many nodes turns little within a span.
+            Self::Spline(spline) => self.nearest_by_search(p, (4 * spline.spans()).min(spline.spans().max(256))),
         }
     }
 

@@ -8,7 +8,7 @@ mod spline;
 pub use curve::Curve;
 pub use formula::{Formula, FormulaError};
 pub use gauss::gauss_points;
-pub use spline::Spline;
+pub use spline::{Spline, chord_lengths};
 
 /// A point, or a vector, of the plane (length).
 pub type Point = nalgebra::Vector2<f64>;

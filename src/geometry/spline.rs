@@ -1,7 +1,7 @@
 //! Parametric cubic splines: through points, or fitted to them.
 
 use super::Point;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// A twice continuously differentiable piecewise cubic curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,11 +20,15 @@ impl Spline {
     /// # Panics
     /// If there are fewer than two points.
     pub fn through(points: &[Point]) -> Self {
-        assert!(points.len() > 1, "a spline needs two points");
-        let mut knots = vec![0.0];
-        for pair in points.windows(2) {
-            knots.push(knots[knots.len() - 1] + (pair[1] - pair[0]).norm());
-        }
+        Self::through_at(chord_lengths(points), points)
+    }
+
+    /// The same with given parameters, ascending, one for each point.
+    ///
+    /// # Panics
+    /// If there are fewer than two points, or not as many parameters.
+    pub fn through_at(knots: Vec<f64>, points: &[Point]) -> Self {
+        assert!(points.len() > 1 && points.len() == knots.len(), "a spline needs two points, each with a parameter");
         let curvature = curvatures(&knots, points);
         let span = |k: usize| {
             let h = knots[k + 1] - knots[k];
@@ -112,6 +116,15 @@ impl Spline {
     }
 }
 
+/// Length of the polygon through `points` up to each of them.
+pub fn chord_lengths(points: &[Point]) -> Vec<f64> {
+    let mut lengths = vec![0.0];
+    for pair in points.windows(2) {
+        lengths.push(lengths[lengths.len() - 1] + (pair[1] - pair[0]).norm());
+    }
+    lengths
+}
+
 /// The line from the mean of the samples along their regression on the parameter.
 fn chord(samples: &[(f64, Point, f64)]) -> impl Fn(f64) -> Point + Copy {
     let total: f64 = samples.iter().map(|sample| sample.2).sum();
@@ -155,20 +168,32 @@ fn curvatures(knots: &[f64], points: &[Point]) -> Vec<Point> {
     if n == 3 {
         return vec![2.0 * (slope(1) - slope(0)) / (h(0) + h(1)); 3];
     }
-    let mut matrix = DMatrix::<f64>::zeros(n, n);
-    let (mut x, mut y) = (DVector::<f64>::zeros(n), DVector::<f64>::zeros(n));
-    for k in 1..n - 1 {
-        (matrix[(k, k - 1)], matrix[(k, k)], matrix[(k, k + 1)]) = (h(k - 1), 2.0 * (h(k - 1) + h(k)), h(k));
-        let right = 6.0 * (slope(k) - slope(k - 1));
-        (x[k], y[k]) = (right.x, right.y);
+    // Rows `lower, middle, upper | right` of the inner knots; the end ones follow from their neighbours.
+    let mut rows: Vec<([f64; 3], Point)> =
+        (1..n - 1).map(|k| ([h(k - 1), 2.0 * (h(k - 1) + h(k)), h(k)], 6.0 * (slope(k) - slope(k - 1)))).collect();
+    let last = rows.len() - 1;
+    // m₀ = ((h₀ + h₁) m₁ - h₀ m₂) / h₁, and its mirror image.
+    let ends = [[h(0), h(1)], [h(n - 2), h(n - 3)]];
+    for (row, [near, far], [outer, inner]) in [(0, ends[0], [0, 2]), (last, ends[1], [2, 0])] {
+        let entry = rows[row].0[outer];
+        rows[row].0[1] += entry * (near + far) / far;
+        rows[row].0[inner] -= entry * near / far;
     }
-    for (row, [a, b, c]) in [(0, [0, 1, 2]), (n - 1, [n - 1, n - 2, n - 3])] {
-        let (near, far) = ((knots[b] - knots[a]).abs(), (knots[c] - knots[b]).abs());
-        (matrix[(row, a)], matrix[(row, b)], matrix[(row, c)]) = (far, -(near + far), near);
+    for k in 1..=last {
+        let ([_, middle, upper], right) = rows[k - 1];
+        let factor = rows[k].0[0] / middle;
+        rows[k].0[1] -= factor * upper;
+        rows[k].1 -= factor * right;
     }
-    let factor = matrix.lu();
-    let (x, y) = (factor.solve(&x).unwrap_or(DVector::zeros(n)), factor.solve(&y).unwrap_or(DVector::zeros(n)));
-    (0..n).map(|k| Point::new(x[k], y[k])).collect()
+    let mut m = vec![Point::zeros(); n];
+    for k in (0..=last).rev() {
+        let ([_, middle, upper], right) = rows[k];
+        m[k + 1] = if k == last { right / middle } else { (right - upper * m[k + 2]) / middle };
+    }
+    for (end, next, beyond, [near, far]) in [(0, 1, 2, ends[0]), (n - 1, n - 2, n - 3, ends[1])] {
+        m[end] = ((near + far) * m[next] - near * m[beyond]) / far;
+    }
+    m
 }
 
 #[cfg(test)]

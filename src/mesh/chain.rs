@@ -6,12 +6,26 @@ use crate::geometry::{Curve, Point, Spline, cross};
 /// A boundary that turns by more than this at a vertex (radians, 20 degrees) has a corner there.
 const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
+/// A part of a boundary without corners and gaps.
+#[derive(Clone, Debug)]
+pub struct Stretch {
+    /// Its edges in the order and direction of the boundary, with the body on the left.
+    pub edges: Vec<u32>,
+    /// Its smooth shape: the declared geometry where the edges have one, a straight line where they lie on one,
+    /// otherwise the spline through their vertices. Never the polygon: its error would enter the gap.
+    pub curve: Curve,
+}
+
 impl MacroMesh {
-    /// Smooth shapes of a set of boundary edges, one for each stretch between corners and gaps: the declared geometry
-    /// where the edges have one, a straight line where they lie on one, otherwise the spline through their vertices.
-    /// Never the polygon: its error would enter the gap.
+    /// The smooth stretches of a set of boundary edges.
+    pub fn stretches(&self, edges: &[u32]) -> Vec<Stretch> {
+        let stretch = |edges: Vec<u32>| Stretch { curve: self.smooth_curve(&edges), edges };
+        self.chains(edges).into_iter().map(stretch).collect()
+    }
+
+    /// Smooth shapes of a set of boundary edges, one for each stretch.
     pub fn smooth_curves(&self, edges: &[u32]) -> Vec<Curve> {
-        self.chains(edges).iter().map(|chain| self.smooth_curve(chain)).collect()
+        self.stretches(edges).into_iter().map(|stretch| stretch.curve).collect()
     }
 
     fn smooth_curve(&self, chain: &[u32]) -> Curve {

@@ -2,7 +2,7 @@
 
 use super::{MacroMesh, Numbering, lattice};
 use crate::element::Order;
-use crate::geometry::Point;
+use crate::geometry::{Point, turn_right};
 
 /// A node on a macro edge: `position` intervals from the edge's first vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -36,8 +36,10 @@ impl EdgeNode {
 pub struct BoundaryEdge {
     /// Its nodes: both ends, and for P2 the node between them.
     pub nodes: Vec<EdgeNode>,
-    /// Their positions.
+    /// Their positions in the configuration that contact is modelled in.
     pub points: Vec<Point>,
+    /// Their undeformed positions.
+    pub places: Vec<Point>,
     /// Whether it is straight.
     pub straight: bool,
     /// Macro triangle beside it.
@@ -62,7 +64,7 @@ impl BoundaryEdge {
                 Order::P1 => vec![node(k), node(k + 1)],
                 Order::P2 => vec![node(k * step), node(k * step + 2), node(k * step + 1)],
             };
-            let points = nodes.iter().map(|node| node.place(mesh, numbering)).collect();
+            let places: Vec<Point> = nodes.iter().map(|node| node.place(mesh, numbering)).collect();
             let last = n - step;
             let (i, j) = match side {
                 0 => (k * step, 0),
@@ -70,9 +72,23 @@ impl BoundaryEdge {
                 _ => (0, last - k * step),
             };
             let beside = lattice::Triangle::at(i, j, numbering.level.order, false);
-            Self { nodes, points, straight, triangle: triangle as usize, beside, side }
+            Self { nodes, points: places.clone(), places, straight, triangle: triangle as usize, beside, side }
         };
         (0..n / step).map(one).collect()
+    }
+
+    /// The edge as it lies after a displacement of its nodes. With a node in the middle it is bent then.
+    pub fn moved(mut self, displacement: impl Fn(EdgeNode) -> Point) -> Self {
+        for (point, (&node, place)) in self.points.iter_mut().zip(self.nodes.iter().zip(&self.places)) {
+            *point = place + displacement(node);
+        }
+        self.straight &= self.nodes.len() == 2;
+        self
+    }
+
+    /// Normal of the chord out of the body (not of length one).
+    pub fn outward(&self) -> Point {
+        turn_right(self.points[1] - self.points[0])
     }
 
     /// Barycentric coordinates in the triangle beside it, at the fraction `t` of the edge.

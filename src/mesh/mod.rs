@@ -15,6 +15,7 @@ mod partition;
 pub(crate) mod samples;
 mod shape;
 
+pub use chain::Stretch;
 pub use edge_trace::{BoundaryEdge, EdgeNode};
 pub use gmsh::read_gmsh;
 pub use macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};

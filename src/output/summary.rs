@@ -30,6 +30,8 @@ pub struct Summary {
     pub unknowns: Unknowns,
     /// One entry per outer iteration.
     pub outer: Vec<OuterIteration>,
+    /// One entry per contact boundary, where some follow the solution; otherwise empty.
+    pub boundaries: Vec<BoundaryIteration>,
     /// By name of the contact.
     pub contact: BTreeMap<String, Contact>,
     /// Energies of the solution.
@@ -90,6 +92,8 @@ pub struct Unknowns {
 pub struct OuterIteration {
     /// Number, from 1.
     pub iteration: usize,
+    /// Number of the contact boundary it was made on, from 1.
+    pub boundary: usize,
     /// Active multipliers.
     pub active: Option<usize>,
     /// Multipliers that became active.
@@ -104,6 +108,21 @@ pub struct OuterIteration {
     pub max_penetration: Option<f64>,
     /// Relative change of the displacement.
     pub du: Option<f64>,
+}
+
+/// One contact boundary of those that followed the solution.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BoundaryIteration {
+    /// Number, from 1.
+    pub iteration: usize,
+    /// Its length.
+    pub length: Option<f64>,
+    /// Largest way of a segment end to the next boundary, relative to the length; null if the segments are others.
+    pub moved: Option<f64>,
+    /// Relative change of the displacement since the boundary before.
+    pub du: Option<f64>,
+    /// Multipliers that changed state since the boundary before.
+    pub flipped: Option<usize>,
 }
 
 /// One contact.
@@ -334,11 +353,11 @@ mod tests {
         let expected = [
             (
                 "",
-                "balance case contact energy errors estimate memory_mib mesh mezha outer probe ranks reason solver status time_s unknowns",
+                "balance boundaries case contact energy errors estimate memory_mib mesh mezha outer probe ranks reason solver status time_s unknowns",
             ),
             ("/mesh", "h_max h_min order triangles vertices"),
             ("/unknowns", "displacement multiplier"),
-            ("/outer/0", "active added du iteration krylov_iterations max_penetration released residual"),
+            ("/outer/0", "active added boundary du iteration krylov_iterations max_penetration released residual"),
             (
                 "/contact/seam",
                 "closed closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",

@@ -218,6 +218,17 @@ impl Matrix {
         Ok((right?, left?))
     }
 
+    /// The sum with a matrix of the same layout and any pattern, in a matrix of its own that has room for both patterns.
+    /// **Collective**
+    pub fn sum(&self, other: &Self) -> Result<Self> {
+        let mut raw = ptr::null_mut();
+        petsc!(MatDuplicate(self.raw, ffi::MatDuplicateOption::MAT_COPY_VALUES, &mut raw))?;
+        let sum = Self { raw, session: self.session.clone(), block: self.block };
+        petsc!(MatAXPY(sum.raw, 1.0, other.raw, ffi::MatStructure::DIFFERENT_NONZERO_PATTERN))?;
+        sum.set_option(ffi::MatOption::MAT_NEW_NONZERO_ALLOCATION_ERR, true)?;
+        Ok(sum)
+    }
+
     /// A sparse copy, as direct solvers want it. **Collective**
     pub fn convert_aij(&self) -> Result<Self> {
         let mut raw = ptr::null_mut();

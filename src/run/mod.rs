@@ -6,18 +6,15 @@ mod fields;
 mod report;
 mod results;
 mod scene;
+mod solve;
 mod summarise;
 
 pub use check::{check, info};
 
 use crate::case::Case;
-use crate::contact::ActiveSet;
 use crate::output::{OutputError, ResultFolder};
 use crate::petsc::{self, Session, Stage};
-use crate::system::{
-    ContactLoop, Discretisation, Form, LinearSolver, OuterStep, SaddlePoint, Solution, SystemError, Verdict, bilateral, inf_sup,
-    load, nodal_forces, spaces,
-};
+use crate::system::{Discretisation, SystemError, spaces};
 use report::Report;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -79,12 +76,6 @@ impl From<OutputError> for RunError {
     }
 }
 
-/// Displacement unknowns up to which a failed solve is looked into.
-const LARGE_INF_SUP: usize = 200_000;
-
-/// Displacement unknowns up to which the inf-sup constants take less than a tenth of a run.
-const CHEAP_INF_SUP: usize = 10_000;
-
 /// Where results go and what is printed.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
@@ -136,10 +127,10 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let report = Report::new(options, session);
     let run = Run { case, options, session, stages: Stages::new(session)?, report };
     run.report.start(case);
-    let problem = run.set_up()?;
+    let mut problem = run.set_up()?;
     run.report.sizes(&problem);
     run.report.warnings(&problem);
-    let (solution, solver) = run.solve(&problem)?;
+    let (solution, solver) = run.solve(&mut problem)?;
     run.write(&problem, &solution, &solver, folder)
 }
 
@@ -186,41 +177,5 @@ impl Run<'_> {
         };
         let _stage = self.stages.contact.enter();
         Ok(Discretisation::new(scene, spaces, self.session)?)
-    }
-
-    /// Assembles and solves; the solution comes with what solved it, in words. A body that nothing holds is found
-    /// before anything is assembled. **Collective**
-    fn solve(&self, problem: &Discretisation) -> Result<(Solution, String), RunError> {
-        let contact_loop = ContactLoop { problem, session: self.session };
-        let mut set = ActiveSet::new(bilateral(&problem.contacts));
-        if let Some(mechanism) = contact_loop.mechanism(set.active()) {
-            let words = contact_loop.not_held(&mechanism, true);
-            return Ok((Solution::nothing(Verdict::NotConverged(words), problem.finest(), set.active()), "none".into()));
-        }
-        let choice = self.case.solver.choice;
-        let mut system = {
-            let _stage = self.stages.assemble.enter();
-            let load = load(problem, &nodal_forces(problem, self.session)?);
-            SaddlePoint::new(problem, load, choice.form(), self.session)?
-        };
-        let mut solver = {
-            let _stage = self.stages.setup.enter();
-            LinearSolver::new(problem, &system, choice, self.session)?
-        };
-        let unused = solver.unused_options()?;
-        if !unused.is_empty() {
-            let words = format!("PETSc options that nothing has used: {}; check their spelling", unused.join(", "));
-            return Err(RunError::Input(words));
-        }
-        let _stage = self.stages.solve.enter();
-        let report = |step: &OuterStep| self.report.step(step, problem.multiplier_count());
-        let mut solution = contact_loop.solve(&mut system, &mut solver, &mut set, self.case.solver.tolerance, report)?;
-        let failed = matches!(solution.verdict, Verdict::NotConverged(_)) && problem.unknown_count() <= LARGE_INF_SUP;
-        let cheap = problem.unknown_count() <= CHEAP_INF_SUP;
-        let possible = choice.form() == Form::Augmented && !problem.contacts.is_empty();
-        if possible && self.case.solver.inf_sup.unwrap_or(cheap || failed) {
-            solution.inf_sup = inf_sup(&system, &problem.contacts, &solution.active, self.session)?;
-        }
-        Ok((solution, solver.name))
     }
 }

@@ -6,7 +6,7 @@ use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
-use crate::system::{Discretisation, OuterStep};
+use crate::system::{BoundaryStep, Discretisation, OuterStep};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -110,6 +110,19 @@ impl Report {
             step.residual,
             step.max_penetration,
             step.du
+        ));
+    }
+
+    /// A contact boundary that was solved for, and how far it moves next.
+    pub fn boundary(&self, step: &BoundaryStep) {
+        let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
+        let flipped = step.flipped.map_or("-".to_string(), |count| count.to_string());
+        self.say(&format!(
+            "boundary {}: length {:.6}, moves by {}, displacement by {}, multipliers changed {flipped}",
+            step.iteration,
+            step.length,
+            figure(step.moved),
+            figure(step.du)
         ));
     }
 

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Balance, TracePoint};
-use crate::system::{Contact, Discretisation, Solution};
+use crate::system::{BoundaryStep, Contact, Discretisation, Solution};
 
 /// What is known without the solution's fields.
 pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solution: &Solution, solver_name: &str) {
@@ -32,6 +32,7 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
         .iter()
         .map(|step| summary::OuterIteration {
             iteration: step.iteration,
+            boundary: step.boundary,
             active: Some(step.active),
             added: Some(step.added),
             released: Some(step.released),
@@ -41,6 +42,14 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
             du: Some(step.du),
         })
         .collect();
+    let boundary = |step: &BoundaryStep| summary::BoundaryIteration {
+        iteration: step.iteration,
+        length: Some(step.length),
+        moved: step.moved,
+        du: step.du,
+        flipped: step.flipped,
+    };
+    summary.boundaries = solution.boundaries.iter().map(boundary).collect();
     summary.solver = summary::Solver {
         name: Some(case.solver.choice.name().into()),
         krylov: Some(solver_name.into()),

@@ -1,6 +1,6 @@
 //! The loop over active sets.
 
-use super::{Contact, Coupled, Discretisation, Ending, LinearSolver, SaddlePoint, Scene, Space, SystemError};
+use super::{BoundaryStep, Contact, Coupled, Discretisation, Ending, LinearSolver, SaddlePoint, Scene, Space, SystemError};
 use crate::body::Constraints;
 use crate::contact::{ActiveSet, Condition, Mechanism, Step, find_mechanism};
 use crate::element::Order;
@@ -19,6 +19,8 @@ const MOST_SETS: usize = 60;
 pub struct OuterStep {
     /// Number of the pass, from 1.
     pub iteration: usize,
+    /// Number of the contact boundary it was made on, from 1.
+    pub boundary: usize,
     /// Active multipliers of the solve.
     pub active: usize,
     /// Multipliers that became active after it.
@@ -66,6 +68,8 @@ pub struct Solution {
     pub active: Vec<bool>,
     /// Every pass.
     pub steps: Vec<OuterStep>,
+    /// Every contact boundary, where some follow the solution.
+    pub boundaries: Vec<BoundaryStep>,
     /// Relative residual of the augmented system.
     pub residual: f64,
     /// Relative residual of the plain system.
@@ -83,6 +87,7 @@ impl Solution {
             multipliers: vec![0.0; active.len()],
             active: active.to_vec(),
             steps: Vec::new(),
+            boundaries: Vec::new(),
             residual: f64::NAN,
             plain_residual: f64::NAN,
             inf_sup: Vec::new(),
@@ -95,12 +100,26 @@ impl Solution {
     }
 }
 
+/// What a solve begins with.
+pub struct Start<'a> {
+    /// This rank's displacements, as in [`Solution`].
+    pub displacement: &'a [f64],
+    /// Pressures of all multipliers.
+    pub multipliers: &'a [f64],
+}
+
 /// What the loop works on.
 pub struct ContactLoop<'a> {
     /// What the system is assembled from.
     pub problem: &'a Discretisation,
     /// All ranks.
     pub session: &'a Session,
+    /// Number of the contact boundary, from 1.
+    pub boundary: usize,
+    /// Passes made on boundaries before.
+    pub passes: usize,
+    /// Relative residual of the last solve.
+    pub tolerance: f64,
 }
 
 impl ContactLoop<'_> {
@@ -130,17 +149,28 @@ impl ContactLoop<'_> {
         format!("body {} can {}: {by}", self.problem.scene.bodies[mechanism.body].name, mechanism.motion)
     }
 
-    /// Solves until the active set stands and the last residual is below `tolerance`; `report` hears every pass. **Collective**
+    /// Solves until the active set stands and the last residual is below the tolerance; `report` hears every pass.
+    /// **Collective**
     pub fn solve(
         &self,
         system: &mut SaddlePoint,
         solver: &mut LinearSolver,
         set: &mut ActiveSet,
-        tolerance: f64,
+        start: Option<Start>,
         mut report: impl FnMut(&OuterStep),
     ) -> Result<Solution, SystemError> {
+        let tolerance = self.tolerance;
         let (mut x, _) = system.nest.create_vectors()?;
         let mut before = vec![0.0; self.finest().local_unknowns()];
+        if let Some(start) = start {
+            self.begin(system, &mut x, &start);
+            before.copy_from_slice(&x.values()[..self.finest().local_unknowns()]);
+        }
+        if !set.active().iter().all(|&active| active) {
+            system.activate(self.problem, set.active())?;
+            solver.refresh(system)?;
+            self.release(system, &mut x, set.active());
+        }
         let mut goal = if set.may_change() { tolerance.max(LOOSE) } else { tolerance };
         let mut steps = Vec::new();
         loop {
@@ -157,7 +187,8 @@ impl ContactLoop<'_> {
             };
             let (added, released) = if let Step::Changed { added, released } = outcome { (added, released) } else { (0, 0) };
             let step = OuterStep {
-                iteration: steps.len() + 1,
+                iteration: self.passes + steps.len() + 1,
+                boundary: self.boundary,
                 active: active.iter().filter(|active| **active).count(),
                 added,
                 released,
@@ -182,6 +213,22 @@ impl ContactLoop<'_> {
                 solver.refresh(system)?;
                 self.release(system, &mut x, set.active());
             }
+        }
+    }
+
+    /// Puts a start into the unknowns; prescribed components are no unknowns.
+    fn begin(&self, system: &SaddlePoint, x: &mut Vector, start: &Start) {
+        let space = self.finest();
+        let unknowns = space.local_unknowns();
+        let mut values = x.values_mut();
+        values[..unknowns].copy_from_slice(start.displacement);
+        for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
+            for k in (0..2).filter(|&k| constraint.fixed[k]) {
+                values[2 * (node - space.own.start) + k] = 0.0;
+            }
+        }
+        for (at, &i) in system.multipliers.own.iter().enumerate() {
+            values[unknowns + at] = start.multipliers[i] / system.multipliers.scale[i];
         }
     }
 
@@ -246,6 +293,7 @@ impl ContactLoop<'_> {
             residual: if norm == 0.0 { 0.0 } else { r.norm()? / norm },
             plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)?,
             steps,
+            boundaries: Vec::new(),
             inf_sup: Vec::new(),
         })
     }

@@ -1,6 +1,6 @@
 //! A scene cut into unknowns: spaces of all levels, contacts, couplings.
 
-use super::{Contact, Coupling, Scene, Space, SystemError};
+use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError};
 use crate::contact::Jump;
 use crate::mesh::{Level, levels};
 use crate::petsc::Session;
@@ -15,6 +15,8 @@ pub struct Discretisation {
     pub contacts: Vec<Contact>,
     /// Their couplings.
     pub coupling: Coupling,
+    /// Displacement of the boundary nodes by which contacts on deformed bodies were placed.
+    pub motion: BoundaryMotion,
 }
 
 impl Discretisation {
@@ -26,7 +28,22 @@ impl Discretisation {
         let finest = &spaces[spaces.len() - 1];
         let contacts = Contact::all(&scene, &finest.numbering, session.rank())?;
         let coupling = Coupling::new(&scene, &contacts, session)?;
-        Ok(Self { scene, spaces, contacts, coupling })
+        Ok(Self { scene, spaces, contacts, coupling, motion: BoundaryMotion::default() })
+    }
+
+    /// Puts contacts in place that were placed again on moved bodies, and couples them. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact boundary cannot be measured.
+    pub fn replace(&mut self, contacts: Vec<Contact>, motion: BoundaryMotion, session: &Session) -> Result<(), SystemError> {
+        self.coupling = Coupling::new(&self.scene, &contacts, session)?;
+        (self.contacts, self.motion) = (contacts, motion);
+        Ok(())
+    }
+
+    /// Whether some contact boundary depends on the solution.
+    pub fn follows(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.pair.follows())
     }
 
     /// Space of the finest level: the one that is solved in.

@@ -1,14 +1,19 @@
 //! Interpolation of displacements from one level to the next finer one.
 
-use super::{Scene, Space, SystemError};
+use super::{Discretisation, Scene, Space, SystemError};
 use crate::geometry::Point;
 use crate::mesh::lattice::{self, Place};
 use crate::petsc::{Matrix, Session};
 
+/// Interpolations between all levels: the first leads from the coarsest level to the next. **Collective**
+pub fn interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Matrix>, SystemError> {
+    problem.spaces.windows(2).map(|pair| interpolation(&problem.scene, &pair[1], &pair[0], session)).collect()
+}
+
 /// Linear interpolation `P` (fine unknowns x coarse unknowns): a node takes over the value of its coarse twin, or the
 /// mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns of
 /// prescribed coarse ones are zero. **Collective**
-pub fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Matrix, SystemError> {
+fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Matrix, SystemError> {
     let rows = Rows::new(scene, fine, coarse, session);
     let mut diagonal = vec![0; fine.local_unknowns()];
     let mut off_diagonal = vec![0; fine.local_unknowns()];

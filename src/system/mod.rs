@@ -4,10 +4,15 @@
 //! From it come the blocks of the [`SaddlePoint`], a [`LinearSolver`] for them, and the [`ContactLoop`] over active
 //! sets. What the solution means on the bodies is in [`recovery`].
 
+mod boundary_motion;
+mod contact;
 mod contact_loop;
+mod coupling;
 mod coupling_rows;
 mod discretisation;
+mod elastic;
 mod field;
+mod following;
 mod inf_sup;
 mod interpolation;
 mod multiplier_blocks;
@@ -19,16 +24,21 @@ mod solver;
 mod space;
 mod stiffness_matrix;
 
-pub use contact_loop::{ContactLoop, OuterStep, Solution, Verdict};
+pub use boundary_motion::BoundaryMotion;
+pub use contact::Contact;
+pub use contact_loop::{ContactLoop, OuterStep, Solution, Start, Verdict};
+pub use coupling::{Coupled, Coupling, bilateral};
 pub use coupling_rows::CouplingRows;
 pub use discretisation::{Discretisation, spaces};
+pub use elastic::Elastic;
 pub use field::Field;
+pub use following::{BoundaryStep, Following, Onward, carried, stands};
 pub use inf_sup::inf_sup;
-pub use interpolation::interpolation;
+pub use interpolation::interpolations;
 pub use multiplier_blocks::{MultiplierBlocks, SchurPattern};
 pub use nodal_force::{load, nodal_forces};
 pub use saddle_point::{Form, SaddlePoint};
-pub use scene::{Contact, Coupled, Coupling, Scene, bilateral};
+pub use scene::Scene;
 pub use solver::{Ending, LinearSolve, LinearSolver};
 pub use space::Space;
 pub use stiffness_matrix::{fill_stiffness, prepare_stiffness};

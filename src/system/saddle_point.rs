@@ -12,12 +12,10 @@
 //! residuals of this and of the plain system agree in size.
 
 use super::multiplier_blocks::MultiplierBlocks;
-use super::stiffness_matrix::{ContactNeighbours, fill_stiffness, prepare_stiffness};
-use super::{Contact, CouplingRows, Discretisation, Space, SystemError};
+use super::stiffness_matrix::ContactNeighbours;
+use super::{Contact, CouplingRows, Discretisation, Elastic, Space, SystemError};
 use crate::contact::{DiagonalBlock, SparseRows, jump_matrix};
-use crate::geometry::Point;
 use crate::petsc::{Matrix, Session, Vector};
-use std::collections::HashMap;
 
 /// Whether the system is augmented.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,11 +48,29 @@ pub struct SaddlePoint {
 impl SaddlePoint {
     /// Assembles all blocks, with every multiplier active. `load` are the nodal forces of this rank's unknowns, in the nodes'
     /// frames, zero where displacement is prescribed; what prescribed displacements add is put in here. **Collective**
-    pub fn new(problem: &Discretisation, mut load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
+    pub fn new(problem: &Discretisation, load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
         let rows = CouplingRows::of_levels(&problem.scene.mesh, &problem.coupling, &problem.spaces);
-        let mut lifted = HashMap::new();
-        let stiffness = all_levels(problem, &rows, form, session, &mut lifted)?;
-        subtract(&mut load, &lifted, problem.finest(), session)?;
+        let neighbours = neighbours(problem, &rows, form);
+        let elastic = Elastic::new(problem, load, form, &neighbours, session)?;
+        Self::with(problem, rows, elastic.stiffness, elastic.load, form, session)
+    }
+
+    /// Assembles the blocks of contact around the stiffness of the bodies, which is kept. **Collective**
+    pub fn around(problem: &Discretisation, elastic: &Elastic, form: Form, session: &Session) -> Result<Self, SystemError> {
+        let rows = CouplingRows::of_levels(&problem.scene.mesh, &problem.coupling, &problem.spaces);
+        let neighbours = neighbours(problem, &rows, form);
+        let stiffness = elastic.with_room(problem, form, &neighbours, session)?;
+        Self::with(problem, rows, stiffness, elastic.load.clone(), form, session)
+    }
+
+    fn with(
+        problem: &Discretisation,
+        rows: Vec<CouplingRows>,
+        stiffness: Vec<Matrix>,
+        load: Vec<f64>,
+        form: Form,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
         let blocks = MultiplierBlocks::new(problem, &rows[rows.len() - 1], session)?;
         let finest = &stiffness[stiffness.len() - 1];
         let nest = Matrix::nest(session, [[finest, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?;
@@ -155,35 +171,14 @@ impl SaddlePoint {
     }
 }
 
-/// `K` of every level that the form needs, with room for contact. Forces of prescribed displacements on the finest
-/// level go to `lifted`.
-fn all_levels(
-    problem: &Discretisation,
-    rows: &[CouplingRows],
-    form: Form,
-    session: &Session,
-    lifted: &mut HashMap<usize, Point>,
-) -> Result<Vec<Matrix>, SystemError> {
-    let (first, groups) = match form {
-        Form::Augmented => {
-            let all = weights(&problem.contacts, &vec![true; problem.multiplier_count()]);
-            (0, all.into_iter().map(|block| block.rows).collect())
-        }
-        Form::Plain => (problem.spaces.len() - 1, Vec::new()),
+/// Nodes that contact couples, on every level.
+fn neighbours(problem: &Discretisation, rows: &[CouplingRows], form: Form) -> Vec<ContactNeighbours> {
+    let groups = match form {
+        Form::Augmented => weights(&problem.contacts, &vec![true; problem.multiplier_count()]),
+        Form::Plain => Vec::new(),
     };
-    let mut stiffness = Vec::new();
-    for (l, space) in problem.spaces.iter().enumerate().skip(first) {
-        let neighbours: ContactNeighbours = rows[l].neighbours(&groups);
-        let mut matrix = prepare_stiffness(&problem.scene, space, &neighbours, session)?;
-        let last = l + 1 == problem.spaces.len();
-        fill_stiffness(&mut matrix, &problem.scene, space, &neighbours, session, |node, force| {
-            if last {
-                *lifted.entry(node).or_insert(Point::zeros()) += force;
-            }
-        })?;
-        stiffness.push(matrix);
-    }
-    Ok(stiffness)
+    let groups: Vec<Vec<usize>> = groups.into_iter().map(|block| block.rows).collect();
+    rows.iter().map(|rows| rows.neighbours(&groups)).collect()
 }
 
 /// `c - B u_D`.
@@ -202,18 +197,4 @@ pub(super) fn weights(contacts: &[Contact], active: &[bool]) -> Vec<DiagonalBloc
         blocks
     };
     contacts.iter().flat_map(own).collect()
-}
-
-/// Takes the forces of prescribed displacements off the load, wherever their nodes live.
-fn subtract(load: &mut [f64], lifted: &HashMap<usize, Point>, space: &Space, session: &Session) -> Result<(), SystemError> {
-    if !session.any(!lifted.is_empty()) {
-        return Ok(());
-    }
-    let mut forces = Vector::new(session, space.local_unknowns())?;
-    for (&node, force) in lifted {
-        forces.add(&[2 * node as i32, 2 * node as i32 + 1], &[-force.x, -force.y])?;
-    }
-    forces.assemble()?;
-    load.iter_mut().zip(forces.values().iter()).for_each(|(sum, force)| *sum += force);
-    Ok(())
 }

@@ -6,7 +6,7 @@
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override; only the
 //! tolerance is the case's.
 
-use super::{Discretisation, Form, SaddlePoint, SchurPattern, SolverChoice, SystemError, interpolation};
+use super::{Form, SaddlePoint, SchurPattern, SolverChoice, SystemError};
 use crate::petsc::{Krylov, Level, Matrix, Session, Vector, options};
 
 /// Iterations after which a solve has failed.
@@ -65,23 +65,20 @@ impl SolverChoice {
 }
 
 impl LinearSolver {
-    /// Sets a solver up. **Collective**
+    /// Sets a solver up; `interpolations[l]` leads from level `l` to level `l + 1` (the direct solver wants none).
+    /// **Collective**
     pub fn new(
-        problem: &Discretisation,
         system: &SaddlePoint,
+        interpolations: &[Matrix],
         choice: SolverChoice,
         session: &Session,
     ) -> Result<Self, SystemError> {
         match choice.form() {
-            Form::Augmented => {
-                let steps = problem.spaces.windows(2).map(|pair| interpolation(&problem.scene, &pair[1], &pair[0], session));
-                Self::field_split(system, &steps.collect::<Result<Vec<_>, _>>()?, session)
-            }
+            Form::Augmented => Self::field_split(system, interpolations, session),
             Form::Plain => Self::direct(system, session),
         }
     }
 
-    /// `interpolations[l]` leads from level `l` to level `l + 1`.
     fn field_split(system: &SaddlePoint, interpolations: &[Matrix], session: &Session) -> Result<Self, SystemError> {
         let multigrid = !interpolations.is_empty();
         let coarse = CoarseSolver::of(system.stiffness[0].size().0, system.stiffness.len(), session.size());

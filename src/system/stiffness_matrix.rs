@@ -62,6 +62,28 @@ pub fn prepare_stiffness(
     Ok(matrix)
 }
 
+/// A matrix of zeros at the couplings of contact alone. **Collective**
+pub fn contact_room(space: &Space, contact: &ContactNeighbours, session: &Session) -> Result<Matrix, SystemError> {
+    let counts = Counts::new(space, contact);
+    let (mut diagonal, off_diagonal) = counts.finish();
+    let untouched = |at: usize| !contact.contains_key(&(space.own.start + at));
+    diagonal.iter_mut().enumerate().filter(|(at, _)| untouched(*at)).for_each(|(_, count)| *count = 0);
+    let mut matrix = Matrix::aij(session, space.local_unknowns(), space.local_unknowns(), 2, &diagonal, &off_diagonal)?;
+    fill_room(&mut matrix, space, contact)?;
+    matrix.assemble()?;
+    Ok(matrix)
+}
+
+/// Explicit zeros, which keep the room.
+fn fill_room(matrix: &mut Matrix, space: &Space, contact: &ContactNeighbours) -> Result<(), SystemError> {
+    for (&row, columns) in contact.range(space.own.clone()) {
+        for &column in columns {
+            matrix.add_blocks(&[row as i32], &[column as i32], &[0.0; 4])?;
+        }
+    }
+    Ok(())
+}
+
 /// Whether a lattice node lies on a side, corners included.
 fn on_side(n: usize, side: usize, i: usize, j: usize) -> bool {
     match side {
@@ -132,11 +154,7 @@ pub fn fill_stiffness(
         Err(SystemError::Petsc(error)) => return Err(error.into()),
         filled => session.agree(filled).map_err(SystemError::Case)?,
     }
-    for (&row, columns) in contact.range(space.own.clone()) {
-        for &column in columns {
-            matrix.add_blocks(&[row as i32], &[column as i32], &[0.0; 4])?;
-        }
-    }
+    fill_room(matrix, space, contact)?;
     matrix.assemble()?;
     Ok(())
 }

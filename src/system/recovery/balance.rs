@@ -2,9 +2,9 @@
 
 use super::agreed;
 use crate::body::MacroStiffness;
-use crate::contact::Side;
+use crate::contact::{Configuration, Side};
 use crate::geometry::{Point, cross};
-use crate::mesh::lattice;
+use crate::mesh::{EdgeNode, lattice};
 use crate::petsc::Session;
 use crate::system::{Contact, Discretisation, Field, Solution, SystemError, nodal_forces};
 
@@ -162,6 +162,12 @@ fn contact_forces(problem: &Discretisation, solution: &Solution) -> std::collect
 
 fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solution) -> ContactForce {
     let mut sum = ContactForce::default();
+    let (mesh, space) = (&problem.scene.mesh, problem.finest());
+    let moves = contact.pair.configuration == Configuration::Deformed;
+    let place = |node: EdgeNode| {
+        let x = node.place(mesh, &space.numbering);
+        if moves { x + problem.motion.at(node, mesh, space) } else { x }
+    };
     for i in contact.range() {
         let lambda = solution.multipliers[i];
         sum.force += lambda * contact.multipliers.weight(i - contact.first);
@@ -169,7 +175,7 @@ fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solutio
             let k = if coupled.side == Side::First { 0 } else { 1 };
             let force = -lambda * coupled.value;
             sum.resultants[k] += force;
-            sum.moments[k] += cross(coupled.node.place(&problem.scene.mesh, &problem.finest().numbering), force);
+            sum.moments[k] += cross(place(coupled.node), force);
         }
     }
     sum

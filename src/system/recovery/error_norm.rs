@@ -23,7 +23,7 @@ pub fn energy_error(
     exact: &[Formula; 3],
     session: &Session,
 ) -> Result<[f64; 2], SystemError> {
-    let law = problem.scene.laws()[body];
+    let law = problem.scene.bodies[body].material.law();
     let mut sums = [0.0; 2];
     let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
     let added =

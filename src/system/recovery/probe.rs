@@ -29,7 +29,7 @@ pub fn probe(
     x: Point,
     session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
-    let law = problem.scene.laws()[body];
+    let law = problem.scene.bodies[body].material.law();
     let mut sums = [0.0; 7];
     let added = problem.scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
         let triangle = triangle as usize;

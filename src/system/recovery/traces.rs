@@ -2,7 +2,7 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::contact::{pieces, trace};
+use crate::contact::{Distance, pieces, trace};
 use crate::element::{Order, PlaneStrain, stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
@@ -58,7 +58,6 @@ pub fn trace_points(
     // Sums over ranks of (count, displacement, stress, distance) for both bodies.
     let mut sums = vec![[0.0; 8]; parameters.len()];
     let tolerance = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
-    let laws = problem.scene.laws();
     let mut add = |k: usize| -> Result<(), SystemError> {
         for piece in &own[k] {
             let [from, to] = piece.range;
@@ -66,7 +65,7 @@ pub fn trace_points(
             let last = parameters.partition_point(|&t| t <= to + tolerance);
             for at in first..last {
                 let small = &contact.edges[k][piece.edge];
-                let values = on_edge(problem, contact, small, parameters[at], u, &laws[contact.bodies[k]])?;
+                let values = on_edge(problem, contact, k, small, parameters[at], u)?;
                 sums[at][4 * k] += 1.0;
                 values.iter().enumerate().for_each(|(i, value)| sums[at][4 * k + 1 + i] += value);
             }
@@ -121,26 +120,33 @@ fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, 
     (parameters, segments)
 }
 
-/// Normal displacement, `n·σn` and distance of the trace on one edge.
+/// Normal displacement, `n·σn` and distance of the trace on one edge of body 1 (0) or 2 (1).
 fn on_edge(
     problem: &Discretisation,
     contact: &Contact,
+    body: usize,
     small: &BoundaryEdge,
     t: f64,
     u: &Field<2>,
-    law: &PlaneStrain,
 ) -> Result<[f64; 3], SystemError> {
     let here = trace(&contact.boundary, 0, small, t);
     let normal = contact.boundary.normal(t);
     let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
         sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))
     });
+    let law = &problem.scene.bodies[contact.bodies[body]].material.law();
     let s = match problem.finest().numbering.level.order {
         Order::P1 => stress_beside::<3>(problem, small, here.fraction, u, law)?,
         Order::P2 => stress_beside::<6>(problem, small, here.fraction, u, law)?,
     };
     let pressure = s[0] * normal.x * normal.x + s[1] * normal.y * normal.y + 2.0 * s[2] * normal.x * normal.y;
-    Ok([moved.dot(&normal), pressure, (here.point - contact.boundary.point(t)).dot(&normal)])
+    let x = contact.boundary.point(t);
+    let distance = match contact.distance(body) {
+        // Boundaries that are said to touch: how far they do is seen on the mesh.
+        Distance::Declared => (here.place - x).dot(&normal),
+        measured => measured.at(x, normal, here.place).map_err(SystemError::Case)?,
+    };
+    Ok([moved.dot(&normal), pressure, distance])
 }
 
 /// Stress on a boundary edge, in the triangle beside it.

@@ -1,0 +1,133 @@
+//! How Γ_C is cut into segments: by the case's rule, graded, and no finer than the softer body's edges allow.
+
+use super::{ContactBoundary, MultiplierSpace, Pair, SegmentRule};
+use crate::element::Order;
+use crate::geometry::Point;
+use crate::mesh::BoundaryEdge;
+
+/// Segment ends of a pair by its rule, as fractions of the length; `edges` are those of both bodies.
+pub fn fractions(
+    edges: &[Vec<BoundaryEdge>; 2],
+    order: Order,
+    pair: &Pair,
+    young: [f64; 2],
+    boundary: &ContactBoundary,
+) -> Vec<f64> {
+    match &pair.segments {
+        SegmentRule::Fractions(fractions) => fractions.clone(),
+        SegmentRule::Count(count) => graded(*count, pair.grading),
+        SegmentRule::Auto => {
+            let ratio = safe_ratio_of(order, pair.space, edges);
+            let least = ratio * softer_edge_length(boundary, edges, young) / boundary.length() * (1.0 - 1e-9);
+            let mut count = ((1.0 / least) as usize).max(1);
+            let shortest = |fractions: &[f64]| fractions.windows(2).map(|ends| ends[1] - ends[0]).fold(1.0, f64::min);
+            while count > 1 && shortest(&graded(count, pair.grading)) < least * (1.0 - 1e-9) {
+                count -= 1;
+            }
+            graded(count, pair.grading)
+        }
+    }
+}
+
+/// Ends of `count` segments as fractions of the length. From the middle to the first and last end they shorten
+/// geometrically by the two factors of `grading`.
+fn graded(count: usize, grading: [f64; 2]) -> Vec<f64> {
+    let shares: Vec<f64> = (0..count)
+        .map(|k| {
+            let z = (2 * k + 1) as f64 / count as f64 - 1.0;
+            if z < 0.0 { grading[0].powf(z) } else { grading[1].powf(-z) }
+        })
+        .collect();
+    let whole: f64 = shares.iter().sum();
+    let mut fractions = vec![0.0];
+    for share in &shares {
+        fractions.push(fractions[fractions.len() - 1] + share / whole);
+    }
+    if grading == [1.0, 1.0] {
+        fractions = (0..=count).map(|k| k as f64 / count as f64).collect();
+    }
+    fractions[count] = 1.0;
+    fractions
+}
+
+/// Edges that rule the segment length, as `(part of Γ_C that sees the edge, its length)`: those of the softer body, or
+/// of both where the moduli are within a factor 3. Edges beyond the ends of Γ_C are left out.
+fn softer_edges<'a>(
+    boundary: &'a ContactBoundary,
+    edges: &'a [Vec<BoundaryEdge>; 2],
+    young: [f64; 2],
+) -> impl Iterator<Item = ([f64; 2], f64)> + 'a {
+    let counts = [young[0] <= 3.0 * young[1], young[1] <= 3.0 * young[0]];
+    let ruling = edges.iter().zip(counts).filter(|(_, counts)| *counts).flat_map(|(edges, _)| edges);
+    let knots = boundary.knots();
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let least = 1e-9 * (last - first);
+    ruling.filter_map(move |edge| {
+        let feet = boundary.feet([edge.points[0], edge.points[1]]);
+        let part = [feet[0].max(first), feet[1].min(last)];
+        (part[1] - part[0] > least).then(|| (part, edge.length()))
+    })
+}
+
+/// Length of the longest ruling edge: the `h` of the jump term.
+pub fn softer_edge_length(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
+    softer_edges(boundary, edges, young).map(|(_, length)| length).fold(0.0, f64::max)
+}
+
+/// Smallest ratio of a segment's length to the longest ruling edge that it meets.
+pub fn segment_ratio(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
+    let ruling: Vec<([f64; 2], f64)> = softer_edges(boundary, edges, young).collect();
+    let ratio = |(k, ends): (usize, &[f64])| {
+        let least = 1e-9 * (ends[1] - ends[0]);
+        let meets = |part: &[f64; 2]| part[1] > ends[0] + least && part[0] < ends[1] - least;
+        let longest = ruling.iter().filter(|(part, _)| meets(part)).map(|(_, length)| *length).fold(0.0, f64::max);
+        boundary.segment_length(k) / longest
+    };
+    boundary.knots().windows(2).enumerate().map(ratio).fold(f64::INFINITY, f64::min)
+}
+
+/// Smallest safe segment length, in edges of the softer body: the discrete inf-sup constant stays above 0.3 with some
+/// margin. P2 with discontinuous multipliers needs more where the meshes match.
+fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
+    match (order, space) {
+        (Order::P1, MultiplierSpace::P0) => 1.5,
+        (Order::P1, MultiplierSpace::P1Continuous) => 1.25,
+        (Order::P1, MultiplierSpace::P1Discontinuous) => 3.0,
+        (Order::P2, MultiplierSpace::P1Discontinuous) => {
+            if matching {
+                2.0
+            } else {
+                1.5
+            }
+        }
+        (Order::P2, _) => 0.75,
+    }
+}
+
+/// Smallest safe segment length of a pair on its meshes, in edges of the softer body.
+pub fn safe_ratio_of(order: Order, space: MultiplierSpace, edges: &[Vec<BoundaryEdge>; 2]) -> f64 {
+    safe_ratio(order, space, matching(edges))
+}
+
+/// Whether every edge end of body 2 coincides with one of body 1.
+fn matching(edges: &[Vec<BoundaryEdge>; 2]) -> bool {
+    let near = |a: &BoundaryEdge, b: &BoundaryEdge| {
+        let close = |p: Point, q: Point| (p - q).norm() < 1e-6 * a.length();
+        close(a.points[0], b.points[1]) && close(a.points[1], b.points[0])
+    };
+    edges[0].len() == edges[1].len() && edges[0].iter().all(|a| edges[1].iter().any(|b| near(a, b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn graded_segments_shorten_towards_their_ends() {
+        assert_eq!(graded(4, [1.0, 1.0]), [0.0, 0.25, 0.5, 0.75, 1.0]);
+        let fractions = graded(40, [1.0, 8.0]);
+        let length = |k: usize| fractions[k + 1] - fractions[k];
+        assert!((length(0) / length(19) - 1.0).abs() < 1e-9, "even before the middle");
+        assert!((length(19) / length(39) / 8.0 - 1.0).abs() < 0.1 && fractions.is_sorted_by(|a, b| a < b));
+    }
+}

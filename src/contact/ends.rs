@@ -1,0 +1,94 @@
+//! The true ends of contact, from the pressure next to the ends of Γ_C.
+//!
+//! Near a smooth end of contact λ goes like √r; where Γ_C ends too early, λ has the singularity of a punch besides,
+//! `λ ≈ K/√r + c √r` with the distance r from the end of Γ_C, and `√(r + η) ≈ √r + η/(2√r)` says how much too early:
+//! `η = 2 K/c`. Two mean pressures give K and c.
+
+use super::{ContactBoundary, Multipliers};
+
+/// Which end of Γ_C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Where the arc length is zero.
+    First,
+    /// Where it is largest.
+    Last,
+}
+
+/// Arc length at which contact ends, by the pressures of the last two segments that carry any: at most one segment
+/// from where the last of them ends, half a segment into one that carries nothing. Where only one carries pressure it
+/// is its end. Nothing if that is the only segment, or none does.
+pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool], end: End) -> Option<f64> {
+    let carries = |k: &usize| {
+        let rows = multipliers.on_segment(*k, 0.0).0;
+        rows.iter().take(multipliers.per_segment()).any(|&i| active[i])
+    };
+    let inner = |k: usize| match end {
+        End::First => Some(k + 1).filter(|&k| k < boundary.segments()),
+        End::Last => k.checked_sub(1),
+    };
+    let outer = match end {
+        End::First => (0..boundary.segments()).find(carries)?,
+        End::Last => (0..boundary.segments()).rev().find(carries)?,
+    };
+    let beyond = match end {
+        End::First => outer.checked_sub(1),
+        End::Last => Some(outer + 1).filter(|&k| k < boundary.segments()),
+    };
+    let mean = |k: usize| multipliers.value(lambda, k, 0.5);
+    let excess = match inner(outer).filter(carries) {
+        Some(next) => {
+            let lengths = [outer, next].map(|k| boundary.segment_length(k));
+            let most = beyond.map_or(lengths[0], |k| 0.5 * boundary.segment_length(k));
+            too_early(lengths, [outer, next].map(mean)).clamp(-lengths[0], most)
+        }
+        None if beyond.is_some() => 0.0,
+        None => return None,
+    };
+    Some(match end {
+        End::First => boundary.arcs()[outer] - excess,
+        End::Last => boundary.arcs()[outer + 1] + excess,
+    })
+}
+
+/// `η` from the lengths and mean pressures of the outermost segment and the next one.
+fn too_early([h, next]: [f64; 2], [outer, inner]: [f64; 2]) -> f64 {
+    // Integrals of 1/√r and √r over both segments.
+    let integrals = |r: f64| [2.0 * r.sqrt(), 2.0 / 3.0 * r.powf(1.5)];
+    let ([a, b], [c, d]) = (integrals(h), integrals(h + next));
+    let (c, d) = (c - a, d - b);
+    let (p, q) = (outer * h, inner * next);
+    let (k, slope) = ((p * d - q * b), (a * q - c * p));
+    if slope > 0.0 { 2.0 * k / slope } else { h.copysign(k) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::MultiplierSpace;
+    use crate::geometry::{Curve, Point};
+
+    #[test]
+    fn the_end_of_a_pressure_like_a_root_is_found() {
+        // λ = √(1.03 - s) on segments of 0.1 that end at 1: means are exact.
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [1.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&(0..=10).map(|k| k as f64 / 10.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
+        let mean = |exact: f64, k: usize| {
+            let primitive = |s: f64| -2.0 / 3.0 * (exact - s).max(0.0).powf(1.5);
+            (primitive(0.1 * (k + 1) as f64) - primitive(0.1 * k as f64)) / 0.1
+        };
+        for (exact, tolerance) in [(1.0, 1e-12), (1.001, 1e-4), (1.01, 3e-3), (1.03, 1.2e-2), (0.97, 1e-2)] {
+            let lambda: Vec<f64> = (0..10).map(|k| mean(exact, k)).collect();
+            let found = true_end(&boundary, &multipliers, &lambda, &[true; 10], End::Last).expect("two segments");
+            assert!((found - exact).abs() < tolerance, "{found} for {exact}");
+        }
+    }
+
+    #[test]
+    fn one_segment_says_nothing() {
+        let boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [1.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
+        assert_eq!(true_end(&boundary, &multipliers, &[1.0], &[true], End::First), None);
+    }
+}

@@ -1,0 +1,121 @@
+//! One side of a contact as a smooth curve through its nodes, undeformed and as it lies now.
+
+use super::{Configuration, Pair};
+use crate::geometry::{Curve, Point, Spline, chord_lengths, turn_right};
+use crate::mesh::{EdgeNode, MacroMesh, Numbering, Stretch};
+
+/// Displacement of a boundary node.
+pub type Displacement<'a> = &'a dyn Fn(EdgeNode) -> Point;
+
+/// A smooth stretch of a body's boundary by its nodes on the finest level, from smaller to larger x (upwards if it is
+/// vertical). Its parameter is the undeformed length along them, deformed or not.
+pub struct SmoothSide {
+    /// Undeformed positions of the nodes on the smooth shape.
+    pub places: Vec<Point>,
+    /// Positions now.
+    pub points: Vec<Point>,
+    /// Parameters of the nodes.
+    pub parameters: Vec<f64>,
+    /// +1 if the body lies on the left of the curve, -1 if on the right.
+    hand: f64,
+    /// Length of an element's edge, in nodes.
+    degree: usize,
+    undeformed: Curve,
+    deformed: Curve,
+}
+
+impl SmoothSide {
+    /// The stretches of both sides of a pair.
+    pub fn of_pair(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacement: Displacement) -> [Vec<Self>; 2] {
+        pair.between.each_ref().map(|name| {
+            let edges = mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+            mesh.stretches(edges).iter().map(|stretch| Self::new(mesh, numbering, stretch, displacement)).collect()
+        })
+    }
+
+    fn new(mesh: &MacroMesh, numbering: &Numbering, stretch: &Stretch, displacement: Displacement) -> Self {
+        let mut nodes = nodes_along(mesh, numbering, &stretch.edges);
+        let ends = [nodes[0], nodes[nodes.len() - 1]].map(|node| node.place(mesh, numbering));
+        let along = ends[1] - ends[0];
+        let falls = along.x < -1e-9 * along.norm() || (along.x <= 1e-9 * along.norm() && along.y < 0.0);
+        if falls {
+            nodes.reverse();
+        }
+        let smooth = |node: &EdgeNode| {
+            let place = node.place(mesh, numbering);
+            let exact = stretch.curve.is_line() || mesh.edges[node.edge as usize].shape.is_some();
+            if exact { place } else { stretch.curve.point(stretch.curve.nearest(place)) }
+        };
+        let places: Vec<Point> = nodes.iter().map(smooth).collect();
+        let points: Vec<Point> = nodes.iter().zip(&places).map(|(&node, place)| place + displacement(node)).collect();
+        let parameters = chord_lengths(&places);
+        Self {
+            undeformed: Curve::Spline(Spline::through_at(parameters.clone(), &places)),
+            deformed: Curve::Spline(Spline::through_at(parameters.clone(), &points)),
+            hand: if falls { -1.0 } else { 1.0 },
+            degree: numbering.level.order.degree(),
+            places,
+            points,
+            parameters,
+        }
+    }
+
+    /// Positions of the nodes in a configuration.
+    pub fn positions(&self, configuration: Configuration) -> &[Point] {
+        match configuration {
+            Configuration::Reference => &self.places,
+            Configuration::Deformed => &self.points,
+        }
+    }
+
+    /// Its length, undeformed.
+    pub fn length(&self) -> f64 {
+        self.parameters[self.parameters.len() - 1]
+    }
+
+    /// Parameter of the point nearest to `x` in a configuration; beyond the ends along the tangents.
+    pub fn nearest(&self, x: Point, configuration: Configuration) -> f64 {
+        match configuration {
+            Configuration::Reference => self.undeformed.nearest(x),
+            Configuration::Deformed => self.deformed.nearest(x),
+        }
+    }
+
+    /// Length of boundary that a node stands for, undeformed.
+    pub fn weight(&self, node: usize) -> f64 {
+        let at = |k: usize| self.parameters[k.min(self.parameters.len() - 1)];
+        0.5 * (at(node + 1) - at(node.saturating_sub(1)))
+    }
+
+    /// Longest element edge that meets a range of nodes.
+    pub fn edge_length(&self, first: usize, last: usize) -> f64 {
+        let end = self.parameters.len() - 1;
+        let [from, to] = [first.saturating_sub(self.degree), (last + self.degree).min(end)];
+        (from..=to.saturating_sub(self.degree).max(from))
+            .map(|k| self.parameters[(k + self.degree).min(end)] - self.parameters[k])
+            .fold(0.0, f64::max)
+    }
+
+    /// Whether a point lies in the body or outside it by less than `tolerance`, as the body lies now, with its foot on
+    /// this stretch. What lies deeper than a quarter of the stretch belongs to another side of the body.
+    pub fn is_near(&self, x: Point, tolerance: f64) -> bool {
+        let t = self.nearest(x, Configuration::Deformed).clamp(0.0, self.length());
+        let offset = x - self.deformed.point(t);
+        let tangent = self.deformed.tangent(t);
+        let outside = offset.dot(&turn_right(tangent)) * self.hand;
+        offset.dot(&tangent).abs() <= tolerance && outside < tolerance && outside > -0.25 * self.length()
+    }
+}
+
+/// Nodes of a chain of edges on the finest level, in its order.
+fn nodes_along(mesh: &MacroMesh, numbering: &Numbering, edges: &[u32]) -> Vec<EdgeNode> {
+    let n = numbering.level.intervals as u32;
+    let mut nodes = Vec::with_capacity(edges.len() * n as usize + 1);
+    for (at, &edge) in edges.iter().enumerate() {
+        let (triangle, side) = mesh.beside(edge);
+        let forward = mesh.triangles[triangle as usize].forward[side];
+        let along = (if at == 0 { 0 } else { 1 }..=n).map(|k| EdgeNode { edge, position: if forward { k } else { n - k } });
+        nodes.extend(along);
+    }
+    nodes
+}

@@ -1,0 +1,175 @@
+//! A contact of the scene, placed and cut, with the edges of this rank.
+
+use super::{Scene, SystemError};
+use crate::contact::{
+    Configuration, ContactBoundary, CurveChoice, Displacement, Distance, EndRule, GapChoice, Jump, Known, Law, MultiplierSpace,
+    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_ratio, softer_edge_length,
+};
+use crate::geometry::{Curve, Point};
+use crate::mesh::{BoundaryEdge, Numbering};
+
+/// Segments are short if they miss the safe ratio by more than rounding to a whole number can.
+const SHORT: f64 = 0.95;
+
+/// One contact of the scene: its boundary, its multipliers, and the edges of each body that this rank owns.
+pub struct Contact {
+    /// What the case asks for.
+    pub pair: Pair,
+    /// Γ_C.
+    pub boundary: ContactBoundary,
+    /// Its multipliers.
+    pub multipliers: Multipliers,
+    /// Number of its first multiplier among those of all contacts.
+    pub first: usize,
+    /// Harmonic mean `E_c` of the two moduli (stress): it follows the softer body.
+    pub modulus: f64,
+    /// Indices of body 1 and body 2.
+    pub bodies: [usize; 2],
+    /// Edges of body 1 and of body 2 whose macro triangle this rank owns.
+    pub edges: [Vec<BoundaryEdge>; 2],
+    /// Smallest ratio of a segment's length to the edges of the softer body that it meets.
+    pub segment_ratio: f64,
+    /// Ratio from which the pair of spaces is stable.
+    pub safe_ratio: f64,
+    /// Smooth boundaries of both bodies, where the gap is measured between them.
+    pub shapes: Option<[Vec<Curve>; 2]>,
+    /// The jump term, all contacts numbered through; empty if there is none.
+    pub jumps: Vec<Jump>,
+    /// What it was placed by, to be placed again.
+    pub known: Known,
+    /// Parameters of Γ_C beyond which one of the bodies has no boundary.
+    pub limits: [f64; 2],
+}
+
+impl Contact {
+    /// Places every contact of the scene on the finest level, on the undeformed bodies.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a boundary cannot be placed.
+    pub fn all(scene: &Scene, numbering: &Numbering, rank: usize) -> Result<Vec<Self>, SystemError> {
+        let nothing = vec![Known::default(); scene.pairs.len()];
+        Self::all_again(scene, numbering, rank, &nothing, &|_| Point::zeros())
+    }
+
+    /// Places every contact again, by what is `known` of each, on bodies moved by `displacement`.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a boundary cannot be placed.
+    pub fn all_again(
+        scene: &Scene,
+        numbering: &Numbering,
+        rank: usize,
+        known: &[Known],
+        displacement: Displacement,
+    ) -> Result<Vec<Self>, SystemError> {
+        let mut first = 0;
+        let mut contacts = Vec::new();
+        for (pair, known) in scene.pairs.iter().zip(known) {
+            let contact = Self::new(scene, numbering, rank, pair, first, known, displacement)?;
+            first += contact.multipliers.count();
+            contacts.push(contact);
+        }
+        Ok(contacts)
+    }
+
+    /// `first` counts the multipliers on.
+    fn new(
+        scene: &Scene,
+        numbering: &Numbering,
+        rank: usize,
+        pair: &Pair,
+        first: usize,
+        known: &Known,
+        displacement: Displacement,
+    ) -> Result<Self, SystemError> {
+        let sides = [0, 1].map(|k| scene.mesh.boundary(&pair.between[k]).map(|b| b.edges.clone()).unwrap_or_default());
+        let bodies = [0, 1].map(|k: usize| scene.mesh.body_beside(sides[k][0]));
+        let young = bodies.map(|body| scene.bodies[body].material.young);
+        let placed = place(&scene.mesh, numbering, pair, young, known, displacement)?;
+        let boundary = placed.boundary;
+        let mut all = all_edges(&scene.mesh, numbering, pair, displacement);
+        if pair.curve == CurveChoice::Fit {
+            let [of_first, of_second] = &mut all;
+            of_first.retain(|edge| faces(&boundary, Side::First, edge));
+            of_second.retain(|edge| faces(&boundary, Side::Second, edge));
+        }
+        let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
+        let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
+        let segment_ratio = segment_ratio(&boundary, &all, young);
+        let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
+        let multipliers = Multipliers::new(pair.space, &boundary);
+        let modulus = 2.0 / (1.0 / young[0] + 1.0 / young[1]);
+        let stabilised = pair.space != MultiplierSpace::P1Continuous
+            && match pair.stabilise {
+                Stabilise::On => true,
+                Stabilise::Auto => segment_ratio < SHORT * safe_ratio,
+                Stabilise::Off => false,
+            };
+        let (multipliers, jumps) = if stabilised {
+            let own = jumps(&multipliers, softer_edge_length(&boundary, &all, young), modulus);
+            let numbered = own.into_iter().map(|jump| Jump { rows: jump.rows.map(|i| first + i), ..jump });
+            (multipliers.stabilised(), numbered.collect())
+        } else {
+            (multipliers, Vec::new())
+        };
+        let measured = matches!(pair.gap, GapChoice::Geometry);
+        let shapes = measured.then(|| sides.each_ref().map(|edges| scene.mesh.smooth_curves(edges)));
+        let knots = boundary.knots();
+        let ends = Some([knots[0], knots[knots.len() - 1]]);
+        Ok(Self {
+            pair: pair.clone(),
+            known: Known { meeting: placed.meeting, ends, fractions: Some(placed.fractions) },
+            limits: placed.limits,
+            boundary,
+            multipliers,
+            first,
+            modulus,
+            bodies,
+            edges,
+            segment_ratio,
+            safe_ratio,
+            shapes,
+            jumps,
+        })
+    }
+
+    /// Whether its segments are shorter than its pair of spaces allows.
+    pub fn has_short_segments(&self) -> bool {
+        self.segment_ratio < SHORT * self.safe_ratio
+    }
+
+    /// Whether its ends follow the pressure.
+    pub fn has_free_ends(&self) -> bool {
+        self.pair.ends == EndRule::Free && self.pair.law == Law::Unilateral
+    }
+
+    /// Numbers of its multipliers.
+    pub fn range(&self) -> std::ops::Range<usize> {
+        self.first..self.first + self.multipliers.count()
+    }
+
+    /// How the distance of a body from Γ_C is measured.
+    pub fn distance(&self, body: usize) -> Distance<'_> {
+        match (&self.shapes, self.pair.configuration) {
+            (None, _) => Distance::Declared,
+            (Some(shapes), Configuration::Reference) => Distance::Curves(&shapes[body]),
+            (Some(shapes), Configuration::Deformed) => Distance::Places(&shapes[body]),
+        }
+    }
+
+    /// Rank that owns body 1's macro triangle at the middle of each segment.
+    pub(super) fn segment_owners(&self, scene: &Scene) -> Vec<usize> {
+        let edges = scene.mesh.boundary(&self.pair.between[0]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+        let feet: Vec<[f64; 2]> = edges
+            .iter()
+            .map(|&edge| scene.mesh.edges[edge as usize].vertices.map(|v| self.boundary.foot(scene.mesh.vertices[v as usize])))
+            .collect();
+        let away = |t: f64, [a, b]: [f64; 2]| (a.min(b) - t).max(t - a.max(b)).max(0.0);
+        let owner = |ends: &[f64]| {
+            let t = 0.5 * (ends[0] + ends[1]);
+            let nearest = (0..edges.len()).min_by(|&a, &b| away(t, feet[a]).total_cmp(&away(t, feet[b])));
+            nearest.map_or(0, |k| scene.partition.owner(scene.mesh.beside(edges[k]).0))
+        };
+        self.boundary.knots().windows(2).map(owner).collect()
+    }
+}

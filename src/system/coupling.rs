@@ -1,0 +1,92 @@
+//! Rows of `B` and weighted gaps of all contacts, shared by all ranks.
+
+use super::{Contact, Scene, SystemError};
+use crate::contact::{GapChoice, Law, Side, declared_gap, integrate};
+use crate::geometry::Point;
+use crate::mesh::EdgeNode;
+use crate::petsc::Session;
+
+/// One node's part in a multiplier's row of `B`, in global axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupled {
+    /// The node.
+    pub node: EdgeNode,
+    /// Index of its body.
+    pub body: usize,
+    /// Which body of the pair it is.
+    pub side: Side,
+    /// `± ∫ψ_i N_j n ds` (length).
+    pub value: Point,
+}
+
+/// All contacts coupled: rows of `B` and weighted initial gaps `c`, the same on every rank.
+pub struct Coupling {
+    /// For each multiplier of all contacts, the nodes it couples to.
+    pub rows: Vec<Vec<Coupled>>,
+    /// `c_i = ∫ψ_i g₀ ds` (length squared).
+    pub gap: Vec<f64>,
+    /// Rank that owns each multiplier.
+    pub owners: Vec<usize>,
+}
+
+impl Coupling {
+    /// Each rank integrates the edges it owns; the results, O(√N) numbers, are then shared. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a normal of Γ_C misses a declared geometry.
+    pub fn new(scene: &Scene, contacts: &[Contact], session: &Session) -> Result<Self, SystemError> {
+        let count = contacts.last().map_or(0, |contact| contact.range().end);
+        let (mut keys, mut values, mut gap) = (Vec::new(), Vec::new(), vec![0.0; count]);
+        let mut integrate_all = || -> Result<(), SystemError> {
+            for (number, contact) in contacts.iter().enumerate() {
+                for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
+                    let distance = contact.distance(k);
+                    let (entries, own) = integrate(&contact.boundary, &contact.multipliers, side, &contact.edges[k], &distance)
+                        .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
+                    own.iter().enumerate().for_each(|(i, value)| gap[contact.first + i] += value);
+                    for entry in entries {
+                        let [i, edge, position] = [entry.multiplier as u32, entry.node.edge, entry.node.position];
+                        keys.extend([2 * number as u32 + k as u32, i, edge, position].map(|key| key as i32));
+                        values.extend([entry.value.x, entry.value.y]);
+                    }
+                }
+            }
+            Ok(())
+        };
+        session.agree(integrate_all()).map_err(SystemError::Case)?;
+        session.sum(&mut gap);
+        let (keys, values) = (session.gather_all(&keys), session.gather_all(&values));
+        let mut rows = vec![Vec::new(); count];
+        for (key, value) in keys.chunks_exact(4).zip(values.chunks_exact(2)) {
+            let contact = &contacts[key[0] as usize / 2];
+            let k = key[0] as usize % 2;
+            rows[contact.first + key[1] as usize].push(Coupled {
+                node: EdgeNode { edge: key[2] as u32, position: key[3] as u32 },
+                body: contact.bodies[k],
+                side: [Side::First, Side::Second][k],
+                value: Point::new(value[0], value[1]),
+            });
+        }
+        let mut owners = Vec::with_capacity(count);
+        for contact in contacts {
+            if let GapChoice::Formula(formula) = &contact.pair.gap {
+                let declared = declared_gap(&contact.boundary, &contact.multipliers, formula);
+                declared.iter().enumerate().for_each(|(i, value)| gap[contact.first + i] += value);
+            }
+            let segments = contact.segment_owners(scene);
+            owners.extend((0..contact.multipliers.count()).map(|i| segments[contact.multipliers.segment_of(i)]));
+        }
+        for contact in contacts {
+            if gap[contact.range()].iter().any(|value| !value.is_finite()) {
+                let words = "its gap has no finite value somewhere on the contact boundary; correct the formula";
+                return Err(SystemError::Case(format!("contact.{}.gap: {words}", contact.pair.name)));
+            }
+        }
+        Ok(Self { rows, gap, owners })
+    }
+}
+
+/// Which multipliers belong to bilateral contacts.
+pub fn bilateral(contacts: &[Contact]) -> Vec<bool> {
+    contacts.iter().flat_map(|c| vec![c.pair.law == Law::Bilateral; c.multipliers.count()]).collect()
+}

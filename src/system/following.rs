@@ -1,0 +1,226 @@
+//! Contact boundaries that follow the solution: fit, solve, move, and fit again, until everything stands.
+
+use super::{BoundaryMotion, Contact, Discretisation, Solution, SystemError};
+use crate::contact::{Configuration, CurveChoice, End, EndRule, Known, Meeting, SmoothSide, true_end};
+use crate::mesh::EdgeNode;
+use crate::petsc::Session;
+
+/// Boundaries placed at most.
+const MOST_BOUNDARIES: usize = 30;
+
+/// From this one on, a boundary keeps the nodes it is fitted to and its segments, and its ends follow the pressure.
+const FROZEN: usize = 3;
+
+/// Change of the displacement, relative to its norm, at which it stands.
+const STILL_DISPLACEMENT: f64 = 1e-6;
+
+/// Change of the boundary, relative to its length, at which it stands.
+const STILL_BOUNDARY: f64 = 1e-6;
+
+/// One boundary of the loop, in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundaryStep {
+    /// Number of the boundary, from 1.
+    pub iteration: usize,
+    /// Length of all contact boundaries that follow (length).
+    pub length: f64,
+    /// Largest way of a segment end to the next boundary, relative to the length; nothing if the segments are others.
+    pub moved: Option<f64>,
+    /// Change of the displacement since the boundary before, relative to its norm; nothing for the first.
+    pub du: Option<f64>,
+    /// Multipliers whose state has changed since the boundary before; nothing if there are others now.
+    pub flipped: Option<usize>,
+}
+
+/// What follows from a solution.
+pub enum Onward {
+    /// Everything stands: the solution is the one.
+    Stands,
+    /// It does not, after so many boundaries; in words.
+    GivenUp(String),
+    /// The bodies have moved, and these are the boundaries now.
+    Again(Vec<Contact>, BoundaryMotion),
+}
+
+/// A position of an end and how far off it was found to be, in the parameter of Γ_C.
+type Found = Option<(f64, f64)>;
+
+/// State of the loop over boundaries.
+pub struct Following {
+    displacement: Vec<f64>,
+    active: Vec<bool>,
+    ends: Vec<[Found; 2]>,
+}
+
+impl Following {
+    /// Before the first solve.
+    pub fn new(problem: &Discretisation) -> Self {
+        Self { displacement: Vec::new(), active: Vec::new(), ends: vec![[None; 2]; problem.contacts.len()] }
+    }
+
+    /// Looks at the solution on boundary `number` (from 1) and places the boundaries again. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a boundary can no longer be placed.
+    pub fn next(
+        &mut self,
+        problem: &Discretisation,
+        solution: &Solution,
+        number: usize,
+        session: &Session,
+    ) -> Result<(BoundaryStep, Onward), SystemError> {
+        let du = self.change(&solution.displacement, session);
+        let flipped = (self.active.len() == solution.active.len())
+            .then(|| self.active.iter().zip(&solution.active).filter(|(a, b)| a != b).count());
+        (self.displacement, self.active) = (solution.displacement.clone(), solution.active.clone());
+        let motion = BoundaryMotion::new(problem, &solution.displacement, session);
+        let known = self.proposals(problem, solution, number, &motion)?;
+        let (mesh, space) = (&problem.scene.mesh, problem.finest());
+        let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+        let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
+        let moved = way(&problem.contacts, &next);
+        let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
+        let step = BoundaryStep { iteration: number, length, moved, du, flipped };
+        let still = du.is_some_and(|du| du <= STILL_DISPLACEMENT) && flipped == Some(0);
+        let onward = match moved {
+            // The same boundary has the same solution.
+            Some(0.0) => Onward::Stands,
+            Some(way) if way <= STILL_BOUNDARY && still => Onward::Stands,
+            _ if number >= MOST_BOUNDARIES => Onward::GivenUp(given_up(&step)),
+            _ => Onward::Again(next, motion),
+        };
+        Ok((step, onward))
+    }
+
+    /// Change of the displacement since the boundary before, relative to its norm. **Collective**
+    fn change(&self, displacement: &[f64], session: &Session) -> Option<f64> {
+        let mut squares = [0.0; 2];
+        for (now, then) in displacement.iter().zip(&self.displacement) {
+            squares[0] += (now - then).powi(2);
+            squares[1] += now * now;
+        }
+        session.sum(&mut squares);
+        (!self.displacement.is_empty()).then(|| if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 })
+    }
+
+    /// What the next boundary of each contact is placed by.
+    fn proposals(
+        &mut self,
+        problem: &Discretisation,
+        solution: &Solution,
+        number: usize,
+        motion: &BoundaryMotion,
+    ) -> Result<Vec<Known>, SystemError> {
+        let (mesh, space) = (&problem.scene.mesh, problem.finest());
+        let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+        let mut all = Vec::new();
+        for (contact, ends) in problem.contacts.iter().zip(&mut self.ends) {
+            let mut known = contact.known.clone();
+            if contact.pair.curve == CurveChoice::Fit && number < FROZEN {
+                let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+                let meeting = Meeting::now(&sides, &contact.pair)
+                    .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
+                if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
+                    all.push(Known { meeting: Some(meeting), ends: None, fractions: None });
+                    continue;
+                }
+            }
+            if contact.pair.ends == EndRule::Free {
+                known.ends = Some(free_ends(contact, solution, ends));
+                if number < FROZEN {
+                    known.fractions = None;
+                }
+            }
+            all.push(known);
+        }
+        Ok(all)
+    }
+}
+
+/// Whether a meeting gives a contact other ends than it has.
+fn differs(contact: &Contact, meeting: &Meeting) -> bool {
+    let knots = contact.boundary.knots();
+    let [first, last] = [meeting.ends[0].max(contact.limits[0]), meeting.ends[1].min(contact.limits[1])];
+    (first - knots[0]).abs().max((last - knots[knots.len() - 1]).abs()) > STILL_BOUNDARY * (last - first)
+}
+
+/// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not
+/// beyond the bodies' boundaries.
+fn free_ends(contact: &Contact, solution: &Solution, history: &mut [Found; 2]) -> [f64; 2] {
+    let boundary = &contact.boundary;
+    let knots = boundary.knots();
+    let now = [knots[0], knots[knots.len() - 1]];
+    let (lambda, active) = (&solution.multipliers[contact.range()], &solution.active[contact.range()]);
+    let mut next = now;
+    for (k, end) in [End::First, End::Last].into_iter().enumerate() {
+        // At the end of a body contact may end with any pressure.
+        let last = multipliers_at(contact, end);
+        if now[k] == contact.limits[k] && last.iter().all(|&i| active[i]) {
+            continue;
+        }
+        let Some(arc) = true_end(boundary, &contact.multipliers, lambda, active, end) else { continue };
+        let off = boundary.parameter_at(arc) - now[k];
+        let step = match history[k] {
+            Some((before, was)) if now[k] != before => {
+                let slope = (off - was) / (now[k] - before);
+                if (-4.0..-0.25).contains(&slope) { -off / slope } else { off }
+            }
+            _ => off,
+        };
+        history[k] = Some((now[k], off));
+        next[k] = now[k] + step;
+    }
+    next = [next[0].max(contact.limits[0]), next[1].min(contact.limits[1])];
+    if next[1] > next[0] { next } else { now }
+}
+
+/// Multipliers of the segment at an end.
+fn multipliers_at(contact: &Contact, end: End) -> Vec<usize> {
+    let segment = if end == End::First { 0 } else { contact.boundary.segments() - 1 };
+    let rows = contact.multipliers.on_segment(segment, 0.0).0;
+    rows[..contact.multipliers.per_segment()].to_vec()
+}
+
+/// Largest way of a segment end between two placings of the contacts that follow, relative to the length.
+fn way(before: &[Contact], after: &[Contact]) -> Option<f64> {
+    let mut most: f64 = 0.0;
+    for (old, new) in before.iter().zip(after).filter(|(old, _)| old.pair.follows()) {
+        if old.boundary.segments() != new.boundary.segments() {
+            return None;
+        }
+        let ends = old.boundary.knots().iter().zip(new.boundary.knots());
+        let ways = ends.map(|(&s, &t)| (old.boundary.point(s) - new.boundary.point(t)).norm() / old.boundary.length());
+        most = ways.fold(most, f64::max);
+        // Corresponding points and distances move with the bodies, even if the curve does not.
+        if old.pair.configuration == Configuration::Deformed {
+            most = most.max(f64::MIN_POSITIVE);
+        }
+    }
+    Some(most)
+}
+
+fn given_up(step: &BoundaryStep) -> String {
+    let figure = |value: Option<f64>| value.map_or("others".to_string(), |value| format!("{value:.1e}"));
+    format!(
+        "the contact boundary still moves after {MOST_BOUNDARIES} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; take another number of segments, or declare the curve",
+        figure(step.moved),
+        figure(step.du),
+        step.flipped.map_or("all".to_string(), |count| count.to_string())
+    )
+}
+
+/// Words for a boundary that stands.
+pub fn stands(steps: &[BoundaryStep]) -> String {
+    let place = match steps.len() {
+        1 => "the contact boundary fits what touches".to_string(),
+        count => format!("the contact boundary stands after {count} fits, and so does the displacement"),
+    };
+    format!("{place}; the active set stands and the residual is below its tolerance")
+}
+
+/// The multipliers' values and states to start the next solve from, where the segments are as many as before; otherwise
+/// all are active and zero.
+pub fn carried(before: &[Contact], after: &[Contact], solution: &Solution) -> Option<(Vec<f64>, Vec<bool>)> {
+    let alike = before.iter().zip(after).all(|(a, b)| a.multipliers.count() == b.multipliers.count());
+    alike.then(|| (solution.multipliers.clone(), solution.active.clone()))
+}
