@@ -111,8 +111,13 @@ fn boundaries_that_do_not_face_each_other() {
 }
 
 #[test]
+fn deformed_bodies_with_a_declared_curve() {
+    bad_key("contact.seam.configuration", "\"deformed\"", &["contact.seam.configuration", "wants curve = \"fit\""]);
+}
+
+#[test]
 fn what_is_not_built_yet() {
-    bad_key("contact.seam.configuration", "deformed", &["contact.seam.configuration", "not available yet"]);
+    bad_key("solver.tolerance", "\"discretisation\"", &["solver.tolerance", "not available yet"]);
 }
 
 /// Nothing holds the upper block in x: exit code 3, and a summary that says so.

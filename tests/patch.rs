@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::{Ended, PAIRS, RANKS, Run};
+use support::{Ended, PAIRS, RANKS, Run, difference};
 
 const EXACT: f64 = 1e-9;
 
@@ -76,5 +76,29 @@ fn by_the_direct_solver() {
     for ranks in RANKS {
         let ended = Run::case("patch_inclined").ranks(ranks).set("solver.name", "direct").converged();
         pressed_evenly(&ended, "seam", &format!("direct, {ranks} ranks"));
+    }
+}
+
+/// Uncut quadrature misses the patch test, by per cents of λ, on any number of ranks alike; the bodies still feel the same forces.
+#[test]
+fn not_by_points_fixed_on_the_segments() {
+    for (order, space) in PAIRS {
+        let run = |ranks: usize| {
+            let run = Run::case("patch_flat").ranks(ranks).set("mesh.order", order).set("contact.seam.multiplier", space);
+            run.set("contact.seam.quadrature", "segment").set("exact.must_hold", false).converged()
+        };
+        let runs = RANKS.map(run);
+        for ended in &runs {
+            let words = format!("P{order} and {space}");
+            let off = ended.number("/errors/lambda_seam");
+            println!("{words}: λ is off by {off:.1e}");
+            assert!((1e-3..5e-2).contains(&off), "{words}: λ is off by {off:e}");
+            assert_eq!(ended.number("/contact/seam/lost_points"), 0.0, "{words}");
+            for balance in ["force", "moment", "energy"] {
+                assert!(ended.number(&format!("/balance/{balance}")) <= EXACT, "{words}: balance of {balance}");
+            }
+            let lambda = [ended, &runs[0]].map(|ended| ended.trace("seam").iter().map(|point| point.lambda).collect::<Vec<_>>());
+            assert!(difference(&lambda[0], &lambda[1]) <= 1e-8, "{words}: λ depends on the ranks");
+        }
     }
 }

@@ -2,7 +2,7 @@ use std::path::Path;
 
 use super::*;
 use crate::body::LoadKind;
-use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, SegmentRule};
+use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule};
 
 /// Every key of the contract that can be given.
 const FULL: &str = r#"
@@ -125,6 +125,20 @@ fn defaults_are_those_of_the_contract() {
     assert_eq!(pair.segments, SegmentRule::Auto);
     assert!(matches!(pair.gap, GapChoice::Geometry));
     assert_eq!(case.exact, Exact::default());
+}
+
+/// `points` has a default beside `quadrature = "segment"` only.
+#[test]
+fn the_points_of_a_segment_are_counted() {
+    let read = |text: &str| parse(&format!("{LEAST}{CONTACT}{text}"), &[]).unwrap();
+    let case = read("quadrature = 'segment'");
+    assert_eq!(case.contacts[0].quadrature, Quadrature::Segment { points: 5 });
+    assert!(case.resolved().lines().any(|line| line == "points = 5"));
+    let case = read("quadrature = 'segment'\npoints = 1\nmultiplier = 'p0'");
+    assert_eq!(case.contacts[0].quadrature, Quadrature::Segment { points: 1 });
+    let case = read("");
+    assert_eq!(case.contacts[0].quadrature, Quadrature::Cut);
+    assert!(!case.resolved().contains("points"));
 }
 
 #[test]
@@ -303,8 +317,13 @@ fn every_error_names_key_value_and_remedy() {
         ("contact.c.segments=[0, 0.5]", "must ascend from 0 to 1"),
         ("contact.c.segments=[0, 0.5, 0.5, 1]", "must ascend from 0 to 1"),
         ("contact.c.law=bonded", "must be \"unilateral\" or \"bilateral\"; there are"),
-        ("contact.c.quadrature=segment", "not available yet; write quadrature = \"cut\""),
-        ("contact.c.points=5", "contact.c.points = 5 (--set): not available yet"),
+        ("contact.c.quadrature=segments", "must be \"cut\" or \"segment\"; did you mean \"segment\"?"),
+        ("contact.c.points=5", "contact.c.points = 5 (--set): stands beside quadrature = \"cut\""),
+        ("contact.c={between=['p', 'q'], curve='line', quadrature='segment', points=21}", "must be a whole number from 1 to 20"),
+        (
+            "contact.c={between=['p', 'q'], curve='line', quadrature='segment', points=1}",
+            "give 2 or more, or multiplier = \"p0\"",
+        ),
         ("contact.c.stabilise=1", "must be \"auto\", true or false"),
         ("contact.c.configuration=deformed", "\"deformed\" wants curve = \"fit\""),
         ("contact.c.spans=3", "contact.c.spans = 3 (--set): is for curve = \"fit\""),

@@ -19,6 +19,8 @@ pub struct Pair {
     pub segments: SegmentRule,
     /// Contact law.
     pub law: Law,
+    /// Where the integrals over the contact boundary are evaluated.
+    pub quadrature: Quadrature,
     /// Whether the jump term is added.
     pub stabilise: Stabilise,
     /// Where contact is modelled.
@@ -54,6 +56,18 @@ pub enum EndRule {
     Fixed,
     /// They move to where the pressure ends.
     Free,
+}
+
+/// Where the integrals over the contact boundary are evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quadrature {
+    /// Between segment ends and the feet of the body's boundary nodes: exact on straight boundaries.
+    Cut,
+    /// At a fixed number of Gauss points on each segment, whatever lies beside it.
+    Segment {
+        /// Gauss points of a segment, 1 to 20.
+        points: usize,
+    },
 }
 
 /// When the jump term is added to the multiplier block.

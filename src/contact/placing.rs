@@ -234,7 +234,7 @@ pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> boo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{EndRule, GapChoice, Law, MultiplierSpace, SegmentRule, Stabilise};
+    use crate::contact::{EndRule, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule, Stabilise};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Partition};
@@ -249,6 +249,7 @@ mod tests {
             space: MultiplierSpace::P0,
             segments,
             law: Law::Unilateral,
+            quadrature: Quadrature::Cut,
             stabilise: Stabilise::Off,
             configuration: Configuration::Reference,
             spans: None,

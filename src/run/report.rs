@@ -111,6 +111,9 @@ impl Report {
             step.max_penetration,
             step.du
         ));
+        if let Some(words) = &step.climbed {
+            self.say(&format!("       slow; went over to {words}"));
+        }
     }
 
     /// A contact boundary that was solved for, and how far it moves next.

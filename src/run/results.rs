@@ -67,7 +67,7 @@ impl Run<'_> {
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
-            summary.contact.insert(contact.pair.name.clone(), summarise::contact(contact, at, solution, &balance, &points));
+            summary.contact.insert(contact.pair.name.clone(), summarise::contact(problem, at, solution, &balance, &points));
             self.warn_if_apart(contact, &points);
             traces.push(contact_points(contact, &points));
         }

@@ -4,8 +4,8 @@ use super::{Run, RunError};
 use crate::contact::ActiveSet;
 use crate::petsc::Matrix;
 use crate::system::{
-    ContactLoop, Discretisation, Elastic, Following, Form, LinearSolver, Onward, OuterStep, SaddlePoint, Solution, Start,
-    Verdict, bilateral, carried, inf_sup, interpolations, load, nodal_forces, stands,
+    ContactLoop, Discretisation, Elastic, Following, Form, LinearSolver, Onward, OuterStep, Rung, SaddlePoint, Solution, Start,
+    Verdict, bilateral, carried, inf_sup, interpolations, load, nodal_forces, not_held, stands,
 };
 
 /// Displacement unknowns up to which a failed solve is looked into.
@@ -52,8 +52,9 @@ impl Run<'_> {
     /// Assembles and solves; the solution comes with what solved it, in words. A body that nothing holds is found
     /// before anything is assembled. **Collective**
     pub(super) fn solve(&self, problem: &mut Discretisation) -> Result<(Solution, String), RunError> {
-        if let Some(nothing) = self.not_held(problem) {
-            return Ok((nothing, "none".into()));
+        let all = vec![true; problem.multiplier_count()];
+        if let Some(words) = not_held(problem, &all) {
+            return Ok((Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all), "none".into()));
         }
         let form = self.case.solver.choice.form();
         let mut lasting = Lasting { elastic: None, interpolations: Vec::new() };
@@ -68,7 +69,7 @@ impl Run<'_> {
         let (mut solution, prepared) = if problem.follows() {
             self.follow(problem, &lasting)?
         } else {
-            let mut prepared = self.prepare(problem, &lasting)?;
+            let mut prepared = self.prepare(problem, &lasting, Rung::default())?;
             let pass = Pass { boundary: 1, passes: 0, tolerance: self.case.solver.tolerance };
             (self.solve_on(problem, &mut prepared, None, pass)?, prepared)
         };
@@ -80,17 +81,8 @@ impl Run<'_> {
         Ok(load(problem, &nodal_forces(problem, self.session)?))
     }
 
-    /// A body that supports and the whole of all contacts do not hold.
-    fn not_held(&self, problem: &Discretisation) -> Option<Solution> {
-        let all = vec![true; problem.multiplier_count()];
-        let contact_loop = ContactLoop { problem, session: self.session, boundary: 1, passes: 0, tolerance: 0.0 };
-        let mechanism = contact_loop.mechanism(&all)?;
-        let words = contact_loop.not_held(&mechanism, true);
-        Some(Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all))
-    }
-
-    /// Sets up system and solver for the contact boundaries as they are. **Collective**
-    fn prepare(&self, problem: &Discretisation, lasting: &Lasting) -> Result<Prepared, RunError> {
+    /// Sets up system and solver for the contact boundaries as they are, on a rung of the ladder. **Collective**
+    fn prepare(&self, problem: &Discretisation, lasting: &Lasting, rung: Rung) -> Result<Prepared, RunError> {
         let choice = self.case.solver.choice;
         let system = {
             let _stage = self.stages.assemble.enter();
@@ -101,7 +93,7 @@ impl Run<'_> {
         };
         let solver = {
             let _stage = self.stages.setup.enter();
-            LinearSolver::new(&system, &lasting.interpolations, choice, self.session)?
+            LinearSolver::new(&system, &lasting.interpolations, choice, rung, self.session)?
         };
         let unused = solver.unused_options()?;
         if !unused.is_empty() {
@@ -135,8 +127,8 @@ impl Run<'_> {
     /// tolerance. **Collective**
     fn follow(&self, problem: &mut Discretisation, lasting: &Lasting) -> Result<(Solution, Prepared), RunError> {
         let exact = self.case.solver.tolerance;
-        let mut following = Following::new(problem);
-        let mut prepared = self.prepare(problem, lasting)?;
+        let mut following = Following::new(problem, exact);
+        let mut prepared = self.prepare(problem, lasting, Rung::default())?;
         let mut pass = Pass { boundary: 1, passes: 0, tolerance: exact.max(ON_THE_WAY) };
         let mut solution = self.solve_on(problem, &mut prepared, None, pass)?;
         let (mut steps, mut boundaries) = (std::mem::take(&mut solution.steps), Vec::new());
@@ -174,7 +166,7 @@ impl Run<'_> {
                         let _stage = self.stages.contact.enter();
                         problem.replace(contacts, motion, self.session)?;
                     }
-                    prepared = self.prepare(problem, lasting)?;
+                    prepared = self.prepare(problem, lasting, prepared.solver.rung)?;
                     pass =
                         Pass { boundary: pass.boundary + 1, tolerance: if near { exact } else { exact.max(ON_THE_WAY) }, ..pass };
                     let carried = carried.map(|(multipliers, active)| Carried { before: &solution, multipliers, active });

@@ -80,7 +80,14 @@ pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balan
 }
 
 /// One contact; `at` is its place among all.
-pub fn contact(contact: &Contact, at: usize, solution: &Solution, balance: &Balance, points: &[TracePoint]) -> summary::Contact {
+pub fn contact(
+    problem: &Discretisation,
+    at: usize,
+    solution: &Solution,
+    balance: &Balance,
+    points: &[TracePoint],
+) -> summary::Contact {
+    let contact = &problem.contacts[at];
     let boundary = &contact.boundary;
     let knots = boundary.knots();
     let pair = |p: Point| [p.x, p.y];
@@ -105,7 +112,7 @@ pub fn contact(contact: &Contact, at: usize, solution: &Solution, balance: &Bala
         oscillation,
         inf_sup,
         trust: trust(inf_sup, oscillation),
-        lost_points: Some(points.iter().filter(|point| !point.is_complete()).count()),
+        lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
 }
 

@@ -1,11 +1,7 @@
 //! The loop over active sets.
 
-use super::{BoundaryStep, Contact, Coupled, Discretisation, Ending, LinearSolver, SaddlePoint, Scene, Space, SystemError};
-use crate::body::Constraints;
-use crate::contact::{ActiveSet, Condition, Mechanism, Step, find_mechanism};
-use crate::element::Order;
-use crate::geometry::Point;
-use crate::mesh::{Level, Numbering};
+use super::{BoundaryStep, Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Space, SystemError, not_held};
+use crate::contact::{ActiveSet, Step};
 use crate::petsc::{Session, Vector};
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
@@ -35,6 +31,8 @@ pub struct OuterStep {
     pub max_penetration: f64,
     /// Change of the displacement, relative to its norm.
     pub du: f64,
+    /// The stronger preconditioner that the linear solver went over to, in words.
+    pub climbed: Option<String>,
 }
 
 /// How the loop ended.
@@ -123,30 +121,8 @@ pub struct ContactLoop<'a> {
 }
 
 impl ContactLoop<'_> {
-    /// A body that neither supports nor the active multipliers hold.
-    pub fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
-        let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &self.problem.scene.partition);
-        let mut conditions = support_conditions(&self.problem.scene, &numbering);
-        let place = |coupled: &Coupled| {
-            (coupled.body, coupled.node.place(&self.problem.scene.mesh, &self.finest().numbering), coupled.value)
-        };
-        let rows = self.problem.coupling.rows.iter().zip(active).filter(|(_, active)| **active);
-        conditions.extend(rows.map(|(row, _)| row.iter().map(place).collect::<Condition>()));
-        find_mechanism(&self.problem.scene.extents(), &conditions)
-    }
-
     fn finest(&self) -> &Space {
         self.problem.finest()
-    }
-
-    /// Words for a body that is not held.
-    pub fn not_held(&self, mechanism: &Mechanism, any_active: bool) -> String {
-        let by = if any_active {
-            "supports and contact do not hold it"
-        } else {
-            "contact is open everywhere and supports do not hold it"
-        };
-        format!("body {} can {}: {by}", self.problem.scene.bodies[mechanism.body].name, mechanism.motion)
     }
 
     /// Solves until the active set stands and the last residual is below the tolerance; `report` hears every pass.
@@ -196,6 +172,7 @@ impl ContactLoop<'_> {
                 residual: solve.residual,
                 max_penetration: self.largest_penetration(&penetration),
                 du: self.change(&x, &mut before),
+                climbed: solve.climbed,
             };
             report(&step);
             steps.push(step);
@@ -246,8 +223,7 @@ impl ContactLoop<'_> {
 
     /// What follows from a solve and the set it leads to.
     fn judge(&self, outcome: Step, ending: Ending, loose: bool, passes: usize, set: &mut ActiveSet) -> Next {
-        let lost =
-            |set: &ActiveSet| self.mechanism(set.active()).map(|found| self.not_held(&found, set.active().contains(&true)));
+        let lost = |set: &ActiveSet| not_held(self.problem, set.active());
         match (outcome, ending) {
             (_, Ending::Failed(words)) => Next::End(Verdict::NotConverged(words)),
             (Step::Settled, _) if loose => Next::Tighten,
@@ -380,23 +356,4 @@ fn settled(set: &ActiveSet) -> String {
     } else {
         "the residual is below its tolerance".into()
     }
-}
-
-/// Everything that supports hold, at the macro vertices.
-fn support_conditions(scene: &Scene, numbering: &Numbering) -> Vec<Condition> {
-    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports) else { return Vec::new() };
-    let mut body = vec![0; scene.mesh.vertices.len()];
-    for triangle in &scene.mesh.triangles {
-        triangle.vertices.iter().for_each(|&vertex| body[vertex as usize] = triangle.body as usize);
-    }
-    let mut conditions = Vec::new();
-    for (vertex, &x) in scene.mesh.vertices.iter().enumerate() {
-        let Some(constraint) = constraints.get(numbering.vertex(vertex as u32)) else { continue };
-        for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
-            if constraint.fixed[k] {
-                conditions.push(vec![(body[vertex], x, constraint.to_global(axis))]);
-            }
-        }
-    }
-    conditions
 }

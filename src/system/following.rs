@@ -11,11 +11,17 @@ const MOST_BOUNDARIES: usize = 30;
 /// From this one on, a boundary keeps the nodes it is fitted to and its segments, and its ends follow the pressure.
 const FROZEN: usize = 3;
 
-/// Change of the displacement, relative to its norm, at which it stands.
-const STILL_DISPLACEMENT: f64 = 1e-6;
+/// From this one on the ends are held where they are, should they still move.
+const HELD: usize = 10;
 
-/// Change of the boundary, relative to its length, at which it stands.
-const STILL_BOUNDARY: f64 = 1e-6;
+/// Change of the displacement, relative to its norm, at which it stands, by the relative residual of the last solve.
+const STILL_DISPLACEMENT: f64 = 1e2;
+
+/// The same of the boundary, relative to its length: less is lost in what the residual leaves of the pressure.
+const STILL_BOUNDARY: f64 = 1e3;
+
+/// A boundary whose ends move by less than this share of its length is the same.
+const SAME: f64 = 1e-5;
 
 /// One boundary of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,15 +53,17 @@ type Found = Option<(f64, f64)>;
 
 /// State of the loop over boundaries.
 pub struct Following {
+    /// Relative residual of the last solve.
+    tolerance: f64,
     displacement: Vec<f64>,
     active: Vec<bool>,
     ends: Vec<[Found; 2]>,
 }
 
 impl Following {
-    /// Before the first solve.
-    pub fn new(problem: &Discretisation) -> Self {
-        Self { displacement: Vec::new(), active: Vec::new(), ends: vec![[None; 2]; problem.contacts.len()] }
+    /// Before the first solve; the last one goes to `tolerance`.
+    pub fn new(problem: &Discretisation, tolerance: f64) -> Self {
+        Self { tolerance, displacement: Vec::new(), active: Vec::new(), ends: vec![[None; 2]; problem.contacts.len()] }
     }
 
     /// Looks at the solution on boundary `number` (from 1) and places the boundaries again. **Collective**
@@ -81,11 +89,11 @@ impl Following {
         let moved = way(&problem.contacts, &next);
         let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
         let step = BoundaryStep { iteration: number, length, moved, du, flipped };
-        let still = du.is_some_and(|du| du <= STILL_DISPLACEMENT) && flipped == Some(0);
+        let still = du.is_some_and(|du| du <= STILL_DISPLACEMENT * self.tolerance) && flipped == Some(0);
         let onward = match moved {
             // The same boundary has the same solution.
             Some(0.0) => Onward::Stands,
-            Some(way) if way <= STILL_BOUNDARY && still => Onward::Stands,
+            Some(way) if way <= STILL_BOUNDARY * self.tolerance && still => Onward::Stands,
             _ if number >= MOST_BOUNDARIES => Onward::GivenUp(given_up(&step)),
             _ => Onward::Again(next, motion),
         };
@@ -125,7 +133,7 @@ impl Following {
                     continue;
                 }
             }
-            if contact.pair.ends == EndRule::Free {
+            if contact.pair.ends == EndRule::Free && number < HELD {
                 known.ends = Some(free_ends(contact, solution, ends));
                 if number < FROZEN {
                     known.fractions = None;
@@ -141,7 +149,7 @@ impl Following {
 fn differs(contact: &Contact, meeting: &Meeting) -> bool {
     let knots = contact.boundary.knots();
     let [first, last] = [meeting.ends[0].max(contact.limits[0]), meeting.ends[1].min(contact.limits[1])];
-    (first - knots[0]).abs().max((last - knots[knots.len() - 1]).abs()) > STILL_BOUNDARY * (last - first)
+    (first - knots[0]).abs().max((last - knots[knots.len() - 1]).abs()) > SAME * (last - first)
 }
 
 /// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not
@@ -213,7 +221,14 @@ fn given_up(step: &BoundaryStep) -> String {
 pub fn stands(steps: &[BoundaryStep]) -> String {
     let place = match steps.len() {
         1 => "the contact boundary fits what touches".to_string(),
-        count => format!("the contact boundary stands after {count} fits, and so does the displacement"),
+        count if count < HELD => format!("the contact boundary stands after {count} fits, and so does the displacement"),
+        count => {
+            let last = steps[HELD - 2].moved.map_or("others".into(), |way| format!("{way:.0e} of its length"));
+            format!(
+                "the ends of the contact boundary still moved by {last} at fit {} and are held; it stands after {count}",
+                HELD - 1
+            )
+        }
     };
     format!("{place}; the active set stands and the residual is below its tolerance")
 }

@@ -2,24 +2,21 @@
 //!
 //! `fieldsplit`: GMRES, preconditioned from the right by the block upper triangle of `K + BᵀDB` and `S = -D⁻¹`; one
 //! geometric multigrid F-cycle stands for the inverse of the first, or BoomerAMG where the mesh has no levels (for P2
-//! below one smoothing step, on the P1 space of the same triangles).
+//! below one smoothing step, on the P1 space of the same triangles). Where that is too weak, a ladder leads up to a
+//! Cholesky factor ([`Rung`]).
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override; only the
 //! tolerance is the case's.
 
-use super::{Form, SaddlePoint, SchurPattern, SolverChoice, SystemError};
-use crate::petsc::{Krylov, Level, Matrix, Session, Vector, options};
+use super::ladder::needed;
+use super::solver_options::{CoarseSolver, FIELD_SPLIT, lambda_options, rung_options};
+use super::{Form, Rung, SaddlePoint, SolverChoice, SystemError};
+use crate::petsc::{Krylov, Level, Matrix, Session, Solved, Vector, options};
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
 
 /// Relative residual above which rounding is no excuse.
 const MOST_ROUNDING: f64 = 1e-6;
-
-/// Rows up to which the coarsest level is factorised by all ranks together.
-const LARGE: usize = 50_000;
-
-/// Unknowns up to which the coarsest level is factorised on every rank.
-const SMALL: usize = 3000;
 
 /// A solver, ready for one system.
 pub struct LinearSolver {
@@ -28,7 +25,10 @@ pub struct LinearSolver {
     form: Form,
     /// The converted system of the direct solver.
     converted: Option<Matrix>,
-    /// What preconditions the displacement block, in words.
+    interpolations: Vec<Matrix>,
+    /// What preconditions the displacement block.
+    pub rung: Rung,
+    /// The same in words.
     pub name: String,
 }
 
@@ -52,6 +52,8 @@ pub struct LinearSolve {
     pub iterations: usize,
     /// True residual of the augmented system, relative to the right-hand side.
     pub residual: f64,
+    /// The stronger preconditioner that it, or the next one, went over to; in words.
+    pub climbed: Option<String>,
 }
 
 impl SolverChoice {
@@ -65,25 +67,31 @@ impl SolverChoice {
 }
 
 impl LinearSolver {
-    /// Sets a solver up; `interpolations[l]` leads from level `l` to level `l + 1` (the direct solver wants none).
-    /// **Collective**
+    /// Sets a solver up, on a rung of the ladder; `interpolations[l]` leads from level `l` to level `l + 1` (the direct
+    /// solver wants none). **Collective**
     pub fn new(
         system: &SaddlePoint,
         interpolations: &[Matrix],
         choice: SolverChoice,
+        rung: Rung,
         session: &Session,
     ) -> Result<Self, SystemError> {
         match choice.form() {
-            Form::Augmented => Self::field_split(system, interpolations, session),
+            Form::Augmented => Self::field_split(system, interpolations.to_vec(), rung, session),
             Form::Plain => Self::direct(system, session),
         }
     }
 
-    fn field_split(system: &SaddlePoint, interpolations: &[Matrix], session: &Session) -> Result<Self, SystemError> {
+    fn field_split(
+        system: &SaddlePoint,
+        interpolations: Vec<Matrix>,
+        rung: Rung,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
         let multigrid = !interpolations.is_empty();
         let coarse = CoarseSolver::of(system.stiffness[0].size().0, system.stiffness.len(), session.size());
         let lambda = lambda_options(system.multipliers.pattern, session.size());
-        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options(multigrid)) {
+        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options(multigrid)).chain(rung_options(rung)) {
             options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
@@ -93,7 +101,7 @@ impl LinearSolver {
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
         krylov.set_from_options()?;
         krylov.set_up()?;
-        if multigrid {
+        if multigrid && rung != Rung::Factor {
             let solvers = preconditioner.field_split_solvers()?;
             let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
             let levels: Vec<Level> =
@@ -103,10 +111,10 @@ impl LinearSolver {
             solvers[0].set_up()?;
         }
         let name = match preconditioner.field_split_solvers()?[0].preconditioner().kind().as_str() {
-            "mg" | "hypre" => format!("fieldsplit ({})", coarse.words(multigrid)),
+            "mg" | "hypre" | "cholesky" => format!("fieldsplit ({})", rung.words(coarse.words(multigrid))),
             other => format!("fieldsplit ({other})"),
         };
-        Ok(Self { krylov, session: session.clone(), form: Form::Augmented, converted: None, name })
+        Ok(Self { krylov, session: session.clone(), form: Form::Augmented, converted: None, interpolations, rung, name })
     }
 
     fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {
@@ -124,8 +132,16 @@ impl LinearSolver {
             options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
-        let mut solver =
-            Self { krylov, session: session.clone(), form: Form::Plain, converted: None, name: "direct (MUMPS)".into() };
+        let name = "direct (MUMPS)".into();
+        let mut solver = Self {
+            krylov,
+            session: session.clone(),
+            form: Form::Plain,
+            converted: None,
+            interpolations: Vec::new(),
+            rung: Rung::Factor,
+            name,
+        };
         solver.refresh(system)?;
         solver.krylov.set_from_options()?;
         solver.krylov.set_up()?;
@@ -150,144 +166,108 @@ impl LinearSolver {
         Ok(options::unused(&self.session)?)
     }
 
-    /// Solves from the `x` that is given, until the residual is below `tolerance |b|` or rounding stops it. **Collective**
-    pub fn solve(&self, system: &SaddlePoint, b: &Vector, x: &mut Vector, tolerance: f64) -> Result<LinearSolve, SystemError> {
+    /// Solves from the `x` that is given, until the residual is below `tolerance |b|` or rounding stops it; a solve that
+    /// is slow goes on with a stronger preconditioner, which stays. **Collective**
+    pub fn solve(
+        &mut self,
+        system: &SaddlePoint,
+        b: &Vector,
+        x: &mut Vector,
+        tolerance: f64,
+    ) -> Result<LinearSolve, SystemError> {
+        let mut solve = LinearSolve { ending: Ending::Converged, iterations: 0, residual: 0.0, climbed: None };
         let norm = b.norm()?;
         if norm == 0.0 {
             x.set(0.0)?;
-            return Ok(LinearSolve { ending: Ending::Converged, iterations: 0, residual: 0.0 });
+            return Ok(solve);
         }
-        self.krylov.set_initial_guess_nonzero(true)?;
-        self.krylov.set_tolerance(tolerance, MOST_ITERATIONS)?;
         let mut r = b.duplicate()?;
         system.nest.residual(b, x, &mut r)?;
         if r.norm()? > norm {
             x.set(0.0)?;
         }
-        let (mut iterations, mut before) = (0, f64::INFINITY);
+        let mut before = f64::INFINITY;
         loop {
+            let patience = self.patience().min(MOST_ITERATIONS - solve.iterations);
+            self.krylov.set_initial_guess_nonzero(true)?;
+            self.krylov.set_tolerance(tolerance, patience)?;
             let solved = self.krylov.solve_allowing(b, x)?;
-            iterations += solved.iterations;
+            let needed = needed(&self.krylov.residual_history());
+            solve.iterations += solved.iterations;
             system.nest.residual(b, x, &mut r)?;
-            let residual = r.norm()? / norm;
-            if residual <= tolerance {
-                return Ok(LinearSolve { ending: Ending::Converged, iterations, residual });
+            solve.residual = r.norm()? / norm;
+            if solve.residual <= tolerance {
+                if self.form == Form::Augmented && self.rung.is_tired(needed, self.is_multigrid()) {
+                    self.climb(system, needed, &mut solve)?;
+                }
+                return Ok(solve);
             }
-            let falls = residual < 0.5 * before;
-            if !falls || iterations >= MOST_ITERATIONS {
-                let floor = self.rounding(system, x, norm)?;
-                let ending = if residual <= floor.min(MOST_ROUNDING) {
-                    Ending::Rounding(format!(
-                        "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
-                    ))
-                } else {
-                    let reason = if solved.converged { "the residual no longer falls".to_string() } else { solved.reason };
-                    Ending::Failed(format!("linear solver: {reason} after {iterations} iterations, residual {residual:.1e}"))
-                };
-                return Ok(LinearSolve { ending, iterations, residual });
+            let falls = solve.residual < 0.5 * before;
+            let slow = solved.iterations >= patience && needed > 1.0;
+            if slow && solve.iterations < MOST_ITERATIONS && self.climb(system, needed, &mut solve)? {
+                before = f64::INFINITY;
+            } else if !falls || solve.iterations >= MOST_ITERATIONS || self.is_exact(&solve) {
+                solve.ending = self.ending(system, x, norm, tolerance, &solve, solved)?;
+                return Ok(solve);
+            } else {
+                before = solve.residual;
             }
-            before = residual;
         }
+    }
+
+    fn is_multigrid(&self) -> bool {
+        !self.interpolations.is_empty()
+    }
+
+    /// Iterations before it is asked whether to climb.
+    fn patience(&self) -> usize {
+        match self.form {
+            Form::Augmented => self.rung.patience(self.is_multigrid()),
+            Form::Plain => MOST_ITERATIONS,
+        }
+    }
+
+    /// Whether a factor has had its iterations: a system that still resists has lost its inf-sup constant.
+    fn is_exact(&self, solve: &LinearSolve) -> bool {
+        self.form == Form::Augmented && self.rung == Rung::Factor && solve.iterations >= 2 * self.patience()
+    }
+
+    /// Takes the next rung that promises enough, if there is one. **Collective**
+    fn climb(&mut self, system: &SaddlePoint, needed: f64, solve: &mut LinearSolve) -> Result<bool, SystemError> {
+        if self.form == Form::Plain {
+            return Ok(false);
+        }
+        let unknowns = system.stiffness[system.stiffness.len() - 1].size().0;
+        let Some(rung) = self.rung.above(needed, self.is_multigrid(), unknowns) else { return Ok(false) };
+        *self = Self::field_split(system, std::mem::take(&mut self.interpolations), rung, &self.session)?;
+        solve.climbed = Some(self.name.clone());
+        Ok(true)
+    }
+
+    /// What a solve that does not reach its tolerance has come to. **Collective**
+    fn ending(
+        &self,
+        system: &SaddlePoint,
+        x: &Vector,
+        norm: f64,
+        tolerance: f64,
+        &LinearSolve { residual, iterations, .. }: &LinearSolve,
+        solved: Solved,
+    ) -> Result<Ending, SystemError> {
+        let floor = self.rounding(system, x, norm)?;
+        Ok(if residual <= floor.min(MOST_ROUNDING) {
+            Ending::Rounding(format!(
+                "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
+            ))
+        } else {
+            let reason = if solved.converged { "the residual no longer falls".to_string() } else { solved.reason };
+            Ending::Failed(format!("linear solver: {reason} after {iterations} iterations, residual {residual:.1e}"))
+        })
     }
 
     /// Size that rounding alone can give the relative residual: `10 ε |K| |x| / |b|`.
     fn rounding(&self, system: &SaddlePoint, x: &Vector, norm: f64) -> Result<f64, SystemError> {
         let stiffness = system.stiffness[system.stiffness.len() - 1].norm_infinity()?;
         Ok(10.0 * f64::EPSILON * stiffness * x.norm()? / norm)
-    }
-}
-
-/// Names and values of PETSc options.
-type Options = &'static [(&'static str, &'static str)];
-
-/// Defaults of the outer method and the block solvers; what a user gives after `--` wins.
-const FIELD_SPLIT: Options = &[
-    ("-ksp_type", "gmres"),
-    ("-ksp_pc_side", "right"),
-    ("-ksp_gmres_restart", "60"),
-    ("-ksp_norm_type", "unpreconditioned"),
-    // A start from another active set may be far off.
-    ("-ksp_divtol", "1e30"),
-    ("-pc_type", "fieldsplit"),
-    ("-fieldsplit_u_ksp_type", "preonly"),
-    ("-fieldsplit_lambda_ksp_type", "preonly"),
-    ("-fieldsplit_u_mg_levels_ksp_type", "richardson"),
-    ("-fieldsplit_u_mg_levels_ksp_max_it", "1"),
-    ("-fieldsplit_u_mg_levels_pc_type", "sor"),
-    ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
-];
-
-/// The exact inverse of `S`, for each of its patterns.
-fn lambda_options(pattern: SchurPattern, ranks: usize) -> Options {
-    match (pattern, ranks) {
-        (SchurPattern::Diagonal, _) => &[("-fieldsplit_lambda_pc_type", "jacobi")],
-        (SchurPattern::Pairs, _) => &[("-fieldsplit_lambda_pc_type", "pbjacobi")],
-        (SchurPattern::Mixed, 1) => &[("-fieldsplit_lambda_pc_type", "lu")],
-        (SchurPattern::Mixed, _) => &[("-fieldsplit_lambda_pc_type", "redundant")],
-    }
-}
-
-/// What solves on the coarsest level.
-#[derive(Clone, Copy)]
-enum CoarseSolver {
-    /// Factorisation by one rank.
-    Alone,
-    /// Factorisation by every rank for itself.
-    Redundant,
-    /// Factorisation by all ranks together.
-    Shared,
-    /// One cycle of BoomerAMG: the mesh has no coarser levels.
-    Algebraic,
-}
-
-impl CoarseSolver {
-    fn of(rows: usize, levels: usize, ranks: usize) -> Self {
-        match (rows, levels, ranks) {
-            (_, 1, _) => Self::Algebraic,
-            (..=SMALL, _, 1) => Self::Alone,
-            (..=SMALL, ..) => Self::Redundant,
-            (LARGE.., ..) | (_, 2, _) => Self::Algebraic,
-            _ => Self::Shared,
-        }
-    }
-
-    fn words(self, multigrid: bool) -> &'static str {
-        match (self, multigrid) {
-            (Self::Algebraic, false) => "BoomerAMG",
-            (Self::Algebraic, true) => "P2 smoother over BoomerAMG",
-            _ => "multigrid F-cycle",
-        }
-    }
-
-    fn options(self, multigrid: bool) -> Options {
-        match (self, multigrid) {
-            // Multigrid takes the place of `none` once the block solvers exist.
-            (Self::Alone, _) => &[("-fieldsplit_u_pc_type", "none"), ("-fieldsplit_u_mg_coarse_pc_type", "lu")],
-            (Self::Redundant, _) => &[
-                ("-fieldsplit_u_pc_type", "none"),
-                ("-fieldsplit_u_mg_coarse_pc_type", "redundant"),
-                ("-fieldsplit_u_mg_coarse_redundant_pc_type", "lu"),
-            ],
-            (Self::Shared, _) => &[
-                ("-fieldsplit_u_pc_type", "none"),
-                ("-fieldsplit_u_mg_coarse_pc_type", "cholesky"),
-                ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps"),
-            ],
-            (Self::Algebraic, true) => &[
-                ("-fieldsplit_u_pc_type", "none"),
-                ("-fieldsplit_u_mg_coarse_pc_type", "hypre"),
-                ("-fieldsplit_u_mg_coarse_pc_hypre_type", "boomeramg"),
-                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_coarsen_type", "HMIS"),
-                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_interp_type", "ext+i"),
-                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_strong_threshold", "0.25"),
-            ],
-            (Self::Algebraic, false) => &[
-                ("-fieldsplit_u_pc_type", "hypre"),
-                ("-fieldsplit_u_pc_hypre_type", "boomeramg"),
-                ("-fieldsplit_u_pc_hypre_boomeramg_coarsen_type", "HMIS"),
-                ("-fieldsplit_u_pc_hypre_boomeramg_interp_type", "ext+i"),
-                ("-fieldsplit_u_pc_hypre_boomeramg_strong_threshold", "0.25"),
-            ],
-        }
     }
 }

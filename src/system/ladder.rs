@@ -1,0 +1,101 @@
+//! The ladder of preconditioners: the cheapest one that does.
+//!
+//! A symmetric Gauss-Seidel sweep smooths well on good triangles and for ν up to about 0.45. Flat triangles and ν towards
+//! 0.5 wear it out; two or four steps of CG with the same sweep are stronger and cost two and four times as much; a
+//! Cholesky factor of `K + BᵀDB` always does, as long as there is memory for it.
+
+/// Iterations that a solve to 1e-8 may need before the next rung pays.
+const MOST: [(Rung, f64); 3] = [(Rung::Sweep, 26.0), (Rung::TwoSteps, 100.0), (Rung::FourSteps, 180.0)];
+
+/// Unknowns up to which a factor fits into memory.
+const LARGEST_FACTOR: usize = 3_000_000;
+
+/// What preconditions the displacements.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rung {
+    /// Multigrid with one symmetric Gauss-Seidel sweep; without levels an algebraic cycle.
+    #[default]
+    Sweep,
+    /// Multigrid with two steps of CG, preconditioned by the sweep.
+    TwoSteps,
+    /// Multigrid with four.
+    FourSteps,
+    /// A Cholesky factor.
+    Factor,
+}
+
+impl Rung {
+    /// Iterations after which it is asked whether to climb.
+    pub fn patience(self, multigrid: bool) -> usize {
+        match self {
+            Self::Sweep if multigrid => 20,
+            Self::Sweep => 60,
+            Self::TwoSteps => 40,
+            Self::FourSteps | Self::Factor => 60,
+        }
+    }
+
+    /// The rung for a system of `unknowns` that this one would need so many iterations for, from here to 1e-8; at least
+    /// the next one, if there is any.
+    pub fn above(self, needed: f64, multigrid: bool, unknowns: usize) -> Option<Self> {
+        let rungs = [Self::TwoSteps, Self::FourSteps, Self::Factor];
+        let fit = |rung: &Self| {
+            *rung > self && (multigrid || *rung == Self::Factor) && (*rung != Self::Factor || unknowns <= LARGEST_FACTOR)
+        };
+        let above: Vec<Self> = rungs.into_iter().filter(fit).collect();
+        let strong = |rung: &&Self| match self {
+            Self::Sweep => MOST.iter().all(|(other, most)| other != *rung || needed <= *most),
+            _ => true,
+        };
+        above.iter().find(strong).or(above.last()).copied()
+    }
+
+    /// Whether a solve at this rate leaves the next one to a higher rung.
+    pub fn is_tired(self, needed: f64, multigrid: bool) -> bool {
+        multigrid && self == Self::Sweep && needed > MOST[0].1
+    }
+
+    /// What it does, after the name of the cycle.
+    pub fn words(self, cycle: &str) -> String {
+        match self {
+            Self::Sweep => cycle.to_string(),
+            Self::TwoSteps => format!("{cycle}, smoothed by 2 CG steps"),
+            Self::FourSteps => format!("{cycle}, smoothed by 4 CG steps"),
+            Self::Factor => "Cholesky factor".to_string(),
+        }
+    }
+}
+
+/// Iterations to a relative residual of 1e-8 at the rate of the second half of a history of residual norms.
+pub fn needed(history: &[f64]) -> f64 {
+    let count = history.len();
+    if count < 3 {
+        return 0.0;
+    }
+    let half = count / 2;
+    let fall = (history[half] / history[count - 1]).ln() / (count - 1 - half) as f64;
+    if fall > 1e-6 { 1e8_f64.ln() / fall } else { f64::INFINITY }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rate_tells_the_iterations() {
+        let history: Vec<f64> = (0..=20).map(|k| 0.1f64.powf(f64::from(k) / 5.0)).collect();
+        assert!((needed(&history) - 40.0).abs() < 1e-9);
+        assert_eq!(needed(&[1.0; 20]), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_slow_solve_climbs_as_far_as_it_must() {
+        assert_eq!(Rung::Sweep.above(50.0, true, 1000), Some(Rung::TwoSteps));
+        assert_eq!(Rung::Sweep.above(150.0, true, 1000), Some(Rung::FourSteps));
+        assert_eq!(Rung::Sweep.above(1e9, true, 1000), Some(Rung::Factor));
+        assert_eq!(Rung::Sweep.above(1e9, true, 10_000_000), Some(Rung::FourSteps), "no memory for a factor");
+        assert_eq!(Rung::Sweep.above(50.0, false, 1000), Some(Rung::Factor), "no levels to smooth on");
+        assert_eq!(Rung::Factor.above(1e9, true, 1000), None);
+        assert!(Rung::Sweep.is_tired(27.0, true) && !Rung::TwoSteps.is_tired(27.0, true));
+    }
+}

@@ -1,0 +1,89 @@
+//! Contact boundaries that follow the bodies: every run of a grid ends, and what does not move is not solved again.
+
+mod support;
+
+use support::{Ended, PAIRS, Run};
+
+/// Contact boundaries that were solved for.
+fn fits(ended: &Ended) -> usize {
+    ended.value("/boundaries").as_array().expect("a list").len()
+}
+
+/// Mesh sizes, segments, spaces and loads; 60 runs, each in at most 12 fits. Resultants of the same load agree.
+#[test]
+fn a_cylinder_on_a_block_converges_for_all_meshes_segments_spaces_and_loads() {
+    for (load, force) in [(0.006, 4.37), (0.015, 12.47)] {
+        for (order, space) in PAIRS.into_iter().filter(|pair| *pair != (1, "p1-discontinuous")) {
+            for refine in 1..=3 {
+                for segments in ["auto", "6"] {
+                    let run = Run::case("hertz").set("exact.must_hold", false).set("support.press.uy", -load);
+                    let run = run.set("mesh.order", order).set("mesh.refine", refine);
+                    let ended = run.set("contact.seam.multiplier", space).set("contact.seam.segments", segments).converged();
+                    let found = ended.number("/contact/seam/force");
+                    let words = format!("P{order}/{space}, refine {refine}, {segments} segments, load {load}: {found}");
+                    println!("{words}, {} fits", fits(&ended));
+                    assert!(fits(&ended) <= 12, "{words}");
+                    assert!((found / force - 1.0).abs() < 0.04, "{words}");
+                }
+            }
+        }
+    }
+}
+
+/// Bodies that touch from the start along the whole of their boundaries: one fit is all.
+#[test]
+fn a_closed_contact_is_fitted_once() {
+    for case in ["patch_inclined", "rings"] {
+        let ended = Run::case(case).set("exact.must_hold", false).set("contact.seam.curve", "fit").ranks(2).converged();
+        assert_eq!(fits(&ended), 1, "{case}");
+    }
+}
+
+/// A declared straight line over a closed contact is one linear solve.
+#[test]
+fn a_declared_bilateral_contact_is_one_solve() {
+    let ended = Run::case("bars_inclined").set("contact.seam.law", "bilateral").ranks(2).converged();
+    assert_eq!((fits(&ended), ended.value("/outer").as_array().expect("a list").len()), (0, 1));
+}
+
+/// The end of contact of the parabola, far from any mesh node, by the pressure next to it.
+#[test]
+fn a_free_end_lies_where_contact_ends() {
+    let run = Run::case("bars_parabola").set("exact.must_hold", false).set("contact.seam.ends", "free").ranks(2);
+    let ended = run.set("contact.seam.segments", 140).converged();
+    let end = ended.number("/contact/seam/ends/1/0");
+    assert!((end - 3.910056179).abs() < 0.004, "{end}");
+    assert!((ended.number("/contact/seam/force") / 4.4606591682 - 1.0).abs() < 2e-4);
+}
+
+/// Bodies that are drawn apart while contact follows them: they part, and the pressure is zero.
+#[test]
+fn held_bodies_that_part_have_no_pressure() {
+    let ended = Run::case("hertz").set("exact.must_hold", false).set("support.press.uy", 0.01).set("mesh.refine", 1).converged();
+    assert!(ended.trace("seam").iter().all(|point| point.lambda == 0.0 && point.gap > 0.0));
+}
+
+/// Moments and forces of both bodies balance on the deformed bodies too.
+#[test]
+fn forces_balance_in_the_deformed_configuration() {
+    let run =
+        Run::case("hertz/deformed.toml").set("exact.must_hold", false).set("mesh.refine", 2).set("solver.tolerance", "1e-11");
+    let ended = run.ranks(2).converged();
+    for balance in ["force", "moment", "energy", "bodies"] {
+        let found = ended.number(&format!("/balance/{balance}"));
+        assert!(found < 1e-8, "{balance}: {found}");
+    }
+}
+
+/// Graded segments resolve the end of contact better than as many even ones.
+#[test]
+fn graded_segments_are_shorter_at_the_end_that_asks() {
+    let run = Run::case("hertz").set("exact.must_hold", false).set("mesh.refine", 2).set("contact.seam.segments", 8);
+    let ended = run.set("contact.seam.grading", "[1, 4]").set("contact.seam.stabilise", false).converged();
+    let mut ends: Vec<f64> = ended.trace("seam").windows(2).filter(|pair| pair[0].s == pair[1].s).map(|pair| pair[0].s).collect();
+    ends.insert(0, 0.0);
+    ends.push(ended.number("/contact/seam/length"));
+    assert_eq!(ends.len(), 9);
+    let length = |k: usize| ends[k + 1] - ends[k];
+    assert!(length(0) > 2.5 * length(7) && (length(0) / length(3) - 1.0).abs() < 1e-6, "{ends:?}");
+}
