@@ -6,7 +6,7 @@ use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
-use crate::system::{BoundaryStep, Discretisation, OuterStep};
+use crate::system::{BoundaryStep, Discretisation, OuterStep, Solution, Verdict};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -114,6 +114,19 @@ impl Report {
         if let Some(words) = &step.climbed {
             self.say(&format!("       slow; went over to {words}"));
         }
+    }
+
+    /// A coarser mesh that was solved first.
+    pub fn coarse(&self, refine: usize, problem: &Discretisation, solution: &Solution) {
+        let iterations: Vec<String> = solution.steps.iter().map(|step| step.krylov_iterations.to_string()).collect();
+        let active = solution.active.iter().filter(|active| **active).count();
+        let failed = if matches!(solution.verdict, Verdict::NotConverged(_)) { ", not converged: goes on without" } else { "" };
+        self.say(&format!(
+            "refine {refine}: {} unknowns, {active}/{} multipliers in contact, {} iterations{failed}",
+            problem.unknown_count(),
+            solution.active.len(),
+            iterations.join(" ")
+        ));
     }
 
     /// A contact boundary that was solved for, and how far it moves next.

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Balance, TracePoint};
-use crate::system::{BoundaryStep, Contact, Discretisation, Solution};
+use crate::system::{BoundaryStep, Contact, Discretisation, Estimate, Solution};
 
 /// What is known without the solution's fields.
 pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solution: &Solution, solver_name: &str) {
@@ -65,6 +65,16 @@ fn edge_count(problem: &Discretisation) -> usize {
     let count = problem.finest().numbering.level.triangles_per_edge();
     let mesh = &problem.scene.mesh;
     mesh.edges.len() * count + mesh.triangles.len() * (3 * count * (count - 1) / 2)
+}
+
+/// Estimated discretisation errors.
+pub fn estimate(summary: &mut Summary, problem: &Discretisation, estimate: &Estimate) {
+    summary.estimate.energy = estimate.energy;
+    for (at, contact) in problem.contacts.iter().enumerate() {
+        let of = |errors: &[Option<f64>]| errors.get(at).copied().flatten();
+        let errors = summary::ContactEstimate { force: of(&estimate.force), lambda: of(&estimate.pressure) };
+        summary.estimate.contact.insert(contact.pair.name.clone(), errors);
+    }
 }
 
 /// Energies and balances.

@@ -5,12 +5,14 @@
 //! sets. What the solution means on the bodies is in [`recovery`].
 
 mod boundary_motion;
+mod coarse_solution;
 mod contact;
 mod contact_loop;
 mod coupling;
 mod coupling_rows;
 mod discretisation;
 mod elastic;
+mod estimate;
 mod field;
 mod following;
 mod held;
@@ -28,12 +30,14 @@ mod space;
 mod stiffness_matrix;
 
 pub use boundary_motion::BoundaryMotion;
+pub use coarse_solution::CoarseSolution;
 pub use contact::Contact;
 pub use contact_loop::{ContactLoop, OuterStep, Solution, Start, Verdict};
 pub use coupling::{Coupled, Coupling, bilateral};
 pub use coupling_rows::CouplingRows;
 pub use discretisation::{Discretisation, spaces};
 pub use elastic::Elastic;
+pub use estimate::{Difference, Estimate};
 pub use field::Field;
 pub use following::{BoundaryStep, Following, Onward, carried, stands};
 pub use held::not_held;

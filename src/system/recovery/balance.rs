@@ -117,6 +117,16 @@ fn body_balance(contacts: &[Contact], forces: &[ContactForce], totals: &[[f64; 6
     totals.iter().enumerate().map(ratio).filter(|v| v.is_finite()).reduce(f64::max)
 }
 
+/// Strain energy of each body. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc or an inverted triangle.
+pub fn strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
+    let (mut strain, _) = internal_forces(problem, u, session)?;
+    session.sum(&mut strain);
+    Ok(strain)
+}
+
 /// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
 fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
     let (scene, space) = (&problem.scene, problem.finest());

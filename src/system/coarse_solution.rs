@@ -1,0 +1,199 @@
+//! What the solution on a coarser mesh says of the next finer one: where to start, which multipliers are active, where
+//! contact boundaries lie.
+
+use super::{BoundaryMotion, Contact, Discretisation, Field, Rung, Solution, SystemError};
+use crate::contact::{Known, Meeting, MultiplierSpace, SmoothSide};
+use crate::element::Order;
+use crate::geometry::Point;
+use crate::mesh::{EdgeNode, Numbering, lattice};
+use crate::petsc::Session;
+
+/// A solution on one refinement less.
+pub struct CoarseSolution {
+    displacement: Field<2>,
+    numbering: Numbering,
+    contacts: Vec<Contact>,
+    multipliers: Vec<f64>,
+    active: Vec<bool>,
+    /// The preconditioner it needed.
+    pub rung: Rung,
+}
+
+impl CoarseSolution {
+    /// Takes a solution and its contacts over from the mesh they were found on. **Collective**
+    pub fn new(problem: &mut Discretisation, solution: Solution, rung: Rung, session: &Session) -> Result<Self, SystemError> {
+        Ok(Self {
+            displacement: Field::displacement(problem, &solution.displacement, session)?,
+            numbering: problem.finest().numbering.clone(),
+            contacts: std::mem::take(&mut problem.contacts),
+            multipliers: solution.multipliers,
+            active: solution.active,
+            rung,
+        })
+    }
+
+    /// The same displacement on the next refinement: this rank's unknowns in the nodes' frames.
+    pub fn displacement(&self, problem: &Discretisation, rank: usize) -> Vec<f64> {
+        let (mesh, space) = (&problem.scene.mesh, problem.finest());
+        let n = space.numbering.level.intervals;
+        let mut values = vec![0.0; space.local_unknowns()];
+        for &triangle in problem.scene.partition.triangles_of(rank) {
+            let coarse = self.numbering.triangle(mesh, triangle as usize);
+            let fine = space.numbering.triangle(mesh, triangle as usize);
+            for (i, j) in lattice::nodes(n) {
+                let node = fine.node(i, j);
+                if !space.own.contains(&node) {
+                    continue;
+                }
+                let mut u = Point::zeros();
+                for ((k, l), weight) in weights(space.numbering.level.order, n, i, j) {
+                    u += weight * self.displacement.point(coarse.node(k, l));
+                }
+                let at = 2 * (node - space.own.start);
+                let u = space.to_frame(node, u);
+                (values[at], values[at + 1]) = (u.x, u.y);
+            }
+        }
+        values
+    }
+
+    /// Pressures and states of the multipliers of the same contacts cut anew.
+    pub fn multipliers(&self, contacts: &[Contact]) -> (Vec<f64>, Vec<bool>) {
+        let (mut values, mut active) = (Vec::new(), Vec::new());
+        for (old, new) in self.contacts.iter().zip(contacts) {
+            let knots = new.boundary.knots();
+            for i in 0..new.multipliers.count() {
+                let t = match new.multipliers.space {
+                    MultiplierSpace::P0 => 0.5 * (knots[i] + knots[i + 1]),
+                    MultiplierSpace::P1Continuous => knots[i],
+                    // A little inside, where the segment is known.
+                    MultiplierSpace::P1Discontinuous => {
+                        let [a, b] = [knots[i / 2], knots[i / 2 + 1]];
+                        if i % 2 == 0 { a + 1e-3 * (b - a) } else { b - 1e-3 * (b - a) }
+                    }
+                };
+                let (segment, z) = old.boundary.locate(old.boundary.foot(new.boundary.point(t)));
+                let z = z.clamp(0.0, 1.0);
+                let rows = old.multipliers.on_segment(segment, 0.0).0;
+                let nearest = old.first + if z < 0.5 { rows[0] } else { rows[1] };
+                let carries = self.active[nearest];
+                active.push(carries);
+                let pressure = old.multipliers.value(&self.multipliers[old.range()], segment, z);
+                values.push(if carries { pressure } else { 0.0 });
+            }
+        }
+        (values, active)
+    }
+
+    /// Places the contacts of a finer mesh: those that follow begin where these have ended. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a boundary cannot be placed.
+    pub fn contacts(
+        &self,
+        problem: &Discretisation,
+        unknowns: &[f64],
+        session: &Session,
+    ) -> Result<(Vec<Contact>, BoundaryMotion), SystemError> {
+        let (scene, space) = (&problem.scene, problem.finest());
+        let motion = BoundaryMotion::new(problem, unknowns, session);
+        let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
+        let mut known = Vec::new();
+        for old in &self.contacts {
+            let mut meeting = None;
+            if old.known.meeting.is_some() {
+                let sides = SmoothSide::of_pair(&scene.mesh, &space.numbering, &old.pair, &displacement);
+                meeting = Meeting::now(&sides, &old.pair)
+                    .map_err(|words| SystemError::Case(format!("contact.{}: {words}", old.pair.name)))?;
+            }
+            known.push(Known { meeting, ..Known::default() });
+        }
+        let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
+        if problem.scene.pairs.iter().any(|pair| pair.follows()) {
+            for ((known, new), old) in known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.has_free_ends())
+            {
+                let knots = old.boundary.knots();
+                let feet = [knots[0], knots[knots.len() - 1]].map(|t| new.boundary.foot(old.boundary.point(t)));
+                known.meeting.clone_from(&new.known.meeting);
+                known.ends = Some([feet[0].min(feet[1]), feet[0].max(feet[1])]);
+            }
+            contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
+        }
+        Ok((contacts, motion))
+    }
+
+    /// `∫λ ds` of each contact.
+    pub fn forces(&self) -> Vec<f64> {
+        let force = |contact: &Contact| {
+            let weighted = |i: usize| self.multipliers[i] * contact.multipliers.weight(i - contact.first);
+            contact.range().map(weighted).sum()
+        };
+        self.contacts.iter().map(force).collect()
+    }
+
+    /// Pressure of a contact at the foot of a point.
+    pub fn pressure(&self, contact: usize, x: Point) -> f64 {
+        let old = &self.contacts[contact];
+        let (segment, z) = old.boundary.locate(old.boundary.foot(x));
+        old.multipliers.value(&self.multipliers[old.range()], segment, z.clamp(0.0, 1.0))
+    }
+}
+
+/// Nodes of the coarser lattice, and their weights, in fine node `(i, j)` at `n` intervals: the shape functions of the
+/// coarse triangle that holds it. Nodes without weight are left out.
+fn weights(order: Order, n: usize, i: usize, j: usize) -> impl Iterator<Item = ((usize, usize), f64)> {
+    let step = 2 * order.degree();
+    let count = n / step;
+    let (mut a, mut b) = (i / step, j / step);
+    // On the far edge the last triangle holds it.
+    if a + b >= count {
+        if a > 0 && i % step == 0 {
+            a -= 1
+        } else if b > 0 && j % step == 0 {
+            b -= 1
+        }
+    }
+    let (x, y) = ((i - a * step) as f64 / step as f64, (j - b * step) as f64 / step as f64);
+    let down = x + y > 1.0;
+    let l = if down { [x + y - 1.0, 1.0 - x, 1.0 - y] } else { [1.0 - x - y, x, y] };
+    let half = order.degree();
+    let corner = if down { [(a + 1) * half, (b + 1) * half] } else { [a * half, b * half] };
+    let sign = if down { -1 } else { 1 };
+    let node = move |di: usize, dj: usize| {
+        (corner[0].wrapping_add_signed(sign * di as isize), corner[1].wrapping_add_signed(sign * dj as isize))
+    };
+    let all = match order {
+        Order::P1 => vec![(node(0, 0), l[0]), (node(1, 0), l[1]), (node(0, 1), l[2])],
+        Order::P2 => vec![
+            (node(0, 0), l[0] * (2.0 * l[0] - 1.0)),
+            (node(2, 0), l[1] * (2.0 * l[1] - 1.0)),
+            (node(0, 2), l[2] * (2.0 * l[2] - 1.0)),
+            (node(1, 0), 4.0 * l[0] * l[1]),
+            (node(1, 1), 4.0 * l[1] * l[2]),
+            (node(0, 1), 4.0 * l[2] * l[0]),
+        ],
+    };
+    all.into_iter().filter(|(_, weight)| *weight != 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_of_the_order_are_carried_exactly() {
+        for (order, n) in [(Order::P1, 8), (Order::P2, 8), (Order::P2, 4), (Order::P1, 2)] {
+            let degree = order.degree() as i32;
+            let value = |x: f64, y: f64| 1.0 + 2.0 * x - y + if degree == 2 { x * x - 3.0 * x * y + 0.5 * y * y } else { 0.0 };
+            for (i, j) in lattice::nodes(n) {
+                let found: f64 = weights(order, n, i, j)
+                    .map(|((k, l), weight)| {
+                        assert!(k + l <= n / 2, "({k}, {l}) is a node");
+                        weight * value(2.0 * k as f64, 2.0 * l as f64)
+                    })
+                    .sum();
+                assert!((found - value(i as f64, j as f64)).abs() < 1e-12, "{order:?} {n} ({i}, {j})");
+            }
+        }
+    }
+}
