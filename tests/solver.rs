@@ -89,3 +89,16 @@ fn without_levels_near_1e4_unknowns() {
 fn without_levels_near_1e5_unknowns() {
     without_levels([32, 16], "no levels");
 }
+
+/// Rounding is all that stops it: MUMPS's own pivot threshold ran out of memory from ν = 0.4999 on.
+#[test]
+fn the_direct_solver_nearly_incompressible() {
+    for poisson in [0.49, 0.499, 0.4999, 0.49999] {
+        for ranks in RANKS {
+            let run = bars().ranks(ranks).set("solver.name", "direct").set("mesh.refine", 3);
+            let ended = run.set("body.lower.poisson", poisson).set("body.upper.poisson", poisson).converged();
+            assert!(ended.iterations() <= 3, "ν = {poisson}, {ranks} ranks: {} iterations", ended.iterations());
+            assert!((ended.number("/contact/seam/force") / 37f64.sqrt() - 1.0).abs() < 1e-7, "ν = {poisson}, {ranks} ranks");
+        }
+    }
+}

@@ -71,7 +71,6 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let jumped: f64 = problem
         .jumps()
-        .filter(|jump| jump.rows.iter().all(|&i| solution.active[i]))
         .map(|jump| jump.weight * (solution.multipliers[jump.rows[0]] - solution.multipliers[jump.rows[1]]).powi(2))
         .sum();
     let (twice, external) = (2.0 * strain.iter().sum::<f64>(), work[0] + work[1]);
