@@ -77,7 +77,7 @@ fn without_levels(n: [usize; 2], words: &str) {
         std::fs::create_dir(&folder).expect("a folder");
         write_scene(&folder, &Mesh::inclined_bars(n).text(), BARS)
     });
-    at_most(NO_LEVELS, words, |order| Run::file(&files[order - 1]));
+    at_most(NO_LEVELS, words, |order| Run::file(&files[order - 1]).set("solver.name", "fieldsplit"));
 }
 
 #[test]

@@ -23,6 +23,10 @@ impl Run<'_> {
     ) -> Result<(Solution, Prepared), RunError> {
         let exact = pass.tolerance.residual();
         let mut following = Following::new(problem, exact, begin.is_some());
+        if pass.heard {
+            self.report.follows(following.tolerances());
+            self.report.head();
+        }
         let mut prepared = self.prepare(problem, lasting, rung)?;
         let mut pass = Pass { tolerance: Tolerance::Residual(exact.max(ON_THE_WAY)), ..pass };
         let mut solution = self.solve_on(problem, &mut prepared, begin, pass)?;

@@ -62,7 +62,6 @@ impl Report {
                 contact.boundary.length()
             ));
         }
-        self.say("outer  active       +/-  Krylov  residual  penetration     du");
     }
 
     /// A line of warning on standard error, also if the run is quiet.
@@ -95,6 +94,18 @@ impl Report {
                 contact.pair.name, contact.segment_ratio, contact.safe_ratio
             ));
         }
+    }
+
+    /// Heads the table of passes.
+    pub fn head(&self) {
+        self.say("outer  active       +/-  Krylov  residual  penetration     du");
+    }
+
+    /// What it takes for boundaries to stand.
+    pub fn follows(&self, [boundary, displacement]: [f64; 2]) {
+        self.say(&format!(
+            "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes"
+        ));
     }
 
     /// A pass of the contact loop.

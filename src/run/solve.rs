@@ -7,7 +7,7 @@ use crate::output::summary::CoarseSolve;
 use crate::petsc::Matrix;
 use crate::system::{
     CoarseSolution, ContactLoop, Difference, Discretisation, Elastic, Estimate, Form, LinearSolver, OuterStep, Rung, SaddlePoint,
-    Solution, Start, Tolerance, Verdict, bilateral, inf_sup, interpolations, load, nodal_forces, not_held,
+    Solution, SolverChoice, Start, Tolerance, Verdict, bilateral, inf_sup, interpolations, load, nodal_forces, not_held,
 };
 
 /// Displacement unknowns up to which a failed solve is looked into.
@@ -69,12 +69,13 @@ impl Run<'_> {
             let solution = Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all);
             return Ok(Solved { solution, solver: "none".into(), estimate: Estimate::default(), coarse: Vec::new() });
         }
+        let first = self.first_rung(problem);
         let mut solves = Vec::new();
         let (coarse, mut differences) = self.coarser_meshes(problem, &mut solves)?;
         let begin = self.refine(problem, coarse.as_ref())?;
         let tolerance = self.case.solver.tolerance;
         let tolerance = if begin.is_some() { tolerance } else { Tolerance::Residual(tolerance.residual()) };
-        let rung = coarse.as_ref().map_or(Rung::default(), |coarse| coarse.rung);
+        let rung = coarse.as_ref().map_or(first, |coarse| coarse.rung);
         let (mut solution, prepared) = self.solve_mesh(problem, begin, rung, tolerance, true)?;
         if let Some(coarse) = &coarse {
             let _stage = self.stages.output.enter();
@@ -82,6 +83,16 @@ impl Run<'_> {
         }
         self.measure_inf_sup(problem, &prepared.system, &mut solution)?;
         Ok(Solved { solution, solver: prepared.solver.name, estimate: Estimate::new(&differences), coarse: solves })
+    }
+
+    /// Where the ladder begins; what `name = "auto"` comes to is said with its reason.
+    fn first_rung(&self, problem: &Discretisation) -> Rung {
+        if self.case.solver.choice != SolverChoice::Auto {
+            return Rung::default();
+        }
+        let (rung, reason) = Rung::first(problem.scene.refine + 1, problem.unknown_count());
+        self.report.say(&format!("solver: {reason}"));
+        rung
     }
 
     /// Solutions on coarser meshes, as far as they can be had: the last one, and how they differ. **Collective**
@@ -174,6 +185,9 @@ impl Run<'_> {
         let pass = Pass { boundary: 1, passes: 0, tolerance, heard };
         if problem.follows() {
             return self.follow(problem, &lasting, begin, rung, pass);
+        }
+        if heard {
+            self.report.head();
         }
         let mut prepared = self.prepare(problem, &lasting, rung)?;
         let solution = self.solve_on(problem, &mut prepared, begin, pass)?;

@@ -74,6 +74,11 @@ impl Following {
         }
     }
 
+    /// Changes of the boundary and of the displacement at which they stand.
+    pub fn tolerances(&self) -> [f64; 2] {
+        [STILL_BOUNDARY, STILL_DISPLACEMENT].map(|factor| factor * self.tolerance)
+    }
+
     /// Looks at the solution on boundary `number` (from 1) and places the boundaries again. **Collective**
     ///
     /// # Errors
@@ -97,11 +102,12 @@ impl Following {
         let moved = way(&problem.contacts, &next);
         let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
         let step = BoundaryStep { iteration: number, length, moved, du, flipped };
-        let still = du.is_some_and(|du| du <= STILL_DISPLACEMENT * self.tolerance) && flipped == Some(0);
+        let [still_boundary, still_displacement] = self.tolerances();
+        let still = du.is_some_and(|du| du <= still_displacement) && flipped == Some(0);
         let onward = match moved {
             // The same boundary has the same solution.
             Some(0.0) => Onward::Stands,
-            Some(way) if way <= STILL_BOUNDARY * self.tolerance && still => Onward::Stands,
+            Some(way) if way <= still_boundary && still => Onward::Stands,
             _ if number >= MOST_BOUNDARIES => Onward::GivenUp(given_up(&step)),
             _ => Onward::Again(next, motion),
         };

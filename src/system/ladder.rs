@@ -10,6 +10,9 @@ const MOST: [(Rung, f64); 3] = [(Rung::Sweep, 26.0), (Rung::TwoSteps, 100.0), (R
 /// Unknowns up to which a factor fits into memory.
 const LARGEST_FACTOR: usize = 3_000_000;
 
+/// Unknowns up to which a factor is quicker than an algebraic cycle where the mesh has no levels.
+const QUICK_FACTOR: usize = 500_000;
+
 /// What preconditions the displacements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
@@ -25,6 +28,19 @@ pub enum Rung {
 }
 
 impl Rung {
+    /// Where to begin if the choice is free, and why, in words. `levels` are those of the mesh, the macro mesh among them.
+    pub fn first(levels: usize, unknowns: usize) -> (Self, String) {
+        if levels > 1 {
+            return (Self::Sweep, format!("fieldsplit with multigrid, because the mesh has {levels} levels"));
+        }
+        let begin = format!("because the mesh has no levels (refine = 0), and {unknowns} unknowns are");
+        if unknowns <= QUICK_FACTOR {
+            (Self::Factor, format!("fieldsplit with a Cholesky factor, {begin} no more than {QUICK_FACTOR}"))
+        } else {
+            (Self::Sweep, format!("fieldsplit with an algebraic cycle, {begin} more than {QUICK_FACTOR}"))
+        }
+    }
+
     /// Iterations after which it is asked whether to climb.
     pub fn patience(self, multigrid: bool) -> usize {
         match self {
@@ -86,6 +102,13 @@ mod tests {
         let history: Vec<f64> = (0..=20).map(|k| 0.1f64.powf(f64::from(k) / 5.0)).collect();
         assert!((needed(&history) - 40.0).abs() < 1e-9);
         assert_eq!(needed(&[1.0; 20]), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_small_mesh_without_levels_begins_with_a_factor() {
+        assert_eq!(Rung::first(1, 10_000).0, Rung::Factor);
+        assert_eq!(Rung::first(1, 1_000_000).0, Rung::Sweep);
+        assert_eq!(Rung::first(3, 10_000).0, Rung::Sweep);
     }
 
     #[test]
