@@ -2,8 +2,9 @@
 
 use super::{Scene, SystemError};
 use crate::contact::{
-    Configuration, ContactBoundary, CurveChoice, Displacement, Distance, EndRule, GapChoice, Jump, Known, Law, MultiplierSpace,
-    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_ratio, softer_edge_length,
+    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, EndRule, GapChoice, Jump, Known, Law,
+    MultiplierSpace, Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_ratio,
+    softer_edge_length,
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};
@@ -172,4 +173,14 @@ impl Contact {
         };
         self.boundary.knots().windows(2).map(owner).collect()
     }
+}
+
+/// `D` of all contacts, numbered through.
+pub(super) fn weights(contacts: &[Contact], active: &[bool]) -> Vec<DiagonalBlock> {
+    let own = |contact: &Contact| {
+        let mut blocks = contact.multipliers.augmentation(contact.modulus, &active[contact.range()]);
+        blocks.iter_mut().flat_map(|block| &mut block.rows).for_each(|row| *row += contact.first);
+        blocks
+    };
+    contacts.iter().flat_map(own).collect()
 }
