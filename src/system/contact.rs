@@ -2,9 +2,8 @@
 
 use super::{Scene, SystemError};
 use crate::contact::{
-    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, EndRule, GapChoice, Jump, Known, Law,
-    MultiplierSpace, Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_ratio,
-    softer_edge_length,
+    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, GapChoice, Jump, Known, MultiplierSpace,
+    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_ratio, softer_edge_length,
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};
@@ -139,9 +138,15 @@ impl Contact {
         self.segment_ratio < SHORT * self.safe_ratio
     }
 
-    /// Whether its ends follow the pressure.
-    pub fn has_free_ends(&self) -> bool {
-        self.pair.ends == EndRule::Free && self.pair.law == Law::Unilateral
+    /// Length of the longest edge of the softer body that its shortest segment meets.
+    pub fn edge_length(&self) -> f64 {
+        let shortest = (0..self.boundary.segments()).map(|k| self.boundary.segment_length(k)).fold(f64::INFINITY, f64::min);
+        shortest / self.segment_ratio
+    }
+
+    /// Whether the whole of it is shorter than an edge: no figure of its pressure means anything then.
+    pub fn is_smaller_than_an_edge(&self) -> bool {
+        self.boundary.length() < self.edge_length()
     }
 
     /// Numbers of its multipliers.
