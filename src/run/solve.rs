@@ -69,7 +69,7 @@ impl Run<'_> {
         let (mut solution, prepared) = if problem.follows() {
             self.follow(problem, &lasting)?
         } else {
-            let mut prepared = self.prepare(problem, &lasting, Rung::default())?;
+            let mut prepared = self.prepare(problem, &lasting, Rung::first(&problem.scene))?;
             let pass = Pass { boundary: 1, passes: 0, tolerance: self.case.solver.tolerance };
             (self.solve_on(problem, &mut prepared, None, pass)?, prepared)
         };
@@ -128,7 +128,7 @@ impl Run<'_> {
     fn follow(&self, problem: &mut Discretisation, lasting: &Lasting) -> Result<(Solution, Prepared), RunError> {
         let exact = self.case.solver.tolerance;
         let mut following = Following::new(problem, exact);
-        let mut prepared = self.prepare(problem, lasting, Rung::default())?;
+        let mut prepared = self.prepare(problem, lasting, Rung::first(&problem.scene))?;
         let mut pass = Pass { boundary: 1, passes: 0, tolerance: exact.max(ON_THE_WAY) };
         let mut solution = self.solve_on(problem, &mut prepared, None, pass)?;
         let (mut steps, mut boundaries) = (std::mem::take(&mut solution.steps), Vec::new());

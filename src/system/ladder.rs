@@ -4,6 +4,8 @@
 //! 0.5 wear it out; two or four steps of CG with the same sweep are stronger and cost two and four times as much; a
 //! Cholesky factor of `K + BᵀDB` always does, as long as there is memory for it.
 
+use super::Scene;
+
 /// Iterations that a solve to 1e-8 may need before the next rung pays.
 const MOST: [(Rung, f64); 3] = [(Rung::Sweep, 26.0), (Rung::TwoSteps, 100.0), (Rung::FourSteps, 180.0)];
 
@@ -11,10 +13,9 @@ const MOST: [(Rung, f64); 3] = [(Rung::Sweep, 26.0), (Rung::TwoSteps, 100.0), (R
 const LARGEST_FACTOR: usize = 3_000_000;
 
 /// What preconditions the displacements.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
     /// Multigrid with one symmetric Gauss-Seidel sweep; without levels an algebraic cycle.
-    #[default]
     Sweep,
     /// Multigrid with two steps of CG, preconditioned by the sweep.
     TwoSteps,
@@ -24,7 +25,16 @@ pub enum Rung {
     Factor,
 }
 
+/// Ratio of graded refinement below which triangles are too flat for a sweep: it needs more iterations on each level.
+const FLAT: f64 = 0.25;
+
 impl Rung {
+    /// The rung to begin on.
+    pub fn first(scene: &Scene) -> Self {
+        let flat = scene.refine > 0 && scene.mesh.ratios.iter().flatten().any(|&ratio| ratio < FLAT);
+        if flat { Self::TwoSteps } else { Self::Sweep }
+    }
+
     /// Iterations after which it is asked whether to climb.
     pub fn patience(self, multigrid: bool) -> usize {
         match self {
