@@ -181,6 +181,41 @@ fn matching(edges: &[Vec<BoundaryEdge>; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Curve;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    /// Both sides of the seam of two blocks, refined towards its left end, and the seam.
+    fn graded_seam(ratio: f64) -> ([Vec<BoundaryEdge>; 2], ContactBoundary) {
+        let mut mesh = two_blocks();
+        mesh.grade(Point::new(0.0, 1.0), ratio).expect("a vertex of each block");
+        let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
+        let numbering = Numbering::new(Level { intervals: 64, order: Order::P2 }, &partition);
+        let edges = ["lower.seam", "upper.seam"].map(|name| {
+            let edges = &mesh.boundary(name).expect("named").edges;
+            edges.iter().flat_map(|&edge| BoundaryEdge::all_of(&mesh, edge, &numbering)).collect()
+        });
+        let line = Curve::Line([[0.0, 1.0], [2.0, 1.0]]);
+        (edges, ContactBoundary::new(line, [0.0, 1.0], Point::new(0.0, 1.0)))
+    }
+
+    #[test]
+    fn automatic_segments_hold_as_many_edges_each() {
+        let young = [1.0, 1.0];
+        for (ratio, shortening) in [(0.5, 1.0), (0.3, 5.0), (0.15, 50.0)] {
+            let (edges, mut boundary) = graded_seam(ratio);
+            let count = EdgeCount::new(&boundary, &edges, young);
+            assert_eq!(count.most_parts(1.5), 21, "1.5 of the 32 edges of the lower block");
+            boundary.cut(&count.even_parts(21));
+            let edges_of = |k: usize| count.before(boundary.arcs()[k + 1]) - count.before(boundary.arcs()[k]);
+            assert!((0..21).all(|k| (edges_of(k) / edges_of(0) - 1.0).abs() < 1e-9));
+            assert!((segment_ratio(&boundary, &edges, young) / edges_of(0) - 1.0).abs() < 1e-9);
+            let [first, last] = [0, 20].map(|k| boundary.segment_length(k));
+            assert!(first * shortening <= last * (1.0 + 1e-9), "ratio {ratio}: {first}, {last}");
+            assert!((count.place(count.before(0.7)) - 0.7).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn graded_segments_shorten_towards_their_ends() {
