@@ -20,7 +20,7 @@ use crate::body::{Body, Load, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
-use crate::system::SolverChoice;
+use crate::system::{SolverChoice, Tolerance};
 
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
@@ -99,8 +99,8 @@ pub struct Geometry {
 pub struct Solver {
     /// Which solver.
     pub choice: SolverChoice,
-    /// Relative residual of the scaled augmented system, in (0, 0.01].
-    pub tolerance: f64,
+    /// Relative residual of the scaled augmented system, in (0, 0.01], or by the discretisation error.
+    pub tolerance: Tolerance,
     /// Whether the inf-sup constants are reported; by default where that is cheap.
     pub inf_sup: Option<bool>,
 }

@@ -12,7 +12,7 @@ use super::{Geometry, MeshChoice, Probe, Solver};
 use crate::body::{Body, Load, LoadKind, Material, Support};
 use crate::element::Order;
 use crate::geometry::Curve;
-use crate::system::SolverChoice;
+use crate::system::{SolverChoice, Tolerance};
 
 /// More refinements than fit any machine.
 const MOST_REFINEMENTS: i64 = 12;
@@ -133,9 +133,10 @@ pub fn read_solver(root: &Section) -> Option<Solver> {
         ]),
     );
     let tolerance = section.or("tolerance", 1e-8, |value| match value {
-        Value::String(word) if word == "discretisation" => Err("not available yet; give a number like 1e-8".into()),
+        Value::String(word) if word == "discretisation" => Ok(Tolerance::Discretisation),
+        Value::String(_) => Err("must be a number like 1e-8, or \"discretisation\"".into()),
         _ => match values::number(value)? {
-            tolerance if tolerance > 0.0 && tolerance <= 1e-2 => Ok(tolerance),
+            tolerance if tolerance > 0.0 && tolerance <= 1e-2 => Ok(Tolerance::Residual(tolerance)),
             _ => Err("must lie in (0, 0.01]; 1e-8 is the default".into()),
         },
     });

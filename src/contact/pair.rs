@@ -34,6 +34,19 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// The pair on a mesh that is `times` refinements coarser, with as many segments less.
+    pub fn coarser(&self, times: usize) -> Self {
+        let segments = match &self.segments {
+            SegmentRule::Auto => SegmentRule::Auto,
+            SegmentRule::Count(count) => SegmentRule::Count((count >> times).max(1)),
+            SegmentRule::Fractions(fractions) => {
+                let inner = fractions[..fractions.len() - 1].iter().step_by(1 << times);
+                SegmentRule::Fractions(inner.copied().chain([1.0]).collect())
+            }
+        };
+        Self { segments, ..self.clone() }
+    }
+
     /// Whether its contact boundary depends on the solution.
     pub fn follows(&self) -> bool {
         self.curve == CurveChoice::Fit || self.ends == EndRule::Free

@@ -1,149 +1,12 @@
-//! Graded refinement: next to a graded vertex the new node on an edge goes to the fraction κ < ½ from the vertex.
-//!
-//! ```text
-//!   2
-//!   |  \             One refinement, graded at corner 0. The child there is the triangle itself, κ times as large,
-//!   |     \          and is graded again; the three others are refined evenly. So positions are affine in the lattice
-//!   |        o       on each of these pieces, the levels nest, and there are few shapes: the pieces of one child are
-//!   |     // |       like those of the next. Where both ends of an edge are graded its middle is taken; after one
-//!   |   / /  |       refinement no triangle has more than one graded corner.
-//!   o  /  /   \
-//!   | \  /     |
-//!   0--o-------1
-//! ```
-//! Order k in the energy norm for `u ~ r^α` wants `κ <= 2^(-k/α)`: Băcuță, Nistor, Zikatanov, Improving the rate of
-//! convergence of 'high order finite elements' on polygons and domains with cusps, Numerische Mathematik 100 (2005), 165-184.
+//! Macro meshes that are refined towards some of their vertices: where nodes lie, and what they are made of.
 
 use super::lattice::{self, Place};
+use super::piece::{Piece, Shapes, fraction, weights};
 use super::{Level, MacroMesh};
-use crate::geometry::{Point, cross};
+use crate::geometry::Point;
 
 /// Points closer to a macro vertex than this share of the mesh's size name it.
 const SAME: f64 = 1e-6;
-
-/// Fraction, from the first end of an edge, of its new node; `ratios` are the κ of its ends, if they are graded.
-fn fraction(ratios: [Option<f64>; 2]) -> f64 {
-    match ratios {
-        [Some(ratio), None] => ratio,
-        [None, Some(ratio)] => 1.0 - ratio,
-        _ => 0.5,
-    }
-}
-
-/// A triangle of the hierarchy over one macro triangle, in the reference triangle.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    corners: [Point; 3],
-    /// κ of the graded corners.
-    ratios: [Option<f64>; 3],
-    /// Refinements that are left.
-    left: u32,
-    /// See [`Shapes`].
-    shape: usize,
-}
-
-impl Piece {
-    fn whole(ratios: [Option<f64>; 3], refinements: u32) -> Self {
-        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Point::from);
-        Self { corners, ratios, left: refinements, shape: 0 }
-    }
-
-    /// Whether its refinement moves nodes away from the middle; otherwise positions in it are affine in the lattice.
-    fn is_graded(&self) -> bool {
-        self.left > 0 && self.ratios.iter().any(Option::is_some)
-    }
-
-    /// The child at corner `k < 3`, its corners in the same order; with `k = 3` the one in the middle, whose corner `j` is
-    /// the new node opposite to corner `j`.
-    fn child(&self, k: usize) -> Self {
-        let node = |a: usize, b: usize| {
-            let t = fraction([self.ratios[a], self.ratios[b]]);
-            self.corners[a] * (1.0 - t) + self.corners[b] * t
-        };
-        let corners = [0, 1, 2].map(|j| match k {
-            3 => node((j + 1) % 3, (j + 2) % 3),
-            _ if j == k => self.corners[k],
-            _ => node(k, j),
-        });
-        let mut ratios = [None; 3];
-        if k < 3 {
-            ratios[k] = self.ratios[k];
-        }
-        let first = if self.shape == 0 { k } else { (self.shape - 1) / 4 };
-        Self { corners, ratios, left: self.left - 1, shape: 1 + 4 * first + k }
-    }
-
-    /// The affine piece that holds a lattice point, with the point's barycentric coordinates in it.
-    fn below(mut self, mut l: [f64; 3]) -> (Self, [f64; 3]) {
-        while self.is_graded() {
-            let corner = (0..3).find(|&k| l[k] >= 0.5);
-            l = match corner {
-                Some(k) => [0, 1, 2].map(|j| if j == k { 2.0 * l[j] - 1.0 } else { 2.0 * l[j] }),
-                None => l.map(|v| 1.0 - 2.0 * v),
-            };
-            self = self.child(corner.unwrap_or(3));
-        }
-        (self, l)
-    }
-
-    /// Barycentric coordinates in the lattice of a point of the reference triangle.
-    fn lattice_of(&self, x: Point) -> [f64; 3] {
-        if !self.is_graded() {
-            return self.barycentric(x);
-        }
-        let least = |k: usize| self.child(k).barycentric(x).into_iter().fold(f64::INFINITY, f64::min);
-        let k = (0..4).max_by(|&a, &b| least(a).total_cmp(&least(b))).unwrap_or(3);
-        let l = self.child(k).lattice_of(x);
-        match k {
-            3 => l.map(|v| 0.5 * (1.0 - v)),
-            _ => [0, 1, 2].map(|j| if j == k { 0.5 * (1.0 + l[j]) } else { 0.5 * l[j] }),
-        }
-    }
-
-    fn barycentric(&self, x: Point) -> [f64; 3] {
-        let [a, b, c] = self.corners;
-        let whole = cross(b - a, c - a);
-        let [first, second] = [cross(b - x, c - x) / whole, cross(c - x, a - x) / whole];
-        [first, second, 1.0 - first - second]
-    }
-}
-
-/// Barycentric coordinates of the point `(xi, eta)` of the reference triangle.
-fn weights(at: Point) -> [f64; 3] {
-    [1.0 - at.x - at.y, at.x, at.y]
-}
-
-/// The shapes of the affine pieces of one macro triangle. A piece of shape `1 + 4 a + b` lies in the child at `a` of the
-/// whole (3: in the middle), and is the child at `b` of the child before it; shape 0 is the whole.
-pub struct Shapes {
-    whole: Piece,
-    intervals: usize,
-}
-
-impl Shapes {
-    /// How many there can be.
-    pub const COUNT: usize = 17;
-
-    /// Whether there is but one, because refinement is even.
-    pub fn is_one(&self) -> bool {
-        !self.whole.is_graded()
-    }
-
-    /// Shape of a triangle of the lattice, by its corners.
-    pub fn of(&self, corners: [(usize, usize); 3]) -> usize {
-        let sum = corners.iter().fold([0, 0], |[i, j], corner| [i + corner.0, j + corner.1]);
-        let middle = sum.map(|v| v as f64 / (3 * self.intervals) as f64);
-        self.whole.below(weights(middle.into())).0.shape
-    }
-
-    /// Corners, in the reference triangle, of a triangle like those of a shape but for its size.
-    pub fn corners(&self, shape: usize) -> [Point; 3] {
-        let Some(path) = shape.checked_sub(1) else { return self.whole.corners };
-        let (first, last) = (path / 4, path % 4);
-        let child = Piece { left: 2, ..self.whole }.child(first);
-        if first == last { child.corners } else { child.child(last).corners }
-    }
-}
 
 impl MacroMesh {
     /// Refines towards the vertices at a point: new nodes on their edges go to the fraction `ratio` from them.
@@ -230,12 +93,27 @@ impl MacroMesh {
         Point::new(xi, eta)
     }
 
-    /// Weights of the two parents of lattice node `(i, j)` of a level, in the order of [`lattice::parents`].
-    pub fn parent_weights(&self, triangle: usize, level: Level, (i, j): (usize, usize)) -> [f64; 2] {
-        let ratio = |(i, j): (usize, usize)| match lattice::place(level.intervals / 2, i, j) {
+    /// Barycentric coordinates, in a triangle of a lattice of `n` intervals that is refined once, of the point that has the
+    /// coordinates `l` in the triangle's refined lattice; `corners` are those of the triangle.
+    pub fn place_in_parent(&self, triangle: usize, n: usize, corners: [(usize, usize); 3], l: [f64; 3]) -> [f64; 3] {
+        if !self.is_graded(triangle) {
+            return l;
+        }
+        let (piece, l) = Piece::whole(corners.map(|node| self.ratio(triangle, n, node)), 1).below(l);
+        weights(piece.corners[0] * l[0] + piece.corners[1] * l[1] + piece.corners[2] * l[2])
+    }
+
+    /// κ of lattice node `(i, j)` at `n` intervals, if it is a graded vertex.
+    fn ratio(&self, triangle: usize, n: usize, (i, j): (usize, usize)) -> Option<f64> {
+        match lattice::place(n, i, j) {
             Place::Corner(corner) => self.ratios[self.triangles[triangle].vertices[corner] as usize],
             _ => None,
-        };
+        }
+    }
+
+    /// Weights of the two parents of lattice node `(i, j)` of a level, in the order of [`lattice::parents`].
+    pub fn parent_weights(&self, triangle: usize, level: Level, (i, j): (usize, usize)) -> [f64; 2] {
+        let ratio = |node| self.ratio(triangle, level.intervals / 2, node);
         level.parent_weights(lattice::parents(i, j).map(ratio))
     }
 }
@@ -258,7 +136,7 @@ mod tests {
     use super::super::samples::two_blocks;
     use super::*;
     use crate::element::Order;
-    use crate::geometry::Curve;
+    use crate::geometry::{Curve, cross};
 
     fn level(refine: usize) -> Level {
         Level { intervals: 1 << refine, order: Order::P1 }

@@ -12,6 +12,7 @@ pub mod lattice;
 mod macro_mesh;
 mod numbering;
 mod partition;
+mod piece;
 #[cfg(test)]
 pub(crate) mod samples;
 mod shape;
@@ -19,10 +20,10 @@ mod shape;
 pub use chain::Stretch;
 pub use edge_trace::{BoundaryEdge, EdgeNode};
 pub use gmsh::read_gmsh;
-pub use grading::Shapes;
 pub use macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
 pub use numbering::{Level, Numbering, levels};
 pub use partition::{Graph, Partition};
+pub use piece::Shapes;
 pub use shape::EdgeShape;
 
 use std::path::{Path, PathBuf};

@@ -87,6 +87,17 @@ pub struct Unknowns {
     pub multiplier: Option<u64>,
 }
 
+/// A coarser mesh that was solved first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CoarseSolve {
+    /// Refinements of the macro mesh.
+    pub refine: usize,
+    /// Displacement unknowns.
+    pub unknowns: usize,
+    /// One number per linear solve.
+    pub iterations: Vec<usize>,
+}
+
 /// One outer iteration.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OuterIteration {
@@ -227,6 +238,8 @@ pub struct Solver {
     pub krylov: Option<String>,
     /// One number per linear solve.
     pub iterations: Vec<usize>,
+    /// Solves on coarser meshes before, the coarsest first.
+    pub coarse: Vec<CoarseSolve>,
     /// Relative residual of the scaled augmented system.
     pub residual: Option<f64>,
     /// Relative residual of the system as it stands.
@@ -367,7 +380,7 @@ mod tests {
             ("/estimate/seam", "force lambda"),
             ("/balance", "bodies energy force moment"),
             ("/probe/corner", "stress u x"),
-            ("/solver", "blas iterations krylov name plain_residual residual"),
+            ("/solver", "blas coarse iterations krylov name plain_residual residual"),
             ("/time_s", "assemble contact mesh output setup solve total"),
             ("/memory_mib", "max_rank sum"),
         ];

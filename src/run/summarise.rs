@@ -1,5 +1,6 @@
 //! A solution in the terms of `summary.json`.
 
+use super::solve::Solved;
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, oscillation};
 use crate::element::Order;
@@ -7,10 +8,11 @@ use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Balance, TracePoint};
-use crate::system::{BoundaryStep, Contact, Discretisation, Solution};
+use crate::system::{BoundaryStep, Contact, Discretisation, Estimate, Solution};
 
 /// What is known without the solution's fields.
-pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solution: &Solution, solver_name: &str) {
+pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solved: &Solved) {
+    let solution = &solved.solution;
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let count = numbering.level.triangles_per_edge();
     let triangles = scene.mesh.triangles.len() * count * count;
@@ -52,8 +54,9 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
     summary.boundaries = solution.boundaries.iter().map(boundary).collect();
     summary.solver = summary::Solver {
         name: Some(case.solver.choice.name().into()),
-        krylov: Some(solver_name.into()),
+        krylov: Some(solved.solver.clone()),
         iterations: solution.steps.iter().map(|step| step.krylov_iterations).collect(),
+        coarse: solved.coarse.clone(),
         residual: Some(solution.residual),
         plain_residual: Some(solution.plain_residual),
         blas: Some(versions::blas()),
@@ -65,6 +68,16 @@ fn edge_count(problem: &Discretisation) -> usize {
     let count = problem.finest().numbering.level.triangles_per_edge();
     let mesh = &problem.scene.mesh;
     mesh.edges.len() * count + mesh.triangles.len() * (3 * count * (count - 1) / 2)
+}
+
+/// Estimated discretisation errors.
+pub fn estimate(summary: &mut Summary, problem: &Discretisation, estimate: &Estimate) {
+    summary.estimate.energy = estimate.energy;
+    for (at, contact) in problem.contacts.iter().enumerate() {
+        let of = |errors: &[Option<f64>]| errors.get(at).copied().flatten();
+        let errors = summary::ContactEstimate { force: of(&estimate.force), lambda: of(&estimate.pressure) };
+        summary.estimate.contact.insert(contact.pair.name.clone(), errors);
+    }
 }
 
 /// Energies and balances.

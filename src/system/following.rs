@@ -53,6 +53,8 @@ type Found = Option<(f64, f64)>;
 
 /// State of the loop over boundaries.
 pub struct Following {
+    /// Number of the boundary from which on nodes and segments stay.
+    frozen: usize,
     /// Relative residual of the last solve.
     tolerance: f64,
     displacement: Vec<f64>,
@@ -61,9 +63,20 @@ pub struct Following {
 }
 
 impl Following {
-    /// Before the first solve; the last one goes to `tolerance`.
-    pub fn new(problem: &Discretisation, tolerance: f64) -> Self {
-        Self { tolerance, displacement: Vec::new(), active: Vec::new(), ends: vec![[None; 2]; problem.contacts.len()] }
+    /// Before the first solve; the last one goes to `tolerance`. Boundaries that a coarser mesh has found are `settled`.
+    pub fn new(problem: &Discretisation, tolerance: f64, settled: bool) -> Self {
+        Self {
+            frozen: if settled { 1 } else { FROZEN },
+            tolerance,
+            displacement: Vec::new(),
+            active: Vec::new(),
+            ends: vec![[None; 2]; problem.contacts.len()],
+        }
+    }
+
+    /// Changes of the boundary and of the displacement at which they stand.
+    pub fn tolerances(&self) -> [f64; 2] {
+        [STILL_BOUNDARY, STILL_DISPLACEMENT].map(|factor| factor * self.tolerance)
     }
 
     /// Looks at the solution on boundary `number` (from 1) and places the boundaries again. **Collective**
@@ -89,11 +102,12 @@ impl Following {
         let moved = way(&problem.contacts, &next);
         let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
         let step = BoundaryStep { iteration: number, length, moved, du, flipped };
-        let still = du.is_some_and(|du| du <= STILL_DISPLACEMENT * self.tolerance) && flipped == Some(0);
+        let [still_boundary, still_displacement] = self.tolerances();
+        let still = du.is_some_and(|du| du <= still_displacement) && flipped == Some(0);
         let onward = match moved {
             // The same boundary has the same solution.
             Some(0.0) => Onward::Stands,
-            Some(way) if way <= STILL_BOUNDARY * self.tolerance && still => Onward::Stands,
+            Some(way) if way <= still_boundary && still => Onward::Stands,
             _ if number >= MOST_BOUNDARIES => Onward::GivenUp(given_up(&step)),
             _ => Onward::Again(next, motion),
         };
@@ -122,9 +136,10 @@ impl Following {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let mut all = Vec::new();
+        let settled = number >= self.frozen;
         for (contact, ends) in problem.contacts.iter().zip(&mut self.ends) {
             let mut known = contact.known.clone();
-            if contact.pair.curve == CurveChoice::Fit && number < FROZEN {
+            if contact.pair.curve == CurveChoice::Fit && !settled {
                 let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
@@ -135,7 +150,7 @@ impl Following {
             }
             if contact.pair.ends == EndRule::Free && number < HELD {
                 known.ends = Some(free_ends(contact, solution, ends));
-                if number < FROZEN {
+                if !settled {
                     known.segments = None;
                 }
             }

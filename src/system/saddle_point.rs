@@ -87,7 +87,7 @@ impl SaddlePoint {
         if self.form == Form::Augmented {
             self.augment(problem, &next)?;
         }
-        let jumps = jump_matrix(problem.jumps(), active);
+        let jumps = jump_matrix(problem.jumps(), active.len());
         let in_transpose = if self.form == Form::Augmented { next.as_slice() } else { &[] };
         self.multipliers.fill(problem, &self.rows[self.rows.len() - 1], active, in_transpose, &jumps)?;
         self.jumps = jumps;
