@@ -17,10 +17,14 @@ fn pressed_evenly(ended: &Ended, contact: &str, words: &str) {
 }
 
 fn holds(case: &str, contacts: &[&str], refine: usize) {
+    holds_on(case, contacts, refine, |run| run);
+}
+
+fn holds_on(case: &str, contacts: &[&str], refine: usize, change: impl Fn(Run) -> Run) {
     for (order, space) in PAIRS {
         for ranks in RANKS {
             let words = format!("{case}, P{order} and {space}, refine {refine}, {ranks} ranks");
-            let mut run = Run::case(case).ranks(ranks).set("mesh.order", order).set("mesh.refine", refine);
+            let mut run = change(Run::case(case).ranks(ranks).set("mesh.order", order).set("mesh.refine", refine));
             for contact in contacts {
                 run = run.set(&format!("contact.{contact}.multiplier"), space);
             }
@@ -68,6 +72,21 @@ fn three_blocks_on_the_meshes_of_the_file() {
 #[test]
 fn three_blocks_on_refined_meshes() {
     holds("stack", &["first", "second"], 2);
+}
+
+/// Refinement towards some vertices; the seam has two such ends, and other edges, too.
+#[test]
+fn flat_line_on_graded_meshes() {
+    let points = "[[0, 1], [2, 1], [2, 2], [0, 0]]";
+    holds_on("patch_flat", &["seam"], 2, |run| {
+        run.set("mesh.grade.points", points).set("mesh.grade.ratio", "[0.15, 0.2, 0.4, 0.3]")
+    });
+}
+
+#[test]
+fn inclined_line_on_graded_meshes() {
+    let points = "[[0, 3], [6, 4]]";
+    holds_on("patch_inclined", &["seam"], 3, |run| run.set("mesh.grade.points", points).set("mesh.grade.exponent", "[0.8, 1.1]"));
 }
 
 /// Exact also by the direct solver, which sees no levels and no augmentation.

@@ -5,6 +5,7 @@
 mod contact;
 pub(crate) mod error;
 mod exact;
+mod grade;
 mod model;
 pub(crate) mod overrides;
 pub(crate) mod section;
@@ -61,7 +62,7 @@ pub struct Case {
 }
 
 /// Which mesh, and what is made of it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MeshChoice {
     /// Gmsh file, found from the folder of the case.
     pub file: PathBuf,
@@ -69,6 +70,17 @@ pub struct MeshChoice {
     pub order: Order,
     /// Refinements after reading.
     pub refine: usize,
+    /// Points that they are graded towards.
+    pub grades: Vec<Grade>,
+}
+
+/// A point that refinement is graded towards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grade {
+    /// Where (length).
+    pub point: [f64; 2],
+    /// Fraction κ, from the point, of the new node on an edge.
+    pub ratio: f64,
 }
 
 /// True shape of some boundaries.

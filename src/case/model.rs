@@ -5,6 +5,7 @@ use std::path::Path;
 use toml::Value;
 
 use super::error::suggest;
+use super::grade::read_grade;
 use super::section::Section;
 use super::values::{self, PLANE};
 use super::{Geometry, MeshChoice, Probe, Solver};
@@ -29,8 +30,8 @@ pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
         Some(times @ 0..=MOST_REFINEMENTS) => Ok(times as usize),
         _ => Err(format!("must be a whole number from 0 to {MOST_REFINEMENTS}; each one quarters every triangle")),
     });
-    section.not_yet("grade", "remove [mesh.grade]");
-    Some(MeshChoice { file: folder.join(file?), order: order?, refine: refine? })
+    let grades = section.optional_table("grade").map_or(Some(Vec::new()), |section| read_grade(&section, order));
+    Some(MeshChoice { file: folder.join(file?), order: order?, refine: refine?, grades: grades? })
 }
 
 /// `[body.NAME]`

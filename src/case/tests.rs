@@ -87,7 +87,7 @@ fn error_of(text: &str, overrides: &[&str]) -> String {
 fn a_full_case_is_read() {
     let case = parse(FULL, &[]).unwrap();
     assert_eq!((case.name.as_str(), case.title.as_str(), case.folder.as_path()), ("bars", "Two bars", Path::new("bars")));
-    assert_eq!(case.mesh, MeshChoice { file: "bars/bars.msh".into(), order: Order::P1, refine: 3 });
+    assert_eq!(case.mesh, MeshChoice { file: "bars/bars.msh".into(), order: Order::P1, refine: 3, grades: Vec::new() });
     let [lower, upper] = &case.bodies[..] else { panic!("{:?}", case.bodies) };
     assert_eq!((lower.name.as_str(), lower.material.young, lower.material.poisson), ("lower", 7000.0, 0.227));
     assert_eq!(lower.force[1].value(&[0.0, 2.0]), -19.62);
@@ -270,7 +270,12 @@ fn every_error_names_key_value_and_remedy() {
         ("mesh.refine=1.0", "must be a whole number from 0 to 12"),
         ("mesh.file=7", "mesh.file = 7 (--set): must be a string in quotes, not of type integer"),
         ("mesh.file=''", "must not be empty"),
-        ("mesh.grade.points=[[0, 3]]", "mesh.grade: not available yet; remove [mesh.grade]"),
+        ("mesh.grade.points=[[0, 3]]", "mesh.grade.exponent: missing; write exponent = 0.75, if u ~ r^0.75"),
+        ("mesh.grade.ratio=0.2", "mesh.grade.points: missing; write points = [[0, 3], [6, 4]]"),
+        ("mesh.grade={points = [[0, 3], [0, 3]], ratio = 0.2}", "entry 2 stands there twice"),
+        ("mesh.grade={points = [[0, 3]], ratio = 0.6}", "mesh.grade.ratio = 0.6 (--set): must be a number, or a list of 1"),
+        ("mesh.grade={points = [[0, 3]], ratio = [0.2, 0.3]}", "a list of 1, one per point, from 0.1 to 0.5, or \"auto\""),
+        ("mesh.grade={points = [[0, 3]], exponent = 0}", "one per point, above 0: u ~ r^exponent"),
         ("solver=3", "solver = 3 (--set): must be a table; write [solver]"),
         ("meshes.a=1", "meshes: unknown key; did you mean \"mesh\"?"),
         ("cases=1", "cases: unknown key; there are title, mesh, body"),

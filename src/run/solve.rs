@@ -75,7 +75,7 @@ impl Run<'_> {
         let begin = self.refine(problem, coarse.as_ref())?;
         let tolerance = self.case.solver.tolerance;
         let tolerance = if begin.is_some() { tolerance } else { Tolerance::Residual(tolerance.residual()) };
-        let rung = coarse.as_ref().map_or(first, |coarse| coarse.rung);
+        let rung = coarse.as_ref().map_or(first, |coarse| coarse.rung.max(first));
         let (mut solution, prepared) = self.solve_mesh(problem, begin, rung, tolerance, true)?;
         if let Some(coarse) = &coarse {
             let _stage = self.stages.output.enter();
@@ -87,10 +87,11 @@ impl Run<'_> {
 
     /// Where the ladder begins; what `name = "auto"` comes to is said with its reason.
     fn first_rung(&self, problem: &Discretisation) -> Rung {
+        let scene = &problem.scene;
         if self.case.solver.choice != SolverChoice::Auto {
-            return Rung::default();
+            return Rung::of(scene.refine + 1, &scene.mesh.ratios);
         }
-        let (rung, reason) = Rung::first(problem.scene.refine + 1, problem.unknown_count());
+        let (rung, reason) = Rung::first(scene.refine + 1, &scene.mesh.ratios, problem.unknown_count());
         self.report.say(&format!("solver: {reason}"));
         rung
     }
@@ -131,7 +132,8 @@ impl Run<'_> {
             let start = problem.refine_to(refine, pairs, coarser.as_ref(), self.session)?;
             self.begin(problem, coarser.as_ref(), start)
         };
-        let rung = coarser.as_ref().map_or(Rung::default(), |coarser| coarser.rung);
+        let least = Rung::of(refine + 1, &problem.scene.mesh.ratios);
+        let rung = coarser.as_ref().map_or(least, |coarser| coarser.rung.max(least));
         let tolerance = Tolerance::Residual(self.case.solver.tolerance.residual().max(COARSE));
         let (solution, prepared) = self.solve_mesh(problem, begin, rung, tolerance, false)?;
         let iterations = solution.steps.iter().map(|step| step.krylov_iterations).collect();

@@ -16,14 +16,14 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let count = numbering.level.triangles_per_edge();
     let triangles = scene.mesh.triangles.len() * count * count;
-    let lengths = (0..scene.mesh.edges.len()).map(|edge| scene.mesh.edge_length(edge as u32) / count as f64);
+    let [shortest, longest] = scene.mesh.shortest_and_longest_edge(numbering.level);
     let corners = if scene.order == Order::P1 { numbering.node_count() } else { numbering.node_count() - edge_count(problem) };
     summary.mesh = summary::Mesh {
         triangles: Some(triangles as u64),
         vertices: Some(corners as u64),
         order: Some(scene.order.degree() as u8),
-        h_min: Some(lengths.clone().fold(f64::INFINITY, f64::min)),
-        h_max: Some(lengths.fold(0.0, f64::max)),
+        h_min: Some(shortest),
+        h_max: Some(longest),
     };
     summary.unknowns = summary::Unknowns {
         displacement: Some(2 * numbering.node_count() as u64),

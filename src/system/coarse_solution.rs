@@ -5,7 +5,7 @@ use super::{BoundaryMotion, Contact, Discretisation, Field, Rung, Solution, Syst
 use crate::contact::{Known, Meeting, MultiplierSpace, SmoothSide};
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::{EdgeNode, Numbering, lattice};
+use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
 use crate::petsc::Session;
 
 /// A solution on one refinement less.
@@ -35,18 +35,18 @@ impl CoarseSolution {
     /// The same displacement on the next refinement: this rank's unknowns in the nodes' frames.
     pub fn displacement(&self, problem: &Discretisation, rank: usize) -> Vec<f64> {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
-        let n = space.numbering.level.intervals;
+        let level = space.numbering.level;
         let mut values = vec![0.0; space.local_unknowns()];
         for &triangle in problem.scene.partition.triangles_of(rank) {
             let coarse = self.numbering.triangle(mesh, triangle as usize);
             let fine = space.numbering.triangle(mesh, triangle as usize);
-            for (i, j) in lattice::nodes(n) {
+            for (i, j) in lattice::nodes(level.intervals) {
                 let node = fine.node(i, j);
                 if !space.own.contains(&node) {
                     continue;
                 }
                 let mut u = Point::zeros();
-                for ((k, l), weight) in weights(space.numbering.level.order, n, i, j) {
+                for ((k, l), weight) in weights(mesh, triangle as usize, level, (i, j)) {
                     u += weight * self.displacement.point(coarse.node(k, l));
                 }
                 let at = 2 * (node - space.own.start);
@@ -145,11 +145,17 @@ impl CoarseSolution {
     }
 }
 
-/// Nodes of the coarser lattice, and their weights, in fine node `(i, j)` at `n` intervals: the shape functions of the
-/// coarse triangle that holds it. Nodes without weight are left out.
-fn weights(order: Order, n: usize, i: usize, j: usize) -> impl Iterator<Item = ((usize, usize), f64)> {
+/// Nodes of the coarser lattice, and their weights, in node `(i, j)` of a level: the shape functions of the coarse triangle
+/// that holds it. Nodes without weight are left out.
+fn weights(
+    mesh: &MacroMesh,
+    triangle: usize,
+    level: Level,
+    (i, j): (usize, usize),
+) -> impl Iterator<Item = ((usize, usize), f64)> {
+    let order = level.order;
     let step = 2 * order.degree();
-    let count = n / step;
+    let count = level.intervals / step;
     let (mut a, mut b) = (i / step, j / step);
     // On the far edge the last triangle holds it.
     if a + b >= count {
@@ -168,6 +174,8 @@ fn weights(order: Order, n: usize, i: usize, j: usize) -> impl Iterator<Item = (
     let node = move |di: usize, dj: usize| {
         (corner[0].wrapping_add_signed(sign * di as isize), corner[1].wrapping_add_signed(sign * dj as isize))
     };
+    let corners = [node(0, 0), node(half, 0), node(0, half)];
+    let l = mesh.place_in_parent(triangle, level.intervals / 2, corners, l);
     let all = match order {
         Order::P1 => vec![(node(0, 0), l[0]), (node(1, 0), l[1]), (node(0, 1), l[2])],
         Order::P2 => vec![
@@ -185,20 +193,30 @@ fn weights(order: Order, n: usize, i: usize, j: usize) -> impl Iterator<Item = (
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::samples::two_blocks;
 
     #[test]
     fn polynomials_of_the_order_are_carried_exactly() {
-        for (order, n) in [(Order::P1, 8), (Order::P2, 8), (Order::P2, 4), (Order::P1, 2)] {
-            let degree = order.degree() as i32;
-            let value = |x: f64, y: f64| 1.0 + 2.0 * x - y + if degree == 2 { x * x - 3.0 * x * y + 0.5 * y * y } else { 0.0 };
-            for (i, j) in lattice::nodes(n) {
-                let found: f64 = weights(order, n, i, j)
+        let mut graded = two_blocks();
+        for (at, ratio) in [([0.0, 1.0], 0.2), ([0.9, 1.0], 0.3), ([2.0, 2.0], 0.15)] {
+            graded.grade(at.into(), ratio).expect("a vertex");
+        }
+        for (mesh, (order, n)) in [two_blocks(), graded]
+            .iter()
+            .flat_map(|mesh| [(Order::P1, 8), (Order::P2, 8), (Order::P2, 4), (Order::P1, 2)].map(|level| (mesh, level)))
+        {
+            let [fine, coarse] = [n, n / 2].map(|intervals| Level { intervals, order });
+            let squares = if order == Order::P2 { 1.0 } else { 0.0 };
+            let value = |x: Point| 1.0 + 2.0 * x.x - x.y + squares * (x.x * x.x - 3.0 * x.x * x.y + 0.5 * x.y * x.y);
+            for (triangle, (i, j)) in (0..6).flat_map(|triangle| lattice::nodes(n).map(move |node| (triangle, node))) {
+                let found: f64 = weights(mesh, triangle, fine, (i, j))
                     .map(|((k, l), weight)| {
                         assert!(k + l <= n / 2, "({k}, {l}) is a node");
-                        weight * value(2.0 * k as f64, 2.0 * l as f64)
+                        weight * value(mesh.node_position(triangle, coarse, (k, l)))
                     })
                     .sum();
-                assert!((found - value(i as f64, j as f64)).abs() < 1e-12, "{order:?} {n} ({i}, {j})");
+                let exact = value(mesh.node_position(triangle, fine, (i, j)));
+                assert!((found - exact).abs() < 1e-12, "{order:?} {n} triangle {triangle} ({i}, {j})");
             }
         }
     }

@@ -116,9 +116,10 @@ impl Contact {
         let shapes = measured.then(|| sides.each_ref().map(|edges| scene.mesh.smooth_curves(edges)));
         let knots = boundary.knots();
         let ends = Some([knots[0], knots[knots.len() - 1]]);
+        let segments = Some(boundary.segments());
         Ok(Self {
             pair: pair.clone(),
-            known: Known { meeting: placed.meeting, ends, fractions: Some(placed.fractions) },
+            known: Known { meeting: placed.meeting, ends, segments },
             limits: placed.limits,
             boundary,
             multipliers,

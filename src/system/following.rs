@@ -179,14 +179,14 @@ impl Following {
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
                 if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
-                    all.push(Known { meeting: Some(meeting), ends: None, fractions: None });
+                    all.push(Known { meeting: Some(meeting), ends: None, segments: None });
                     continue;
                 }
             }
             if contact.pair.has_free_ends() && number < HELD {
                 known.ends = Some(free_ends(contact, solution, ends));
                 if !settled {
-                    known.fractions = None;
+                    known.segments = None;
                 }
             }
             all.push(known);

@@ -14,10 +14,9 @@ const LARGEST_FACTOR: usize = 3_000_000;
 const QUICK_FACTOR: usize = 500_000;
 
 /// What preconditions the displacements.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
     /// Multigrid with one symmetric Gauss-Seidel sweep; without levels an algebraic cycle.
-    #[default]
     Sweep,
     /// Multigrid with two steps of CG, preconditioned by the sweep.
     TwoSteps,
@@ -27,11 +26,24 @@ pub enum Rung {
     Factor,
 }
 
+/// Ratio of graded refinement below which triangles are too flat for a sweep: it needs more iterations on each level.
+const FLAT: f64 = 0.25;
+
 impl Rung {
-    /// Where to begin if the choice is free, and why, in words. `levels` are those of the mesh, the macro mesh among them.
-    pub fn first(levels: usize, unknowns: usize) -> (Self, String) {
+    /// The cheapest rung that does on a mesh of so many levels, the macro mesh among them, refined by these ratios.
+    pub fn of(levels: usize, ratios: &[Option<f64>]) -> Self {
+        let flat = levels > 1 && ratios.iter().flatten().any(|&ratio| ratio < FLAT);
+        if flat { Self::TwoSteps } else { Self::Sweep }
+    }
+
+    /// Where to begin if the choice is free, and why, in words; levels and ratios as in [`Self::of`].
+    pub fn first(levels: usize, ratios: &[Option<f64>], unknowns: usize) -> (Self, String) {
+        let rung = Self::of(levels, ratios);
         if levels > 1 {
-            return (Self::Sweep, format!("fieldsplit with multigrid, because the mesh has {levels} levels"));
+            let flat = format!(" and some mesh.grade.ratio is below {FLAT}");
+            let flat = if rung == Self::Sweep { "" } else { &flat };
+            let words = rung.words("multigrid");
+            return (rung, format!("fieldsplit with {words}, because the mesh has {levels} levels{flat}"));
         }
         let begin = format!("because the mesh has no levels (refine = 0), and {unknowns} unknowns are");
         if unknowns <= QUICK_FACTOR {
@@ -106,9 +118,17 @@ mod tests {
 
     #[test]
     fn a_small_mesh_without_levels_begins_with_a_factor() {
-        assert_eq!(Rung::first(1, 10_000).0, Rung::Factor);
-        assert_eq!(Rung::first(1, 1_000_000).0, Rung::Sweep);
-        assert_eq!(Rung::first(3, 10_000).0, Rung::Sweep);
+        assert_eq!(Rung::first(1, &[None], 10_000).0, Rung::Factor);
+        assert_eq!(Rung::first(1, &[None], 1_000_000).0, Rung::Sweep);
+        assert_eq!(Rung::first(3, &[None], 10_000).0, Rung::Sweep);
+    }
+
+    #[test]
+    fn flat_triangles_begin_with_the_stronger_smoother() {
+        let (rung, words) = Rung::first(3, &[None, Some(0.4), Some(0.2)], 10_000);
+        assert_eq!((rung, Rung::of(3, &[Some(0.3)])), (Rung::TwoSteps, Rung::Sweep));
+        assert!(words.contains("smoothed by 2 CG steps, because the mesh has 3 levels and some mesh.grade.ratio"), "{words}");
+        assert_eq!(Rung::of(1, &[Some(0.2)]), Rung::Sweep, "not refined at all");
     }
 
     #[test]
