@@ -50,11 +50,11 @@ pub struct PlannedRun {
     pub repeat: usize,
     /// Values of [`Plan::keys`].
     pub values: Vec<Value>,
-    /// `KEY=VALUE` of curve and grid.
+    /// `KEY=VALUE` of `[set]`, curve and grid.
     pub overrides: Vec<String>,
 }
 
-/// A key of the case and what stands there: a value in a curve, a list of values in the grid.
+/// A key of the case and what stands there: a value in `[set]` and in a curve, a list of values in the grid.
 #[derive(Clone, Debug)]
 struct Setting<T> {
     /// Where it is written in the study file, from its root.
@@ -104,18 +104,20 @@ impl Plan {
         });
         let error = root.optional("error", SummaryPath::read);
         let columns = root.optional("columns", values::list("a list of paths in summary.json", SummaryPath::read));
+        let common = settings(&root.optional("set", values::table).unwrap_or_default(), &["set"], root);
         let grid = read_grid(root);
         let curves = root.listed("curve", read_curve);
         let cases = cases?;
         let scenes = find_cases(&cases, file, root);
         check_curves(&curves, &scenes, root);
-        check_overlaps(&grid, &curves, root);
-        check_keys(&scenes, &grid, &curves, root);
+        let moves = Moves { common, grid, curves };
+        moves.check_overlaps(root);
+        moves.check_keys(&scenes, root);
         let (ranks, repeat, timeout) = (ranks?, repeat?, timeout?);
-        let runs = expand(&scenes, &curves, &grid, &ranks, repeat, root)?;
+        let runs = moves.expand(&scenes, &ranks, repeat, root)?;
         Some(Self {
             name: name_of(file, "study.toml"),
-            keys: grid.iter().map(|axis| dotted(&axis.path)).collect(),
+            keys: moves.grid.iter().map(|axis| dotted(&axis.path)).collect(),
             error,
             columns: columns.unwrap_or_default(),
             timeout,
@@ -233,98 +235,114 @@ fn check_curves(curves: &[Curve], scenes: &[Scene], root: &Section) {
     }
 }
 
-/// A key moves in one place: in the grid, or with a curve.
-fn check_overlaps(grid: &[Setting<Vec<Value>>], curves: &[Curve], root: &Section) {
-    let meet = |a: &[String], b: &[String]| a.starts_with(b) || b.starts_with(a);
-    let complain = |written: &[String], other: &[String]| {
-        let below: Vec<&str> = written.iter().map(String::as_str).collect();
-        root.problem(&below, format!("is also set by {}; a key moves in one place", dotted(other)));
-    };
-    for (index, axis) in grid.iter().enumerate() {
-        for other in grid[..index].iter().filter(|other| meet(&other.path, &axis.path)) {
-            complain(&axis.written, &other.written);
-        }
-    }
-    for curve in curves {
-        for (index, setting) in curve.set.iter().enumerate() {
-            let axes = grid.iter().map(|axis| (&axis.path, &axis.written));
-            let earlier = curve.set[..index].iter().map(|other| (&other.path, &other.written));
-            for (_, other) in axes.chain(earlier).filter(|(path, _)| meet(path, &setting.path)) {
-                complain(&setting.written, other);
-            }
-        }
-    }
+/// Keys of the cases that the study sets, and where they move.
+struct Moves {
+    /// `[set]`: in every run, but where a curve sets the same key.
+    common: Vec<Setting<Value>>,
+    /// `[grid]`
+    grid: Vec<Setting<Vec<Value>>>,
+    curves: Vec<Curve>,
 }
 
-/// A key that no case can have is a slip of the pen: it is told before anything runs. What else is wrong with a case, a value
-/// that it refuses, say, is the row of its run.
-fn check_keys(scenes: &[Scene], grid: &[Setting<Vec<Value>>], curves: &[Curve], root: &Section) {
-    let mut told: Vec<Vec<String>> = Vec::new();
-    for scene in scenes {
-        for curve in scene.curves(curves) {
-            let set = curve.map_or(&[][..], |curve| &curve.set);
-            let first = grid.iter().map(|axis| overriding(&axis.path, &axis.value[0]));
-            let overrides: Vec<String> =
-                set.iter().map(|setting| overriding(&setting.path, &setting.value)).chain(first).collect();
-            let Err(error) = Case::read(&scene.file, &overrides) else { continue };
-            let keys = set.iter().map(|s| (&s.path, &s.written)).chain(grid.iter().map(|axis| (&axis.path, &axis.written)));
-            for (path, written) in keys {
-                let key = dotted(path);
-                let meant = |unknown: &str| key == unknown || key.starts_with(&format!("{unknown}."));
-                let problem = error.problems.iter().find(|problem| problem.is_unknown() && meant(&problem.key));
-                if let Some(problem) = problem.filter(|_| !told.contains(written)) {
-                    let below: Vec<&str> = written.iter().map(String::as_str).collect();
-                    root.problem(&below, format!("{} (asked of case {})", problem.words, scene.label));
-                    told.push(written.clone());
+impl Moves {
+    /// A key moves in one place: in the grid, or with a curve. Only `[set]` gives way to a curve.
+    fn check_overlaps(&self, root: &Section) {
+        let complain = |written: &[String], other: &[String]| {
+            let below: Vec<&str> = written.iter().map(String::as_str).collect();
+            root.problem(&below, format!("is also set by {}; a key moves in one place", dotted(other)));
+        };
+        for (index, axis) in self.grid.iter().enumerate() {
+            for other in self.grid[..index].iter().filter(|other| meet(&other.path, &axis.path)) {
+                complain(&axis.written, &other.written);
+            }
+        }
+        for set in self.curves.iter().map(|curve| &curve.set).chain([&self.common]) {
+            for (index, setting) in set.iter().enumerate() {
+                let axes = self.grid.iter().map(|axis| (&axis.path, &axis.written));
+                let earlier = set[..index].iter().map(|other| (&other.path, &other.written));
+                for (_, other) in axes.chain(earlier).filter(|(path, _)| meet(path, &setting.path)) {
+                    complain(&setting.written, other);
                 }
             }
         }
     }
+
+    /// What a curve sets, and before it what `[set]` does and the curve does not.
+    fn set<'a>(&'a self, curve: Option<&'a Curve>) -> impl Iterator<Item = &'a Setting<Value>> + Clone {
+        let own = curve.map_or(&[][..], |curve| &curve.set);
+        let left = move |setting: &&Setting<Value>| own.iter().all(|other| !meet(&other.path, &setting.path));
+        self.common.iter().filter(left).chain(own)
+    }
+
+    /// A key that no case can have is a slip of the pen: it is told before anything runs. What else is wrong with a case, a
+    /// value that it refuses, say, is the row of its run.
+    fn check_keys(&self, scenes: &[Scene], root: &Section) {
+        let mut told: Vec<&[String]> = Vec::new();
+        for scene in scenes {
+            for curve in scene.curves(&self.curves) {
+                let set = self.set(curve);
+                let first = self.grid.iter().map(|axis| overriding(&axis.path, &axis.value[0]));
+                let overrides: Vec<String> =
+                    set.clone().map(|setting| overriding(&setting.path, &setting.value)).chain(first).collect();
+                let Err(error) = Case::read(&scene.file, &overrides) else { continue };
+                let axes = self.grid.iter().map(|axis| (&axis.path, &axis.written));
+                for (path, written) in set.map(|setting| (&setting.path, &setting.written)).chain(axes) {
+                    let key = dotted(path);
+                    let meant = |unknown: &str| key == unknown || key.starts_with(&format!("{unknown}."));
+                    let problem = error.problems.iter().find(|problem| problem.is_unknown() && meant(&problem.key));
+                    if let Some(problem) = problem.filter(|_| !told.contains(&written.as_slice())) {
+                        let below: Vec<&str> = written.iter().map(String::as_str).collect();
+                        root.problem(&below, format!("{} (asked of case {})", problem.words, scene.label));
+                        told.push(written);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Every run: cases, then their curves, then combinations of the grid with the last key running fastest, then ranks and
+    /// repeats.
+    fn expand(&self, scenes: &[Scene], ranks: &[usize], repeat: usize, root: &Section) -> Option<Vec<PlannedRun>> {
+        let lines: Vec<_> =
+            scenes.iter().flat_map(|scene| scene.curves(&self.curves).into_iter().map(move |curve| (scene, curve))).collect();
+        let factors = self.grid.iter().map(|axis| axis.value.len()).chain([lines.len(), ranks.len(), repeat]);
+        let count = factors.fold(1usize, usize::saturating_mul);
+        if count > MOST_RUNS {
+            root.problem(&[], format!("the study makes {count} runs, more than {MOST_RUNS}; make several studies of it"));
+            return None;
+        }
+        let combinations = combinations(&self.grid);
+        let mut runs = Vec::with_capacity(count);
+        for (scene, curve) in lines {
+            for values in &combinations {
+                let set = self.set(curve).map(|setting| overriding(&setting.path, &setting.value));
+                let moved = self.grid.iter().zip(values).map(|(axis, value)| overriding(&axis.path, value));
+                let overrides: Vec<String> = set.chain(moved).collect();
+                for (&ranks, repeat) in ranks.iter().flat_map(|ranks| (1..=repeat).map(move |repeat| (ranks, repeat))) {
+                    runs.push(PlannedRun {
+                        file: scene.file.clone(),
+                        case: scene.label.clone(),
+                        curve: curve.map(|curve| curve.name.clone()),
+                        ranks,
+                        repeat,
+                        values: values.clone(),
+                        overrides: overrides.clone(),
+                    });
+                }
+            }
+        }
+        Some(runs)
+    }
+}
+
+/// Whether two keys are the same, or one stands in the table of the other.
+fn meet(a: &[String], b: &[String]) -> bool {
+    a.starts_with(b) || b.starts_with(a)
 }
 
 /// `KEY=VALUE`
 fn overriding(path: &[String], value: &Value) -> String {
     format!("{}={value}", dotted(path))
-}
-
-/// Every run: cases, then their curves, then combinations of the grid with the last key running fastest, then ranks and repeats.
-fn expand(
-    scenes: &[Scene],
-    curves: &[Curve],
-    grid: &[Setting<Vec<Value>>],
-    ranks: &[usize],
-    repeat: usize,
-    root: &Section,
-) -> Option<Vec<PlannedRun>> {
-    let lines: Vec<_> =
-        scenes.iter().flat_map(|scene| scene.curves(curves).into_iter().map(move |curve| (scene, curve))).collect();
-    let factors = grid.iter().map(|axis| axis.value.len()).chain([lines.len(), ranks.len(), repeat]);
-    let count = factors.fold(1usize, usize::saturating_mul);
-    if count > MOST_RUNS {
-        root.problem(&[], format!("the study makes {count} runs, more than {MOST_RUNS}; make several studies of it"));
-        return None;
-    }
-    let combinations = combinations(grid);
-    let mut runs = Vec::with_capacity(count);
-    for (scene, curve) in lines {
-        for values in &combinations {
-            let set = curve.map_or(&[][..], |curve| &curve.set).iter().map(|setting| overriding(&setting.path, &setting.value));
-            let moved = grid.iter().zip(values).map(|(axis, value)| overriding(&axis.path, value));
-            let overrides: Vec<String> = set.chain(moved).collect();
-            for (&ranks, repeat) in ranks.iter().flat_map(|ranks| (1..=repeat).map(move |repeat| (ranks, repeat))) {
-                runs.push(PlannedRun {
-                    file: scene.file.clone(),
-                    case: scene.label.clone(),
-                    curve: curve.map(|curve| curve.name.clone()),
-                    ranks,
-                    repeat,
-                    values: values.clone(),
-                    overrides: overrides.clone(),
-                });
-            }
-        }
-    }
-    Some(runs)
 }
 
 /// One value of each axis, in every way.

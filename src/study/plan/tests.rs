@@ -103,6 +103,15 @@ fn values_come_through_as_they_are() {
 }
 
 #[test]
+fn what_is_set_for_all_runs_gives_way_to_a_curve() {
+    let set = "[set]\n'solver.tolerance' = 1e-5\ncontact.a.segments = 'auto'\n[grid]\n'mesh.order' = [1]\n";
+    let curves = "[[curve]]\nname = 'as it stands'\n[[curve]]\nname = 'few'\nset = { 'contact.a.segments' = 3 }";
+    let runs = runs(&format!("cases = ['rings.toml']\n{set}{curves}"));
+    assert_eq!(runs[0].overrides, ["solver.tolerance=0.00001", "contact.a.segments=\"auto\"", "mesh.order=1"]);
+    assert_eq!(runs[1].overrides, ["solver.tolerance=0.00001", "contact.a.segments=3", "mesh.order=1"]);
+}
+
+#[test]
 fn a_value_that_the_case_refuses_is_left_to_its_row() {
     assert_eq!(runs("cases = ['rings.toml']\ngrid.'mesh.order' = [7, 1]").len(), 2);
 }
@@ -148,6 +157,12 @@ fn errors_name_key_value_and_remedy() {
             "CASES\ngrid.'mesh.order' = [1]\n[[curve]]\nname = 'a'\nset = { 'mesh.order' = 1 }",
             "is also set by grid.\"mesh.order\"; a key moves in one place",
         ),
+        (
+            "CASES\ngrid.'mesh.order' = [1]\nset.'mesh.order' = 2",
+            "set.\"mesh.order\" = 2: is also set by grid.\"mesh.order\"; a key moves in one place",
+        ),
+        ("CASES\nset.'mesh.ordr' = 2", "set.\"mesh.ordr\" = 2: unknown key; did you mean \"order\"? (asked of case rings)"),
+        ("CASES\nset = 2", "set = 2: must be a table"),
         ("CASES\nrepeat = 20000", "the study makes 20000 runs, more than 10000"),
         ("cases = [", "line 1, column"),
     ];
