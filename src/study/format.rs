@@ -58,7 +58,7 @@ pub fn about(table: &Table) -> Vec<String> {
     if table.machines.len() > 1 {
         words.push("Times of several machines do not compare.".into());
     }
-    if let Some(path) = &table.error {
+    if let Some(path) = table.errors.first() {
         words.push(format!("The column error is {path}."));
     }
     if table.is_repeated() {
@@ -101,12 +101,13 @@ impl Serialize for Whole<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let table = self.table;
         let rows: Vec<Row> = table.rows.iter().map(|cells| Row { columns: &table.columns, cells }).collect();
-        let mut object = serializer.serialize_struct("Study", 9)?;
+        let mut object = serializer.serialize_struct("Study", 10)?;
         object.serialize_field("mezha", env!("CARGO_PKG_VERSION"))?;
         object.serialize_field("study", &table.study)?;
         object.serialize_field("machines", &table.machines)?;
         object.serialize_field("blas", &table.blas)?;
-        object.serialize_field("error", &table.error)?;
+        object.serialize_field("error", &table.errors.first())?;
+        object.serialize_field("errors", &table.errors)?;
         object.serialize_field("time", &table.time)?;
         object.serialize_field("columns", &table.columns.iter().map(|column| &column.name).collect::<Vec<_>>())?;
         object.serialize_field("rows", &rows)?;

@@ -1,5 +1,6 @@
 //! The runs of a study as lines in a diagram: points joined along one key, with what they say together.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use serde::Serialize;
@@ -21,8 +22,8 @@ pub struct Line {
     pub name: String,
     /// Number of ranks.
     pub ranks: usize,
-    /// error ~ h^exponent, with h² ~ 1/unknowns, as in the plane.
-    pub order: Option<PowerLaw>,
+    /// For each error of the study: error ~ h^exponent, with h² ~ 1/unknowns, as in the plane.
+    pub orders: BTreeMap<String, Option<PowerLaw>>,
     /// time ~ unknowns^exponent.
     pub cost: Option<PowerLaw>,
     /// With ascending numbers of unknowns. A run that has not converged is no point.
@@ -38,22 +39,22 @@ pub struct Point {
     pub iterations: Option<f64>,
     /// What the study calls time.
     pub time: Option<Spread>,
-    /// What it calls error.
-    pub error: Option<f64>,
+    /// What it calls errors, as far as they are known.
+    pub errors: BTreeMap<String, f64>,
     /// Memory of all ranks, in MiB.
     pub memory: Option<f64>,
     /// Whether the contact pressure is to be trusted, as far as is known.
     pub trusted: bool,
-    /// Whether no other point of the case is both as fast and as accurate.
-    pub front: bool,
+    /// The errors in which no other point of the case is as accurate and as fast.
+    pub front: BTreeSet<String>,
     /// Folder of the first result.
     pub result: String,
 }
 
 impl Point {
     /// Time and error, if both are known and positive.
-    pub fn race(&self) -> Option<(f64, f64)> {
-        Some((self.time?.median, self.error?)).filter(|(time, error)| *time > 0.0 && *error > 0.0)
+    pub fn race(&self, error: &str) -> Option<(f64, f64)> {
+        Some((self.time?.median, *self.errors.get(error)?)).filter(|(time, error)| *time > 0.0 && *error > 0.0)
     }
 }
 
@@ -75,24 +76,27 @@ pub fn lines(plan: &Plan, results: &[Ended]) -> Vec<Line> {
     let first: Vec<&PlannedRun> = found.iter().map(|(run, _)| *run).collect();
     let line = |(run, groups): &(&PlannedRun, Vec<Range<usize>>)| {
         let points = groups.iter().filter_map(|group| point(plan, &results[group.clone()])).collect();
-        Line::new(run, name(plan, run, &first, along), points)
+        Line::new(plan, run, name(plan, run, &first, along), points)
     };
     let mut lines: Vec<Line> = found.iter().map(line).collect();
-    mark_fronts(&mut lines);
+    plan.errors.iter().for_each(|error| mark_fronts(&mut lines, &error.text));
     lines
 }
 
 impl Line {
-    fn new(run: &PlannedRun, name: String, mut points: Vec<Point>) -> Self {
+    fn new(plan: &Plan, run: &PlannedRun, name: String, mut points: Vec<Point>) -> Self {
         points.sort_by(|a, b| a.unknowns.total_cmp(&b.unknowns));
-        let of = |value: fn(&Point) -> Option<f64>| -> Vec<(f64, f64)> {
-            points.iter().filter_map(|point| Some((point.unknowns, value(point)?))).collect()
+        let law = |value: &dyn Fn(&Point) -> Option<f64>| {
+            let known = points.iter().filter_map(|point| Some((point.unknowns, value(point)?)));
+            PowerLaw::through(&known.collect::<Vec<_>>())
         };
-        let order = PowerLaw::through(&of(|point| point.error));
-        let cost = PowerLaw::through(&of(|point| Some(point.time?.median)));
-        // In the plane h² ~ 1/unknowns.
-        let order = order.map(|law| PowerLaw { exponent: -2.0 * law.exponent, ..law });
-        Self { case: run.case.clone(), title: run.title.clone(), name, ranks: run.ranks, order, cost, points }
+        let order = |error: &str| {
+            let law = law(&|point| point.errors.get(error).copied());
+            law.map(|law| PowerLaw { exponent: -2.0 * law.exponent, ..law })
+        };
+        let orders = plan.errors.iter().map(|error| (error.text.clone(), order(&error.text))).collect();
+        let cost = law(&|point| Some(point.time?.median));
+        Self { case: run.case.clone(), title: run.title.clone(), name, ranks: run.ranks, orders, cost, points }
     }
 }
 
@@ -121,23 +125,26 @@ fn point(plan: &Plan, repeats: &[Ended]) -> Option<Point> {
         unknowns: summary["unknowns"]["displacement"].as_f64()?,
         iterations,
         time: Spread::of(converged.iter().filter_map(|ended| plan.time.of(&ended.summary).as_f64()).collect()),
-        error: plan.error.as_ref().and_then(|path| path.of(summary).as_f64()),
+        errors: plan.errors.iter().filter_map(|path| Some((path.text.clone(), path.of(summary).as_f64()?))).collect(),
         memory: summary["memory_mib"]["sum"].as_f64(),
         trusted: first.is_good(),
-        front: false,
+        front: BTreeSet::new(),
         result: first.result.clone(),
     })
 }
 
-/// Marks the points of each case that no other point of the case beats.
-fn mark_fronts(lines: &mut [Line]) {
+/// Marks the points of each case that no other point of the case beats in this error.
+fn mark_fronts(lines: &mut [Line], error: &str) {
     let cases: Vec<String> = lines.iter().map(|line| line.case.clone()).collect();
     for case in cases {
         let of_case = lines.iter_mut().filter(|line| line.case == case).flat_map(|line| &mut line.points);
         let mut racing: Vec<(&mut Point, (f64, f64))> =
-            of_case.filter_map(|point| point.race().map(|race| (point, race))).collect();
+            of_case.filter_map(|point| point.race(error).map(|race| (point, race))).collect();
         let races: Vec<(f64, f64)> = racing.iter().map(|(_, race)| *race).collect();
-        racing.iter_mut().zip(front(&races)).for_each(|((point, _), on)| point.front = on);
+        let best = racing.iter_mut().zip(front(&races)).filter(|(_, on)| *on);
+        best.for_each(|((point, _), _)| {
+            point.front.insert(error.into());
+        });
     }
 }
 
@@ -166,7 +173,7 @@ mod tests {
         Plan {
             name: "bars".into(),
             keys: vec!["mesh.refine".into(), "solver.name".into()],
-            error: Some(SummaryPath::parse("errors.energy").unwrap()),
+            errors: ["errors.energy", "errors.force"].map(|path| SummaryPath::parse(path).unwrap()).to_vec(),
             time: SummaryPath::parse("time_s.total").unwrap(),
             along: "mesh.refine".into(),
             columns: Vec::new(),
@@ -206,12 +213,17 @@ mod tests {
         assert_eq!(lines.iter().map(|line| line.name.as_str()).collect::<Vec<_>>(), ["P1", "P2"]);
         for (line, order) in lines.iter().zip([1.0, 2.0]) {
             assert_eq!(line.points.iter().map(|point| point.unknowns).collect::<Vec<_>>(), [4.0, 16.0, 64.0]);
-            assert!((line.order.unwrap().exponent - order).abs() < 1e-12 && (line.cost.unwrap().exponent - 1.0).abs() < 1e-12);
+            assert!(
+                (line.orders["errors.energy"].unwrap().exponent - order).abs() < 1e-12
+                    && (line.cost.unwrap().exponent - 1.0).abs() < 1e-12
+            );
             let time = line.points[0].time.unwrap();
             assert_eq!((time.least, time.median, time.most, line.points[0].iterations), (4.0, 6.0, 8.0, Some(11.0)));
         }
-        let fronts: Vec<bool> = lines.iter().flat_map(|line| &line.points).map(|point| point.front).collect();
+        let fronts: Vec<bool> =
+            lines.iter().flat_map(|line| &line.points).map(|point| point.front.contains("errors.energy")).collect();
         assert_eq!(fronts, [false, false, false, true, true, true]);
+        assert!(lines[0].orders["errors.force"].is_none() && lines[0].points[0].errors.len() == 1, "what is not known");
     }
 
     #[test]

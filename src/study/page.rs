@@ -28,10 +28,12 @@ pub fn html(table: &Table, lines: &[Line], figure: Option<&str>) -> String {
         ]));
         sections.push(laws(table, lines));
     }
-    if lines.iter().flat_map(|line| &line.points).any(|point| point.front) {
-        sections.push(heading("The Pareto front"));
-        sections.push(paragraph(&["No other run of the case is both as fast and as accurate.".into()]));
-        sections.push(fronts(table, lines));
+    for error in &table.errors {
+        if lines.iter().flat_map(|line| &line.points).any(|point| point.front.contains(error)) {
+            sections.push(heading(&format!("The Pareto front of {error}")));
+            sections.push(paragraph(&["No other run of the case is both as fast and as accurate.".into()]));
+            sections.push(front(table, lines, error));
+        }
     }
     sections.push(heading("All runs"));
     let all = Readable::new(table);
@@ -47,12 +49,11 @@ pub fn html(table: &Table, lines: &[Line], figure: Option<&str>) -> String {
 
 /// Orders and costs of all lines.
 fn laws(table: &Table, lines: &[Line]) -> String {
-    let mut header = vec!["case", "line"];
-    header.extend(table.error.as_ref().map(|_| "error"));
-    header.push("time");
+    let errors = || table.errors.iter().map(String::as_str);
+    let header: Vec<&str> = ["case", "line"].into_iter().chain(errors()).chain([table.time.as_str()]).collect();
     let row = |line: &Line| {
         let mut cells = vec![line.case.clone(), line.name.clone()];
-        cells.extend(table.error.as_ref().map(|_| law("h", line.order)));
+        cells.extend(errors().map(|error| law("h", line.orders.get(error).copied().flatten())));
         cells.push(law("N", line.cost));
         cells
     };
@@ -60,12 +61,12 @@ fn laws(table: &Table, lines: &[Line]) -> String {
 }
 
 /// The points that no other beats, from the fastest to the most accurate one.
-fn fronts(table: &Table, lines: &[Line]) -> String {
-    let header = ["case", "line", "unknowns", &table.time, table.error.as_deref().unwrap_or("error"), "result"];
+fn front(table: &Table, lines: &[Line], error: &str) -> String {
+    let header = ["case", "line", "unknowns", &table.time, error, "result"];
     let mut best: Vec<(&Line, &Point, (f64, f64))> = Vec::new();
     for line in lines {
-        let points = line.points.iter().filter(|point| point.front);
-        best.extend(points.filter_map(|point| Some((line, point, point.race()?))));
+        let points = line.points.iter().filter(|point| point.front.contains(error));
+        best.extend(points.filter_map(|point| Some((line, point, point.race(error)?))));
     }
     let place = |case: &str| lines.iter().position(|line| line.case == case);
     best.sort_by(|a, b| place(&a.0.case).cmp(&place(&b.0.case)).then(a.2.0.total_cmp(&b.2.0)));
@@ -110,28 +111,36 @@ mod tests {
 
     #[test]
     fn the_page_holds_figure_laws_front_and_escaped_words() {
-        let point = |unknowns: f64, front| Point {
+        let point = |unknowns: f64, front: &[&str]| Point {
             unknowns,
             iterations: Some(5.0),
             time: Spread::of(vec![0.5]),
-            error: Some(1e-3),
+            errors: [("errors.energy".to_string(), 1e-3)].into(),
             memory: None,
             trusted: true,
-            front,
+            front: front.iter().map(|error| (*error).to_owned()).collect(),
             result: "runs/004".into(),
         };
-        let points = vec![point(1e3, true), point(4e3, false)];
-        let order = Some(PowerLaw { exponent: 2.0, deviation: 1.0 });
-        let line =
-            Line { case: "bars".into(), title: "Two bars".into(), name: "P1 & <P0>".into(), ranks: 1, order, cost: None, points };
-        let table = Table { study: "a < b".into(), error: Some("errors.energy".into()), ..Table::default() };
+        let points = vec![point(1e3, &["errors.energy"]), point(4e3, &[])];
+        let law = Some(PowerLaw { exponent: 2.0, deviation: 1.0 });
+        let orders = [("errors.energy".to_string(), law)].into();
+        let line = Line {
+            case: "bars".into(),
+            title: "Two bars".into(),
+            name: "P1 & <P0>".into(),
+            ranks: 1,
+            orders,
+            cost: None,
+            points,
+        };
+        let table = Table { study: "a < b".into(), errors: vec!["errors.energy".into()], ..Table::default() };
         let table = Table { columns: ["status", "reason", "repeat"].map(|name| Column::new(name, Kind::Main)).to_vec(), ..table };
         let page = html(&table, std::slice::from_ref(&line), Some("<svg></svg>\n"));
         for words in ["<h1>Study a &lt; b</h1>", "<svg></svg>", "P1 &amp; &lt;P0&gt;", "h^2.00", "too few points", "runs/004"] {
             assert!(page.contains(words), "{words}: {page}");
         }
         assert_eq!(page.matches("runs/004").count(), 1, "one of both points is on the front");
-        let bare = html(&Table { error: None, ..table }, &[], None);
+        let bare = html(&Table { errors: Vec::new(), ..table }, &[], None);
         assert!(!bare.contains("svg>") && !bare.contains("Pareto") && !bare.contains("Orders"), "{bare}");
     }
 }

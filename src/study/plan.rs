@@ -30,8 +30,8 @@ pub struct Plan {
     pub name: String,
     /// Dotted keys of all grids, in the order of the file.
     pub keys: Vec<String>,
-    /// Where the error axis stands in `summary.json`.
-    pub error: Option<SummaryPath>,
+    /// Where the errors stand in `summary.json`, each an axis; the first one is the column `error`.
+    pub errors: Vec<SummaryPath>,
     /// Where the time axis does.
     pub time: SummaryPath,
     /// The key along which the points of a line are joined.
@@ -102,7 +102,10 @@ impl Plan {
             seconds if seconds <= LONGEST => Ok(Duration::from_secs_f64(seconds)),
             _ => Err(format!("must be at most {LONGEST} seconds")),
         });
-        let error = root.optional("error", SummaryPath::read);
+        let errors = root.optional("error", |value| match value {
+            Value::Array(_) => values::list("a list of paths in summary.json", SummaryPath::read)(value),
+            single => Ok(vec![SummaryPath::read(single)?]),
+        });
         let time = root.or("time", "time_s.total", SummaryPath::read);
         let along = root.optional("along", |value| {
             let names = read_key(&values::name(value)?);
@@ -125,7 +128,7 @@ impl Plan {
         Some(Self {
             name: name_of(file, "study.toml"),
             keys,
-            error,
+            errors: errors.unwrap_or_default(),
             time: time?,
             along: along.unwrap_or("mesh.refine".into()),
             columns: columns.unwrap_or_default(),

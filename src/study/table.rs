@@ -18,8 +18,8 @@ const CONTACT: [&str; 4] = ["force", "inf_sup", "oscillation", "trust"];
 pub struct Table {
     /// Name of the study.
     pub study: String,
-    /// Where the error axis stands in `summary.json`.
-    pub error: Option<String>,
+    /// Where the errors stand in `summary.json`; the first one is the column `error`.
+    pub errors: Vec<String>,
     /// Where the time axis does.
     pub time: String,
     /// What the values of a row are.
@@ -78,7 +78,7 @@ impl Table {
         };
         let mut table = Self {
             study: plan.name.clone(),
-            error: plan.error.as_ref().map(|path| path.text.clone()),
+            errors: plan.errors.iter().map(|path| path.text.clone()).collect(),
             time: plan.time.text.clone(),
             columns: columns(plan, &places),
             rows: plan.runs.iter().zip(results).map(row).collect(),
@@ -161,7 +161,7 @@ fn of_result(plan: &Plan, ended: &Ended) -> [Value; 8] {
         krylov.into(),
         outer.into(),
         ended.wall.as_secs_f64().into(),
-        plan.error.as_ref().map_or(Value::Null, |path| path.of(summary)),
+        plan.errors.first().map_or(Value::Null, |path| path.of(summary)),
     ]
 }
 
@@ -182,7 +182,7 @@ fn places(plan: &Plan, results: &[Ended]) -> Vec<(SummaryPath, Kind)> {
     for contact in names(results, "contact") {
         places.extend(CONTACT.map(|figure| (SummaryPath::new(&["contact", contact, figure]), main)));
     }
-    for path in [&plan.time].into_iter().chain(&plan.columns) {
+    for path in plan.errors.iter().skip(1).chain([&plan.time]).chain(&plan.columns) {
         match places.iter_mut().find(|(place, _)| place == path) {
             Some((_, kind)) => *kind = main,
             None => places.push((path.clone(), main)),

@@ -5,7 +5,7 @@ fn table() -> Table {
     let row = |cells: Value| cells.as_array().unwrap().clone();
     Table {
         study: "hard".into(),
-        error: Some("errors.energy".into()),
+        errors: vec!["errors.energy".into()],
         time: "time_s.total".into(),
         columns: [
             ("case", Kind::Given),

@@ -19,7 +19,7 @@ fn plan() -> Plan {
     Plan {
         name: "bars".into(),
         keys: vec!["mesh.refine".into()],
-        error: Some(SummaryPath::parse("errors.energy").unwrap()),
+        errors: vec![SummaryPath::parse("errors.energy").unwrap()],
         time: SummaryPath::parse("time_s.total").unwrap(),
         along: "mesh.refine".into(),
         columns: ["errors.energy", "probe.tip.u.1"].map(|path| SummaryPath::parse(path).unwrap()).to_vec(),
