@@ -30,7 +30,9 @@ pub fn fractions(
             while known.is_none() && count > 1 && shortest(&graded(count, pair.grading)) < least * (1.0 - 1e-9) {
                 count -= 1;
             }
-            graded(count, pair.grading)
+            // Ends are found from the last two segments that carry pressure.
+            let least = if pair.has_free_ends() { 3 } else { 1 };
+            graded(count.max(least), pair.grading)
         }
     }
 }

@@ -49,7 +49,12 @@ impl Pair {
 
     /// Whether its contact boundary depends on the solution.
     pub fn follows(&self) -> bool {
-        self.curve == CurveChoice::Fit || self.ends == EndRule::Free
+        self.curve == CurveChoice::Fit || self.has_free_ends()
+    }
+
+    /// Whether the ends of its contact boundary follow the pressure: a bilateral one has no end.
+    pub fn has_free_ends(&self) -> bool {
+        self.ends == EndRule::Free && self.law == Law::Unilateral
     }
 }
 

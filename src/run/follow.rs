@@ -2,7 +2,7 @@
 
 use super::solve::{Begin, Lasting, Pass, Prepared};
 use super::{Run, RunError};
-use crate::system::{Discretisation, Following, Onward, Rung, Solution, Tolerance, Verdict, carried, stands};
+use crate::system::{Discretisation, Following, Onward, Rung, Solution, SystemError, Tolerance, Verdict, carried, stands};
 
 /// Relative residual of solves on boundaries that are still on their way.
 const ON_THE_WAY: f64 = 1e-5;
@@ -21,7 +21,7 @@ impl Run<'_> {
         rung: Rung,
         pass: Pass,
     ) -> Result<(Solution, Prepared), RunError> {
-        let exact = pass.tolerance.residual();
+        let exact = pass.tolerance.residual().min(ON_THE_WAY);
         let mut following = Following::new(problem, exact, begin.is_some());
         if pass.heard {
             self.report.follows(following.tolerances());
@@ -32,9 +32,17 @@ impl Run<'_> {
         let mut solution = self.solve_on(problem, &mut prepared, begin, pass)?;
         let (mut steps, mut boundaries) = (std::mem::take(&mut solution.steps), Vec::new());
         while let Verdict::Converged(_) = solution.verdict {
-            let (step, onward) = {
+            let followed = {
                 let _stage = self.stages.contact.enter();
-                following.next(problem, &solution, pass.boundary, self.session)?
+                following.next(problem, &solution, pass.boundary, self.session)
+            };
+            let (step, onward) = match followed {
+                Ok(followed) => followed,
+                Err(SystemError::Case(words)) => {
+                    solution.verdict = Verdict::NotConverged(words);
+                    break;
+                }
+                Err(error) => return Err(error.into()),
             };
             pass.passes = steps.len();
             let again = if let Onward::Stands = &onward { pass.tolerance != Tolerance::Residual(exact) } else { false };

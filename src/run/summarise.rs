@@ -124,7 +124,7 @@ pub fn contact(
         pressure_max: Some(lambda.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
         oscillation,
         inf_sup,
-        trust: trust(inf_sup, oscillation),
+        trust: if contact.is_smaller_than_an_edge() { Some(false) } else { trust(inf_sup, oscillation) },
         lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
 }

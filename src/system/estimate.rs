@@ -86,8 +86,11 @@ impl Estimate {
     }
 }
 
-/// What is left of an additive error, from two successive differences of it.
+/// What is left of an additive error, from two successive differences of it; nothing if they do not fall.
 fn left(before: f64, last: f64) -> Option<f64> {
+    if last > before {
+        return None;
+    }
     let factor = (last / before).clamp(FACTORS[0], FACTORS[1]);
     let rest = last * factor / (1.0 - factor);
     rest.is_finite().then_some(rest)

@@ -1,6 +1,6 @@
 //! The blocks of the saddle point that have a multiplier side: `B̂`, `B̂ᵀ`, `-Ĉ` and the approximate Schur complement.
 
-use super::saddle_point::weights;
+use super::contact::weights;
 use super::{Contact, CouplingRows, Discretisation, Space, SystemError};
 use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::geometry::Point;
