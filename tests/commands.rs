@@ -139,7 +139,7 @@ fn a_run_tells_that_it_lives_unless_it_is_quiet() {
     assert!(last.starts_with("mezha: converged"), "{}", ended.output);
     let passes = ended.value("/outer").as_array().map(Vec::len).expect("a list");
     let told = ended.output.lines().filter(|line| line.trim_start().starts_with(|c: char| c.is_ascii_digit()));
-    assert!(passes > 2 && told.count() >= passes, "{}", ended.output);
+    assert!(passes > 1 && told.count() >= passes, "{}", ended.output);
     let quiet = run.word("--quiet").converged();
     assert_eq!((quiet.output.as_str(), quiet.errors.as_str()), ("", ""));
 }

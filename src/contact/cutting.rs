@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn automatic_segments_hold_as_many_edges_each() {
         let young = [1.0, 1.0];
-        for (ratio, parts, shortening) in [(0.5, 21, 1.0), (0.3, 18, 5.0), (0.15, 17, 50.0)] {
+        for (ratio, parts, shortening) in [(0.5, 21, 1.0), (0.3, 21, 5.0), (0.15, 18, 50.0)] {
             let (edges, mut boundary) = graded_seam(ratio);
             let count = EdgeCount::new(&boundary, &edges, young);
             assert_eq!(count.most_parts(1.5), parts, "even: 1.5 of the 32 edges of the lower block");
