@@ -66,7 +66,7 @@ pub struct Study {
     /// Folder of tables, figures and all results; runs that are there already are kept
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Override a key of the study, as in repeat=3 or 'grid."mesh.refine"=[2,3]'; may be repeated
+    /// Override a key of the study, as in repeat=3; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
     /// Forget the runs in the folder, also those of another study, and make all anew

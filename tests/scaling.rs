@@ -15,7 +15,7 @@ const MORE_REDUCTIONS: f64 = 45.0;
 /// A displacement order, a multiplier space, refinements, and the most floating-point operations for each unknown.
 type Ladder = (usize, &'static str, [usize; 4], f64);
 
-const LADDERS: [Ladder; 2] = [(1, "p0", [3, 4, 5, 6], 3800.0), (2, "p1-discontinuous", [2, 3, 4, 5], 6000.0)];
+const LADDERS: [Ladder; 2] = [(1, "p0", [3, 4, 5, 6], 4800.0), (2, "p1-discontinuous", [2, 3, 4, 5], 7500.0)];
 
 /// Counts of one run.
 #[derive(Debug)]

@@ -95,8 +95,7 @@ impl Ended {
 impl<'a> Execution<'a> {
     /// Runs of this program, with results in the folder of the study.
     pub fn new(program: &'a Program, folder: &'a Folder, timeout: Duration) -> Self {
-        let cores = available_parallelism().map_or(1, NonZero::get);
-        Self { program, folder, timeout, cores, machine: machine() }
+        Self { program, folder, timeout, cores: cores(), machine: machine() }
     }
 
     /// Makes a run, with its result under this number. What it says on standard error stays beside the result.
@@ -150,6 +149,12 @@ impl<'a> Execution<'a> {
         command.args(words).args(run.overrides.iter().flat_map(|text| ["--set", text]));
         command
     }
+}
+
+/// How many ranks have a core of their own: tasks of a Slurm job, on all its nodes, or cores of this machine.
+fn cores() -> usize {
+    let tasks = std::env::var("SLURM_NTASKS").ok().and_then(|tasks| tasks.parse().ok());
+    tasks.unwrap_or_else(|| available_parallelism().map_or(1, NonZero::get))
 }
 
 /// How a child ended; None if it took too long and was ended.

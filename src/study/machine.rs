@@ -8,7 +8,11 @@ use std::thread::available_parallelism;
 pub fn machine() -> String {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let cores = available_parallelism().map_or(1, NonZero::get);
-    describe(&read("/proc/cpuinfo"), cores, &read("/proc/meminfo"))
+    let machine = describe(&read("/proc/cpuinfo"), cores, &read("/proc/meminfo"));
+    match std::env::var("SLURM_JOB_NUM_NODES") {
+        Ok(nodes) if nodes != "1" => format!("{nodes} nodes of {machine}"),
+        _ => machine,
+    }
 }
 
 fn describe(cpuinfo: &str, cores: usize, meminfo: &str) -> String {

@@ -1,6 +1,6 @@
 //! Diagrams of many runs: points joined to lines, in blocks with a legend each.
 
-use plotters::element::{PathElement, Polygon, Text};
+use plotters::element::{Circle, PathElement, Polygon, Text};
 use plotters::prelude::Rectangle;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, RGBColor, ShapeStyle};
@@ -74,8 +74,8 @@ const TITLE: i32 = 34;
 const ROW: i32 = 19;
 /// Below the diagrams of a block (pixels).
 const GAP: i32 = 14;
-/// Corners of the marks, on a circle: their number, and the angle of the first one in right angles.
-const MARKS: [(usize, f64); 5] = [(20, 0.0), (4, 0.5), (3, -1.0), (4, 0.0), (3, 1.0)];
+/// Corners of the marks, on a circle: their number, and the angle of the first one in right angles. None: the circle itself.
+const MARKS: [Option<(usize, f64)>; 5] = [None, Some((4, 0.5)), Some((3, -1.0)), Some((4, 0.0)), Some((3, 1.0))];
 /// Radius of the marks (pixels).
 const RADIUS: f64 = 4.0;
 const WHITE: RGBColor = RGBColor(255, 255, 255);
@@ -177,14 +177,19 @@ fn draw_line(whole: &Area, chart: &mut Chart, style: usize, marks: &[Mark]) -> D
 
 /// Draws a mark around a place on the sheet.
 fn draw_mark(area: &Area, (x, y): (i32, i32), style: usize, hollow: bool) -> DrawResult<()> {
-    let (corners, first) = MARKS[style % MARKS.len()];
+    let fill = ShapeStyle::from(if hollow { WHITE } else { colour(style) }).filled();
+    let Some((corners, first)) = MARKS[style % MARKS.len()] else {
+        for style in [fill, line(&colour(style), 1.2)] {
+            area.draw(&Circle::new((x, y), (RADIUS * f64::from(PIXEL)) as u32, style))?;
+        }
+        return Ok(());
+    };
     let corner = |k: usize| {
         let angle = std::f64::consts::FRAC_PI_2 * (first + 4.0 * k as f64 / corners as f64);
         let across = |part: f64| (RADIUS * f64::from(PIXEL) * part).round() as i32;
         (x + across(angle.cos()), y + across(angle.sin()))
     };
     let outline: Vec<(i32, i32)> = (0..=corners).map(corner).collect();
-    let fill = ShapeStyle::from(if hollow { WHITE } else { colour(style) }).filled();
     area.draw(&Polygon::new(outline.clone(), fill))?;
     area.draw(&PathElement::new(outline, line(&colour(style), 1.2)))?;
     Ok(())
@@ -253,15 +258,20 @@ mod tests {
         text.matches(word).count()
     }
 
+    /// Marks of the first two styles: circles, drawn twice, and squares.
+    fn drawn(text: &str) -> usize {
+        count(text, "<circle") / 2 + count(text, "<polygon")
+    }
+
     #[test]
     fn every_line_has_its_marks_and_its_row() {
         let text = diagrams(&[block([0.5, 1.0])]).unwrap().unwrap();
         assert!(text.starts_with("<svg xmlns=") && text.ends_with("</svg>\n"), "{text}");
-        assert_eq!(count(&text, "<polygon"), 2 * 3 + 2, "marks, and samples in the legend");
+        assert_eq!(drawn(&text), 2 * 3 + 2, "marks, and samples in the legend");
         assert!(text.contains("error &amp; unknowns") && text.contains("error &lt;1&gt;") && !text.contains("NaN"));
         assert_eq!((count(&text, "line 0"), count(&text, "a law")), (1, 2));
         let two = diagrams(&[block([0.5, 1.0]), block([0.1, 0.2])]).unwrap().unwrap();
-        assert_eq!(count(&two, "<polygon"), 2 * count(&text, "<polygon"));
+        assert_eq!(drawn(&two), 2 * drawn(&text));
     }
 
     #[test]
@@ -277,7 +287,7 @@ mod tests {
         let marks = &mut bad.diagrams[0].lines[0].1;
         (marks[0].y, marks[1].y, marks[2].reach) = (0.0, f64::NAN, [-1.0, 1.0]);
         let text = diagrams(&[bad.clone()]).unwrap().unwrap();
-        assert!(count(&text, "<polygon") == 1 + 3 + 2 && !text.contains("NaN"), "{text}");
+        assert!(drawn(&text) == 1 + 3 + 2 && !text.contains("NaN"), "{text}");
         bad.diagrams[0].lines.clear();
         assert_eq!(diagrams(&[bad]).unwrap(), None);
         assert_eq!(diagrams(&[]).unwrap(), None);
