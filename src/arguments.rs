@@ -20,7 +20,7 @@ pub enum Command {
     Run(Run),
     /// Read everything, solve nothing, say what would be solved
     Check(CaseArguments),
-    /// Make every run of a grid, each a row of one table; start it without mpirun
+    /// Make every run of a grid that is not made yet, each a row of one table; start it without mpirun
     Study(Study),
     /// Print versions of mezha, PETSc, MPI and BLAS, and the number of ranks
     Info,
@@ -63,10 +63,13 @@ pub struct Study {
     /// The study file
     #[arg(value_name = "STUDY.toml")]
     pub file: PathBuf,
-    /// Folder of the table and of all results
+    /// Folder of tables, figures and all results; runs that are there already are kept
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Overwrite a folder that holds a study
+    /// Override a key of the study, as in repeat=3; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Forget the runs in the folder, also those of another study, and make all anew
     #[arg(long)]
     pub force: bool,
 }
@@ -117,7 +120,7 @@ mod tests {
             ("mezha solve a.toml", ErrorKind::InvalidSubcommand),
             ("mezha study a.toml", ErrorKind::MissingRequiredArgument),
             ("mezha study --out r", ErrorKind::MissingRequiredArgument),
-            ("mezha study a.toml --out r --set a=1", ErrorKind::UnknownArgument),
+            ("mezha study a.toml --out r --quiet", ErrorKind::UnknownArgument),
             ("mezha check a.toml --out r", ErrorKind::UnknownArgument),
             ("mezha run a.toml -ksp_view", ErrorKind::UnknownArgument),
             ("mezha run a.toml --set", ErrorKind::InvalidValue),

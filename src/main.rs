@@ -91,7 +91,7 @@ fn study(arguments: &Study) -> i32 {
         }
         return 2;
     }
-    match study::run(&arguments.file, &arguments.out, arguments.force) {
+    match study::run(&arguments.file, &arguments.overrides, &arguments.out, arguments.force) {
         Ok(()) => 0,
         Err(StudyError::Input(words)) => print(&RunError::Input(words)),
         Err(StudyError::Failed(words)) => print(&RunError::Failed(words)),

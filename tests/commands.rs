@@ -93,6 +93,20 @@ fn the_result_folder_is_complete() {
     }
 }
 
+#[test]
+fn a_result_without_fields_has_all_the_numbers() {
+    for ranks in [1, 2] {
+        let run = Run::case("stack").set("mesh.refine", 1).ranks(ranks);
+        let (whole, bare) = (run.clone().converged(), run.set("output.fields", false).converged());
+        assert_eq!(names_in(&bare.out), ["case.toml", "contact_first.csv", "contact_second.csv", "summary.json"]);
+        for table in ["contact_first.csv", "contact_second.csv"] {
+            let read = |ended: &support::Ended| std::fs::read_to_string(ended.out.join(table)).expect("a table");
+            assert_eq!(read(&whole).lines().count(), read(&bare).lines().count());
+        }
+        assert!((whole.number("/energy/total") / bare.number("/energy/total") - 1.0).abs() < 1e-12);
+    }
+}
+
 /// Names that benchmarks and scripts read; a key that does not apply is null, not missing.
 #[test]
 fn the_summary_has_every_name() {

@@ -1,8 +1,10 @@
 //! `mezha study` from its file to its table.
 
 use std::fs;
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -26,8 +28,8 @@ impl Study {
         self.folder.path().join("out")
     }
 
-    /// Makes the study; `words` are added to the command.
-    fn make(&self, words: &[&str]) -> Output {
+    /// The command that makes the study; `words` are added to it.
+    fn command(&self, words: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_mezha"));
         command.arg("study").arg(self.folder.path().join("patch.toml")).arg("--out").arg(self.out()).args(words);
         for (name, value) in [
@@ -39,17 +41,24 @@ impl Study {
         ] {
             command.env(name, value);
         }
-        // Runs at the same time must not clear away each other's session folders.
-        command.env("OMPI_MCA_orte_tmpdir_base", self.folder.path());
-        command.stdin(Stdio::null()).output().expect("mezha starts")
+        command.stdin(Stdio::null());
+        command
+    }
+
+    /// Makes the study; `words` are added to the command.
+    fn make(&self, words: &[&str]) -> Output {
+        self.command(words).output().expect("mezha starts")
     }
 
     /// Makes the study, which must give a table, and reads its rows.
     fn rows(&self) -> Vec<Value> {
         let output = self.make(&[]);
         assert_eq!(output.status.code(), Some(0), "{}{}", text(&output.stdout), text(&output.stderr));
-        let table: Value = serde_json::from_str(&self.read("study.json")).expect("JSON");
-        table["rows"].as_array().expect("a list of rows").clone()
+        self.json()["rows"].as_array().expect("a list of rows").clone()
+    }
+
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.read("study.json")).expect("JSON")
     }
 
     fn read(&self, name: &str) -> String {
@@ -76,7 +85,8 @@ fn a_grid_of_two_by_two_is_four_rows() {
         assert!(row["time_s.total"].as_f64().unwrap() > 0.0 && row["memory_mib.sum"].as_f64().unwrap() > 0.0);
         let summary = study.read(&format!("runs/{number:03}/summary.json"));
         let summary: Value = serde_json::from_str(&summary).unwrap();
-        assert_eq!((&summary["energy"]["U"], &summary["ranks"]), (&row["energy.U"], &row["ranks"]));
+        assert_eq!((&summary["energy"]["total"], &summary["ranks"]), (&row["energy.total"], &row["ranks"]));
+        assert!(row["energy.total"].as_f64().unwrap() > 0.0);
     }
     let triangles: Vec<u64> = rows.iter().map(|row| row["mesh.triangles"].as_u64().unwrap()).collect();
     assert_eq!(triangles, [69, 69, 276, 276]);
@@ -102,7 +112,7 @@ fn a_run_that_fails_is_a_row_with_its_reason() {
     }
     for row in &rows[2..4] {
         assert_eq!(row["reason"], json!("mesh.order = 7 (--set): must be 1 or 2, the order of the displacement"));
-        assert!(row["error"].is_null() && row["energy.U"].is_null() && row["result"].is_null(), "{row}");
+        assert!(row["error"].is_null() && row["energy.total"].is_null() && row["result"].is_null(), "{row}");
     }
     assert!(study.read("runs/003.stderr").contains("must be 1 or 2"));
     assert!(study.read("study.md").contains("6 runs, 2 converged"));
@@ -118,17 +128,178 @@ fn a_run_that_takes_too_long_is_a_row() {
     }
 }
 
+/// Lines that tell of a run that is made.
+fn runs_made(output: &Output) -> usize {
+    text(&output.stdout).lines().filter(|line| line.starts_with("run ")).count()
+}
+
 #[test]
-fn a_study_is_not_overwritten_unless_it_is_said() {
-    let study = Study::new("grid.'mesh.refine' = [0]");
-    assert_eq!(study.rows().len(), 1);
-    let before = study.read("study.json");
+fn finished_runs_are_kept_and_new_ones_added() {
+    let study = Study::new("grid.'mesh.refine' = [0, 1]");
+    let before = study.rows();
+    let again = study.make(&[]);
+    assert_eq!((again.status.code(), runs_made(&again)), (Some(0), 0), "{}", text(&again.stdout));
+    assert!(text(&again.stdout).contains("2 runs, 2 of them already made"), "{}", text(&again.stdout));
+    assert_eq!(study.json()["rows"], json!(before), "to the last digit of the times");
+    let more = study.make(&["--set", "grid.\"mesh.refine\"=[2, 1, 0]"]);
+    assert!(runs_made(&more) == 1 && text(&more.stdout).contains("run 1 of 3, 0:00: patch_flat  mesh.refine=2  1 rank ... "));
+    let rows = study.json()["rows"].as_array().expect("rows").clone();
+    assert_eq!((rows.len(), &rows[1], &rows[2]), (3, &before[1], &before[0]));
+    assert_eq!(rows[0]["result"], json!("runs/003"));
+    assert_eq!(runs_made(&study.make(&["--force"])), 2);
+    assert_ne!(study.json()["rows"], json!(before));
+}
+
+#[test]
+fn a_study_that_was_killed_goes_on_where_it_stopped() {
+    let study = Study::new("repeat = 3\ngrid.'mesh.refine' = [3, 4]");
+    let mut child = study.command(&[]).process_group(0).stdout(Stdio::null()).spawn().expect("mezha starts");
+    let start = Instant::now();
+    while !study.out().join("runs/002.json").exists() {
+        assert!(start.elapsed() < Duration::from_secs(60) && child.try_wait().expect("a child").is_none());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let killed = Command::new("kill").args(["-KILL", "--", &format!("-{}", child.id())]).status();
+    assert!(killed.expect("kill runs").success());
+    child.wait().expect("a child can be waited for");
+    let finished: Vec<usize> = (1..=6).filter(|number| study.out().join(format!("runs/{number:03}.json")).exists()).collect();
+    assert!(finished.len() >= 2 && finished.len() < 6 && !study.out().join("study.csv").exists(), "{finished:?}");
+    let summaries = || finished.iter().map(|number| study.read(&format!("runs/{number:03}/summary.json"))).collect::<Vec<_>>();
+    let before = summaries();
+    let output = study.make(&[]);
+    assert_eq!((output.status.code(), runs_made(&output)), (Some(0), 6 - finished.len()), "{}", text(&output.stdout));
+    assert_eq!(summaries(), before);
+    assert_eq!(study.json()["rows"].as_array().map(Vec::len), Some(6));
+}
+
+/// A run that outlives its study still writes into the folder.
+#[test]
+fn a_folder_with_a_run_left_behind_is_in_use() {
+    let study = Study::new("grid.'mesh.refine' = [5]");
+    let mut child = study.command(&[]).stdout(Stdio::null()).spawn().expect("mezha starts");
+    while !study.out().join("runs/.001.partial").exists() {
+        assert!(child.try_wait().expect("a child").is_none());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().expect("a child can be killed");
+    child.wait().expect("a child can be waited for");
     let refused = study.make(&[]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("already holds a study") && text(&refused.stderr).contains("--force"));
+    assert!(text(&refused.stderr).contains("or by a run that one has left behind"), "{}", text(&refused.stderr));
+    let start = Instant::now();
+    while study.make(&[]).status.code() != Some(0) {
+        assert!(start.elapsed() < Duration::from_secs(120));
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    assert_eq!(study.json()["rows"][0]["status"], json!("converged"));
+}
+
+#[test]
+fn what_has_changed_is_made_again() {
+    let study = Study::new("grid.'mesh.refine' = [0]");
+    let folder = study.folder.path();
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/patch_flat");
+    let write = |young: &str| {
+        let text = fs::read_to_string(case.join("case.toml")).expect("a case");
+        fs::write(folder.join("own.toml"), text.replace("must_hold = true", "must_hold = false") + young).expect("a file");
+    };
+    fs::copy(case.join("blocks.msh"), folder.join("blocks.msh")).expect("a mesh");
+    write("");
+    fs::write(folder.join("patch.toml"), "cases = ['own.toml']\n[grid]\n'mesh.refine' = [0, 1]").expect("a file");
+    assert_eq!(runs_made(&study.make(&[])), 2);
+    write("[probe.top]\npoint = [1, 2]\nbody = 'upper'");
+    let output = study.make(&[]);
+    assert_eq!(runs_made(&output), 2);
+    assert!(text(&output.stdout).contains("2 to be made again"), "{}", text(&output.stdout));
+    assert_eq!(study.json()["rows"][0]["result"], json!("runs/001"));
+    let mesh = fs::read_to_string(folder.join("blocks.msh")).expect("a mesh");
+    fs::write(folder.join("blocks.msh"), mesh + "\n").expect("a mesh");
+    assert_eq!(runs_made(&study.make(&[])), 2);
+    assert_eq!(runs_made(&study.make(&[])), 0);
+}
+
+#[test]
+fn a_folder_holds_one_study() {
+    let study = Study::new("grid.'mesh.refine' = [0]");
+    study.rows();
+    let before = study.read("study.json");
+    let other = study.folder.path().join("other.toml");
+    fs::copy(study.folder.path().join("patch.toml"), &other).expect("a file");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mezha"));
+    let refused = command.arg("study").arg(other).arg("--out").arg(study.out()).output().expect("mezha starts");
+    assert_eq!(refused.status.code(), Some(2));
+    let errors = text(&refused.stderr);
+    assert!(errors.contains("holds the study patch; choose another folder with --out, or replace it with --force"), "{errors}");
     assert_eq!(study.read("study.json"), before);
-    assert_eq!(study.make(&["--force"]).status.code(), Some(0));
-    assert_ne!(study.read("study.json"), before);
+}
+
+#[test]
+fn repeats_have_medians_in_every_table() {
+    let study = Study::new("repeat = 3\nerror = 'errors.energy'\ngrid.'mesh.refine' = [0, 1]");
+    let rows = study.rows();
+    for repeats in rows.chunks(3) {
+        let mut times: Vec<f64> = repeats.iter().map(|row| row["time_s.total"].as_f64().expect("a time")).collect();
+        times.sort_by(f64::total_cmp);
+        for row in repeats {
+            let of = |what: &str| row[format!("time_s.total.{what}")].as_f64().expect("a number");
+            assert_eq!([of("least"), of("median"), of("most")], times[..], "{row}");
+        }
+    }
+    let page = study.read("study.md");
+    assert_eq!(page.lines().filter(|line| line.starts_with("| patch_flat | 1 | 3 | ")).count(), 2, "{page}");
+    let points = study.json()["lines"][0]["points"].as_array().expect("points").clone();
+    assert_eq!(points.len(), 2);
+    assert_eq!(points[0]["time"]["median"], rows[0]["time_s.total.median"]);
+    assert_eq!(points[1]["unknowns"].as_f64(), rows[3]["unknowns"].as_f64());
+}
+
+/// Python's parser reads figure and page.
+#[test]
+fn figure_and_page_are_well_formed() {
+    let study = Study::new(
+        "error = 'errors.energy'\ngrid.'mesh.refine' = [0, 1, 2]\n[[curve]]\nname = 'a < b & \"c\"'\n[[curve]]\nname = 'P1'\nset = { 'mesh.order' = 1 }",
+    );
+    study.rows();
+    let page = study.read("study.html");
+    for words in ["<svg ", "Pareto", "Orders and costs", "a &lt; b &amp; &quot;c&quot;", "cores", "BLAS", "patch_flat"] {
+        assert!(page.contains(words), "{words} in {page}");
+    }
+    assert!(!page.contains("http://") || page.matches("http://").count() == page.matches("http://www.w3.org/").count());
+    let figure = study.read("study.svg");
+    assert!(page.contains(figure.trim()) && figure.matches("<polygon").count() > 8, "{figure}");
+    let program = "import sys, xml.etree.ElementTree as tree\nfor file in sys.argv[1:]: tree.parse(file)";
+    let files = ["study.svg", "study.html"].map(|name| study.out().join(name));
+    match Command::new("python3").arg("-c").arg(program).args(files).output() {
+        Ok(read) => assert!(read.status.success(), "{}", text(&read.stderr)),
+        Err(error) => println!("skipped: nobody has read the files, since python3 does not start: {error}"),
+    }
+}
+
+/// `docs/performance/make` finds in `study.json` what it writes of.
+#[test]
+fn the_page_of_performance_is_made_of_studies() {
+    let pairs = [("P1/P0", 1, "p0"), ("P2/P1 continuous", 2, "p1-continuous")];
+    let curve = |(name, order, space): (&str, u8, &str)| {
+        format!("[[curve]]\nname = '{name}'\nset = {{ 'mesh.order' = {order}, 'contact.seam.multiplier' = '{space}' }}\n")
+    };
+    let head = "ranks = [1, 2]\nerror = ['errors.energy', 'errors.lambda_seam']\n[grid]\n'mesh.refine' = [0, 1, 2]\n";
+    let study = Study::new(&format!("{head}{}", pairs.map(curve).concat()));
+    study.rows();
+    let program = "import json, sys\nsys.path.insert(0, sys.argv[1])\nimport words\nstudy = json.load(open(sys.argv[2]))\n\
+         print(words.page({name: study for name in ('speed_against_error', 'scaling', 'ranks')}, False))";
+    let words = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/performance");
+    let mut python = Command::new("python3");
+    python.args(["-B", "-c", program]).arg(words).arg(study.out().join("study.json"));
+    let Ok(output) = python.output() else {
+        println!("skipped: python3 does not start");
+        return;
+    };
+    let page = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for words in ["### patch_flat: ", "| bound | P1/P0, 1 rank |", " iterations from ", "The energies differ by "] {
+        assert!(page.contains(words), "{words} in {page}");
+    }
+    assert!(page.contains(" times as fast as P") || page.contains("take the same time"), "{page}");
 }
 
 #[test]

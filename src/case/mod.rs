@@ -53,6 +53,8 @@ pub struct Case {
     pub contacts: Vec<Pair>,
     /// Linear solver.
     pub solver: Solver,
+    /// What is written of the result.
+    pub output: Output,
     /// Points to report.
     pub probes: Vec<Probe>,
     /// Exact or reference values.
@@ -103,6 +105,13 @@ pub struct Solver {
     pub tolerance: Tolerance,
     /// Whether the inf-sup constants are reported; by default where that is cheap.
     pub inf_sup: Option<bool>,
+}
+
+/// What is written of the result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// Whether fields and figures are; the numbers always are.
+    pub fields: bool,
 }
 
 /// A point whose displacement and stress are reported.
@@ -172,6 +181,7 @@ impl Case {
         let loads = root.named("load", model::read_load);
         let contacts = root.named("contact", contact::read_contact);
         let solver = model::read_solver(root);
+        let output = model::read_output(root);
         let probes = root.named("probe", model::read_probe);
         let exact = exact::read_exact(root);
         model::check_bodies(root);
@@ -191,6 +201,7 @@ impl Case {
             loads,
             contacts,
             solver: solver?,
+            output: output?,
             probes,
             exact,
             table: Table::new(),

@@ -8,7 +8,7 @@ use super::error::suggest;
 use super::grade::read_grade;
 use super::section::Section;
 use super::values::{self, PLANE};
-use super::{Geometry, MeshChoice, Probe, Solver};
+use super::{Geometry, MeshChoice, Output, Probe, Solver};
 use crate::body::{Body, Load, LoadKind, Material, Support};
 use crate::element::Order;
 use crate::geometry::Curve;
@@ -146,6 +146,12 @@ pub fn read_solver(root: &Section) -> Option<Solver> {
         other => Err(values::must_be("\"auto\", true or false", other)),
     });
     Some(Solver { choice: choice?, tolerance: tolerance?, inf_sup: inf_sup? })
+}
+
+/// `[output]`
+pub fn read_output(root: &Section) -> Option<Output> {
+    let fields = root.table("output").or("fields", true, values::boolean);
+    Some(Output { fields: fields? })
 }
 
 /// `[probe.NAME]`

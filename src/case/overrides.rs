@@ -22,16 +22,27 @@ pub fn apply_override(table: &mut Table, text: &str) -> Result<Vec<String>, Prob
     Ok(path)
 }
 
-/// Sets the value at a path; tables that are missing are created.
+/// Sets the value at a path; tables that are missing are created. In a list of tables a number is a place, from 1.
 ///
 /// # Errors
 /// The dotted key of a value that stands where a table is wanted.
 pub fn set_value(table: &mut Table, path: &[String], value: Value) -> Result<(), String> {
     let (last, above) = path.split_last().expect("a key has at least one name");
     let mut inner = table;
-    for (depth, name) in above.iter().enumerate() {
+    let mut depth = 0;
+    while let Some(name) = above.get(depth) {
+        depth += 1;
         let next = inner.entry(name.clone()).or_insert_with(|| Value::Table(Table::new()));
-        inner = next.as_table_mut().ok_or_else(|| dotted(&path[..=depth]))?;
+        let refused = || dotted(&above[..depth]);
+        inner = match (next, above.get(depth)) {
+            (Value::Array(list), Some(place)) => {
+                let index = place.parse::<usize>().ok().and_then(|place| place.checked_sub(1));
+                let entry = index.and_then(|index| list.get_mut(index)).and_then(Value::as_table_mut).ok_or_else(refused)?;
+                depth += 1;
+                entry
+            }
+            (next, _) => next.as_table_mut().ok_or_else(refused)?,
+        };
     }
     inner.insert(last.clone(), value);
     Ok(())

@@ -52,6 +52,8 @@ configuration = "reference"
 [solver]
 name = "direct"
 tolerance = 1e-10
+[output]
+fields = false
 [probe.tip]
 point = [1, 2.0]
 body = "upper.left"
@@ -106,6 +108,7 @@ fn a_full_case_is_read() {
     assert_eq!(pair.segments, SegmentRule::Fractions(vec![0.0, 0.2, 1.0]));
     assert!(matches!(&pair.gap, GapChoice::Formula(gap) if gap.value(&[2.0, 0.0]) == 4e-3));
     assert_eq!(case.solver, Solver { choice: SolverChoice::Direct, tolerance: Tolerance::Residual(1e-10), inf_sup: None });
+    assert!(!case.output.fields);
     assert_eq!(case.probes, [Probe { name: "tip".into(), point: [1.0, 2.0], body: "upper.left".into() }]);
     assert!(case.exact.must_hold);
     assert_eq!(case.exact.energy, Some(Expected { value: 2.6e-3, tolerance: 2e-5 }));
@@ -120,6 +123,7 @@ fn defaults_are_those_of_the_contract() {
     let case = parse(&format!("{LEAST}{CONTACT}"), &[]).unwrap();
     assert_eq!((case.mesh.order, case.mesh.refine, case.title.as_str()), (Order::P2, 0, ""));
     assert_eq!(case.solver, Solver { choice: SolverChoice::Auto, tolerance: Tolerance::Residual(1e-8), inf_sup: None });
+    assert!(case.output.fields);
     let pair = &case.contacts[0];
     assert_eq!((pair.space, pair.law), (MultiplierSpace::P1Discontinuous, Law::Unilateral));
     assert_eq!(pair.segments, SegmentRule::Auto);
@@ -339,6 +343,8 @@ fn every_error_names_key_value_and_remedy() {
         ("solver.tolerance=0", "must lie in (0, 0.01]"),
         ("solver.tolerance=0.02", "must lie in (0, 0.01]"),
         ("solver.tolerance=fine", "must be a number like 1e-8, or \"discretisation\""),
+        ("output.fields=no", "must be true or false, not of type string"),
+        ("output.field=false", "unknown key; did you mean \"fields\"?"),
         ("probe.p.body=aa", "probe.p.body = \"aa\" (--set): no such body; did you mean \"a\"?"),
         ("probe.p.point=[0, nan]", "entry 2: must be a finite number"),
         ("exact.must_hold=1", "must be true or false, not of type integer"),

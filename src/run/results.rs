@@ -11,6 +11,7 @@ use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
 use crate::system::recovery::{TracePoint, balance, nodal_stress, probe, trace_points};
 use crate::system::{Contact, Discretisation, Field, Solution, Verdict};
+use std::path::Path;
 
 impl Run<'_> {
     /// Evaluates a solution, writes everything, prints the verdict. **Collective**
@@ -101,10 +102,15 @@ impl Run<'_> {
         }
     }
 
-    /// Fields, traces and figures in files. **Collective**
+    /// Traces in files; fields and figures too, unless the case wants none. **Collective**
     fn write_files(&self, problem: &Discretisation, u: &Field<2>, traces: &[Vec<ContactPoint>]) -> Result<(), RunError> {
         let (case, session) = (self.case, self.session);
         let folder = ResultFolder::temporary_path(&self.options.out);
+        let written = if session.rank() == 0 { write_tables(&folder, problem, traces) } else { Ok(()) };
+        session.agree(written.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
+        if !case.output.fields {
+            return Ok(());
+        }
         let stress = nodal_stress(problem, u, session)?;
         let written = fields::write(&folder, problem, u, &stress, session);
         session.agree(written).map_err(RunError::Failed)?;
@@ -115,7 +121,6 @@ impl Run<'_> {
         let title = if case.title.is_empty() { &case.name } else { &case.title };
         for (contact, points) in problem.contacts.iter().zip(traces) {
             let name = &contact.pair.name;
-            write_contact(&folder.join(format!("contact_{name}.csv")), &[], points)?;
             vtk::write_curve(&folder.join(format!("contact_{name}.vtu")), points)?;
             plot::write_pressure(&folder.join(format!("pressure_{name}.svg")), title, points)?;
             plot::write_displacement(&folder.join(format!("displacement_{name}.svg")), title, points)?;
@@ -124,6 +129,12 @@ impl Run<'_> {
         plot::write_deformed(&folder.join("deformed.svg"), title, None, &facets, &lines)?;
         Ok(())
     }
+}
+
+/// Writes the table along each contact boundary.
+fn write_tables(folder: &Path, problem: &Discretisation, traces: &[Vec<ContactPoint>]) -> Result<(), OutputError> {
+    let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
+    problem.contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), &[], points))
 }
 
 /// Writes what tells a whole result, and puts the folder in its place.

@@ -2,17 +2,21 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File};
+use std::io;
 use std::num::NonZero;
 use std::os::unix::process::ExitStatusExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::{available_parallelism, sleep};
 use std::time::{Duration, Instant};
 
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::folder;
+use super::folder::{Folder, read_summary, result_name};
+use super::machine::machine;
 use super::plan::PlannedRun;
+use super::record::Program;
 use crate::output::OutputError;
 
 /// How often it is asked whether a run has ended.
@@ -23,7 +27,8 @@ const GRACE: Duration = Duration::from_secs(10);
 const OWN: &str = "mezha: ";
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Status {
     /// Exit code 0.
     Converged,
@@ -50,14 +55,17 @@ pub struct Ended {
     pub wall: Duration,
     /// Name of its result under the folder of the study.
     pub result: String,
+    /// Where it was made.
+    pub machine: String,
 }
 
 /// What all runs of a study have in common.
-pub struct Execution {
-    program: PathBuf,
-    cores: usize,
-    runs: PathBuf,
+pub struct Execution<'a> {
+    program: &'a Program,
+    folder: &'a Folder,
     timeout: Duration,
+    cores: usize,
+    machine: String,
 }
 
 impl Status {
@@ -84,27 +92,24 @@ impl Ended {
     }
 }
 
-impl Execution {
-    /// Runs of this very program, with results in the study's folder `out`.
-    ///
-    /// # Errors
-    /// The operating system does not say where this program is.
-    pub fn new(out: &Path, timeout: Duration) -> Result<Self, OutputError> {
-        let program = std::env::current_exe().map_err(OutputError::io("find", Path::new("mezha")))?;
-        let cores = available_parallelism().map_or(1, NonZero::get);
-        Ok(Self { program, cores, runs: folder::runs(out), timeout })
+impl<'a> Execution<'a> {
+    /// Runs of this program, with results in the folder of the study.
+    pub fn new(program: &'a Program, folder: &'a Folder, timeout: Duration) -> Self {
+        Self { program, folder, timeout, cores: cores(), machine: machine() }
     }
 
-    /// Makes the run with this number, from 1. What it says on standard error stays beside its result.
+    /// Makes a run, with its result under this number. What it says on standard error stays beside the result.
     ///
     /// # Errors
     /// The disk refuses; a run that fails is no error.
     pub fn execute(&self, run: &PlannedRun, number: usize) -> Result<Ended, OutputError> {
-        let name = format!("{number:03}");
-        let (result, said) = (self.runs.join(&name), self.runs.join(format!("{name}.stderr")));
+        let result = self.folder.result(number);
+        let said = result.with_extension("stderr");
         let errors = File::create(&said).map_err(OutputError::io("write", &said))?;
         let mut command = self.command(run, &result);
-        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(errors);
+        // The lock is an empty file: a run that outlives this program holds it.
+        let nothing = self.folder.lock().map_or_else(Stdio::null, Stdio::from);
+        command.stdin(nothing).stdout(Stdio::null()).stderr(errors);
         let start = Instant::now();
         let ending = command.spawn().and_then(|child| wait(child, self.timeout));
         let wall = start.elapsed();
@@ -112,7 +117,7 @@ impl Execution {
         if text.is_empty() {
             fs::remove_file(&said).map_err(OutputError::io("remove", &said))?;
         }
-        let summary = read_summary(&result.join("summary.json"));
+        let summary = read_summary(&result);
         let (status, reason) = match ending {
             Ok(Some(ending)) => {
                 let (status, reason) = judge(ending, &summary, &String::from_utf8_lossy(&text));
@@ -122,21 +127,21 @@ impl Execution {
             Ok(None) => (Status::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout)),
             Err(error) => (Status::Failed, format!("cannot start {}: {error}", command.get_program().to_string_lossy())),
         };
-        let result = if summary.is_null() { String::new() } else { format!("runs/{name}") };
-        Ok(Ended { status, reason, summary, wall, result })
+        let result = if summary.is_null() { String::new() } else { result_name(number) };
+        Ok(Ended { status, reason, summary, wall, result, machine: self.machine.clone() })
     }
 
     /// `mezha run`, under mpirun if there are several ranks. More ranks than cores share them: those that wait give way.
     fn command(&self, run: &PlannedRun, result: &Path) -> Command {
         let mut command = if run.ranks == 1 {
-            Command::new(&self.program)
+            Command::new(&self.program.path)
         } else {
             let mut mpirun = Command::new("mpirun");
             mpirun.args(["-n", &run.ranks.to_string(), "--bind-to", "none"]);
             if run.ranks > self.cores {
                 mpirun.arg("--oversubscribe").env("OMPI_MCA_mpi_yield_when_idle", "1");
             }
-            mpirun.arg(&self.program);
+            mpirun.arg(&self.program.path);
             mpirun
         };
         let words =
@@ -146,8 +151,14 @@ impl Execution {
     }
 }
 
+/// How many ranks have a core of their own: tasks of a Slurm job, on all its nodes, or cores of this machine.
+fn cores() -> usize {
+    let tasks = std::env::var("SLURM_NTASKS").ok().and_then(|tasks| tasks.parse().ok());
+    tasks.unwrap_or_else(|| available_parallelism().map_or(1, NonZero::get))
+}
+
 /// How a child ended; None if it took too long and was ended.
-fn wait(mut child: Child, timeout: Duration) -> std::io::Result<Option<ExitStatus>> {
+fn wait(mut child: Child, timeout: Duration) -> io::Result<Option<ExitStatus>> {
     if let Some(status) = wait_for(&mut child, timeout)? {
         return Ok(Some(status));
     }
@@ -160,7 +171,7 @@ fn wait(mut child: Child, timeout: Duration) -> std::io::Result<Option<ExitStatu
     Ok(None)
 }
 
-fn wait_for(child: &mut Child, patience: Duration) -> std::io::Result<Option<ExitStatus>> {
+fn wait_for(child: &mut Child, patience: Duration) -> io::Result<Option<ExitStatus>> {
     let start = Instant::now();
     loop {
         let status = child.try_wait()?;
@@ -169,11 +180,6 @@ fn wait_for(child: &mut Child, patience: Duration) -> std::io::Result<Option<Exi
         }
         sleep(PULSE);
     }
-}
-
-/// Null if there is no summary that can be read.
-fn read_summary(path: &Path) -> Value {
-    fs::read_to_string(path).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
 }
 
 /// The ending of a run in the terms of the table.
@@ -257,6 +263,7 @@ mod tests {
             summary: json!({ "contact": { "a": { "trust": null }, "b": { "trust": trust } } }),
             wall: PULSE,
             result: String::new(),
+            machine: String::new(),
         };
         assert!(ended(json!(true), Status::Converged).is_good() && ended(Value::Null, Status::Converged).is_good());
         assert!(!ended(json!(false), Status::Converged).is_good() && !ended(json!(true), Status::NotConverged).is_good());

@@ -1,90 +1,229 @@
-//! The folder of a study: the table in three forms, and the result of each run under `runs`.
+//! The folder of a study: its tables and figures, and under `runs` the result of each run beside a record of it.
 
-use std::fs;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde_json::Value;
 
 use super::StudyError;
-use super::format;
-use super::table::Table;
+use super::execution::Ended;
+use super::record::{Identity, Record};
 use crate::output::OutputError;
 
-const TABLES: [&str; 3] = ["study.csv", "study.json", "study.md"];
+/// What a whole study leaves, but for the runs.
+const TABLES: [&str; 5] = ["study.csv", "study.json", "study.md", "study.svg", "study.html"];
 const RUNS: &str = "runs";
+/// Held by the program, and by the run that it has started, as long as one of them lives.
+const LOCK: &str = ".lock";
 
-/// The folder of the results of all runs.
-pub fn runs(out: &Path) -> PathBuf {
-    out.join(RUNS)
+/// The folder of a study, which is this program's as long as this value lives.
+pub struct Folder {
+    out: PathBuf,
+    lock: File,
+    records: BTreeMap<usize, Record>,
 }
 
-/// Makes the folder of a study. What an older study has left there goes, if `force` says so; other files stay.
-///
-/// # Errors
-/// The folder holds a study, is no folder, or the operating system refuses.
-pub fn claim(out: &Path, force: bool) -> Result<(), StudyError> {
-    if out.exists() && !out.is_dir() {
-        return Err(OutputError::NotAFolder(out.into()).into());
-    }
-    let runs = runs(out);
-    let held = TABLES.map(|name| out.join(name)).into_iter().chain([runs.clone()]).any(|path| path.exists());
-    if held && !force {
-        let words = "already holds a study, or the runs of one; replace it with --force, or choose another folder with --out";
-        return Err(StudyError::Input(format!("`{}` {words}", out.display())));
-    }
-    for path in TABLES.map(|name| out.join(name)).iter().filter(|path| path.exists()) {
-        fs::remove_file(path).map_err(OutputError::io("remove", path))?;
-    }
-    fs::create_dir_all(&runs).map_err(OutputError::io("create the folder", &runs))?;
-    for entry in fs::read_dir(&runs).map_err(OutputError::io("read the folder", &runs))? {
-        let path = entry.map_err(OutputError::io("read the folder", &runs))?.path();
-        let number = path.file_stem().unwrap_or_default().to_string_lossy();
-        if number.chars().all(|c| c.is_ascii_digit()) {
-            let removed = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
-            removed.map_err(OutputError::io("remove", &path))?;
+/// Where the result of a run belongs.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// Number of the result under `runs`.
+    pub number: usize,
+    /// The run, if it has been made.
+    pub kept: Option<Ended>,
+    /// Whether it was made before and has to be made again.
+    pub again: bool,
+}
+
+/// A run that is asked for.
+#[derive(Clone, Debug)]
+pub struct Wanted {
+    /// What it is made of.
+    pub identity: Identity,
+    /// The same in words.
+    pub what: String,
+}
+
+impl Folder {
+    /// Opens the folder of a study, or makes it. With `force` it forgets what an older study has left there; other files stay.
+    ///
+    /// # Errors
+    /// It holds another study, is in use or no folder, or the operating system refuses.
+    pub fn open(out: &Path, study: &str, force: bool) -> Result<Self, StudyError> {
+        if out.exists() && !out.is_dir() {
+            return Err(OutputError::NotAFolder(out.into()).into());
         }
+        let runs = out.join(RUNS);
+        fs::create_dir_all(&runs).map_err(OutputError::io("create the folder", &runs))?;
+        let mut folder = Self { out: out.into(), lock: lock(out)?, records: BTreeMap::new() };
+        if force {
+            folder.forget()?;
+        }
+        folder.records = read_records(&runs)?;
+        folder.refuse_others(study)?;
+        Ok(folder)
     }
-    Ok(())
+
+    /// A study of another name is not mixed with this one, nor one without records, which an older mezha has made.
+    fn refuse_others(&self, study: &str) -> Result<(), StudyError> {
+        let other = match self.records.values().find(|record| record.study != study) {
+            Some(record) => format!("the study {}", record.study),
+            None if self.records.is_empty() && TABLES.iter().any(|name| self.out.join(name).exists()) => "an older study".into(),
+            None => return Ok(()),
+        };
+        let words = "choose another folder with --out, or replace it with --force";
+        Err(StudyError::Input(format!("`{}` holds {other}; {words}", self.out.display())))
+    }
+
+    /// Removes tables, results and records.
+    fn forget(&self) -> Result<(), OutputError> {
+        self.remove_tables()?;
+        numbered(&self.out.join(RUNS))?.iter().try_for_each(|(_, path)| remove_if_there(path))
+    }
+
+    /// Finds the runs that have been made, and a place for each of the others: that of an older run of the same words, or the
+    /// next free one.
+    pub fn places(&self, wanted: &[Wanted], timeout: Duration) -> Vec<Place> {
+        let mut taken = BTreeSet::new();
+        let mut places: Vec<Option<Place>> = vec![None; wanted.len()];
+        for (place, wanted) in places.iter_mut().zip(wanted) {
+            let same =
+                self.records.iter().filter(|(number, record)| !taken.contains(*number) && record.identity == wanted.identity);
+            let found =
+                same.map(|(&number, record)| (number, self.ended(number, record, timeout))).find(|(_, ended)| ended.is_some());
+            if let Some((number, kept)) = found {
+                taken.insert(number);
+                *place = Some(Place { number, kept, again: false });
+            }
+        }
+        let is_same = |record: &Record, wanted: &Wanted| {
+            let (a, b) = (&record.identity, &wanted.identity);
+            record.what == wanted.what && (a.ranks, a.repeat) == (b.ranks, b.repeat)
+        };
+        for (place, wanted) in places.iter_mut().zip(wanted).filter(|(place, _)| place.is_none()) {
+            let older = self.records.iter().find(|(number, record)| !taken.contains(*number) && is_same(record, wanted));
+            let free = || (1..).find(|number| !taken.contains(number) && !self.records.contains_key(number));
+            let number = older.map(|(&number, _)| number).or_else(free).expect("numbers do not end");
+            taken.insert(number);
+            *place = Some(Place { number, kept: None, again: older.is_some() });
+        }
+        places.into_iter().flatten().collect()
+    }
+
+    /// A recorded run with its summary; None if it has to be made again.
+    fn ended(&self, number: usize, record: &Record, timeout: Duration) -> Option<Ended> {
+        record.ended(read_summary(&self.result(number)), timeout, &result_name(number))
+    }
+
+    /// The folder of a result.
+    pub fn result(&self, number: usize) -> PathBuf {
+        self.out.join(result_name(number))
+    }
+
+    /// The lock, for a run to hold: then nobody makes the study while a run of it is left behind.
+    pub fn lock(&self) -> Option<File> {
+        self.lock.try_clone().ok()
+    }
+
+    /// Keeps a record of a run that has ended.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn keep(&self, number: usize, record: &Record) -> Result<(), OutputError> {
+        let path = self.result(number).with_extension("json");
+        let text = serde_json::to_string_pretty(record).map_err(|error| OutputError::io("write", &path)(error.into()))?;
+        write_whole(&path, &(text + "\n"))
+    }
+
+    /// Makes room for a run: what an older one has left under its number goes, the record first.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn clear(&self, number: usize) -> Result<(), OutputError> {
+        let result = self.result(number);
+        [result.with_extension("json"), result.with_extension("stderr"), result].iter().try_for_each(|path| remove_if_there(path))
+    }
+
+    /// Removes the tables and figures: what they say is about to change.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn remove_tables(&self) -> Result<(), OutputError> {
+        TABLES.iter().try_for_each(|name| remove_if_there(&self.out.join(name)))
+    }
+
+    /// Writes tables and figures, each whole or not at all, and removes those that there are none of.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn write_tables(&self, texts: &[(&str, String)]) -> Result<(), OutputError> {
+        for name in TABLES.iter().filter(|name| texts.iter().all(|(written, _)| written != *name)) {
+            remove_if_there(&self.out.join(name))?;
+        }
+        texts.iter().try_for_each(|(name, text)| write_whole(&self.out.join(name), text))
+    }
 }
 
-/// Writes the table as CSV, JSON and Markdown; each file appears whole or not at all.
-///
-/// # Errors
-/// The operating system refuses.
-pub fn write_tables(out: &Path, table: &Table) -> Result<(), OutputError> {
-    for (name, text) in TABLES.into_iter().zip([format::csv(table), format::json(table), format::markdown(table)]) {
-        let (path, temporary) = (out.join(name), out.join(format!(".{name}.partial")));
-        fs::write(&temporary, text).map_err(OutputError::io("write", &temporary))?;
-        fs::rename(&temporary, &path).map_err(OutputError::io("make", &path))?;
+/// Name of a result in the folder of the study.
+pub fn result_name(number: usize) -> String {
+    format!("{RUNS}/{number:03}")
+}
+
+/// The summary of a result; null if there is none that can be read.
+pub fn read_summary(result: &Path) -> Value {
+    fs::read_to_string(result.join("summary.json")).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+}
+
+/// Takes the folder for this program. Where the file system has no locks, nothing is locked.
+fn lock(out: &Path) -> Result<File, StudyError> {
+    let path = out.join(LOCK);
+    let opened = File::options().read(true).write(true).create(true).truncate(false).open(&path);
+    let file = opened.map_err(OutputError::io("open", &path))?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            let words = "is in use by another `mezha study`, or by a run that one has left behind; wait for it, or end it";
+            Err(StudyError::Input(format!("`{}` {words}", out.display())))
+        }
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
-    Ok(())
+}
+
+/// What the folder of the runs holds under numbers, also half done.
+fn numbered(runs: &Path) -> Result<Vec<(usize, PathBuf)>, OutputError> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(runs).map_err(OutputError::io("read the folder", runs))? {
+        let path = entry.map_err(OutputError::io("read the folder", runs))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let number = name.trim_start_matches('.').split('.').next().and_then(|number| number.parse().ok());
+        found.extend(number.map(|number| (number, path)));
+    }
+    Ok(found)
+}
+
+/// The records of all runs. One that cannot be read is none: its run is made again.
+fn read_records(runs: &Path) -> Result<BTreeMap<usize, Record>, OutputError> {
+    let files = numbered(runs)?.into_iter().filter(|(_, path)| path.extension().is_some_and(|extension| extension == "json"));
+    let read = |path: &Path| fs::read_to_string(path).ok().and_then(|text| serde_json::from_str(&text).ok());
+    Ok(files.filter_map(|(number, path)| Some((number, read(&path)?))).collect())
+}
+
+/// Writes a file that appears whole or not at all.
+fn write_whole(path: &Path, text: &str) -> Result<(), OutputError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let temporary = path.with_file_name(format!(".{name}.partial"));
+    fs::write(&temporary, text).map_err(OutputError::io("write", &temporary))?;
+    fs::rename(&temporary, path).map_err(OutputError::io("make", path))
+}
+
+fn remove_if_there(path: &Path) -> Result<(), OutputError> {
+    let removed = match (path.exists(), path.is_dir()) {
+        (false, _) => Ok(()),
+        (true, true) => fs::remove_dir_all(path),
+        (true, false) => fs::remove_file(path),
+    };
+    removed.map_err(OutputError::io("remove", path))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_older_study_goes_only_if_it_is_said_and_other_files_stay() {
-        let folder = tempfile::tempdir().unwrap();
-        let out = folder.path().join("deep/study");
-        claim(&out, false).unwrap();
-        for name in ["study.csv", "notes.md", "runs/007.stderr", "runs/mine.txt"] {
-            fs::write(out.join(name), "old").unwrap();
-        }
-        fs::create_dir(out.join("runs/007")).unwrap();
-        let refused = claim(&out, false).unwrap_err();
-        assert!(matches!(&refused, StudyError::Input(words) if words.contains("--force")), "{refused}");
-        assert!(out.join("study.csv").exists());
-        claim(&out, true).unwrap();
-        let there = |name: &str| out.join(name).exists();
-        assert!(there("notes.md") && there("runs/mine.txt"));
-        assert!(!there("study.csv") && !there("runs/007") && !there("runs/007.stderr"));
-    }
-
-    #[test]
-    fn a_file_is_no_folder() {
-        let folder = tempfile::tempdir().unwrap();
-        let out = folder.path().join("file");
-        fs::write(&out, "mine").unwrap();
-        assert!(matches!(claim(&out, true), Err(StudyError::Input(_))));
-    }
-}
+mod tests;

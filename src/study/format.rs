@@ -3,6 +3,8 @@
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use serde_json::Value;
 
+use super::lines::Line;
+use super::repeats::condensed;
 use super::table::{Column, Kind, Table};
 
 /// Comma-separated values: names of the columns, then one line per run. What is not known is empty.
@@ -13,46 +15,103 @@ pub fn csv(table: &Table) -> String {
     header + &rows.collect::<String>()
 }
 
-/// An object with the rows as a list of objects, whose keys are the names of the columns.
-pub fn json(table: &Table) -> String {
-    serde_json::to_string_pretty(table).expect("a table of JSON values is JSON") + "\n"
+/// An object with the rows as a list of objects, whose keys are the names of the columns, and the lines of the figure.
+pub fn json(table: &Table, lines: &[Line]) -> String {
+    serde_json::to_string_pretty(&Whole { table, lines }).expect("tables of JSON values are JSON") + "\n"
 }
 
-/// A page to read: main columns that are not empty, results to four digits, reasons at the end and not of good runs.
+/// The table for people: repeats in one row, main columns that are not empty, results to four digits, reasons at the end and
+/// not of good runs.
+pub struct Readable {
+    /// Names of the columns.
+    pub header: Vec<String>,
+    /// One row for all repeats of a run.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Readable {
+    /// Reads a table with one row per run.
+    pub fn new(table: &Table) -> Self {
+        let table = condensed(table);
+        let reason = table.place("reason").expect("a column of every table");
+        let cell = |row: usize, column: usize| match (table.columns[column].kind, &table.rows[row][column]) {
+            _ if column == reason && table.good[row] => String::new(),
+            (Kind::Given, value) => plain(value),
+            (_, value) => rounded(value) + &spread(&table, row, column),
+        };
+        let order = (0..table.columns.len()).filter(|&column| column != reason).chain([reason]);
+        let main = order.filter(|&column| table.columns[column].kind != Kind::Detail);
+        let is_empty = |column: usize| (0..table.rows.len()).all(|row| cell(row, column).is_empty());
+        let shown: Vec<usize> = main.filter(|&column| !is_empty(column)).collect();
+        Self {
+            header: shown.iter().map(|&column| table.columns[column].name.clone()).collect(),
+            rows: (0..table.rows.len()).map(|row| shown.iter().map(|&column| cell(row, column)).collect()).collect(),
+        }
+    }
+}
+
+/// How many runs there are and where they were made, in sentences.
+pub fn about(table: &Table) -> Vec<String> {
+    let (runs, converged) = (table.rows.len(), table.converged);
+    let mut words = vec![format!("{runs} runs, {converged} converged; mezha {}.", env!("CARGO_PKG_VERSION"))];
+    words.push(format!("Made on {}; BLAS: {}.", table.machines.join("; "), table.blas.join("; ")));
+    if table.machines.len() > 1 {
+        words.push("Times of several machines do not compare.".into());
+    }
+    if let Some(path) = table.errors.first() {
+        words.push(format!("The column error is {path}."));
+    }
+    if table.is_repeated() {
+        words.push("Times are medians of the repeats that converged, with the smallest and the largest.".into());
+    }
+    words.push("All columns and digits stand in study.csv and study.json.".into());
+    words
+}
+
+/// A page to read.
 pub fn markdown(table: &Table) -> String {
-    let reason = table.columns.iter().position(|column| column.name == "reason").expect("a column of every table");
-    let cell = |index: usize, column: usize| match (table.columns[column].kind, &table.rows[index][column]) {
-        _ if column == reason && table.good[index] => String::new(),
-        (Kind::Given, value) => escape(&plain(value)),
-        (_, value) => escape(&rounded(value)),
-    };
-    let order = (0..table.columns.len()).filter(|&column| column != reason).chain([reason]);
-    let main = order.filter(|&column| table.columns[column].kind != Kind::Detail);
-    let shown: Vec<usize> = main.filter(|&column| (0..table.rows.len()).any(|index| !cell(index, column).is_empty())).collect();
-    let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-    let header = line(shown.iter().map(|&column| escape(&table.columns[column].name)).collect());
-    let rows = (0..table.rows.len()).map(|index| line(shown.iter().map(|&column| cell(index, column)).collect()));
-    let error = table.error.as_ref().map_or(String::new(), |path| format!(" The column error is `{path}`."));
+    let readable = Readable::new(table);
+    let line = |cells: &Vec<String>| format!("| {} |\n", cells.iter().map(|cell| escape(cell)).collect::<Vec<_>>().join(" | "));
     format!(
-        "# Study {}\n\n{} runs, {} converged; mezha {}.{error} All columns and digits stand in study.csv and study.json.\n\n{header}|{}\n{}",
+        "# Study {}\n\n{}\n\n{}|{}\n{}",
         table.study,
-        table.rows.len(),
-        table.converged,
-        env!("CARGO_PKG_VERSION"),
-        "---|".repeat(shown.len()),
-        rows.collect::<String>()
+        about(table).join(" "),
+        line(&readable.header),
+        "---|".repeat(readable.header.len()),
+        readable.rows.iter().map(line).collect::<String>()
     )
 }
 
-impl Serialize for Table {
+/// ` (smallest – largest)` where repeats differ.
+fn spread(table: &Table, row: usize, column: usize) -> String {
+    let of = |what: &str| table.place(&format!("{}.{what}", table.columns[column].name)).map(|at| &table.rows[row][at]);
+    match (of("least"), of("most")) {
+        (Some(least), Some(most)) if !least.is_null() && least != most => format!(" ({} – {})", rounded(least), rounded(most)),
+        _ => String::new(),
+    }
+}
+
+/// Everything that `study.json` holds.
+struct Whole<'a> {
+    table: &'a Table,
+    lines: &'a [Line],
+}
+
+impl Serialize for Whole<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let rows: Vec<Row> = self.rows.iter().map(|cells| Row { columns: &self.columns, cells }).collect();
-        let mut object = serializer.serialize_struct("Table", 5)?;
+        let table = self.table;
+        let rows: Vec<Row> = table.rows.iter().map(|cells| Row { columns: &table.columns, cells }).collect();
+        let mut object = serializer.serialize_struct("Study", 10)?;
         object.serialize_field("mezha", env!("CARGO_PKG_VERSION"))?;
-        object.serialize_field("study", &self.study)?;
-        object.serialize_field("error", &self.error)?;
-        object.serialize_field("columns", &self.columns.iter().map(|column| &column.name).collect::<Vec<_>>())?;
+        object.serialize_field("study", &table.study)?;
+        object.serialize_field("machines", &table.machines)?;
+        object.serialize_field("blas", &table.blas)?;
+        object.serialize_field("error", &table.errors.first())?;
+        object.serialize_field("errors", &table.errors)?;
+        object.serialize_field("time", &table.time)?;
+        object.serialize_field("columns", &table.columns.iter().map(|column| &column.name).collect::<Vec<_>>())?;
         object.serialize_field("rows", &rows)?;
+        object.serialize_field("lines", &self.lines)?;
         object.end()
     }
 }
@@ -104,85 +163,4 @@ fn escape(text: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use serde_json::json;
-
-    fn table() -> Table {
-        let row = |cells: Value| cells.as_array().unwrap().clone();
-        Table {
-            study: "hard".into(),
-            error: Some("errors.energy".into()),
-            columns: [
-                ("case", Kind::Given),
-                ("status", Kind::Main),
-                ("reason", Kind::Main),
-                ("error", Kind::Main),
-                ("contact.\"a,b\".trust", Kind::Main),
-                ("wall_s", Kind::Detail),
-            ]
-            .map(|(name, kind)| Column::new(name, kind))
-            .to_vec(),
-            rows: vec![
-                row(json!(["bars", "converged", "residual", 0.1 + 0.2, null, 1.5])),
-                row(json!(["bars, \"bent\"", "failed", "a | b\nc", null, null, 2.5])),
-            ],
-            good: vec![true, false],
-            converged: 1,
-        }
-    }
-
-    #[test]
-    fn csv_is_quoted_and_exact() {
-        let expected = concat!(
-            "case,status,reason,error,\"contact.\"\"a,b\"\".trust\",wall_s\n",
-            "bars,converged,residual,0.30000000000000004,,1.5\n",
-            "\"bars, \"\"bent\"\"\",failed,\"a | b\nc\",,,2.5\n"
-        );
-        assert_eq!(csv(&table()), expected);
-    }
-
-    #[test]
-    fn json_keeps_the_columns_in_order_and_null() {
-        let text = json(&table());
-        let value: Value = serde_json::from_str(&text).unwrap();
-        assert_eq!(value["rows"][0]["error"], json!(0.1 + 0.2));
-        assert_eq!(value["rows"][1]["error"], Value::Null);
-        assert_eq!((&value["error"], &value["study"]), (&json!("errors.energy"), &json!("hard")));
-        let places: Vec<usize> = ["\"case\": ", "\"status\": ", "\"reason\": "].map(|key| text.find(key).unwrap()).to_vec();
-        assert!(places.is_sorted());
-    }
-
-    #[test]
-    fn markdown_is_a_page_to_read() {
-        let text = markdown(&table());
-        assert!(text.starts_with("# Study hard\n\n2 runs, 1 converged; mezha "), "{text}");
-        let lines: Vec<&str> = text.lines().skip_while(|line| !line.starts_with('|')).collect();
-        let expected = [
-            "| case | status | error | reason |",
-            "|---|---|---|---|",
-            "| bars | converged | 0.3000 |  |",
-            "| bars, \"bent\" | failed |  | a \\| b c |",
-        ];
-        assert_eq!(lines, expected);
-    }
-
-    #[test]
-    fn numbers_for_people_have_four_digits() {
-        let table = [
-            (json!(1234.56), "1235"),
-            (json!(1.0), "1.000"),
-            (json!(-0.012345), "-0.01235"),
-            (json!(1e-9), "1.000e-9"),
-            (json!(123456.0), "1.235e5"),
-            (json!(0.0), "0"),
-            (json!(123456), "123456"),
-            (json!(true), "true"),
-            (json!([1, 2]), "[1,2]"),
-            (json!(null), ""),
-        ];
-        for (value, words) in table {
-            assert_eq!(rounded(&value), words);
-        }
-    }
-}
+mod tests;

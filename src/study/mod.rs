@@ -1,9 +1,18 @@
-//! A grid of runs, each a process of its own and a row of one table.
+//! A grid of runs, each a process of its own and a row of one table; finished runs are kept, and made again only if they would
+//! differ.
 
 mod execution;
+mod figure;
+mod fit;
 mod folder;
 mod format;
+mod lines;
+mod machine;
+mod page;
 mod plan;
+mod progress;
+mod record;
+mod repeats;
 mod summary_path;
 mod table;
 
@@ -12,8 +21,11 @@ use std::path::Path;
 use crate::case::CaseError;
 use crate::output::OutputError;
 
-use execution::{Ended, Execution, Status};
-use plan::{Plan, PlannedRun};
+use execution::{Ended, Execution};
+use folder::{Folder, Place, Wanted};
+use plan::Plan;
+use progress::Progress;
+use record::{Program, Record, what};
 use table::Table;
 
 /// Why there is no table.
@@ -42,46 +54,62 @@ impl From<OutputError> for StudyError {
     }
 }
 
-/// Makes every run of a study, and a table of them in the folder `out`. A run that fails is a row too.
+/// Makes every run of a study that has not been made yet, and tables and figures of all in the folder `out`. A run that fails is a
+/// row too. `overrides` are `KEY=VALUE` for keys of the study; with `force` all runs are made anew.
 ///
 /// # Errors
 /// [`StudyError`] if there is no table.
-pub fn run(file: &Path, out: &Path, force: bool) -> Result<(), StudyError> {
-    let plan = Plan::read(file)?;
-    folder::claim(out, force)?;
-    let execution = Execution::new(out, plan.timeout)?;
-    println!("mezha {}: study {}, {}", env!("CARGO_PKG_VERSION"), plan.name, count(plan.runs.len(), "run"));
-    let mut results = Vec::with_capacity(plan.runs.len());
-    for (index, planned) in plan.runs.iter().enumerate() {
-        let ended = execution.execute(planned, index + 1)?;
-        println!("{}", progress(&plan, index, planned, &ended));
-        results.push(ended);
-    }
-    folder::write_tables(out, &Table::new(&plan, &results))?;
-    println!("mezha: {}; table in {}", verdict(&results), out.join("study.md").display());
+pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result<(), StudyError> {
+    let plan = Plan::read(file, overrides)?;
+    let program = Program::this()?;
+    let folder = Folder::open(out, &plan.name, force)?;
+    let wanted: Vec<Wanted> = plan.runs.iter().map(|run| Wanted { identity: program.identity(run), what: what(run) }).collect();
+    let places = folder.places(&wanted, plan.timeout);
+    let progress = Progress::start(&plan, &places);
+    let results = make(&plan, &program, &folder, &wanted, places, &progress)?;
+    let table = Table::new(&plan, &results);
+    let lines = lines::lines(&plan, &results);
+    let figure = figure::figure(&plan, &lines).map_err(|words| StudyError::Failed(format!("cannot draw study.svg: {words}")))?;
+    let mut texts = vec![
+        ("study.csv", format::csv(&table)),
+        ("study.json", format::json(&table, &lines)),
+        ("study.md", format::markdown(&table)),
+        ("study.html", page::html(&table, &lines, figure.as_deref())),
+    ];
+    texts.extend(figure.map(|text| ("study.svg", text)));
+    folder.write_tables(&texts)?;
+    progress.end(&results, &out.join("study.html"));
     Ok(())
 }
 
-/// What is printed when a run has ended.
-fn progress(plan: &Plan, index: usize, planned: &PlannedRun, ended: &Ended) -> String {
-    let moved = plan.keys.iter().zip(&planned.values).map(|(key, value)| format!("{key}={value}"));
-    let words: Vec<String> = [planned.case.clone()].into_iter().chain(planned.curve.clone()).chain(moved).collect();
-    let (all, ranks, seconds) = (plan.runs.len(), count(planned.ranks, "rank"), ended.wall.as_secs_f64());
-    let number = format!("{:>width$}/{all}", index + 1, width = all.to_string().len());
-    let line = format!("{number}  {}  {ranks}  {seconds:.2} s  {}", words.join("  "), ended.status.words());
-    if ended.is_good() { line } else { format!("{line}: {}", ended.reason) }
-}
-
-/// How many runs ended how, and the usual ending first.
-fn verdict(results: &[Ended]) -> String {
-    let of = |status: Status| results.iter().filter(|ended| ended.status == status).count();
-    let counts = Status::ALL.map(|status| (status.words(), of(status)));
-    let some = counts.iter().filter(|(words, number)| *number > 0 || *words == Status::Converged.words());
-    let words: Vec<String> = some.map(|(words, number)| format!("{number} {}", words.replace('_', " "))).collect();
-    format!("{}: {}", count(results.len(), "run"), words.join(", "))
-}
-
-/// `1 run`, `2 runs`
-fn count(number: usize, thing: &str) -> String {
-    if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
+/// Makes the runs that are not kept, one after the other, and records each as it ends.
+fn make(
+    plan: &Plan,
+    program: &Program,
+    folder: &Folder,
+    wanted: &[Wanted],
+    places: Vec<Place>,
+    progress: &Progress,
+) -> Result<Vec<Ended>, StudyError> {
+    if places.iter().any(|place| place.kept.is_none()) {
+        folder.remove_tables()?;
+    }
+    let execution = Execution::new(program, folder, plan.timeout);
+    let mut results = Vec::with_capacity(plan.runs.len());
+    for (index, place) in places.into_iter().enumerate() {
+        let planned = &plan.runs[index];
+        results.push(match place.kept {
+            Some(kept) => kept,
+            None => {
+                folder.clear(place.number)?;
+                progress.begin(index, planned);
+                let ended = execution.execute(planned, place.number)?;
+                progress.ended(&ended);
+                let record = Record::new(&plan.name, planned, &wanted[index].identity, plan.timeout, &ended);
+                folder.keep(place.number, &record)?;
+                ended
+            }
+        });
+    }
+    Ok(results)
 }

@@ -1,5 +1,8 @@
 //! The study file: TOML text to a checked list of runs.
 
+mod moves;
+mod settings;
+
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -8,25 +11,31 @@ use toml::{Table, Value};
 
 use super::summary_path::SummaryPath;
 use crate::case::error::{CaseError, dotted};
-use crate::case::overrides::read_key;
+use crate::case::overrides::{apply_override, read_key};
 use crate::case::section::{Log, Section, read_text};
 use crate::case::{Case, name_of, values};
+
+use moves::Moves;
+use settings::{CASES, Curve, read_curve, read_grid, read_set};
 
 /// More runs than anybody wants to wait for.
 const MOST_RUNS: usize = 10_000;
 /// Longest time limit of a run, in seconds: a month.
 const LONGEST: f64 = 30.0 * 86_400.0;
-const CASES: &str = "a list of case files";
 
 /// A checked study: what is run, and what is asked of each result.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Name of the folder if the file is called `study.toml`, else the file's stem.
     pub name: String,
-    /// Dotted keys of `[grid]`, in the order of the file.
+    /// Dotted keys of all grids, in the order of the file.
     pub keys: Vec<String>,
-    /// Where the error axis stands in `summary.json`.
-    pub error: Option<SummaryPath>,
+    /// Where the errors stand in `summary.json`, each an axis; the first one is the column `error`.
+    pub errors: Vec<SummaryPath>,
+    /// Where the time axis does.
+    pub time: SummaryPath,
+    /// The key along which the points of a line are joined.
+    pub along: String,
     /// What else is asked of `summary.json`.
     pub columns: Vec<SummaryPath>,
     /// Time limit of a run.
@@ -42,52 +51,43 @@ pub struct PlannedRun {
     pub file: PathBuf,
     /// Name of the case in the table: that of its results, or its path in the study if another one is called the same.
     pub case: String,
+    /// Title of the case.
+    pub title: String,
     /// Name of the curve.
     pub curve: Option<String>,
     /// Number of ranks.
     pub ranks: usize,
     /// Which of the repeats this is, from 1.
     pub repeat: usize,
-    /// Values of [`Plan::keys`].
-    pub values: Vec<Value>,
+    /// Values of [`Plan::keys`]; None where the key does not move.
+    pub values: Vec<Option<Value>>,
     /// `KEY=VALUE` of `[set]`, curve and grid.
     pub overrides: Vec<String>,
 }
 
-/// A key of the case and what stands there: a value in `[set]` and in a curve, a list of values in the grid.
-#[derive(Clone, Debug)]
-struct Setting<T> {
-    /// Where it is written in the study file, from its root.
-    written: Vec<String>,
-    /// Names of the key.
-    path: Vec<String>,
-    value: T,
-}
-
-/// `[[curve]]`
-struct Curve {
-    name: String,
-    set: Vec<Setting<Value>>,
-    /// The cases that it is drawn for, as they stand in `cases`; None: for all.
-    cases: Option<Vec<String>>,
-}
-
 impl Plan {
-    /// Reads and checks a study file.
+    /// Reads and checks a study file, after the overrides `KEY=VALUE`.
     ///
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
-    pub fn read(file: &Path) -> Result<Self, CaseError> {
-        Self::parse(&read_text(file, "study")?, file)
+    pub fn read(file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        Self::parse(&read_text(file, "study")?, file, overrides)
     }
 
     /// Checks the text of a study file; case files are relative to the folder of `file`.
     ///
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
-    pub fn parse(text: &str, file: &Path) -> Result<Self, CaseError> {
-        let table: Table = toml::from_str(text).map_err(|error| CaseError::of_syntax(file, text, &error))?;
-        let log = RefCell::new(Log::default());
+    pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let mut table: Table = toml::from_str(text).map_err(|error| CaseError::of_syntax(file, text, &error))?;
+        let mut log = Log::default();
+        for text in overrides {
+            match apply_override(&mut table, text) {
+                Ok(path) => log.overridden.push(path),
+                Err(problem) => log.problems.push(problem),
+            }
+        }
+        let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let problems = log.into_inner().problems;
         draft.filter(|_| problems.is_empty()).ok_or(CaseError { file: file.into(), problems })
@@ -102,23 +102,35 @@ impl Plan {
             seconds if seconds <= LONGEST => Ok(Duration::from_secs_f64(seconds)),
             _ => Err(format!("must be at most {LONGEST} seconds")),
         });
-        let error = root.optional("error", SummaryPath::read);
+        let errors = root.optional("error", |value| match value {
+            Value::Array(_) => values::list("a list of paths in summary.json", SummaryPath::read)(value),
+            single => Ok(vec![SummaryPath::read(single)?]),
+        });
+        let time = root.or("time", "time_s.total", SummaryPath::read);
+        let along = root.optional("along", |value| {
+            let names = read_key(&values::name(value)?);
+            names.map(|names| dotted(&names)).ok_or("must be a key of the case with dots, as in \"mesh.refine\"".into())
+        });
         let columns = root.optional("columns", values::list("a list of paths in summary.json", SummaryPath::read));
-        let common = settings(&root.optional("set", values::table).unwrap_or_default(), &["set"], root);
-        let grid = read_grid(root);
-        let curves = root.listed("curve", read_curve);
+        let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
         let cases = cases?;
         let scenes = find_cases(&cases, file, root);
         check_curves(&curves, &scenes, root);
         let moves = Moves { common, grid, curves };
         moves.check_overlaps(root);
         moves.check_keys(&scenes, root);
+        let keys = moves.keys();
+        if let Some(along) = along.as_ref().filter(|along| !keys.contains(along)) {
+            root.problem(&["along"], format!("{along} stands in no grid; take one of its keys"));
+        }
         let (ranks, repeat, timeout) = (ranks?, repeat?, timeout?);
         let runs = moves.expand(&scenes, &ranks, repeat, root)?;
         Some(Self {
             name: name_of(file, "study.toml"),
-            keys: moves.grid.iter().map(|axis| dotted(&axis.path)).collect(),
-            error,
+            keys,
+            errors: errors.unwrap_or_default(),
+            time: time?,
+            along: along.unwrap_or("mesh.refine".into()),
             columns: columns.unwrap_or_default(),
             timeout,
             runs,
@@ -132,6 +144,7 @@ struct Scene {
     written: String,
     file: PathBuf,
     label: String,
+    title: String,
 }
 
 impl Scene {
@@ -158,60 +171,13 @@ fn find_cases(cases: &[String], study: &Path, root: &Section) -> Vec<Scene> {
         let alone = names.iter().filter(|name| **name == names[index]).count() == 1;
         if alone { names[index].clone() } else { cases[index].clone() }
     };
-    let scene =
-        |(index, file): (usize, &PathBuf)| Scene { written: cases[index].clone(), file: file.clone(), label: label(index) };
+    let scene = |(index, file): (usize, &PathBuf)| Scene {
+        written: cases[index].clone(),
+        file: file.clone(),
+        label: label(index),
+        title: Case::read(file, &[]).map(|case| case.title).unwrap_or_default(),
+    };
     files.iter().enumerate().map(scene).collect()
-}
-
-/// `[grid]`
-fn read_grid(root: &Section) -> Vec<Setting<Vec<Value>>> {
-    let table = root.optional("grid", values::table).unwrap_or_default();
-    let mut axes = Vec::new();
-    for setting in settings(&table, &["grid"], root) {
-        let below: Vec<&str> = setting.written.iter().map(String::as_str).collect();
-        match values::list("a list of values, as in [2, 3]", |value| Ok(value.clone()))(&setting.value) {
-            Ok(value) => axes.push(Setting { written: setting.written, path: setting.path, value }),
-            Err(words) => root.problem(&below, words),
-        }
-    }
-    axes
-}
-
-/// `[[curve]]`
-fn read_curve(section: &Section) -> Option<Curve> {
-    let name = section.required("name", "\"P1/P0\"", values::name);
-    let table = section.optional("set", values::table).unwrap_or_default();
-    let mut set = settings(&table, &["set"], section);
-    for setting in &mut set {
-        setting.written.splice(0..0, ["curve".into(), section.name().into()]);
-    }
-    let cases = section.optional("cases", values::list(CASES, values::name));
-    Some(Curve { name: name?, set, cases })
-}
-
-/// All keys of a table, which stands at `below` in the section. A table inside, which comes from dots that are not in quotes,
-/// is one more name of the key.
-fn settings(table: &Table, below: &[&str], section: &Section) -> Vec<Setting<Value>> {
-    let mut found = Vec::new();
-    for (name, value) in table {
-        let here: Vec<&str> = below.iter().copied().chain([name.as_str()]).collect();
-        let Some(names) = read_key(name) else {
-            section.problem(&here, "must be a key of the case with dots, as in \"mesh.refine\"".into());
-            continue;
-        };
-        let inner = match value {
-            Value::Table(table) => settings(table, &here, section),
-            value => {
-                let written = here.iter().map(|name| (*name).to_owned()).collect();
-                vec![Setting { written, path: Vec::new(), value: value.clone() }]
-            }
-        };
-        for mut setting in inner {
-            setting.path.splice(0..0, names.iter().cloned());
-            found.push(setting);
-        }
-    }
-    found
 }
 
 /// Curves are told apart by their names, and drawn for cases of the study.
@@ -233,124 +199,6 @@ fn check_curves(curves: &[Curve], scenes: &[Scene], root: &Section) {
         let words = format!("no [[curve]] is drawn for \"{}\"; take it from cases, or name it in a curve", scene.written);
         root.problem(&["cases"], words);
     }
-}
-
-/// Keys of the cases that the study sets, and where they move.
-struct Moves {
-    /// `[set]`: in every run, but where a curve sets the same key.
-    common: Vec<Setting<Value>>,
-    /// `[grid]`
-    grid: Vec<Setting<Vec<Value>>>,
-    curves: Vec<Curve>,
-}
-
-impl Moves {
-    /// A key moves in one place: in the grid, or with a curve. Only `[set]` gives way to a curve.
-    fn check_overlaps(&self, root: &Section) {
-        let complain = |written: &[String], other: &[String]| {
-            let below: Vec<&str> = written.iter().map(String::as_str).collect();
-            root.problem(&below, format!("is also set by {}; a key moves in one place", dotted(other)));
-        };
-        for (index, axis) in self.grid.iter().enumerate() {
-            for other in self.grid[..index].iter().filter(|other| meet(&other.path, &axis.path)) {
-                complain(&axis.written, &other.written);
-            }
-        }
-        for set in self.curves.iter().map(|curve| &curve.set).chain([&self.common]) {
-            for (index, setting) in set.iter().enumerate() {
-                let axes = self.grid.iter().map(|axis| (&axis.path, &axis.written));
-                let earlier = set[..index].iter().map(|other| (&other.path, &other.written));
-                for (_, other) in axes.chain(earlier).filter(|(path, _)| meet(path, &setting.path)) {
-                    complain(&setting.written, other);
-                }
-            }
-        }
-    }
-
-    /// What a curve sets, and before it what `[set]` does and the curve does not.
-    fn set<'a>(&'a self, curve: Option<&'a Curve>) -> impl Iterator<Item = &'a Setting<Value>> + Clone {
-        let own = curve.map_or(&[][..], |curve| &curve.set);
-        let left = move |setting: &&Setting<Value>| own.iter().all(|other| !meet(&other.path, &setting.path));
-        self.common.iter().filter(left).chain(own)
-    }
-
-    /// A key that no case can have is a slip of the pen: it is told before anything runs. What else is wrong with a case, a
-    /// value that it refuses, say, is the row of its run.
-    fn check_keys(&self, scenes: &[Scene], root: &Section) {
-        let mut told: Vec<&[String]> = Vec::new();
-        for scene in scenes {
-            for curve in scene.curves(&self.curves) {
-                let set = self.set(curve);
-                let first = self.grid.iter().map(|axis| overriding(&axis.path, &axis.value[0]));
-                let overrides: Vec<String> =
-                    set.clone().map(|setting| overriding(&setting.path, &setting.value)).chain(first).collect();
-                let Err(error) = Case::read(&scene.file, &overrides) else { continue };
-                let axes = self.grid.iter().map(|axis| (&axis.path, &axis.written));
-                for (path, written) in set.map(|setting| (&setting.path, &setting.written)).chain(axes) {
-                    let key = dotted(path);
-                    let meant = |unknown: &str| key == unknown || key.starts_with(&format!("{unknown}."));
-                    let problem = error.problems.iter().find(|problem| problem.is_unknown() && meant(&problem.key));
-                    if let Some(problem) = problem.filter(|_| !told.contains(&written.as_slice())) {
-                        let below: Vec<&str> = written.iter().map(String::as_str).collect();
-                        root.problem(&below, format!("{} (asked of case {})", problem.words, scene.label));
-                        told.push(written);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Every run: cases, then their curves, then combinations of the grid with the last key running fastest, then ranks and
-    /// repeats.
-    fn expand(&self, scenes: &[Scene], ranks: &[usize], repeat: usize, root: &Section) -> Option<Vec<PlannedRun>> {
-        let lines: Vec<_> =
-            scenes.iter().flat_map(|scene| scene.curves(&self.curves).into_iter().map(move |curve| (scene, curve))).collect();
-        let factors = self.grid.iter().map(|axis| axis.value.len()).chain([lines.len(), ranks.len(), repeat]);
-        let count = factors.fold(1usize, usize::saturating_mul);
-        if count > MOST_RUNS {
-            root.problem(&[], format!("the study makes {count} runs, more than {MOST_RUNS}; make several studies of it"));
-            return None;
-        }
-        let combinations = combinations(&self.grid);
-        let mut runs = Vec::with_capacity(count);
-        for (scene, curve) in lines {
-            for values in &combinations {
-                let set = self.set(curve).map(|setting| overriding(&setting.path, &setting.value));
-                let moved = self.grid.iter().zip(values).map(|(axis, value)| overriding(&axis.path, value));
-                let overrides: Vec<String> = set.chain(moved).collect();
-                for (&ranks, repeat) in ranks.iter().flat_map(|ranks| (1..=repeat).map(move |repeat| (ranks, repeat))) {
-                    runs.push(PlannedRun {
-                        file: scene.file.clone(),
-                        case: scene.label.clone(),
-                        curve: curve.map(|curve| curve.name.clone()),
-                        ranks,
-                        repeat,
-                        values: values.clone(),
-                        overrides: overrides.clone(),
-                    });
-                }
-            }
-        }
-        Some(runs)
-    }
-}
-
-/// Whether two keys are the same, or one stands in the table of the other.
-fn meet(a: &[String], b: &[String]) -> bool {
-    a.starts_with(b) || b.starts_with(a)
-}
-
-/// `KEY=VALUE`
-fn overriding(path: &[String], value: &Value) -> String {
-    format!("{}={value}", dotted(path))
-}
-
-/// One value of each axis, in every way.
-fn combinations(grid: &[Setting<Vec<Value>>]) -> Vec<Vec<Value>> {
-    grid.iter().fold(vec![Vec::new()], |so_far, axis| {
-        let extended = |values: &Vec<Value>, value: &Value| values.iter().chain([value]).cloned().collect();
-        so_far.iter().flat_map(|values| axis.value.iter().map(move |value| extended(values, value))).collect()
-    })
 }
 
 #[cfg(test)]

@@ -1,31 +1,41 @@
 //! The runs of a study as rows.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use serde_json::Value;
 
 use super::execution::{Ended, Status};
 use super::plan::{Plan, PlannedRun};
+use super::repeats::{add_spreads, groups};
 use super::summary_path::SummaryPath;
 
 /// Figures of each contact.
 const CONTACT: [&str; 4] = ["force", "inf_sup", "oscillation", "trust"];
 
 /// One row per run; what is not known is null.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Table {
     /// Name of the study.
     pub study: String,
-    /// Where the error axis stands in `summary.json`.
-    pub error: Option<String>,
+    /// Where the errors stand in `summary.json`; the first one is the column `error`.
+    pub errors: Vec<String>,
+    /// Where the time axis does.
+    pub time: String,
     /// What the values of a row are.
     pub columns: Vec<Column>,
     /// As many values as columns each.
     pub rows: Vec<Vec<Value>>,
+    /// Rows of repeats of one run.
+    pub groups: Vec<Range<usize>>,
     /// For each row, whether its reason goes without saying.
     pub good: Vec<bool>,
     /// Number of runs that converged.
     pub converged: usize,
+    /// Where the runs were made, each machine once.
+    pub machines: Vec<String>,
+    /// The BLAS that they used, each once.
+    pub blas: Vec<String>,
 }
 
 /// A column of the table.
@@ -66,14 +76,46 @@ impl Table {
             cells.push(text(&ended.result));
             cells
         };
-        Self {
+        let mut table = Self {
             study: plan.name.clone(),
-            error: plan.error.as_ref().map(|path| path.text.clone()),
+            errors: plan.errors.iter().map(|path| path.text.clone()).collect(),
+            time: plan.time.text.clone(),
             columns: columns(plan, &places),
             rows: plan.runs.iter().zip(results).map(row).collect(),
+            groups: groups(&plan.runs),
             good: results.iter().map(Ended::is_good).collect(),
             converged: results.iter().filter(|ended| ended.status == Status::Converged).count(),
+            machines: once(results.iter().map(|ended| ended.machine.as_str())),
+            blas: once(results.iter().filter_map(|ended| ended.summary["solver"]["blas"].as_str())),
+        };
+        if table.is_repeated() {
+            let mut timed = vec!["wall_s", "time_s.solve", "time_s.total"];
+            if !timed.contains(&plan.time.text.as_str()) {
+                timed.push(&plan.time.text);
+            }
+            add_spreads(&mut table, &timed);
         }
+        table
+    }
+
+    /// Whether any run is made more than once.
+    pub fn is_repeated(&self) -> bool {
+        self.groups.iter().any(|group| group.len() > 1)
+    }
+
+    /// Where a column of this name stands in a row.
+    pub fn place(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column.name == name)
+    }
+
+    /// How the run of a row ended.
+    pub fn status(&self, row: usize) -> &str {
+        self.place("status").and_then(|at| self.rows[row][at].as_str()).unwrap_or_default()
+    }
+
+    /// Whether the run of a row converged.
+    pub fn is_converged(&self, row: usize) -> bool {
+        self.status(row) == Status::Converged.words()
     }
 }
 
@@ -119,7 +161,7 @@ fn of_result(plan: &Plan, ended: &Ended) -> [Value; 8] {
         krylov.into(),
         outer.into(),
         ended.wall.as_secs_f64().into(),
-        plan.error.as_ref().map_or(Value::Null, |path| path.of(summary)),
+        plan.errors.first().map_or(Value::Null, |path| path.of(summary)),
     ]
 }
 
@@ -132,7 +174,7 @@ fn places(plan: &Plan, results: &[Ended]) -> Vec<(SummaryPath, Kind)> {
         (SummaryPath::new(&["time_s", "total"]), main),
         (SummaryPath::new(&["memory_mib", "max_rank"]), detail),
         (SummaryPath::new(&["memory_mib", "sum"]), detail),
-        (SummaryPath::new(&["energy", "U"]), detail),
+        (SummaryPath::new(&["energy", "total"]), detail),
     ];
     for table in ["errors", "balance"] {
         places.extend(names(results, table).iter().map(|name| (SummaryPath::new(&[table, name]), detail)));
@@ -140,7 +182,7 @@ fn places(plan: &Plan, results: &[Ended]) -> Vec<(SummaryPath, Kind)> {
     for contact in names(results, "contact") {
         places.extend(CONTACT.map(|figure| (SummaryPath::new(&["contact", contact, figure]), main)));
     }
-    for path in &plan.columns {
+    for path in plan.errors.iter().skip(1).chain([&plan.time]).chain(&plan.columns) {
         match places.iter_mut().find(|(place, _)| place == path) {
             Some((_, kind)) => *kind = main,
             None => places.push((path.clone(), main)),
@@ -153,6 +195,17 @@ fn places(plan: &Plan, results: &[Ended]) -> Vec<(SummaryPath, Kind)> {
 fn names<'a>(results: &'a [Ended], table: &str) -> BTreeSet<&'a str> {
     let tables = results.iter().filter_map(|ended| ended.summary[table].as_object());
     tables.flat_map(|table| table.keys()).map(String::as_str).collect()
+}
+
+/// Words in their order, each once, and no empty ones.
+fn once<'a>(words: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for word in words.filter(|word| !word.is_empty()) {
+        if !found.iter().any(|other| other == word) {
+            found.push(word.into());
+        }
+    }
+    found
 }
 
 /// Null if empty.

@@ -6,7 +6,7 @@ use plotters::element::PathElement;
 use plotters::style::{Color, ShapeStyle};
 
 use super::palette::{BLUE, GREEN, GREY, VERMILION};
-use super::sheet::{AxisSpec, Chart, DrawResult, Sheet, line};
+use super::sheet::{AxisSpec, Chart, DrawResult, Scale, Sheet, line};
 use super::ticks::{Ticks, cut_off, number_text};
 use crate::output::{ContactPoint, OutputError};
 
@@ -71,11 +71,11 @@ fn write_curves(
     let ends = [points[0].s, points[points.len() - 1].s];
     let x_ticks = Ticks::new(widened(ends, 0.0), 8);
     let x_name = format!("arc length s along the contact boundary [{}]", x_ticks.unit("length"));
-    let x = AxisSpec { range: widened(ends, 0.0), ticks: x_ticks, name: x_name };
+    let x = AxisSpec { scale: Scale::Linear, range: widened(ends, 0.0), ticks: x_ticks, name: x_name };
     let y_range = widened(range, 0.05);
     let y_ticks = Ticks::new(y_range, 6);
     let y_name = format!("{} [{}]", quantity.name, y_ticks.unit(quantity.unit));
-    let y = AxisSpec { range: y_range, ticks: y_ticks, name: y_name };
+    let y = AxisSpec { scale: Scale::Linear, range: y_range, ticks: y_ticks, name: y_name };
 
     SHEET.write(path, |sheet, area| {
         sheet.draw_title(area, title)?;

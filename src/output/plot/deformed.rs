@@ -8,7 +8,7 @@ use plotters::style::{Color, FontStyle, FontTransform, RGBColor};
 
 use super::outline::{loops, path_data, unmatched};
 use super::palette::{GREY, INK, viridis};
-use super::sheet::{Area, AxisSpec, DrawResult, PIXEL, Sheet, line, text_style};
+use super::sheet::{Area, AxisSpec, DrawResult, PIXEL, Scale, Sheet, line, text_style};
 use super::ticks::{Ticks, cut_off, number_text, round_number};
 use crate::output::{ContactPoint, OutputError};
 
@@ -129,7 +129,7 @@ impl View {
             let (middle, half) = (0.5 * (low[axis] + high[axis]), 0.5 * pixels[axis] / pixels_per_length);
             let range = [middle - half, middle + half];
             let ticks = Ticks::new(range, (pixels[axis] / 80.0).ceil() as usize);
-            AxisSpec { name: format!("{name} [{}]", ticks.unit("length")), range, ticks }
+            AxisSpec { scale: Scale::Linear, name: format!("{name} [{}]", ticks.unit("length")), range, ticks }
         };
         let margins = [62, BAR_ROOM, 62, 54];
         let [width, height] = pixels.map(|pixels| pixels as i32);

@@ -1,10 +1,11 @@
-//! Figures, as SVG: the contact boundary in two diagrams, and the deformed bodies.
+//! Figures, as SVG: the contact boundary in two diagrams, the deformed bodies, and diagrams of many runs.
 //!
 //! Units are the user's own, so axes name the quantity: *unit of length*, *unit of stress*. Text is left to the fonts of the viewer;
 //! plotters is built without its font libraries, and nothing of the layout hangs on the exact width of a text.
 
 mod along;
 mod deformed;
+mod diagrams;
 mod outline;
 mod palette;
 mod sheet;
@@ -12,3 +13,4 @@ mod ticks;
 
 pub use along::{write_displacement, write_pressure};
 pub use deformed::{Facet, write_deformed};
+pub use diagrams::{Axis, Block, Diagram, Entry, Mark, diagrams};

@@ -34,9 +34,20 @@ pub(super) struct Sheet {
     pub margins: [i32; 4],
 }
 
+/// How far apart values lie on an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scale {
+    /// As their difference.
+    Linear,
+    /// As their ratio; all are positive.
+    Logarithmic,
+}
+
 /// One axis: its range, its ticks, its name.
 #[derive(Clone)]
 pub(super) struct AxisSpec {
+    /// How values are spread.
+    pub scale: Scale,
     /// First and last value.
     pub range: [f64; 2],
     /// Ticks within the range.
@@ -50,7 +61,11 @@ impl Ranged for AxisSpec {
     type ValueType = f64;
 
     fn map(&self, value: &f64, (first, last): (i32, i32)) -> i32 {
-        let fraction = (value - self.range[0]) / (self.range[1] - self.range[0]);
+        let [low, high] = self.range;
+        let fraction = match self.scale {
+            Scale::Linear => (value - low) / (high - low),
+            Scale::Logarithmic => (value / low).ln() / (high / low).ln(),
+        };
         first + (f64::from(last - first) * fraction).round() as i32
     }
 
@@ -80,24 +95,29 @@ impl Sheet {
         path: &Path,
         draw: impl for<'a> FnOnce(&Sheet, &Area<'a>) -> DrawResult<String>,
     ) -> Result<(), OutputError> {
-        let figure = |error: Box<dyn std::error::Error>| OutputError::Figure { path: path.into(), reason: error.to_string() };
+        let drawn = self.text(draw);
+        let text = drawn.map_err(|error| OutputError::Figure { path: path.into(), reason: error.to_string() })?;
+        fs::write(path, text).map_err(OutputError::io("write", path))
+    }
+
+    /// Draws a figure and gives the text of its file, which may stand in a page too. `draw` as in [`Self::write`].
+    pub fn text(&self, draw: impl for<'a> FnOnce(&Sheet, &Area<'a>) -> DrawResult<String>) -> DrawResult<String> {
         let (width, height) = (self.width * PIXEL, self.height * PIXEL);
         let mut drawn = String::new();
         let below = {
             let area = SVGBackend::with_string(&mut drawn, (width as u32, height as u32)).into_drawing_area();
-            let below = draw(self, &area).map_err(figure)?;
-            area.present().map_err(|error| figure(error.into()))?;
+            let below = draw(self, &area)?;
+            area.present()?;
             below
         };
         let content = drawn.split_once('\n').map_or("", |(_, content)| content);
-        let text = format!(
+        Ok(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {width} {height}\" \
              stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{below}{}",
             self.width,
             self.height,
             content.replace(" opacity=\"1\"", ""),
-        );
-        fs::write(path, text).map_err(OutputError::io("write", path))
+        ))
     }
 
     /// Draws the title above the left edge of the plot; a long one in smaller letters.
@@ -172,7 +192,7 @@ pub(super) fn text_style(size: f64, style: FontStyle, colour: RGBColor) -> TextS
 }
 
 /// Estimated width of a text (pixels). The viewer chooses the font, so this is on the wide side of the usual sans-serif ones.
-fn text_width(text: &str, size: f64) -> f64 {
+pub(super) fn text_width(text: &str, size: f64) -> f64 {
     let letter = |letter: char| match letter {
         'i' | 'j' | 'l' | '.' | ',' | ':' | '\'' | '|' | 'I' => 0.32,
         ' ' | 'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '-' | '₁' | '₂' => 0.40,

@@ -1,12 +1,22 @@
 //! Round numbers for axes and colour bars.
 
-/// The ticks of an axis: multiples of 1, 2 or 5 times a power of ten, shown with a common power of ten where that is shorter.
+/// The ticks of an axis: multiples of 1, 2 or 5 times a power of ten.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Ticks {
     /// Values, ascending, within the range.
     pub values: Vec<f64>,
-    exponent: i32,
-    decimals: usize,
+    labels: Labels,
+}
+
+/// How the values are written.
+#[derive(Clone, Debug, PartialEq)]
+enum Labels {
+    /// With so many decimals, and a common power of ten where that is shorter.
+    Common { exponent: i32, decimals: usize },
+    /// Each for itself.
+    Single,
+    /// As powers of ten, which they are.
+    Powers,
 }
 
 impl Ticks {
@@ -19,21 +29,40 @@ impl Ticks {
         let magnitude = (largest * (1.0 + 1e-9)).log10().floor() as i32;
         let exponent = if (-2..5).contains(&magnitude) { 0 } else { magnitude };
         let digit = (step * (1.0 + 1e-9)).log10().floor() as i32;
-        Ticks { values, exponent, decimals: (exponent - digit).max(0) as usize }
+        Ticks { values, labels: Labels::Common { exponent, decimals: (exponent - digit).max(0) as usize } }
+    }
+
+    /// For a logarithmic axis over a range of positive numbers: powers of ten, at most about `count`, and where they are few
+    /// the numbers 2 and 5 between them.
+    pub fn decades(range: [f64; 2], count: usize) -> Ticks {
+        let decades = (range[1] / range[0]).log10();
+        let every = ((decades / count as f64).ceil() as i32).max(1);
+        let (digits, labels): (&[f64], _) =
+            if decades > 2.5 { (&[1.0], Labels::Powers) } else { (&[1.0, 2.0, 5.0], Labels::Single) };
+        let (first, last) = (range[0].log10().floor() as i32, range[1].log10().ceil() as i32);
+        let powers = (first..=last).filter(|power| power.rem_euclid(every) == 0);
+        let values = powers.flat_map(|power| digits.iter().map(move |digit| digit * 10f64.powi(power)));
+        let inside = |value: &f64| *value >= range[0] * (1.0 - 1e-9) && *value <= range[1] * (1.0 + 1e-9);
+        Ticks { values: values.filter(inside).collect(), labels }
     }
 
     /// The text beside a tick, without the common power of ten.
     pub fn label(&self, value: f64) -> String {
-        let text = format!("{:.*}", self.decimals, value / 10f64.powi(self.exponent));
+        let (exponent, decimals) = match self.labels {
+            Labels::Common { exponent, decimals } => (exponent, decimals),
+            Labels::Single => return number_text(value),
+            Labels::Powers => return power_of_ten(value.log10().round() as i32),
+        };
+        let text = format!("{:.*}", decimals, value / 10f64.powi(exponent));
         let is_zero = !text.contains(|digit: char| digit.is_ascii_digit() && digit != '0');
         if is_zero { text.replace('-', "") } else { text.replace('-', "−") }
     }
 
     /// The unit of the labels: `unit of length`, or `10⁻⁴ units of length`.
     pub fn unit(&self, quantity: &str) -> String {
-        match self.exponent {
-            0 => format!("unit of {quantity}"),
-            exponent => format!("{} units of {quantity}", power_of_ten(exponent)),
+        match self.labels {
+            Labels::Single | Labels::Powers | Labels::Common { exponent: 0, .. } => format!("unit of {quantity}"),
+            Labels::Common { exponent, .. } => format!("{} units of {quantity}", power_of_ten(exponent)),
         }
     }
 }
@@ -112,6 +141,18 @@ mod tests {
         );
         assert_eq!(labels([0.0, 2.4e5], 3), (["0", "1", "2"].map(String::from).to_vec(), "10⁵ units of length".into()));
         assert_eq!(labels([1000.0, 1000.2], 2).0, ["1000.0", "1000.1", "1000.2"]);
+    }
+
+    #[test]
+    fn logarithmic_axes_have_powers_of_ten() {
+        let labels = |range, count| {
+            let ticks = Ticks::decades(range, count);
+            ticks.values.iter().map(|&value| ticks.label(value)).collect::<Vec<_>>()
+        };
+        assert_eq!(labels([3e-7, 2e-3], 6), ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³"]);
+        assert_eq!(labels([0.3, 2.5], 6), ["0.5", "1", "2"]);
+        assert_eq!(labels([1e3, 2e7], 6), ["10³", "10⁴", "10⁵", "10⁶", "10⁷"]);
+        assert_eq!(labels([1e-12, 1.0], 4), ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰"]);
     }
 
     #[test]

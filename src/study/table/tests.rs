@@ -9,16 +9,19 @@ fn plan() -> Plan {
     let run = |refine: i64| PlannedRun {
         file: "bars.toml".into(),
         case: "bars".into(),
+        title: String::new(),
         curve: Some("P1/P0".into()),
         ranks: 2,
         repeat: 1,
-        values: vec![refine.into()],
+        values: vec![Some(refine.into())],
         overrides: Vec::new(),
     };
     Plan {
         name: "bars".into(),
         keys: vec!["mesh.refine".into()],
-        error: Some(SummaryPath::parse("errors.energy").unwrap()),
+        errors: vec![SummaryPath::parse("errors.energy").unwrap()],
+        time: SummaryPath::parse("time_s.total").unwrap(),
+        along: "mesh.refine".into(),
         columns: ["errors.energy", "probe.tip.u.1"].map(|path| SummaryPath::parse(path).unwrap()).to_vec(),
         timeout: Duration::from_secs(1),
         runs: vec![run(1), run(2)],
@@ -26,7 +29,14 @@ fn plan() -> Plan {
 }
 
 fn ended(status: Status, summary: Value) -> Ended {
-    Ended { status, reason: "why".into(), summary, wall: Duration::from_millis(500), result: String::new() }
+    Ended {
+        status,
+        reason: "why".into(),
+        summary,
+        wall: Duration::from_millis(500),
+        result: String::new(),
+        machine: "here".into(),
+    }
 }
 
 fn summary() -> Value {
@@ -39,7 +49,7 @@ fn summary() -> Value {
         "contact": { "seam": { "force": 6.0, "trust": true, "inf_sup": null }, "a.b": { "force": 1.0 } },
         "probe": { "tip": { "u": [3, 4] } },
         "time_s": { "solve": 0.25 },
-        "energy": { "U": 2.5 },
+        "energy": { "total": 2.5 },
     })
 }
 
@@ -77,7 +87,7 @@ fn a_result_is_a_row() {
         ("probe.tip.u.1", json!(4)),
         ("time_s.solve", json!(0.25)),
         ("time_s.total", Value::Null),
-        ("energy.U", json!(2.5)),
+        ("energy.total", json!(2.5)),
     ];
     for (column, value) in expected {
         assert_eq!(cell(&table, 0, column), value, "{column}");

@@ -1,0 +1,251 @@
+"""Tables and sentences of docs/performance.md. A sentence says what the numbers of the studies say, whatever they are."""
+
+import math
+
+SMALL = (
+    "**A first version, from small meshes run once each on a machine that did other things meanwhile: counts and errors "
+    "stand, times mean little.**"
+)
+TARGETS = [10.0**-k for k in range(1, 10)]
+# Times that differ by less count as equal.
+EQUAL = 1.2
+
+
+def page(studies, small):
+    """The whole page."""
+    speed, scaling, ranks = studies["speed_against_error"], studies["scaling"], studies["ranks"]
+    parts = [
+        "# Performance",
+        "Made by `docs/performance/make` from the studies in [cases/studies](../cases/studies/README.md): words and tables "
+        "too, so do not edit them here. What the figures show, and how laws are fitted: [studies.md](studies.md).",
+        SMALL if small else "",
+        machine(studies),
+        speed_section(speed, small),
+        scaling_section(scaling, small),
+        ranks_section(ranks),
+    ]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def machine(studies):
+    machines = sorted({name for study in studies.values() for name in study["machines"]})
+    blas = sorted({name.split(" (")[0] for study in studies.values() for name in study["blas"]})
+    version = sorted({study["mezha"] for study in studies.values()})
+    text = f"Machine: {'; '.join(machines)}. BLAS: {', '.join(blas)}. mezha {', '.join(version)}."
+    if len(machines) > 1:
+        text += " Times of several machines do not compare."
+    return text
+
+
+# Errors and times
+
+
+def speed_section(study, small):
+    parts = [
+        "## What an error costs",
+        "Three contacts on uniform meshes, all pairs of elements and multipliers, one rank; the solver goes to 10⁻¹⁰, so that "
+        "the errors are those of the discretisation. Times are `" + study["time"] + "`, from start to end"
+        + (", medians of the repeats." if repeats(study) > 1 else ".")
+        + " `errors.energy` is the relative error of the strain energy. `errors.lambda_seam` is that of the pressure: at points "
+        "away from the corners on both pairs of bars, in the mean square on the rings.",
+        "An error of a single number, as of the energy, may change its sign from one mesh to the next, and be small by accident. "
+        "So a run counts for a bound only if all finer runs of its line stay below it too. "
+        f"The fastest run of all took {seconds(fastest(study))} s.",
+        "![time against error](figures/speed_against_error.svg)",
+    ]
+    for case in unique(line["case"] for line in study["lines"]):
+        lines = [line for line in study["lines"] if line["case"] == case]
+        parts.append(f"### {case}: {lines[0]['title']}")
+        for error in study["errors"]:
+            parts.append(f"Seconds to `{error}` below a bound, for the fastest run of each pair; bold, the fastest of all:")
+            parts.append(bounds_table(lines, error))
+            parts.append("" if small else bounds_sentence(lines, error))
+        parts.append("Orders p, error ~ h^p:")
+        parts.append(orders_table(lines, study["errors"]))
+        untrusted = sum(not point["trusted"] for line in lines for point in line["points"])
+        if untrusted:
+            parts.append(f"Left out of the tables of times: {untrusted} settings whose pressure is not to be trusted (hollow marks).")
+    return "\n\n".join(part for part in parts if part)
+
+
+def fastest(study):
+    return min(point["time"]["median"] for line in study["lines"] for point in line["points"])
+
+
+def time_to(line, error, bound):
+    """The time of the fastest run from which on all finer ones are below the bound; None if there is none."""
+    times = []
+    for point in reversed(line["points"]):
+        if point["errors"].get(error, math.inf) > bound:
+            break
+        if point["trusted"]:
+            times.append(point["time"]["median"])
+    return min(times, default=None)
+
+
+def bounds_table(lines, error):
+    rows = []
+    for bound in TARGETS:
+        times = [time_to(line, error, bound) for line in lines]
+        known = [time for time in times if time is not None]
+        if not known:
+            break
+        cells = ["–" if time is None else seconds(time) for time in times]
+        cells = [f"**{cell}**" if time == min(known) else cell for cell, time in zip(cells, times)]
+        rows.append([power(bound)] + cells)
+    # Bounds that all pairs meet on their coarsest mesh say nothing.
+    while len(rows) > 1 and rows[0][1:] == rows[1][1:]:
+        rows.pop(0)
+    return table(["bound"] + [line["name"] for line in lines], rows)
+
+
+def bounds_sentence(lines, error):
+    """P1 against P2, and the best multiplier for each, at the tightest bound that both reach."""
+    groups = {order: [line for line in lines if line["name"].startswith(order)] for order in ("P1", "P2")}
+    best = {}
+    for bound in TARGETS:
+        found = {}
+        for order, group in groups.items():
+            times = [(time_to(line, error, bound), line["name"]) for line in group]
+            found[order] = min((entry for entry in times if entry[0] is not None), default=None)
+        if all(found.values()):
+            best = {"bound": bound, **found}
+    if not best:
+        return ""
+    (p1, name1), (p2, name2) = best["P1"], best["P2"]
+    where = f"At {power(best['bound'])}, the tightest bound that runs with P1 and with P2 meet,"
+    if p1 > EQUAL * p2:
+        return f"{where} P2 is {p1 / p2:.1f} times as fast as P1 ({name2} against {name1})."
+    if p2 > EQUAL * p1:
+        return f"{where} P1 is {p2 / p1:.1f} times as fast as P2 ({name1} against {name2})."
+    return f"{where} the best of both take the same time within {100 * (EQUAL - 1):.0f} %."
+
+
+def orders_table(lines, errors):
+    rows = [[line["name"]] + [law(line["orders"][error]) for error in errors] for line in lines]
+    return table(["pair"] + [f"`{error}`" for error in errors], rows)
+
+
+# Large meshes
+
+
+def scaling_section(study, small):
+    header = ["pair", "unknowns", "Krylov iterations", "seconds", "of which in solves", "microseconds for each unknown", "bytes for each unknown"]
+    rows, sentences = [], []
+    for line in study["lines"]:
+        for point in line["points"]:
+            unknowns, time = point["unknowns"], point["time"]["median"]
+            row = next(row for row in study["rows"] if row["result"] == point["result"])
+            each = [f"{1e6 * time / unknowns:.2f}", f"{point['memory'] * 2**20 / unknowns:.0f}"]
+            cells = [count(unknowns), f"{point['iterations']:.0f}", seconds(time), seconds(row["time_s.solve"])]
+            rows.append([line["name"]] + cells + each)
+        sentences.append(scaling_sentence(line, small))
+    ranks = unique(line["ranks"] for line in study["lines"])
+    parts = [
+        "## Large meshes",
+        f"Example 1 with even meshes and segments, {' and '.join(map(str, ranks))} ranks, the solver to 10⁻⁸; iterations are "
+        "those of both linear solves of a run.",
+        "![time against unknowns](figures/scaling.svg)",
+        table(header, rows),
+        " ".join(sentences),
+        "The counts are held on small meshes by `tests/scaling.rs`, and on large ones by `ci/scaling`.",
+    ]
+    return "\n\n".join(parts)
+
+
+def scaling_sentence(line, small):
+    points = line["points"]
+    iterations = [point["iterations"] for point in points]
+    first, last = points[0]["unknowns"], points[-1]["unknowns"]
+    between = f"{min(iterations):.0f}" if min(iterations) == max(iterations) else f"{min(iterations):.0f} to {max(iterations):.0f}"
+    text = f"{line['name']}: {between} iterations from {count(first)} to {count(last)} unknowns"
+    cost = line["cost"]
+    if cost is None or small:
+        return text + "."
+    if cost["deviation"] > 1.5:
+        return text + "; the times follow no power law."
+    return text + f"; over the three largest meshes time ~ N^{cost['exponent']:.2f}."
+
+
+# Ranks
+
+
+def ranks_section(study):
+    names = unique(line["name"].rsplit(", ", 1)[0] for line in study["lines"])
+    rows, gains, differences = [], [], []
+    for name in names:
+        lines = {line["ranks"]: line for line in study["lines"] if line["name"].rsplit(", ", 1)[0] == name}
+        alone = lines[1]
+        for ranks, line in sorted(lines.items()):
+            if ranks == 1:
+                continue
+            for one, many in zip(alone["points"], line["points"]):
+                gain = one["time"]["median"] / many["time"]["median"]
+                energies = [energy(study, point) for point in (one, many)]
+                differences.append(abs(energies[0] - energies[1]) / abs(energies[0]))
+                times = [seconds(point["time"]["median"]) for point in (one, many)]
+                gains.append((one["unknowns"], *times, name))
+                iterations = [f"{point['iterations']:.0f}" for point in (one, many)]
+                rows.append([name, count(one["unknowns"])] + times + [f"{gain:.2f}"] + iterations + [scientific(differences[-1])])
+    header = ["pair", "unknowns", "s, 1 rank", "s, 2 ranks", "ratio", "iterations, 1 rank", "2 ranks", "relative difference of the energy"]
+    largest = max(entry[0] for entry in gains)
+    told = [f"{name} takes {one} s on one rank and {two} s on two" for unknowns, one, two, name in gains if unknowns == largest]
+    parts = [
+        "## One rank and two",
+        "![one and two ranks](figures/ranks.svg)",
+        table(header, rows),
+        f"At {count(largest)} unknowns {'; '.join(told)}. The energies differ by {scientific(max(differences))} "
+        "at most, with the solver to 10⁻⁸.",
+        "Both ranks share the memory of one machine, and its bandwidth: more machines are another matter, see "
+        "[slurm.md](slurm.md).",
+    ]
+    return "\n\n".join(parts)
+
+
+def energy(study, point):
+    return next(row for row in study["rows"] if row["result"] == point["result"])["energy.total"]
+
+
+# Words
+
+
+def repeats(study):
+    return max(row["repeat"] for row in study["rows"])
+
+
+def unique(items):
+    return list(dict.fromkeys(items))
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(cells) + " |" for cells in [header] + rows]
+    return "\n".join([lines[0], "|" + "---|" * len(header)] + lines[1:])
+
+
+def law(law):
+    if law is None:
+        return "too few points"
+    return f"{law['exponent']:.2f}" if law["deviation"] <= 1.5 else "no power law"
+
+
+def seconds(time):
+    return f"{time:.1f}" if time >= 10 else f"{time:.2f}"
+
+
+def count(number):
+    if number >= 1e6:
+        return f"{number / 1e6:.1f} million"
+    return f"{number / 1e3:.0f} thousand" if number >= 1e4 else f"{number:.0f}"
+
+
+def power(number):
+    exponent = round(-math.log10(number))
+    return "10⁻" + str(exponent).translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def scientific(number):
+    digits, exponent = f"{number:.1e}".split("e")
+    if float(digits) == 0:
+        return "0"
+    raised = str(int(exponent)).replace("-", "⁻").translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{digits}·10{raised}" if int(exponent) else digits

@@ -1,0 +1,160 @@
+//! The figure of a study: lines as diagrams, one block for each case.
+
+use super::fit::PowerLaw;
+use super::lines::{Line, Point};
+use super::plan::Plan;
+use super::repeats::Spread;
+use super::summary_path::SummaryPath;
+use crate::output::plot::{Axis, Block, Diagram, Entry, Mark, diagrams};
+
+/// The text of `study.svg`; None if no line has two points.
+///
+/// # Errors
+/// It cannot be drawn, in words.
+pub fn figure(plan: &Plan, lines: &[Line]) -> Result<Option<String>, String> {
+    if lines.iter().all(|line| line.points.len() < 2) {
+        return Ok(None);
+    }
+    let mut cases: Vec<&str> = Vec::new();
+    let mut names: Vec<&str> = Vec::new();
+    for line in lines {
+        if !cases.contains(&line.case.as_str()) {
+            cases.push(&line.case);
+        }
+        if !names.contains(&line.name.as_str()) {
+            names.push(&line.name);
+        }
+    }
+    let style = |line: &Line| names.iter().position(|name| *name == line.name).unwrap_or_default();
+    let block = |case: &&str| {
+        let own: Vec<(usize, &Line)> =
+            lines.iter().filter(|line| line.case == **case && !line.points.is_empty()).map(|line| (style(line), line)).collect();
+        let title = own.first().map(|(_, line)| line.title.as_str()).filter(|title| !title.is_empty());
+        let title = title.map_or((*case).to_owned(), |title| format!("{case}: {title}"));
+        let legend = own.iter().map(|(style, line)| entry(plan, *style, line)).collect();
+        Block { title, legend, diagrams: Scene { lines: own }.diagrams(plan) }
+    };
+    diagrams(&cases.iter().map(block).collect::<Vec<_>>())
+}
+
+/// A line's row in the legend: its name, its orders, its cost.
+fn entry(plan: &Plan, style: usize, line: &Line) -> Entry {
+    let order = |error: &SummaryPath| law(&format!("{} ~ h", error.text), line.orders.get(&error.text).copied().flatten());
+    let cells = [line.name.clone()].into_iter().chain(plan.errors.iter().map(order)).chain([law("time ~ N", line.cost)]);
+    Entry { style, cells: cells.collect() }
+}
+
+/// A power law in words.
+pub fn law(words: &str, law: Option<PowerLaw>) -> String {
+    match law {
+        Some(law) if law.holds() => format!("{words}^{:.2}", law.exponent),
+        Some(_) => format!("{words}: no power law"),
+        None => format!("{words}: too few points"),
+    }
+}
+
+/// The lines of one case, with their styles.
+struct Scene<'a> {
+    lines: Vec<(usize, &'a Line)>,
+}
+
+impl Scene<'_> {
+    /// A diagram with logarithmic axes, of the points that have a place in it.
+    fn diagram(&self, title: &str, [x, y]: [&str; 2], place: &dyn Fn(&Point) -> Option<Mark>) -> Diagram {
+        let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
+        let marks = |line: &Line| line.points.iter().filter_map(place).collect();
+        Diagram {
+            title: title.into(),
+            x: axis(x),
+            y: axis(y),
+            behind: Vec::new(),
+            lines: self.lines.iter().map(|(style, line)| (*style, marks(line))).collect(),
+        }
+    }
+
+    /// For each error, time against error and error against unknowns; then time and iterations against unknowns, and without
+    /// errors memory too.
+    fn diagrams(&self, plan: &Plan) -> Vec<Diagram> {
+        let (unknowns, time) = ("unknowns N", &format!("{} [s]", plan.time.text));
+        let mut all = Vec::new();
+        for SummaryPath { text: error, .. } in &plan.errors {
+            let mut race = self.diagram("time against error (grey: the Pareto front)", [error, time], &|point| {
+                Some(timed(*point.errors.get(error)?, point.time?, point))
+            });
+            race.behind = front(&self.lines, error);
+            all.push(race);
+            all.push(self.diagram("error against unknowns", [unknowns, error], &|point| {
+                Some(mark(point.unknowns, *point.errors.get(error)?, point))
+            }));
+        }
+        all.push(
+            self.diagram("time against unknowns", [unknowns, time], &|point| Some(timed(point.unknowns, point.time?, point))),
+        );
+        let mut iterations =
+            self.diagram("Krylov iterations against unknowns", [unknowns, "iterations of all solves"], &|point| {
+                Some(mark(point.unknowns, point.iterations?, point))
+            });
+        iterations.y.logarithmic = false;
+        all.push(iterations);
+        if plan.errors.is_empty() {
+            all.push(self.diagram("memory against unknowns", [unknowns, "memory of all ranks [MiB]"], &|point| {
+                Some(mark(point.unknowns, point.memory?, point))
+            }));
+        }
+        all
+    }
+}
+
+fn mark(x: f64, y: f64, point: &Point) -> Mark {
+    Mark { x, y, reach: [y, y], hollow: !point.trusted }
+}
+
+fn timed(x: f64, time: Spread, point: &Point) -> Mark {
+    Mark { reach: [time.least, time.most], ..mark(x, time.median, point) }
+}
+
+/// Errors and times of the points that no other beats, from the least accurate on, in steps: between two of them the time of the
+/// more accurate one is the least.
+fn front(lines: &[(usize, &Line)], error: &str) -> Vec<(f64, f64)> {
+    let points = lines.iter().flat_map(|(_, line)| &line.points).filter(|point| point.front.contains(error));
+    let mut best: Vec<(f64, f64)> = points.filter_map(|point| point.race(error).map(|(time, error)| (error, time))).collect();
+    best.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let steps = best.windows(2).flat_map(|pair| [pair[0], (pair[0].0, pair[1].1)]);
+    steps.chain(best.last().copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn laws_are_told_only_where_they_hold() {
+        let of = |deviation| Some(PowerLaw { exponent: 1.8249, deviation });
+        assert_eq!(law("error ~ h", of(1.1)), "error ~ h^1.82");
+        assert_eq!(law("error ~ h", of(2.0)), "error ~ h: no power law");
+        assert_eq!(law("error ~ h", None), "error ~ h: too few points");
+    }
+
+    fn line(front_errors: &[f64]) -> Line {
+        let point = |error: &f64| Point {
+            unknowns: 1.0 / error,
+            iterations: None,
+            time: Spread::of(vec![1.0 / error]),
+            errors: [("e".to_string(), *error)].into(),
+            memory: None,
+            trusted: true,
+            front: ["e".to_string()].into(),
+            result: String::new(),
+        };
+        let points = front_errors.iter().map(point).collect();
+        let orders = Default::default();
+        Line { case: "bars".into(), title: "Two bars".into(), name: "P1".into(), ranks: 1, orders, cost: None, points }
+    }
+
+    #[test]
+    fn the_front_goes_down_in_steps() {
+        let line = line(&[0.1, 0.5, 0.25]);
+        assert_eq!(front(&[(0, &line)], "e"), [(0.5, 2.0), (0.5, 4.0), (0.25, 4.0), (0.25, 10.0), (0.1, 10.0)]);
+        assert!(front(&[], "e").is_empty());
+    }
+}

@@ -1,0 +1,91 @@
+//! Keys of the cases, as a study file sets them in `[set]`, `[grid]` and `[[curve]]`.
+
+use toml::{Table, Value};
+
+use crate::case::overrides::read_key;
+use crate::case::section::Section;
+use crate::case::values;
+
+/// What a list of case files is called.
+pub const CASES: &str = "a list of case files";
+
+/// A key of the case and what stands there: a value, or a list of values on an axis of a grid.
+#[derive(Clone, Debug)]
+pub struct Setting<T> {
+    /// Where it is written in the study file, from its root.
+    pub written: Vec<String>,
+    /// Names of the key.
+    pub path: Vec<String>,
+    /// What stands there.
+    pub value: T,
+}
+
+/// An axis of a grid.
+pub type Axis = Setting<Vec<Value>>;
+
+/// `[[curve]]`
+pub struct Curve {
+    /// Its name.
+    pub name: String,
+    /// Keys that move together.
+    pub set: Vec<Setting<Value>>,
+    /// Axes of its own, in place of those of `[grid]` for the same keys, and beside the others.
+    pub grid: Vec<Axis>,
+    /// The cases that it is drawn for, as they stand in `cases`; None: for all.
+    pub cases: Option<Vec<String>>,
+}
+
+/// `[set]`
+pub fn read_set(section: &Section) -> Vec<Setting<Value>> {
+    settings(&section.optional("set", values::table).unwrap_or_default(), &["set"], section)
+}
+
+/// `[grid]`
+pub fn read_grid(section: &Section) -> Vec<Axis> {
+    let table = section.optional("grid", values::table).unwrap_or_default();
+    let mut axes = Vec::new();
+    for setting in settings(&table, &["grid"], section) {
+        let below: Vec<&str> = setting.written.iter().map(String::as_str).collect();
+        match values::list("a list of values, as in [2, 3]", |value| Ok(value.clone()))(&setting.value) {
+            Ok(value) => axes.push(Setting { written: setting.written, path: setting.path, value }),
+            Err(words) => section.problem(&below, words),
+        }
+    }
+    axes
+}
+
+/// `[[curve]]`
+pub fn read_curve(section: &Section) -> Option<Curve> {
+    let name = section.required("name", "\"P1/P0\"", values::name);
+    let (mut set, mut grid) = (read_set(section), read_grid(section));
+    for written in set.iter_mut().map(|s| &mut s.written).chain(grid.iter_mut().map(|axis| &mut axis.written)) {
+        written.splice(0..0, ["curve".into(), section.name().into()]);
+    }
+    let cases = section.optional("cases", values::list(CASES, values::name));
+    Some(Curve { name: name?, set, grid, cases })
+}
+
+/// All keys of a table, which stands at `below` in the section. A table inside, which comes from dots that are not in quotes,
+/// is one more name of the key.
+fn settings(table: &Table, below: &[&str], section: &Section) -> Vec<Setting<Value>> {
+    let mut found = Vec::new();
+    for (name, value) in table {
+        let here: Vec<&str> = below.iter().copied().chain([name.as_str()]).collect();
+        let Some(names) = read_key(name) else {
+            section.problem(&here, "must be a key of the case with dots, as in \"mesh.refine\"".into());
+            continue;
+        };
+        let inner = match value {
+            Value::Table(table) => settings(table, &here, section),
+            value => {
+                let written = here.iter().map(|name| (*name).to_owned()).collect();
+                vec![Setting { written, path: Vec::new(), value: value.clone() }]
+            }
+        };
+        for mut setting in inner {
+            setting.path.splice(0..0, names.iter().cloned());
+            found.push(setting);
+        }
+    }
+    found
+}

@@ -1,0 +1,125 @@
+//! What a study prints while it goes on.
+
+use std::io::{Write, stdout};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use super::execution::{Ended, Status};
+use super::folder::Place;
+use super::plan::{Plan, PlannedRun};
+
+/// Prints to standard output; a reader that has gone away is no reason to stop.
+pub struct Progress {
+    started: Instant,
+    keys: Vec<String>,
+    runs: usize,
+}
+
+impl Progress {
+    /// The first line: what the study is, and how much of it has been made.
+    pub fn start(plan: &Plan, places: &[Place]) -> Self {
+        let kept = places.iter().filter(|place| place.kept.is_some()).count();
+        let again = places.iter().filter(|place| place.again).count();
+        let all = count(plan.runs.len(), "run");
+        say(&format!("mezha {}: study {}, {all}{}\n", env!("CARGO_PKG_VERSION"), plan.name, already(kept, again)));
+        Self { started: Instant::now(), keys: plan.keys.clone(), runs: plan.runs.len() }
+    }
+
+    /// What is made next: run k of n, time since the start, case, curve, keys, ranks. The line stays open until the run has ended.
+    pub fn begin(&self, index: usize, run: &PlannedRun) {
+        let number = format!("{:>width$}", index + 1, width = self.runs.to_string().len());
+        let elapsed = clock(self.started.elapsed());
+        say(&format!("run {number} of {}, {elapsed}: {} ... ", self.runs, describe(&self.keys, run)));
+    }
+
+    /// How it ended, on the same line.
+    pub fn ended(&self, ended: &Ended) {
+        let words = format!("{} in {:.2} s", ended.status.words().replace('_', " "), ended.wall.as_secs_f64());
+        say(&if ended.is_good() { format!("{words}\n") } else { format!("{words}: {}\n", ended.reason) });
+    }
+
+    /// The last line: how many runs ended how, and where the page is.
+    pub fn end(&self, results: &[Ended], page: &Path) {
+        say(&format!("mezha: {}; {} in all; see {}\n", verdict(results), clock(self.started.elapsed()), page.display()));
+    }
+}
+
+fn say(words: &str) {
+    let mut out = stdout();
+    let _ = out.write_all(words.as_bytes()).and_then(|()| out.flush());
+}
+
+/// How many runs are there, and how many were made before but have changed or failed.
+fn already(kept: usize, again: usize) -> String {
+    let kept = if kept == 0 { String::new() } else { format!(", {kept} of them already made") };
+    let again =
+        if again == 0 { String::new() } else { format!(", {again} to be made again since they failed or something changed") };
+    kept + &again
+}
+
+/// Case, curve, keys that move, ranks, repeat.
+fn describe(keys: &[String], run: &PlannedRun) -> String {
+    let moved = keys.iter().zip(&run.values).filter_map(|(key, value)| Some(format!("{key}={}", value.as_ref()?)));
+    let repeat = (run.repeat > 1).then(|| format!("repeat {}", run.repeat));
+    let words = [run.case.clone()].into_iter().chain(run.curve.clone()).chain(moved).chain([count(run.ranks, "rank")]);
+    words.chain(repeat).collect::<Vec<_>>().join("  ")
+}
+
+/// How many runs ended how, and the usual ending first.
+fn verdict(results: &[Ended]) -> String {
+    let of = |status: Status| results.iter().filter(|ended| ended.status == status).count();
+    let counts = Status::ALL.map(|status| (status.words(), of(status)));
+    let some = counts.iter().filter(|(words, number)| *number > 0 || *words == Status::Converged.words());
+    let words: Vec<String> = some.map(|(words, number)| format!("{number} {}", words.replace('_', " "))).collect();
+    format!("{}: {}", count(results.len(), "run"), words.join(", "))
+}
+
+/// `1 run`, `2 runs`
+fn count(number: usize, thing: &str) -> String {
+    if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
+}
+
+/// `0:05`, `12:34`, `1:02:03`
+fn clock(time: Duration) -> String {
+    let seconds = time.as_secs();
+    let (hours, minutes, seconds) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
+    if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_read_like_a_clock() {
+        let table = [(0, "0:00"), (65, "1:05"), (3599, "59:59"), (3600, "1:00:00"), (90_061, "25:01:01")];
+        for (seconds, words) in table {
+            assert_eq!(clock(Duration::from_secs(seconds)), words);
+        }
+    }
+
+    #[test]
+    fn a_run_is_told_by_what_moves() {
+        let mut run = PlannedRun {
+            file: "bars.toml".into(),
+            case: "bars".into(),
+            title: String::new(),
+            curve: Some("P1/P0".into()),
+            ranks: 2,
+            repeat: 1,
+            values: vec![Some(3.into()), None],
+            overrides: Vec::new(),
+        };
+        let keys = ["mesh.refine".to_string(), "solver.name".to_string()];
+        assert_eq!(describe(&keys, &run), "bars  P1/P0  mesh.refine=3  2 ranks");
+        (run.repeat, run.ranks, run.curve) = (2, 1, None);
+        assert_eq!(describe(&keys, &run), "bars  mesh.refine=3  1 rank  repeat 2");
+    }
+
+    #[test]
+    fn the_first_line_tells_what_is_there() {
+        assert_eq!(already(0, 0), "");
+        assert_eq!(already(3, 0), ", 3 of them already made");
+        assert_eq!(already(3, 2), ", 3 of them already made, 2 to be made again since they failed or something changed");
+    }
+}

@@ -1,0 +1,89 @@
+//! What a larger mesh costs, in counts that no machine changes: iterations, work, multipliers, messages, room for matrices.
+//! Times and memory of large meshes: `ci/scaling`.
+
+mod support;
+
+use support::{Ended, Run};
+
+/// Krylov iterations of both linear solves.
+const ITERATIONS: u64 = 13;
+/// How much more work an unknown may cost after one more refinement: one iteration of nine.
+const MORE_WORK: f64 = 1.12;
+/// Synchronisations of all ranks that one more level may cost.
+const MORE_REDUCTIONS: f64 = 45.0;
+
+/// A displacement order, a multiplier space, refinements, and the most floating-point operations for each unknown.
+type Ladder = (usize, &'static str, [usize; 4], f64);
+
+const LADDERS: [Ladder; 2] = [(1, "p0", [3, 4, 5, 6], 4800.0), (2, "p1-discontinuous", [2, 3, 4, 5], 7500.0)];
+
+/// Counts of one run.
+#[derive(Debug)]
+struct Counts {
+    unknowns: f64,
+    multipliers: f64,
+    iterations: u64,
+    outer: usize,
+    work: f64,
+    reductions: f64,
+    mallocs: u64,
+    unneeded: u64,
+}
+
+impl Counts {
+    /// Of example 1 on even meshes, on two ranks.
+    fn new(order: usize, space: &str, refine: usize) -> Self {
+        let run = Run::case("bars_inclined/even.toml").ranks(2).set("exact.must_hold", false).set("output.fields", false);
+        let run = run.set("contact.seam.segments", "auto").set("solver.tolerance", "1e-8").set("solver.inf_sup", false);
+        let run = run.set("mesh.order", order).set("contact.seam.multiplier", space).set("mesh.refine", refine);
+        let ended = run.petsc("-log_view -info :mat").converged();
+        let unknowns = ended.number("/unknowns/displacement");
+        Self {
+            unknowns,
+            multipliers: ended.number("/unknowns/multiplier"),
+            iterations: ended.iterations(),
+            outer: ended.value("/outer").as_array().map_or(0, Vec::len),
+            // Largest, ratio, mean, and sum over the ranks.
+            work: logged(&ended, "Flops:")[3] / unknowns,
+            reductions: logged(&ended, "MPI Reductions:")[0],
+            mallocs: sum_after(&ended, "Number of mallocs during MatSetValues() is "),
+            unneeded: sum_after(&ended, "storage space: "),
+        }
+    }
+}
+
+/// Numbers of the line of PETSc's log that begins so.
+fn logged(ended: &Ended, name: &str) -> Vec<f64> {
+    let line =
+        ended.output.lines().find_map(|line| line.strip_prefix(name)).unwrap_or_else(|| panic!("{name} in {}", ended.output));
+    line.split_whitespace().map(|number| number.parse().expect("a number")).collect()
+}
+
+/// Sum of the numbers that stand behind these words, wherever PETSc says them.
+fn sum_after(ended: &Ended, words: &str) -> u64 {
+    let said = ended.said();
+    let numbers = said.lines().filter_map(|line| line.split_once(words)?.1.split([' ', ',']).next()?.parse::<u64>().ok());
+    let numbers: Vec<u64> = numbers.collect();
+    assert!(numbers.len() > 20, "`{words}` is said {} times", numbers.len());
+    numbers.iter().sum()
+}
+
+#[test]
+fn work_grows_with_the_unknowns_and_nothing_faster() {
+    for (order, space, refinements, most_work) in LADDERS {
+        let ladder = refinements.map(|refine| Counts::new(order, space, refine));
+        for counts in &ladder {
+            println!("P{order}, {space}: {counts:?}");
+            assert!(counts.iterations <= ITERATIONS && counts.outer == 2, "{counts:?}");
+            assert!(counts.work <= most_work, "{counts:?}");
+            assert_eq!((counts.mallocs, counts.unneeded), (0, 0), "matrices have the room that they need: {counts:?}");
+        }
+        for pair in ladder.windows(2) {
+            let [coarse, fine] = pair else { unreachable!("pairs") };
+            assert!((3.7..4.0).contains(&(fine.unknowns / coarse.unknowns)), "{pair:?}");
+            assert_eq!(fine.multipliers, 2.0 * coarse.multipliers, "twice the edges on the seam, twice the multipliers");
+            assert!(fine.work <= MORE_WORK * coarse.work, "{pair:?}");
+            assert!(fine.reductions <= coarse.reductions + MORE_REDUCTIONS, "{pair:?}");
+        }
+    }
+}
