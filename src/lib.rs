@@ -51,7 +51,8 @@
 //! - The active set: Hintermüller, Ito, Kunisch, SIAM Journal on Optimization 13 (2002), 865-888.
 //! - Augmentation of saddle points: Benzi, Golub, Liesen, Acta Numerica 14 (2005), 1-137; Benzi, Olshanskii, SIAM
 //!   Journal on Scientific Computing 28 (2006), 2095-2113.
-//! - Macro triangles refined regularly: Bergen, Hülsemann, *Numerical Linear Algebra with Applications* 11 (2004), 279-291.
+//! - Macro triangles refined regularly: Bergen, Hülsemann, *Numerical Linear Algebra with Applications* 11 (2004), 279-291;
+//!   towards corners: Băcuță, Nistor, Zikatanov, Numerische Mathematik 100 (2005), 165-184.
 
 // The floors, from the ground up: a module imports only from those above it in this list.
 #[allow(unsafe_code)]
