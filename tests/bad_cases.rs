@@ -115,11 +115,6 @@ fn deformed_bodies_with_a_declared_curve() {
     bad_key("contact.seam.configuration", "\"deformed\"", &["contact.seam.configuration", "wants curve = \"fit\""]);
 }
 
-#[test]
-fn what_is_not_built_yet() {
-    bad_key("solver.tolerance", "\"discretisation\"", &["solver.tolerance", "not available yet"]);
-}
-
 /// Nothing holds the upper block in x: exit code 3, and a summary that says so.
 #[test]
 fn a_body_that_nothing_holds() {

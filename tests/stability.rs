@@ -71,3 +71,23 @@ fn the_inf_sup_constant_falls_with_the_segments_and_does_not_depend_on_ranks() {
     }
     assert!(beta(88, 1) < 0.05, "H/h = 0.55: {}", beta(88, 1));
 }
+
+/// Contact along less than an edge under segments much shorter: one solution, whoever finds it.
+#[test]
+fn beside_a_jump_term_the_active_set_does_not_depend_on_ranks_or_solver() {
+    for (order, space) in [(1, "p0"), (2, "p0"), (2, "p1-discontinuous")] {
+        let run = bars(order, space, 768, "fieldsplit").set("mesh.refine", 3).set("solver.tolerance", "1e-10");
+        let run =
+            run.set("contact.seam.law", "unilateral").set("load.top.pressure", 0.01).set("contact.seam.gap", "(x - 3)^2/240");
+        let result = |run: Run| {
+            let ended = run.converged();
+            (ended.value("/contact/seam/closed"), ended.number("/energy/total"))
+        };
+        let (closed, energy) = result(run.clone().ranks(1));
+        for other in [run.clone().ranks(2), run.clone().ranks(3), run.set("solver.name", "direct")] {
+            let found = result(other);
+            assert_eq!(found.0, closed, "P{order} and {space}");
+            assert!((found.1 / energy - 1.0).abs() < 1e-6, "P{order} and {space}: {} against {energy}", found.1);
+        }
+    }
+}

@@ -1,9 +1,10 @@
 // Two bars on an inclined line, y = 3 + x/6, 0 <= x <= 6. Macro mesh: each triangle is cut again by mezha.
 //   gmsh -2 -format msh41 bars.geo -o bars.msh
 //   gmsh -2 -format msh41 -setnumber even 1 bars.geo -o even.msh
+//   gmsh -2 -format msh41 -setnumber layers 1 bars.geo -o graded.msh
 // The bodies share no point: each has its own side of the contact line.
-DefineConstant[ even = 0 ];   // 0: fine towards the corner (6, 4); 1: even triangles
-
+DefineConstant[ even = 0 ];     // 0: fine towards the corner (6, 4); 1: even triangles
+DefineConstant[ layers = 0 ];   // 1: halved quadrangles in layers, of one size, for mezha to grade
 
 // Lower bar, body 1.
 Point(1) = {0, 0, 0};
@@ -29,9 +30,15 @@ Line(14) = {14, 11};
 Curve Loop(2) = {11:14};
 Plane Surface(2) = {2};
 
-// Edges per curve. The two sides of the contact line never match: 6 against 7.
+// Edges per curve. The two sides of the contact line never match: 6 against 7, or 5.
 // A progression q makes each edge q times as long as the one before it, in the direction of the line.
-If (even)
+If (layers)
+  Transfinite Curve{1, 3} = 6 + 1;
+  Transfinite Curve{2, 4} = 3 + 1;
+  Transfinite Curve{11, 13} = 5 + 1;
+  Transfinite Curve{12, 14} = 2 + 1;
+  Transfinite Surface{1, 2} AlternateLeft;
+ElseIf (even)
   Mesh.Algorithm = 5;
   Transfinite Curve{1} = 4 + 1;
   Transfinite Curve{2} = 2 + 1;

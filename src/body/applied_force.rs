@@ -48,11 +48,10 @@ fn body_force<const N: usize>(
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
     let numbers = numbering.triangle(mesh, triangle);
-    let n = numbering.level.intervals;
-    for small in lattice::triangles(n, numbering.level.order) {
+    for small in lattice::triangles(numbering.level.intervals, numbering.level.order) {
         let nodes = small.nodes::<N>();
         let density = |x: Point| Point::new(body.force[0].value(&[x.x, x.y]), body.force[1].value(&[x.x, x.y]));
-        let forces = triangle_load::<N>(&positions(mesh, triangle, n, &nodes), density)?;
+        let forces = triangle_load::<N>(&positions(mesh, triangle, numbering.level, &nodes), density)?;
         nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
     }
     Ok(())

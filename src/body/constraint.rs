@@ -115,7 +115,7 @@ fn collect<'a>(
         };
         hold(&support.ux, Point::new(1.0, 0.0))?;
         hold(&support.uy, Point::new(0.0, 1.0))?;
-        hold(&support.normal, mesh.edge_normal(edge, position as f64 / numbering.level.intervals as f64))?;
+        hold(&support.normal, mesh.edge_normal(edge, node.fraction(mesh, numbering)))?;
     }
     Ok(())
 }

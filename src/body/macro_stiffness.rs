@@ -2,7 +2,7 @@
 
 use crate::element::{BadJacobian, Block, Order, PlaneStrain, stiffness};
 use crate::geometry::Point;
-use crate::mesh::{Level, MacroMesh, lattice};
+use crate::mesh::{Level, MacroMesh, Shapes, lattice};
 
 /// Steps from a node to the nodes that share a triangle with it; those outside the lattice do not exist.
 ///
@@ -42,8 +42,8 @@ pub fn neighbours(order: Order, i: usize, j: usize) -> &'static [(isize, isize)]
     }
 }
 
-/// Rows of the stiffness of a macro triangle. A straight one needs the rows of a lattice of three triangles per edge
-/// only: all others repeat them, because a triangle's stiffness does not depend on its size.
+/// Rows of the stiffness of a macro triangle. A triangle's stiffness does not depend on its size: on a straight macro
+/// triangle few are integrated, and of an even one the rows of a lattice of three triangles per edge stand for all others.
 pub struct MacroStiffness {
     /// Lattice intervals of the level.
     n: usize,
@@ -59,48 +59,81 @@ impl MacroStiffness {
     /// # Errors
     /// [`BadJacobian`] if one of its triangles is turned inside out.
     pub fn new(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneStrain) -> Result<Self, BadJacobian> {
-        let curved = mesh.is_curved(triangle);
+        let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
+        Self::of_shapes(mesh, triangle, level, law, shapes)
+    }
+
+    /// The same from the shapes of its triangles; without them each is integrated by itself.
+    fn of_shapes(
+        mesh: &MacroMesh,
+        triangle: usize,
+        level: Level,
+        law: &PlaneStrain,
+        shapes: Option<Shapes>,
+    ) -> Result<Self, BadJacobian> {
         let n = level.intervals;
-        let stored = if curved { n } else { n.min(3 * level.order.degree()) };
+        let even = shapes.as_ref().is_some_and(Shapes::is_one);
+        let stored = if even { n.min(3 * level.order.degree()) } else { n };
         let width = 2 * level.order.degree() + 1;
         let rows = vec![[[0.0; 2]; 2]; lattice::node_count(stored) * width * width];
         let mut all = Self { n, stored, order: level.order, rows };
-        match level.order {
-            Order::P1 => all.integrate::<3>(mesh, triangle, law, curved)?,
-            Order::P2 => all.integrate::<6>(mesh, triangle, law, curved)?,
+        match (level.order, shapes) {
+            (Order::P1, Some(shapes)) => all.repeat::<3>(mesh, triangle, law, &shapes)?,
+            (Order::P2, Some(shapes)) => all.repeat::<6>(mesh, triangle, law, &shapes)?,
+            (Order::P1, None) => all.integrate::<3>(mesh, triangle, law)?,
+            (Order::P2, None) => all.integrate::<6>(mesh, triangle, law)?,
         }
         Ok(all)
     }
 
-    fn integrate<const N: usize>(
+    /// Each triangle by itself.
+    fn integrate<const N: usize>(&mut self, mesh: &MacroMesh, triangle: usize, law: &PlaneStrain) -> Result<(), BadJacobian> {
+        let level = Level { intervals: self.n, order: self.order };
+        for small in lattice::triangles(self.n, self.order) {
+            let nodes = small.nodes::<N>();
+            self.add(&nodes, &stiffness::<N>(&positions(mesh, triangle, level, &nodes), law, false)?);
+        }
+        Ok(())
+    }
+
+    /// One triangle of each shape, the largest there is: its corners have the fewest digits in common.
+    fn repeat<const N: usize>(
         &mut self,
         mesh: &MacroMesh,
         triangle: usize,
         law: &PlaneStrain,
-        curved: bool,
+        shapes: &Shapes,
     ) -> Result<(), BadJacobian> {
-        let mut same = None;
+        let mut known: [Option<[[Block; N]; N]>; Shapes::COUNT] = [None; Shapes::COUNT];
         for small in lattice::triangles(self.stored, self.order) {
-            let nodes = small.nodes::<N>();
-            let k = match same {
-                Some(k) if !curved => k,
-                _ => stiffness::<N>(&positions(mesh, triangle, self.stored, &nodes), law, !curved)?,
+            let shape = shapes.of(small.nodes::<3>());
+            let k = match known[shape] {
+                Some(k) => k,
+                None => {
+                    let corners = shapes.corners(shape).map(|at| mesh.position(triangle, at.x, at.y));
+                    stiffness::<N>(&with_midsides(corners), law, true)?
+                }
             };
-            same = Some(k);
-            for (a, row) in nodes.iter().zip(&k) {
-                let start = lattice::index(self.stored, a.0, a.1) * self.width() * self.width();
-                for (b, block) in nodes.iter().zip(row) {
-                    let slot = self.slot(b.0 as isize - a.0 as isize, b.1 as isize - a.1 as isize);
-                    let sum = &mut self.rows[start + slot];
-                    for i in 0..2 {
-                        for j in 0..2 {
-                            sum[i][j] += block[i][j];
-                        }
+            known[shape] = Some(k);
+            self.add(&small.nodes::<N>(), &k);
+        }
+        Ok(())
+    }
+
+    /// Adds the stiffness of one triangle to the rows of its nodes.
+    fn add<const N: usize>(&mut self, nodes: &[(usize, usize); N], k: &[[Block; N]; N]) {
+        for (a, row) in nodes.iter().zip(k) {
+            let start = lattice::index(self.stored, a.0, a.1) * self.width() * self.width();
+            for (b, block) in nodes.iter().zip(row) {
+                let slot = self.slot(b.0 as isize - a.0 as isize, b.1 as isize - a.1 as isize);
+                let sum = &mut self.rows[start + slot];
+                for i in 0..2 {
+                    for j in 0..2 {
+                        sum[i][j] += block[i][j];
                     }
                 }
             }
         }
-        Ok(())
     }
 
     fn width(&self) -> usize {
@@ -141,9 +174,14 @@ impl MacroStiffness {
     }
 }
 
-/// Positions of lattice nodes of a macro triangle.
-pub fn positions<const N: usize>(mesh: &MacroMesh, triangle: usize, n: usize, nodes: &[(usize, usize); N]) -> [Point; N] {
-    nodes.map(|(i, j)| mesh.position(triangle, i as f64 / n as f64, j as f64 / n as f64))
+/// Nodes of a straight triangle: its corners, and for P2 the midsides of (01), (12), (20).
+fn with_midsides<const N: usize>(corners: [Point; 3]) -> [Point; N] {
+    std::array::from_fn(|a| if a < 3 { corners[a] } else { 0.5 * (corners[a - 3] + corners[(a - 2) % 3]) })
+}
+
+/// Positions of lattice nodes of a macro triangle at a level.
+pub fn positions<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level, nodes: &[(usize, usize); N]) -> [Point; N] {
+    nodes.map(|node| mesh.node_position(triangle, level, node))
 }
 
 #[cfg(test)]
@@ -154,33 +192,43 @@ mod tests {
 
     const LAW: PlaneStrain = PlaneStrain { lambda: 3.0, mu: 2.0 };
 
-    /// Rows of a straight macro triangle, once from the few stored ones and once integrated one by one.
-    fn both(order: Order, intervals: usize) -> [MacroStiffness; 2] {
-        let mesh = two_blocks();
-        let level = Level { intervals, order };
-        let few = MacroStiffness::new(&mesh, 3, level, &LAW).expect("a good triangle");
-        let width = few.width();
-        let rows = vec![[[0.0; 2]; 2]; lattice::node_count(intervals) * width * width];
-        let mut all = MacroStiffness { n: intervals, stored: intervals, order, rows };
-        match order {
-            Order::P1 => all.integrate::<3>(&mesh, 3, &LAW, true),
-            Order::P2 => all.integrate::<6>(&mesh, 3, &LAW, true),
+    /// Rows of a macro triangle, once as they are made and once with every triangle integrated by itself.
+    fn both(mesh: &MacroMesh, triangle: usize, level: Level) -> [MacroStiffness; 2] {
+        [Some(mesh.shapes(triangle, level)), None]
+            .map(|shapes| MacroStiffness::of_shapes(mesh, triangle, level, &LAW, shapes).expect("a good triangle"))
+    }
+
+    fn check_rows([few, all]: [MacroStiffness; 2], words: &str) {
+        for (i, j) in lattice::nodes(all.n) {
+            let pairs: Vec<_> = few.row(i, j).zip(all.row(i, j)).collect();
+            assert_eq!(pairs.len(), all.row(i, j).count());
+            for ((node, block), (other, exact)) in pairs {
+                assert_eq!(node, other);
+                let difference = (0..4).map(|k| (block[k / 2][k % 2] - exact[k / 2][k % 2]).abs()).fold(0.0, f64::max);
+                assert!(difference < 1e-10, "{words}, node ({i}, {j}) to {node:?}: {difference:e}");
+            }
         }
-        .expect("a good triangle");
-        [few, all]
     }
 
     #[test]
     fn the_stored_rows_stand_for_all_rows() {
+        let mesh = two_blocks();
         for (order, n) in [(Order::P1, 1), (Order::P1, 2), (Order::P1, 7), (Order::P2, 2), (Order::P2, 4), (Order::P2, 10)] {
-            let [few, all] = both(order, n);
-            for (i, j) in lattice::nodes(n) {
-                let pairs: Vec<_> = few.row(i, j).zip(all.row(i, j)).collect();
-                assert_eq!(pairs.len(), all.row(i, j).count());
-                for ((node, block), (other, exact)) in pairs {
-                    assert_eq!(node, other);
-                    let difference = (0..4).map(|k| (block[k / 2][k % 2] - exact[k / 2][k % 2]).abs()).fold(0.0, f64::max);
-                    assert!(difference < 1e-12, "{order:?}, n = {n}, node ({i}, {j}) to {node:?}: {difference:e}");
+            check_rows(both(&mesh, 3, Level { intervals: n, order }), &format!("{order:?}, n = {n}"));
+        }
+    }
+
+    #[test]
+    fn few_shapes_stand_for_all_triangles_of_a_graded_one() {
+        for graded in [&[[0.9, 1.0]][..], &[[2.0, 2.0]], &[[0.9, 1.0], [2.0, 2.0]], &[[0.9, 1.0], [2.0, 1.0], [2.0, 2.0]]] {
+            let mut mesh = two_blocks();
+            graded.iter().zip([0.2, 0.35, 0.15]).for_each(|(&at, ratio)| mesh.grade(at.into(), ratio).expect("a vertex"));
+            for (order, refine) in
+                [(Order::P1, 0), (Order::P1, 1), (Order::P1, 4), (Order::P2, 0), (Order::P2, 1), (Order::P2, 3)]
+            {
+                let level = Level { intervals: order.degree() << refine, order };
+                for triangle in (0..mesh.triangles.len()).filter(|&triangle| mesh.is_graded(triangle)) {
+                    check_rows(both(&mesh, triangle, level), &format!("{graded:?}, triangle {triangle}, {level:?}"));
                 }
             }
         }
@@ -193,11 +241,12 @@ mod tests {
         mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
         let bent = (0..2).find(|&t| mesh.is_curved(t)).expect("one triangle has the arc");
         for (order, n) in [(Order::P1, 4), (Order::P2, 4)] {
-            let k = MacroStiffness::new(&mesh, bent, Level { intervals: n, order }, &LAW).expect("a good triangle");
+            let level = Level { intervals: n, order };
+            let k = MacroStiffness::new(&mesh, bent, level, &LAW).expect("a good triangle");
             for (i, j) in lattice::nodes(n) {
                 let mut force = Point::zeros();
-                for ((k, l), block) in k.row(i, j) {
-                    let x = mesh.position(bent, k as f64 / n as f64, l as f64 / n as f64);
+                for (node, block) in k.row(i, j) {
+                    let x = mesh.node_position(bent, level, node);
                     let u = Point::new(0.3 - x.y, 0.1 + x.x);
                     force += Point::new(block[0][0] * u.x + block[0][1] * u.y, block[1][0] * u.x + block[1][1] * u.y);
                 }

@@ -5,7 +5,9 @@ use toml::Value;
 use super::Geometry;
 use super::section::Section;
 use super::values::{self, PLANE, choice, must_be};
-use crate::contact::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, SegmentRule, Stabilise};
+use crate::contact::{
+    Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise,
+};
 
 /// `[contact.NAME]`
 pub fn read_contact(section: &Section) -> Option<Pair> {
@@ -27,7 +29,7 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
     );
     let segments = section.or("segments", "auto", read_segments);
     let law = section.or("law", "unilateral", choice(&[("unilateral", Ok(Law::Unilateral)), ("bilateral", Ok(Law::Bilateral))]));
-    refuse_what_is_not_built(section);
+    let quadrature = read_quadrature(section, space);
     let stabilise = section.or("stabilise", "auto", |value| match value {
         Value::Boolean(true) => Ok(Stabilise::On),
         Value::Boolean(false) => Ok(Stabilise::Off),
@@ -84,6 +86,7 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
         space: space?,
         segments: segments?,
         law: law?,
+        quadrature: quadrature?,
         stabilise: stabilise?,
         configuration: configuration?,
         spans: spans?,
@@ -92,11 +95,27 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
     })
 }
 
-/// Keys with one value so far.
-fn refuse_what_is_not_built(section: &Section) {
-    let remedy = "leave it out: \"cut\" integrates exactly between the projected nodes";
-    section.or("quadrature", "cut", choice(&[("cut", Ok(())), ("segment", Err("write quadrature = \"cut\""))]));
-    section.not_yet("points", remedy);
+/// `quadrature`, and `points` beside `"segment"`.
+fn read_quadrature(section: &Section, space: Option<MultiplierSpace>) -> Option<Quadrature> {
+    let given = section.has("points");
+    let problem = |words: &str| section.problem(&["points"], words.into());
+    let fixed = section.or("quadrature", "cut", choice(&[("cut", Ok(false)), ("segment", Ok(true))]))?;
+    if !fixed {
+        if given {
+            problem(
+                "stands beside quadrature = \"cut\", which knows its points; leave it out, or write quadrature = \"segment\"",
+            );
+        }
+        return Some(Quadrature::Cut);
+    }
+    let points = section.or("points", 5, |value| match value {
+        Value::Integer(count @ 1..=20) => Ok(*count as usize),
+        _ => Err("must be a whole number from 1 to 20".into()),
+    })?;
+    if points == 1 && space.is_some_and(|space| space != MultiplierSpace::P0) {
+        problem("cannot tell the two values of a linear multiplier apart; give 2 or more, or multiplier = \"p0\"");
+    }
+    Some(Quadrature::Segment { points })
 }
 
 fn read_between(value: &Value) -> Result<[String; 2], String> {

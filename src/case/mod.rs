@@ -5,6 +5,7 @@
 mod contact;
 pub(crate) mod error;
 mod exact;
+mod grade;
 mod model;
 pub(crate) mod overrides;
 pub(crate) mod section;
@@ -19,7 +20,7 @@ use crate::body::{Body, Load, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
-use crate::system::SolverChoice;
+use crate::system::{SolverChoice, Tolerance};
 
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
@@ -63,7 +64,7 @@ pub struct Case {
 }
 
 /// Which mesh, and what is made of it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MeshChoice {
     /// Gmsh file, found from the folder of the case.
     pub file: PathBuf,
@@ -71,6 +72,17 @@ pub struct MeshChoice {
     pub order: Order,
     /// Refinements after reading.
     pub refine: usize,
+    /// Points that they are graded towards.
+    pub grades: Vec<Grade>,
+}
+
+/// A point that refinement is graded towards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grade {
+    /// Where (length).
+    pub point: [f64; 2],
+    /// Fraction κ, from the point, of the new node on an edge.
+    pub ratio: f64,
 }
 
 /// True shape of some boundaries.
@@ -89,8 +101,8 @@ pub struct Geometry {
 pub struct Solver {
     /// Which solver.
     pub choice: SolverChoice,
-    /// Relative residual of the scaled augmented system, in (0, 0.01].
-    pub tolerance: f64,
+    /// Relative residual of the scaled augmented system, in (0, 0.01], or by the discretisation error.
+    pub tolerance: Tolerance,
     /// Whether the inf-sup constants are reported; by default where that is cheap.
     pub inf_sup: Option<bool>,
 }

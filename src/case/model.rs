@@ -5,13 +5,14 @@ use std::path::Path;
 use toml::Value;
 
 use super::error::suggest;
+use super::grade::read_grade;
 use super::section::Section;
 use super::values::{self, PLANE};
 use super::{Geometry, MeshChoice, Output, Probe, Solver};
 use crate::body::{Body, Load, LoadKind, Material, Support};
 use crate::element::Order;
 use crate::geometry::Curve;
-use crate::system::SolverChoice;
+use crate::system::{SolverChoice, Tolerance};
 
 /// More refinements than fit any machine.
 const MOST_REFINEMENTS: i64 = 12;
@@ -29,8 +30,8 @@ pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
         Some(times @ 0..=MOST_REFINEMENTS) => Ok(times as usize),
         _ => Err(format!("must be a whole number from 0 to {MOST_REFINEMENTS}; each one quarters every triangle")),
     });
-    section.not_yet("grade", "remove [mesh.grade]");
-    Some(MeshChoice { file: folder.join(file?), order: order?, refine: refine? })
+    let grades = section.optional_table("grade").map_or(Some(Vec::new()), |section| read_grade(&section, order));
+    Some(MeshChoice { file: folder.join(file?), order: order?, refine: refine?, grades: grades? })
 }
 
 /// `[body.NAME]`
@@ -132,9 +133,10 @@ pub fn read_solver(root: &Section) -> Option<Solver> {
         ]),
     );
     let tolerance = section.or("tolerance", 1e-8, |value| match value {
-        Value::String(word) if word == "discretisation" => Err("not available yet; give a number like 1e-8".into()),
+        Value::String(word) if word == "discretisation" => Ok(Tolerance::Discretisation),
+        Value::String(_) => Err("must be a number like 1e-8, or \"discretisation\"".into()),
         _ => match values::number(value)? {
-            tolerance if tolerance > 0.0 && tolerance <= 1e-2 => Ok(tolerance),
+            tolerance if tolerance > 0.0 && tolerance <= 1e-2 => Ok(Tolerance::Residual(tolerance)),
             _ => Err("must lie in (0, 0.01]; 1e-8 is the default".into()),
         },
     });

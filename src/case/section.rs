@@ -82,13 +82,6 @@ impl<'a> Section<'a> {
         result
     }
 
-    /// Reports a key that is known but not built yet; `remedy` says what to do instead.
-    pub fn not_yet(&self, key: &'static str, remedy: &str) {
-        if self.has(key) {
-            self.problem(&[key], format!("not available yet; {remedy}"));
-        }
-    }
-
     /// The table under a key; an empty one if it is missing.
     pub fn table(&self, key: &'static str) -> Section<'a> {
         let value = self.get(key);

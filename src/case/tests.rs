@@ -2,7 +2,7 @@ use std::path::Path;
 
 use super::*;
 use crate::body::LoadKind;
-use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, SegmentRule};
+use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule};
 
 /// Every key of the contract that can be given.
 const FULL: &str = r#"
@@ -89,7 +89,7 @@ fn error_of(text: &str, overrides: &[&str]) -> String {
 fn a_full_case_is_read() {
     let case = parse(FULL, &[]).unwrap();
     assert_eq!((case.name.as_str(), case.title.as_str(), case.folder.as_path()), ("bars", "Two bars", Path::new("bars")));
-    assert_eq!(case.mesh, MeshChoice { file: "bars/bars.msh".into(), order: Order::P1, refine: 3 });
+    assert_eq!(case.mesh, MeshChoice { file: "bars/bars.msh".into(), order: Order::P1, refine: 3, grades: Vec::new() });
     let [lower, upper] = &case.bodies[..] else { panic!("{:?}", case.bodies) };
     assert_eq!((lower.name.as_str(), lower.material.young, lower.material.poisson), ("lower", 7000.0, 0.227));
     assert_eq!(lower.force[1].value(&[0.0, 2.0]), -19.62);
@@ -107,7 +107,7 @@ fn a_full_case_is_read() {
     assert_eq!((pair.curve, pair.space, pair.law), (CurveChoice::Geometry, MultiplierSpace::P0, Law::Bilateral));
     assert_eq!(pair.segments, SegmentRule::Fractions(vec![0.0, 0.2, 1.0]));
     assert!(matches!(&pair.gap, GapChoice::Formula(gap) if gap.value(&[2.0, 0.0]) == 4e-3));
-    assert_eq!(case.solver, Solver { choice: SolverChoice::Direct, tolerance: 1e-10, inf_sup: None });
+    assert_eq!(case.solver, Solver { choice: SolverChoice::Direct, tolerance: Tolerance::Residual(1e-10), inf_sup: None });
     assert!(!case.output.fields);
     assert_eq!(case.probes, [Probe { name: "tip".into(), point: [1.0, 2.0], body: "upper.left".into() }]);
     assert!(case.exact.must_hold);
@@ -122,13 +122,27 @@ fn a_full_case_is_read() {
 fn defaults_are_those_of_the_contract() {
     let case = parse(&format!("{LEAST}{CONTACT}"), &[]).unwrap();
     assert_eq!((case.mesh.order, case.mesh.refine, case.title.as_str()), (Order::P2, 0, ""));
-    assert_eq!(case.solver, Solver { choice: SolverChoice::Auto, tolerance: 1e-8, inf_sup: None });
+    assert_eq!(case.solver, Solver { choice: SolverChoice::Auto, tolerance: Tolerance::Residual(1e-8), inf_sup: None });
     assert!(case.output.fields);
     let pair = &case.contacts[0];
     assert_eq!((pair.space, pair.law), (MultiplierSpace::P1Discontinuous, Law::Unilateral));
     assert_eq!(pair.segments, SegmentRule::Auto);
     assert!(matches!(pair.gap, GapChoice::Geometry));
     assert_eq!(case.exact, Exact::default());
+}
+
+/// `points` has a default beside `quadrature = "segment"` only.
+#[test]
+fn the_points_of_a_segment_are_counted() {
+    let read = |text: &str| parse(&format!("{LEAST}{CONTACT}{text}"), &[]).unwrap();
+    let case = read("quadrature = 'segment'");
+    assert_eq!(case.contacts[0].quadrature, Quadrature::Segment { points: 5 });
+    assert!(case.resolved().lines().any(|line| line == "points = 5"));
+    let case = read("quadrature = 'segment'\npoints = 1\nmultiplier = 'p0'");
+    assert_eq!(case.contacts[0].quadrature, Quadrature::Segment { points: 1 });
+    let case = read("");
+    assert_eq!(case.contacts[0].quadrature, Quadrature::Cut);
+    assert!(!case.resolved().contains("points"));
 }
 
 #[test]
@@ -260,7 +274,12 @@ fn every_error_names_key_value_and_remedy() {
         ("mesh.refine=1.0", "must be a whole number from 0 to 12"),
         ("mesh.file=7", "mesh.file = 7 (--set): must be a string in quotes, not of type integer"),
         ("mesh.file=''", "must not be empty"),
-        ("mesh.grade.points=[[0, 3]]", "mesh.grade: not available yet; remove [mesh.grade]"),
+        ("mesh.grade.points=[[0, 3]]", "mesh.grade.exponent: missing; write exponent = 0.75, if u ~ r^0.75"),
+        ("mesh.grade.ratio=0.2", "mesh.grade.points: missing; write points = [[0, 3], [6, 4]]"),
+        ("mesh.grade={points = [[0, 3], [0, 3]], ratio = 0.2}", "entry 2 stands there twice"),
+        ("mesh.grade={points = [[0, 3]], ratio = 0.6}", "mesh.grade.ratio = 0.6 (--set): must be a number, or a list of 1"),
+        ("mesh.grade={points = [[0, 3]], ratio = [0.2, 0.3]}", "a list of 1, one per point, from 0.1 to 0.5, or \"auto\""),
+        ("mesh.grade={points = [[0, 3]], exponent = 0}", "one per point, above 0: u ~ r^exponent"),
         ("solver=3", "solver = 3 (--set): must be a table; write [solver]"),
         ("meshes.a=1", "meshes: unknown key; did you mean \"mesh\"?"),
         ("cases=1", "cases: unknown key; there are title, mesh, body"),
@@ -307,8 +326,13 @@ fn every_error_names_key_value_and_remedy() {
         ("contact.c.segments=[0, 0.5]", "must ascend from 0 to 1"),
         ("contact.c.segments=[0, 0.5, 0.5, 1]", "must ascend from 0 to 1"),
         ("contact.c.law=bonded", "must be \"unilateral\" or \"bilateral\"; there are"),
-        ("contact.c.quadrature=segment", "not available yet; write quadrature = \"cut\""),
-        ("contact.c.points=5", "contact.c.points = 5 (--set): not available yet"),
+        ("contact.c.quadrature=segments", "must be \"cut\" or \"segment\"; did you mean \"segment\"?"),
+        ("contact.c.points=5", "contact.c.points = 5 (--set): stands beside quadrature = \"cut\""),
+        ("contact.c={between=['p', 'q'], curve='line', quadrature='segment', points=21}", "must be a whole number from 1 to 20"),
+        (
+            "contact.c={between=['p', 'q'], curve='line', quadrature='segment', points=1}",
+            "give 2 or more, or multiplier = \"p0\"",
+        ),
         ("contact.c.stabilise=1", "must be \"auto\", true or false"),
         ("contact.c.configuration=deformed", "\"deformed\" wants curve = \"fit\""),
         ("contact.c.spans=3", "contact.c.spans = 3 (--set): is for curve = \"fit\""),
@@ -318,7 +342,7 @@ fn every_error_names_key_value_and_remedy() {
         ("solver.name=Direct", "must be \"auto\" or \"fieldsplit\" or \"direct\"; did you mean \"direct\"?"),
         ("solver.tolerance=0", "must lie in (0, 0.01]"),
         ("solver.tolerance=0.02", "must lie in (0, 0.01]"),
-        ("solver.tolerance=discretisation", "not available yet; give a number"),
+        ("solver.tolerance=fine", "must be a number like 1e-8, or \"discretisation\""),
         ("output.fields=no", "must be true or false, not of type string"),
         ("output.field=false", "unknown key; did you mean \"fields\"?"),
         ("probe.p.body=aa", "probe.p.body = \"aa\" (--set): no such body; did you mean \"a\"?"),

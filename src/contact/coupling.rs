@@ -1,7 +1,6 @@
 //! Coupling of one body's boundary to the multipliers of Γ_C, and its share of the initial gap.
 
-use super::trace::{pieces, quadrature, trace};
-use super::{ContactBoundary, Multipliers};
+use super::{ContactBoundary, Multipliers, Quadrature, quadrature_points, trace};
 use crate::geometry::{Curve, Formula, Point, gauss_points};
 use crate::mesh::{BoundaryEdge, EdgeNode};
 
@@ -45,43 +44,54 @@ pub enum Distance<'a> {
     Places(&'a [Curve]),
 }
 
-/// Integrates the edges of one body that a rank owns: entries of `B`, and `∫ψ_i d ds` with the distance
-/// `d = n·(X - x)` of the undeformed corresponding point from Γ_C, signed so that both bodies' shares add up to `c`.
+/// What the edges of one body that a rank owns contribute to a contact.
+#[derive(Clone, Debug)]
+pub struct Integrals {
+    /// Entries of `B`.
+    pub entries: Vec<Entry>,
+    /// `∫ψ_i d ds` (length squared) with the distance `d = n·(X - x)` of the undeformed corresponding point from Γ_C,
+    /// signed so that both bodies' shares add up to `c`.
+    pub gap: Vec<f64>,
+    /// Quadrature points that the edges have taken.
+    pub points: usize,
+}
+
+/// Integrates the edges of one body that a rank owns.
 ///
 /// # Errors
 /// Words, if the normal of Γ_C misses the declared shape.
 pub fn integrate(
     boundary: &ContactBoundary,
     multipliers: &Multipliers,
+    rule: Quadrature,
     side: Side,
     edges: &[BoundaryEdge],
     distance: &Distance,
-) -> Result<(Vec<Entry>, Vec<f64>), String> {
+) -> Result<Integrals, String> {
+    let points = quadrature_points(boundary, edges, rule);
     let mut entries = Vec::new();
     let mut gap = vec![0.0; multipliers.count()];
-    for piece in pieces(boundary, edges) {
-        let small = &edges[piece.edge];
+    for together in points.chunk_by(|a, b| (a.edge, a.segment) == (b.edge, b.segment)) {
+        let (small, segment) = (&edges[together[0].edge], together[0].segment);
         let first = entries.len();
-        for i in multipliers.on_segment(piece.segment, 0.0).0.into_iter().take(multipliers.per_segment()) {
+        for i in multipliers.on_segment(segment, 0.0).0.into_iter().take(multipliers.per_segment()) {
             entries.extend(small.nodes.iter().map(|&node| Entry { multiplier: i, node, value: Point::zeros() }));
         }
-        for (t, weight) in quadrature(boundary, &piece, boundary.is_straight() && small.straight) {
-            let normal = boundary.normal(t);
-            let here = trace(boundary, piece.edge, small, t);
-            let knots = boundary.knots();
-            let z = (t - knots[piece.segment]) / (knots[piece.segment + 1] - knots[piece.segment]);
-            let (rows, values) = multipliers.on_segment(piece.segment, z);
-            let d = distance.at(boundary.point(t), normal, here.place)?;
+        for point in together {
+            let normal = boundary.normal(point.parameter);
+            let here = trace(boundary, point.edge, small, point.parameter);
+            let (rows, values) = multipliers.on_segment(segment, point.fraction);
+            let d = distance.at(boundary.point(point.parameter), normal, here.place)?;
             for k in 0..multipliers.per_segment() {
-                gap[rows[k]] -= side.sign() * weight * values[k] * d;
+                let weight = side.sign() * point.weight * values[k];
+                gap[rows[k]] -= weight * d;
                 for a in 0..small.nodes.len() {
-                    entries[first + k * small.nodes.len() + a].value +=
-                        side.sign() * weight * values[k] * here.values[a] * normal;
+                    entries[first + k * small.nodes.len() + a].value += weight * here.values[a] * normal;
                 }
             }
         }
     }
-    Ok((entries, gap))
+    Ok(Integrals { entries, gap, points: points.len() })
 }
 
 impl Distance<'_> {
@@ -157,14 +167,16 @@ mod tests {
 
     #[test]
     fn both_bodies_feel_the_same_force_and_moment_of_every_multiplier() {
-        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
+        let spaces = [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous];
+        let rules = [Quadrature::Cut, Quadrature::Segment { points: 5 }];
+        for (space, rule) in spaces.into_iter().flat_map(|space| rules.map(|rule| (space, rule))) {
             let (mesh, boundary, multipliers, edges) = setting(space);
             let mut sums = vec![[0.0; 3]; multipliers.count()];
             let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
             let numbering = Numbering::new(Level { intervals: 4, order: Order::P2 }, &partition);
             for (side, edges) in [Side::First, Side::Second].into_iter().zip(&edges) {
-                let (entries, _) = integrate(&boundary, &multipliers, side, edges, &Distance::Declared).expect("declared");
-                for entry in entries {
+                let found = integrate(&boundary, &multipliers, rule, side, edges, &Distance::Declared).expect("declared");
+                for entry in found.entries {
                     let x = entry.node.place(&mesh, &numbering);
                     let sum = &mut sums[entry.multiplier];
                     sum[0] += entry.value.x;
@@ -172,7 +184,7 @@ mod tests {
                     sum[2] += crate::geometry::cross(x, entry.value);
                 }
             }
-            assert!(sums.iter().flatten().all(|sum| sum.abs() < 1e-12), "{space:?}: {sums:?}");
+            assert!(sums.iter().flatten().all(|sum| sum.abs() < 1e-12), "{space:?}, {rule:?}: {sums:?}");
         }
     }
 

@@ -5,26 +5,34 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::BoundaryEdge;
 
-/// Segment ends of a pair by its rule, as fractions of the length; `edges` are those of both bodies.
+/// Segment ends of a pair by its rule, as fractions of the length; `edges` are those of both bodies. The automatic rule
+/// keeps the number of segments that is `known`.
 pub fn fractions(
     edges: &[Vec<BoundaryEdge>; 2],
     order: Order,
     pair: &Pair,
     young: [f64; 2],
     boundary: &ContactBoundary,
+    known: Option<usize>,
 ) -> Vec<f64> {
+    let least = safe_ratio_of(order, pair.space, edges);
     match &pair.segments {
         SegmentRule::Fractions(fractions) => fractions.clone(),
         SegmentRule::Count(count) => graded(*count, pair.grading),
+        SegmentRule::Auto if pair.grading == [1.0, 1.0] => {
+            let edges = EdgeCount::new(boundary, edges, young);
+            edges.even_parts(known.unwrap_or_else(|| edges.most_parts(least)))
+        }
         SegmentRule::Auto => {
-            let ratio = safe_ratio_of(order, pair.space, edges);
-            let least = ratio * softer_edge_length(boundary, edges, young) / boundary.length() * (1.0 - 1e-9);
-            let mut count = ((1.0 / least) as usize).max(1);
+            let least = least * softer_edge_length(boundary, edges, young) / boundary.length() * (1.0 - 1e-9);
             let shortest = |fractions: &[f64]| fractions.windows(2).map(|ends| ends[1] - ends[0]).fold(1.0, f64::min);
-            while count > 1 && shortest(&graded(count, pair.grading)) < least * (1.0 - 1e-9) {
+            let mut count = known.unwrap_or((1.0 / least) as usize).max(1);
+            while known.is_none() && count > 1 && shortest(&graded(count, pair.grading)) < least * (1.0 - 1e-9) {
                 count -= 1;
             }
-            graded(count, pair.grading)
+            // Ends are found from the last two segments that carry pressure.
+            let least = if pair.has_free_ends() { 3 } else { 1 };
+            graded(count.max(least), pair.grading)
         }
     }
 }
@@ -74,16 +82,70 @@ pub fn softer_edge_length(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>
     softer_edges(boundary, edges, young).map(|(_, length)| length).fold(0.0, f64::max)
 }
 
-/// Smallest ratio of a segment's length to the longest ruling edge that it meets.
+/// Smallest length of a segment in ruling edges.
 pub fn segment_ratio(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
-    let ruling: Vec<([f64; 2], f64)> = softer_edges(boundary, edges, young).collect();
-    let ratio = |(k, ends): (usize, &[f64])| {
-        let least = 1e-9 * (ends[1] - ends[0]);
-        let meets = |part: &[f64; 2]| part[1] > ends[0] + least && part[0] < ends[1] - least;
-        let longest = ruling.iter().filter(|(part, _)| meets(part)).map(|(_, length)| *length).fold(0.0, f64::max);
-        boundary.segment_length(k) / longest
-    };
-    boundary.knots().windows(2).enumerate().map(ratio).fold(f64::INFINITY, f64::min)
+    let count = EdgeCount::new(boundary, edges, young);
+    boundary.arcs().windows(2).map(|ends| count.before(ends[1]) - count.before(ends[0])).fold(f64::INFINITY, f64::min)
+}
+
+/// How many ruling edges lie along Γ_C: `N(s) = ∫ds/h` from its start, `h` the longest edge that `s` sees. Between two
+/// places there are `N(t) - N(s)` edges, the length by that of an edge where all are alike.
+struct EdgeCount {
+    /// Arc lengths where `h` changes, ascending, with `N` there.
+    steps: Vec<[f64; 2]>,
+}
+
+impl EdgeCount {
+    fn new(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> Self {
+        let longest = softer_edge_length(boundary, edges, young);
+        let mut parts: Vec<([f64; 2], f64)> =
+            softer_edges(boundary, edges, young).map(|(part, h)| (part.map(|t| boundary.arc(t)), h)).collect();
+        parts.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
+        let mut cuts: Vec<f64> = parts.iter().flat_map(|(part, _)| *part).chain([0.0, boundary.length()]).collect();
+        cuts.sort_by(f64::total_cmp);
+        let (mut here, mut coming) = (Vec::new(), parts.into_iter().peekable());
+        let mut steps = vec![[0.0; 2]];
+        for ends in cuts.windows(2).filter(|ends| ends[1] > ends[0] && ends[0] >= 0.0) {
+            while let Some(next) = coming.next_if(|(part, _)| part[0] <= ends[0]) {
+                here.push(next);
+            }
+            here.retain(|(part, _)| part[1] > ends[0]);
+            let h = here.iter().map(|(_, h)| *h).reduce(f64::max).unwrap_or(longest);
+            steps.push([ends[1], steps[steps.len() - 1][1] + (ends[1] - ends[0]) / h]);
+        }
+        Self { steps }
+    }
+
+    /// Edges before arc length `s`.
+    fn before(&self, s: f64) -> f64 {
+        self.interpolate(s, 0)
+    }
+
+    /// Arc length after so many edges.
+    fn place(&self, count: f64) -> f64 {
+        self.interpolate(count, 1)
+    }
+
+    /// The other number where number `known` of the steps has this value.
+    fn interpolate(&self, value: f64, known: usize) -> f64 {
+        let at = self.steps.partition_point(|step| step[known] < value).clamp(1, self.steps.len() - 1);
+        let (low, high) = (self.steps[at - 1], self.steps[at]);
+        let other = 1 - known;
+        low[other] + (value - low[known]) / (high[known] - low[known]) * (high[other] - low[other])
+    }
+
+    /// The most parts that hold `least` edges each.
+    fn most_parts(&self, least: f64) -> usize {
+        let [_, whole] = self.steps[self.steps.len() - 1];
+        ((whole / least * (1.0 + 1e-9)) as usize).max(1)
+    }
+
+    /// Ends of so many parts with as many edges each, as fractions of the length.
+    fn even_parts(&self, count: usize) -> Vec<f64> {
+        let [length, whole] = self.steps[self.steps.len() - 1];
+        let end = |k: usize| if k == count { 1.0 } else { self.place(whole * k as f64 / count as f64) / length };
+        (0..=count).map(end).collect()
+    }
 }
 
 /// Smallest safe segment length, in edges of the softer body: the discrete inf-sup constant stays above 0.3 with some
@@ -121,6 +183,41 @@ fn matching(edges: &[Vec<BoundaryEdge>; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Curve;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    /// Both sides of the seam of two blocks, refined towards its left end, and the seam.
+    fn graded_seam(ratio: f64) -> ([Vec<BoundaryEdge>; 2], ContactBoundary) {
+        let mut mesh = two_blocks();
+        mesh.grade(Point::new(0.0, 1.0), ratio).expect("a vertex of each block");
+        let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
+        let numbering = Numbering::new(Level { intervals: 64, order: Order::P2 }, &partition);
+        let edges = ["lower.seam", "upper.seam"].map(|name| {
+            let edges = &mesh.boundary(name).expect("named").edges;
+            edges.iter().flat_map(|&edge| BoundaryEdge::all_of(&mesh, edge, &numbering)).collect()
+        });
+        let line = Curve::Line([[0.0, 1.0], [2.0, 1.0]]);
+        (edges, ContactBoundary::new(line, [0.0, 1.0], Point::new(0.0, 1.0)))
+    }
+
+    #[test]
+    fn automatic_segments_hold_as_many_edges_each() {
+        let young = [1.0, 1.0];
+        for (ratio, parts, shortening) in [(0.5, 21, 1.0), (0.3, 18, 5.0), (0.15, 17, 50.0)] {
+            let (edges, mut boundary) = graded_seam(ratio);
+            let count = EdgeCount::new(&boundary, &edges, young);
+            assert_eq!(count.most_parts(1.5), parts, "even: 1.5 of the 32 edges of the lower block");
+            boundary.cut(&count.even_parts(parts));
+            let edges_of = |k: usize| count.before(boundary.arcs()[k + 1]) - count.before(boundary.arcs()[k]);
+            assert!((0..parts).all(|k| (edges_of(k) / edges_of(0) - 1.0).abs() < 1e-9));
+            assert!((segment_ratio(&boundary, &edges, young) / edges_of(0) - 1.0).abs() < 1e-9);
+            let [first, last] = [0, parts - 1].map(|k| boundary.segment_length(k));
+            assert!(first * shortening <= last * (1.0 + 1e-9), "ratio {ratio}: {first}, {last}");
+            assert!((count.place(count.before(0.7)) - 0.7).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn graded_segments_shorten_towards_their_ends() {

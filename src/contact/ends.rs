@@ -39,6 +39,13 @@ pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &
     let excess = match inner(outer).filter(carries) {
         Some(next) => {
             let lengths = [outer, next].map(|k| boundary.segment_length(k));
+            let third = inner(next).filter(carries).map(|k| (mean(k), boundary.segment_length(k)));
+            if third.is_some_and(|(third, length)| fades([mean(outer), mean(next), third], [lengths[0], lengths[1], length])) {
+                return Some(match end {
+                    End::First => boundary.arcs()[outer],
+                    End::Last => boundary.arcs()[outer + 1],
+                });
+            }
             let most = beyond.map_or(lengths[0], |k| 0.5 * boundary.segment_length(k));
             too_early(lengths, [outer, next].map(mean)).clamp(-lengths[0], most)
         }
@@ -49,6 +56,13 @@ pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &
         End::First => boundary.arcs()[outer] - excess,
         End::Last => boundary.arcs()[outer + 1] + excess,
     })
+}
+
+/// Whether a pressure fades out like a power above one: mean pressures that fall to the end, and ever more slowly. Then
+/// Γ_C may end where the active set does; there is no root to look for.
+fn fades([outer, next, third]: [f64; 3], [a, b, c]: [f64; 3]) -> bool {
+    let slopes = [(next - outer) / (a + b), (third - next) / (b + c)];
+    outer < 0.45 * next && slopes[0] > 0.0 && slopes[1] > slopes[0]
 }
 
 /// `η` from the lengths and mean pressures of the outermost segment and the next one.
@@ -83,6 +97,14 @@ mod tests {
             let found = true_end(&boundary, &multipliers, &lambda, &[true; 10], End::Last).expect("two segments");
             assert!((found - exact).abs() < tolerance, "{found} for {exact}");
         }
+    }
+
+    #[test]
+    fn a_pressure_that_fades_out_stays_where_it_is() {
+        assert!(fades([1.0 / 3.0, 7.0 / 3.0, 19.0 / 3.0], [1.0; 3]), "r squared");
+        assert!(!fades([0.667, 1.219, 1.579], [1.0; 3]), "the root of r");
+        assert!(!fades([0.236, 0.989, 1.41], [1.0; 3]), "the root, with half a segment too much");
+        assert!(!fades([2.0, 0.83, 0.64], [1.0; 3]), "a punch");
     }
 
     #[test]

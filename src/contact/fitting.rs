@@ -1,7 +1,7 @@
 //! Γ_C as a spline fitted between two bodies, where they touch or penetrate each other.
 
 use super::smooth_side::SmoothSide;
-use super::{Configuration, Pair};
+use super::{Configuration, ContactBoundary, Pair};
 use crate::geometry::{Curve, Point, Spline};
 use std::ops::Range;
 
@@ -88,6 +88,16 @@ impl Meeting {
         };
         let nodes = [range(first.points.len(), &|k| first.parameters[k]), range(second.points.len(), &foot)];
         Self { stretches, nodes, ends }
+    }
+
+    /// How deep nodes of body 1 lie in body 2 as they are now, more than `margin` beyond the ends of Γ_C.
+    pub fn depth_beyond(&self, sides: &[Vec<SmoothSide>; 2], boundary: &ContactBoundary, margin: f64) -> f64 {
+        let [first, second] = [0, 1].map(|k| &sides[k][self.stretches[k]]);
+        let knots = boundary.knots();
+        let [low, high] = [knots[0] - margin, knots[knots.len() - 1] + margin];
+        let beyond = first.parameters.iter().zip(&first.points).filter(|(t, _)| **t < low || **t > high);
+        let depth = beyond.filter_map(|(_, x)| second.outside(*x, 1e-9 * second.length())).map(|outside| -outside);
+        depth.fold(0.0, f64::max)
     }
 
     /// Fits a spline to the nodes of both sides in a configuration: least squares, each node weighted by the length it

@@ -70,17 +70,29 @@ pub fn find_mechanism(bodies: &[Extent], conditions: &[Condition]) -> Option<Mec
 fn describe(body: usize, bodies: &[Extent], motion: &DVector<f64>) -> Mechanism {
     let own = motion.rows(3 * body, 3);
     let own = own / own.amax();
-    let tidy = |v: f64| if v.abs() < 1e-6 { 0.0 } else { (v * 1e4).round() / 1e4 };
     let (u, turn) = (Point::new(own[0], own[1]), own[2] / bodies[body].radius);
     let words = if own[2].abs() < 1e-6 {
         let u = u * u[u.iamax()].signum();
-        format!("move by ({}, {})", tidy(u.x), tidy(u.y))
+        format!("move by ({}, {})", tidy(u.x, 1.0), tidy(u.y, 1.0))
     } else {
         // Centre of the rotation: u + turn * (-(y - y0), x - x0) = 0.
         let centre = bodies[body].middle + Point::new(-u.y, u.x) / turn;
-        format!("turn about ({}, {})", tidy(centre.x), tidy(centre.y))
+        format!("turn about ({}, {})", tidy(centre.x, bodies[body].radius), tidy(centre.y, bodies[body].radius))
     };
     Mechanism { body, motion: words }
+}
+
+/// A number to about four digits of what counts as large.
+fn tidy(v: f64, large: f64) -> String {
+    let decimals = (4.0 - large.log10().floor()).max(0.0) as usize;
+    if v.abs() < 1e-4 * large {
+        "0".into()
+    } else if decimals > 9 {
+        format!("{v:.4e}")
+    } else {
+        let text = format!("{v:.decimals$}");
+        if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+    }
 }
 
 #[cfg(test)]
@@ -125,5 +137,22 @@ mod tests {
         conditions.extend([vec![(1, Point::new(0.25, 1.0), X)], vec![(1, Point::new(0.25, 1.0), Y)]]);
         let found = find_mechanism(&two(), &conditions).expect("it turns");
         assert_eq!((found.body, found.motion.as_str()), (1, "turn about (0.25, 1)"));
+    }
+
+    #[test]
+    fn words_have_the_digits_of_the_body_in_any_unit() {
+        let table = [
+            (0.25, 1.0, "0.25"),
+            (-0.60181502, 1.0, "-0.6018"),
+            (3e-5, 1.0, "0"),
+            (-1.0, 1.0, "-1"),
+            (20.0, 30.0, "20"),
+            (1234567.891, 5e3, "1234567.9"),
+            (6e17, 3e9, "600000000000000000"),
+            (-2.5e-9, 1e-9, "-2.5000e-9"),
+        ];
+        for (v, large, words) in table {
+            assert_eq!(tidy(v, large), words);
+        }
     }
 }

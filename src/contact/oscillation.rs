@@ -11,9 +11,14 @@ const END: f64 = 0.1;
 /// points (P1 discontinuous), at their ends (P1 continuous). At each sample the cubic through the two neighbours on
 /// both sides is taken off, and what is left divided by what would be left of a pure alternation: so the figure is
 /// the amplitude of a checkerboard, and of order `H⁴` for a smooth pressure. Only samples whose five multipliers are
-/// all active count; nothing if there is none.
+/// all active count; one that is open between two that carry counts as active with no pressure, because an active set
+/// of every other multiplier is a checkerboard too. Nothing if there is no such sample.
 pub fn oscillation(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool]) -> Option<f64> {
-    let samples = samples(boundary, multipliers, lambda, active);
+    let mut samples = samples(boundary, multipliers, lambda, active);
+    let lone: Vec<usize> = (1..samples.len().saturating_sub(1))
+        .filter(|&k| !samples[k].active && samples[k - 1].active && samples[k + 1].active)
+        .collect();
+    lone.into_iter().for_each(|k| samples[k].active = true);
     let carried: Vec<f64> = samples.iter().filter(|sample| sample.active).map(|sample| sample.arc).collect();
     let (first, last) = (*carried.first()?, *carried.last()?);
     let inner = (first + END * (last - first))..=(last - END * (last - first));
@@ -98,6 +103,14 @@ mod tests {
         }
         assert!(figure(MultiplierSpace::P1Discontinuous, 0.0) < 1e-3);
         assert!(figure(MultiplierSpace::P1Discontinuous, 0.5) > 0.1);
+    }
+
+    #[test]
+    fn every_other_multiplier_is_a_checkerboard() {
+        let (boundary, multipliers) = setting(MultiplierSpace::P0, 20);
+        let active: Vec<bool> = (0..20).map(|i| i % 2 == 0).collect();
+        let lambda: Vec<f64> = active.iter().map(|&active| if active { 1.0 } else { 0.0 }).collect();
+        assert!(oscillation(&boundary, &multipliers, &lambda, &active).expect("a figure") > 0.5);
     }
 
     #[test]

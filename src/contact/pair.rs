@@ -19,6 +19,8 @@ pub struct Pair {
     pub segments: SegmentRule,
     /// Contact law.
     pub law: Law,
+    /// Where the integrals over the contact boundary are evaluated.
+    pub quadrature: Quadrature,
     /// Whether the jump term is added.
     pub stabilise: Stabilise,
     /// Where contact is modelled.
@@ -32,9 +34,27 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// The pair on a mesh that is `times` refinements coarser, with as many segments less.
+    pub fn coarser(&self, times: usize) -> Self {
+        let segments = match &self.segments {
+            SegmentRule::Auto => SegmentRule::Auto,
+            SegmentRule::Count(count) => SegmentRule::Count((count >> times).max(1)),
+            SegmentRule::Fractions(fractions) => {
+                let inner = fractions[..fractions.len() - 1].iter().step_by(1 << times);
+                SegmentRule::Fractions(inner.copied().chain([1.0]).collect())
+            }
+        };
+        Self { segments, ..self.clone() }
+    }
+
     /// Whether its contact boundary depends on the solution.
     pub fn follows(&self) -> bool {
-        self.curve == CurveChoice::Fit || self.ends == EndRule::Free
+        self.curve == CurveChoice::Fit || self.has_free_ends()
+    }
+
+    /// Whether the ends of its contact boundary follow the pressure: a bilateral one has no end.
+    pub fn has_free_ends(&self) -> bool {
+        self.ends == EndRule::Free && self.law == Law::Unilateral
     }
 }
 
@@ -54,6 +74,18 @@ pub enum EndRule {
     Fixed,
     /// They move to where the pressure ends.
     Free,
+}
+
+/// Where the integrals over the contact boundary are evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quadrature {
+    /// Between segment ends and the feet of the body's boundary nodes: exact on straight boundaries.
+    Cut,
+    /// At a fixed number of Gauss points on each segment, whatever lies beside it.
+    Segment {
+        /// Gauss points of a segment, 1 to 20.
+        points: usize,
+    },
 }
 
 /// When the jump term is added to the multiplier block.

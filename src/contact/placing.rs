@@ -22,8 +22,8 @@ pub struct Known {
     pub meeting: Option<Meeting>,
     /// Parameters of its ends.
     pub ends: Option<[f64; 2]>,
-    /// Its segments, as fractions of its length.
-    pub fractions: Option<Vec<f64>>,
+    /// Number of its segments.
+    pub segments: Option<usize>,
 }
 
 /// A contact boundary with what it was placed by.
@@ -34,8 +34,6 @@ pub struct Placed {
     pub limits: [f64; 2],
     /// What a fitted one was fitted to.
     pub meeting: Option<Meeting>,
-    /// Its segments, as fractions of its length.
-    pub fractions: Vec<f64>,
 }
 
 /// Places Γ_C of a pair and cuts it into segments. `young` are the moduli of body 1 and body 2 (stress); `numbering`
@@ -80,9 +78,8 @@ pub fn place(
     if pair.curve != CurveChoice::Fit {
         check_cover(mesh, pair, sides, &boundary).map_err(error)?;
     }
-    let fractions = known.fractions.clone().unwrap_or_else(|| fractions(&edges, numbering.level.order, pair, young, &boundary));
-    boundary.cut(&fractions);
-    Ok(Placed { boundary, limits, meeting, fractions })
+    boundary.cut(&fractions(&edges, numbering.level.order, pair, young, &boundary, known.segments));
+    Ok(Placed { boundary, limits, meeting })
 }
 
 /// Both boundaries must cover Γ_C without a hole, and must not close around it.
@@ -234,7 +231,7 @@ pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> boo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{EndRule, GapChoice, Law, MultiplierSpace, SegmentRule, Stabilise};
+    use crate::contact::{EndRule, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule, Stabilise};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Partition};
@@ -249,6 +246,7 @@ mod tests {
             space: MultiplierSpace::P0,
             segments,
             law: Law::Unilateral,
+            quadrature: Quadrature::Cut,
             stabilise: Stabilise::Off,
             configuration: Configuration::Reference,
             spans: None,
@@ -284,15 +282,18 @@ mod tests {
     }
 
     #[test]
-    fn automatic_segments_follow_the_longest_edge() {
+    fn automatic_segments_follow_the_edges() {
         let mesh = two_blocks();
         let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
         let numbering = Numbering::new(Level { intervals: 8, order: Order::P1 }, &partition);
         let boundary = at_rest(&mesh, &numbering, SegmentRule::Auto, [1.0, 1.0]).expect("a flat seam");
         // Longest edge 2/8, 1.5 of them on a length of 2.
         assert_eq!(boundary.segments(), 5);
-        // A stiff lower body leaves the rule to the upper one: longest edge 1.1/8.
-        assert_eq!(at_rest(&mesh, &numbering, SegmentRule::Auto, [10.0, 1.0]).expect("a flat seam").segments(), 9);
+        // A stiff lower body leaves the rule to the upper one: 8 edges of .9/8, 8 of 1.1/8, 1.5 of them and more to a segment.
+        let boundary = at_rest(&mesh, &numbering, SegmentRule::Auto, [10.0, 1.0]).expect("a flat seam");
+        assert_eq!(boundary.segments(), 10);
+        let lengths = [0, 9].map(|k| boundary.segment_length(k));
+        assert!((lengths[0] - 1.6 * 0.9 / 8.0).abs() < 1e-12 && (lengths[1] - 1.6 * 1.1 / 8.0).abs() < 1e-12);
         assert!(boundary.normal(0.5).y > 0.0);
     }
 

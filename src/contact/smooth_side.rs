@@ -99,11 +99,17 @@ impl SmoothSide {
     /// Whether a point lies in the body or outside it by less than `tolerance`, as the body lies now, with its foot on
     /// this stretch. What lies deeper than a quarter of the stretch belongs to another side of the body.
     pub fn is_near(&self, x: Point, tolerance: f64) -> bool {
+        let outside = self.outside(x, tolerance);
+        outside.is_some_and(|outside| outside < tolerance && outside > -0.25 * self.length())
+    }
+
+    /// Distance of a point out of the body as it lies now, negative inside; nothing if its foot lies beyond the ends by
+    /// more than `tolerance`.
+    pub fn outside(&self, x: Point, tolerance: f64) -> Option<f64> {
         let t = self.nearest(x, Configuration::Deformed).clamp(0.0, self.length());
         let offset = x - self.deformed.point(t);
         let tangent = self.deformed.tangent(t);
-        let outside = offset.dot(&turn_right(tangent)) * self.hand;
-        offset.dot(&tangent).abs() <= tolerance && outside < tolerance && outside > -0.25 * self.length()
+        (offset.dot(&tangent).abs() <= tolerance).then(|| offset.dot(&turn_right(tangent)) * self.hand)
     }
 }
 

@@ -4,7 +4,7 @@
 
 use super::ContactBoundary;
 use crate::element::{edge_shape, edge_slope};
-use crate::geometry::{Point, gauss_points};
+use crate::geometry::Point;
 use crate::mesh::BoundaryEdge;
 
 /// A part of Γ_C that sees one boundary edge along its normals and lies in one segment.
@@ -80,14 +80,4 @@ pub fn trace(boundary: &ContactBoundary, edge: usize, small: &BoundaryEdge, t: f
     let values = edge_shape(small.points.len(), fraction);
     let place = small.places.iter().zip(values).fold(Point::zeros(), |sum, (place, value)| sum + value * place);
     Trace { edge, fraction, values, place }
-}
-
-/// Gauss points of a piece: parameter of Γ_C and weight (length). Two suffice where everything is straight.
-pub fn quadrature(boundary: &ContactBoundary, piece: &Piece, straight: bool) -> impl Iterator<Item = (f64, f64)> {
-    let [from, to] = piece.range;
-    let points = if straight { 2 } else { 8 };
-    gauss_points(points).iter().map(move |(z, weight)| {
-        let t = from + z * (to - from);
-        (t, weight * (to - from) * boundary.speed(t))
-    })
 }

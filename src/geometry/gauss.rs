@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 /// Largest number of points of a rule.
-const MOST: usize = 16;
+const MOST: usize = 20;
 
 /// The `n` Gauss-Legendre points of [0, 1] with their weights (sum 1), ascending; exact for degree `2n - 1`.
 ///
 /// # Panics
-/// If `n` is 0 or above 16.
+/// If `n` is 0 or above 20.
 pub fn gauss_points(n: usize) -> &'static [(f64, f64)] {
     static RULES: OnceLock<Vec<Vec<(f64, f64)>>> = OnceLock::new();
     let rules = RULES.get_or_init(|| (1..=MOST).map(rule).collect());

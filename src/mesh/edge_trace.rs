@@ -1,6 +1,6 @@
 //! The small edges of a boundary at one level.
 
-use super::{MacroMesh, Numbering, lattice};
+use super::{Level, MacroMesh, Numbering, lattice};
 use crate::element::Order;
 use crate::geometry::{Point, turn_right};
 
@@ -14,10 +14,19 @@ pub struct EdgeNode {
 }
 
 impl EdgeNode {
-    /// The two nodes of the next coarser level whose mean it is; the same one twice where that level has it.
-    pub fn parents(self) -> [Self; 2] {
+    /// The two nodes of the next coarser level that it lies between, and the weights that make it of them; the same one
+    /// twice where that level has it.
+    pub fn parents(self, mesh: &MacroMesh, level: Level) -> [(Self, f64); 2] {
         let half = self.position / 2;
-        [half, half + self.position % 2].map(|position| Self { position, ..self })
+        let [a, b] = mesh.edges[self.edge as usize].vertices.map(|vertex| mesh.ratios[vertex as usize]);
+        let ratio = |position: u32| match position {
+            0 => a,
+            p if 2 * p as usize == level.intervals => b,
+            _ => None,
+        };
+        let positions = [half, half + self.position % 2];
+        let weights = level.parent_weights(positions.map(ratio));
+        std::array::from_fn(|k| (Self { position: positions[k], ..self }, weights[k]))
     }
 
     /// Its number.
@@ -27,7 +36,12 @@ impl EdgeNode {
 
     /// Its position in the plane.
     pub fn place(self, mesh: &MacroMesh, numbering: &Numbering) -> Point {
-        mesh.edge_position(self.edge, f64::from(self.position) / numbering.level.intervals as f64)
+        mesh.edge_position(self.edge, self.fraction(mesh, numbering))
+    }
+
+    /// The fraction of its macro edge, from the first vertex, at which it lies.
+    pub fn fraction(self, mesh: &MacroMesh, numbering: &Numbering) -> f64 {
+        mesh.edge_fraction(self.edge, numbering.level, self.position)
     }
 }
 

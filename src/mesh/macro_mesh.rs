@@ -54,6 +54,8 @@ pub struct MacroMesh {
     pub file: PathBuf,
     /// Positions of the vertices that triangles use.
     pub vertices: Vec<Point>,
+    /// Fraction κ at which refinement puts the next node from each vertex; none where it is even.
+    pub ratios: Vec<Option<f64>>,
     /// Triangles, each with its body.
     pub triangles: Vec<MacroTriangle>,
     /// Edges, each once.
@@ -70,6 +72,7 @@ impl MacroMesh {
         drop_loose_vertices(&mut raw);
         let mut mesh = Self {
             file: file.to_path_buf(),
+            ratios: vec![None; raw.vertices.len()],
             vertices: raw.vertices,
             triangles: Vec::with_capacity(raw.triangles.len()),
             edges: Vec::new(),

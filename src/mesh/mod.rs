@@ -1,16 +1,18 @@
 //! Macro mesh, partition, refinement and its levels: pure functions of (file, geometry, refine, partition).
 //!
 //! A Gmsh file is a *macro mesh*. At `n = 2^level` intervals per macro edge every macro triangle carries the lattice
-//! of [`lattice`]; node numbers follow in closed form ([`Numbering`]) and positions from one smooth map per macro
-//! triangle ([`MacroMesh::position`]), so no rank ever asks another about the mesh.
+//! of [`lattice`]; node numbers follow in closed form ([`Numbering`]) and positions from one map per macro triangle
+//! ([`MacroMesh::node_position`]), so no rank ever asks another about the mesh.
 
 mod chain;
 mod edge_trace;
 mod gmsh;
+mod grading;
 pub mod lattice;
 mod macro_mesh;
 mod numbering;
 mod partition;
+mod piece;
 #[cfg(test)]
 pub(crate) mod samples;
 mod shape;
@@ -21,6 +23,7 @@ pub use gmsh::read_gmsh;
 pub use macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
 pub use numbering::{Level, Numbering, levels};
 pub use partition::{Graph, Partition};
+pub use piece::Shapes;
 pub use shape::EdgeShape;
 
 use std::path::{Path, PathBuf};

@@ -144,16 +144,27 @@ mod tests {
         Rc::new(Partition::new(mesh, &ranks, size))
     }
 
-    /// Every level of both orders, every number of ranks, several partitions.
+    /// The same mesh refined towards some vertices.
+    fn graded() -> MacroMesh {
+        let mut mesh = mesh();
+        for (vertex, ratio) in [(0, 0.2), (1, 0.35), (2, 0.15), (20, 0.3)] {
+            let at = mesh.vertices[vertex];
+            mesh.grade(at, ratio).expect("a vertex");
+        }
+        mesh
+    }
+
+    /// Even and graded, every level of both orders, every number of ranks, several partitions.
     fn everywhere(check: impl Fn(&MacroMesh, &Partition, &Numbering, Option<&Numbering>)) {
-        let mesh = mesh();
-        for (size, seed) in (1..=4).flat_map(|size| (1..=3).map(move |seed| (size, seed))) {
-            let partition = deal(&mesh, size, seed);
+        let meshes = [mesh(), graded()];
+        let cases = meshes.iter().flat_map(|mesh| (1..=4).flat_map(move |size| (1..=3).map(move |seed| (mesh, size, seed))));
+        for (mesh, size, seed) in cases {
+            let partition = deal(mesh, size, seed);
             for (order, refine) in [(Order::P1, 3), (Order::P2, 2)] {
                 let all = levels(order, refine).into_iter().map(|level| Numbering::new(level, &partition));
                 let mut coarse: Option<Numbering> = None;
                 for numbering in all {
-                    check(&mesh, &partition, &numbering, coarse.as_ref());
+                    check(mesh, &partition, &numbering, coarse.as_ref());
                     coarse = Some(numbering);
                 }
             }
@@ -166,7 +177,7 @@ mod tests {
         let of = |triangle: usize| {
             let numbers = numbering.triangle(mesh, triangle);
             lattice::nodes(n).map(move |(i, j)| {
-                let x = mesh.position(triangle, i as f64 / n as f64, j as f64 / n as f64);
+                let x = mesh.node_position(triangle, numbering.level, (i, j));
                 (triangle, (i, j), numbers.node(i, j), x)
             })
         };
@@ -256,15 +267,17 @@ mod tests {
             let linear = |x: Point| 0.3 - 1.7 * x.x + 0.9 * x.y;
             for (triangle, (i, j), _, x) in all_nodes(mesh, fine) {
                 let numbers = coarse.triangle(mesh, triangle);
-                let parents = lattice::parents(i, j).map(|(i, j)| linear(places[&numbers.node(i, j)]));
-                assert!((0.5 * (parents[0] + parents[1]) - linear(x)).abs() < 1e-12);
+                let [a, b] = lattice::parents(i, j).map(|(i, j)| linear(places[&numbers.node(i, j)]));
+                let weights = mesh.parent_weights(triangle, fine.level, (i, j));
+                assert!((weights[0] * a + weights[1] * b - linear(x)).abs() < 1e-12);
             }
             for (edge, position) in
                 (0..mesh.edges.len() as u32).flat_map(|edge| (0..=fine.level.intervals).map(move |p| (edge, p)))
             {
                 let node = EdgeNode { edge, position: position as u32 };
-                let parents = node.parents().map(|parent| linear(places[&parent.number(mesh, coarse)]));
-                assert!((0.5 * (parents[0] + parents[1]) - linear(node.place(mesh, fine))).abs() < 1e-12);
+                let parents = node.parents(mesh, fine.level);
+                let sum: f64 = parents.iter().map(|(parent, weight)| weight * linear(places[&parent.number(mesh, coarse)])).sum();
+                assert!((sum - linear(node.place(mesh, fine))).abs() < 1e-12);
             }
         });
     }

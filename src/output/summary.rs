@@ -87,6 +87,17 @@ pub struct Unknowns {
     pub multiplier: Option<u64>,
 }
 
+/// A coarser mesh that was solved first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CoarseSolve {
+    /// Refinements of the macro mesh.
+    pub refine: usize,
+    /// Displacement unknowns.
+    pub unknowns: usize,
+    /// One number per linear solve.
+    pub iterations: Vec<usize>,
+}
+
 /// One outer iteration.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OuterIteration {
@@ -227,6 +238,8 @@ pub struct Solver {
     pub krylov: Option<String>,
     /// One number per linear solve.
     pub iterations: Vec<usize>,
+    /// Solves on coarser meshes before, the coarsest first.
+    pub coarse: Vec<CoarseSolve>,
     /// Relative residual of the scaled augmented system.
     pub residual: Option<f64>,
     /// Relative residual of the system as it stands.
@@ -302,93 +315,4 @@ where
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use serde_json::{Value, json};
-
-    fn written(summary: &Summary) -> Value {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("summary.json");
-        summary.write(&path).unwrap();
-        serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
-    }
-
-    fn filled() -> Summary {
-        let mut summary = Summary::new("bars", 2);
-        summary.status = Status::Converged;
-        summary.outer.push(OuterIteration { iteration: 1, active: Some(60), du: Some(0.1), ..OuterIteration::default() });
-        let contact = Contact {
-            ends: Some([[0.0, 3.0], [6.0, 4.0]]),
-            closed: Some(vec![[0.0, 6.0]]),
-            closed_points: Some(vec![[[0.0, 3.0], [6.0, 4.0]]]),
-            resultant: Some([1.0, -6.0]),
-            trust: Some(true),
-            ..Contact::default()
-        };
-        summary.contact.insert("seam".into(), contact);
-        summary.energy.strain.insert("lower".into(), Some(1e-3));
-        summary.estimate.contact.insert("seam".into(), ContactEstimate { force: Some(1e-9), lambda: None });
-        summary.probe.insert("corner".into(), Probe { x: Some([6.0, 4.0]), ..Probe::default() });
-        summary.solver.iterations = vec![12, 7];
-        summary.errors.insert("energy".into(), Some(1e-6));
-        summary
-    }
-
-    #[test]
-    fn summary_reads_back_as_it_was() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("summary.json");
-        filled().write(&path).unwrap();
-        assert_eq!(Summary::read(&path).unwrap(), filled());
-    }
-
-    #[test]
-    fn keys_are_the_names_that_other_tools_rely_on() {
-        let value = written(&filled());
-        let keys = |pointer: &str| {
-            let mut keys: Vec<String> = value.pointer(pointer).unwrap().as_object().unwrap().keys().cloned().collect();
-            keys.sort();
-            keys.join(" ")
-        };
-        let expected = [
-            (
-                "",
-                "balance boundaries case contact energy errors estimate memory_mib mesh mezha outer probe ranks reason solver status time_s unknowns",
-            ),
-            ("/mesh", "h_max h_min order triangles vertices"),
-            ("/unknowns", "displacement multiplier"),
-            ("/outer/0", "active added boundary du iteration krylov_iterations max_penetration released residual"),
-            (
-                "/contact/seam",
-                "closed closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",
-            ),
-            ("/energy", "external_work strain total"),
-            ("/estimate", "energy seam"),
-            ("/estimate/seam", "force lambda"),
-            ("/balance", "bodies energy force moment"),
-            ("/probe/corner", "stress u x"),
-            ("/solver", "blas iterations krylov name plain_residual residual"),
-            ("/time_s", "assemble contact mesh output setup solve total"),
-            ("/memory_mib", "max_rank sum"),
-        ];
-        for (pointer, names) in expected {
-            assert_eq!(keys(pointer), names, "{pointer}");
-        }
-        assert_eq!(value["status"], json!("converged"));
-        assert_eq!(value["mezha"], json!(env!("CARGO_PKG_VERSION")));
-    }
-
-    #[test]
-    fn what_is_unknown_or_not_finite_is_null() {
-        let mut summary = filled();
-        summary.energy.total = Some(f64::NAN);
-        summary.balance.force = Some(f64::INFINITY);
-        summary.probe.insert("lost".into(), Probe { u: Some([f64::NAN, 1.0]), ..Probe::default() });
-        let value = written(&summary);
-        for pointer in ["/energy/total", "/balance/force", "/balance/moment", "/probe/lost/u/0", "/probe/lost/x", "/reason"] {
-            assert_eq!(value.pointer(pointer), Some(&Value::Null), "{pointer}");
-        }
-        let read: Summary = serde_json::from_value(value).unwrap();
-        assert!(read.energy.total.is_none() && read.probe["lost"].u.unwrap()[0].is_nan());
-    }
-}
+mod tests;

@@ -120,7 +120,7 @@ fn displacement_error(
         }
         let numbers = numbering.triangle(mesh, triangle as usize);
         for (i, j) in crate::mesh::lattice::nodes(n) {
-            let x = mesh.position(triangle as usize, i as f64 / n as f64, j as f64 / n as f64);
+            let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
             let wanted = Point::new(exact[0].value(&[x.x, x.y]), exact[1].value(&[x.x, x.y]));
             sums[0] += (u.point(numbers.node(i, j)) - wanted).norm_squared();
             sums[1] += wanted.norm_squared();

@@ -75,7 +75,7 @@ impl Nodes {
                 let inside = matches!(lattice::place(n, i, j), lattice::Place::Inside(_));
                 let at = if inside { next } else { *known.entry(node).or_insert(next) };
                 if at == next {
-                    let x = mesh.position(triangle as usize, i as f64 / n as f64, j as f64 / n as f64);
+                    let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
                     piece.numbers.push(node);
                     piece.places.push([x.x, x.y]);
                 }
@@ -113,7 +113,7 @@ pub fn facets(problem: &Discretisation, u: &Field<2>, stress: &Field<5>, session
         for small in lattice::triangles(shown, Order::P1) {
             let corners = Triangle::nodes::<3>(&small).map(|(i, j)| (step * i, step * j));
             for (i, j) in corners {
-                let x = mesh.position(triangle as usize, i as f64 / n as f64, j as f64 / n as f64);
+                let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
                 let node = numbers.node(i, j);
                 values.extend([x.x, x.y]);
                 values.extend(u.at(node));

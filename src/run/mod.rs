@@ -3,6 +3,7 @@
 mod check;
 mod exact;
 mod fields;
+mod follow;
 mod report;
 mod results;
 mod scene;
@@ -130,8 +131,8 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let mut problem = run.set_up()?;
     run.report.sizes(&problem);
     run.report.warnings(&problem);
-    let (solution, solver) = run.solve(&mut problem)?;
-    run.write(&problem, &solution, &solver, folder)
+    let solved = run.solve(&mut problem)?;
+    run.write(&problem, &solved, folder)
 }
 
 /// What the case says is not said again to PETSc.

@@ -6,7 +6,7 @@ use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
-use crate::system::{BoundaryStep, Discretisation, OuterStep};
+use crate::system::{BoundaryStep, Discretisation, OuterStep, Solution, Verdict};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -62,7 +62,6 @@ impl Report {
                 contact.boundary.length()
             ));
         }
-        self.say("outer  active       +/-  Krylov  residual  penetration     du");
     }
 
     /// A line of warning on standard error, also if the run is quiet.
@@ -97,6 +96,18 @@ impl Report {
         }
     }
 
+    /// Heads the table of passes.
+    pub fn head(&self) {
+        self.say("outer  active       +/-  Krylov  residual  penetration     du");
+    }
+
+    /// What it takes for boundaries to stand.
+    pub fn follows(&self, [boundary, displacement]: [f64; 2]) {
+        self.say(&format!(
+            "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes"
+        ));
+    }
+
     /// A pass of the contact loop.
     pub fn step(&self, step: &OuterStep, all: usize) {
         self.say(&format!(
@@ -114,6 +125,19 @@ impl Report {
         if let Some(words) = &step.climbed {
             self.say(&format!("       slow; went over to {words}"));
         }
+    }
+
+    /// A coarser mesh that was solved first.
+    pub fn coarse(&self, refine: usize, problem: &Discretisation, solution: &Solution) {
+        let iterations: Vec<String> = solution.steps.iter().map(|step| step.krylov_iterations.to_string()).collect();
+        let active = solution.active.iter().filter(|active| **active).count();
+        let failed = if matches!(solution.verdict, Verdict::NotConverged(_)) { ", not converged: goes on without" } else { "" };
+        self.say(&format!(
+            "refine {refine}: {} unknowns, {active}/{} multipliers in contact, {} iterations{failed}",
+            problem.unknown_count(),
+            solution.active.len(),
+            iterations.join(" ")
+        ));
     }
 
     /// A contact boundary that was solved for, and how far it moves next.

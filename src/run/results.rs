@@ -2,6 +2,7 @@
 
 use super::exact::{Errors, compare};
 use super::report::memory;
+use super::solve::Solved;
 use super::{Outcome, Run, RunError, fields, summarise};
 use crate::case::Case;
 use crate::contact::GapChoice;
@@ -17,16 +18,17 @@ impl Run<'_> {
     pub(super) fn write(
         &self,
         problem: &Discretisation,
-        solution: &Solution,
-        solver: &str,
+        solved: &Solved,
         folder: Option<ResultFolder>,
     ) -> Result<Outcome, RunError> {
+        let solution = &solved.solution;
         let mut summary = Summary::new(&self.case.name, self.session.size());
         let (mut status, mut reason) = match &solution.verdict {
             Verdict::Converged(words) => (Status::Converged, words.clone()),
             Verdict::NotConverged(words) => (Status::NotConverged, words.clone()),
         };
-        summarise::describe(&mut summary, self.case, problem, solution, solver);
+        summarise::describe(&mut summary, self.case, problem, solved);
+        summarise::estimate(&mut summary, problem, &solved.estimate);
         if solution.is_solved() {
             let _stage = self.stages.output.enter();
             let errors = self.evaluate(&mut summary, problem, solution)?;
@@ -45,6 +47,9 @@ impl Run<'_> {
                 };
                 self.report.warn(&format!("pressure unreliable: {words}"));
             }
+        }
+        if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
+            reason = format!("{reason}; estimated error {error:.1e} in the energy norm");
         }
         summary.status = status;
         summary.reason = Some(reason.clone());
@@ -68,7 +73,7 @@ impl Run<'_> {
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
-            summary.contact.insert(contact.pair.name.clone(), summarise::contact(contact, at, solution, &balance, &points));
+            summary.contact.insert(contact.pair.name.clone(), summarise::contact(problem, at, solution, &balance, &points));
             self.warn_if_apart(contact, &points);
             traces.push(contact_points(contact, &points));
         }

@@ -8,7 +8,7 @@ use crate::petsc::{Session, partition};
 use crate::system::Scene;
 use std::rc::Rc;
 
-/// Reads the mesh of a case, bends it, and checks that every name of the case is in it.
+/// Reads the mesh of a case, bends and grades it, and checks that every name of the case is in it.
 ///
 /// # Errors
 /// Words with file, key, value and remedy.
@@ -31,6 +31,18 @@ pub fn read_mesh(case: &Case) -> Result<MacroMesh, String> {
     }
     for geometry in &case.geometries {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
+    }
+    for grade in &case.mesh.grades {
+        let [x, y] = grade.point;
+        mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
+            format!(
+                "{}: mesh.grade.points: [{x}, {y}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
+                case.file.display(),
+                mesh.file.display(),
+                nearest.x,
+                nearest.y
+            )
+        })?;
     }
     check_points(case, &mesh)?;
     Ok(mesh)

@@ -1,11 +1,13 @@
-//! The solve of a run: once, or for one contact boundary after the other.
+//! The solve of a run: on coarser meshes first, so that active sets, boundaries and errors are known; then on the mesh
+//! of the case.
 
 use super::{Run, RunError};
-use crate::contact::ActiveSet;
+use crate::contact::{ActiveSet, Pair};
+use crate::output::summary::CoarseSolve;
 use crate::petsc::Matrix;
 use crate::system::{
-    ContactLoop, Discretisation, Elastic, Following, Form, LinearSolver, Onward, OuterStep, Rung, SaddlePoint, Solution, Start,
-    Verdict, bilateral, carried, inf_sup, interpolations, load, nodal_forces, not_held, stands,
+    CoarseSolution, ContactLoop, Difference, Discretisation, Elastic, Estimate, Form, LinearSolver, OuterStep, Rung, SaddlePoint,
+    Solution, SolverChoice, Start, Tolerance, Verdict, bilateral, inf_sup, interpolations, load, nodal_forces, not_held,
 };
 
 /// Displacement unknowns up to which a failed solve is looked into.
@@ -14,48 +16,164 @@ const LARGE_INF_SUP: usize = 200_000;
 /// Displacement unknowns up to which the inf-sup constants take less than a tenth of a run.
 const CHEAP_INF_SUP: usize = 10_000;
 
-/// Relative residual of solves on boundaries that are still on their way.
-const ON_THE_WAY: f64 = 1e-5;
+/// Refinements that are solved before the case's own.
+const COARSER: usize = 2;
 
-/// Share of its length by which a boundary moves when it is nearly there.
-const NEARLY: f64 = 1e-2;
+/// Relative residual of the solves on coarser meshes: below any discretisation error there.
+const COARSE: f64 = 1e-6;
 
 /// What no contact boundary changes.
-struct Lasting {
+pub(super) struct Lasting {
     /// The bodies without contact; only where boundaries follow the solution, otherwise the system holds them.
     elastic: Option<Elastic>,
     interpolations: Vec<Matrix>,
 }
 
 /// The system of one boundary, with what solves it.
-struct Prepared {
-    system: SaddlePoint,
-    solver: LinearSolver,
+pub(super) struct Prepared {
+    pub system: SaddlePoint,
+    pub solver: LinearSolver,
 }
 
-/// Where a solve begins: a solution before, with pressures and states of today's multipliers.
-struct Carried<'a> {
-    before: &'a Solution,
-    multipliers: Vec<f64>,
-    active: Vec<bool>,
+/// Where a solve begins: this rank's displacements, pressures and states of all multipliers.
+pub(super) struct Begin {
+    pub displacement: Vec<f64>,
+    pub multipliers: Vec<f64>,
+    pub active: Vec<bool>,
 }
 
-/// Number of the boundary, passes made before, and relative residual to reach.
+/// How a solve is made: number of the boundary, passes made before, relative residual to reach, whether it is heard of.
 #[derive(Clone, Copy)]
-struct Pass {
-    boundary: usize,
-    passes: usize,
-    tolerance: f64,
+pub(super) struct Pass {
+    pub boundary: usize,
+    pub passes: usize,
+    pub tolerance: Tolerance,
+    pub heard: bool,
+}
+
+/// A run solved.
+pub(super) struct Solved {
+    pub solution: Solution,
+    /// What solved it, in words.
+    pub solver: String,
+    pub estimate: Estimate,
+    /// Coarser meshes that were solved first.
+    pub coarse: Vec<CoarseSolve>,
 }
 
 impl Run<'_> {
-    /// Assembles and solves; the solution comes with what solved it, in words. A body that nothing holds is found
-    /// before anything is assembled. **Collective**
-    pub(super) fn solve(&self, problem: &mut Discretisation) -> Result<(Solution, String), RunError> {
+    /// Solves; a body that nothing holds is found before anything is assembled. **Collective**
+    pub(super) fn solve(&self, problem: &mut Discretisation) -> Result<Solved, RunError> {
         let all = vec![true; problem.multiplier_count()];
         if let Some(words) = not_held(problem, &all) {
-            return Ok((Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all), "none".into()));
+            let solution = Solution::nothing(Verdict::NotConverged(words), problem.finest(), &all);
+            return Ok(Solved { solution, solver: "none".into(), estimate: Estimate::default(), coarse: Vec::new() });
         }
+        let first = self.first_rung(problem);
+        let mut solves = Vec::new();
+        let (coarse, mut differences) = self.coarser_meshes(problem, &mut solves)?;
+        let begin = self.refine(problem, coarse.as_ref())?;
+        let tolerance = self.case.solver.tolerance;
+        let tolerance = if begin.is_some() { tolerance } else { Tolerance::Residual(tolerance.residual()) };
+        let rung = coarse.as_ref().map_or(first, |coarse| coarse.rung.max(first));
+        let (mut solution, prepared) = self.solve_mesh(problem, begin, rung, tolerance, true)?;
+        if let Some(coarse) = &coarse {
+            let _stage = self.stages.output.enter();
+            differences.push(Difference::new(problem, &solution, coarse, self.session)?);
+        }
+        self.measure_inf_sup(problem, &prepared.system, &mut solution)?;
+        Ok(Solved { solution, solver: prepared.solver.name, estimate: Estimate::new(&differences), coarse: solves })
+    }
+
+    /// Where the ladder begins; what `name = "auto"` comes to is said with its reason.
+    fn first_rung(&self, problem: &Discretisation) -> Rung {
+        let scene = &problem.scene;
+        if self.case.solver.choice != SolverChoice::Auto {
+            return Rung::of(scene.refine + 1, &scene.mesh.ratios);
+        }
+        let (rung, reason) = Rung::first(scene.refine + 1, &scene.mesh.ratios, problem.unknown_count());
+        self.report.say(&format!("solver: {reason}"));
+        rung
+    }
+
+    /// Solutions on coarser meshes, as far as they can be had: the last one, and how they differ. **Collective**
+    fn coarser_meshes(
+        &self,
+        problem: &mut Discretisation,
+        solves: &mut Vec<CoarseSolve>,
+    ) -> Result<(Option<CoarseSolution>, Vec<Difference>), RunError> {
+        let target = problem.scene.refine;
+        let (mut found, mut differences) = (None, Vec::new());
+        for refine in target.saturating_sub(COARSER)..target {
+            match self.coarse_mesh(problem, refine, found.take(), solves) {
+                Ok((coarse, difference)) => {
+                    found = coarse;
+                    differences.extend(difference);
+                }
+                // The mesh is too coarse for the scene; the case's own may do.
+                Err(RunError::Key(_)) => differences.clear(),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok((found, differences))
+    }
+
+    /// The solution on one coarser mesh, if there is one. **Collective**
+    fn coarse_mesh(
+        &self,
+        problem: &mut Discretisation,
+        refine: usize,
+        coarser: Option<CoarseSolution>,
+        solves: &mut Vec<CoarseSolve>,
+    ) -> Result<(Option<CoarseSolution>, Option<Difference>), RunError> {
+        let begin = {
+            let _stage = self.stages.contact.enter();
+            let pairs: Vec<Pair> = self.case.contacts.iter().map(|pair| pair.coarser(self.case.mesh.refine - refine)).collect();
+            let start = problem.refine_to(refine, pairs, coarser.as_ref(), self.session)?;
+            self.begin(problem, coarser.as_ref(), start)
+        };
+        let least = Rung::of(refine + 1, &problem.scene.mesh.ratios);
+        let rung = coarser.as_ref().map_or(least, |coarser| coarser.rung.max(least));
+        let tolerance = Tolerance::Residual(self.case.solver.tolerance.residual().max(COARSE));
+        let (solution, prepared) = self.solve_mesh(problem, begin, rung, tolerance, false)?;
+        let iterations = solution.steps.iter().map(|step| step.krylov_iterations).collect();
+        solves.push(CoarseSolve { refine, unknowns: problem.unknown_count(), iterations });
+        self.report.coarse(refine, problem, &solution);
+        if matches!(solution.verdict, Verdict::NotConverged(_)) {
+            return Ok((None, None));
+        }
+        let difference = match &coarser {
+            Some(coarser) => Some(Difference::new(problem, &solution, coarser, self.session)?),
+            None => None,
+        };
+        Ok((Some(CoarseSolution::new(problem, solution, prepared.solver.rung, self.session)?), difference))
+    }
+
+    /// Goes to the mesh of the case. **Collective**
+    fn refine(&self, problem: &mut Discretisation, coarse: Option<&CoarseSolution>) -> Result<Option<Begin>, RunError> {
+        let target = self.case.mesh.refine;
+        if target == problem.scene.refine && coarse.is_none() {
+            return Ok(None);
+        }
+        let _stage = self.stages.contact.enter();
+        let start = problem.refine_to(target, self.case.contacts.clone(), coarse, self.session)?;
+        Ok(self.begin(problem, coarse, start))
+    }
+
+    fn begin(&self, problem: &Discretisation, coarse: Option<&CoarseSolution>, start: Option<Vec<f64>>) -> Option<Begin> {
+        let (multipliers, active) = coarse?.multipliers(&problem.contacts);
+        Some(Begin { displacement: start?, multipliers, active })
+    }
+
+    /// Solves on the mesh at hand, once or for one contact boundary after the other. **Collective**
+    fn solve_mesh(
+        &self,
+        problem: &mut Discretisation,
+        begin: Option<Begin>,
+        rung: Rung,
+        tolerance: Tolerance,
+        heard: bool,
+    ) -> Result<(Solution, Prepared), RunError> {
         let form = self.case.solver.choice.form();
         let mut lasting = Lasting { elastic: None, interpolations: Vec::new() };
         if problem.follows() {
@@ -66,15 +184,16 @@ impl Run<'_> {
             let _stage = self.stages.setup.enter();
             lasting.interpolations = interpolations(problem, self.session)?;
         }
-        let (mut solution, prepared) = if problem.follows() {
-            self.follow(problem, &lasting)?
-        } else {
-            let mut prepared = self.prepare(problem, &lasting, Rung::default())?;
-            let pass = Pass { boundary: 1, passes: 0, tolerance: self.case.solver.tolerance };
-            (self.solve_on(problem, &mut prepared, None, pass)?, prepared)
-        };
-        self.measure_inf_sup(problem, &prepared.system, &mut solution)?;
-        Ok((solution, prepared.solver.name))
+        let pass = Pass { boundary: 1, passes: 0, tolerance, heard };
+        if problem.follows() {
+            return self.follow(problem, &lasting, begin, rung, pass);
+        }
+        if heard {
+            self.report.head();
+        }
+        let mut prepared = self.prepare(problem, &lasting, rung)?;
+        let solution = self.solve_on(problem, &mut prepared, begin, pass)?;
+        Ok((solution, prepared))
     }
 
     fn load(&self, problem: &Discretisation) -> Result<Vec<f64>, RunError> {
@@ -82,7 +201,7 @@ impl Run<'_> {
     }
 
     /// Sets up system and solver for the contact boundaries as they are, on a rung of the ladder. **Collective**
-    fn prepare(&self, problem: &Discretisation, lasting: &Lasting, rung: Rung) -> Result<Prepared, RunError> {
+    pub(super) fn prepare(&self, problem: &Discretisation, lasting: &Lasting, rung: Rung) -> Result<Prepared, RunError> {
         let choice = self.case.solver.choice;
         let system = {
             let _stage = self.stages.assemble.enter();
@@ -104,80 +223,26 @@ impl Run<'_> {
     }
 
     /// Solves on boundaries that stay where they are. **Collective**
-    fn solve_on(
+    pub(super) fn solve_on(
         &self,
         problem: &Discretisation,
         prepared: &mut Prepared,
-        carried: Option<Carried>,
-        Pass { boundary, passes, tolerance }: Pass,
+        begin: Option<Begin>,
+        Pass { boundary, passes, tolerance, heard }: Pass,
     ) -> Result<Solution, RunError> {
         let _stage = self.stages.solve.enter();
         let mut set = ActiveSet::new(bilateral(&problem.contacts));
-        if let Some(carried) = &carried {
-            set = set.starting_from(&carried.active);
+        if let Some(begin) = &begin {
+            set = set.starting_from(&begin.active);
         }
-        let start =
-            carried.as_ref().map(|from| Start { displacement: &from.before.displacement, multipliers: &from.multipliers });
+        let start = begin.as_ref().map(|begin| Start { displacement: &begin.displacement, multipliers: &begin.multipliers });
         let contact_loop = ContactLoop { problem, session: self.session, boundary, passes, tolerance };
-        let report = |step: &OuterStep| self.report.step(step, problem.multiplier_count());
+        let report = |step: &OuterStep| {
+            if heard {
+                self.report.step(step, problem.multiplier_count())
+            }
+        };
         Ok(contact_loop.solve(&mut prepared.system, &mut prepared.solver, &mut set, start, report)?)
-    }
-
-    /// Solves, lets the boundaries follow, and solves again, until everything stands; the last solve goes to the case's
-    /// tolerance. **Collective**
-    fn follow(&self, problem: &mut Discretisation, lasting: &Lasting) -> Result<(Solution, Prepared), RunError> {
-        let exact = self.case.solver.tolerance;
-        let mut following = Following::new(problem, exact);
-        let mut prepared = self.prepare(problem, lasting, Rung::default())?;
-        let mut pass = Pass { boundary: 1, passes: 0, tolerance: exact.max(ON_THE_WAY) };
-        let mut solution = self.solve_on(problem, &mut prepared, None, pass)?;
-        let (mut steps, mut boundaries) = (std::mem::take(&mut solution.steps), Vec::new());
-        while let Verdict::Converged(_) = solution.verdict {
-            let (step, onward) = {
-                let _stage = self.stages.contact.enter();
-                following.next(problem, &solution, pass.boundary, self.session)?
-            };
-            let near = step.moved.is_some_and(|way| way < NEARLY);
-            pass.passes = steps.len();
-            let next = match onward {
-                Onward::Stands if pass.tolerance > exact => {
-                    // The place is right, but it was found with a loose solve.
-                    pass.tolerance = exact;
-                    let (multipliers, active) = (solution.multipliers.clone(), solution.active.clone());
-                    self.solve_on(problem, &mut prepared, Some(Carried { before: &solution, multipliers, active }), pass)?
-                }
-                Onward::Stands => {
-                    self.report.boundary(&step);
-                    boundaries.push(step);
-                    solution.verdict = Verdict::Converged(stands(&boundaries));
-                    break;
-                }
-                Onward::GivenUp(words) => {
-                    self.report.boundary(&step);
-                    boundaries.push(step);
-                    solution.verdict = Verdict::NotConverged(words);
-                    break;
-                }
-                Onward::Again(contacts, motion) => {
-                    self.report.boundary(&step);
-                    boundaries.push(step);
-                    let carried = carried(&problem.contacts, &contacts, &solution);
-                    {
-                        let _stage = self.stages.contact.enter();
-                        problem.replace(contacts, motion, self.session)?;
-                    }
-                    prepared = self.prepare(problem, lasting, prepared.solver.rung)?;
-                    pass =
-                        Pass { boundary: pass.boundary + 1, tolerance: if near { exact } else { exact.max(ON_THE_WAY) }, ..pass };
-                    let carried = carried.map(|(multipliers, active)| Carried { before: &solution, multipliers, active });
-                    self.solve_on(problem, &mut prepared, carried, pass)?
-                }
-            };
-            solution = next;
-            steps.append(&mut solution.steps);
-        }
-        (solution.steps, solution.boundaries) = (steps, boundaries);
-        Ok((solution, prepared))
     }
 
     /// The inf-sup constants, where they are cheap, asked for, or may tell why a solve has failed. **Collective**

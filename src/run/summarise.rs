@@ -1,5 +1,6 @@
 //! A solution in the terms of `summary.json`.
 
+use super::solve::Solved;
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, oscillation};
 use crate::element::Order;
@@ -7,21 +8,22 @@ use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Balance, TracePoint};
-use crate::system::{BoundaryStep, Contact, Discretisation, Solution};
+use crate::system::{BoundaryStep, Contact, Discretisation, Estimate, Solution};
 
 /// What is known without the solution's fields.
-pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solution: &Solution, solver_name: &str) {
+pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solved: &Solved) {
+    let solution = &solved.solution;
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let count = numbering.level.triangles_per_edge();
     let triangles = scene.mesh.triangles.len() * count * count;
-    let lengths = (0..scene.mesh.edges.len()).map(|edge| scene.mesh.edge_length(edge as u32) / count as f64);
+    let [shortest, longest] = scene.mesh.shortest_and_longest_edge(numbering.level);
     let corners = if scene.order == Order::P1 { numbering.node_count() } else { numbering.node_count() - edge_count(problem) };
     summary.mesh = summary::Mesh {
         triangles: Some(triangles as u64),
         vertices: Some(corners as u64),
         order: Some(scene.order.degree() as u8),
-        h_min: Some(lengths.clone().fold(f64::INFINITY, f64::min)),
-        h_max: Some(lengths.fold(0.0, f64::max)),
+        h_min: Some(shortest),
+        h_max: Some(longest),
     };
     summary.unknowns = summary::Unknowns {
         displacement: Some(2 * numbering.node_count() as u64),
@@ -52,8 +54,9 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
     summary.boundaries = solution.boundaries.iter().map(boundary).collect();
     summary.solver = summary::Solver {
         name: Some(case.solver.choice.name().into()),
-        krylov: Some(solver_name.into()),
+        krylov: Some(solved.solver.clone()),
         iterations: solution.steps.iter().map(|step| step.krylov_iterations).collect(),
+        coarse: solved.coarse.clone(),
         residual: Some(solution.residual),
         plain_residual: Some(solution.plain_residual),
         blas: Some(versions::blas()),
@@ -65,6 +68,16 @@ fn edge_count(problem: &Discretisation) -> usize {
     let count = problem.finest().numbering.level.triangles_per_edge();
     let mesh = &problem.scene.mesh;
     mesh.edges.len() * count + mesh.triangles.len() * (3 * count * (count - 1) / 2)
+}
+
+/// Estimated discretisation errors.
+pub fn estimate(summary: &mut Summary, problem: &Discretisation, estimate: &Estimate) {
+    summary.estimate.energy = estimate.energy;
+    for (at, contact) in problem.contacts.iter().enumerate() {
+        let of = |errors: &[Option<f64>]| errors.get(at).copied().flatten();
+        let errors = summary::ContactEstimate { force: of(&estimate.force), lambda: of(&estimate.pressure) };
+        summary.estimate.contact.insert(contact.pair.name.clone(), errors);
+    }
 }
 
 /// Energies and balances.
@@ -80,7 +93,14 @@ pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balan
 }
 
 /// One contact; `at` is its place among all.
-pub fn contact(contact: &Contact, at: usize, solution: &Solution, balance: &Balance, points: &[TracePoint]) -> summary::Contact {
+pub fn contact(
+    problem: &Discretisation,
+    at: usize,
+    solution: &Solution,
+    balance: &Balance,
+    points: &[TracePoint],
+) -> summary::Contact {
+    let contact = &problem.contacts[at];
     let boundary = &contact.boundary;
     let knots = boundary.knots();
     let pair = |p: Point| [p.x, p.y];
@@ -104,8 +124,8 @@ pub fn contact(contact: &Contact, at: usize, solution: &Solution, balance: &Bala
         pressure_max: Some(lambda.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
         oscillation,
         inf_sup,
-        trust: trust(inf_sup, oscillation),
-        lost_points: Some(points.iter().filter(|point| !point.is_complete()).count()),
+        trust: if contact.is_smaller_than_an_edge() { Some(false) } else { trust(inf_sup, oscillation) },
+        lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Scene, SystemError};
 use crate::contact::{
-    Configuration, ContactBoundary, CurveChoice, Displacement, Distance, EndRule, GapChoice, Jump, Known, Law, MultiplierSpace,
+    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, GapChoice, Jump, Known, MultiplierSpace,
     Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_ratio, softer_edge_length,
 };
 use crate::geometry::{Curve, Point};
@@ -116,9 +116,10 @@ impl Contact {
         let shapes = measured.then(|| sides.each_ref().map(|edges| scene.mesh.smooth_curves(edges)));
         let knots = boundary.knots();
         let ends = Some([knots[0], knots[knots.len() - 1]]);
+        let segments = Some(boundary.segments());
         Ok(Self {
             pair: pair.clone(),
-            known: Known { meeting: placed.meeting, ends, fractions: Some(placed.fractions) },
+            known: Known { meeting: placed.meeting, ends, segments },
             limits: placed.limits,
             boundary,
             multipliers,
@@ -138,9 +139,15 @@ impl Contact {
         self.segment_ratio < SHORT * self.safe_ratio
     }
 
-    /// Whether its ends follow the pressure.
-    pub fn has_free_ends(&self) -> bool {
-        self.pair.ends == EndRule::Free && self.pair.law == Law::Unilateral
+    /// Length of the longest edge of the softer body that its shortest segment meets.
+    pub fn edge_length(&self) -> f64 {
+        let shortest = (0..self.boundary.segments()).map(|k| self.boundary.segment_length(k)).fold(f64::INFINITY, f64::min);
+        shortest / self.segment_ratio
+    }
+
+    /// Whether the whole of it is shorter than an edge: no figure of its pressure means anything then.
+    pub fn is_smaller_than_an_edge(&self) -> bool {
+        self.boundary.length() < self.edge_length()
     }
 
     /// Numbers of its multipliers.
@@ -172,4 +179,14 @@ impl Contact {
         };
         self.boundary.knots().windows(2).map(owner).collect()
     }
+}
+
+/// `D` of all contacts, numbered through.
+pub(super) fn weights(contacts: &[Contact], active: &[bool]) -> Vec<DiagonalBlock> {
+    let own = |contact: &Contact| {
+        let mut blocks = contact.multipliers.augmentation(contact.modulus, &active[contact.range()]);
+        blocks.iter_mut().flat_map(|block| &mut block.rows).for_each(|row| *row += contact.first);
+        blocks
+    };
+    contacts.iter().flat_map(own).collect()
 }

@@ -1,11 +1,14 @@
 //! The loop over active sets.
 
-use super::{BoundaryStep, Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Space, SystemError, not_held};
+use super::{BoundaryStep, Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Space, SystemError, Tolerance, not_held};
 use crate::contact::{ActiveSet, Step};
 use crate::petsc::{Session, Vector};
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
 const LOOSE: f64 = 1e-4;
+
+/// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
+const FROM_START: f64 = 2e-4;
 
 /// Active sets tried at most.
 const MOST_SETS: usize = 60;
@@ -116,8 +119,8 @@ pub struct ContactLoop<'a> {
     pub boundary: usize,
     /// Passes made on boundaries before.
     pub passes: usize,
-    /// Relative residual of the last solve.
-    pub tolerance: f64,
+    /// How far the last solve goes.
+    pub tolerance: Tolerance,
 }
 
 impl ContactLoop<'_> {
@@ -135,7 +138,6 @@ impl ContactLoop<'_> {
         start: Option<Start>,
         mut report: impl FnMut(&OuterStep),
     ) -> Result<Solution, SystemError> {
-        let tolerance = self.tolerance;
         let (mut x, _) = system.nest.create_vectors()?;
         let mut before = vec![0.0; self.finest().local_unknowns()];
         if let Some(start) = start {
@@ -147,6 +149,7 @@ impl ContactLoop<'_> {
             solver.refresh(system)?;
             self.release(system, &mut x, set.active());
         }
+        let tolerance = self.last_residual(system, &x, set.active())?;
         let mut goal = if set.may_change() { tolerance.max(LOOSE) } else { tolerance };
         let mut steps = Vec::new();
         loop {
@@ -189,6 +192,20 @@ impl ContactLoop<'_> {
                 system.activate(self.problem, set.active())?;
                 solver.refresh(system)?;
                 self.release(system, &mut x, set.active());
+            }
+        }
+    }
+
+    /// Relative residual that the last solve is to reach. A start from a coarser mesh is off by the discretisation error of
+    /// that mesh; this share of its residual leaves less than a tenth of this mesh's, in λ too. **Collective**
+    fn last_residual(&self, system: &SaddlePoint, x: &Vector, active: &[bool]) -> Result<f64, SystemError> {
+        match self.tolerance {
+            Tolerance::Residual(residual) => Ok(residual),
+            Tolerance::Discretisation => {
+                let b = system.right_hand_side(active, self.finest())?;
+                let mut r = b.duplicate()?;
+                system.nest.residual(&b, x, &mut r)?;
+                Ok((FROM_START * r.norm()? / b.norm()?).clamp(1e-8, LOOSE))
             }
         }
     }

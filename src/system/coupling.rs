@@ -1,7 +1,7 @@
 //! Rows of `B` and weighted gaps of all contacts, shared by all ranks.
 
 use super::{Contact, Scene, SystemError};
-use crate::contact::{GapChoice, Law, Side, declared_gap, integrate};
+use crate::contact::{GapChoice, Law, Quadrature, Side, declared_gap, integrate};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
@@ -27,6 +27,8 @@ pub struct Coupling {
     pub gap: Vec<f64>,
     /// Rank that owns each multiplier.
     pub owners: Vec<usize>,
+    /// Quadrature points of each contact, fixed on its segments, at which a body has no edge; of both bodies together.
+    pub lost: Vec<usize>,
 }
 
 impl Coupling {
@@ -37,14 +39,16 @@ impl Coupling {
     pub fn new(scene: &Scene, contacts: &[Contact], session: &Session) -> Result<Self, SystemError> {
         let count = contacts.last().map_or(0, |contact| contact.range().end);
         let (mut keys, mut values, mut gap) = (Vec::new(), Vec::new(), vec![0.0; count]);
+        let mut points = vec![0.0; contacts.len()];
         let mut integrate_all = || -> Result<(), SystemError> {
             for (number, contact) in contacts.iter().enumerate() {
                 for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
-                    let distance = contact.distance(k);
-                    let (entries, own) = integrate(&contact.boundary, &contact.multipliers, side, &contact.edges[k], &distance)
+                    let (rule, edges) = (contact.pair.quadrature, &contact.edges[k]);
+                    let own = integrate(&contact.boundary, &contact.multipliers, rule, side, edges, &contact.distance(k))
                         .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
-                    own.iter().enumerate().for_each(|(i, value)| gap[contact.first + i] += value);
-                    for entry in entries {
+                    own.gap.iter().enumerate().for_each(|(i, value)| gap[contact.first + i] += value);
+                    points[number] += own.points as f64;
+                    for entry in own.entries {
                         let [i, edge, position] = [entry.multiplier as u32, entry.node.edge, entry.node.position];
                         keys.extend([2 * number as u32 + k as u32, i, edge, position].map(|key| key as i32));
                         values.extend([entry.value.x, entry.value.y]);
@@ -55,6 +59,7 @@ impl Coupling {
         };
         session.agree(integrate_all()).map_err(SystemError::Case)?;
         session.sum(&mut gap);
+        session.sum(&mut points);
         let (keys, values) = (session.gather_all(&keys), session.gather_all(&values));
         let mut rows = vec![Vec::new(); count];
         for (key, value) in keys.chunks_exact(4).zip(values.chunks_exact(2)) {
@@ -82,7 +87,11 @@ impl Coupling {
                 return Err(SystemError::Case(format!("contact.{}.gap: {words}", contact.pair.name)));
             }
         }
-        Ok(Self { rows, gap, owners })
+        let lost = |(contact, points): (&Contact, f64)| match contact.pair.quadrature {
+            Quadrature::Cut => 0,
+            Quadrature::Segment { points: each } => (2 * each * contact.boundary.segments()).saturating_sub(points as usize),
+        };
+        Ok(Self { rows, gap, owners, lost: contacts.iter().zip(points).map(lost).collect() })
     }
 }
 

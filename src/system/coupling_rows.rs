@@ -88,14 +88,14 @@ impl CouplingRows {
     }
 }
 
-/// One level down: each node hands its entries to its parents, half each where they differ.
+/// One level down: each node hands its entries to its parents, by their weights.
 fn restrict(mesh: &MacroMesh, nodes: &Nodes, fine: &Space, coarse: &Space) -> Nodes {
     let mut sums = Nodes::new();
     for (&number, &(node, value)) in nodes {
         let global = fine.to_global(number, value);
-        for parent in node.parents() {
+        for (parent, weight) in node.parents(mesh, fine.numbering.level) {
             let number = parent.number(mesh, &coarse.numbering);
-            sums.entry(number).or_insert((parent, Point::zeros())).1 += 0.5 * global;
+            sums.entry(number).or_insert((parent, Point::zeros())).1 += weight * global;
         }
     }
     sums.iter_mut().for_each(|(&number, (_, value))| *value = coarse.free_part(number, *value));

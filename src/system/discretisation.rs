@@ -1,7 +1,7 @@
 //! A scene cut into unknowns: spaces of all levels, contacts, couplings.
 
-use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError};
-use crate::contact::Jump;
+use super::{BoundaryMotion, CoarseSolution, Contact, Coupling, Scene, Space, SystemError};
+use crate::contact::{Jump, Pair};
 use crate::mesh::{Level, levels};
 use crate::petsc::Session;
 
@@ -39,6 +39,29 @@ impl Discretisation {
         self.coupling = Coupling::new(&self.scene, &contacts, session)?;
         (self.contacts, self.motion) = (contacts, motion);
         Ok(())
+    }
+
+    /// Goes to another refinement of the same scene, with the given pairs, at rest or where a coarser solution says;
+    /// gives that solution's displacements in the new unknowns. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on this mesh.
+    pub fn refine_to(
+        &mut self,
+        refine: usize,
+        pairs: Vec<Pair>,
+        coarse: Option<&CoarseSolution>,
+        session: &Session,
+    ) -> Result<Option<Vec<f64>>, SystemError> {
+        (self.scene.refine, self.scene.pairs) = (refine, pairs);
+        self.spaces = spaces(&self.scene, session.rank())?;
+        let start = coarse.map(|coarse| coarse.displacement(self, session.rank()));
+        let (contacts, motion) = match (coarse, &start) {
+            (Some(coarse), Some(start)) => coarse.contacts(self, start, session)?,
+            _ => (Contact::all(&self.scene, &self.finest().numbering, session.rank())?, BoundaryMotion::default()),
+        };
+        self.replace(contacts, motion, session)?;
+        Ok(start)
     }
 
     /// Whether some contact boundary depends on the solution.

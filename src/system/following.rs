@@ -1,7 +1,7 @@
 //! Contact boundaries that follow the solution: fit, solve, move, and fit again, until everything stands.
 
 use super::{BoundaryMotion, Contact, Discretisation, Solution, SystemError};
-use crate::contact::{Configuration, CurveChoice, End, EndRule, Known, Meeting, SmoothSide, true_end};
+use crate::contact::{Configuration, CurveChoice, End, Known, Meeting, SmoothSide, true_end};
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
 
@@ -19,6 +19,15 @@ const STILL_DISPLACEMENT: f64 = 1e2;
 
 /// The same of the boundary, relative to its length: less is lost in what the residual leaves of the pressure.
 const STILL_BOUNDARY: f64 = 1e3;
+
+/// However loose the solves are.
+const LEAST_STILL: f64 = 1e-4;
+
+/// Share of its length by which held ends may still move: beyond it they are not known.
+const MOST_HELD: f64 = 1e-2;
+
+/// Penetration beyond the ends, as a share of the length of Γ_C, that is no contact missed.
+const MOST_BEYOND: f64 = 1e-3;
 
 /// A boundary whose ends move by less than this share of its length is the same.
 const SAME: f64 = 1e-5;
@@ -53,17 +62,33 @@ type Found = Option<(f64, f64)>;
 
 /// State of the loop over boundaries.
 pub struct Following {
+    /// Number of the boundary from which on nodes and segments stay.
+    frozen: usize,
     /// Relative residual of the last solve.
     tolerance: f64,
     displacement: Vec<f64>,
     active: Vec<bool>,
     ends: Vec<[Found; 2]>,
+    /// How far the boundary moved last before its ends were held.
+    last_way: f64,
 }
 
 impl Following {
-    /// Before the first solve; the last one goes to `tolerance`.
-    pub fn new(problem: &Discretisation, tolerance: f64) -> Self {
-        Self { tolerance, displacement: Vec::new(), active: Vec::new(), ends: vec![[None; 2]; problem.contacts.len()] }
+    /// Before the first solve; the last one goes to `tolerance`. Boundaries that a coarser mesh has found are `settled`.
+    pub fn new(problem: &Discretisation, tolerance: f64, settled: bool) -> Self {
+        Self {
+            frozen: if settled { 1 } else { FROZEN },
+            tolerance,
+            displacement: Vec::new(),
+            active: Vec::new(),
+            ends: vec![[None; 2]; problem.contacts.len()],
+            last_way: 0.0,
+        }
+    }
+
+    /// Changes of the boundary and of the displacement at which they stand.
+    pub fn tolerances(&self) -> [f64; 2] {
+        [STILL_BOUNDARY, STILL_DISPLACEMENT].map(|factor| (factor * self.tolerance).min(LEAST_STILL))
     }
 
     /// Looks at the solution on boundary `number` (from 1) and places the boundaries again. **Collective**
@@ -89,15 +114,39 @@ impl Following {
         let moved = way(&problem.contacts, &next);
         let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
         let step = BoundaryStep { iteration: number, length, moved, du, flipped };
-        let still = du.is_some_and(|du| du <= STILL_DISPLACEMENT * self.tolerance) && flipped == Some(0);
+        let [still_boundary, still_displacement] = self.tolerances();
+        let still = du.is_some_and(|du| du <= still_displacement) && flipped == Some(0);
+        if let (true, Some(way)) = (number + 1 == HELD, moved) {
+            self.last_way = way;
+        }
         let onward = match moved {
+            _ if number >= HELD && self.last_way > MOST_HELD => Onward::GivenUp(restless(self.last_way)),
             // The same boundary has the same solution.
-            Some(0.0) => Onward::Stands,
-            Some(way) if way <= STILL_BOUNDARY * self.tolerance && still => Onward::Stands,
+            Some(0.0) => self.beyond(problem, &motion),
+            Some(way) if way <= still_boundary && still => self.beyond(problem, &motion),
             _ if number >= MOST_BOUNDARIES => Onward::GivenUp(given_up(&step)),
             _ => Onward::Again(next, motion),
         };
         Ok((step, onward))
+    }
+
+    /// What stands must not leave contact out: bodies that penetrate each other beyond the ends of Γ_C.
+    fn beyond(&self, problem: &Discretisation, motion: &BoundaryMotion) -> Onward {
+        let (mesh, space) = (&problem.scene.mesh, problem.finest());
+        let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+        let fitted =
+            problem.contacts.iter().filter_map(|contact| contact.known.meeting.as_ref().map(|meeting| (contact, meeting)));
+        for (contact, meeting) in fitted {
+            let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+            let depth = meeting.depth_beyond(&sides, &contact.boundary, contact.edge_length());
+            if depth > MOST_BEYOND * contact.boundary.length() {
+                return Onward::GivenUp(format!(
+                    "contact {}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh, take more segments, or declare the curve",
+                    contact.pair.name
+                ));
+            }
+        }
+        Onward::Stands
     }
 
     /// Change of the displacement since the boundary before, relative to its norm. **Collective**
@@ -122,21 +171,22 @@ impl Following {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let mut all = Vec::new();
+        let settled = number >= self.frozen;
         for (contact, ends) in problem.contacts.iter().zip(&mut self.ends) {
             let mut known = contact.known.clone();
-            if contact.pair.curve == CurveChoice::Fit && number < FROZEN {
+            if contact.pair.curve == CurveChoice::Fit && !settled {
                 let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
                 if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
-                    all.push(Known { meeting: Some(meeting), ends: None, fractions: None });
+                    all.push(Known { meeting: Some(meeting), ends: None, segments: None });
                     continue;
                 }
             }
-            if contact.pair.ends == EndRule::Free && number < HELD {
+            if contact.pair.has_free_ends() && number < HELD {
                 known.ends = Some(free_ends(contact, solution, ends));
-                if number < FROZEN {
-                    known.fractions = None;
+                if !settled {
+                    known.segments = None;
                 }
             }
             all.push(known);
@@ -179,7 +229,8 @@ fn free_ends(contact: &Contact, solution: &Solution, history: &mut [Found; 2]) -
         next[k] = now[k] + step;
     }
     next = [next[0].max(contact.limits[0]), next[1].min(contact.limits[1])];
-    if next[1] > next[0] { next } else { now }
+    // A contact smaller than an edge is none that the mesh can tell.
+    if next[1] - next[0] > contact.edge_length() / boundary.speed(now[0]) { next } else { now }
 }
 
 /// Multipliers of the segment at an end.
@@ -214,6 +265,13 @@ fn given_up(step: &BoundaryStep) -> String {
         figure(step.moved),
         figure(step.du),
         step.flipped.map_or("all".to_string(), |count| count.to_string())
+    )
+}
+
+fn restless(way: f64) -> String {
+    format!(
+        "the ends of the contact boundary do not come to rest: they still moved by {way:.0e} of its length at fit {}; refine the mesh, or take another number of segments",
+        HELD - 1
     )
 }
 

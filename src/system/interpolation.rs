@@ -4,14 +4,18 @@ use super::{Discretisation, Scene, Space, SystemError};
 use crate::geometry::Point;
 use crate::mesh::lattice::{self, Place};
 use crate::petsc::{Matrix, Session};
+use std::collections::HashMap;
 
 /// Interpolations between all levels: the first leads from the coarsest level to the next. **Collective**
 pub fn interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Matrix>, SystemError> {
     problem.spaces.windows(2).map(|pair| interpolation(&problem.scene, &pair[1], &pair[0], session)).collect()
 }
 
+/// Weights of the parents of most nodes.
+const EVEN: [f64; 2] = [0.5; 2];
+
 /// Linear interpolation `P` (fine unknowns x coarse unknowns): a node takes over the value of its coarse twin, or the
-/// mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns of
+/// weighted mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns of
 /// prescribed coarse ones are zero. **Collective**
 fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Matrix, SystemError> {
     let rows = Rows::new(scene, fine, coarse, session);
@@ -27,9 +31,12 @@ fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session)
         }
     }
     let mut matrix = Matrix::aij(session, fine.local_unknowns(), coarse.local_unknowns(), 1, &diagonal, &off_diagonal)?;
-    for (node, parents) in rows.iter() {
-        let weight = 1.0 / distinct(parents).count() as f64;
-        for parent in distinct(parents) {
+    for (node, [a, b]) in rows.iter() {
+        if a == b {
+            insert(&mut matrix, fine, coarse, node, a, 1.0)?;
+            continue;
+        }
+        for (parent, weight) in [a, b].into_iter().zip(rows.weights(node)) {
             insert(&mut matrix, fine, coarse, node, parent, weight)?;
         }
     }
@@ -60,13 +67,17 @@ fn insert(matrix: &mut Matrix, fine: &Space, coarse: &Space, node: usize, parent
 }
 
 /// Owned fine nodes with their coarse parents, each node once.
-struct Rows(Vec<[u32; 3]>);
+struct Rows {
+    nodes: Vec<[u32; 3]>,
+    /// Weights of the parents, for the few nodes that are not in their middle.
+    graded: HashMap<usize, [f64; 2]>,
+}
 
 impl Rows {
     fn new(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Self {
         let n = fine.numbering.level.intervals;
         let mut seen = vec![false; fine.own.len()];
-        let mut rows = Vec::with_capacity(fine.own.len());
+        let mut rows = Self { nodes: Vec::with_capacity(fine.own.len()), graded: HashMap::new() };
         for &triangle in scene.partition.triangles_of(session.rank()) {
             let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
             let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
@@ -77,15 +88,23 @@ impl Rows {
                         continue;
                     }
                     seen[node - fine.own.start] = true;
+                    let weights = scene.mesh.parent_weights(triangle as usize, fine.numbering.level, (i, j));
+                    if weights != EVEN {
+                        rows.graded.insert(node, weights);
+                    }
                 }
                 let [a, b] = lattice::parents(i, j).map(|(i, j)| below.node(i, j) as u32);
-                rows.push([node as u32, a, b]);
+                rows.nodes.push([node as u32, a, b]);
             }
         }
-        Self(rows)
+        rows
+    }
+
+    fn weights(&self, node: usize) -> [f64; 2] {
+        self.graded.get(&node).copied().unwrap_or(EVEN)
     }
 
     fn iter(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
-        self.0.iter().map(|&[node, a, b]| (node as usize, [a as usize, b as usize]))
+        self.nodes.iter().map(|&[node, a, b]| (node as usize, [a as usize, b as usize]))
     }
 }

@@ -10,11 +10,13 @@ const MOST: [(Rung, f64); 3] = [(Rung::Sweep, 26.0), (Rung::TwoSteps, 100.0), (R
 /// Unknowns up to which a factor fits into memory.
 const LARGEST_FACTOR: usize = 3_000_000;
 
+/// Unknowns up to which a factor is quicker than an algebraic cycle where the mesh has no levels.
+const QUICK_FACTOR: usize = 500_000;
+
 /// What preconditions the displacements.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
     /// Multigrid with one symmetric Gauss-Seidel sweep; without levels an algebraic cycle.
-    #[default]
     Sweep,
     /// Multigrid with two steps of CG, preconditioned by the sweep.
     TwoSteps,
@@ -24,7 +26,33 @@ pub enum Rung {
     Factor,
 }
 
+/// Ratio of graded refinement below which triangles are too flat for a sweep: it needs more iterations on each level.
+const FLAT: f64 = 0.25;
+
 impl Rung {
+    /// The cheapest rung that does on a mesh of so many levels, the macro mesh among them, refined by these ratios.
+    pub fn of(levels: usize, ratios: &[Option<f64>]) -> Self {
+        let flat = levels > 1 && ratios.iter().flatten().any(|&ratio| ratio < FLAT);
+        if flat { Self::TwoSteps } else { Self::Sweep }
+    }
+
+    /// Where to begin if the choice is free, and why, in words; levels and ratios as in [`Self::of`].
+    pub fn first(levels: usize, ratios: &[Option<f64>], unknowns: usize) -> (Self, String) {
+        let rung = Self::of(levels, ratios);
+        if levels > 1 {
+            let flat = format!(" and some mesh.grade.ratio is below {FLAT}");
+            let flat = if rung == Self::Sweep { "" } else { &flat };
+            let words = rung.words("multigrid");
+            return (rung, format!("fieldsplit with {words}, because the mesh has {levels} levels{flat}"));
+        }
+        let begin = format!("because the mesh has no levels (refine = 0), and {unknowns} unknowns are");
+        if unknowns <= QUICK_FACTOR {
+            (Self::Factor, format!("fieldsplit with a Cholesky factor, {begin} no more than {QUICK_FACTOR}"))
+        } else {
+            (Self::Sweep, format!("fieldsplit with an algebraic cycle, {begin} more than {QUICK_FACTOR}"))
+        }
+    }
+
     /// Iterations after which it is asked whether to climb.
     pub fn patience(self, multigrid: bool) -> usize {
         match self {
@@ -86,6 +114,21 @@ mod tests {
         let history: Vec<f64> = (0..=20).map(|k| 0.1f64.powf(f64::from(k) / 5.0)).collect();
         assert!((needed(&history) - 40.0).abs() < 1e-9);
         assert_eq!(needed(&[1.0; 20]), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_small_mesh_without_levels_begins_with_a_factor() {
+        assert_eq!(Rung::first(1, &[None], 10_000).0, Rung::Factor);
+        assert_eq!(Rung::first(1, &[None], 1_000_000).0, Rung::Sweep);
+        assert_eq!(Rung::first(3, &[None], 10_000).0, Rung::Sweep);
+    }
+
+    #[test]
+    fn flat_triangles_begin_with_the_stronger_smoother() {
+        let (rung, words) = Rung::first(3, &[None, Some(0.4), Some(0.2)], 10_000);
+        assert_eq!((rung, Rung::of(3, &[Some(0.3)])), (Rung::TwoSteps, Rung::Sweep));
+        assert!(words.contains("smoothed by 2 CG steps, because the mesh has 3 levels and some mesh.grade.ratio"), "{words}");
+        assert_eq!(Rung::of(1, &[Some(0.2)]), Rung::Sweep, "not refined at all");
     }
 
     #[test]

@@ -5,12 +5,14 @@
 //! sets. What the solution means on the bodies is in [`recovery`].
 
 mod boundary_motion;
+mod coarse_solution;
 mod contact;
 mod contact_loop;
 mod coupling;
 mod coupling_rows;
 mod discretisation;
 mod elastic;
+mod estimate;
 mod field;
 mod following;
 mod held;
@@ -28,12 +30,14 @@ mod space;
 mod stiffness_matrix;
 
 pub use boundary_motion::BoundaryMotion;
+pub use coarse_solution::CoarseSolution;
 pub use contact::Contact;
 pub use contact_loop::{ContactLoop, OuterStep, Solution, Start, Verdict};
 pub use coupling::{Coupled, Coupling, bilateral};
 pub use coupling_rows::CouplingRows;
 pub use discretisation::{Discretisation, spaces};
 pub use elastic::Elastic;
+pub use estimate::{Difference, Estimate};
 pub use field::Field;
 pub use following::{BoundaryStep, Following, Onward, carried, stands};
 pub use held::not_held;
@@ -70,6 +74,25 @@ impl SolverChoice {
         match self {
             Self::Auto | Self::FieldSplit => "fieldsplit",
             Self::Direct => "direct",
+        }
+    }
+}
+
+/// How far a system is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tolerance {
+    /// To this relative residual.
+    Residual(f64),
+    /// Until the algebraic error is a tenth of the discretisation error.
+    Discretisation,
+}
+
+impl Tolerance {
+    /// Relative residual of solves that nothing is known of beforehand.
+    pub fn residual(self) -> f64 {
+        match self {
+            Self::Residual(residual) => residual,
+            Self::Discretisation => 1e-6,
         }
     }
 }

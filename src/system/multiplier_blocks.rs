@@ -1,6 +1,6 @@
 //! The blocks of the saddle point that have a multiplier side: `B̂`, `B̂ᵀ`, `-Ĉ` and the approximate Schur complement.
 
-use super::saddle_point::weights;
+use super::contact::weights;
 use super::{Contact, CouplingRows, Discretisation, Space, SystemError};
 use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::geometry::Point;
@@ -79,7 +79,7 @@ impl MultiplierBlocks {
         };
         let pattern = SchurPattern::of(&problem.contacts);
         let all = vec![true; owners.len()];
-        let jumps = jump_matrix(problem.jumps(), &all);
+        let jumps = jump_matrix(problem.jumps(), owners.len());
         let columns: Vec<BTreeSet<usize>> = corrected(rows, &weights(&problem.contacts, &all), &jumps)
             .into_iter()
             .map(|column| column.into_keys().collect())
@@ -132,15 +132,15 @@ impl MultiplierBlocks {
                 self.schur.add(&at, &at, &[value])?;
             }
         }
-        self.fill_bands(weights, jumps)?;
+        self.fill_bands(active, weights, jumps)?;
         for matrix in [&mut self.coupling, &mut self.transpose, &mut self.corner, &mut self.schur] {
             matrix.assemble()?;
         }
         Ok(())
     }
 
-    /// Adds `-D⁻¹` to the Schur complement and `-C` to both.
-    fn fill_bands(&mut self, weights: &[DiagonalBlock], jumps: &SparseRows) -> Result<(), SystemError> {
+    /// Adds `-D⁻¹` to the Schur complement and `-C` to both, on active multipliers.
+    fn fill_bands(&mut self, active: &[bool], weights: &[DiagonalBlock], jumps: &SparseRows) -> Result<(), SystemError> {
         let own = self.coupling.row_range();
         let place = |i: usize, j: usize| ([self.number[i] as i32], [self.number[j] as i32], self.scale[i] * self.scale[j]);
         for block in weights.iter().map(DiagonalBlock::inverse) {
@@ -151,8 +151,8 @@ impl MultiplierBlocks {
                 }
             }
         }
-        for (i, row) in jumps.iter().enumerate().filter(|(i, _)| own.contains(&self.number[*i])) {
-            for (&j, value) in row {
+        for (i, row) in jumps.iter().enumerate().filter(|(i, _)| active[*i] && own.contains(&self.number[*i])) {
+            for (&j, value) in row.iter().filter(|(j, _)| active[**j]) {
                 let (row, column, scale) = place(i, j);
                 self.corner.add(&row, &column, &[-scale * value])?;
                 self.schur.add(&row, &column, &[-scale * value])?;

@@ -11,9 +11,10 @@
 //! the set. Multipliers are scaled by `s_i = E_c / H_i`: `λ = s λ̂`, `B̂ = s B`, `ĉ = s c`, `D̂ = D / s²`; then the
 //! residuals of this and of the plain system agree in size.
 
+use super::contact::weights;
 use super::multiplier_blocks::MultiplierBlocks;
 use super::stiffness_matrix::ContactNeighbours;
-use super::{Contact, CouplingRows, Discretisation, Elastic, Space, SystemError};
+use super::{CouplingRows, Discretisation, Elastic, Space, SystemError};
 use crate::contact::{DiagonalBlock, SparseRows, jump_matrix};
 use crate::petsc::{Matrix, Session, Vector};
 
@@ -87,7 +88,7 @@ impl SaddlePoint {
         if self.form == Form::Augmented {
             self.augment(problem, &next)?;
         }
-        let jumps = jump_matrix(problem.jumps(), active);
+        let jumps = jump_matrix(problem.jumps(), active.len());
         let in_transpose = if self.form == Form::Augmented { next.as_slice() } else { &[] };
         self.multipliers.fill(problem, &self.rows[self.rows.len() - 1], active, in_transpose, &jumps)?;
         self.jumps = jumps;
@@ -187,14 +188,4 @@ fn moved_gap(problem: &Discretisation) -> Vec<f64> {
     let prescribed = |node: crate::mesh::EdgeNode| space.prescribed(node.number(mesh, &space.numbering));
     let moved = |row: &Vec<super::Coupled>| row.iter().map(|coupled| coupled.value.dot(&prescribed(coupled.node))).sum::<f64>();
     problem.coupling.gap.iter().zip(&problem.coupling.rows).map(|(c, row)| c - moved(row)).collect()
-}
-
-/// `D` of all contacts, numbered through.
-pub(super) fn weights(contacts: &[Contact], active: &[bool]) -> Vec<DiagonalBlock> {
-    let own = |contact: &Contact| {
-        let mut blocks = contact.multipliers.augmentation(contact.modulus, &active[contact.range()]);
-        blocks.iter_mut().flat_map(|block| &mut block.rows).for_each(|row| *row += contact.first);
-        blocks
-    };
-    contacts.iter().flat_map(own).collect()
 }

@@ -125,6 +125,9 @@ impl LinearSolver {
             ("-ksp_divtol", "1e30"),
             ("-pc_type", "cholesky"),
             ("-pc_factor_mat_solver_type", "mumps"),
+            // Towards ν = 0.5 good pivots fall short of MUMPS's own 0.01, and those put off outgrow its memory from 0.4999 on.
+            ("-mat_mumps_cntl_1", "1e-4"),
+            ("-mat_mumps_icntl_14", "100"),
         ] {
             options::set_default(session, name, value)?;
         }

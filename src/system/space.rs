@@ -42,6 +42,12 @@ impl Space {
         }
     }
 
+    /// A vector in global axes, in the node's frame.
+    #[inline]
+    pub fn to_frame(&self, node: usize, v: Point) -> Point {
+        self.constraints.get(node).map_or(v, |constraint| constraint.to_frame(v))
+    }
+
     /// A vector in the node's frame, in global axes.
     #[inline]
     pub fn to_global(&self, node: usize, v: Point) -> Point {

@@ -71,7 +71,6 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let jumped: f64 = problem
         .jumps()
-        .filter(|jump| jump.rows.iter().all(|&i| solution.active[i]))
         .map(|jump| jump.weight * (solution.multipliers[jump.rows[0]] - solution.multipliers[jump.rows[1]]).powi(2))
         .sum();
     let (twice, external) = (2.0 * strain.iter().sum::<f64>(), work[0] + work[1]);
@@ -116,6 +115,16 @@ fn body_balance(contacts: &[Contact], forces: &[ContactForce], totals: &[[f64; 6
         sum.norm() / size
     };
     totals.iter().enumerate().map(ratio).filter(|v| v.is_finite()).reduce(f64::max)
+}
+
+/// Strain energy of each body. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc or an inverted triangle.
+pub fn strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
+    let (mut strain, _) = internal_forces(problem, u, session)?;
+    session.sum(&mut strain);
+    Ok(strain)
 }
 
 /// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**

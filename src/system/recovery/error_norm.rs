@@ -46,9 +46,9 @@ fn add<const N: usize>(
     exact: &[Formula; 3],
     sums: &mut [f64; 2],
 ) -> Result<(), SystemError> {
-    let n = problem.finest().numbering.level.intervals;
-    for small in lattice::triangles(n, problem.finest().numbering.level.order) {
-        let x = positions(&problem.scene.mesh, triangle, n, &small.nodes::<N>());
+    let level = problem.finest().numbering.level;
+    for small in lattice::triangles(level.intervals, level.order) {
+        let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
         let u = nodal::<N>(problem, u, triangle, &small);
         for &(l, weight) in crate::element::quadrature::<6>(STRAIGHT) {
             let (_, determinant) = jacobian(&x, l)?;

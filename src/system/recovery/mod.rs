@@ -7,7 +7,7 @@ mod probe;
 mod stress;
 mod traces;
 
-pub use balance::{Balance, ContactForce, balance};
+pub use balance::{Balance, ContactForce, balance, strain_energy};
 pub use error_norm::energy_error;
 pub use exact_pressure::{pressure_at, pressure_error};
 pub use probe::{Probed, probe};

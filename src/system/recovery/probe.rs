@@ -61,7 +61,7 @@ fn values_at<const N: usize>(
 ) -> Result<[f64; 6], SystemError> {
     let level = problem.finest().numbering.level;
     let count = level.triangles_per_edge();
-    let scaled = at.map(|v| v.max(0.0)) * count as f64;
+    let scaled = problem.scene.mesh.lattice_point(triangle, level, at).map(|v| v.max(0.0)) * count as f64;
     let step = level.order.degree();
     let [mut i, mut j] = [scaled.x as usize, scaled.y as usize].map(|k| k.min(count - 1));
     while i + j >= count {
@@ -74,7 +74,7 @@ fn values_at<const N: usize>(
     } else {
         (Triangle::at(step * i, step * j, level.order, false), [1.0 - xi - eta, xi, eta])
     };
-    let x = positions(&problem.scene.mesh, triangle, level.intervals, &small.nodes::<N>());
+    let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
     let nodal = nodal::<N>(problem, u, triangle, &small);
     let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
     let s = stress(&x, &nodal, l, law)?;

@@ -43,11 +43,11 @@ fn add<const N: usize>(
     sums: &mut Field<5>,
 ) -> Result<(), SystemError> {
     const NODES: [[f64; 3]; 6] = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [0.5, 0.5, 0.], [0., 0.5, 0.5], [0.5, 0., 0.5]];
-    let n = problem.finest().numbering.level.intervals;
+    let level = problem.finest().numbering.level;
     let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
-    for small in lattice::triangles(n, problem.finest().numbering.level.order) {
+    for small in lattice::triangles(level.intervals, level.order) {
         let nodes = small.nodes::<N>();
-        let x = positions(&problem.scene.mesh, triangle, n, &nodes);
+        let x = positions(&problem.scene.mesh, triangle, level, &nodes);
         let u = nodal::<N>(problem, u, triangle, &small);
         for (&(i, j), l) in nodes.iter().zip(NODES) {
             let (_, area) = jacobian(&x, l)?;

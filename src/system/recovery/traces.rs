@@ -157,8 +157,7 @@ fn stress_beside<const N: usize>(
     u: &Field<2>,
     law: &PlaneStrain,
 ) -> Result<[f64; 4], SystemError> {
-    let x =
-        positions(&problem.scene.mesh, small.triangle, problem.finest().numbering.level.intervals, &small.beside.nodes::<N>());
+    let x = positions(&problem.scene.mesh, small.triangle, problem.finest().numbering.level, &small.beside.nodes::<N>());
     let nodal = nodal::<N>(problem, u, small.triangle, &small.beside);
     Ok(stress(&x, &nodal, small.barycentric(fraction), law)?)
 }

@@ -1,0 +1,77 @@
+//! `[mesh.grade]`
+
+use toml::Value;
+
+use super::Grade;
+use super::section::Section;
+use super::values::{self, must_be};
+use crate::element::Order;
+
+/// Bounds of κ that `"auto"` keeps to: smaller ones make triangles flat.
+const AUTO: [f64; 2] = [0.15, 0.5];
+
+/// Smallest κ that may be asked for: after twelve refinements edges are still longer than rounding.
+const LEAST: f64 = 0.1;
+
+/// Points and ratios of `[mesh.grade]`, for elements of some order.
+pub fn read_grade(section: &Section, order: Option<Order>) -> Option<Vec<Grade>> {
+    let points = section.required("points", "[[0, 3], [6, 4]]", values::list("points [x, y] of the mesh file", values::point));
+    let count = points.as_ref().map_or(1, Vec::len);
+    let ratio = section.or("ratio", "auto", |value| match value {
+        Value::String(word) if word == "auto" => Ok(None),
+        Value::String(_) => Err(must_be("\"auto\", a number, or a list of them", value)),
+        value => one_per_point(value, count, |ratio| (LEAST..=0.5).contains(&ratio))
+            .map(Some)
+            .map_err(|words| format!("{words} from {LEAST} to 0.5, or \"auto\"; 0.5 is the middle of the edge")),
+    });
+    let exponent = section.optional("exponent", |value| {
+        one_per_point(value, count, |exponent| exponent > 0.0).map_err(|words| format!("{words} above 0: u ~ r^exponent"))
+    });
+    let ratios = match ratio? {
+        Some(ratios) => ratios,
+        None if !section.has("exponent") => {
+            let words = "missing; write exponent = 0.75, if u ~ r^0.75 at these points, or give ratio as a number";
+            section.problem(&["exponent"], words.into());
+            return None;
+        }
+        None => exponent?.into_iter().map(|exponent| automatic(order, exponent)).collect::<Option<_>>()?,
+    };
+    Some(points?.into_iter().zip(ratios).map(|(point, ratio)| Grade { point, ratio }).collect())
+}
+
+/// `2^(-order/exponent)`, the largest ratio that keeps the full order, within bounds.
+fn automatic(order: Option<Order>, exponent: f64) -> Option<f64> {
+    order.map(|order| (-(order.degree() as f64) / exponent).exp2().clamp(AUTO[0], AUTO[1]))
+}
+
+/// A number for all points, or one for each.
+fn one_per_point(value: &Value, count: usize, good: impl Fn(f64) -> bool) -> Result<Vec<f64>, String> {
+    let wanted = || format!("must be a number, or a list of {count}, one per point,");
+    let numbers = match value {
+        Value::Array(_) => values::numbers(value),
+        value => values::number(value).map(|number| vec![number; count]),
+    };
+    numbers.ok().filter(|numbers| numbers.len() == count && numbers.iter().all(|&number| good(number))).ok_or_else(wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use std::path::Path;
+
+    fn ratios(mesh: &str) -> Vec<f64> {
+        let text = format!("mesh = {{ file = 'a.msh', {mesh} }}\nbody.a = {{ young = 1, poisson = 0.3 }}\n");
+        let case = Case::parse(&text, Path::new("case.toml"), &[]).expect("a good case");
+        case.mesh.grades.iter().map(|grade| grade.ratio).collect()
+    }
+
+    #[test]
+    fn automatic_ratios_follow_order_and_exponent() {
+        let both = |keys: &str| ratios(&format!("grade = {{ points = [[0, 0], [1, 2]], {keys} }}"));
+        assert_eq!(both("exponent = 1"), [0.25, 0.25]);
+        assert_eq!(both("exponent = [0.4, 2.5]"), [0.15, 0.5], "kept within bounds");
+        assert_eq!(both("ratio = [0.2, 0.3], exponent = 1"), [0.2, 0.3], "a number comes first");
+        assert_eq!(ratios("order = 1, grade = { points = [[0, 0]], exponent = 0.5 }"), [0.25]);
+        assert!(ratios("order = 1").is_empty());
+    }
+}

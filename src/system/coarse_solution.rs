@@ -1,0 +1,223 @@
+//! What the solution on a coarser mesh says of the next finer one: where to start, which multipliers are active, where
+//! contact boundaries lie.
+
+use super::{BoundaryMotion, Contact, Discretisation, Field, Rung, Solution, SystemError};
+use crate::contact::{Known, Meeting, MultiplierSpace, SmoothSide};
+use crate::element::Order;
+use crate::geometry::Point;
+use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
+use crate::petsc::Session;
+
+/// A solution on one refinement less.
+pub struct CoarseSolution {
+    displacement: Field<2>,
+    numbering: Numbering,
+    contacts: Vec<Contact>,
+    multipliers: Vec<f64>,
+    active: Vec<bool>,
+    /// The preconditioner it needed.
+    pub rung: Rung,
+}
+
+impl CoarseSolution {
+    /// Takes a solution and its contacts over from the mesh they were found on. **Collective**
+    pub fn new(problem: &mut Discretisation, solution: Solution, rung: Rung, session: &Session) -> Result<Self, SystemError> {
+        Ok(Self {
+            displacement: Field::displacement(problem, &solution.displacement, session)?,
+            numbering: problem.finest().numbering.clone(),
+            contacts: std::mem::take(&mut problem.contacts),
+            multipliers: solution.multipliers,
+            active: solution.active,
+            rung,
+        })
+    }
+
+    /// The same displacement on the next refinement: this rank's unknowns in the nodes' frames.
+    pub fn displacement(&self, problem: &Discretisation, rank: usize) -> Vec<f64> {
+        let (mesh, space) = (&problem.scene.mesh, problem.finest());
+        let level = space.numbering.level;
+        let mut values = vec![0.0; space.local_unknowns()];
+        for &triangle in problem.scene.partition.triangles_of(rank) {
+            let coarse = self.numbering.triangle(mesh, triangle as usize);
+            let fine = space.numbering.triangle(mesh, triangle as usize);
+            for (i, j) in lattice::nodes(level.intervals) {
+                let node = fine.node(i, j);
+                if !space.own.contains(&node) {
+                    continue;
+                }
+                let mut u = Point::zeros();
+                for ((k, l), weight) in weights(mesh, triangle as usize, level, (i, j)) {
+                    u += weight * self.displacement.point(coarse.node(k, l));
+                }
+                let at = 2 * (node - space.own.start);
+                let u = space.to_frame(node, u);
+                (values[at], values[at + 1]) = (u.x, u.y);
+            }
+        }
+        values
+    }
+
+    /// Pressures and states of the multipliers of the same contacts cut anew.
+    pub fn multipliers(&self, contacts: &[Contact]) -> (Vec<f64>, Vec<bool>) {
+        let (mut values, mut active) = (Vec::new(), Vec::new());
+        for (old, new) in self.contacts.iter().zip(contacts) {
+            let knots = new.boundary.knots();
+            for i in 0..new.multipliers.count() {
+                let t = match new.multipliers.space {
+                    MultiplierSpace::P0 => 0.5 * (knots[i] + knots[i + 1]),
+                    MultiplierSpace::P1Continuous => knots[i],
+                    // A little inside, where the segment is known.
+                    MultiplierSpace::P1Discontinuous => {
+                        let [a, b] = [knots[i / 2], knots[i / 2 + 1]];
+                        if i % 2 == 0 { a + 1e-3 * (b - a) } else { b - 1e-3 * (b - a) }
+                    }
+                };
+                let (segment, z) = old.boundary.locate(old.boundary.foot(new.boundary.point(t)));
+                let z = z.clamp(0.0, 1.0);
+                let rows = old.multipliers.on_segment(segment, 0.0).0;
+                let nearest = old.first + if z < 0.5 { rows[0] } else { rows[1] };
+                let carries = self.active[nearest];
+                active.push(carries);
+                let pressure = old.multipliers.value(&self.multipliers[old.range()], segment, z);
+                values.push(if carries { pressure } else { 0.0 });
+            }
+        }
+        (values, active)
+    }
+
+    /// Places the contacts of a finer mesh: those that follow begin where these have ended. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a boundary cannot be placed.
+    pub fn contacts(
+        &self,
+        problem: &Discretisation,
+        unknowns: &[f64],
+        session: &Session,
+    ) -> Result<(Vec<Contact>, BoundaryMotion), SystemError> {
+        let (scene, space) = (&problem.scene, problem.finest());
+        let motion = BoundaryMotion::new(problem, unknowns, session);
+        let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
+        let mut known = Vec::new();
+        for old in &self.contacts {
+            let mut meeting = None;
+            if old.known.meeting.is_some() {
+                let sides = SmoothSide::of_pair(&scene.mesh, &space.numbering, &old.pair, &displacement);
+                meeting = Meeting::now(&sides, &old.pair)
+                    .map_err(|words| SystemError::Case(format!("contact.{}: {words}", old.pair.name)))?;
+            }
+            known.push(Known { meeting, ..Known::default() });
+        }
+        let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
+        if problem.scene.pairs.iter().any(|pair| pair.follows()) {
+            for ((known, new), old) in
+                known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.pair.has_free_ends())
+            {
+                let knots = old.boundary.knots();
+                let ends = [knots[0], knots[knots.len() - 1]];
+                let foot = |k: usize| match ends[k] == old.limits[k] {
+                    // Where a body ends, it does so on every mesh.
+                    true => new.limits[k],
+                    false => new.boundary.foot(old.boundary.point(ends[k])),
+                };
+                known.meeting.clone_from(&new.known.meeting);
+                known.ends = Some([foot(0), foot(1)]);
+            }
+            contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
+        }
+        Ok((contacts, motion))
+    }
+
+    /// `∫λ ds` of each contact.
+    pub fn forces(&self) -> Vec<f64> {
+        let force = |contact: &Contact| {
+            let weighted = |i: usize| self.multipliers[i] * contact.multipliers.weight(i - contact.first);
+            contact.range().map(weighted).sum()
+        };
+        self.contacts.iter().map(force).collect()
+    }
+
+    /// Pressure of a contact at the foot of a point.
+    pub fn pressure(&self, contact: usize, x: Point) -> f64 {
+        let old = &self.contacts[contact];
+        let (segment, z) = old.boundary.locate(old.boundary.foot(x));
+        old.multipliers.value(&self.multipliers[old.range()], segment, z.clamp(0.0, 1.0))
+    }
+}
+
+/// Nodes of the coarser lattice, and their weights, in node `(i, j)` of a level: the shape functions of the coarse triangle
+/// that holds it. Nodes without weight are left out.
+fn weights(
+    mesh: &MacroMesh,
+    triangle: usize,
+    level: Level,
+    (i, j): (usize, usize),
+) -> impl Iterator<Item = ((usize, usize), f64)> {
+    let order = level.order;
+    let step = 2 * order.degree();
+    let count = level.intervals / step;
+    let (mut a, mut b) = (i / step, j / step);
+    // On the far edge the last triangle holds it.
+    if a + b >= count {
+        if a > 0 && i % step == 0 {
+            a -= 1
+        } else if b > 0 && j % step == 0 {
+            b -= 1
+        }
+    }
+    let (x, y) = ((i - a * step) as f64 / step as f64, (j - b * step) as f64 / step as f64);
+    let down = x + y > 1.0;
+    let l = if down { [x + y - 1.0, 1.0 - x, 1.0 - y] } else { [1.0 - x - y, x, y] };
+    let half = order.degree();
+    let corner = if down { [(a + 1) * half, (b + 1) * half] } else { [a * half, b * half] };
+    let sign = if down { -1 } else { 1 };
+    let node = move |di: usize, dj: usize| {
+        (corner[0].wrapping_add_signed(sign * di as isize), corner[1].wrapping_add_signed(sign * dj as isize))
+    };
+    let corners = [node(0, 0), node(half, 0), node(0, half)];
+    let l = mesh.place_in_parent(triangle, level.intervals / 2, corners, l);
+    let all = match order {
+        Order::P1 => vec![(node(0, 0), l[0]), (node(1, 0), l[1]), (node(0, 1), l[2])],
+        Order::P2 => vec![
+            (node(0, 0), l[0] * (2.0 * l[0] - 1.0)),
+            (node(2, 0), l[1] * (2.0 * l[1] - 1.0)),
+            (node(0, 2), l[2] * (2.0 * l[2] - 1.0)),
+            (node(1, 0), 4.0 * l[0] * l[1]),
+            (node(1, 1), 4.0 * l[1] * l[2]),
+            (node(0, 1), 4.0 * l[2] * l[0]),
+        ],
+    };
+    all.into_iter().filter(|(_, weight)| *weight != 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::samples::two_blocks;
+
+    #[test]
+    fn polynomials_of_the_order_are_carried_exactly() {
+        let mut graded = two_blocks();
+        for (at, ratio) in [([0.0, 1.0], 0.2), ([0.9, 1.0], 0.3), ([2.0, 2.0], 0.15)] {
+            graded.grade(at.into(), ratio).expect("a vertex");
+        }
+        for (mesh, (order, n)) in [two_blocks(), graded]
+            .iter()
+            .flat_map(|mesh| [(Order::P1, 8), (Order::P2, 8), (Order::P2, 4), (Order::P1, 2)].map(|level| (mesh, level)))
+        {
+            let [fine, coarse] = [n, n / 2].map(|intervals| Level { intervals, order });
+            let squares = if order == Order::P2 { 1.0 } else { 0.0 };
+            let value = |x: Point| 1.0 + 2.0 * x.x - x.y + squares * (x.x * x.x - 3.0 * x.x * x.y + 0.5 * x.y * x.y);
+            for (triangle, (i, j)) in (0..6).flat_map(|triangle| lattice::nodes(n).map(move |node| (triangle, node))) {
+                let found: f64 = weights(mesh, triangle, fine, (i, j))
+                    .map(|((k, l), weight)| {
+                        assert!(k + l <= n / 2, "({k}, {l}) is a node");
+                        weight * value(mesh.node_position(triangle, coarse, (k, l)))
+                    })
+                    .sum();
+                let exact = value(mesh.node_position(triangle, fine, (i, j)));
+                assert!((found - exact).abs() < 1e-12, "{order:?} {n} triangle {triangle} ({i}, {j})");
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Estimated discretisation errors against true ones, and solves that stop there.
+
+mod support;
+
+use support::{Ended, Run};
+
+fn effectivity(ended: &Ended, truth: f64) -> f64 {
+    ended.number("/estimate/energy") / truth
+}
+
+/// Exact stresses: rings (interference) and the beam (tractions, a pressure that bends).
+#[test]
+fn the_energy_error_is_estimated_within_a_third_where_it_is_known() {
+    for (case, body) in [("rings", "inner"), ("beam", "lower")] {
+        for (order, space) in [(1, "p0"), (2, "p1-discontinuous"), (2, "p1-continuous")] {
+            for refine in [2, 3] {
+                let run = Run::case(case).set("mesh.order", order).set("mesh.refine", refine).set("exact.must_hold", false);
+                let ended = run.set("contact.seam.multiplier", space).converged();
+                let found = effectivity(&ended, ended.number(&format!("/errors/energy_norm_{body}")));
+                assert!((0.7..1.5).contains(&found), "{case}, P{order}/{space}, refine {refine}: effectivity {found}");
+            }
+        }
+    }
+}
+
+/// Corners: U - U_h is half the square of the error in the energy norm, because loads alone do the work.
+#[test]
+fn corners_are_seen() {
+    for (order, space) in [(1, "p0"), (2, "p1-discontinuous")] {
+        let run = Run::case("bars_inclined").set("mesh.order", order).set("exact.must_hold", false);
+        let ended = run.set("contact.seam.multiplier", space).ranks(2).converged();
+        let found = effectivity(&ended, ended.number("/errors/energy").sqrt());
+        assert!((0.7..1.5).contains(&found), "P{order}/{space}: effectivity {found}");
+    }
+}
+
+#[test]
+fn the_verdict_tells_the_estimate_and_a_mesh_without_levels_has_none() {
+    let ended = Run::case("rings").set("exact.must_hold", false).converged();
+    assert!(ended.value("/reason").as_str().expect("words").contains("estimated error"));
+    assert!(ended.number("/estimate/seam/lambda") > 0.0 && ended.number("/estimate/seam/force") >= 0.0);
+    let ended = Run::case("rings").set("exact.must_hold", false).set("mesh.refine", 0).converged();
+    assert!(ended.value("/estimate/energy").is_null());
+}
+
+/// `tolerance = "discretisation"`: fewer iterations, and the same errors but for a tenth.
+#[test]
+fn a_solve_to_the_discretisation_error_is_as_good() {
+    for case in ["bars_inclined", "rings", "beam"] {
+        for (order, space) in [(1, "p0"), (2, "p1-discontinuous")] {
+            let run = |tolerance: &str| {
+                let run = Run::case(case).set("mesh.order", order).set("exact.must_hold", false).ranks(2);
+                run.set("contact.seam.multiplier", space).set("solver.tolerance", tolerance).converged()
+            };
+            let [exact, enough] = ["1e-10", "discretisation"].map(run);
+            assert!(enough.iterations() < exact.iterations(), "{case}, P{order}");
+            let [a, b] = [&exact, &enough].map(|ended| ended.number("/errors/lambda_seam"));
+            // Where λ is good to six digits the least tolerance, 1e-8, decides.
+            assert!(b < 1.1 * a || b < 5e-5, "{case}, P{order}: error of lambda {a} becomes {b}");
+            let [a, b] = [&exact, &enough].map(|ended| ended.number("/energy/total"));
+            assert!((b / a - 1.0).abs() < 0.01 * exact.number("/estimate/energy"), "{case}, P{order}: {a} becomes {b}");
+        }
+    }
+}

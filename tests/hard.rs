@@ -1,0 +1,176 @@
+//! Every hard case of cases/hard/study.toml, on coarse meshes, with one pair of spaces, on 1, 2 and 3 ranks: an exit code and
+//! words that are true, the same for every number of ranks.
+
+mod support;
+
+use support::mesh::{GOOD, Mesh, grid, write_scene};
+use support::{Ended, RANKS, Run};
+use toml::{Table, Value};
+
+/// How a row must end.
+struct Ending {
+    code: i32,
+    /// Pieces of the reason, or of what stands on standard error.
+    words: &'static [&'static str],
+    /// Whether the pressure is to be trusted, where that is asked.
+    trust: Option<bool>,
+    /// Largest relative error of ∫λ ds, where there is one to compare with.
+    force: Option<f64>,
+    /// The same of λ.
+    lambda: Option<f64>,
+}
+
+/// The endings of all rows, by their names in the study. One that is not here must be good.
+fn ending(row: &str) -> Ending {
+    let stands = &["the active set stands and the residual is below its tolerance"];
+    let good = |lambda| Ending { code: 0, words: stands, trust: Some(true), force: Some(1e-6), lambda };
+    let bad = |code, words, trust| Ending { code, words, trust, force: None, lambda: None };
+    match row {
+        _ if row.starts_with("moved by 1e8 L") => bad(2, &["bars.toml: contact.seam: ", "\"lower.seam\" is not straight"], None),
+        _ if row.ends_with("patch") => good(Some(1e-7)),
+        // A floating body a million times stiffer than the other.
+        "E2/E1 = 1e6" | "lower floats, E2/E1 = 1e-6" => Ending { words: &["rounding allows no less"], ..good(Some(0.03)) },
+        "H/h = 1/2, stabilise = false" | "H/h = 1/4, stabilise = false" => {
+            bad(3, &["pressure unreliable: contact seam (inf-sup constant 0.00"], Some(false))
+        }
+        "matching, segments = edges, stabilise = false" | "a segment of 1e-6 h, stabilise = false" => {
+            bad(0, &["pressure unreliable: contact seam (inf-sup constant 0.0"], Some(false))
+        }
+        _ if row.starts_with("H/h") => good(Some(0.05)),
+        "just touching, no load" | "load reversed, upper bar held" => bad(0, stands, None),
+        "load reversed" => bad(3, &["body upper can move by (0, 1): contact is open everywhere"], None),
+        // Contact on one segment, and on four edges between two singular corners: λ is rough.
+        _ if row.starts_with("contact ") || row == "corners on an edge" => Ending { trust: None, ..good(None) },
+        _ if row.contains("across the line") => good(Some(0.1)),
+        _ => good(Some(0.03)),
+    }
+}
+
+/// A row of the study: its name, the file of its case, and what is set.
+struct Row {
+    name: String,
+    case: String,
+    set: Vec<(String, Value)>,
+}
+
+fn rows() -> Vec<Row> {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/cases/hard/study.toml")).expect("the study");
+    let study: Table = toml::from_str(&text).expect("TOML");
+    let table = |value: Option<&Value>| value.and_then(Value::as_table).cloned().unwrap_or_default();
+    let row = |curve: &Value| {
+        let mut set = table(study.get("set"));
+        set.extend(table(curve.get("set")));
+        let [name, case] = [&curve["name"], &curve["cases"][0]].map(|value| value.as_str().expect("a text").to_string());
+        Row { name, case: format!("hard/{case}"), set: set.into_iter().collect() }
+    };
+    study["curve"].as_array().expect("curves").iter().map(row).collect()
+}
+
+impl Row {
+    /// So many refinements less than the case has, and segments as many times fewer.
+    fn coarser(&self, by: u32, ranks: usize) -> Ended {
+        let fewer = |key: &str, value: &Value| match value.as_integer() {
+            Some(count) if key == "contact.seam.segments" => Value::Integer(count >> by),
+            _ => value.clone(),
+        };
+        let run = Run::case(&self.case).set("mesh.refine", 3 - by);
+        let run = if ranks == 1 { run.alone() } else { run.ranks(ranks) };
+        self.set.iter().fold(run, |run, (key, value)| run.set(key, fewer(key, value))).ended()
+    }
+
+    /// Ends as it must; gives the strain energy, if there is one.
+    fn check(&self, ended: &Ended, ranks: usize) -> Option<f64> {
+        let (name, must) = (&self.name, ending(&self.name));
+        assert_eq!(ended.code, Some(must.code), "{name}, {ranks} ranks:\n{}", ended.said());
+        let reason = if must.code == 2 { String::new() } else { ended.value("/reason").to_string() };
+        for words in must.words {
+            let found = reason.contains(words) || ended.errors.contains(words);
+            assert!(found, "{name}, {ranks} ranks: no `{words}` in:\n{reason}\n{}", ended.errors);
+        }
+        if must.code == 2 {
+            assert_eq!(ended.left_behind(), Vec::<String>::new(), "{name}: a result is left");
+            return None;
+        }
+        if must.trust.is_some() {
+            assert_eq!(ended.value("/contact/seam/trust").as_bool(), must.trust, "{name}, {ranks} ranks: {reason}");
+        }
+        for (key, most) in [("force_seam", must.force), ("lambda_seam", must.lambda)] {
+            let error = ended.number(&format!("/errors/{key}"));
+            assert!(most.is_none_or(|most| error <= most), "{name}, {ranks} ranks: {key} {error:e}");
+        }
+        Some(ended.number("/energy/total"))
+    }
+}
+
+/// The ranks of a row run at the same time: they wait for each other more than for the processor.
+#[test]
+fn every_row_ends_as_it_must_on_any_number_of_ranks() {
+    let rows = rows();
+    assert!(rows.len() >= 60, "{} rows", rows.len());
+    for row in rows {
+        let ended = std::thread::scope(|scope| {
+            let row = &row;
+            let runs = RANKS.map(|ranks| scope.spawn(move || row.coarser(2, ranks)));
+            runs.map(|run| run.join().expect("a run ends"))
+        });
+        let energies: Vec<_> = ended.iter().zip(RANKS).map(|(ended, ranks)| row.check(ended, ranks)).collect();
+        if ending(&row.name).code == 0 {
+            let [one, others @ ..] = &energies[..] else { unreachable!() };
+            let size = one.expect("an energy").abs();
+            let same = others.iter().all(|other| (other.expect("an energy") - size).abs() <= 1e-6 * size);
+            assert!(same, "{}: energies {energies:?} on 1, 2 and 3 ranks", row.name);
+        }
+    }
+}
+
+/// The motion is told in the axes of the scene, however it is turned.
+#[test]
+fn a_body_that_is_free_is_told_with_its_motion() {
+    for (mesh, words) in
+        [("small.msh", "can move by (0, 1): contact is open"), ("turned.msh", "can move by (-0.7536, 1): contact is open")]
+    {
+        for ranks in RANKS {
+            let run = Run::case("hard/bars.toml").set("mesh.refine", 0).set("mesh.file", mesh).set("load.top.pressure", -1.0);
+            let ended = run.ranks(ranks).ended();
+            assert_eq!(ended.code, Some(3), "{}", ended.said());
+            let reason = ended.value("/reason").to_string();
+            assert!(reason.contains(words), "{mesh}, {ranks} ranks: {reason}");
+        }
+    }
+}
+
+/// The resultant is right and the figures of trust see nothing; the estimate does.
+#[test]
+fn a_contact_narrower_than_an_edge_is_told_by_its_estimate() {
+    let rows = rows();
+    let estimates = |name: &str, ranks: usize| {
+        let row = rows.iter().find(|row| row.name == name).expect("a row of the study");
+        let ended = row.coarser(0, ranks);
+        row.check(&ended, ranks);
+        ["energy", "seam/lambda"].map(|key| ended.number(&format!("/estimate/{key}")))
+    };
+    for ranks in RANKS {
+        let [energy, lambda] = estimates("contact 0.8 edges wide", ranks);
+        assert!(energy > 0.3 && lambda > 0.5, "{ranks} ranks: {energy}, {lambda}");
+        let [energy, lambda] = estimates("as it stands", ranks);
+        assert!(energy < 0.02 && lambda < 0.01, "{ranks} ranks: {energy}, {lambda}");
+    }
+}
+
+/// A square that stands on its corner touches in a point; there is no line to be had.
+#[test]
+fn a_corner_that_points_at_an_edge_is_refused() {
+    let mesh = Mesh {
+        bodies: vec![
+            ("lower", grid(4, 2, 1, |u, v| [4.0 * u, v]), ["bottom", "right", "lower.seam", "left"]),
+            ("upper", grid(2, 2, 2, |u, v| [2.1 + u - v, 1.0 + u + v]), ["upper.seam", "top", "top", "left"]),
+        ],
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), GOOD);
+    for ranks in RANKS {
+        let ended = Run::file(&file).ranks(ranks).ended();
+        assert_eq!(ended.code, Some(2), "{}", ended.said());
+        assert!(ended.errors.contains("\"lower.seam\" and \"upper.seam\" are not parallel"), "{}", ended.errors);
+    }
+}
