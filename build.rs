@@ -20,7 +20,7 @@ const FUNCTIONS: &[&str] = &[
     // matrix, nest, shell
     "Mat(Create|SetSizes|SetType|Duplicate|AXPY|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|GetDiagonal|CreateVecs)",
-    "Mat(GetLocalSize|GetSize|GetOwnershipRange|GetOwnershipRangeColumn)",
+    "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange|GetOwnershipRangeColumn)",
     "MatXAIJSetPreallocation|MatCreateNest|MatNestGetISs",
     "MatCreateShell|MatShell(SetOperation|GetContext|SetContextDestroy)",
     // krylov, preconditioner
@@ -78,6 +78,7 @@ fn declarations(includes: &[PathBuf], file: &Path) {
         .raw_line("use mpi::ffi::MPI_Comm;")
         .default_enum_style(bindgen::EnumVariation::NewType { is_bitfield: false, is_global: false })
         .allowlist_var("mezha_.*")
+        .allowlist_type("MatSORType")
         .layout_tests(false)
         .derive_default(true)
         .generate_comments(false);

@@ -16,15 +16,17 @@ mod piece;
 #[cfg(test)]
 pub(crate) mod samples;
 mod shape;
+mod strip;
 
 pub use chain::Stretch;
 pub use edge_trace::{BoundaryEdge, EdgeNode};
 pub use gmsh::read_gmsh;
 pub use macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
-pub use numbering::{Level, Numbering, levels};
+pub use numbering::{Level, Numbering, TriangleNumbers, levels};
 pub use partition::{Graph, Partition};
 pub use piece::Shapes;
 pub use shape::EdgeShape;
+pub use strip::Strip;
 
 use std::path::{Path, PathBuf};
 

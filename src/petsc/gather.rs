@@ -4,6 +4,7 @@ use super::error::{Result, petsc};
 use super::ffi;
 use super::index_set::IndexSet;
 use super::vector::{Vector, length};
+use std::ops::Deref;
 use std::ptr;
 
 /// Brings chosen entries of a vector, from whatever rank, to this one.
@@ -38,10 +39,15 @@ impl Gather {
 
     /// The chosen entries of `vector`, in the order of the indices. **Collective**
     pub fn fetch(&self, vector: &Vector) -> Result<Vec<f64>> {
+        Ok(self.read(vector)?.to_vec())
+    }
+
+    /// The same, to read until the next one. **Collective**
+    pub fn read(&self, vector: &Vector) -> Result<impl Deref<Target = [f64]> + '_> {
         let (insert, forward) = (ffi::InsertMode::INSERT_VALUES, ffi::ScatterMode::SCATTER_FORWARD);
         petsc!(VecScatterBegin(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;
         petsc!(VecScatterEnd(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;
-        Ok(self.arrived.values().to_vec())
+        Ok(self.arrived.values())
     }
 }
 

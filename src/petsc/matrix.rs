@@ -5,10 +5,11 @@ use super::ffi;
 use super::session::Session;
 use super::vector::{Vector, length};
 use std::ops::Range;
-use std::ptr;
+use std::{ptr, slice};
 
 /// A matrix whose rows lie in consecutive ranges on the ranks: sparse ([`Matrix::aij`]), two by two of others
-/// ([`Matrix::nest`]) or an action ([`Matrix::shell`]). A clone is the same matrix under another name.
+/// ([`Matrix::nest`]) or an action
+/// ([`Matrix::operator`], [`Matrix::transfer`]). A clone is the same matrix under another name.
 pub struct Matrix {
     raw: ffi::Mat,
     session: Session,
@@ -102,6 +103,17 @@ impl Matrix {
     pub fn assemble(&mut self) -> Result<()> {
         petsc!(MatAssemblyBegin(self.raw, ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY))?;
         petsc!(MatAssemblyEnd(self.raw, ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY))
+    }
+
+    /// Shows a row of this rank: its global columns and its values; after [`Matrix::assemble`].
+    pub fn row(&self, row: usize, mut show: impl FnMut(&[i32], &[f64])) -> Result<()> {
+        let (mut count, mut columns, mut values) = (0, ptr::null(), ptr::null());
+        petsc!(MatGetRow(self.raw, length(row), &mut count, &mut columns, &mut values))?;
+        if count > 0 {
+            let count = count as usize;
+            show(unsafe { slice::from_raw_parts(columns, count) }, unsafe { slice::from_raw_parts(values, count) });
+        }
+        petsc!(MatRestoreRow(self.raw, length(row), &mut count, &mut columns, &mut values))
     }
 
     /// Sets every stored entry to zero and keeps the pattern. **Collective**

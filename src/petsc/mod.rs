@@ -35,6 +35,6 @@ pub use multigrid::Level;
 pub use partition::partition;
 pub use preconditioner::Preconditioner;
 pub use session::Session;
-pub use shell::Action;
+pub use shell::{Operator, Transfer};
 pub use stage::{Stage, StageGuard};
 pub use vector::Vector;

@@ -1,66 +1,187 @@
-//! Matrices known by their action alone.
+//! Matrices known by their actions alone: PETSc's Krylov methods and multigrid use them like any other.
 
 use super::error::{Result, petsc};
 use super::ffi;
 use super::matrix::Matrix;
 use super::session::Session;
-use super::vector::{Values, ValuesMut, length};
-use mpi::collective::SystemOperation;
-use mpi::topology::SimpleCommunicator;
-use mpi::traits::CommunicatorCollectives;
+use super::vector::{Lent, Vector, length};
 use std::ffi::{CString, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::{mem, ptr};
 
-/// What a shell does: from this rank's entries of `x` to this rank's entries of `y = A x`, or why it could not.
-pub type Action = Box<dyn Fn(&[f64], &mut [f64]) -> std::result::Result<(), String>>;
+/// A square matrix by what it does. **Collective**, all of it; an error must be one on all ranks.
+pub trait Operator {
+    /// `y = A x`.
+    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
+
+    /// `r = b - A x`.
+    fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()>;
+
+    /// One symmetric Gauss-Seidel sweep over the unknowns of this rank, those of other ranks being fixed; from `x`, or from
+    /// zero whatever `x` holds.
+    fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()>;
+
+    /// The diagonal.
+    fn diagonal(&self, diagonal: &mut Vector) -> Result<()>;
+
+    /// Largest sum of magnitudes in a row.
+    fn norm_infinity(&self) -> Result<f64>;
+}
+
+/// A matrix from one space to another by what it does. **Collective**, all of it; an error must be one on all ranks.
+pub trait Transfer {
+    /// `y = A x`.
+    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
+
+    /// `y += A x`.
+    fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()>;
+
+    /// `y = Aᵀ x`.
+    fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()>;
+}
+
+/// What PETSc keeps of a shell.
+struct Context<T: ?Sized> {
+    action: Box<T>,
+    session: Session,
+}
+
+type Square = dyn Operator;
+type Rectangular = dyn Transfer;
+type Code = ffi::PetscErrorCode;
 
 impl Matrix {
-    /// A matrix with `rows` × `columns` on this rank whose product with a vector is `action`. An error on one rank
-    /// is an error on all; a panic ends all ranks like any other. **Collective**
-    pub fn shell(session: &Session, rows: usize, columns: usize, action: Action) -> Result<Self> {
+    /// A square matrix with `rows` rows and columns on this rank. **Collective**
+    pub fn operator(session: &Session, rows: usize, action: Box<dyn Operator>) -> Result<Self> {
+        let matrix = Self::shell(session, rows, rows, action)?;
+        let set = |operation, function| petsc!(MatShellSetOperation(matrix.raw(), operation, Some(function)));
+        // PETSc stores every operation as a function without arguments and calls it as what it is.
+        unsafe {
+            set(ffi::MatOperation::MATOP_MULT, mem::transmute::<Two, Plain>(operator::multiply))?;
+            set(ffi::MatOperation::MATOP_RESIDUAL, mem::transmute::<Three, Plain>(operator::residual))?;
+            set(ffi::MatOperation::MATOP_SOR, mem::transmute::<Sweep, Plain>(operator::relax))?;
+            set(ffi::MatOperation::MATOP_GET_DIAGONAL, mem::transmute::<One, Plain>(operator::diagonal))?;
+            set(ffi::MatOperation::MATOP_NORM, mem::transmute::<Norm, Plain>(operator::norm))?;
+        }
+        Ok(matrix)
+    }
+
+    /// A matrix with `rows` × `columns` on this rank. **Collective**
+    pub fn transfer(session: &Session, rows: usize, columns: usize, action: Box<dyn Transfer>) -> Result<Self> {
+        let matrix = Self::shell(session, rows, columns, action)?;
+        let set = |operation, function| petsc!(MatShellSetOperation(matrix.raw(), operation, Some(function)));
+        unsafe {
+            set(ffi::MatOperation::MATOP_MULT, mem::transmute::<Two, Plain>(transfer::multiply))?;
+            set(ffi::MatOperation::MATOP_MULT_ADD, mem::transmute::<Three, Plain>(transfer::multiply_add))?;
+            set(ffi::MatOperation::MATOP_MULT_TRANSPOSE, mem::transmute::<Two, Plain>(transfer::multiply_transpose))?;
+        }
+        Ok(matrix)
+    }
+
+    fn shell<T: ?Sized>(session: &Session, rows: usize, columns: usize, action: Box<T>) -> Result<Self> {
         let any = ffi::mezha_determine;
-        let context = Box::into_raw(Box::new(action));
+        let context = Box::into_raw(Box::new(Context { action, session: session.clone() }));
         let mut raw = ptr::null_mut();
         petsc!(MatCreateShell(session.raw(), length(rows), length(columns), any, any, context.cast(), &mut raw))?;
         let matrix = Self::from_raw(session, raw);
-        petsc!(MatShellSetContextDestroy(raw, Some(drop_action)))?;
-        // PETSc stores every operation as a function without arguments and calls it as what it is.
-        let multiply: unsafe extern "C" fn() = unsafe { mem::transmute(multiply as Multiply) };
-        petsc!(MatShellSetOperation(raw, ffi::MatOperation::MATOP_MULT, Some(multiply)))?;
+        petsc!(MatShellSetContextDestroy(raw, Some(drop_context::<T>)))?;
         Ok(matrix)
     }
 }
 
-type Multiply = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> ffi::PetscErrorCode;
+type Plain = unsafe extern "C" fn();
+type One = unsafe extern "C" fn(ffi::Mat, ffi::Vec) -> Code;
+type Two = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> Code;
+type Three = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec, ffi::Vec) -> Code;
+type Norm = unsafe extern "C" fn(ffi::Mat, ffi::NormType, *mut f64) -> Code;
+type Sweep = unsafe extern "C" fn(ffi::Mat, ffi::Vec, f64, ffi::MatSORType, f64, i32, i32, ffi::Vec) -> Code;
 
-/// `y = A x` as PETSc calls it. No panic crosses into C, even where the hook that ends all ranks has been replaced.
-unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> ffi::PetscErrorCode {
-    let outcome =
-        catch_unwind(AssertUnwindSafe(|| apply(matrix, x, y))).unwrap_or_else(|_| Err("panic in the action of a shell".into()));
-    let mut failed = 0_i32;
-    SimpleCommunicator::world().all_reduce_into(&i32::from(outcome.is_err()), &mut failed, SystemOperation::max());
-    if failed == 0 {
-        return 0;
-    }
-    let message = outcome.err().unwrap_or_else(|| "another rank failed in the action of a shell".into());
+/// Runs an action on the context of a shell. No panic crosses into C, even where the hook that ends all ranks is replaced.
+fn act<T: ?Sized>(matrix: ffi::Mat, action: impl FnOnce(&T, &Session) -> Result<()>) -> Code {
+    let outcome = catch_unwind(AssertUnwindSafe(|| {
+        let mut context = ptr::null_mut::<c_void>();
+        petsc!(MatShellGetContext(matrix, ptr::from_mut(&mut context).cast()))?;
+        let context = unsafe { &*context.cast::<Context<T>>() };
+        action(&context.action, &context.session)
+    }));
+    let message = match outcome {
+        Ok(Ok(())) => return 0,
+        Ok(Err(error)) => error.to_string(),
+        Err(_) => "panic in the action of a shell".into(),
+    };
     let message = CString::new(message.replace('\0', " ")).expect("no zero byte is left");
     unsafe { ffi::mezha_callback_error(message.as_ptr()) }
 }
 
-fn apply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> std::result::Result<(), String> {
-    let arrays = || -> Result<_> {
-        let mut context = ptr::null_mut::<c_void>();
-        petsc!(MatShellGetContext(matrix, ptr::from_mut(&mut context).cast()))?;
-        Ok((context.cast::<Action>(), Values::of(x)?, ValuesMut::of(y)?))
-    };
-    let (action, x, mut y) = arrays().map_err(|error| error.to_string())?;
-    let action = unsafe { &*action };
-    action(&x, &mut y)
+/// Drops the action with the matrix.
+unsafe extern "C" fn drop_context<T: ?Sized>(context: *mut c_void) -> Code {
+    drop(unsafe { Box::from_raw(context.cast::<Context<T>>()) });
+    0
 }
 
-/// Drops the action with the matrix.
-unsafe extern "C" fn drop_action(context: *mut c_void) -> ffi::PetscErrorCode {
-    drop(unsafe { Box::from_raw(context.cast::<Action>()) });
-    0
+/// [`Operator`] as PETSc calls it.
+mod operator {
+    use super::*;
+
+    pub unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
+        act(matrix, |action: &Square, session| action.multiply(&Lent::new(session, x), &mut Lent::new(session, y)))
+    }
+
+    pub unsafe extern "C" fn residual(matrix: ffi::Mat, b: ffi::Vec, x: ffi::Vec, r: ffi::Vec) -> Code {
+        act(matrix, |action: &Square, session| {
+            action.residual(&Lent::new(session, b), &Lent::new(session, x), &mut Lent::new(session, r))
+        })
+    }
+
+    pub unsafe extern "C" fn relax(
+        matrix: ffi::Mat,
+        b: ffi::Vec,
+        _factor: f64,
+        kind: ffi::MatSORType,
+        _shift: f64,
+        sweeps: i32,
+        local_sweeps: i32,
+        x: ffi::Vec,
+    ) -> Code {
+        let zero = kind.0 & ffi::MatSORType::SOR_ZERO_INITIAL_GUESS.0 != 0;
+        act(matrix, |action: &Square, session| {
+            let (b, mut x) = (Lent::new(session, b), Lent::new(session, x));
+            (0..sweeps * local_sweeps).try_for_each(|sweep| action.relax(&b, &mut x, zero && sweep == 0))
+        })
+    }
+
+    pub unsafe extern "C" fn diagonal(matrix: ffi::Mat, diagonal: ffi::Vec) -> Code {
+        act(matrix, |action: &Square, session| action.diagonal(&mut Lent::new(session, diagonal)))
+    }
+
+    pub unsafe extern "C" fn norm(matrix: ffi::Mat, kind: ffi::NormType, norm: *mut f64) -> Code {
+        act(matrix, |action: &Square, _| {
+            assert_eq!(kind, ffi::NormType::NORM_INFINITY, "the one norm that shells have");
+            unsafe { *norm = action.norm_infinity()? };
+            Ok(())
+        })
+    }
+}
+
+/// [`Transfer`] as PETSc calls it.
+mod transfer {
+    use super::*;
+
+    pub unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
+        act(matrix, |action: &Rectangular, session| action.multiply(&Lent::new(session, x), &mut Lent::new(session, y)))
+    }
+
+    pub unsafe extern "C" fn multiply_add(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec, sum: ffi::Vec) -> Code {
+        act(matrix, |action: &Rectangular, session| {
+            let mut target = Lent::new(session, sum);
+            if y != sum {
+                target.copy_from(&Lent::new(session, y))?;
+            }
+            action.multiply_add(&Lent::new(session, x), &mut target)
+        })
+    }
+
+    pub unsafe extern "C" fn multiply_transpose(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
+        act(matrix, |action: &Rectangular, session| action.multiply_transpose(&Lent::new(session, x), &mut Lent::new(session, y)))
+    }
 }

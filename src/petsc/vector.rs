@@ -141,6 +141,36 @@ impl Drop for Vector {
     }
 }
 
+/// A vector that PETSc lends for the length of a call.
+pub(super) struct Lent(Vector);
+
+impl Lent {
+    /// Takes no reference and gives none back.
+    pub(super) fn new(session: &Session, raw: ffi::Vec) -> Self {
+        Self(Vector { raw, session: session.clone() })
+    }
+}
+
+impl Drop for Lent {
+    /// What is destroyed next is nothing.
+    fn drop(&mut self) {
+        self.0.raw = ptr::null_mut();
+    }
+}
+
+impl Deref for Lent {
+    type Target = Vector;
+    fn deref(&self) -> &Vector {
+        &self.0
+    }
+}
+
+impl DerefMut for Lent {
+    fn deref_mut(&mut self) -> &mut Vector {
+        &mut self.0
+    }
+}
+
 /// A length as PETSc counts.
 ///
 /// # Panics

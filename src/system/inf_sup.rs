@@ -41,8 +41,9 @@ pub fn inf_sup(
     }
     let krylov = Krylov::new(session, "inf_sup_")?;
     krylov.keep_eigenvalues()?;
-    krylov.set_operators(&system.nest, &system.nest)?;
-    let [u, lambda] = system.nest.nest_index_sets()?;
+    let nest = system.stored_nest(session)?;
+    krylov.set_operators(&nest, &nest)?;
+    let [u, lambda] = nest.nest_index_sets()?;
     krylov.preconditioner().field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
     krylov.set_from_options()?;
     krylov.set_tolerance(TOLERANCE, MOST_ITERATIONS)?;

@@ -13,8 +13,8 @@
 
 use super::contact::weights;
 use super::multiplier_blocks::MultiplierBlocks;
-use super::stiffness_matrix::ContactNeighbours;
-use super::{CouplingRows, Discretisation, Elastic, Space, SystemError};
+use super::stiffness::{ContactNeighbours, Elastic, Stiffness};
+use super::{CouplingRows, Discretisation, Space, SystemError};
 use crate::contact::{DiagonalBlock, SparseRows, jump_matrix};
 use crate::petsc::{Matrix, Session, Vector};
 
@@ -30,7 +30,7 @@ pub enum Form {
 /// The blocks, their levels, and the right-hand side.
 pub struct SaddlePoint {
     /// `K + Bᵀ D B` on every level, coarsest first; only the finest in the plain form.
-    pub stiffness: Vec<Matrix>,
+    pub stiffness: Vec<Stiffness>,
     /// The blocks with a multiplier side.
     pub multipliers: MultiplierBlocks,
     /// All four blocks.
@@ -67,14 +67,14 @@ impl SaddlePoint {
     fn with(
         problem: &Discretisation,
         rows: Vec<CouplingRows>,
-        stiffness: Vec<Matrix>,
+        stiffness: Vec<Stiffness>,
         load: Vec<f64>,
         form: Form,
         session: &Session,
     ) -> Result<Self, SystemError> {
         let blocks = MultiplierBlocks::new(problem, &rows[rows.len() - 1], session)?;
         let finest = &stiffness[stiffness.len() - 1];
-        let nest = Matrix::nest(session, [[finest, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?;
+        let nest = Matrix::nest(session, [[finest.operator(), &blocks.transpose], [&blocks.coupling, &blocks.corner]])?;
         let gap = moved_gap(problem);
         let mut system =
             Self { stiffness, multipliers: blocks, nest, gap, weights: Vec::new(), jumps: Vec::new(), rows, form, load };
@@ -106,13 +106,25 @@ impl SaddlePoint {
             let mut result = Ok(());
             rows.weighted_square(&change, |a, b, values| {
                 if space.own.contains(&a) && result.is_ok() {
-                    result = matrix.add_blocks(&[a as i32], &[b as i32], &values);
+                    result = matrix.add_block(a, b, &values);
                 }
             });
             result?;
             matrix.assemble()?;
         }
         Ok(())
+    }
+
+    /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it. **Collective**
+    pub fn stored_nest(&self, session: &Session) -> Result<Matrix, SystemError> {
+        let Some(stiffness) = self.finest_stiffness().expanded(session)? else { return Ok(self.nest.clone()) };
+        let blocks = &self.multipliers;
+        Ok(Matrix::nest(session, [[&stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?)
+    }
+
+    /// `K + Bᵀ D B` on the finest level.
+    pub fn finest_stiffness(&self) -> &Stiffness {
+        &self.stiffness[self.stiffness.len() - 1]
     }
 
     /// `C λ` (length squared).

@@ -89,14 +89,15 @@ impl LinearSolver {
         session: &Session,
     ) -> Result<Self, SystemError> {
         let multigrid = !interpolations.is_empty();
-        let coarse = CoarseSolver::of(system.stiffness[0].size().0, system.stiffness.len(), session.size());
+        let coarse = CoarseSolver::of(system.stiffness[0].operator().size().0, system.stiffness.len(), session.size());
         let lambda = lambda_options(system.multipliers.pattern, session.size());
         for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options(multigrid)).chain(rung_options(rung)) {
             options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
-        krylov.set_operators(&system.nest, &system.nest)?;
-        let [u, lambda] = system.nest.nest_index_sets()?;
+        let nest = if rung == Rung::Factor { system.stored_nest(session)? } else { system.nest.clone() };
+        krylov.set_operators(&nest, &nest)?;
+        let [u, lambda] = nest.nest_index_sets()?;
         let preconditioner = krylov.preconditioner();
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
         krylov.set_from_options()?;
@@ -105,7 +106,7 @@ impl LinearSolver {
             let solvers = preconditioner.field_split_solvers()?;
             let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
             let levels: Vec<Level> =
-                system.stiffness.iter().zip(steps).map(|(operator, interpolation)| Level { operator, interpolation }).collect();
+                system.stiffness.iter().zip(steps).map(|(k, interpolation)| Level { operator: k.operator(), interpolation }).collect();
             options::clear(session, "-fieldsplit_u_pc_type")?;
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;
@@ -156,7 +157,8 @@ impl LinearSolver {
             self.krylov.set_operators(&converted, &converted)?;
             self.converted = Some(converted);
         } else {
-            self.krylov.set_operators(&system.nest, &system.nest)?;
+            let nest = if self.rung == Rung::Factor { system.stored_nest(&self.session)? } else { system.nest.clone() };
+            self.krylov.set_operators(&nest, &nest)?;
         }
         Ok(())
     }
@@ -237,7 +239,7 @@ impl LinearSolver {
         if self.form == Form::Plain {
             return Ok(false);
         }
-        let unknowns = system.stiffness[system.stiffness.len() - 1].size().0;
+        let unknowns = system.finest_stiffness().operator().size().0;
         let Some(rung) = self.rung.above(needed, self.is_multigrid(), unknowns) else { return Ok(false) };
         *self = Self::field_split(system, std::mem::take(&mut self.interpolations), rung, &self.session)?;
         solve.climbed = Some(self.name.clone());
@@ -267,7 +269,7 @@ impl LinearSolver {
 
     /// Size that rounding alone can give the relative residual: `10 ε |K| |x| / |b|`.
     fn rounding(&self, system: &SaddlePoint, x: &Vector, norm: f64) -> Result<f64, SystemError> {
-        let stiffness = system.stiffness[system.stiffness.len() - 1].norm_infinity()?;
+        let stiffness = system.finest_stiffness().operator().norm_infinity()?;
         Ok(10.0 * f64::EPSILON * stiffness * x.norm()? / norm)
     }
 }

@@ -1,15 +1,17 @@
 //! The bodies without contact: what no contact boundary and no active set changes.
 
-use super::stiffness_matrix::{ContactNeighbours, contact_room, fill_stiffness, prepare_stiffness};
-use super::{Discretisation, Form, Space, SystemError};
+use super::assembly::Assembly;
+use super::{ContactNeighbours, Stiffness};
 use crate::geometry::Point;
-use crate::petsc::{Matrix, Session, Vector};
+use crate::petsc::{Session, Vector};
+use crate::system::{Discretisation, Form, Space, SystemError};
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// Stiffness and load of the bodies.
 pub struct Elastic {
     /// `K` on every level, coarsest first; only the finest in the plain form.
-    pub stiffness: Vec<Matrix>,
+    pub stiffness: Vec<Stiffness>,
     /// Nodal forces of this rank's unknowns, those of prescribed displacements included, in the nodes' frames.
     pub load: Vec<f64>,
 }
@@ -28,14 +30,19 @@ impl Elastic {
         let mut lifted = HashMap::new();
         let mut stiffness = Vec::new();
         for (l, space) in problem.spaces.iter().enumerate().skip(first_level(problem, form)) {
-            let mut matrix = prepare_stiffness(&problem.scene, space, &neighbours[l], session)?;
+            let assembly = match form {
+                Form::Augmented => Assembly::with_strips(&problem.scene, space, session),
+                Form::Plain => Assembly::stored(&problem.scene, space),
+            };
+            let mut stored = assembly.prepare(&neighbours[l], session)?;
             let last = l + 1 == problem.spaces.len();
-            fill_stiffness(&mut matrix, &problem.scene, space, &neighbours[l], session, |node, force| {
+            let strips = assembly.fill(&mut stored, &neighbours[l], session, |node, force| {
                 if last {
                     *lifted.entry(node).or_insert(Point::zeros()) += force;
                 }
             })?;
-            stiffness.push(matrix);
+            let strips = assembly.has_strips().then(|| Rc::new(strips));
+            stiffness.push(Stiffness::new(stored, strips.as_ref(), space, session)?);
         }
         subtract(&mut load, &lifted, problem.finest(), session)?;
         Ok(Self { stiffness, load })
@@ -53,16 +60,9 @@ impl Elastic {
         form: Form,
         neighbours: &[ContactNeighbours],
         session: &Session,
-    ) -> Result<Vec<Matrix>, SystemError> {
-        let first = first_level(problem, form);
-        let levels = problem.spaces.iter().zip(neighbours).skip(first).zip(&self.stiffness);
-        levels
-            .map(|((space, neighbours), stiffness)| {
-                let mut sum = stiffness.sum(&contact_room(space, neighbours, session)?)?;
-                sum.set_positive_definite(true)?;
-                Ok(sum)
-            })
-            .collect()
+    ) -> Result<Vec<Stiffness>, SystemError> {
+        let levels = problem.spaces.iter().zip(neighbours).skip(first_level(problem, form)).zip(&self.stiffness);
+        levels.map(|((space, neighbours), stiffness)| stiffness.with_room(space, neighbours, session)).collect()
     }
 }
 

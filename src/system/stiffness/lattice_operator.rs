@@ -1,0 +1,140 @@
+//! The stiffness of a level with most of its rows as strips: what PETSc's solvers see of it.
+
+use super::stored_rows::{StoredRows, far_columns};
+use super::strips::{Pair, Place, Stencil};
+use crate::element::Block;
+use crate::petsc::{Gather, Matrix, Operator, Result, Session, Vector};
+use std::cell::{Cell, RefCell};
+use std::ops::Range;
+use std::rc::Rc;
+
+/// Strips of this rank, with what they have in common.
+#[derive(Default)]
+pub struct Strips {
+    /// Couplings; few strips have their own.
+    pub stencils: Vec<Stencil>,
+    /// Where a strip lies, and which stencil it has.
+    pub places: Vec<(Place, usize)>,
+}
+
+/// Stored rows and strips together.
+pub struct LatticeOperator {
+    own: Range<usize>,
+    strips: Rc<Strips>,
+    stored: Matrix,
+    rows: RefCell<StoredRows>,
+    /// Columns of other ranks, and what fetches their values.
+    far: Vec<usize>,
+    gather: Option<Gather>,
+}
+
+impl LatticeOperator {
+    /// From the stored rows, assembled: those of nodes in strips are empty. **Collective**
+    pub fn new(stored: &Matrix, own: &Range<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
+        let mut in_strip = vec![false; own.len()];
+        strips.places.iter().for_each(|(place, _)| in_strip[place.first..][..place.count].fill(true));
+        let nodes: Vec<u32> = (0..own.len()).filter(|&node| !in_strip[node]).map(|node| node as u32).collect();
+        let far = far_columns(stored, own, &nodes)?;
+        let gather = match session.size() {
+            1 => None,
+            _ => {
+                let wanted: Vec<i32> = far.iter().flat_map(|&node| [2 * node as i32, 2 * node as i32 + 1]).collect();
+                Some(Gather::new(&stored.create_vectors()?.0, &wanted)?)
+            }
+        };
+        let rows = RefCell::new(StoredRows::read(stored, own, &nodes, &far)?);
+        Ok(Self { own: own.clone(), strips: strips.clone(), stored: stored.clone(), rows, far, gather })
+    }
+
+    /// Reads the stored rows again, after their values have changed.
+    pub fn refresh(&self) -> Result<()> {
+        let nodes = self.rows.borrow().nodes().to_vec();
+        *self.rows.borrow_mut() = StoredRows::read(&self.stored, &self.own, &nodes, &self.far)?;
+        Ok(())
+    }
+
+    /// The nodes whose rows are stored.
+    pub fn stored_nodes(&self) -> Vec<u32> {
+        self.rows.borrow().nodes().to_vec()
+    }
+
+    /// The strips.
+    pub fn strips(&self) -> &Rc<Strips> {
+        &self.strips
+    }
+
+    /// Shows the rows of all nodes in strips: couplings as distances in node numbers.
+    pub fn each_row(&self, mut show: impl FnMut(usize, &[(isize, Block)])) {
+        for (place, stencil) in self.each_strip() {
+            let kinds = stencil.couplings(place);
+            (0..place.count).for_each(|k| show(place.first + k, &kinds[k % 2]));
+        }
+    }
+
+    fn each_strip(&self) -> impl DoubleEndedIterator<Item = (Place, &Stencil)> {
+        self.strips.places.iter().map(|&(place, stencil)| (place, &self.strips.stencils[stencil]))
+    }
+
+    /// Calls `with` with the values of other ranks' nodes that the stored rows want. **Collective**
+    fn with_far<T>(&self, x: &Vector, with: impl FnOnce(&[Pair]) -> T) -> Result<T> {
+        Ok(match &self.gather {
+            Some(gather) => with(gather.read(x)?.as_chunks().0),
+            None => with(&[]),
+        })
+    }
+}
+
+impl Operator for Rc<LatticeOperator> {
+    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        self.with_far(x, |far| {
+            let (x, mut y) = (x.values(), y.values_mut());
+            let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
+            self.rows.borrow().multiply(x, far, y);
+            self.each_strip().for_each(|(place, stencil)| stencil.multiply(place, x, y));
+        })
+    }
+
+    fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()> {
+        self.with_far(x, |far| {
+            let (b, x, mut r) = (b.values(), x.values(), r.values_mut());
+            let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
+            self.rows.borrow().residual(b, x, far, r);
+            self.each_strip().for_each(|(place, stencil)| stencil.residual(place, b, x, r));
+        })
+    }
+
+    fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()> {
+        let sweep = |far: &[Pair], b: &Vector, x: &mut Vector| {
+            let (b, mut x) = (b.values(), x.values_mut());
+            let (b, x) = (b.as_chunks().0, Cell::from_mut(x.as_chunks_mut().0).as_slice_of_cells());
+            let rows = self.rows.borrow();
+            rows.forward(b, x, far);
+            self.each_strip().for_each(|(place, stencil)| stencil.forward(place, b, x));
+            self.each_strip().rev().for_each(|(place, stencil)| stencil.backward(place, b, x));
+            rows.backward(b, x, far);
+        };
+        if from_zero {
+            x.set(0.0)?;
+            sweep(&[], b, x);
+            return Ok(());
+        }
+        match &self.gather {
+            Some(gather) => sweep(gather.read(x)?.as_chunks().0, b, x),
+            None => sweep(&[], b, x),
+        }
+        Ok(())
+    }
+
+    fn diagonal(&self, diagonal: &mut Vector) -> Result<()> {
+        self.stored.diagonal(diagonal)?;
+        let mut values = diagonal.values_mut();
+        let pairs = values.as_chunks_mut::<2>().0;
+        self.each_row(|node, couplings| pairs[node] = [couplings[0].1[0][0], couplings[0].1[1][1]]);
+        Ok(())
+    }
+
+    fn norm_infinity(&self) -> Result<f64> {
+        let stored = self.stored.norm_infinity()?;
+        Ok(self.strips.stencils.iter().map(Stencil::norm_infinity).fold(stored, f64::max))
+    }
+}

@@ -1,0 +1,146 @@
+//! The rows of a stiffness that are stored, as blocks of two by two.
+
+use super::strips::{Pair, inverse, subtract};
+use crate::element::Block;
+use crate::petsc::{Matrix, Result};
+use std::cell::Cell;
+use std::ops::Range;
+
+/// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
+/// their own.
+#[derive(Default)]
+pub struct StoredRows {
+    nodes: Vec<u32>,
+    /// Inverses of the diagonal blocks.
+    inverses: Vec<Block>,
+    near: Part,
+    far: Part,
+}
+
+/// One part of all rows: that of row `k` lies in `starts[k]..starts[k + 1]`.
+struct Part {
+    starts: Vec<u32>,
+    columns: Vec<u32>,
+    blocks: Vec<Block>,
+}
+
+impl Default for Part {
+    fn default() -> Self {
+        Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() }
+    }
+}
+
+impl Part {
+    #[inline(always)]
+    fn row(&self, k: usize) -> impl Iterator<Item = (usize, &Block)> {
+        let range = self.starts[k] as usize..self.starts[k + 1] as usize;
+        self.columns[range.clone()].iter().map(|&column| column as usize).zip(&self.blocks[range])
+    }
+
+    fn push(&mut self, column: usize, block: Block) {
+        self.columns.push(column as u32);
+        self.blocks.push(block);
+    }
+
+    fn end_row(&mut self) {
+        self.starts.push(self.columns.len() as u32);
+    }
+}
+
+/// Columns of other ranks in the rows of `nodes`, ascending.
+pub fn far_columns(matrix: &Matrix, own: &Range<usize>, nodes: &[u32]) -> Result<Vec<usize>> {
+    let mut found = Vec::new();
+    for &node in nodes {
+        matrix.row(2 * (own.start + node as usize), |columns, _| {
+            found.extend(columns.iter().step_by(2).map(|&c| c as usize / 2).filter(|column| !own.contains(column)));
+        })?;
+    }
+    found.sort_unstable();
+    found.dedup();
+    Ok(found)
+}
+
+impl StoredRows {
+    /// Reads the rows of `nodes`, which hold whole blocks, from an assembled matrix; `far` are the columns of other ranks.
+    ///
+    /// # Panics
+    /// If a diagonal block has no inverse: a stiffness has one.
+    pub fn read(matrix: &Matrix, own: &Range<usize>, nodes: &[u32], far: &[usize]) -> Result<Self> {
+        let mut rows = Self { nodes: nodes.to_vec(), ..Self::default() };
+        for &node in nodes {
+            let row = own.start + node as usize;
+            let mut blocks: Vec<(usize, Block)> = Vec::new();
+            let pairs = |values: &[f64]| values.chunks_exact(2).map(|v| [v[0], v[1]]).collect::<Vec<Pair>>();
+            matrix.row(2 * row, |columns, values| {
+                let columns = columns.iter().step_by(2).map(|&c| c as usize / 2);
+                blocks.extend(columns.zip(pairs(values)).map(|(column, upper)| (column, [upper, [0.0; 2]])));
+            })?;
+            matrix.row(2 * row + 1, |_, values| {
+                blocks.iter_mut().zip(pairs(values)).for_each(|((_, block), lower)| block[1] = lower);
+            })?;
+            for (column, block) in blocks {
+                if column == row {
+                    rows.inverses.push(inverse(&block).expect("a stiffness has a diagonal"));
+                }
+                match own.contains(&column) {
+                    true => rows.near.push(column - own.start, block),
+                    false => rows.far.push(far.binary_search(&column).expect("a known column"), block),
+                }
+            }
+            rows.near.end_row();
+            rows.far.end_row();
+        }
+        Ok(rows)
+    }
+
+    /// The nodes whose rows these are.
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    /// `y = K x` in these rows, `far` the values of the columns of other ranks.
+    pub fn multiply(&self, x: &[Pair], far: &[Pair], y: &mut [Pair]) {
+        self.each(x, far, |node, sum| y[node] = sum.map(|v| -v));
+    }
+
+    /// `r = b - K x` in these rows.
+    pub fn residual(&self, b: &[Pair], x: &[Pair], far: &[Pair], r: &mut [Pair]) {
+        self.each(x, far, |node, sum| r[node] = [b[node][0] + sum[0], b[node][1] + sum[1]]);
+    }
+
+    /// Shows `-K x` row by row.
+    fn each(&self, x: &[Pair], far: &[Pair], mut show: impl FnMut(usize, Pair)) {
+        for (k, &node) in self.nodes.iter().enumerate() {
+            let mut sum = [0.0; 2];
+            self.near.row(k).for_each(|(column, block)| subtract(&mut sum, block, x[column]));
+            self.far.row(k).for_each(|(column, block)| subtract(&mut sum, block, far[column]));
+            show(node as usize, sum);
+        }
+    }
+
+    /// Relaxes the nodes in their order, `far` staying as it is.
+    pub fn forward(&self, b: &[Pair], x: &[Cell<Pair>], far: &[Pair]) {
+        (0..self.nodes.len()).for_each(|k| self.relax(k, b, x, far));
+    }
+
+    /// The same in the opposite order.
+    pub fn backward(&self, b: &[Pair], x: &[Cell<Pair>], far: &[Pair]) {
+        (0..self.nodes.len()).rev().for_each(|k| self.relax(k, b, x, far));
+    }
+
+    #[inline(always)]
+    fn relax(&self, k: usize, b: &[Pair], x: &[Cell<Pair>], far: &[Pair]) {
+        let node = self.nodes[k] as usize;
+        let mut sum = b[node];
+        self.near.row(k).for_each(|(column, block)| subtract(&mut sum, block, x[column].get()));
+        if !far.is_empty() {
+            self.far.row(k).for_each(|(column, block)| subtract(&mut sum, block, far[column]));
+        }
+        let [u, v] = x[node].get();
+        let inverse = &self.inverses[k];
+        x[node].set([
+            u + inverse[0][0] * sum[0] + inverse[0][1] * sum[1],
+            v + inverse[1][0] * sum[0] + inverse[1][1] * sum[1],
+        ]);
+    }
+}

@@ -1,0 +1,303 @@
+//! The stiffness of strips: rows of a lattice inside a straight macro triangle, whose couplings repeat and are not stored.
+//!
+//! A P1 node has six neighbours, all of the same kind; a P2 row alternates between two kinds of nodes with 18 or 8. Node
+//! numbers of lattice rows are contiguous, so a neighbour lies at the same distance from each node of a strip.
+
+use crate::body::MacroStiffness;
+use crate::element::{Block, Order};
+use crate::mesh::Strip;
+use std::cell::Cell;
+
+/// Two components at a node.
+pub type Pair = [f64; 2];
+
+/// Couplings of the nodes of a strip.
+pub enum Stencil {
+    /// P1.
+    Linear(Kind<7>),
+    /// P2, an even row: corners of triangles and the midsides between them.
+    Corners(Kind<19>, Kind<9>),
+    /// P2, an odd row: midsides alone.
+    Midsides(Kind<9>, Kind<9>),
+}
+
+/// Couplings of one kind of node; the first is with itself.
+pub struct Kind<const N: usize> {
+    /// Steps `(di, dj)` in the lattice.
+    steps: [(i32, i32); N],
+    blocks: [Block; N],
+    /// The inverse of the first block.
+    inverse: Block,
+    /// That inverse times each of the others.
+    scaled: [Block; N],
+}
+
+/// Where a strip lies among the nodes of its rank.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Its first node.
+    pub first: usize,
+    /// How many.
+    pub count: usize,
+    /// Inner nodes of its lattice row: the way to the next row.
+    pub width: usize,
+}
+
+impl<const N: usize> Kind<N> {
+    /// From the couplings of one node; `None` if it has not `N` of them.
+    pub fn new(couplings: &[((i32, i32), Block)]) -> Option<Self> {
+        let mut couplings = couplings.to_vec();
+        // Behind come those that a forward sweep has just changed: the wait for them is hidden.
+        couplings.sort_by_key(|&((di, dj), _)| ((di, dj) != (0, 0), dj == 0 && di < 0, di));
+        let steps: [(i32, i32); N] = couplings.iter().map(|c| c.0).collect::<Vec<_>>().try_into().ok()?;
+        let blocks: [Block; N] = couplings.iter().map(|c| c.1).collect::<Vec<_>>().try_into().ok()?;
+        let inverse = inverse(&blocks[0])?;
+        Some(Self { steps, blocks, inverse, scaled: blocks.map(|block| product(&inverse, &block)) })
+    }
+
+    /// Distances to the neighbours in node numbers.
+    fn distances(&self, width: usize) -> [isize; N] {
+        let width = width as isize;
+        self.steps.map(|(di, dj)| {
+            let rows = match dj {
+                0 => 0,
+                1 => width,
+                2 => 2 * width - 1,
+                -1 => -(width + 1),
+                _ => -(2 * width + 3),
+            };
+            rows + di as isize
+        })
+    }
+
+    /// The couplings as [`Kind::new`] takes them.
+    fn couplings(&self) -> impl Iterator<Item = ((i32, i32), &Block)> {
+        self.steps.iter().copied().zip(&self.blocks)
+    }
+
+    fn largest_row(&self) -> f64 {
+        (0..2).map(|a| self.blocks.iter().map(|k| k[a][0].abs() + k[a][1].abs()).sum::<f64>()).fold(0.0, f64::max)
+    }
+}
+
+/// Couplings of lattice node `(i, j)` as steps.
+fn couplings(stiffness: &MacroStiffness, i: usize, j: usize) -> Vec<((i32, i32), Block)> {
+    stiffness.row(i, j).map(|((k, l), block)| ((k as i32 - i as i32, l as i32 - j as i32), *block)).collect()
+}
+
+/// Inverse of a block, if it has one.
+pub fn inverse(k: &Block) -> Option<Block> {
+    let determinant = k[0][0] * k[1][1] - k[0][1] * k[1][0];
+    let inverse = [[k[1][1], -k[0][1]], [-k[1][0], k[0][0]]].map(|row| row.map(|v| v / determinant));
+    inverse.iter().flatten().all(|v| v.is_finite()).then_some(inverse)
+}
+
+fn product(a: &Block, b: &Block) -> Block {
+    a.map(|row| [0, 1].map(|j| row[0] * b[0][j] + row[1] * b[1][j]))
+}
+
+/// `sum += k x`.
+#[inline(always)]
+fn add(sum: &mut Pair, k: &Block, x: Pair) {
+    sum[0] += k[0][0] * x[0] + k[0][1] * x[1];
+    sum[1] += k[1][0] * x[0] + k[1][1] * x[1];
+}
+
+/// `sum -= k x`.
+#[inline(always)]
+pub fn subtract(sum: &mut Pair, k: &Block, x: Pair) {
+    sum[0] -= k[0][0] * x[0] + k[0][1] * x[1];
+    sum[1] -= k[1][0] * x[0] + k[1][1] * x[1];
+}
+
+/// For each neighbour, the nodes that it runs through while the node runs through a strip.
+#[inline(always)]
+fn runs<const N: usize, T>(x: &[T], first: usize, count: usize, distances: [isize; N]) -> [&[T]; N] {
+    distances.map(|distance| &x[first.wrapping_add_signed(distance)..][..count])
+}
+
+impl Stencil {
+    /// Couplings of the nodes of a strip.
+    ///
+    /// # Panics
+    /// If a row has not the couplings of a strip: those of its macro triangle have.
+    pub fn of(stiffness: &MacroStiffness, order: Order, strip: &Strip) -> Self {
+        let [first, second] = [0, 1].map(|k| couplings(stiffness, strip.i.start + k, strip.j));
+        let made = match (order, strip.j % 2) {
+            (Order::P1, _) => Kind::new(&first).map(Self::Linear),
+            (Order::P2, 0) => Kind::new(&first).zip(Kind::new(&second)).map(|(even, odd)| Self::Corners(even, odd)),
+            (Order::P2, _) => Kind::new(&first).zip(Kind::new(&second)).map(|(even, odd)| Self::Midsides(even, odd)),
+        };
+        made.expect("the couplings of a strip")
+    }
+
+    /// Calls `with` for each kind of node, first the one at the beginning of a strip: its couplings, and the steps from one of
+    /// its nodes to the next.
+    fn each_kind(&self, with: &mut impl EachKind) {
+        match self {
+            Self::Linear(kind) => with.kind(kind, 0, 1),
+            Self::Corners(even, odd) => {
+                with.kind(even, 0, 2);
+                with.kind(odd, 1, 2);
+            }
+            Self::Midsides(even, odd) => {
+                with.kind(even, 0, 2);
+                with.kind(odd, 1, 2);
+            }
+        }
+    }
+
+    /// `y = K x` on a strip.
+    pub fn multiply(&self, place: Place, x: &[Pair], y: &mut [Pair]) {
+        self.each_kind(&mut Multiply { place, x, y: &mut y[place.first..][..place.count] });
+    }
+
+    /// `r = b - K x` on a strip.
+    pub fn residual(&self, place: Place, b: &[Pair], x: &[Pair], r: &mut [Pair]) {
+        let (b, r) = (&b[place.first..][..place.count], &mut r[place.first..][..place.count]);
+        self.each_kind(&mut Residual { place, b, x, r });
+    }
+
+    /// Relaxes the nodes of a strip one after the other.
+    pub fn forward(&self, place: Place, b: &[Pair], x: &[Cell<Pair>]) {
+        match self {
+            Self::Linear(kind) => one_kind(kind, place, b, x, 0..place.count),
+            Self::Corners(even, odd) => two_kinds(even, odd, place, b, x, 0..place.count),
+            Self::Midsides(even, odd) => two_kinds(even, odd, place, b, x, 0..place.count),
+        }
+    }
+
+    /// The same from the last to the first.
+    pub fn backward(&self, place: Place, b: &[Pair], x: &[Cell<Pair>]) {
+        match self {
+            Self::Linear(kind) => one_kind(kind, place, b, x, (0..place.count).rev()),
+            Self::Corners(even, odd) => two_kinds(even, odd, place, b, x, (0..place.count).rev()),
+            Self::Midsides(even, odd) => two_kinds(even, odd, place, b, x, (0..place.count).rev()),
+        }
+    }
+
+    /// Couplings of the nodes of a strip, as distances in node numbers: of every first and every second.
+    pub fn couplings(&self, place: Place) -> [Vec<(isize, Block)>; 2] {
+        let mut all = Couplings { width: place.width, kinds: Vec::new() };
+        self.each_kind(&mut all);
+        let second = all.kinds.get(1).unwrap_or(&all.kinds[0]).clone();
+        [all.kinds.swap_remove(0), second]
+    }
+
+    /// Largest sum of magnitudes in a row.
+    pub fn norm_infinity(&self) -> f64 {
+        let mut largest = LargestRow(0.0);
+        self.each_kind(&mut largest);
+        largest.0
+    }
+}
+
+trait EachKind {
+    fn kind<const N: usize>(&mut self, kind: &Kind<N>, start: usize, step: usize);
+}
+
+struct Multiply<'a> {
+    place: Place,
+    x: &'a [Pair],
+    y: &'a mut [Pair],
+}
+
+impl EachKind for Multiply<'_> {
+    fn kind<const N: usize>(&mut self, kind: &Kind<N>, start: usize, step: usize) {
+        let Place { first, count, width } = self.place;
+        let near = runs(self.x, first, count, kind.distances(width));
+        for k in (start..count).step_by(step) {
+            let mut sum = [0.0; 2];
+            for (near, block) in near.iter().zip(&kind.blocks) {
+                add(&mut sum, block, near[k]);
+            }
+            self.y[k] = sum;
+        }
+    }
+}
+
+struct Residual<'a> {
+    place: Place,
+    b: &'a [Pair],
+    x: &'a [Pair],
+    r: &'a mut [Pair],
+}
+
+impl EachKind for Residual<'_> {
+    fn kind<const N: usize>(&mut self, kind: &Kind<N>, start: usize, step: usize) {
+        let Place { first, count, width } = self.place;
+        let near = runs(self.x, first, count, kind.distances(width));
+        for k in (start..count).step_by(step) {
+            let mut sum = self.b[k];
+            for (near, block) in near.iter().zip(&kind.blocks) {
+                subtract(&mut sum, block, near[k]);
+            }
+            self.r[k] = sum;
+        }
+    }
+}
+
+/// Gauss-Seidel over nodes of one kind.
+#[inline(always)]
+fn one_kind<const N: usize>(
+    kind: &Kind<N>,
+    place: Place,
+    b: &[Pair],
+    x: &[Cell<Pair>],
+    order: impl Iterator<Item = usize>,
+) {
+    let b = &b[place.first..][..place.count];
+    let near = runs(x, place.first, place.count, kind.distances(place.width));
+    for k in order {
+        relax(kind, &near, b[k], k);
+    }
+}
+
+/// Gauss-Seidel over nodes of two kinds in turn.
+#[inline(always)]
+fn two_kinds<const N: usize, const M: usize>(
+    even: &Kind<N>,
+    odd: &Kind<M>,
+    place: Place,
+    b: &[Pair],
+    x: &[Cell<Pair>],
+    order: impl Iterator<Item = usize>,
+) {
+    let b = &b[place.first..][..place.count];
+    let near_even = runs(x, place.first, place.count, even.distances(place.width));
+    let near_odd = runs(x, place.first, place.count, odd.distances(place.width));
+    for k in order {
+        if k % 2 == 0 { relax(even, &near_even, b[k], k) } else { relax(odd, &near_odd, b[k], k) }
+    }
+}
+
+/// `x_k = D⁻¹ (b_k - (K - D) x)`.
+#[inline(always)]
+fn relax<const N: usize>(kind: &Kind<N>, near: &[&[Cell<Pair>]; N], b: Pair, k: usize) {
+    let mut sum = [0.0; 2];
+    add(&mut sum, &kind.inverse, b);
+    for m in 1..N {
+        subtract(&mut sum, &kind.scaled[m], near[m][k].get());
+    }
+    near[0][k].set(sum);
+}
+
+struct Couplings {
+    width: usize,
+    kinds: Vec<Vec<(isize, Block)>>,
+}
+
+impl EachKind for Couplings {
+    fn kind<const N: usize>(&mut self, kind: &Kind<N>, _: usize, _: usize) {
+        let distances = kind.distances(self.width);
+        self.kinds.push(distances.into_iter().zip(kind.couplings().map(|(_, block)| *block)).collect());
+    }
+}
+
+struct LargestRow(f64);
+
+impl EachKind for LargestRow {
+    fn kind<const N: usize>(&mut self, kind: &Kind<N>, _: usize, _: usize) {
+        self.0 = self.0.max(kind.largest_row());
+    }
+}
