@@ -1,6 +1,9 @@
-//! Interpolation of displacements from one level to the next finer one.
+//! Interpolation of displacements from one level to the next finer one: stored rows, and halved rows that need not be.
+
+mod halved_rows;
 
 use super::{Discretisation, Scene, Space, SystemError};
+use halved_rows::{HalvedRow, LatticeInterpolation, halved_rows};
 use crate::geometry::Point;
 use crate::mesh::lattice::{self, Place};
 use crate::petsc::{Matrix, Session};
@@ -18,7 +21,19 @@ const EVEN: [f64; 2] = [0.5; 2];
 /// weighted mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns of
 /// prescribed coarse ones are zero. **Collective**
 fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Matrix, SystemError> {
-    let rows = Rows::new(scene, fine, coarse, session);
+    let halved = halved_rows(scene, fine, coarse, session);
+    let count: usize = halved.iter().map(|row| row.count).sum();
+    if !session.any(2 * count > fine.own.len()) {
+        return stored_rows(scene, fine, coarse, false, session);
+    }
+    let stored = stored_rows(scene, fine, coarse, true, session)?;
+    let (rows, columns) = (fine.local_unknowns(), coarse.local_unknowns());
+    Ok(Matrix::transfer(session, rows, columns, Box::new(LatticeInterpolation::new(stored, halved)))?)
+}
+
+/// The rows that are stored: all, or those that are not `halved`. **Collective**
+fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, session: &Session) -> Result<Matrix, SystemError> {
+    let rows = Rows::new(scene, fine, coarse, halved, session);
     let mut diagonal = vec![0; fine.local_unknowns()];
     let mut off_diagonal = vec![0; fine.local_unknowns()];
     for (node, parents) in rows.iter() {
@@ -66,7 +81,7 @@ fn insert(matrix: &mut Matrix, fine: &Space, coarse: &Space, node: usize, parent
     Ok(())
 }
 
-/// Owned fine nodes with their coarse parents, each node once.
+/// Owned fine nodes with their coarse parents, each node once; without those in halved rows if there are such rows.
 struct Rows {
     nodes: Vec<[u32; 3]>,
     /// Weights of the parents, for the few nodes that are not in their middle.
@@ -74,14 +89,20 @@ struct Rows {
 }
 
 impl Rows {
-    fn new(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Self {
+    fn new(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, session: &Session) -> Self {
         let n = fine.numbering.level.intervals;
         let mut seen = vec![false; fine.own.len()];
-        let mut rows = Self { nodes: Vec::with_capacity(fine.own.len()), graded: HashMap::new() };
+        let mut rows = Self { nodes: Vec::new(), graded: HashMap::new() };
+        // Nodes of row j that stay out.
+        let left_out = |j: usize| if halved { HalvedRow::places(n, j) } else { 0..0 };
         for &triangle in scene.partition.triangles_of(session.rank()) {
             let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
             let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
-            for (i, j) in lattice::nodes(n) {
+            let rest = (0..=n).flat_map(|j| {
+                let out = left_out(j);
+                (0..out.start).chain(out.end..=n - j).map(move |i| (i, j))
+            });
+            for (i, j) in rest {
                 let node = numbers.node(i, j);
                 if !matches!(lattice::place(n, i, j), Place::Inside(_)) {
                     if !fine.own.contains(&node) || seen[node - fine.own.start] {
