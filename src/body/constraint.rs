@@ -66,6 +66,8 @@ struct Hold<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Constraints {
     nodes: HashMap<usize, Constraint>,
+    /// Whether nodes from 0 on are among them: most are not, and are asked for often.
+    among: Vec<bool>,
 }
 
 impl Constraints {
@@ -83,13 +85,16 @@ impl Constraints {
             }
         }
         let nodes = holds.into_iter().map(|(node, (x, holds))| Ok((node, combine(x, &holds)?)));
-        Ok(Self { nodes: nodes.collect::<Result<_, _>>()? })
+        let nodes: HashMap<usize, Constraint> = nodes.collect::<Result<_, _>>()?;
+        let mut among = vec![false; nodes.keys().max().map_or(0, |last| last + 1)];
+        nodes.keys().for_each(|&node| among[node] = true);
+        Ok(Self { nodes, among })
     }
 
     /// Constraint of a node.
     #[inline]
     pub fn get(&self, node: usize) -> Option<&Constraint> {
-        self.nodes.get(&node)
+        if self.among.get(node).is_some_and(|among| *among) { self.nodes.get(&node) } else { None }
     }
 
     /// All constrained nodes, in no order.

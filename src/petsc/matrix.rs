@@ -206,6 +206,11 @@ impl Matrix {
         Ok(information)
     }
 
+    /// Says that few rows will have entries: PETSc then looks for these, not for rows alike. Before it is filled.
+    pub fn expect_empty_rows(&mut self) -> Result<()> {
+        self.set_option(ffi::MatOption::MAT_USE_INODES, false)
+    }
+
     /// Tells solvers that the matrix is symmetric, or not.
     pub fn set_symmetric(&mut self, holds: bool) -> Result<()> {
         self.set_option(ffi::MatOption::MAT_SYMMETRIC, holds)

@@ -46,6 +46,9 @@ fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, sessio
         }
     }
     let mut matrix = Matrix::aij(session, fine.local_unknowns(), coarse.local_unknowns(), 1, &diagonal, &off_diagonal)?;
+    if halved {
+        matrix.expect_empty_rows()?;
+    }
     for (node, [a, b]) in rows.iter() {
         if a == b {
             insert(&mut matrix, fine, coarse, node, a, 1.0)?;

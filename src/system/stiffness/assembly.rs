@@ -61,6 +61,9 @@ impl<'a> Assembly<'a> {
         let (diagonal, off_diagonal) = counts.finish();
         let mut matrix = Matrix::aij(session, space.local_unknowns(), space.local_unknowns(), 2, &diagonal, &off_diagonal)?;
         matrix.set_positive_definite(true)?;
+        if self.has_strips {
+            matrix.expect_empty_rows()?;
+        }
         Ok(matrix)
     }
 

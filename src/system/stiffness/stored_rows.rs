@@ -31,10 +31,20 @@ impl Default for Part {
 }
 
 impl Part {
+    /// `sum - Σ K x` of a row, in two parts that do not wait for each other.
     #[inline(always)]
-    fn row(&self, k: usize) -> impl Iterator<Item = (usize, &Block)> {
+    fn subtract(&self, k: usize, sum: Pair, x: impl Fn(usize) -> Pair) -> Pair {
         let range = self.starts[k] as usize..self.starts[k + 1] as usize;
-        self.columns[range.clone()].iter().map(|&column| column as usize).zip(&self.blocks[range])
+        let (columns, blocks) = (self.columns[range.clone()].as_chunks::<2>(), self.blocks[range].as_chunks::<2>());
+        let (mut sum, mut other) = (sum, [0.0; 2]);
+        for (columns, blocks) in columns.0.iter().zip(blocks.0) {
+            subtract(&mut sum, &blocks[0], x(columns[0] as usize));
+            subtract(&mut other, &blocks[1], x(columns[1] as usize));
+        }
+        if let ([column], [block]) = (columns.1, blocks.1) {
+            subtract(&mut sum, block, x(*column as usize));
+        }
+        [sum[0] + other[0], sum[1] + other[1]]
     }
 
     fn push(&mut self, column: usize, block: Block) {
@@ -111,10 +121,8 @@ impl StoredRows {
     /// Shows `-K x` row by row.
     fn each(&self, x: &[Pair], far: &[Pair], mut show: impl FnMut(usize, Pair)) {
         for (k, &node) in self.nodes.iter().enumerate() {
-            let mut sum = [0.0; 2];
-            self.near.row(k).for_each(|(column, block)| subtract(&mut sum, block, x[column]));
-            self.far.row(k).for_each(|(column, block)| subtract(&mut sum, block, far[column]));
-            show(node as usize, sum);
+            let sum = self.near.subtract(k, [0.0; 2], |column| x[column]);
+            show(node as usize, self.far.subtract(k, sum, |column| far[column]));
         }
     }
 
@@ -131,10 +139,9 @@ impl StoredRows {
     #[inline(always)]
     fn relax(&self, k: usize, b: &[Pair], x: &[Cell<Pair>], far: &[Pair]) {
         let node = self.nodes[k] as usize;
-        let mut sum = b[node];
-        self.near.row(k).for_each(|(column, block)| subtract(&mut sum, block, x[column].get()));
+        let mut sum = self.near.subtract(k, b[node], |column| x[column].get());
         if !far.is_empty() {
-            self.far.row(k).for_each(|(column, block)| subtract(&mut sum, block, far[column]));
+            sum = self.far.subtract(k, sum, |column| far[column]);
         }
         let [u, v] = x[node].get();
         let inverse = &self.inverses[k];
