@@ -105,8 +105,12 @@ impl LinearSolver {
         if multigrid && rung != Rung::Factor {
             let solvers = preconditioner.field_split_solvers()?;
             let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
-            let levels: Vec<Level> =
-                system.stiffness.iter().zip(steps).map(|(k, interpolation)| Level { operator: k.operator(), interpolation }).collect();
+            let levels: Vec<Level> = system
+                .stiffness
+                .iter()
+                .zip(steps)
+                .map(|(k, interpolation)| Level { operator: k.operator(), interpolation })
+                .collect();
             options::clear(session, "-fieldsplit_u_pc_type")?;
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;

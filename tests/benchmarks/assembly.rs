@@ -1,17 +1,15 @@
-//! Assembly of the stiffness at a million unknowns: preparation, first fill, refill, and memory.
+//! Stiffness of all levels at a million unknowns: seconds and memory, with all rows stored and with strips.
 //!
-//! `cargo bench --bench assembly --no-run` names the program; `mpirun -n 2 PROGRAM [P1] [P2]` runs it. Prints one line
-//! per element order: seconds of the slowest rank (median of five refills) and the growth of resident memory over all
-//! ranks, which counts for the first one only: the second finds the first's memory free.
+//! `cargo bench --bench assembly --no-run` names the program; `mpirun -n 2 PROGRAM [P1] [P2]` runs it. Prints one line for
+//! each element order and form: seconds of the slowest rank (median of five) and the growth of resident memory over all
+//! ranks, which counts for the first one only: the others find the first's memory free.
 
-use mezha::body::{Body, Material};
+#[path = "../support/bars.rs"]
+mod bars;
+
 use mezha::element::Order;
-use mezha::geometry::Formula;
-use mezha::mesh::{Graph, Partition, read_gmsh};
-use mezha::petsc::{Session, partition};
-use mezha::system::{Scene, fill_stiffness, prepare_stiffness, spaces};
-use std::path::Path;
-use std::rc::Rc;
+use mezha::petsc::Session;
+use mezha::system::{Discretisation, Elastic, Form, spaces};
 use std::time::Instant;
 
 fn main() {
@@ -19,64 +17,33 @@ fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|word| word.starts_with('P')).collect();
     for (order, refine) in [(Order::P1, 7), (Order::P2, 6)] {
         if wanted.is_empty() || wanted.contains(&format!("{order:?}")) {
-            measure(&session, order, refine);
+            let scene = bars::scene(&session, order, refine, false);
+            let spaces = spaces(&scene, session.rank()).expect("supports agree");
+            let problem = Discretisation::new(scene, spaces, &session).expect("a discretisation");
+            measure(&session, &problem, Form::Augmented, &format!("{order:?}, all levels, strips"));
+            measure(&session, &problem, Form::Plain, &format!("{order:?}, finest level, stored"));
         }
     }
 }
 
-fn measure(session: &Session, order: Order, refine: usize) {
-    let scene = scene(session, order, refine);
-    let spaces = spaces(&scene, session.rank()).expect("supports agree");
-    let space = &spaces[spaces.len() - 1];
+fn measure(session: &Session, problem: &Discretisation, form: Form, words: &str) {
     let before = resident(session);
-    let none = Default::default();
-    let (mut matrix, prepare) =
-        timed(session, || prepare_stiffness(&scene, space, &none, session).expect("room for the stiffness"));
-    let ((), fill) = timed(session, || fill_stiffness(&mut matrix, &scene, space, &none, session, |_, _| {}).expect("filled"));
-    let memory = resident(session) - before;
-    let mut refills: Vec<f64> = (0..5)
-        .map(|_| {
-            timed(session, || {
-                matrix.zero_entries().expect("zeros");
-                fill_stiffness(&mut matrix, &scene, space, &none, session, |_, _| {}).expect("filled again");
-            })
-            .1
-        })
-        .collect();
-    refills.sort_by(f64::total_cmp);
-    if session.rank() == 0 {
-        println!(
-            "{order:?}: {} unknowns, {} entries on {} ranks: prepare {prepare:.3} s, first fill {fill:.3} s, refill {:.3} s, {memory:.0} MiB",
-            2 * space.numbering.node_count(),
-            matrix.nonzeros().expect("counted"),
-            session.size(),
-            refills[2]
-        );
-    } else {
-        matrix.nonzeros().expect("counted");
-    }
-}
-
-/// The bars of example 1, free of supports and contacts.
-fn scene(session: &Session, order: Order, refine: usize) -> Scene {
-    let mesh =
-        read_gmsh(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/cases/bars_inclined/bars.msh"))).expect("the case's mesh");
-    let graph = Graph::new(&mesh, &[]);
-    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.weights, None).expect("a partition");
-    let body = |name: &String| Body {
-        name: name.clone(),
-        material: Material { young: 7000.0, poisson: 0.227 },
-        force: [Formula::constant(0.0), Formula::constant(0.0)],
+    let make = || {
+        let load = vec![0.0; problem.finest().local_unknowns()];
+        Elastic::alone(problem, load, form, session).expect("a stiffness")
     };
-    Scene {
-        bodies: mesh.bodies.iter().map(body).collect(),
-        partition: Rc::new(Partition::new(&mesh, &ranks, session.size())),
-        order,
-        refine,
-        supports: Vec::new(),
-        loads: Vec::new(),
-        pairs: Vec::new(),
-        mesh,
+    let (elastic, first) = timed(session, make);
+    let memory = resident(session) - before;
+    drop(elastic);
+    let mut times: Vec<f64> = (0..5).map(|_| timed(session, make).1).collect();
+    times.sort_by(f64::total_cmp);
+    if session.rank() == 0 {
+        let unknowns = problem.unknown_count();
+        println!(
+            "{words}: {unknowns} unknowns on {} ranks: first {first:.3} s, again {:.3} s, {memory:.0} MiB",
+            session.size(),
+            times[2]
+        );
     }
 }
 

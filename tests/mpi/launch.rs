@@ -137,6 +137,7 @@ pub fn mpirun(ranks: usize, scenario: Option<&str>, words: &[String], options: &
 ///
 /// # Panics
 /// If it takes too long.
+#[allow(dead_code)] // Not every program has such a scenario.
 pub fn alone(scenario: &str) -> Ended {
     finish(Command::new(this_program()), Some(scenario), "")
 }

@@ -4,7 +4,7 @@ mod launch;
 mod support;
 
 use launch::{LIST_LEAKS, Suite, alone, mpirun, named};
-use mezha::petsc::{Error, Gather, Krylov, Matrix, Session, Stage, Vector, options, partition, versions};
+use mezha::petsc::{Error, Gather, Krylov, Matrix, Operator, Session, Stage, Vector, options, partition, versions};
 use std::time::{Duration, Instant};
 use support::{HeldString, laplacian, ramp, share, sparse};
 
@@ -29,8 +29,8 @@ fn main() -> std::process::ExitCode {
             matrix_is_shared_by_clones,
             wrong_calls_give_words,
             nest_is_its_blocks,
-            shell_acts,
-            shell_errors_reach_all_ranks,
+            operator_acts,
+            operator_errors_are_heard,
             krylov_converges,
             krylov_names_its_failure,
             schur_complement_with_multigrid,
@@ -280,46 +280,68 @@ fn nest_is_its_blocks(session: &Session) {
     assert_eq!(y.values()[..own_n], *top.values());
 }
 
-fn shell_acts(session: &Session) {
-    let own = share(session, 6).len();
-    let halve = |x: &[f64], y: &mut [f64]| {
-        y.iter_mut().zip(x).for_each(|(y, x)| *y = 0.5 * x);
-        Ok(())
-    };
-    let a = Matrix::shell(session, own, own, Box::new(halve)).unwrap();
-    let b = ramp(session, 6);
-    let mut x = b.duplicate().unwrap();
-    let krylov = Krylov::new(session, "").unwrap();
-    krylov.set_operators(&a, &a).unwrap();
-    krylov.preconditioner().set_kind("none").unwrap();
-    assert_eq!(krylov.solve(&b, &mut x).unwrap().iterations, 1);
-    x.axpy(-2.0, &b).unwrap();
-    assert!(x.norm().unwrap() < 1e-12);
+/// A diagonal matrix by its action; says no where it is told to.
+struct Diagonal {
+    value: f64,
+    broken: bool,
 }
 
-fn shell_errors_reach_all_ranks(session: &Session) {
-    let last = session.rank() + 1 == session.size();
-    let refuse = move |_: &[f64], _: &mut [f64]| {
-        if last { Err("the spring is broken".to_owned()) } else { Ok(()) }
-    };
-    let a = Matrix::shell(session, 1, 1, Box::new(refuse)).unwrap();
+impl Operator for Diagonal {
+    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<(), Error> {
+        y.copy_from(x)?;
+        y.scale(self.value)?;
+        if self.broken { Err(Error::AlreadyStarted) } else { Ok(()) }
+    }
+
+    fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<(), Error> {
+        r.copy_from(b)?;
+        r.axpy(-self.value, x)
+    }
+
+    fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<(), Error> {
+        assert!(from_zero, "no other was asked for");
+        x.copy_from(b)?;
+        x.scale(1.0 / self.value)
+    }
+
+    fn diagonal(&self, diagonal: &mut Vector) -> Result<(), Error> {
+        diagonal.set(self.value)
+    }
+
+    fn norm_infinity(&self) -> Result<f64, Error> {
+        Ok(self.value)
+    }
+}
+
+fn operator_acts(session: &Session) {
+    let own = share(session, 6).len();
+    let a = Matrix::operator(session, own, Box::new(Diagonal { value: 0.5, broken: false })).unwrap();
+    let b = ramp(session, 6);
+    for kind in ["none", "jacobi", "sor"] {
+        let mut x = b.duplicate().unwrap();
+        let krylov = Krylov::new(session, "").unwrap();
+        krylov.set_operators(&a, &a).unwrap();
+        krylov.preconditioner().set_kind(kind).unwrap();
+        assert_eq!(krylov.solve(&b, &mut x).unwrap().iterations, 1, "{kind}");
+        let mut r = b.duplicate().unwrap();
+        a.residual(&b, &x, &mut r).unwrap();
+        assert!(r.norm().unwrap() < 1e-12);
+    }
+    assert_eq!(a.norm_infinity().unwrap(), 0.5);
+}
+
+fn operator_errors_are_heard(session: &Session) {
+    let a = Matrix::operator(session, 1, Box::new(Diagonal { value: 1.0, broken: true })).unwrap();
     let x = Vector::new(session, 1).unwrap();
     let mut y = x.duplicate().unwrap();
     let Err(Error::Petsc { call, message, .. }) = a.multiply(&x, &mut y) else { panic!("the error was lost") };
     assert_eq!(call, "MatMult");
-    assert_eq!(message, if last { "the spring is broken" } else { "another rank failed in the action of a shell" });
-    let sound = Matrix::shell(
-        session,
-        1,
-        1,
-        Box::new(|_, y| {
-            y.fill(1.0);
-            Ok(())
-        }),
-    )
-    .unwrap();
-    sound.multiply(&x, &mut y).unwrap();
-    assert_eq!(y.values()[0], 1.0);
+    assert_eq!(message, Error::AlreadyStarted.to_string());
+    let sound = Matrix::operator(session, 1, Box::new(Diagonal { value: 3.0, broken: false })).unwrap();
+    y.set(2.0).unwrap();
+    let mut z = y.duplicate().unwrap();
+    sound.multiply(&y, &mut z).unwrap();
+    assert_eq!(z.values()[0], 6.0);
 }
 
 fn krylov_converges(session: &Session) {

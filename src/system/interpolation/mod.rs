@@ -3,10 +3,10 @@
 mod halved_rows;
 
 use super::{Discretisation, Scene, Space, SystemError};
-use halved_rows::{HalvedRow, LatticeInterpolation, halved_rows};
 use crate::geometry::Point;
 use crate::mesh::lattice::{self, Place};
 use crate::petsc::{Matrix, Session};
+use halved_rows::{HalvedRow, LatticeInterpolation, halved_rows};
 use std::collections::HashMap;
 
 /// Interpolations between all levels: the first leads from the coarsest level to the next. **Collective**

@@ -1,8 +1,8 @@
 //! Assembly of the stiffness of one level, with room for the contact couplings.
 
+use super::lattice_operator::Strips;
 use super::room::{ContactNeighbours, Counts, fill_room};
 use super::strips::{Place, Stencil};
-use super::lattice_operator::Strips;
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::Block;
 use crate::geometry::Point;
@@ -31,7 +31,11 @@ impl<'a> Assembly<'a> {
         let level = space.numbering.level;
         let strips: BTreeMap<usize, Vec<Strip>> = own.map(|triangle| (triangle, scene.mesh.strips(triangle, level))).collect();
         let count: usize = strips.values().flatten().map(|strip| strip.i.len()).sum();
-        if session.any(2 * count > space.own.len()) { Self { scene, space, strips, has_strips: true } } else { Self::stored(scene, space) }
+        if session.any(2 * count > space.own.len()) {
+            Self { scene, space, strips, has_strips: true }
+        } else {
+            Self::stored(scene, space)
+        }
     }
 
     /// Whether some rank has strips.

@@ -40,6 +40,11 @@ impl Stiffness {
         &self.operator
     }
 
+    /// Whether some rows are not stored.
+    pub fn has_strips(&self) -> bool {
+        self.lattice.is_some()
+    }
+
     /// Adds a block to the couplings of two nodes of contact. Holds after [`Stiffness::assemble`].
     pub fn add_block(&mut self, row: usize, column: usize, block: &[f64; 4]) -> Result<(), SystemError> {
         Ok(self.stored.add_blocks(&[row as i32], &[column as i32], block)?)

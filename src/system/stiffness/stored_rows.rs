@@ -145,9 +145,6 @@ impl StoredRows {
         }
         let [u, v] = x[node].get();
         let inverse = &self.inverses[k];
-        x[node].set([
-            u + inverse[0][0] * sum[0] + inverse[0][1] * sum[1],
-            v + inverse[1][0] * sum[0] + inverse[1][1] * sum[1],
-        ]);
+        x[node].set([u + inverse[0][0] * sum[0] + inverse[0][1] * sum[1], v + inverse[1][0] * sum[0] + inverse[1][1] * sum[1]]);
     }
 }

@@ -14,11 +14,11 @@ pub type Pair = [f64; 2];
 /// Couplings of the nodes of a strip.
 pub enum Stencil {
     /// P1.
-    Linear(Kind<7>),
+    Linear(Box<Kind<7>>),
     /// P2, an even row: corners of triangles and the midsides between them.
-    Corners(Kind<19>, Kind<9>),
+    Corners(Box<(Kind<19>, Kind<9>)>),
     /// P2, an odd row: midsides alone.
-    Midsides(Kind<9>, Kind<9>),
+    Midsides(Box<(Kind<9>, Kind<9>)>),
 }
 
 /// Couplings of one kind of node; the first is with itself.
@@ -124,9 +124,9 @@ impl Stencil {
     pub fn of(stiffness: &MacroStiffness, order: Order, strip: &Strip) -> Self {
         let [first, second] = [0, 1].map(|k| couplings(stiffness, strip.i.start + k, strip.j));
         let made = match (order, strip.j % 2) {
-            (Order::P1, _) => Kind::new(&first).map(Self::Linear),
-            (Order::P2, 0) => Kind::new(&first).zip(Kind::new(&second)).map(|(even, odd)| Self::Corners(even, odd)),
-            (Order::P2, _) => Kind::new(&first).zip(Kind::new(&second)).map(|(even, odd)| Self::Midsides(even, odd)),
+            (Order::P1, _) => Kind::new(&first).map(|kind| Self::Linear(Box::new(kind))),
+            (Order::P2, 0) => Kind::new(&first).zip(Kind::new(&second)).map(|kinds| Self::Corners(Box::new(kinds))),
+            (Order::P2, _) => Kind::new(&first).zip(Kind::new(&second)).map(|kinds| Self::Midsides(Box::new(kinds))),
         };
         made.expect("the couplings of a strip")
     }
@@ -135,14 +135,14 @@ impl Stencil {
     /// its nodes to the next.
     fn each_kind(&self, with: &mut impl EachKind) {
         match self {
-            Self::Linear(kind) => with.kind(kind, 0, 1),
-            Self::Corners(even, odd) => {
-                with.kind(even, 0, 2);
-                with.kind(odd, 1, 2);
+            Self::Linear(kind) => with.kind(kind.as_ref(), 0, 1),
+            Self::Corners(kinds) => {
+                with.kind(&kinds.0, 0, 2);
+                with.kind(&kinds.1, 1, 2);
             }
-            Self::Midsides(even, odd) => {
-                with.kind(even, 0, 2);
-                with.kind(odd, 1, 2);
+            Self::Midsides(kinds) => {
+                with.kind(&kinds.0, 0, 2);
+                with.kind(&kinds.1, 1, 2);
             }
         }
     }
@@ -162,8 +162,8 @@ impl Stencil {
     pub fn forward(&self, place: Place, b: &[Pair], x: &[Cell<Pair>]) {
         match self {
             Self::Linear(kind) => one_kind(kind, place, b, x, 0..place.count),
-            Self::Corners(even, odd) => two_kinds(even, odd, place, b, x, 0..place.count),
-            Self::Midsides(even, odd) => two_kinds(even, odd, place, b, x, 0..place.count),
+            Self::Corners(kinds) => two_kinds(&kinds.0, &kinds.1, place, b, x, 0..place.count),
+            Self::Midsides(kinds) => two_kinds(&kinds.0, &kinds.1, place, b, x, 0..place.count),
         }
     }
 
@@ -171,8 +171,8 @@ impl Stencil {
     pub fn backward(&self, place: Place, b: &[Pair], x: &[Cell<Pair>]) {
         match self {
             Self::Linear(kind) => one_kind(kind, place, b, x, (0..place.count).rev()),
-            Self::Corners(even, odd) => two_kinds(even, odd, place, b, x, (0..place.count).rev()),
-            Self::Midsides(even, odd) => two_kinds(even, odd, place, b, x, (0..place.count).rev()),
+            Self::Corners(kinds) => two_kinds(&kinds.0, &kinds.1, place, b, x, (0..place.count).rev()),
+            Self::Midsides(kinds) => two_kinds(&kinds.0, &kinds.1, place, b, x, (0..place.count).rev()),
         }
     }
 
@@ -239,13 +239,7 @@ impl EachKind for Residual<'_> {
 
 /// Gauss-Seidel over nodes of one kind.
 #[inline(always)]
-fn one_kind<const N: usize>(
-    kind: &Kind<N>,
-    place: Place,
-    b: &[Pair],
-    x: &[Cell<Pair>],
-    order: impl Iterator<Item = usize>,
-) {
+fn one_kind<const N: usize>(kind: &Kind<N>, place: Place, b: &[Pair], x: &[Cell<Pair>], order: impl Iterator<Item = usize>) {
     let b = &b[place.first..][..place.count];
     let near = runs(x, place.first, place.count, kind.distances(place.width));
     for k in order {
@@ -276,8 +270,8 @@ fn two_kinds<const N: usize, const M: usize>(
 fn relax<const N: usize>(kind: &Kind<N>, near: &[&[Cell<Pair>]; N], b: Pair, k: usize) {
     let mut sum = [0.0; 2];
     add(&mut sum, &kind.inverse, b);
-    for m in 1..N {
-        subtract(&mut sum, &kind.scaled[m], near[m][k].get());
+    for (near, scaled) in near.iter().zip(&kind.scaled).skip(1) {
+        subtract(&mut sum, scaled, near[k].get());
     }
     near[0][k].set(sum);
 }

@@ -1,0 +1,182 @@
+//! Strips and halved rows against stored matrices, on 1, 2 and 3 ranks.
+
+#[path = "../support/bars.rs"]
+mod bars;
+mod launch;
+
+use launch::{Suite, named};
+use mezha::element::Order;
+use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
+use mezha::system::{Discretisation, Elastic, Form, interpolations, spaces};
+
+fn main() -> std::process::ExitCode {
+    Suite {
+        options: (&[], &[]),
+        checks: named![
+            strips_act_like_stored_rows,
+            expanded_strips_are_the_stored_matrix,
+            a_sweep_is_symmetric_and_reduces_the_error,
+            solvers_of_petsc_take_strips,
+            halved_rows_interpolate_linear_motions_exactly,
+            halved_rows_are_transposed,
+        ],
+        outside: &[],
+        scenarios: &[],
+    }
+    .run()
+}
+
+/// Bars without contact, even and refined towards a corner of the contact line, with both elements.
+fn problems(session: &Session) -> Vec<Discretisation> {
+    let cases = [(Order::P1, 5, false), (Order::P2, 4, false), (Order::P1, 6, true), (Order::P2, 5, true)];
+    let problem = |(order, refine, graded)| {
+        let scene = bars::scene(session, order, refine, graded);
+        let spaces = spaces(&scene, session.rank()).expect("supports agree");
+        Discretisation::new(scene, spaces, session).expect("a discretisation")
+    };
+    cases.into_iter().map(problem).collect()
+}
+
+/// The finest stiffness with strips, and with all rows stored.
+fn both(problem: &Discretisation, session: &Session) -> [Elastic; 2] {
+    let load = vec![0.0; problem.finest().local_unknowns()];
+    [Form::Augmented, Form::Plain].map(|form| Elastic::alone(problem, load.clone(), form, session).expect("a stiffness"))
+}
+
+fn finest(elastic: &Elastic) -> &Matrix {
+    elastic.stiffness[elastic.stiffness.len() - 1].operator()
+}
+
+/// Erratic values, the same on any number of ranks; zero where displacement is prescribed.
+fn erratic(problem: &Discretisation, layout: &Matrix, seed: f64) -> Vector {
+    let mut x = layout.create_vectors().expect("vectors").0;
+    let first = x.range().start;
+    x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = ((first + at) as f64 * 12.9898 + seed).sin());
+    for (node, constraint) in problem.finest().constraints.iter().filter(|(node, _)| problem.finest().own.contains(node)) {
+        let at = 2 * node - first;
+        (0..2).filter(|&k| constraint.fixed[k]).for_each(|k| x.values_mut()[at + k] = 0.0);
+    }
+    x
+}
+
+/// Size of `x - y` against that of `y`.
+fn apart(mut x: Vector, y: &Vector) -> f64 {
+    x.axpy(-1.0, y).expect("of one layout");
+    x.norm().expect("a norm") / y.norm().expect("a norm")
+}
+
+fn product(matrix: &Matrix, x: &Vector) -> Vector {
+    let mut y = x.duplicate().expect("a vector");
+    matrix.multiply(x, &mut y).expect("a product");
+    y
+}
+
+fn strips_act_like_stored_rows(session: &Session) {
+    for problem in problems(session) {
+        let [strips, stored] = both(&problem, session);
+        assert!(strips.stiffness.last().expect("levels").has_strips(), "there is something to compare");
+        let (strips, stored) = (finest(&strips), finest(&stored));
+        let (x, b) = (erratic(&problem, stored, 0.3), erratic(&problem, stored, 0.7));
+        assert!(apart(product(strips, &x), &product(stored, &x)) < 1e-14);
+        let [mut left, mut right] = [0; 2].map(|_| x.duplicate().expect("a vector"));
+        strips.residual(&b, &x, &mut left).expect("a residual");
+        stored.residual(&b, &x, &mut right).expect("a residual");
+        assert!(apart(left, &right) < 1e-14);
+        let [mut left, mut right] = [0; 2].map(|_| x.duplicate().expect("a vector"));
+        strips.diagonal(&mut left).expect("a diagonal");
+        stored.diagonal(&mut right).expect("a diagonal");
+        assert!(apart(left, &right) < 1e-14);
+        let [a, b] = [strips, stored].map(|matrix| matrix.norm_infinity().expect("a norm"));
+        assert!((a / b - 1.0).abs() < 1e-14);
+    }
+}
+
+fn expanded_strips_are_the_stored_matrix(session: &Session) {
+    for problem in problems(session) {
+        let [strips, stored] = both(&problem, session);
+        let expanded = strips.stiffness.last().expect("levels").expanded(session).expect("a matrix").expect("strips");
+        let stored = finest(&stored);
+        assert_eq!(expanded.nonzeros().expect("counted"), stored.nonzeros().expect("counted"));
+        let x = erratic(&problem, stored, 0.1);
+        assert!(apart(product(&expanded, &x), &product(stored, &x)) < 1e-14);
+    }
+}
+
+/// One sweep from zero, as PETSc's `sor` applies it.
+fn swept(matrix: &Matrix, b: &Vector, session: &Session) -> Vector {
+    options::set_default(session, "-swept_ksp_type", "preonly").expect("an option");
+    options::set_default(session, "-swept_pc_type", "sor").expect("an option");
+    let krylov = Krylov::new(session, "swept_").expect("a solver");
+    krylov.set_operators(matrix, matrix).expect("operators");
+    krylov.set_from_options().expect("options");
+    let mut x = b.duplicate().expect("a vector");
+    krylov.solve(b, &mut x).expect("one sweep");
+    x
+}
+
+fn a_sweep_is_symmetric_and_reduces_the_error(session: &Session) {
+    for problem in problems(session) {
+        let [strips, stored] = both(&problem, session);
+        let (strips, stored) = (finest(&strips), finest(&stored));
+        let [a, b] = [0.2, 0.9].map(|seed| erratic(&problem, stored, seed));
+        let [forth, back] = [(&a, &b), (&b, &a)].map(|(a, b)| swept(strips, a, session).dot(b).expect("an inner product"));
+        assert!((forth / back - 1.0).abs() < 1e-12, "{forth} {back}");
+        // In the energy norm, and not worse than with all rows stored.
+        let left = [strips, stored].map(|matrix| {
+            let mut error = swept(matrix, &product(stored, &a), session);
+            error.axpy(-1.0, &a).expect("of one layout");
+            product(stored, &error).dot(&error).expect("an energy")
+        });
+        let whole = product(stored, &a).dot(&a).expect("an energy");
+        assert!(left[0] < 0.2 * whole && left[0] < 1.1 * left[1], "{left:?} of {whole}");
+    }
+}
+
+fn solvers_of_petsc_take_strips(session: &Session) {
+    options::set_default(session, "-strips_ksp_type", "cg").expect("an option");
+    options::set_default(session, "-strips_pc_type", "sor").expect("an option");
+    options::set_default(session, "-strips_pc_sor_its", "2").expect("an option");
+    let problem = &problems(session)[0];
+    let [strips, stored] = both(problem, session);
+    let x = erratic(problem, finest(&stored), 0.4);
+    let b = product(finest(&stored), &x);
+    let krylov = Krylov::new(session, "strips_").expect("a solver");
+    krylov.set_operators(finest(&strips), finest(&strips)).expect("operators");
+    krylov.set_tolerance(1e-12, 2000).expect("a tolerance");
+    krylov.set_from_options().expect("options");
+    let mut found = x.duplicate().expect("a vector");
+    krylov.solve(&b, &mut found).expect("it converges");
+    assert!(apart(product(finest(&stored), &found), &b) < 1e-11);
+}
+
+fn halved_rows_interpolate_linear_motions_exactly(session: &Session) {
+    for problem in problems(session).into_iter().take(2) {
+        let all = interpolations(&problem, session).expect("interpolations");
+        let (fine, coarse) = (problem.finest(), &problem.spaces[problem.spaces.len() - 2]);
+        let motion = |space: &mezha::system::Space| bars::linear_motion(&problem, space, session);
+        let (x, expected) = (motion(coarse), motion(fine));
+        let mut found = expected.duplicate().expect("a vector");
+        all[all.len() - 1].multiply(&x, &mut found).expect("interpolated");
+        assert!(apart(found, &expected) < 1e-14);
+    }
+}
+
+fn halved_rows_are_transposed(session: &Session) {
+    for problem in problems(session) {
+        let all = interpolations(&problem, session).expect("interpolations");
+        let last = &all[all.len() - 1];
+        let (mut x, mut y) = last.create_vectors().expect("vectors");
+        x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = (at as f64).cos());
+        y.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = (at as f64).sin());
+        let (mut fine, mut coarse) = (y.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
+        last.multiply(&x, &mut fine).expect("a product");
+        last.multiply_transpose(&y, &mut coarse).expect("a product");
+        let [forth, back] = [fine.dot(&y), coarse.dot(&x)].map(|v| v.expect("an inner product"));
+        assert!((forth - back).abs() < 1e-12 * fine.norm().expect("a norm") * y.norm().expect("a norm"));
+        last.multiply_add(&x, &mut fine).expect("a sum");
+        let mut twice = fine.duplicate().expect("a vector");
+        last.multiply(&x, &mut twice).expect("a product");
+        twice.scale(2.0).expect("a vector");
+        assert!(apart(fine, &twice) < 1e-14);
+    }
+}
