@@ -6,8 +6,9 @@ mod launch;
 
 use launch::{Suite, named};
 use mezha::element::Order;
+use mezha::mesh::lattice;
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
-use mezha::system::{Discretisation, Elastic, Form, interpolations, spaces};
+use mezha::system::{Discretisation, Elastic, Form, Space, interpolations, spaces};
 
 fn main() -> std::process::ExitCode {
     Suite {
@@ -149,11 +150,27 @@ fn solvers_of_petsc_take_strips(session: &Session) {
     assert!(apart(product(finest(&stored), &found), &b) < 1e-11);
 }
 
+/// A linear motion that the supports allow, in the unknowns of a level.
+fn linear_motion(problem: &Discretisation, space: &Space, session: &Session) -> Vector {
+    let (mesh, level) = (&problem.scene.mesh, space.numbering.level);
+    let mut motion = Vector::new(session, space.local_unknowns()).expect("a vector");
+    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
+        let numbers = space.numbering.triangle(mesh, triangle as usize);
+        for (i, j) in lattice::nodes(level.intervals) {
+            if let Some(at) = numbers.node(i, j).checked_sub(space.own.start).filter(|at| *at < space.own.len()) {
+                let x = mesh.node_position(triangle as usize, level, (i, j));
+                motion.values_mut()[2 * at..2 * at + 2].copy_from_slice(&[2.0 * x.x, 1.0 + 3.0 * x.x - x.y]);
+            }
+        }
+    }
+    motion
+}
+
 fn halved_rows_interpolate_linear_motions_exactly(session: &Session) {
     for problem in problems(session).into_iter().take(2) {
         let all = interpolations(&problem, session).expect("interpolations");
         let (fine, coarse) = (problem.finest(), &problem.spaces[problem.spaces.len() - 2]);
-        let motion = |space: &mezha::system::Space| bars::linear_motion(&problem, space, session);
+        let motion = |space: &Space| linear_motion(&problem, space, session);
         let (x, expected) = (motion(coarse), motion(fine));
         let mut found = expected.duplicate().expect("a vector");
         all[all.len() - 1].multiply(&x, &mut found).expect("interpolated");

@@ -3,9 +3,9 @@
 use mezha::body::{Body, Material, Support};
 use mezha::element::Order;
 use mezha::geometry::Formula;
-use mezha::mesh::{Graph, Partition, lattice, read_gmsh};
-use mezha::petsc::{Session, Vector, partition};
-use mezha::system::{Discretisation, Scene, Space};
+use mezha::mesh::{Graph, Partition, read_gmsh};
+use mezha::petsc::{Session, partition};
+use mezha::system::Scene;
 use std::path::Path;
 use std::rc::Rc;
 
@@ -35,20 +35,4 @@ pub fn scene(session: &Session, order: Order, refine: usize, graded: bool) -> Sc
         pairs: Vec::new(),
         mesh,
     }
-}
-
-/// A linear motion that the supports allow, in the unknowns of a level.
-pub fn linear_motion(problem: &Discretisation, space: &Space, session: &Session) -> Vector {
-    let (mesh, level) = (&problem.scene.mesh, space.numbering.level);
-    let mut motion = Vector::new(session, space.local_unknowns()).expect("a vector");
-    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
-        let numbers = space.numbering.triangle(mesh, triangle as usize);
-        for (i, j) in lattice::nodes(level.intervals) {
-            if let Some(at) = numbers.node(i, j).checked_sub(space.own.start).filter(|at| *at < space.own.len()) {
-                let x = mesh.node_position(triangle as usize, level, (i, j));
-                motion.values_mut()[2 * at..2 * at + 2].copy_from_slice(&[2.0 * x.x, 1.0 + 3.0 * x.x - x.y]);
-            }
-        }
-    }
-    motion
 }
