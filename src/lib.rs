@@ -28,7 +28,7 @@
 //!
 //! - **Energy** `U = ½ ∫ σ:ε`; `2U = f·u + r·u_D - λᵀc - λᵀCλ` with the reactions `r` of the supports, the prescribed
 //!   `u_D`, and `C` the jump term (`Bu - Cλ = c`; zero where none is added). `external_work = f·u + r·u_D`; `balance.energy` is
-//!   the difference of both sides over the largest term.
+//!   the difference of both sides over the largest term. `energy.stationary` is `U` again, from the Lagrangian.
 //! - **Balance**: `Fₖ`, `Mₖ` are the resultants of `λ` through body k's own integrals, `Mₖ` about the middle of `Γ_C`.
 //!   `balance.force = |F₁ + F₂| / |F₂|`, `balance.moment = |M₁ + M₂| / (|F₂| length)`; `balance.bodies` is what is left of
 //!   loads + reactions + contact of a body, over the sum of their magnitudes.

@@ -118,7 +118,7 @@ fn the_summary_has_every_name() {
          contact/seam/segments contact/seam/multiplier contact/seam/h_ratio contact/seam/inf_sup contact/seam/ends/1/1 \
          contact/seam/closed/0/1 contact/seam/closed_points/0/1/1 contact/seam/force contact/seam/resultant/1 \
          contact/seam/moment contact/seam/pressure_max contact/seam/oscillation contact/seam/lost_points \
-         contact/seam/trust energy/strain/lower energy/total energy/external_work estimate/energy balance/force \
+         contact/seam/trust energy/strain/lower energy/total energy/stationary energy/external_work estimate/energy balance/force \
          balance/moment balance/energy probe/top/x/1 probe/top/u/1 probe/top/stress/2 solver/name solver/krylov \
          solver/iterations/0 solver/residual solver/plain_residual solver/blas time_s/mesh time_s/assemble time_s/contact \
          time_s/setup time_s/solve time_s/output time_s/total memory_mib/max_rank memory_mib/sum errors/energy \

@@ -39,9 +39,15 @@ pub fn read_grade(section: &Section, order: Option<Order>) -> Option<Vec<Grade>>
     Some(points?.into_iter().zip(ratios).map(|(point, ratio)| Grade { point, ratio }).collect())
 }
 
-/// `2^(-order/exponent)`, the largest ratio that keeps the full order, within bounds.
+/// `2^(-k/exponent)` with `k = 3/2` for P1 and 2 for P2, within bounds. At `k` the order of the elements, each layer around the
+/// point has an error of one size: the full order comes late. P1 gains from a smaller ratio; P2, whose triangles would be
+/// flat, does not.
 fn automatic(order: Option<Order>, exponent: f64) -> Option<f64> {
-    order.map(|order| (-(order.degree() as f64) / exponent).exp2().clamp(AUTO[0], AUTO[1]))
+    let wanted = match order? {
+        Order::P1 => 1.5,
+        Order::P2 => 2.0,
+    };
+    Some((-wanted / exponent).exp2().clamp(AUTO[0], AUTO[1]))
 }
 
 /// A number for all points, or one for each.
@@ -71,7 +77,8 @@ mod tests {
         assert_eq!(both("exponent = 1"), [0.25, 0.25]);
         assert_eq!(both("exponent = [0.4, 2.5]"), [0.15, 0.5], "kept within bounds");
         assert_eq!(both("ratio = [0.2, 0.3], exponent = 1"), [0.2, 0.3], "a number comes first");
-        assert_eq!(ratios("order = 1, grade = { points = [[0, 0]], exponent = 0.5 }"), [0.25]);
+        assert_eq!(ratios("order = 1, grade = { points = [[0, 0]], exponent = 0.75 }"), [0.25]);
+        assert!(ratios("order = 1, grade = { points = [[0, 0]], exponent = 1 }")[0] < 0.5, "below the bound of the full order");
         assert!(ratios("order = 1").is_empty());
     }
 }

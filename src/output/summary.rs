@@ -179,6 +179,8 @@ pub struct Energy {
     pub strain: BTreeMap<String, Option<f64>>,
     /// Total strain energy U.
     pub total: Option<f64>,
+    /// U from the stationary value of the Lagrangian, of second order in the algebraic error; not in all scenes.
+    pub stationary: Option<f64>,
     /// f·u + r·u_D, without the factor one half.
     pub external_work: Option<f64>,
 }

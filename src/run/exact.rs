@@ -40,7 +40,7 @@ pub fn compare(
 ) -> Result<Errors, RunError> {
     let mut errors = Errors::default();
     if let Some(energy) = &case.exact.energy {
-        let found: f64 = balance.strain.iter().sum();
+        let found = balance.stationary.unwrap_or_else(|| balance.strain.iter().sum());
         errors.add("energy".into(), (found / energy.value - 1.0).abs(), Some(energy.tolerance));
     }
     for exact in &case.exact.contacts {

@@ -86,6 +86,7 @@ pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balan
     summary.energy = summary::Energy {
         strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),
         total: Some(balance.strain.iter().sum()),
+        stationary: balance.stationary,
         external_work: Some(balance.external_work),
     };
     summary.balance =

@@ -180,15 +180,13 @@ fn find_cases(cases: &[String], study: &Path, root: &Section) -> Vec<Scene> {
     files.iter().enumerate().map(scene).collect()
 }
 
-/// Curves are told apart by their names, and drawn for cases of the study.
+/// Curves of one case are told apart by their names, and drawn for cases of the study.
 fn check_curves(curves: &[Curve], scenes: &[Scene], root: &Section) {
     for (index, curve) in curves.iter().enumerate() {
         let number = (index + 1).to_string();
-        if curves[..index].iter().any(|other| other.name == curve.name) {
-            root.problem(
-                &["curve", &number, "name"],
-                format!("\"{}\" is another curve's name; choose one of its own", curve.name),
-            );
+        if curves[..index].iter().any(|other| other.name == curve.name && other.meets(curve)) {
+            let words = format!("\"{}\" is another curve's name; choose one of its own", curve.name);
+            root.problem(&["curve", &number, "name"], words);
         }
         for case in curve.cases.iter().flatten().filter(|case| scenes.iter().all(|scene| scene.written != **case)) {
             let words = format!("\"{case}\" does not stand in cases; write it there, letter by letter");

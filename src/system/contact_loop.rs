@@ -10,6 +10,9 @@ const LOOSE: f64 = 1e-4;
 /// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
 const FROM_START: f64 = 2e-4;
 
+/// Relative residual that is small enough for any discretisation error.
+const LEAST: f64 = 1e-10;
+
 /// Active sets tried at most.
 const MOST_SETS: usize = 60;
 
@@ -205,7 +208,7 @@ impl ContactLoop<'_> {
                 let b = system.right_hand_side(active, self.finest())?;
                 let mut r = b.duplicate()?;
                 system.nest.residual(&b, x, &mut r)?;
-                Ok((FROM_START * r.norm()? / b.norm()?).clamp(1e-8, LOOSE))
+                Ok((FROM_START * r.norm()? / b.norm()?).clamp(LEAST, LOOSE))
             }
         }
     }

@@ -72,6 +72,10 @@ const COLUMNS: usize = 2;
 /// Above the diagrams of a block: its title, and each row of its legend (pixels).
 const TITLE: i32 = 34;
 const ROW: i32 = 19;
+/// In a row of the legend: its sample, the height of letters, and the room between two cells (pixels).
+const SAMPLE: f64 = 56.0;
+const LETTERS: f64 = 12.0;
+const BETWEEN: f64 = 24.0;
 /// Below the diagrams of a block (pixels).
 const GAP: i32 = 14;
 /// Corners of the marks, on a circle: their number, and the angle of the first one in right angles. None: the circle itself.
@@ -112,7 +116,7 @@ pub fn diagrams(blocks: &[Block]) -> Result<Option<String>, String> {
 /// Draws title, legend and diagrams into the part of the sheet that is theirs.
 fn draw_block(sheet: &Sheet, whole: &Area, part: &Area, block: &Block, diagrams: &[&Diagram]) -> DrawResult<()> {
     sheet.draw_title(part, &block.title)?;
-    draw_legend(part, &block.legend)?;
+    draw_legend(part, f64::from(sheet.width), &block.legend)?;
     let top = TITLE + ROW * block.legend.len() as i32;
     for (index, diagram) in diagrams.iter().enumerate() {
         let (column, row) = ((index % COLUMNS) as i32, (index / COLUMNS) as i32);
@@ -123,22 +127,24 @@ fn draw_block(sheet: &Sheet, whole: &Area, part: &Area, block: &Block, diagrams:
     Ok(())
 }
 
-/// Draws one row for each line: its sample, its name, and what else is said of it.
-fn draw_legend(part: &Area, legend: &[Entry]) -> DrawResult<()> {
+/// Draws one row for each line: its sample, its name, and what else is said of it; in smaller letters where `width` (pixels) is
+/// too little.
+fn draw_legend(part: &Area, width: f64, legend: &[Entry]) -> DrawResult<()> {
     let columns = legend.iter().map(|entry| entry.cells.len()).max().unwrap_or(0);
-    let width = |entry: &Entry, column: usize| entry.cells.get(column).map_or(0.0, |cell| text_width(cell, 12.0));
-    let widest = |column| legend.iter().map(|entry| width(entry, column)).fold(0.0, f64::max);
+    let cell = |entry: &Entry, column: usize| entry.cells.get(column).map_or(0.0, |cell| text_width(cell, LETTERS) + BETWEEN);
+    let widest = |column| legend.iter().map(|entry| cell(entry, column)).fold(0.0, f64::max);
     let widths: Vec<f64> = (0..columns).map(widest).collect();
-    let style = text_style(12.0, FontStyle::Normal, INK).pos(Pos::new(HPos::Left, VPos::Center));
+    let smaller = ((width - SAMPLE) / widths.iter().sum::<f64>()).min(1.0);
+    let style = text_style(LETTERS * smaller, FontStyle::Normal, INK).pos(Pos::new(HPos::Left, VPos::Center));
     for (row, entry) in legend.iter().enumerate() {
         let y = (TITLE + ROW * row as i32 + ROW / 2) * PIXEL;
         let across = |x: f64| (x * f64::from(PIXEL)) as i32;
         part.draw(&PathElement::new(vec![(across(18.0), y), (across(46.0), y)], line(&colour(entry.style), 1.6)))?;
         draw_mark(part, (across(32.0), y), entry.style, false)?;
-        let mut x = 56.0;
+        let mut x = SAMPLE;
         for (cell, width) in entry.cells.iter().zip(&widths) {
             part.draw(&Text::new(cell.clone(), (across(x), y), style.clone()))?;
-            x += width + 24.0;
+            x += width * smaller;
         }
     }
     Ok(())
@@ -272,6 +278,26 @@ mod tests {
         assert_eq!((count(&text, "line 0"), count(&text, "a law")), (1, 2));
         let two = diagrams(&[block([0.5, 1.0]), block([0.1, 0.2])]).unwrap().unwrap();
         assert_eq!(drawn(&two), 2 * drawn(&text));
+    }
+
+    /// Places and sizes of all texts with these words.
+    fn texts(svg: &str, words: &str) -> Vec<(f64, f64)> {
+        let lines: Vec<&str> = svg.lines().collect();
+        let value = |tag: &str, name: &str| tag.split(&format!("{name}=\"")).nth(1)?.split('"').next()?.parse().ok();
+        let place = |pair: &[&str]| pair[1].starts_with(words).then(|| (value(pair[0], " x"), value(pair[0], "font-size")));
+        lines.windows(2).filter_map(place).map(|(x, size)| (x.expect("a place"), size.expect("a size"))).collect()
+    }
+
+    #[test]
+    fn a_long_legend_is_drawn_smaller_and_stays_on_the_sheet() {
+        let mut long = block([0.5, 1.0]);
+        let short = diagrams(&[long.clone()]).unwrap().unwrap();
+        long.legend[1].cells = vec!["the name of a line".into(); 10];
+        let text = diagrams(&[long]).unwrap().unwrap();
+        let (found, usual) = (texts(&text, "the name"), texts(&short, "a law")[0].1);
+        let (last, size) = found[found.len() - 1];
+        assert_eq!(found.len(), 10);
+        assert!(size < usual && last + text_width("the name of a line", size) <= f64::from(PANEL.width * 2 * PIXEL), "{found:?}");
     }
 
     #[test]

@@ -59,7 +59,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
             "/contact/seam",
             "closed closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",
         ),
-        ("/energy", "external_work strain total"),
+        ("/energy", "external_work stationary strain total"),
         ("/estimate", "energy seam"),
         ("/estimate/seam", "force lambda"),
         ("/balance", "bodies energy force moment"),

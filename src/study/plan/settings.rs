@@ -35,6 +35,16 @@ pub struct Curve {
     pub cases: Option<Vec<String>>,
 }
 
+impl Curve {
+    /// Whether both are drawn for some case.
+    pub fn meets(&self, other: &Self) -> bool {
+        match (&self.cases, &other.cases) {
+            (Some(own), Some(others)) => own.iter().any(|case| others.contains(case)),
+            _ => true,
+        }
+    }
+}
+
 /// `[set]`
 pub fn read_set(section: &Section) -> Vec<Setting<Value>> {
     settings(&section.optional("set", values::table).unwrap_or_default(), &["set"], section)

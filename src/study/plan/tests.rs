@@ -81,6 +81,9 @@ fn dots_without_quotes_mean_the_same() {
 #[test]
 fn a_curve_may_be_drawn_for_some_cases() {
     let curves = "[[curve]]\nname = 'all'\n[[curve]]\nname = 'one'\ncases = ['rings.toml']";
+    let more = "[[curve]]\nname = 'one'\ncases = ['bars/case.toml']\nset = { 'mesh.order' = 1 }";
+    let both = runs(&format!("cases = ['bars/case.toml', 'rings.toml']\n{curves}\n{more}"));
+    assert_eq!(both.iter().filter(|run| run.curve.as_deref() == Some("one")).count(), 2, "one name, two cases");
     let runs = runs(&format!("cases = ['bars/case.toml', 'rings.toml']\n{curves}"));
     let drawn: Vec<_> = runs.iter().map(|run| (run.case.as_str(), run.curve.as_deref().unwrap())).collect();
     assert_eq!(drawn, [("bars", "all"), ("rings", "all"), ("rings", "one")]);

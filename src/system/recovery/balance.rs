@@ -8,6 +8,9 @@ use crate::mesh::{EdgeNode, lattice};
 use crate::petsc::Session;
 use crate::system::{Contact, Discretisation, Field, Solution, SystemError, nodal_forces};
 
+/// Work below this share of the largest is none: gaps measured where bodies touch are rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Resultants of one contact, from each body's own integrals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactForce {
@@ -24,6 +27,9 @@ pub struct ContactForce {
 pub struct Balance {
     /// Strain energy of each body, `½∫σ:ε`.
     pub strain: Vec<f64>,
+    /// Strain energy in all, from the stationary value of the Lagrangian: its algebraic error is the square of that of `u` and
+    /// `λ`. Nothing where loads act together with gaps or prescribed displacements, or a jump term is added.
+    pub stationary: Option<f64>,
     /// `f·u + r·u_D`.
     pub external_work: f64,
     /// Resultants of each contact.
@@ -43,38 +49,19 @@ pub struct Balance {
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
 pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, session: &Session) -> Result<Balance, SystemError> {
-    let Discretisation { scene, contacts, coupling, .. } = problem;
-    let space = problem.finest();
+    let Discretisation { contacts, coupling, .. } = problem;
     let (mut strain, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
-    let applied = nodal_forces(problem, session)?;
-    let pressed = contact_forces(problem, solution);
-    let mut work = [0.0; 2];
-    let body_of = body_of_nodes(problem, session.rank());
-    let mut totals = vec![[0.0; 6]; scene.bodies.len()];
-    for (at, node) in space.own.clone().enumerate() {
-        let [f, k] = [applied.own()[at], internal.own()[at]].map(|[x, y]| Point::new(x, y));
-        work[0] += f.dot(&u.point(node));
-        let Some(constraint) = space.constraints.get(node) else {
-            add_total(&mut totals[body_of[at]], f, Point::zeros());
-            continue;
-        };
-        // Contact pushes body 1 along -n: K u + Bᵀλ = f + r.
-        let all = constraint.to_frame(k + pressed.get(&node).copied().unwrap_or_default() - f);
-        let reaction = Point::new(if constraint.fixed[0] { all.x } else { 0.0 }, if constraint.fixed[1] { all.y } else { 0.0 });
-        work[1] += reaction.dot(&constraint.prescribed());
-        add_total(&mut totals[body_of[at]], f, constraint.to_global(reaction));
-    }
-    session.sum(&mut work);
-    session.sum(totals.as_flattened_mut());
+    let Sums { work, bodies } = sum_over_nodes(problem, solution, u, &internal, session)?;
     let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
+    let gaps: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| (lambda * gap).abs()).sum();
     let jumped: f64 = problem
         .jumps()
         .map(|jump| jump.weight * (solution.multipliers[jump.rows[0]] - solution.multipliers[jump.rows[1]]).powi(2))
         .sum();
-    let (twice, external) = (2.0 * strain.iter().sum::<f64>(), work[0] + work[1]);
-    let largest = [twice, work[0], work[1], lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
+    let (total, external) = (strain.iter().sum::<f64>(), work.loads + work.supports);
+    let largest = [2.0 * total, work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
     let worst = |ratio: &dyn Fn(&Contact, &ContactForce) -> f64| {
         contacts.iter().zip(&forces).map(|(contact, force)| ratio(contact, force)).filter(|v| v.is_finite()).reduce(f64::max)
     };
@@ -86,11 +73,97 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
             let sum = force.moments[0] + force.moments[1] - cross(middle, force.resultants[0] + force.resultants[1]);
             sum.abs() / (force.resultants[1].norm() * contact.boundary.length())
         }),
-        energy: (largest > 0.0).then(|| (twice - (external - lambda_gap - jumped)).abs() / largest),
-        bodies: body_balance(contacts, &forces, &totals),
+        energy: (largest > 0.0).then(|| (2.0 * total - (external - lambda_gap - jumped)).abs() / largest),
+        stationary: if jumped > ROUNDING * largest {
+            None
+        } else {
+            work.stationary(total, lambda_gap, gaps > ROUNDING * largest)
+        },
+        bodies: body_balance(contacts, &forces, &bodies),
         strain,
         contacts: forces,
     })
+}
+
+/// Work, by what does it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Work {
+    /// `f·u`
+    loads: f64,
+    /// `r·u_D`
+    supports: f64,
+    /// `(Bᵀλ)·u`
+    contact: f64,
+    /// `(f - Ku - Bᵀλ)·u` on all components that are free: zero but for the algebraic error.
+    unbalanced: f64,
+    /// `r·(u - u_D)`: zero but for the algebraic error.
+    missed: f64,
+    /// `Σ|f|` and `Σ|u_D|`: whether there are loads, and displacements prescribed.
+    given: [f64; 2],
+}
+
+impl Work {
+    /// `U + z·(f - Ku - Bᵀλ) + μ·(c - Bu)`, whose first variation vanishes if `Kz + Bᵀμ = Ku` on free components, `Bz = 0`, and
+    /// `z = 0` at supports: `z = u`, `μ = 0` where loads alone do work, `z = 0`, `μ = -λ` where there are none. The values are
+    /// minus the Lagrangian, and the Lagrangian. With both, `z` would be the answer to the loads alone: another solve.
+    fn stationary(&self, strain: f64, lambda_gap: f64, gaps: bool) -> Option<f64> {
+        let [loaded, moved] = self.given.map(|sum| sum > 0.0);
+        match (loaded, moved || gaps) {
+            (_, false) => Some(strain + self.unbalanced),
+            (false, true) => Some(strain + self.contact - lambda_gap - self.missed),
+            (true, true) => None,
+        }
+    }
+}
+
+/// Sums over all nodes.
+struct Sums {
+    work: Work,
+    /// For each body: load, reaction, sums of their magnitudes.
+    bodies: Vec<[f64; 6]>,
+}
+
+/// Work and resultants of loads, supports and contact, of the forces `internal` `= Ku`. **Collective**
+fn sum_over_nodes(
+    problem: &Discretisation,
+    solution: &Solution,
+    u: &Field<2>,
+    internal: &Field<2>,
+    session: &Session,
+) -> Result<Sums, SystemError> {
+    let space = problem.finest();
+    let applied = nodal_forces(problem, session)?;
+    let pressed = contact_forces(problem, solution);
+    let body_of = body_of_nodes(problem, session.rank());
+    let mut bodies = vec![[0.0; 6]; problem.scene.bodies.len()];
+    let mut work = Work::default();
+    for (at, node) in space.own.clone().enumerate() {
+        let [f, k] = [applied.own()[at], internal.own()[at]].map(|[x, y]| Point::new(x, y));
+        let (u, push) = (u.point(node), pressed.get(&node).copied().unwrap_or_default());
+        work.loads += f.dot(&u);
+        work.contact += push.dot(&u);
+        work.given[0] += f.norm();
+        // Contact pushes body 1 along -n: K u + Bᵀλ = f + r.
+        let residual = f - k - push;
+        let Some(constraint) = space.constraints.get(node) else {
+            work.unbalanced += residual.dot(&u);
+            add_total(&mut bodies[body_of[at]], f, Point::zeros());
+            continue;
+        };
+        let [residual, u] = [residual, u].map(|v| constraint.to_frame(v));
+        let free = constraint.free_part(residual);
+        let (reaction, prescribed) = (free - residual, constraint.prescribed());
+        work.unbalanced += free.dot(&u);
+        work.supports += reaction.dot(&prescribed);
+        work.missed += reaction.dot(&(u - prescribed));
+        work.given[1] += prescribed.norm();
+        add_total(&mut bodies[body_of[at]], f, constraint.to_global(reaction));
+    }
+    let mut sums = [work.loads, work.supports, work.contact, work.unbalanced, work.missed, work.given[0], work.given[1]];
+    session.sum(&mut sums);
+    let [loads, supports, contact, unbalanced, missed, ref given @ ..] = sums;
+    session.sum(bodies.as_flattened_mut());
+    Ok(Sums { work: Work { loads, supports, contact, unbalanced, missed, given: *given }, bodies })
 }
 
 fn add_total(total: &mut [f64; 6], load: Point, reaction: Point) {
