@@ -1,6 +1,9 @@
 //! The loop over active sets.
 
-use super::{BoundaryStep, Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Space, SystemError, Tolerance, not_held};
+use super::{
+    Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Solution, Space, SystemError, Tolerance, Verdict, few_that_hold,
+    not_held,
+};
 use crate::contact::{ActiveSet, Step};
 use crate::petsc::{Session, Vector};
 
@@ -12,6 +15,9 @@ const FROM_START: f64 = 2e-4;
 
 /// Active sets tried at most.
 const MOST_SETS: usize = 60;
+
+/// How often contact that a body needs is kept against its forces.
+const MOST_KEPT: usize = 3;
 
 /// One pass of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,15 +44,6 @@ pub struct OuterStep {
     pub climbed: Option<String>,
 }
 
-/// How the loop ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// Everything stands still within its tolerance; in words.
-    Converged(String),
-    /// It does not, or a body is not held; in words.
-    NotConverged(String),
-}
-
 /// What the loop does next.
 enum Next {
     /// It ends.
@@ -55,50 +52,6 @@ enum Next {
     Tighten,
     /// It solves again.
     Go,
-}
-
-/// State of the loop: the solution so far.
-pub struct Solution {
-    /// How it ended.
-    pub verdict: Verdict,
-    /// This rank's displacements, in the nodes' frames, prescribed components included.
-    pub displacement: Vec<f64>,
-    /// Contact pressures of all multipliers, along the boundaries (stress).
-    pub multipliers: Vec<f64>,
-    /// Which multipliers are active.
-    pub active: Vec<bool>,
-    /// Every pass.
-    pub steps: Vec<OuterStep>,
-    /// Every contact boundary, where some follow the solution.
-    pub boundaries: Vec<BoundaryStep>,
-    /// Relative residual of the augmented system.
-    pub residual: f64,
-    /// Relative residual of the plain system.
-    pub plain_residual: f64,
-    /// Discrete inf-sup constant of each contact, where it was asked for.
-    pub inf_sup: Vec<Option<f64>>,
-}
-
-impl Solution {
-    /// No solution at all, because a body is not held.
-    pub fn nothing(verdict: Verdict, space: &Space, active: &[bool]) -> Self {
-        Self {
-            verdict,
-            displacement: vec![0.0; space.local_unknowns()],
-            multipliers: vec![0.0; active.len()],
-            active: active.to_vec(),
-            steps: Vec::new(),
-            boundaries: Vec::new(),
-            residual: f64::NAN,
-            plain_residual: f64::NAN,
-            inf_sup: Vec::new(),
-        }
-    }
-
-    /// Whether there are displacements to look at.
-    pub fn is_solved(&self) -> bool {
-        !self.steps.is_empty() && self.residual.is_finite()
-    }
 }
 
 /// What a solve begins with.
@@ -151,7 +104,7 @@ impl ContactLoop<'_> {
         }
         let tolerance = self.last_residual(system, &x, set.active())?;
         let mut goal = if set.may_change() { tolerance.max(LOOSE) } else { tolerance };
-        let mut steps = Vec::new();
+        let (mut steps, mut kept) = (Vec::new(), 0);
         loop {
             // The set that the blocks hold and the solution belongs to; `set` may run ahead of it.
             let active = set.active().to_vec();
@@ -160,9 +113,9 @@ impl ContactLoop<'_> {
             let solve = solver.solve(system, &b, &mut x, residual)?;
             let lambda = self.pressures(system, &x);
             let penetration = self.penetration(system, &x, &lambda);
-            let outcome = match solve.ending {
-                Ending::Failed(_) => Step::Settled,
-                _ => set.update(|i| self.force(i, &active, &lambda, &penetration)),
+            let (outcome, lost) = match solve.ending {
+                Ending::Failed(_) => (Step::Settled, None),
+                _ => self.next_set(set, |i| self.force(i, &active, &lambda, &penetration), &mut kept),
             };
             let (added, released) = if let Step::Changed { added, released } = outcome { (added, released) } else { (0, 0) };
             let step = OuterStep {
@@ -179,7 +132,7 @@ impl ContactLoop<'_> {
             };
             report(&step);
             steps.push(step);
-            match self.judge(outcome, solve.ending, goal > tolerance, steps.len(), set) {
+            match self.judge(outcome, lost, solve.ending, goal > tolerance, steps.len(), set) {
                 Next::End(verdict) => return self.finish(system, &x, active, steps, verdict),
                 Next::Tighten => {
                     // Sets that inexact solves led to prove no cycle.
@@ -238,16 +191,33 @@ impl ContactLoop<'_> {
         Ok(goal.min((0.1 * r.norm()? / norm).max(tolerance)))
     }
 
-    /// What follows from a solve and the set it leads to.
-    fn judge(&self, outcome: Step, ending: Ending, loose: bool, passes: usize, set: &mut ActiveSet) -> Next {
-        let lost = |set: &ActiveSet| not_held(self.problem, set.active());
+    /// The set that follows from the forces. One that lets a body go may do so only because contact was closed where it is
+    /// to open, and pulled: the few multipliers that are pulled least, and hold all, stay closed then, so that the rest
+    /// comes to rest on them. If that has been tried, the words for the body.
+    fn next_set(&self, set: &mut ActiveSet, force: impl Fn(usize) -> f64, kept: &mut usize) -> (Step, Option<String>) {
+        let active = set.active().to_vec();
+        let outcome = set.update(&force);
+        let lost = if outcome == Step::Settled { None } else { not_held(self.problem, set.active()) };
+        if lost.is_none() || *kept == MOST_KEPT || !matches!(outcome, Step::Changed { .. }) {
+            return (outcome, lost);
+        }
+        if !set.keep(&few_that_hold(self.problem, set.active(), force)) {
+            return (outcome, lost);
+        }
+        *kept += 1;
+        let changed = |now: bool| active.iter().zip(set.active()).filter(|&(&was, &is)| was != is && is == now).count();
+        (Step::Changed { added: changed(true), released: changed(false) }, None)
+    }
+
+    /// What follows from a solve and the set it leads to; `lost` is the body that this set lets go, in words.
+    fn judge(&self, outcome: Step, lost: Option<String>, ending: Ending, loose: bool, passes: usize, set: &ActiveSet) -> Next {
         match (outcome, ending) {
             (_, Ending::Failed(words)) => Next::End(Verdict::NotConverged(words)),
             (Step::Settled, _) if loose => Next::Tighten,
             (Step::Settled, Ending::Rounding(words)) => Next::End(Verdict::Converged(words)),
             (Step::Settled, Ending::Converged) => Next::End(Verdict::Converged(settled(set))),
             (Step::Repeated(flipping), _) if !loose => Next::End(Verdict::NotConverged(self.cycle(&flipping))),
-            (outcome, _) => match lost(set) {
+            (outcome, _) => match lost {
                 Some(words) => Next::End(Verdict::NotConverged(words)),
                 None if passes >= MOST_SETS => {
                     Next::End(Verdict::NotConverged(format!("the active set still changes after {MOST_SETS} solves")))
