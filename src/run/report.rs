@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// Poisson's ratio from which P1 triangles are too stiff.
-const LOCKING: f64 = 0.45;
+pub const LOCKING: f64 = 0.45;
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
 pub struct Report {
@@ -90,8 +90,10 @@ impl Report {
             let remedy =
                 if contact.jumps.is_empty() { "watch inf_sup and oscillation" } else { "the jump term is added (stabilise)" };
             self.warn(&format!(
-                "contact {}: segments of {:.2} edges of the softer body, {} or more are safe: {remedy}",
-                contact.pair.name, contact.segment_ratio, contact.safe_ratio
+                "contact {}: segments of {} edges of the softer body, {} or more are safe: {remedy}",
+                contact.pair.name,
+                short(contact.segment_ratio),
+                contact.safe_ratio
             ));
         }
     }
@@ -202,6 +204,11 @@ impl Report {
             memory.sum.unwrap_or(0.0)
         ));
     }
+}
+
+/// A number to two digits, however small it is.
+pub fn short(v: f64) -> String {
+    if v.abs() < 0.01 { format!("{v:.1e}") } else { format!("{v:.2}") }
 }
 
 /// Largest resident memory so far, as the system knows it. **Collective**
