@@ -26,7 +26,7 @@ pub use cutting::{safe_ratio_of, segment_ratio, softer_edge_length};
 pub use ends::{End, true_end};
 pub use fitting::Meeting;
 pub use jump_term::{Jump, SparseRows, jump_matrix, jumps};
-pub use mechanism::{Condition, Extent, Mechanism, find_mechanism};
+pub use mechanism::{Condition, Extent, Mechanism, find_mechanism, tidy};
 pub use multiplier::{DiagonalBlock, Multipliers};
 pub use oscillation::oscillation;
 pub use pair::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise};

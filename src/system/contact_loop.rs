@@ -4,7 +4,7 @@ use super::{
     Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Solution, Space, SystemError, Tolerance, Verdict, few_that_hold,
     not_held,
 };
-use crate::contact::{ActiveSet, Step};
+use crate::contact::{ActiveSet, SegmentRule, Step, tidy};
 use crate::petsc::{Session, Vector};
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
@@ -329,11 +329,14 @@ impl ContactLoop<'_> {
             let contact = self.problem.contact_of(i);
             let segment = contact.multipliers.segment_of(i - contact.first);
             let [s, t] = [contact.boundary.arcs()[segment], contact.boundary.arcs()[segment + 1]];
-            format!("{} segment {segment} (s = {s:.4} ... {t:.4})", contact.pair.name)
+            let [s, t] = [s, t].map(|s| tidy(s, contact.boundary.length()));
+            format!("{} segment {segment} (s = {s} ... {t})", contact.pair.name)
         };
         let mut names: Vec<String> = flipping.iter().map(name).collect();
         names.dedup();
-        format!("the active set repeats itself; these flip: {}; use fewer segments or another multiplier space", names.join(", "))
+        let given = flipping.iter().any(|&i| self.problem.contact_of(i).pair.segments != SegmentRule::Auto);
+        let remedy = if given { "use fewer segments" } else { "refine the mesh" };
+        format!("the active set repeats itself; these flip: {}; {remedy} or take another multiplier space", names.join(", "))
     }
 }
 
