@@ -22,7 +22,7 @@ mod trace;
 pub use active_set::{ActiveSet, Step};
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, Side, declared_gap, integrate};
-pub use cutting::{safe_ratio_of, segment_ratio, softer_edge_length};
+pub use cutting::{safe_ratio_of, segment_edge_lengths, segment_ratio};
 pub use ends::{End, true_end};
 pub use fitting::Meeting;
 pub use jump_term::{Jump, SparseRows, jump_matrix, jumps};
