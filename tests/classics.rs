@@ -52,6 +52,20 @@ fn a_cylinder_on_a_block_in_the_reference_configuration() {
     near(one.number("/contact/seam/ends/1/0"), 0.07316, 0.07316 * 1e-2, "half width");
 }
 
+/// The stiff body's own forces, by its prescribed displacement, are far above those of contact: these must be solved for all
+/// the same. From 10⁴ on the cylinder is rigid, and its modulus changes nothing.
+#[test]
+fn a_cylinder_however_stiff_presses_as_a_rigid_one() {
+    let force = |young: &str| {
+        let run = Run::case("hertz").ranks(2).set("mesh.refine", 2).set("exact.must_hold", false);
+        run.set("body.cylinder.young", young).converged().number("/contact/seam/force")
+    };
+    let stiff = force("7e7");
+    for (young, tolerance) in [("7e8", 1e-3), ("7e10", 1e-3)] {
+        near(force(young), stiff, stiff * tolerance, &format!("force, E = {young}"));
+    }
+}
+
 #[test]
 fn a_cylinder_on_a_block_in_the_deformed_configuration() {
     let one = on_all_ranks("hertz/deformed.toml");

@@ -2,7 +2,7 @@
 
 use super::{
     Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Solution, Space, SystemError, Tolerance, Verdict, few_that_hold,
-    not_held,
+    not_held, rigid_start,
 };
 use crate::contact::{ActiveSet, SegmentRule, Step, tidy};
 use crate::petsc::{Session, Vector};
@@ -15,6 +15,9 @@ const FROM_START: f64 = 2e-4;
 
 /// Active sets tried at most.
 const MOST_SETS: usize = 60;
+
+/// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
+const LEAST_SHARE: f64 = 1e-8;
 
 /// How often contact that a body needs is kept against its forces.
 const MOST_KEPT: usize = 3;
@@ -102,8 +105,9 @@ impl ContactLoop<'_> {
             solver.refresh(system)?;
             self.release(system, &mut x, set.active());
         }
-        let tolerance = self.last_residual(system, &x, set.active())?;
-        let mut goal = if set.may_change() { tolerance.max(LOOSE) } else { tolerance };
+        let share = self.share(system, set.active())?;
+        let tolerance = share * self.last_residual(system, &x, set.active())?;
+        let mut goal = if set.may_change() { tolerance.max(share * LOOSE) } else { tolerance };
         let (mut steps, mut kept) = (Vec::new(), 0);
         loop {
             // The set that the blocks hold and the solution belongs to; `set` may run ahead of it.
@@ -125,7 +129,7 @@ impl ContactLoop<'_> {
                 added,
                 released,
                 krylov_iterations: solve.iterations,
-                residual: solve.residual,
+                residual: solve.residual / share,
                 max_penetration: self.largest_penetration(&penetration),
                 du: self.change(&x, &mut before),
                 climbed: solve.climbed,
@@ -133,7 +137,7 @@ impl ContactLoop<'_> {
             report(&step);
             steps.push(step);
             match self.judge(outcome, lost, solve.ending, goal > tolerance, steps.len(), set) {
-                Next::End(verdict) => return self.finish(system, &x, active, steps, verdict),
+                Next::End(verdict) => return self.finish(system, &x, active, share, steps, verdict),
                 Next::Tighten => {
                     // Sets that inexact solves led to prove no cycle.
                     goal = tolerance;
@@ -147,6 +151,20 @@ impl ContactLoop<'_> {
                 self.release(system, &mut x, set.active());
             }
         }
+    }
+
+    /// Share of the right-hand side that asks for strain. Displacements prescribed to a stiff body are forces of its own
+    /// modulus there, however little they strain it: beside them the forces of contact with a soft one are small, and a
+    /// residual relative to all of it says nothing of these. So the part that moves the bodies rigidly does not count.
+    /// **Collective**
+    fn share(&self, system: &SaddlePoint, active: &[bool]) -> Result<f64, SystemError> {
+        let Some(displacement) = rigid_start(self.problem, self.session.rank()) else { return Ok(1.0) };
+        let b = system.right_hand_side(active, self.finest())?;
+        let (mut x, mut r) = (b.duplicate()?, b.duplicate()?);
+        self.begin(system, &mut x, &Start { displacement: &displacement, multipliers: &vec![0.0; active.len()] });
+        system.nest.residual(&b, &x, &mut r)?;
+        let share = r.norm()? / b.norm()?;
+        Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
     }
 
     /// Relative residual that the last solve is to reach. A start from a coarser mesh is off by the discretisation error of
@@ -234,13 +252,14 @@ impl ContactLoop<'_> {
         system: &SaddlePoint,
         x: &Vector,
         active: Vec<bool>,
+        share: f64,
         steps: Vec<OuterStep>,
         verdict: Verdict,
     ) -> Result<Solution, SystemError> {
         let b = system.right_hand_side(&active, self.finest())?;
         let mut r = b.duplicate()?;
         system.nest.residual(&b, x, &mut r)?;
-        let norm = b.norm()?;
+        let norm = share * b.norm()?;
         let unknowns = self.finest().local_unknowns();
         let mut displacement = x.values()[..unknowns].to_vec();
         for (node, constraint) in self.finest().constraints.iter().filter(|(node, _)| self.finest().own.contains(node)) {
@@ -254,7 +273,7 @@ impl ContactLoop<'_> {
             multipliers: self.pressures(system, x),
             active,
             residual: if norm == 0.0 { 0.0 } else { r.norm()? / norm },
-            plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)?,
+            plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)? / share,
             steps,
             boundaries: Vec::new(),
             inf_sup: Vec::new(),

@@ -48,19 +48,24 @@ fn mechanism(problem: &Discretisation, active: &[bool]) -> Option<Mechanism> {
 
 /// Everything that supports hold, at the macro vertices.
 fn support_conditions(scene: &Scene, numbering: &Numbering) -> Vec<Condition> {
+    supported(scene, numbering).into_iter().map(|(body, x, direction, _)| vec![(body, x, direction)]).collect()
+}
+
+/// Body, place, direction and prescribed displacement of everything that supports hold at the macro vertices.
+pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<(usize, Point, Point, f64)> {
     let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports) else { return Vec::new() };
     let mut body = vec![0; scene.mesh.vertices.len()];
     for triangle in &scene.mesh.triangles {
         triangle.vertices.iter().for_each(|&vertex| body[vertex as usize] = triangle.body as usize);
     }
-    let mut conditions = Vec::new();
+    let mut all = Vec::new();
     for (vertex, &x) in scene.mesh.vertices.iter().enumerate() {
         let Some(constraint) = constraints.get(numbering.vertex(vertex as u32)) else { continue };
         for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
             if constraint.fixed[k] {
-                conditions.push(vec![(body[vertex], x, constraint.to_global(axis))]);
+                all.push((body[vertex], x, constraint.to_global(axis), constraint.value[k]));
             }
         }
     }
-    conditions
+    all
 }
