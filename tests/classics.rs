@@ -52,6 +52,20 @@ fn a_cylinder_on_a_block_in_the_reference_configuration() {
     near(one.number("/contact/seam/ends/1/0"), 0.07316, 0.07316 * 1e-2, "half width");
 }
 
+/// The stiff body's own forces, by its prescribed displacement, are far above those of contact: these must be solved for all
+/// the same. From 10⁴ on the cylinder is rigid, and its modulus changes nothing.
+#[test]
+fn a_cylinder_however_stiff_presses_as_a_rigid_one() {
+    let force = |young: &str| {
+        let run = Run::case("hertz").ranks(2).set("mesh.refine", 2).set("exact.must_hold", false);
+        run.set("body.cylinder.young", young).converged().number("/contact/seam/force")
+    };
+    let stiff = force("7e7");
+    for (young, tolerance) in [("7e8", 1e-3), ("7e10", 1e-3)] {
+        near(force(young), stiff, stiff * tolerance, &format!("force, E = {young}"));
+    }
+}
+
 #[test]
 fn a_cylinder_on_a_block_in_the_deformed_configuration() {
     let one = on_all_ranks("hertz/deformed.toml");
@@ -81,6 +95,30 @@ fn a_pin_that_fits_touches_the_same_arc_under_any_load() {
         near(ended.number("/contact/seam/resultant/1") / load, 0.5, 1e-6, &format!("vertical force, load {load}"));
     }
     ends_by_the_active_set("pin", 64, 84.8279456_f64.to_radians());
+}
+
+/// All closed, as the loop begins, the pin would hang in its hole: every multiplier pulls, and none may let go of it.
+/// Persson with the clearance ΔR, and E' = E/(1 - ν²): π E' ΔR/Q = (2 - 2b⁴ - ln(1 + b²))/(b²(1 + b²)), b = tan(θ/2).
+#[test]
+fn a_pin_with_clearance_falls_to_the_bottom_of_its_hole() {
+    let clearance = 1e-4;
+    let wanted = std::f64::consts::PI * 7000.0 / (1.0 - 0.227 * 0.227) * clearance;
+    let load = |half: f64| {
+        let square = (0.5 * half).tan().powi(2);
+        (2.0 - 2.0 * square * square - (1.0 + square).ln()) / (square * (1.0 + square))
+    };
+    // `load` falls from infinity to zero at the half angle of a neat fit.
+    let (mut low, mut high) = (0.1, 84.8279456_f64.to_radians());
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if load(middle) > wanted { low = middle } else { high = middle }
+    }
+    for ranks in RANKS {
+        let run = Run::case("pin").ranks(ranks).set("contact.seam.gap", clearance).set("exact.must_hold", false);
+        let ended = run.set("solver.tolerance", "1e-11").converged();
+        near(ended.number("/contact/seam/resultant/1"), 0.5, 1e-6, "vertical force");
+        near(ended.number("/contact/seam/length").to_degrees(), low.to_degrees(), 0.2, "half angle");
+    }
 }
 
 /// The layer's own integral equation: see its README.

@@ -116,7 +116,7 @@ fn the_summary_has_every_name() {
          unknowns/displacement unknowns/multiplier outer/0/iteration outer/0/active outer/0/added outer/0/released \
          outer/0/krylov_iterations outer/0/residual outer/0/max_penetration outer/0/du contact/seam/length \
          contact/seam/segments contact/seam/multiplier contact/seam/h_ratio contact/seam/inf_sup contact/seam/ends/1/1 \
-         contact/seam/closed/0/1 contact/seam/closed_points/0/1/1 contact/seam/force contact/seam/resultant/1 \
+         contact/seam/closed/0/1 contact/seam/closed_edges contact/seam/closed_points/0/1/1 contact/seam/force contact/seam/resultant/1 \
          contact/seam/moment contact/seam/pressure_max contact/seam/oscillation contact/seam/lost_points \
          contact/seam/trust energy/strain/lower energy/total energy/stationary energy/external_work estimate/energy balance/force \
          balance/moment balance/energy probe/top/x/1 probe/top/u/1 probe/top/stress/2 solver/name solver/krylov \

@@ -72,6 +72,15 @@ fn the_inf_sup_constant_falls_with_the_segments_and_does_not_depend_on_ranks() {
     assert!(beta(88, 1) < 0.05, "H/h = 0.55: {}", beta(88, 1));
 }
 
+/// On a graded mesh the jump term is that of the edges beside it; weighed by the longest edge everywhere, it leaves ten times
+/// this error.
+#[test]
+fn the_jump_term_costs_a_graded_mesh_nothing() {
+    let run = Run::case("bars_inclined/graded.toml").ranks(2).set("exact.must_hold", false).set("contact.seam.segments", 400);
+    let ended = run.set("contact.seam.stabilise", true).converged();
+    assert!(trusted(&ended) && ended.number("/errors/energy") < 2e-8, "{:e}", ended.number("/errors/energy"));
+}
+
 /// Contact along less than an edge under segments much shorter: one solution, whoever finds it.
 #[test]
 fn beside_a_jump_term_the_active_set_does_not_depend_on_ranks_or_solver() {

@@ -71,6 +71,20 @@ impl ActiveSet {
         step
     }
 
+    /// Closes `more` multipliers in the set that was found last, before anything is solved for it. Nothing changes, and the
+    /// answer is no, if that makes a set that was tried.
+    pub fn keep(&mut self, more: &[usize]) -> bool {
+        let mut next = self.active.clone();
+        more.iter().for_each(|&i| next[i] = true);
+        if self.tried.contains(&next) {
+            return false;
+        }
+        self.tried.pop();
+        self.tried.push(next.clone());
+        self.active = next;
+        true
+    }
+
     /// Forgets the sets tried so far, because the solves become more exact from here on.
     pub fn forget(&mut self) {
         self.tried = vec![self.active.clone()];
@@ -100,6 +114,17 @@ mod tests {
         let mut set = ActiveSet::new(vec![false; 3]);
         assert!(matches!(set.update(|i| if i == 2 { -1.0 } else { 1.0 }), Step::Changed { .. }));
         assert_eq!(set.update(|_| 1.0), Step::Repeated(vec![2]));
+    }
+
+    #[test]
+    fn multipliers_are_kept_once_and_no_second_time() {
+        let mut set = ActiveSet::new(vec![false; 3]);
+        set.update(|_| -1.0);
+        assert!(set.keep(&[1]));
+        assert_eq!(set.active(), [false, true, false]);
+        assert_eq!(set.update(|_| -1.0), Step::Changed { added: 0, released: 1 }, "the open set was never solved for");
+        assert!(!set.keep(&[1]));
+        assert_eq!(set.active(), [false; 3]);
     }
 
     #[test]

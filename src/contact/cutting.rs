@@ -77,9 +77,15 @@ fn softer_edges<'a>(
     })
 }
 
-/// Length of the longest ruling edge: the `h` of the jump term.
-pub fn softer_edge_length(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
+/// Length of the longest ruling edge.
+fn softer_edge_length(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
     softer_edges(boundary, edges, young).map(|(_, length)| length).fold(0.0, f64::max)
+}
+
+/// Mean length of the ruling edges beside each segment: the `h` of the jump term.
+pub fn segment_edge_lengths(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> Vec<f64> {
+    let count = EdgeCount::new(boundary, edges, young);
+    boundary.arcs().windows(2).map(|ends| (ends[1] - ends[0]) / (count.before(ends[1]) - count.before(ends[0]))).collect()
 }
 
 /// Smallest length of a segment in ruling edges.

@@ -39,9 +39,15 @@ impl Meeting {
                 return Ok(found);
             }
         }
+        let [first, second] = &pair.between;
+        if let Some(x) = nearest_node(sides, 64.0 * NEAR) {
+            return Err(format!(
+                "curve = \"fit\", but \"{first}\" and \"{second}\" come near each other at one node only, at ({}, {}): a corner, or edges too long; refine the mesh there, or declare the curve",
+                x.x, x.y
+            ));
+        }
         Err(format!(
-            "curve = \"fit\", but \"{}\" and \"{}\" lie farther apart than 6 % of their length; move the bodies together, or declare the curve",
-            pair.between[0], pair.between[1]
+            "curve = \"fit\", but \"{first}\" and \"{second}\" lie farther apart than 6 % of their length; move the bodies together, or declare the curve"
         ))
     }
 
@@ -103,7 +109,11 @@ impl Meeting {
     /// Fits a spline to the nodes of both sides in a configuration: least squares, each node weighted by the length it
     /// stands for, so that a finer body does not pull the curve. Its parameter is that of body 1's stretch. Without a wish
     /// the data choose the number of spans. The range goes as far as both stretches do.
-    pub fn fit(&self, sides: &[Vec<SmoothSide>; 2], configuration: Configuration, spans: Option<usize>) -> (Curve, [f64; 2]) {
+    ///
+    /// # Errors
+    /// Words, if the pair wants more spans than the nodes bear.
+    pub fn fit(&self, sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Result<(Curve, [f64; 2]), String> {
+        let configuration = pair.configuration;
         let both = [0, 1].map(|k| &sides[k][self.stretches[k]]);
         let mut samples: Vec<Sample> = Vec::new();
         for (k, side) in both.into_iter().enumerate() {
@@ -113,7 +123,16 @@ impl Meeting {
                 (t, x, side.weight(node))
             }));
         }
-        let curve = Curve::Spline(fit_by_the_data(&samples, spans));
+        let most = (samples.len() / 4).max(1);
+        if let Some(spans) = pair.spans.filter(|&spans| spans > most) {
+            return Err(format!(
+                "spans = {spans}: where they meet, \"{}\" and \"{}\" have {} nodes, which bear {most}; give {most} or fewer, or \"auto\", or refine the mesh",
+                pair.between[0],
+                pair.between[1],
+                samples.len()
+            ));
+        }
+        let curve = Curve::Spline(fit_by_the_data(&samples, pair.spans));
         let [mut first, mut last] = [f64::NEG_INFINITY, f64::INFINITY];
         for side in both {
             let positions = side.positions(configuration);
@@ -121,8 +140,17 @@ impl Meeting {
             first = first.max(feet[0].min(feet[1]));
             last = last.min(feet[0].max(feet[1]));
         }
-        (curve, [first, last])
+        Ok((curve, [first, last]))
     }
+}
+
+/// A node of either side that is near the other body.
+fn nearest_node(sides: &[Vec<SmoothSide>; 2], share: f64) -> Option<Point> {
+    let near = |side: &SmoothSide, others: &[SmoothSide]| {
+        let close = |x: &&Point| others.iter().any(|other| other.is_near(**x, share * side.length().max(other.length())));
+        side.points.iter().find(close).copied()
+    };
+    (0..2).find_map(|k| sides[k].iter().find_map(|side| near(side, &sides[1 - k])))
 }
 
 /// A node of the cloud: its parameter on body 1's boundary, its place, and the length it stands for.

@@ -1,8 +1,8 @@
 //! The jump term that heals a multiplier space too rich for the displacements.
 //!
 //! `C = δ (h / E_c) Σ H [ψ_i] [ψ_j]` in place of the zero block, over the jumps between neighbouring values: at the
-//! inner segment ends and, for discontinuous P1, across each segment. `h` is the longest ruling edge of the softer
-//! body, `H` the mean length of the segments beside. It vanishes with `h H` for a smooth pressure.
+//! inner segment ends and, for discontinuous P1, across each segment. `h` is the length of the softer
+//! body's edges and `H` that of the segments, both means of the segments beside. It vanishes with `h H` for a smooth pressure.
 
 use super::{MultiplierSpace, Multipliers};
 use std::collections::BTreeMap;
@@ -22,14 +22,17 @@ pub struct Jump {
 /// Sparse rows: for each row its columns and values.
 pub type SparseRows = Vec<BTreeMap<usize, f64>>;
 
-/// Jumps of one contact boundary; none for continuous multipliers, which have no jumps.
-pub fn jumps(multipliers: &Multipliers, edge: f64, modulus: f64) -> Vec<Jump> {
+/// Jumps of one contact boundary; none for continuous multipliers, which have no jumps. `edges` are the lengths of the
+/// edges beside each segment, `modulus` is `E_c` (stress).
+pub fn jumps(multipliers: &Multipliers, edges: &[f64], modulus: f64) -> Vec<Jump> {
     let neighbours: Vec<[usize; 2]> = match multipliers.space {
         MultiplierSpace::P1Continuous => Vec::new(),
         _ => (1..multipliers.count()).map(|i| [i - 1, i]).collect(),
     };
     let jump = |rows: [usize; 2]| {
-        let length = 0.5 * (multipliers.length(rows[0]) + multipliers.length(rows[1]));
+        let mean = |of: &dyn Fn(usize) -> f64| 0.5 * (of(rows[0]) + of(rows[1]));
+        let length = mean(&|i| multipliers.length(i));
+        let edge = mean(&|i| edges[multipliers.segment_of(i)]);
         Jump { rows, weight: DELTA * edge * length / modulus }
     };
     neighbours.into_iter().map(jump).collect()
@@ -57,7 +60,7 @@ mod tests {
         let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [2.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
         boundary.cut(&[0.0, 0.2, 0.5, 1.0]);
         let multipliers = Multipliers::new(space, &boundary);
-        jump_matrix(jumps(&multipliers, 0.1, 7.0).iter(), multipliers.count())
+        jump_matrix(jumps(&multipliers, &[0.1; 3], 7.0).iter(), multipliers.count())
     }
 
     #[test]
@@ -71,6 +74,19 @@ mod tests {
             assert!(energy > 0.0);
         }
         assert!(matrix(MultiplierSpace::P1Continuous).iter().all(BTreeMap::is_empty));
+    }
+
+    /// Where edges are ten times shorter, so is the weight: a jump costs by what the displacements there can see.
+    #[test]
+    fn a_jump_is_weighed_by_the_edges_beside_it() {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [4.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&[0.0, 0.25, 0.5, 0.75, 1.0]);
+        let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
+        let weights: Vec<f64> = jumps(&multipliers, &[0.1, 0.1, 0.01, 0.01], 7.0).iter().map(|jump| jump.weight).collect();
+        assert!(
+            (weights[0] / weights[2] - 10.0).abs() < 1e-12 && weights[0] > weights[1] && weights[1] > weights[2],
+            "{weights:?}"
+        );
     }
 
     /// The last multiplier before an open one is drawn to zero, and the open one towards contact.

@@ -83,7 +83,7 @@ fn describe(body: usize, bodies: &[Extent], motion: &DVector<f64>) -> Mechanism 
 }
 
 /// A number to about four digits of what counts as large.
-fn tidy(v: f64, large: f64) -> String {
+pub fn tidy(v: f64, large: f64) -> String {
     let decimals = (4.0 - large.log10().floor()).max(0.0) as usize;
     if v.abs() < 1e-4 * large {
         "0".into()

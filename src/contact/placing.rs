@@ -1,7 +1,7 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
 use super::cutting::fractions;
-use super::{Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, Side, SmoothSide};
+use super::{Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, SegmentRule, Side, SmoothSide};
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 
@@ -56,7 +56,7 @@ pub fn place(
         CurveChoice::Fit => {
             let smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
             let meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
-            let (curve, limits) = meeting.fit(&smooth, pair.configuration, pair.spans);
+            let (curve, limits) = meeting.fit(&smooth, pair).map_err(error)?;
             (curve, limits, Some(meeting))
         }
         CurveChoice::Line => line_between(mesh, pair, sides).map(|(curve, range)| (curve, range, None)).map_err(error)?,
@@ -78,8 +78,26 @@ pub fn place(
     if pair.curve != CurveChoice::Fit {
         check_cover(mesh, pair, sides, &boundary).map_err(error)?;
     }
+    check_count(pair, &edges).map_err(error)?;
     boundary.cut(&fractions(&edges, numbering.level.order, pair, young, &boundary, known.segments));
     Ok(Placed { boundary, limits, meeting })
+}
+
+/// Segments to an edge at most: shorter ones tell nothing, and their active set changes one by one.
+const MOST_TO_AN_EDGE: usize = 32;
+
+/// A number of segments that has nothing to do with the edges is a slip.
+fn check_count(pair: &Pair, edges: &[Vec<BoundaryEdge>; 2]) -> Result<(), String> {
+    let count = edges[0].len().max(edges[1].len());
+    match pair.segments {
+        SegmentRule::Count(segments) if segments > MOST_TO_AN_EDGE * count => Err(format!(
+            "segments = {segments}: \"{}\" and \"{}\" have {count} edges at most, {MOST_TO_AN_EDGE} segments to an edge are none too few; give {} or fewer, or \"auto\"",
+            pair.between[0],
+            pair.between[1],
+            MOST_TO_AN_EDGE * count
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Both boundaries must cover Γ_C without a hole, and must not close around it.
@@ -133,13 +151,14 @@ fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Cu
                 pair.between[0], pair.between[1]
             ));
         }
-        let length = (b - a).norm();
+        // Far from the origin coordinates lose digits; what that bends is straight.
+        let allowed = 1e-9 * (b - a).norm() + 4.0 * f64::EPSILON * a.amax().max(b.amax());
         for &edge in edges {
             let bent = mesh.edges[edge as usize].shape.is_some();
             let off = mesh.edges[edge as usize]
                 .vertices
                 .iter()
-                .any(|&vertex| crate::geometry::cross(own, mesh.vertices[vertex as usize] - a).abs() > 1e-9 * length);
+                .any(|&vertex| crate::geometry::cross(own, mesh.vertices[vertex as usize] - a).abs() > allowed);
             if bent || off {
                 return Err(format!(
                     "curve = \"line\", but \"{}\" is not straight; give a [geometry] that lists both boundaries, and curve = \"geometry\"",
@@ -231,7 +250,7 @@ pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> boo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{EndRule, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule, Stabilise};
+    use crate::contact::{EndRule, GapChoice, Law, MultiplierSpace, Quadrature, Stabilise};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Partition};
@@ -295,6 +314,34 @@ mod tests {
         let lengths = [0, 9].map(|k| boundary.segment_length(k));
         assert!((lengths[0] - 1.6 * 0.9 / 8.0).abs() < 1e-12 && (lengths[1] - 1.6 * 1.1 / 8.0).abs() < 1e-12);
         assert!(boundary.normal(0.5).y > 0.0);
+    }
+
+    #[test]
+    fn rounding_bends_no_line_and_a_bend_is_one_anywhere() {
+        for far in [0.0, 1e8] {
+            for (bend, straight) in [(0.0, true), (1e-3, false)] {
+                let mut mesh = two_blocks();
+                mesh.boundaries.iter_mut().for_each(|boundary| boundary.edges.sort());
+                for x in &mut mesh.vertices {
+                    let bent = if x.y == 1.0 { bend * x.x * (2.0 - x.x) } else { 0.0 };
+                    // Turned, so that the coordinates of the line are rounded.
+                    *x = Point::new(far + 0.8 * x.x - 0.6 * (x.y + bent), 3.0 * far + 0.6 * x.x + 0.8 * (x.y + bent));
+                }
+                let sides = ["lower.seam", "upper.seam"].map(|name| mesh.boundary(name).expect("named").edges.as_slice());
+                let line = line_between(&mesh, &pair(SegmentRule::Auto), sides);
+                assert_eq!(line.is_ok(), straight, "at {far}, bent by {bend}: {line:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_number_of_segments_without_measure_is_refused() {
+        let mesh = two_blocks();
+        let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
+        let numbering = Numbering::new(Level { intervals: 2, order: Order::P1 }, &partition);
+        let words = at_rest(&mesh, &numbering, SegmentRule::Count(100_000), [1.0, 1.0]).unwrap_err().to_string();
+        assert!(words.contains("segments = 100000") && words.contains("give 128 or fewer, or \"auto\""), "{words}");
+        assert!(at_rest(&mesh, &numbering, SegmentRule::Count(128), [1.0, 1.0]).is_ok());
     }
 
     #[test]

@@ -38,10 +38,10 @@ fn describe(case: &Case) -> Result<String, RunError> {
     }
     for contact in &contacts {
         lines.push(format!(
-            "contact {}: {} segments over a length of {:.6}, {} multipliers",
+            "contact {}: {} segments over a length of {}, {} multipliers",
             contact.pair.name,
             contact.boundary.segments(),
-            contact.boundary.length(),
+            super::report::length(contact.boundary.length()),
             contact.multipliers.count()
         ));
     }

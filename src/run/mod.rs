@@ -9,6 +9,7 @@ mod results;
 mod scene;
 mod solve;
 mod summarise;
+mod trust;
 
 pub use check::{check, info};
 

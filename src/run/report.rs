@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// Poisson's ratio from which P1 triangles are too stiff.
-const LOCKING: f64 = 0.45;
+pub const LOCKING: f64 = 0.45;
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
 pub struct Report {
@@ -56,10 +56,10 @@ impl Report {
         self.say(&format!("{triangles} {order} triangles, {unknowns} unknowns, {} multipliers", problem.multiplier_count()));
         for contact in &problem.contacts {
             self.say(&format!(
-                "contact {}: {} segments over {:.6}",
+                "contact {}: {} segments over {}",
                 contact.pair.name,
                 contact.boundary.segments(),
-                contact.boundary.length()
+                length(contact.boundary.length())
             ));
         }
     }
@@ -90,8 +90,10 @@ impl Report {
             let remedy =
                 if contact.jumps.is_empty() { "watch inf_sup and oscillation" } else { "the jump term is added (stabilise)" };
             self.warn(&format!(
-                "contact {}: segments of {:.2} edges of the softer body, {} or more are safe: {remedy}",
-                contact.pair.name, contact.segment_ratio, contact.safe_ratio
+                "contact {}: segments of {} edges of the softer body, {} or more are safe: {remedy}",
+                contact.pair.name,
+                short(contact.segment_ratio),
+                contact.safe_ratio
             ));
         }
     }
@@ -145,9 +147,9 @@ impl Report {
         let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
         let flipped = step.flipped.map_or("-".to_string(), |count| count.to_string());
         self.say(&format!(
-            "boundary {}: length {:.6}, moves by {}, displacement by {}, multipliers changed {flipped}",
+            "boundary {}: length {}, moves by {}, displacement by {}, multipliers changed {flipped}",
             step.iteration,
-            step.length,
+            length(step.length),
             figure(step.moved),
             figure(step.du)
         ));
@@ -204,6 +206,16 @@ impl Report {
     }
 }
 
+/// A length to six decimals, in any unit.
+pub fn length(v: f64) -> String {
+    if (1e-2..1e6).contains(&v) { format!("{v:.6}") } else { format!("{v:.6e}") }
+}
+
+/// A number to two digits, however small it is.
+pub fn short(v: f64) -> String {
+    if v.abs() < 0.01 { format!("{v:.1e}") } else { format!("{v:.2}") }
+}
+
 /// Largest resident memory so far, as the system knows it. **Collective**
 pub fn memory(session: &Session) -> Memory {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -213,4 +225,15 @@ pub fn memory(session: &Session) -> Memory {
     session.max(&mut largest);
     session.sum(&mut sum);
     Memory { max_rank: Some(largest[0]), sum: Some(sum[0]) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_units_keep_their_digits() {
+        assert_eq!([4.0, 6.082e-9, 6.082e9].map(length), ["4.000000", "6.082000e-9", "6.082000e9"]);
+        assert_eq!([1.5, 0.25, 6.3e-4].map(short), ["1.50", "0.25", "6.3e-4"]);
+    }
 }

@@ -3,7 +3,7 @@
 use super::exact::{Errors, compare};
 use super::report::memory;
 use super::solve::Solved;
-use super::{Outcome, Run, RunError, fields, summarise};
+use super::{Outcome, Run, RunError, fields, summarise, trust};
 use crate::case::Case;
 use crate::contact::GapChoice;
 use crate::geometry::Point;
@@ -40,7 +40,7 @@ impl Run<'_> {
                 }
             }
             summary.errors = errors.values;
-            if let Some(words) = summarise::distrust(&summary) {
+            if let Some(words) = trust::judge(&mut summary, self.case, matches!(solution.verdict, Verdict::Converged(_))) {
                 reason = match status {
                     Status::Converged => format!("pressure unreliable: {words}"),
                     Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
@@ -50,6 +50,11 @@ impl Run<'_> {
         }
         if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
             reason = format!("{reason}; estimated error {error:.1e} in the energy norm");
+        }
+        let idle = |(_, contact): &(&String, &summary::Contact)| contact.closed.as_ref().is_some_and(|closed| closed.is_empty());
+        let idle: Vec<&str> = summary.contact.iter().filter(idle).map(|(name, _)| name.as_str()).collect();
+        if !idle.is_empty() {
+            reason = format!("{reason}; nothing presses on contact {}", idle.join(", "));
         }
         summary.status = status;
         summary.reason = Some(reason.clone());

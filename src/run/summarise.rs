@@ -106,9 +106,9 @@ pub fn contact(
     let knots = boundary.knots();
     let pair = |p: Point| [p.x, p.y];
     let force = &balance.contacts[at];
-    let closed = closed(contact, &solution.active[contact.range()]);
     let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
     let lambda = &solution.multipliers[contact.range()];
+    let closed = closed(contact, lambda, &solution.active[contact.range()]);
     let oscillation = oscillation(boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
     let inf_sup = solution.inf_sup.get(at).copied().flatten();
     summary::Contact {
@@ -118,6 +118,7 @@ pub fn contact(
         h_ratio: Some(contact.segment_ratio),
         ends: Some([pair(boundary.point(knots[0])), pair(boundary.point(knots[knots.len() - 1]))]),
         closed_points: Some(closed.iter().map(|&[a, b]| [end(a), end(b)]).collect()),
+        closed_edges: closed_edges(contact, &closed),
         closed: Some(closed),
         force: Some(force.force),
         resultant: Some(pair(force.resultants[1])),
@@ -125,47 +126,9 @@ pub fn contact(
         pressure_max: Some(lambda.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
         oscillation,
         inf_sup,
-        trust: if contact.is_smaller_than_an_edge() { Some(false) } else { trust(inf_sup, oscillation) },
+        trust: None,
         lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
-}
-
-/// A contact whose inf-sup constant is below this has pressures that its displacements do not control.
-pub const LEAST_INF_SUP: f64 = 0.1;
-
-/// A pressure with more alternation than this is not one.
-pub const MOST_OSCILLATION: f64 = 0.05;
-
-/// Whether a pressure can be trusted, as far as there are figures.
-fn trust(inf_sup: Option<f64>, oscillation: Option<f64>) -> Option<bool> {
-    let stable = inf_sup.map(|beta| beta >= LEAST_INF_SUP);
-    let smooth = oscillation.map(|share| share <= MOST_OSCILLATION);
-    match (stable, smooth) {
-        (None, None) => None,
-        (stable, smooth) => Some(stable.unwrap_or(true) && smooth.unwrap_or(true)),
-    }
-}
-
-/// Why the pressures of some contacts cannot be trusted, and what to do; nothing if all can.
-pub fn distrust(summary: &Summary) -> Option<String> {
-    let words = |(name, contact): (&String, &summary::Contact)| {
-        let figures = [
-            contact
-                .inf_sup
-                .filter(|beta| *beta < LEAST_INF_SUP)
-                .map(|beta| format!("inf-sup constant {beta:.3}, at least {LEAST_INF_SUP} wanted")),
-            contact
-                .oscillation
-                .filter(|share| *share > MOST_OSCILLATION)
-                .map(|share| format!("oscillation {share:.3}, at most {MOST_OSCILLATION} wanted")),
-            contact.h_ratio.map(|ratio| format!("shortest segment {ratio:.2} edges of the softer body")),
-        ];
-        format!("contact {name} ({})", figures.into_iter().flatten().collect::<Vec<_>>().join("; "))
-    };
-    let bad: Vec<String> = summary.contact.iter().filter(|(_, contact)| contact.trust == Some(false)).map(words).collect();
-    (!bad.is_empty()).then(|| {
-        format!("{}; take fewer segments (\"auto\" is safe), stabilise = true, or another multiplier space", bad.join(", "))
-    })
 }
 
 /// Name of a multiplier space in the case file.
@@ -177,10 +140,14 @@ fn space_name(space: MultiplierSpace) -> &'static str {
     }
 }
 
-/// Arc-length intervals of segments with an active multiplier.
-fn closed(contact: &Contact, active: &[bool]) -> Vec<[f64; 2]> {
+/// Arc-length intervals of segments with an active multiplier; none where nothing presses at all, because then active
+/// ones touch without pressure.
+fn closed(contact: &Contact, lambda: &[f64], active: &[bool]) -> Vec<[f64; 2]> {
     let arcs = contact.boundary.arcs();
     let mut intervals: Vec<[f64; 2]> = Vec::new();
+    if lambda.iter().all(|&pressure| pressure == 0.0) {
+        return intervals;
+    }
     for k in 0..contact.boundary.segments() {
         let rows = contact.multipliers.on_segment(k, 0.0).0;
         if !rows.iter().any(|&i| active[i]) {
@@ -192,4 +159,10 @@ fn closed(contact: &Contact, active: &[bool]) -> Vec<[f64; 2]> {
         }
     }
     intervals
+}
+
+/// Edges of the softer body on the widest interval.
+fn closed_edges(contact: &Contact, closed: &[[f64; 2]]) -> Option<f64> {
+    let widest = closed.iter().map(|[from, to]| to - from).reduce(f64::max)?;
+    Some(widest / contact.edge_length())
 }

@@ -3,7 +3,7 @@
 use super::{Scene, SystemError};
 use crate::contact::{
     Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, GapChoice, Jump, Known, MultiplierSpace,
-    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_ratio, softer_edge_length,
+    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};
@@ -106,7 +106,7 @@ impl Contact {
                 Stabilise::Off => false,
             };
         let (multipliers, jumps) = if stabilised {
-            let own = jumps(&multipliers, softer_edge_length(&boundary, &all, young), modulus);
+            let own = jumps(&multipliers, &segment_edge_lengths(&boundary, &all, young), modulus);
             let numbered = own.into_iter().map(|jump| Jump { rows: jump.rows.map(|i| first + i), ..jump });
             (multipliers.stabilised(), numbered.collect())
         } else {

@@ -1,7 +1,10 @@
 //! The loop over active sets.
 
-use super::{BoundaryStep, Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Space, SystemError, Tolerance, not_held};
-use crate::contact::{ActiveSet, Step};
+use super::{
+    Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Solution, Space, SystemError, Tolerance, Verdict, few_that_hold,
+    not_held, rigid_start,
+};
+use crate::contact::{ActiveSet, SegmentRule, Step, tidy};
 use crate::petsc::{Session, Vector};
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
@@ -15,6 +18,12 @@ const LEAST: f64 = 1e-10;
 
 /// Active sets tried at most.
 const MOST_SETS: usize = 60;
+
+/// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
+const LEAST_SHARE: f64 = 1e-8;
+
+/// How often contact that a body needs is kept against its forces.
+const MOST_KEPT: usize = 3;
 
 /// One pass of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,15 +50,6 @@ pub struct OuterStep {
     pub climbed: Option<String>,
 }
 
-/// How the loop ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// Everything stands still within its tolerance; in words.
-    Converged(String),
-    /// It does not, or a body is not held; in words.
-    NotConverged(String),
-}
-
 /// What the loop does next.
 enum Next {
     /// It ends.
@@ -58,50 +58,6 @@ enum Next {
     Tighten,
     /// It solves again.
     Go,
-}
-
-/// State of the loop: the solution so far.
-pub struct Solution {
-    /// How it ended.
-    pub verdict: Verdict,
-    /// This rank's displacements, in the nodes' frames, prescribed components included.
-    pub displacement: Vec<f64>,
-    /// Contact pressures of all multipliers, along the boundaries (stress).
-    pub multipliers: Vec<f64>,
-    /// Which multipliers are active.
-    pub active: Vec<bool>,
-    /// Every pass.
-    pub steps: Vec<OuterStep>,
-    /// Every contact boundary, where some follow the solution.
-    pub boundaries: Vec<BoundaryStep>,
-    /// Relative residual of the augmented system.
-    pub residual: f64,
-    /// Relative residual of the plain system.
-    pub plain_residual: f64,
-    /// Discrete inf-sup constant of each contact, where it was asked for.
-    pub inf_sup: Vec<Option<f64>>,
-}
-
-impl Solution {
-    /// No solution at all, because a body is not held.
-    pub fn nothing(verdict: Verdict, space: &Space, active: &[bool]) -> Self {
-        Self {
-            verdict,
-            displacement: vec![0.0; space.local_unknowns()],
-            multipliers: vec![0.0; active.len()],
-            active: active.to_vec(),
-            steps: Vec::new(),
-            boundaries: Vec::new(),
-            residual: f64::NAN,
-            plain_residual: f64::NAN,
-            inf_sup: Vec::new(),
-        }
-    }
-
-    /// Whether there are displacements to look at.
-    pub fn is_solved(&self) -> bool {
-        !self.steps.is_empty() && self.residual.is_finite()
-    }
 }
 
 /// What a solve begins with.
@@ -152,9 +108,10 @@ impl ContactLoop<'_> {
             solver.refresh(system)?;
             self.release(system, &mut x, set.active());
         }
-        let tolerance = self.last_residual(system, &x, set.active())?;
-        let mut goal = if set.may_change() { tolerance.max(LOOSE) } else { tolerance };
-        let mut steps = Vec::new();
+        let share = self.share(system, set.active())?;
+        let tolerance = share * self.last_residual(system, &x, set.active())?;
+        let mut goal = if set.may_change() { tolerance.max(share * LOOSE) } else { tolerance };
+        let (mut steps, mut kept) = (Vec::new(), 0);
         loop {
             // The set that the blocks hold and the solution belongs to; `set` may run ahead of it.
             let active = set.active().to_vec();
@@ -163,9 +120,9 @@ impl ContactLoop<'_> {
             let solve = solver.solve(system, &b, &mut x, residual)?;
             let lambda = self.pressures(system, &x);
             let penetration = self.penetration(system, &x, &lambda);
-            let outcome = match solve.ending {
-                Ending::Failed(_) => Step::Settled,
-                _ => set.update(|i| self.force(i, &active, &lambda, &penetration)),
+            let (outcome, lost) = match solve.ending {
+                Ending::Failed(_) => (Step::Settled, None),
+                _ => self.next_set(set, |i| self.force(i, &active, &lambda, &penetration), &mut kept),
             };
             let (added, released) = if let Step::Changed { added, released } = outcome { (added, released) } else { (0, 0) };
             let step = OuterStep {
@@ -175,15 +132,15 @@ impl ContactLoop<'_> {
                 added,
                 released,
                 krylov_iterations: solve.iterations,
-                residual: solve.residual,
+                residual: solve.residual / share,
                 max_penetration: self.largest_penetration(&penetration),
                 du: self.change(&x, &mut before),
                 climbed: solve.climbed,
             };
             report(&step);
             steps.push(step);
-            match self.judge(outcome, solve.ending, goal > tolerance, steps.len(), set) {
-                Next::End(verdict) => return self.finish(system, &x, active, steps, verdict),
+            match self.judge(outcome, lost, solve.ending, goal > tolerance, steps.len(), set) {
+                Next::End(verdict) => return self.finish(system, &x, active, share, steps, verdict),
                 Next::Tighten => {
                     // Sets that inexact solves led to prove no cycle.
                     goal = tolerance;
@@ -197,6 +154,20 @@ impl ContactLoop<'_> {
                 self.release(system, &mut x, set.active());
             }
         }
+    }
+
+    /// Share of the right-hand side that asks for strain. Displacements prescribed to a stiff body are forces of its own
+    /// modulus there, however little they strain it: beside them the forces of contact with a soft one are small, and a
+    /// residual relative to all of it says nothing of these. So the part that moves the bodies rigidly does not count.
+    /// **Collective**
+    fn share(&self, system: &SaddlePoint, active: &[bool]) -> Result<f64, SystemError> {
+        let Some(displacement) = rigid_start(self.problem, self.session.rank()) else { return Ok(1.0) };
+        let b = system.right_hand_side(active, self.finest())?;
+        let (mut x, mut r) = (b.duplicate()?, b.duplicate()?);
+        self.begin(system, &mut x, &Start { displacement: &displacement, multipliers: &vec![0.0; active.len()] });
+        system.nest.residual(&b, &x, &mut r)?;
+        let share = r.norm()? / b.norm()?;
+        Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
     }
 
     /// Relative residual that the last solve is to reach. A start from a coarser mesh is off by the discretisation error of
@@ -241,16 +212,33 @@ impl ContactLoop<'_> {
         Ok(goal.min((0.1 * r.norm()? / norm).max(tolerance)))
     }
 
-    /// What follows from a solve and the set it leads to.
-    fn judge(&self, outcome: Step, ending: Ending, loose: bool, passes: usize, set: &mut ActiveSet) -> Next {
-        let lost = |set: &ActiveSet| not_held(self.problem, set.active());
+    /// The set that follows from the forces. One that lets a body go may do so only because contact was closed where it is
+    /// to open, and pulled: the few multipliers that are pulled least, and hold all, stay closed then, so that the rest
+    /// comes to rest on them. If that has been tried, the words for the body.
+    fn next_set(&self, set: &mut ActiveSet, force: impl Fn(usize) -> f64, kept: &mut usize) -> (Step, Option<String>) {
+        let active = set.active().to_vec();
+        let outcome = set.update(&force);
+        let lost = if outcome == Step::Settled { None } else { not_held(self.problem, set.active()) };
+        if lost.is_none() || *kept == MOST_KEPT || !matches!(outcome, Step::Changed { .. }) {
+            return (outcome, lost);
+        }
+        if !set.keep(&few_that_hold(self.problem, set.active(), force)) {
+            return (outcome, lost);
+        }
+        *kept += 1;
+        let changed = |now: bool| active.iter().zip(set.active()).filter(|&(&was, &is)| was != is && is == now).count();
+        (Step::Changed { added: changed(true), released: changed(false) }, None)
+    }
+
+    /// What follows from a solve and the set it leads to; `lost` is the body that this set lets go, in words.
+    fn judge(&self, outcome: Step, lost: Option<String>, ending: Ending, loose: bool, passes: usize, set: &ActiveSet) -> Next {
         match (outcome, ending) {
             (_, Ending::Failed(words)) => Next::End(Verdict::NotConverged(words)),
             (Step::Settled, _) if loose => Next::Tighten,
             (Step::Settled, Ending::Rounding(words)) => Next::End(Verdict::Converged(words)),
             (Step::Settled, Ending::Converged) => Next::End(Verdict::Converged(settled(set))),
             (Step::Repeated(flipping), _) if !loose => Next::End(Verdict::NotConverged(self.cycle(&flipping))),
-            (outcome, _) => match lost(set) {
+            (outcome, _) => match lost {
                 Some(words) => Next::End(Verdict::NotConverged(words)),
                 None if passes >= MOST_SETS => {
                     Next::End(Verdict::NotConverged(format!("the active set still changes after {MOST_SETS} solves")))
@@ -267,13 +255,14 @@ impl ContactLoop<'_> {
         system: &SaddlePoint,
         x: &Vector,
         active: Vec<bool>,
+        share: f64,
         steps: Vec<OuterStep>,
         verdict: Verdict,
     ) -> Result<Solution, SystemError> {
         let b = system.right_hand_side(&active, self.finest())?;
         let mut r = b.duplicate()?;
         system.nest.residual(&b, x, &mut r)?;
-        let norm = b.norm()?;
+        let norm = share * b.norm()?;
         let unknowns = self.finest().local_unknowns();
         let mut displacement = x.values()[..unknowns].to_vec();
         for (node, constraint) in self.finest().constraints.iter().filter(|(node, _)| self.finest().own.contains(node)) {
@@ -287,7 +276,7 @@ impl ContactLoop<'_> {
             multipliers: self.pressures(system, x),
             active,
             residual: if norm == 0.0 { 0.0 } else { r.norm()? / norm },
-            plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)?,
+            plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)? / share,
             steps,
             boundaries: Vec::new(),
             inf_sup: Vec::new(),
@@ -362,11 +351,14 @@ impl ContactLoop<'_> {
             let contact = self.problem.contact_of(i);
             let segment = contact.multipliers.segment_of(i - contact.first);
             let [s, t] = [contact.boundary.arcs()[segment], contact.boundary.arcs()[segment + 1]];
-            format!("{} segment {segment} (s = {s:.4} ... {t:.4})", contact.pair.name)
+            let [s, t] = [s, t].map(|s| tidy(s, contact.boundary.length()));
+            format!("{} segment {segment} (s = {s} ... {t})", contact.pair.name)
         };
         let mut names: Vec<String> = flipping.iter().map(name).collect();
         names.dedup();
-        format!("the active set repeats itself; these flip: {}; use fewer segments or another multiplier space", names.join(", "))
+        let given = flipping.iter().any(|&i| self.problem.contact_of(i).pair.segments != SegmentRule::Auto);
+        let remedy = if given { "use fewer segments" } else { "refine the mesh" };
+        format!("the active set repeats itself; these flip: {}; {remedy} or take another multiplier space", names.join(", "))
     }
 }
 

@@ -57,7 +57,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
         ("/outer/0", "active added boundary du iteration krylov_iterations max_penetration released residual"),
         (
             "/contact/seam",
-            "closed closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",
+            "closed closed_edges closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",
         ),
         ("/energy", "external_work stationary strain total"),
         ("/estimate", "energy seam"),
