@@ -62,6 +62,24 @@ fn iterations_stay_few_at_every_level() {
     }
 }
 
+/// Needles of 5 degrees, lying and standing, refined towards both corners: the solver finds a stronger preconditioner, and says so.
+#[test]
+fn slivers_are_solved_within_sixty_iterations() {
+    for (file, order, space) in [("flat.msh", 1, "p0"), ("flat.msh", 2, "p1-discontinuous"), ("upright.msh", 1, "p0")] {
+        for ranks in RANKS {
+            let run = Run::case("hard/bars.toml").ranks(ranks).set("mesh.file", file).set("mesh.refine", 4 - order);
+            let run = run.set("mesh.grade.points", "[[0, 3], [6, 4]]").set("mesh.grade.exponent", "[0.818, 1.057]");
+            let run = run.set("mesh.order", order).set("contact.seam.multiplier", space).set("exact.must_hold", false);
+            let ended = run.set("solver.inf_sup", false).set("output.fields", false).converged();
+            let (count, used) = (ended.iterations(), ended.value("/solver/krylov"));
+            let words = format!("{file}, P{order}/{space}, {ranks} ranks: {count} iterations, {used}");
+            println!("{words}");
+            assert!(count <= 60 && used.as_str().expect("words").contains("CG steps"), "{words}");
+            assert!(ended.said().contains("CG steps"), "{}", ended.said());
+        }
+    }
+}
+
 /// Segments that count edges are stable, whatever the ratio.
 #[test]
 fn automatic_segments_are_stable_for_all_spaces() {

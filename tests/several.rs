@@ -182,3 +182,30 @@ fn stacks() {
         }
     }
 }
+
+/// Three bodies in a stack, the upper or the middle one a million times stiffer or softer than the others.
+#[test]
+fn a_stack_of_stiff_and_soft_bodies_takes_few_iterations() {
+    let pairs = [(1, "p0"), (2, "p1-discontinuous")];
+    for (body, (order, space)) in ["middle", "upper"].map(|body| pairs.map(|pair| (body, pair))).into_iter().flatten() {
+        for (young, ranks) in ["7e9", "7e-3"].map(|young| RANKS.map(|ranks| (young, ranks))).into_iter().flatten() {
+            let mut run = Run::case("stack").ranks(ranks).set("mesh.order", order).set("mesh.refine", 4 - order);
+            for other in ["lower", "middle", "upper"] {
+                run = run.set(&format!("body.{other}.young"), if other == body { young } else { "7e3" });
+            }
+            for line in ["first", "second"] {
+                run = run.set(&format!("contact.{line}.multiplier"), space);
+            }
+            // Under equal pressures λ = 1, which the coarsest mesh finds.
+            let run = run
+                .set("load.side.pressure", 0.2)
+                .set("solver.tolerance", 1e-8)
+                .set("solver.inf_sup", false)
+                .set("output.fields", false);
+            let count = run.set("exact.must_hold", false).converged().iterations();
+            let words = format!("{body} with E = {young}, P{order}/{space}, {ranks} ranks: {count} iterations");
+            println!("{words}");
+            assert!(count <= 20, "{words}");
+        }
+    }
+}

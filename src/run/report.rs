@@ -124,6 +124,11 @@ impl Report {
             step.max_penetration,
             step.du
         ));
+        self.climbed(step);
+    }
+
+    /// A stronger preconditioner, which all solves after it keep.
+    fn climbed(&self, step: &OuterStep) {
         if let Some(words) = &step.climbed {
             self.say(&format!("       slow; went over to {words}"));
         }
@@ -140,6 +145,7 @@ impl Report {
             solution.active.len(),
             iterations.join(" ")
         ));
+        solution.steps.iter().for_each(|step| self.climbed(step));
     }
 
     /// A contact boundary that was solved for, and how far it moves next.
