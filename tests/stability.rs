@@ -81,6 +81,16 @@ fn the_jump_term_costs_a_graded_mesh_nothing() {
     assert!(trusted(&ended) && ended.number("/errors/energy") < 2e-8, "{:e}", ended.number("/errors/energy"));
 }
 
+/// Edges in contact are counted where they are, however they are graded: `auto` gives each segment as many.
+#[test]
+fn edges_in_contact_are_counted_on_a_graded_mesh() {
+    let run = Run::case("bars_inclined/graded.toml").ranks(2).set("exact.must_hold", false).set("contact.seam.segments", "auto");
+    let ended = run.set("mesh.refine", 2).converged();
+    let [edges, segments, ratio] =
+        ["closed_edges", "segments", "h_ratio"].map(|key| ended.number(&format!("/contact/seam/{key}")));
+    assert!((edges / (segments * ratio) - 1.0).abs() < 1e-6, "{edges} edges on {segments} segments of {ratio}");
+}
+
 /// Contact along less than an edge under segments much shorter: one solution, whoever finds it.
 #[test]
 fn beside_a_jump_term_the_active_set_does_not_depend_on_ranks_or_solver() {

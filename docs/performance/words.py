@@ -26,6 +26,7 @@ def page(studies, small):
         machine(studies),
         speed_section(speed, small),
         scaling_section(scaling, small),
+        solvers_section(studies["solvers"]),
         ranks_section(ranks),
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -186,6 +187,33 @@ def scaling_sentence(line, small):
     if cost["deviation"] > 1.5:
         return text + "; the times follow no power law."
     return text + f"; over the three largest meshes time ~ N^{cost['exponent']:.2f}."
+
+
+# Solvers
+
+
+def solvers_section(study):
+    header = ["pair", "unknowns", "s, fieldsplit", "s, direct", "ratio", "MiB, fieldsplit", "MiB, direct", "ratio"]
+    lines = {line["name"]: line for line in study["lines"]}
+    rows, told = [], []
+    for name in unique(name.rsplit(", ", 1)[0] for name in lines):
+        pairs = list(zip(*(lines[f"{name}, {solver}"]["points"] for solver in ("fieldsplit", "direct"))))
+        for own, other in pairs:
+            times = [point["time"]["median"] for point in (own, other)]
+            memory = [point["memory"] for point in (own, other)]
+            rows.append([name, count(own["unknowns"])] + [seconds(time) for time in times] + [f"{times[1] / times[0]:.1f}"]
+                        + [f"{each:.0f}" for each in memory] + [f"{memory[0] / memory[1]:.2f}"])
+        told.append(f"with {name} {times[1] / times[0]:.1f} times the time and {memory[1] / memory[0]:.1f} times the memory")
+    largest = count(pairs[-1][0]["unknowns"])
+    parts = [
+        "## Multigrid and a factorisation",
+        "The same problems with `solver.name = \"fieldsplit\"` and with `\"direct\"`, MUMPS with the BLAS named above, on 2 ranks, from "
+        "start to end. Both solve two coarser meshes first.",
+        "![fieldsplit and direct](figures/solvers.svg)",
+        table(header, rows),
+        f"At {largest} unknowns the factorisation takes {', and '.join(told)}.",
+    ]
+    return "\n\n".join(parts)
 
 
 # Ranks

@@ -153,7 +153,7 @@ pub struct Contact {
     pub ends: Option<[[f64; 2]; 2]>,
     /// Intervals of arc length in contact.
     pub closed: Option<Vec<[f64; 2]>>,
-    /// Edges of the softer body on the widest of them.
+    /// Edges of the softer body on the one that holds most.
     pub closed_edges: Option<f64>,
     /// Their ends in the plane.
     pub closed_points: Option<Vec<[[f64; 2]; 2]>>,

@@ -161,8 +161,11 @@ fn closed(contact: &Contact, lambda: &[f64], active: &[bool]) -> Vec<[f64; 2]> {
     intervals
 }
 
-/// Edges of the softer body on the widest interval.
+/// Most edges of the softer body on an interval.
 fn closed_edges(contact: &Contact, closed: &[[f64; 2]]) -> Option<f64> {
-    let widest = closed.iter().map(|[from, to]| to - from).reduce(f64::max)?;
-    Some(widest / contact.edge_length())
+    let arcs = contact.boundary.arcs();
+    let edges = |k: usize| (arcs[k + 1] - arcs[k]) / contact.edge_lengths[k];
+    let on =
+        |&[from, to]: &[f64; 2]| (0..contact.edge_lengths.len()).filter(|&k| arcs[k] >= from && arcs[k] < to).map(edges).sum();
+    closed.iter().map(on).reduce(f64::max)
 }

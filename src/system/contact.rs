@@ -29,6 +29,8 @@ pub struct Contact {
     pub edges: [Vec<BoundaryEdge>; 2],
     /// Smallest ratio of a segment's length to the edges of the softer body that it meets.
     pub segment_ratio: f64,
+    /// Mean length of the softer body's edges beside each segment.
+    pub edge_lengths: Vec<f64>,
     /// Ratio from which the pair of spaces is stable.
     pub safe_ratio: f64,
     /// Smooth boundaries of both bodies, where the gap is measured between them.
@@ -96,6 +98,7 @@ impl Contact {
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
         let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
         let segment_ratio = segment_ratio(&boundary, &all, young);
+        let edge_lengths = segment_edge_lengths(&boundary, &all, young);
         let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
         let multipliers = Multipliers::new(pair.space, &boundary);
         let modulus = 2.0 / (1.0 / young[0] + 1.0 / young[1]);
@@ -106,7 +109,7 @@ impl Contact {
                 Stabilise::Off => false,
             };
         let (multipliers, jumps) = if stabilised {
-            let own = jumps(&multipliers, &segment_edge_lengths(&boundary, &all, young), modulus);
+            let own = jumps(&multipliers, &edge_lengths, modulus);
             let numbered = own.into_iter().map(|jump| Jump { rows: jump.rows.map(|i| first + i), ..jump });
             (multipliers.stabilised(), numbered.collect())
         } else {
@@ -128,6 +131,7 @@ impl Contact {
             bodies,
             edges,
             segment_ratio,
+            edge_lengths,
             safe_ratio,
             shapes,
             jumps,
