@@ -10,7 +10,7 @@ const ITERATIONS: u64 = 13;
 /// How much more work an unknown may cost after one more refinement: one iteration of nine.
 const MORE_WORK: f64 = 1.12;
 /// Synchronisations of all ranks that one more level may cost, on this mesh and the two coarser ones.
-const MORE_REDUCTIONS: f64 = 90.0;
+const MORE_REDUCTIONS: f64 = 110.0;
 
 /// A displacement order, a multiplier space, refinements, and the most floating-point operations for each unknown.
 type Ladder = (usize, &'static str, [usize; 4], f64);

@@ -26,6 +26,9 @@ pub trait Operator {
 
     /// Largest sum of magnitudes in a row.
     fn norm_infinity(&self) -> Result<f64>;
+
+    /// Floating-point operations of a product on this rank, for PETSc's log; a sweep has twice as many.
+    fn work(&self) -> f64;
 }
 
 /// A matrix from one space to another by what it does. **Collective**, all of it; an error must be one on all ranks.
@@ -38,6 +41,9 @@ pub trait Transfer {
 
     /// `y = Aᵀ x`.
     fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()>;
+
+    /// Floating-point operations of a product on this rank, for PETSc's log.
+    fn work(&self) -> f64;
 }
 
 /// What PETSc keeps of a shell.
@@ -124,12 +130,16 @@ mod operator {
     use super::*;
 
     pub unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act(matrix, |action: &Square, session| action.multiply(&Lent::new(session, x), &mut Lent::new(session, y)))
+        act(matrix, |action: &Square, session| {
+            action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
+            petsc!(mezha_log_work(action.work()))
+        })
     }
 
     pub unsafe extern "C" fn residual(matrix: ffi::Mat, b: ffi::Vec, x: ffi::Vec, r: ffi::Vec) -> Code {
         act(matrix, |action: &Square, session| {
-            action.residual(&Lent::new(session, b), &Lent::new(session, x), &mut Lent::new(session, r))
+            action.residual(&Lent::new(session, b), &Lent::new(session, x), &mut Lent::new(session, r))?;
+            petsc!(mezha_log_work(action.work()))
         })
     }
 
@@ -146,7 +156,9 @@ mod operator {
         let zero = kind.0 & ffi::MatSORType::SOR_ZERO_INITIAL_GUESS.0 != 0;
         act(matrix, |action: &Square, session| {
             let (b, mut x) = (Lent::new(session, b), Lent::new(session, x));
-            (0..sweeps * local_sweeps).try_for_each(|sweep| action.relax(&b, &mut x, zero && sweep == 0))
+            let sweeps = sweeps * local_sweeps;
+            (0..sweeps).try_for_each(|sweep| action.relax(&b, &mut x, zero && sweep == 0))?;
+            petsc!(mezha_log_work(2.0 * f64::from(sweeps) * action.work()))
         })
     }
 
@@ -168,7 +180,10 @@ mod transfer {
     use super::*;
 
     pub unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act(matrix, |action: &Rectangular, session| action.multiply(&Lent::new(session, x), &mut Lent::new(session, y)))
+        act(matrix, |action: &Rectangular, session| {
+            action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
+            petsc!(mezha_log_work(action.work()))
+        })
     }
 
     pub unsafe extern "C" fn multiply_add(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec, sum: ffi::Vec) -> Code {
@@ -177,11 +192,15 @@ mod transfer {
             if y != sum {
                 target.copy_from(&Lent::new(session, y))?;
             }
-            action.multiply_add(&Lent::new(session, x), &mut target)
+            action.multiply_add(&Lent::new(session, x), &mut target)?;
+            petsc!(mezha_log_work(action.work()))
         })
     }
 
     pub unsafe extern "C" fn multiply_transpose(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act(matrix, |action: &Rectangular, session| action.multiply_transpose(&Lent::new(session, x), &mut Lent::new(session, y)))
+        act(matrix, |action: &Rectangular, session| {
+            action.multiply_transpose(&Lent::new(session, x), &mut Lent::new(session, y))?;
+            petsc!(mezha_log_work(action.work()))
+        })
     }
 }

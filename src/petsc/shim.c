@@ -17,6 +17,11 @@ PetscErrorCode mezha_callback_error(const char *message)
   return PetscError(PETSC_COMM_SELF, __LINE__, __func__, __FILE__, PETSC_ERR_USER, PETSC_ERROR_INITIAL, "%s", message);
 }
 
+PetscErrorCode mezha_log_work(double operations)
+{
+  return PetscLogFlops(operations);
+}
+
 void mezha_restart_scotch(void)
 {
   /* Scotch comes with PETSc, so its development files need not be there: look the function up. */

@@ -7,6 +7,8 @@ PetscErrorCode mezha_malloc(size_t bytes, void **memory);
 PetscErrorCode mezha_free(void *memory);
 /* Enters an error of a callback into PETSc's error handling; returns its code. */
 PetscErrorCode mezha_callback_error(const char *message);
+/* Counts floating-point operations in PETSc's log. */
+PetscErrorCode mezha_log_work(double operations);
 /* Starts the random numbers of Scotch afresh, if this PETSc has loaded it. */
 void mezha_restart_scotch(void);
 /* Sizes that PETSc works out, and its default real tolerance. */

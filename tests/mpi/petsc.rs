@@ -311,6 +311,10 @@ impl Operator for Diagonal {
     fn norm_infinity(&self) -> Result<f64, Error> {
         Ok(self.value)
     }
+
+    fn work(&self) -> f64 {
+        1.0
+    }
 }
 
 fn operator_acts(session: &Session) {

@@ -94,4 +94,7 @@ impl Transfer for LatticeInterpolation {
         self.each(|node, parents| parents.into_iter().for_each(|p| (0..2).for_each(|k| y[p][k] += 0.5 * x[node][k])));
         Ok(())
     }
+    fn work(&self) -> f64 {
+        self.halved.iter().map(|row| 4.0 * row.count as f64).sum()
+    }
 }

@@ -23,6 +23,8 @@ pub struct LatticeOperator {
     strips: Rc<Strips>,
     stored: Matrix,
     rows: RefCell<StoredRows>,
+    /// Couplings of all nodes in strips.
+    in_strips: f64,
     /// Columns of other ranks, and what fetches their values.
     far: Vec<usize>,
     gather: Option<Gather>,
@@ -43,7 +45,12 @@ impl LatticeOperator {
             }
         };
         let rows = RefCell::new(StoredRows::read(stored, own, &nodes, &far)?);
-        Ok(Self { own: own.clone(), strips: strips.clone(), stored: stored.clone(), rows, far, gather })
+        let couplings = |&(place, stencil): &(Place, usize)| {
+            let [even, odd] = strips.stencils[stencil].couplings(place).map(|kind| kind.len());
+            0.5 * (place.count * (even + odd)) as f64
+        };
+        let in_strips = strips.places.iter().map(couplings).sum();
+        Ok(Self { in_strips, own: own.clone(), strips: strips.clone(), stored: stored.clone(), rows, far, gather })
     }
 
     /// Reads the stored rows again, after their values have changed.
@@ -136,5 +143,9 @@ impl Operator for Rc<LatticeOperator> {
     fn norm_infinity(&self) -> Result<f64> {
         let stored = self.stored.norm_infinity()?;
         Ok(self.strips.stencils.iter().map(Stencil::norm_infinity).fold(stored, f64::max))
+    }
+
+    fn work(&self) -> f64 {
+        8.0 * (self.rows.borrow().block_count() as f64 + self.in_strips)
     }
 }

@@ -103,6 +103,11 @@ impl StoredRows {
         Ok(rows)
     }
 
+    /// Blocks in all rows.
+    pub fn block_count(&self) -> usize {
+        self.near.blocks.len() + self.far.blocks.len()
+    }
+
     /// The nodes whose rows these are.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes
