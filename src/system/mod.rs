@@ -5,52 +5,34 @@
 //! sets. What the solution means on the bodies is in [`recovery`].
 
 mod boundary_motion;
-mod coarse_solution;
 mod contact;
-mod contact_loop;
 mod coupling;
-mod coupling_rows;
 mod discretisation;
-mod estimate;
 mod field;
-mod following;
-mod held;
-mod inf_sup;
 mod interpolation;
-mod ladder;
-mod multiplier_blocks;
 mod nodal_force;
+mod outer_loop;
 pub mod recovery;
-mod rigid_start;
 mod saddle_point;
 mod scene;
-mod solution;
 mod solver;
-mod solver_options;
 mod space;
 pub mod stiffness;
 
 pub use boundary_motion::BoundaryMotion;
-pub use coarse_solution::CoarseSolution;
 pub use contact::Contact;
-pub use contact_loop::{ContactLoop, OuterStep, Start};
 pub use coupling::{Coupled, Coupling, bilateral};
-pub use coupling_rows::CouplingRows;
 pub use discretisation::{Discretisation, spaces};
-pub use estimate::{Difference, Estimate};
 pub use field::Field;
-pub use following::{BoundaryStep, Following, Onward, carried, stands};
-pub use held::{few_that_hold, not_held};
-pub use inf_sup::inf_sup;
 pub use interpolation::interpolations;
-pub use ladder::Rung;
-pub use multiplier_blocks::{MultiplierBlocks, SchurPattern};
 pub use nodal_force::{load, nodal_forces};
-pub use rigid_start::rigid_start;
-pub use saddle_point::{Form, SaddlePoint};
+pub use outer_loop::{
+    BoundaryStep, CoarseSolution, ContactLoop, Difference, Estimate, Following, Onward, OuterStep, Solution, Start, Verdict,
+    carried, few_that_hold, not_held, rigid_start, stands,
+};
+pub use saddle_point::{CouplingRows, Form, MultiplierBlocks, SaddlePoint, SchurPattern};
 pub use scene::Scene;
-pub use solution::{Solution, Verdict};
-pub use solver::{Ending, LinearSolve, LinearSolver};
+pub use solver::{Ending, LinearSolve, LinearSolver, Rung, inf_sup};
 pub use space::Space;
 pub use stiffness::Elastic;
 

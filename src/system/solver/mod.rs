@@ -7,10 +7,17 @@
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override; only the
 //! tolerance is the case's.
 
-use super::ladder::needed;
-use super::solver_options::{CoarseSolver, FIELD_SPLIT, lambda_options, rung_options};
-use super::{Form, Rung, SaddlePoint, SolverChoice, SystemError};
-use crate::petsc::{Krylov, Level, Matrix, Session, Solved, Vector, options};
+mod inf_sup;
+mod ladder;
+mod options;
+
+pub use inf_sup::inf_sup;
+pub use ladder::Rung;
+
+use self::options::{CoarseSolver, FIELD_SPLIT, lambda_options, rung_options};
+use super::{Form, SaddlePoint, SolverChoice, SystemError};
+use crate::petsc::{self, Krylov, Level, Matrix, Session, Solved, Vector};
+use ladder::needed;
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
@@ -92,7 +99,7 @@ impl LinearSolver {
         let coarse = CoarseSolver::of(system.stiffness[0].operator().size().0, system.stiffness.len(), session.size());
         let lambda = lambda_options(system.multipliers.pattern, session.size());
         for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options(multigrid)).chain(rung_options(rung)) {
-            options::set_default(session, name, value)?;
+            petsc::options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
         let nest = if rung == Rung::Factor { system.stored_nest(session)? } else { system.nest.clone() };
@@ -111,7 +118,7 @@ impl LinearSolver {
                 .zip(steps)
                 .map(|(k, interpolation)| Level { operator: k.operator(), interpolation })
                 .collect();
-            options::clear(session, "-fieldsplit_u_pc_type")?;
+            petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;
         }
@@ -134,7 +141,7 @@ impl LinearSolver {
             ("-mat_mumps_cntl_1", "1e-4"),
             ("-mat_mumps_icntl_14", "100"),
         ] {
-            options::set_default(session, name, value)?;
+            petsc::options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
         let name = "direct (MUMPS)".into();
@@ -169,7 +176,7 @@ impl LinearSolver {
 
     /// Options that the user gave and no object of this solver has asked for.
     pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
-        Ok(options::unused(&self.session)?)
+        Ok(petsc::options::unused(&self.session)?)
     }
 
     /// Solves from the `x` that is given, until the residual is below `tolerance |b|` or rounding stops it; a solve that

@@ -4,10 +4,10 @@
 //! difference `D_l = |u_l - u_(l-1)|` in the energy norm. If errors fall by the factor `√q` with each refinement, `q = (D_l/D_(l-1))²` and
 //! `e_l² = D_l² q/(1 - q)`: no order has to be known, so that corners are seen.
 
-use super::recovery::strain_energy;
-use super::{CoarseSolution, Discretisation, Field, Solution, SystemError};
 use crate::geometry::gauss_points;
 use crate::petsc::Session;
+use crate::system::recovery::strain_energy;
+use crate::system::{CoarseSolution, Discretisation, Field, Solution, SystemError};
 
 /// Share of the contact length that counts as its middle.
 const MIDDLE: f64 = 0.6;

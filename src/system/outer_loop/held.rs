@@ -1,11 +1,11 @@
 //! Whether supports and contact hold every body.
 
-use super::{Coupled, Discretisation, Scene};
 use crate::body::Constraints;
 use crate::contact::{Condition, Mechanism, find_mechanism};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering};
+use crate::system::{Coupled, Discretisation, Scene};
 
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held.
 pub fn not_held(problem: &Discretisation, active: &[bool]) -> Option<String> {

@@ -1,10 +1,10 @@
 //! The blocks of the saddle point that have a multiplier side: `B̂`, `B̂ᵀ`, `-Ĉ` and the approximate Schur complement.
 
-use super::contact::weights;
-use super::{Contact, CouplingRows, Discretisation, Space, SystemError};
 use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::geometry::Point;
 use crate::petsc::{Matrix, Session};
+use crate::system::contact::weights;
+use crate::system::{Contact, CouplingRows, Discretisation, Space, SystemError};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the approximate Schur complement couples.

@@ -1,7 +1,7 @@
 //! The discrete inf-sup constant of a contact.
 
-use super::{Contact, SaddlePoint, SystemError};
 use crate::petsc::{Krylov, Session, options};
+use crate::system::{Contact, SaddlePoint, SystemError};
 
 /// Accuracy and length of the solve that shows the constant.
 const TOLERANCE: f64 = 1e-6;

@@ -1,6 +1,6 @@
 //! What the loop over active sets has found, and how it ended.
 
-use super::{BoundaryStep, OuterStep, Space};
+use crate::system::{BoundaryStep, OuterStep, Space};
 
 /// How the loop ended.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,11 @@
 //! The loop over active sets.
 
-use super::{
+use crate::contact::{ActiveSet, SegmentRule, Step, tidy};
+use crate::petsc::{Session, Vector};
+use crate::system::{
     Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Solution, Space, SystemError, Tolerance, Verdict, few_that_hold,
     not_held, rigid_start,
 };
-use crate::contact::{ActiveSet, SegmentRule, Step, tidy};
-use crate::petsc::{Session, Vector};
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
 const LOOSE: f64 = 1e-4;

@@ -1,6 +1,6 @@
 //! The solver's recipes as PETSc options. What a user gives after `--` wins over all of them.
 
-use super::{Rung, SchurPattern};
+use crate::system::{Rung, SchurPattern};
 
 /// Rows up to which the coarsest level is factorised by all ranks together.
 const LARGE: usize = 50_000;

@@ -1,9 +1,9 @@
 //! Contact boundaries that follow the solution: fit, solve, move, and fit again, until everything stands.
 
-use super::{BoundaryMotion, Contact, Discretisation, Solution, SystemError};
 use crate::contact::{Configuration, CurveChoice, End, Known, Meeting, SmoothSide, true_end};
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
+use crate::system::{BoundaryMotion, Contact, Discretisation, Solution, SystemError};
 
 /// Boundaries placed at most.
 const MOST_BOUNDARIES: usize = 30;

@@ -11,10 +11,15 @@
 //! the set. Multipliers are scaled by `s_i = E_c / H_i`: `λ = s λ̂`, `B̂ = s B`, `ĉ = s c`, `D̂ = D / s²`; then the
 //! residuals of this and of the plain system agree in size.
 
+mod coupling_rows;
+mod multiplier_blocks;
+
+pub use coupling_rows::CouplingRows;
+pub use multiplier_blocks::{MultiplierBlocks, SchurPattern};
+
 use super::contact::weights;
-use super::multiplier_blocks::MultiplierBlocks;
 use super::stiffness::{ContactNeighbours, Elastic, Stiffness};
-use super::{CouplingRows, Discretisation, Space, SystemError};
+use super::{Discretisation, Space, SystemError};
 use crate::contact::{DiagonalBlock, SparseRows, jump_matrix};
 use crate::petsc::{Matrix, Session, Vector};
 

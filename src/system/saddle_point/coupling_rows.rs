@@ -1,9 +1,9 @@
 //! Rows of `B` on every level, in the nodes' frames: `B_l = B_{l+1} P_{l+1}`, without any matrix product.
 
-use super::{Coupling, Space};
 use crate::contact::DiagonalBlock;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh};
+use crate::system::{Coupling, Space};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Rows of `B` at one level: for each multiplier, node numbers with their two entries. Columns of prescribed

@@ -1,12 +1,12 @@
 //! What the solution on a coarser mesh says of the next finer one: where to start, which multipliers are active, where
 //! contact boundaries lie.
 
-use super::{BoundaryMotion, Contact, Discretisation, Field, Rung, Solution, SystemError};
 use crate::contact::{Known, Meeting, MultiplierSpace, SmoothSide};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
 use crate::petsc::Session;
+use crate::system::{BoundaryMotion, Contact, Discretisation, Field, Rung, Solution, SystemError};
 
 /// A solution on one refinement less.
 pub struct CoarseSolution {

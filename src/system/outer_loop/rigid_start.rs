@@ -1,10 +1,10 @@
 //! The rigid motion that supports ask of each body: what prescribed displacements are like without any strain.
 
 use super::held::supported;
-use super::{Discretisation, Scene};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering, lattice};
+use crate::system::{Discretisation, Scene};
 use nalgebra::{Matrix3, Vector3};
 
 /// Rigid motions flatter than this share of the largest are not told by the supports.

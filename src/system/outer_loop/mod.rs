@@ -1,0 +1,17 @@
+//! Around the linear solve: active sets, contact boundaries that follow the bodies, and what one mesh tells the next.
+
+mod coarse_solution;
+mod contact_loop;
+mod estimate;
+mod following;
+mod held;
+mod rigid_start;
+mod solution;
+
+pub use coarse_solution::CoarseSolution;
+pub use contact_loop::{ContactLoop, OuterStep, Start};
+pub use estimate::{Difference, Estimate};
+pub use following::{BoundaryStep, Following, Onward, carried, stands};
+pub use held::{few_that_hold, not_held};
+pub use rigid_start::rigid_start;
+pub use solution::{Solution, Verdict};
