@@ -21,7 +21,7 @@ const FUNCTIONS: &[&str] = &[
     "Mat(Create|SetSizes|SetType|Duplicate|AXPY|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|GetDiagonal|CreateVecs)",
     "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange|GetOwnershipRangeColumn)",
-    "MatXAIJSetPreallocation|MatCreateNest|MatNestGetISs",
+    "MatXAIJSetPreallocation|MatPtAP|MatDiagonalSet|MatCreateNest|MatNestGetISs",
     "MatCreateShell|MatShell(SetOperation|GetContext|SetContextDestroy)",
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",

@@ -7,7 +7,6 @@ use support::mesh::{Mesh, write_scene};
 use support::{PAIRS, RANKS, Run};
 
 const LEVELS: u64 = 15;
-const NO_LEVELS: u64 = 60;
 const STIFF_ON_SOFT: u64 = 20;
 const STIFF: &str = "E2/E1 = 1e6";
 
@@ -69,25 +68,35 @@ fn a_soft_bar_on_a_stiff_one() {
     at_most(STIFF_ON_SOFT, "E2/E1 = 1e-6", |order| bars().set("mesh.refine", 5 - order).set("body.upper.young", "7e-3"));
 }
 
-/// A fine mesh of the file's own, without anything to coarsen.
-fn without_levels(n: [usize; 2], words: &str) {
+/// Files of the mesh for P1 and for P2, `n` intervals each: fine ones get auxiliary levels.
+fn of_file(n: [usize; 2], most: u64, words: &str, change: impl Fn(Run) -> Run) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let files = n.map(|n| {
         let folder = folder.path().join(n.to_string());
         std::fs::create_dir(&folder).expect("a folder");
         write_scene(&folder, &Mesh::inclined_bars(n).text(), BARS)
     });
-    at_most(NO_LEVELS, words, |order| Run::file(&files[order - 1]).set("solver.name", "fieldsplit"));
+    at_most(most, words, |order| change(Run::file(&files[order - 1]).set("solver.name", "fieldsplit")));
 }
 
 #[test]
 fn without_levels_near_1e4_unknowns() {
-    without_levels([10, 5], "no levels");
+    of_file([10, 5], LEVELS, "no levels", |run| run);
 }
 
 #[test]
 fn without_levels_near_1e5_unknowns() {
-    without_levels([32, 16], "no levels");
+    of_file([32, 16], LEVELS, "no levels", |run| run);
+}
+
+#[test]
+fn a_stiff_bar_without_levels() {
+    of_file([10, 8], STIFF_ON_SOFT, STIFF, |run| run.set("body.upper.young", "7e9"));
+}
+
+#[test]
+fn a_large_macro_mesh_with_levels() {
+    of_file([10, 8], LEVELS, "a large macro mesh", |run| run.set("mesh.refine", 1));
 }
 
 /// Rounding is all that stops it: MUMPS's own pivot threshold ran out of memory from ν = 0.4999 on.

@@ -4,6 +4,7 @@
 //! From it come the blocks of the [`SaddlePoint`], a [`LinearSolver`] for them, and the [`ContactLoop`] over active
 //! sets. What the solution means on the bodies is in [`recovery`].
 
+mod auxiliary;
 mod boundary_motion;
 mod contact;
 mod coupling;

@@ -2,6 +2,7 @@
 
 mod halved_rows;
 
+use super::auxiliary::auxiliary_interpolations;
 use super::{Discretisation, Scene, Space, SystemError};
 use crate::geometry::Point;
 use crate::mesh::lattice::{self, Place};
@@ -9,9 +10,14 @@ use crate::petsc::{Matrix, Session};
 use halved_rows::{HalvedRow, LatticeInterpolation, halved_rows};
 use std::collections::HashMap;
 
-/// Interpolations between all levels: the first leads from the coarsest level to the next. **Collective**
+/// Interpolations between all levels, auxiliary ones among them: the first leads from the coarsest level to the next.
+/// **Collective**
 pub fn interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Matrix>, SystemError> {
-    problem.spaces.windows(2).map(|pair| interpolation(&problem.scene, &pair[1], &pair[0], session)).collect()
+    let mut all = auxiliary_interpolations(problem, session)?;
+    for pair in problem.spaces.windows(2) {
+        all.push(interpolation(&problem.scene, &pair[1], &pair[0], session)?);
+    }
+    Ok(all)
 }
 
 /// Weights of the parents of most nodes.

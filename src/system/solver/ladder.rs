@@ -4,19 +4,18 @@
 //! 0.5 wear it out; two or four steps of CG with the same sweep are stronger and cost two and four times as much; a
 //! Cholesky factor of `K + BᵀDB` always does, as long as there is memory for it.
 
+use super::options::SMALL;
+
 /// Iterations that a solve to 1e-8 may need before the next rung pays.
 const MOST: [(Rung, f64); 3] = [(Rung::Sweep, 26.0), (Rung::TwoSteps, 100.0), (Rung::FourSteps, 180.0)];
 
 /// Unknowns up to which a factor fits into memory.
 const LARGEST_FACTOR: usize = 3_000_000;
 
-/// Unknowns up to which a factor is quicker than an algebraic cycle where the mesh has no levels.
-const QUICK_FACTOR: usize = 500_000;
-
 /// What preconditions the displacements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
-    /// Multigrid with one symmetric Gauss-Seidel sweep; without levels an algebraic cycle.
+    /// Multigrid with one symmetric Gauss-Seidel sweep.
     Sweep,
     /// Multigrid with two steps of CG, preconditioned by the sweep.
     TwoSteps,
@@ -46,18 +45,17 @@ impl Rung {
             return (rung, format!("fieldsplit with {words}, because the mesh has {levels} levels{flat}"));
         }
         let begin = format!("because the mesh has no levels (refine = 0), and {unknowns} unknowns are");
-        if unknowns <= QUICK_FACTOR {
-            (Self::Factor, format!("fieldsplit with a Cholesky factor, {begin} no more than {QUICK_FACTOR}"))
+        if unknowns <= SMALL {
+            (Self::Factor, format!("fieldsplit with a Cholesky factor, {begin} no more than {SMALL}"))
         } else {
-            (Self::Sweep, format!("fieldsplit with an algebraic cycle, {begin} more than {QUICK_FACTOR}"))
+            (Self::Sweep, format!("fieldsplit with multigrid on auxiliary levels, {begin} more than {SMALL}"))
         }
     }
 
     /// Iterations after which it is asked whether to climb.
-    pub fn patience(self, multigrid: bool) -> usize {
+    pub fn patience(self) -> usize {
         match self {
-            Self::Sweep if multigrid => 20,
-            Self::Sweep => 60,
+            Self::Sweep => 20,
             Self::TwoSteps => 40,
             Self::FourSteps | Self::Factor => 60,
         }
@@ -65,11 +63,9 @@ impl Rung {
 
     /// The rung for a system of `unknowns` that this one would need so many iterations for, from here to 1e-8; at least
     /// the next one, if there is any.
-    pub fn above(self, needed: f64, multigrid: bool, unknowns: usize) -> Option<Self> {
+    pub fn above(self, needed: f64, unknowns: usize) -> Option<Self> {
         let rungs = [Self::TwoSteps, Self::FourSteps, Self::Factor];
-        let fit = |rung: &Self| {
-            *rung > self && (multigrid || *rung == Self::Factor) && (*rung != Self::Factor || unknowns <= LARGEST_FACTOR)
-        };
+        let fit = |rung: &Self| *rung > self && (*rung != Self::Factor || unknowns <= LARGEST_FACTOR);
         let above: Vec<Self> = rungs.into_iter().filter(fit).collect();
         let strong = |rung: &&Self| match self {
             Self::Sweep => MOST.iter().all(|(other, most)| other != *rung || needed <= *most),
@@ -79,8 +75,8 @@ impl Rung {
     }
 
     /// Whether a solve at this rate leaves the next one to a higher rung.
-    pub fn is_tired(self, needed: f64, multigrid: bool) -> bool {
-        multigrid && self == Self::Sweep && needed > MOST[0].1
+    pub fn is_tired(self, needed: f64) -> bool {
+        self == Self::Sweep && needed > MOST[0].1
     }
 
     /// What it does, after the name of the cycle.
@@ -118,8 +114,8 @@ mod tests {
 
     #[test]
     fn a_small_mesh_without_levels_begins_with_a_factor() {
-        assert_eq!(Rung::first(1, &[None], 10_000).0, Rung::Factor);
-        assert_eq!(Rung::first(1, &[None], 1_000_000).0, Rung::Sweep);
+        assert_eq!(Rung::first(1, &[None], 2000).0, Rung::Factor);
+        assert_eq!(Rung::first(1, &[None], 10_000).0, Rung::Sweep);
         assert_eq!(Rung::first(3, &[None], 10_000).0, Rung::Sweep);
     }
 
@@ -133,12 +129,11 @@ mod tests {
 
     #[test]
     fn a_slow_solve_climbs_as_far_as_it_must() {
-        assert_eq!(Rung::Sweep.above(50.0, true, 1000), Some(Rung::TwoSteps));
-        assert_eq!(Rung::Sweep.above(150.0, true, 1000), Some(Rung::FourSteps));
-        assert_eq!(Rung::Sweep.above(1e9, true, 1000), Some(Rung::Factor));
-        assert_eq!(Rung::Sweep.above(1e9, true, 10_000_000), Some(Rung::FourSteps), "no memory for a factor");
-        assert_eq!(Rung::Sweep.above(50.0, false, 1000), Some(Rung::Factor), "no levels to smooth on");
-        assert_eq!(Rung::Factor.above(1e9, true, 1000), None);
-        assert!(Rung::Sweep.is_tired(27.0, true) && !Rung::TwoSteps.is_tired(27.0, true));
+        assert_eq!(Rung::Sweep.above(50.0, 1000), Some(Rung::TwoSteps));
+        assert_eq!(Rung::Sweep.above(150.0, 1000), Some(Rung::FourSteps));
+        assert_eq!(Rung::Sweep.above(1e9, 1000), Some(Rung::Factor));
+        assert_eq!(Rung::Sweep.above(1e9, 10_000_000), Some(Rung::FourSteps), "no memory for a factor");
+        assert_eq!(Rung::Factor.above(1e9, 1000), None);
+        assert!(Rung::Sweep.is_tired(27.0) && !Rung::TwoSteps.is_tired(27.0));
     }
 }

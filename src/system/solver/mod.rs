@@ -1,9 +1,8 @@
 //! Linear solvers of the saddle point.
 //!
 //! `fieldsplit`: GMRES, preconditioned from the right by the block upper triangle of `K + BᵀDB` and `S = -D⁻¹`; one
-//! geometric multigrid F-cycle stands for the inverse of the first, or BoomerAMG where the mesh has no levels (for P2
-//! below one smoothing step, on the P1 space of the same triangles). Where that is too weak, a ladder leads up to a
-//! Cholesky factor ([`Rung`]).
+//! multigrid F-cycle stands for the inverse of the first, on the levels of the mesh and auxiliary ones below
+//! ([`super::auxiliary`]). Where that is too weak, a ladder leads up to a Cholesky factor ([`Rung`]).
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override; only the
 //! tolerance is the case's.
 
@@ -11,10 +10,13 @@ mod inf_sup;
 mod ladder;
 mod options;
 
+pub(super) use self::options::SMALL;
 pub use inf_sup::inf_sup;
 pub use ladder::Rung;
 
 use self::options::{CoarseSolver, FIELD_SPLIT, lambda_options, rung_options};
+use super::auxiliary::GalerkinLevels;
+use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
 use crate::petsc::{self, Krylov, Level, Matrix, Session, Solved, Vector};
 use ladder::needed;
@@ -33,6 +35,7 @@ pub struct LinearSolver {
     /// The converted system of the direct solver.
     converted: Option<Matrix>,
     interpolations: Vec<Matrix>,
+    auxiliary: GalerkinLevels,
     /// What preconditions the displacement block.
     pub rung: Rung,
     /// The same in words.
@@ -74,8 +77,9 @@ impl SolverChoice {
 }
 
 impl LinearSolver {
-    /// Sets a solver up, on a rung of the ladder; `interpolations[l]` leads from level `l` to level `l + 1` (the direct
-    /// solver wants none). **Collective**
+    /// Sets a solver up, on a rung of the ladder; `interpolations[l]` leads from level `l` to level `l + 1`, where auxiliary
+    /// levels come before those of the system (the direct solver wants none). A system of one level is factorised.
+    /// **Collective**
     pub fn new(
         system: &SaddlePoint,
         interpolations: &[Matrix],
@@ -95,10 +99,11 @@ impl LinearSolver {
         rung: Rung,
         session: &Session,
     ) -> Result<Self, SystemError> {
-        let multigrid = !interpolations.is_empty();
-        let coarse = CoarseSolver::of(system.stiffness[0].operator().size().0, system.stiffness.len(), session.size());
+        let rung = if interpolations.is_empty() { Rung::Factor } else { rung };
+        let coarsest = interpolations.first().map_or(0, |interpolation| interpolation.size().1);
+        let coarse = CoarseSolver::of(coarsest, session.size());
         let lambda = lambda_options(system.multipliers.pattern, session.size());
-        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options(multigrid)).chain(rung_options(rung)) {
+        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(rung_options(rung)) {
             petsc::options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
@@ -109,24 +114,24 @@ impl LinearSolver {
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
         krylov.set_from_options()?;
         krylov.set_up()?;
-        if multigrid && rung != Rung::Factor {
+        let mut auxiliary = GalerkinLevels::default();
+        if rung != Rung::Factor {
+            auxiliary = GalerkinLevels::new(system.stiffness[0].operator(), below(&interpolations, system))?;
             let solvers = preconditioner.field_split_solvers()?;
             let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
-            let levels: Vec<Level> = system
-                .stiffness
-                .iter()
-                .zip(steps)
-                .map(|(k, interpolation)| Level { operator: k.operator(), interpolation })
-                .collect();
+            let operators = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::operator));
+            let levels: Vec<Level> =
+                operators.zip(steps).map(|(operator, interpolation)| Level { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;
         }
         let name = match preconditioner.field_split_solvers()?[0].preconditioner().kind().as_str() {
-            "mg" | "hypre" | "cholesky" => format!("fieldsplit ({})", rung.words(coarse.words(multigrid))),
+            "mg" | "hypre" | "cholesky" => format!("fieldsplit ({})", rung.words("multigrid F-cycle")),
             other => format!("fieldsplit ({other})"),
         };
-        Ok(Self { krylov, session: session.clone(), form: Form::Augmented, converted: None, interpolations, rung, name })
+        let (session, form) = (session.clone(), Form::Augmented);
+        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, rung, name })
     }
 
     fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {
@@ -151,6 +156,7 @@ impl LinearSolver {
             form: Form::Plain,
             converted: None,
             interpolations: Vec::new(),
+            auxiliary: GalerkinLevels::default(),
             rung: Rung::Factor,
             name,
         };
@@ -168,6 +174,7 @@ impl LinearSolver {
             self.krylov.set_operators(&converted, &converted)?;
             self.converted = Some(converted);
         } else {
+            self.auxiliary.refresh(system.stiffness[0].operator(), below(&self.interpolations, system))?;
             let nest = if self.rung == Rung::Factor { system.stored_nest(&self.session)? } else { system.nest.clone() };
             self.krylov.set_operators(&nest, &nest)?;
         }
@@ -210,7 +217,7 @@ impl LinearSolver {
             system.nest.residual(b, x, &mut r)?;
             solve.residual = r.norm()? / norm;
             if solve.residual <= tolerance {
-                if self.form == Form::Augmented && self.rung.is_tired(needed, self.is_multigrid()) {
+                if self.form == Form::Augmented && self.rung.is_tired(needed) {
                     self.climb(system, needed, &mut solve)?;
                 }
                 return Ok(solve);
@@ -228,14 +235,10 @@ impl LinearSolver {
         }
     }
 
-    fn is_multigrid(&self) -> bool {
-        !self.interpolations.is_empty()
-    }
-
     /// Iterations before it is asked whether to climb.
     fn patience(&self) -> usize {
         match self.form {
-            Form::Augmented => self.rung.patience(self.is_multigrid()),
+            Form::Augmented => self.rung.patience(),
             Form::Plain => MOST_ITERATIONS,
         }
     }
@@ -251,7 +254,7 @@ impl LinearSolver {
             return Ok(false);
         }
         let unknowns = system.finest_stiffness().operator().size().0;
-        let Some(rung) = self.rung.above(needed, self.is_multigrid(), unknowns) else { return Ok(false) };
+        let Some(rung) = self.rung.above(needed, unknowns) else { return Ok(false) };
         *self = Self::field_split(system, std::mem::take(&mut self.interpolations), rung, &self.session)?;
         solve.climbed = Some(self.name.clone());
         Ok(true)
@@ -283,4 +286,9 @@ impl LinearSolver {
         let stiffness = system.finest_stiffness().operator().norm_infinity()?;
         Ok(10.0 * f64::EPSILON * stiffness * x.norm()? / norm)
     }
+}
+
+/// Those interpolations that lead to auxiliary levels, or up from them.
+fn below<'a>(interpolations: &'a [Matrix], system: &SaddlePoint) -> &'a [Matrix] {
+    &interpolations[..interpolations.len() + 1 - system.stiffness.len()]
 }

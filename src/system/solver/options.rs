@@ -2,11 +2,8 @@
 
 use crate::system::{Rung, SchurPattern};
 
-/// Rows up to which the coarsest level is factorised by all ranks together.
-const LARGE: usize = 50_000;
-
-/// Unknowns up to which the coarsest level is factorised on every rank.
-const SMALL: usize = 3000;
+/// Unknowns up to which a level is factorised on every rank; larger ones get auxiliary levels.
+pub(in crate::system) const SMALL: usize = 3000;
 
 /// Names and values of PETSc options.
 pub(super) type Options = &'static [(&'static str, &'static str)];
@@ -62,59 +59,38 @@ pub(super) enum CoarseSolver {
     Alone,
     /// Factorisation by every rank for itself.
     Redundant,
-    /// Factorisation by all ranks together.
+    /// Factorisation by all ranks together: so many bodies that not even auxiliary levels are small.
     Shared,
-    /// One cycle of BoomerAMG: the mesh has no coarser levels.
-    Algebraic,
 }
 
 impl CoarseSolver {
-    pub(super) fn of(rows: usize, levels: usize, ranks: usize) -> Self {
-        match (rows, levels, ranks) {
-            (_, 1, _) => Self::Algebraic,
-            (..=SMALL, _, 1) => Self::Alone,
-            (..=SMALL, ..) => Self::Redundant,
-            (LARGE.., ..) | (_, 2, _) => Self::Algebraic,
+    pub(super) fn of(rows: usize, ranks: usize) -> Self {
+        match (rows, ranks) {
+            (..=SMALL, 1) => Self::Alone,
+            (..=SMALL, _) => Self::Redundant,
             _ => Self::Shared,
         }
     }
 
-    pub(super) fn words(self, multigrid: bool) -> &'static str {
-        match (self, multigrid) {
-            (Self::Algebraic, false) => "BoomerAMG",
-            (Self::Algebraic, true) => "P2 smoother over BoomerAMG",
-            _ => "multigrid F-cycle",
-        }
-    }
-
-    pub(super) fn options(self, multigrid: bool) -> Options {
-        match (self, multigrid) {
-            // Multigrid takes the place of `none` once the block solvers exist.
-            (Self::Alone, _) => &[("-fieldsplit_u_pc_type", "none"), ("-fieldsplit_u_mg_coarse_pc_type", "lu")],
-            (Self::Redundant, _) => &[
+    pub(super) fn options(self) -> Options {
+        match self {
+            // Multigrid takes the place of `none` once the block solvers exist. The functions of auxiliary levels may be as
+            // small as one likes: so may be pivots.
+            Self::Alone => &[
+                ("-fieldsplit_u_pc_type", "none"),
+                ("-fieldsplit_u_mg_coarse_pc_type", "lu"),
+                ("-fieldsplit_u_mg_coarse_pc_factor_zeropivot", "1e-300"),
+            ],
+            Self::Redundant => &[
                 ("-fieldsplit_u_pc_type", "none"),
                 ("-fieldsplit_u_mg_coarse_pc_type", "redundant"),
                 ("-fieldsplit_u_mg_coarse_redundant_pc_type", "lu"),
+                ("-fieldsplit_u_mg_coarse_redundant_pc_factor_zeropivot", "1e-300"),
             ],
-            (Self::Shared, _) => &[
+            Self::Shared => &[
                 ("-fieldsplit_u_pc_type", "none"),
                 ("-fieldsplit_u_mg_coarse_pc_type", "cholesky"),
                 ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps"),
-            ],
-            (Self::Algebraic, true) => &[
-                ("-fieldsplit_u_pc_type", "none"),
-                ("-fieldsplit_u_mg_coarse_pc_type", "hypre"),
-                ("-fieldsplit_u_mg_coarse_pc_hypre_type", "boomeramg"),
-                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_coarsen_type", "HMIS"),
-                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_interp_type", "ext+i"),
-                ("-fieldsplit_u_mg_coarse_pc_hypre_boomeramg_strong_threshold", "0.25"),
-            ],
-            (Self::Algebraic, false) => &[
-                ("-fieldsplit_u_pc_type", "hypre"),
-                ("-fieldsplit_u_pc_hypre_type", "boomeramg"),
-                ("-fieldsplit_u_pc_hypre_boomeramg_coarsen_type", "HMIS"),
-                ("-fieldsplit_u_pc_hypre_boomeramg_interp_type", "ext+i"),
-                ("-fieldsplit_u_pc_hypre_boomeramg_strong_threshold", "0.25"),
             ],
         }
     }

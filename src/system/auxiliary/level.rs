@@ -1,0 +1,224 @@
+//! Levels of functions on quadtrees below the nodes of a mesh: who owns which, and their values on the next finer level.
+
+use super::tree::{Tree, Vertex};
+use crate::geometry::Point;
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// Sum of the squares of a component's values at finer nodes up to which none of these feels it.
+const UNFELT: f64 = 1e-8;
+
+/// The axes of most nodes.
+pub const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
+
+/// A node of a level: of the mesh, or a vertex of a tree.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// Its body.
+    pub body: usize,
+    /// Where (units of the trees).
+    pub at: [f64; 2],
+    /// Directions of its two components.
+    pub axes: [Point; 2],
+    /// Numbers of its unknowns; none where nothing moves.
+    pub unknowns: [Option<usize>; 2],
+}
+
+impl Node {
+    /// Its unknowns with their directions.
+    pub fn components(&self) -> impl Iterator<Item = (usize, Point)> {
+        [0, 1].into_iter().filter_map(|k| Some((self.unknowns[k]?, self.axes[k])))
+    }
+}
+
+/// The nodes of a level, in the order of their unknowns.
+#[derive(Clone, Debug)]
+pub struct Nodes {
+    /// All nodes.
+    pub all: Vec<Node>,
+    /// First node of each rank, and the end.
+    pub first: Vec<usize>,
+    /// First unknown of each rank, and the end.
+    pub unknowns: Vec<usize>,
+}
+
+impl Nodes {
+    /// Unknowns of a rank.
+    pub fn own(&self, rank: usize) -> Range<usize> {
+        self.unknowns[rank]..self.unknowns[rank + 1]
+    }
+
+    /// Unknowns of all ranks.
+    pub fn count(&self) -> usize {
+        self.unknowns[self.unknowns.len() - 1]
+    }
+}
+
+/// The step from a level to the next coarser one.
+pub struct Step {
+    /// The coarse nodes.
+    pub coarse: Nodes,
+    /// Coarse nodes with their values at finer ones, in compressed rows.
+    entries: Vec<(u32, f64)>,
+    offsets: Vec<usize>,
+}
+
+impl Step {
+    /// From nodes to the functions of the trees, one for each body. A function belongs to the rank of the first node that
+    /// it is not zero at, and has its number in the order of these.
+    pub fn new(fine: &Nodes, trees: &[Tree]) -> Self {
+        let mut numbers: HashMap<(usize, Vertex), u32> = HashMap::new();
+        let mut coarse = Nodes { all: Vec::new(), first: vec![0], unknowns: vec![0] };
+        let (mut entries, mut offsets) = (Vec::with_capacity(4 * fine.all.len()), vec![0]);
+        for ends in fine.first.windows(2) {
+            for node in &fine.all[ends[0]..ends[1]] {
+                for (vertex, value) in trees[node.body].weights(node.at) {
+                    let number = *numbers.entry((node.body, vertex)).or_insert_with(|| {
+                        let at = vertex.map(f64::from);
+                        coarse.all.push(Node { body: node.body, at, axes: AXES, unknowns: [None; 2] });
+                        coarse.all.len() as u32 - 1
+                    });
+                    entries.push((number, value));
+                }
+                offsets.push(entries.len());
+            }
+            coarse.first.push(coarse.all.len());
+        }
+        let mut step = Self { coarse, entries, offsets };
+        step.number(fine);
+        step
+    }
+
+    /// Coarse unknowns that a component of a finer node feels, and how much: value times cosine.
+    pub fn row(&self, node: usize, axis: Point) -> impl Iterator<Item = (usize, f64)> {
+        self.values(node).iter().flat_map(move |&(number, value)| {
+            let components = self.coarse.all[number as usize].components();
+            components
+                .map(move |(unknown, direction)| (unknown, value * axis.dot(&direction)))
+                .filter(|(_, weight)| *weight != 0.0)
+        })
+    }
+
+    fn values(&self, node: usize) -> &[(u32, f64)] {
+        &self.entries[self.offsets[node]..self.offsets[node + 1]]
+    }
+
+    /// Numbers the components that something moves with. All are kept that do, however little of a function lies in its
+    /// body: without them linear functions would fail at the boundary.
+    fn number(&mut self, fine: &Nodes) {
+        let mut felt = vec![[0.0; 2]; self.coarse.all.len()];
+        for (at, node) in fine.all.iter().enumerate() {
+            for (_, axis) in node.components() {
+                for &(number, value) in self.values(at) {
+                    let [x, y] = &mut felt[number as usize];
+                    (*x, *y) = (*x + (value * axis.x).powi(2), *y + (value * axis.y).powi(2));
+                }
+            }
+        }
+        let mut next = 0;
+        let Nodes { all, first, unknowns } = &mut self.coarse;
+        for ends in first.windows(2) {
+            for (node, felt) in all[ends[0]..ends[1]].iter_mut().zip(&felt[ends[0]..ends[1]]) {
+                for k in (0..2).filter(|&k| felt[k] > UNFELT) {
+                    node.unknowns[k] = Some(next);
+                    next += 1;
+                }
+            }
+            unknowns.push(next);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tree::{Roots, Sample};
+    use super::*;
+
+    const ROOTS: Roots = Roots { count: [2, 1], depth: 5 };
+
+    /// Two bodies on one grid, finer towards a corner, dealt to three ranks; some nodes of the left side are held, in turned
+    /// axes or altogether.
+    fn nodes() -> Nodes {
+        let mut all = Vec::new();
+        for k in 0..1200_u32 {
+            let (s, t) = (f64::from(k % 40) / 39.0, f64::from(k / 40) / 29.0);
+            let (sin, cos) = if s == 0.0 { 0.4f64.sin_cos() } else { (0.0, 1.0) };
+            let body = usize::from(t > 0.5);
+            let fixed = [s == 0.0, s == 0.0 && body == 1];
+            let unknowns = [0, 1].map(|c| (!fixed[c]).then_some(2 * k as usize + c));
+            all.push(Node { body, at: [64.0 * s * s, 32.0 * t], axes: [Point::new(cos, sin), Point::new(-sin, cos)], unknowns });
+        }
+        Nodes { all, first: vec![0, 300, 700, 1200], unknowns: vec![0, 600, 1400, 2400] }
+    }
+
+    fn trees() -> Vec<Tree> {
+        let tree = |body| {
+            let nodes = nodes().all.into_iter().filter(|node| node.body == body);
+            let mut samples: Vec<Sample> =
+                nodes.map(|node| Sample { at: node.at, width: (1.0 + 0.1 * node.at[0]).ln() }).collect();
+            Tree::around(ROOTS, &mut samples)
+        };
+        vec![tree(0), tree(1)]
+    }
+
+    /// Every level, each with the step to the next coarser one.
+    fn steps() -> Vec<(Nodes, Step)> {
+        let (mut fine, mut trees, mut steps) = (nodes(), trees(), Vec::new());
+        loop {
+            let step = Step::new(&fine, &trees);
+            let coarse = step.coarse.clone();
+            steps.push((fine, step));
+            let Some(coarser) = trees.iter().map(Tree::coarser).collect::<Option<Vec<_>>>() else { return steps };
+            (fine, trees) = (coarse, coarser);
+        }
+    }
+
+    #[test]
+    fn linear_motions_come_down_to_the_mesh_unchanged() {
+        let motion = |node: &Node| Point::new(0.3 + 0.02 * node.at[0] - 0.05 * node.at[1], 0.01 * node.at[0] + node.body as f64);
+        let steps = steps();
+        assert!(steps.len() > 3);
+        for (fine, step) in steps {
+            let nodes = step.coarse.all.iter().flat_map(|node| node.components().map(move |component| (component, node)));
+            let values: HashMap<usize, f64> = nodes.map(|((unknown, axis), node)| (unknown, axis.dot(&motion(node)))).collect();
+            // Functions beside what is held may be without a component.
+            let whole = |(number, _): &(u32, f64)| step.coarse.all[*number as usize].components().count() == 2;
+            let free: Vec<usize> = (0..fine.all.len()).filter(|&at| step.values(at).iter().all(whole)).collect();
+            assert!(2 * free.len() > fine.all.len());
+            for at in free {
+                for (_, axis) in fine.all[at].components() {
+                    let value: f64 = step.row(at, axis).map(|(unknown, weight)| weight * values[&unknown]).sum();
+                    assert!((value - axis.dot(&motion(&fine.all[at]))).abs() < 1e-8, "{:?}", fine.all[at]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn unknowns_are_numbered_through_by_rank_and_all_are_felt() {
+        for (fine, step) in steps() {
+            let numbers: Vec<usize> =
+                step.coarse.all.iter().flat_map(|node| node.components().map(|(unknown, _)| unknown)).collect();
+            assert_eq!(numbers, (0..step.coarse.count()).collect::<Vec<_>>());
+            let mut first = vec![usize::MAX; numbers.len()];
+            for (at, node) in fine.all.iter().enumerate() {
+                for (_, axis) in node.components() {
+                    step.row(at, axis).for_each(|(unknown, _)| first[unknown] = first[unknown].min(at));
+                }
+            }
+            let rank = |ends: &[usize], at: usize| ends.partition_point(|&end| end <= at);
+            for (unknown, &at) in first.iter().enumerate() {
+                assert!(at < usize::MAX && rank(&fine.first, at) >= rank(&step.coarse.unknowns, unknown), "{unknown}");
+            }
+        }
+    }
+
+    #[test]
+    fn bodies_share_no_function() {
+        for (fine, step) in steps() {
+            for (at, node) in fine.all.iter().enumerate() {
+                assert!(step.values(at).iter().all(|(number, _)| step.coarse.all[*number as usize].body == node.body));
+            }
+        }
+    }
+}
