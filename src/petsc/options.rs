@@ -42,6 +42,13 @@ pub fn get(_session: &Session, name: &str) -> Option<String> {
     options.into_iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, value)| value)
 }
 
+/// Whether the user has set some option whose name is like this.
+pub fn any_of_user(session: &Session, is_like: impl Fn(&str) -> bool) -> bool {
+    let options = all().expect("PETSc lists its options");
+    let names = options.into_iter().map(|(name, _)| name.to_lowercase());
+    names.filter(|name| !session.defaults().borrow().contains(name)).any(|name| is_like(&name))
+}
+
 /// Options of the user's that no object has asked for so far, each as `-name value`: a typing mistake is among them.
 /// Options that PETSc reads only at its end are left out.
 pub fn unused(session: &Session) -> Result<Vec<String>> {

@@ -24,7 +24,7 @@ pub trait Operator {
     /// The diagonal.
     fn diagonal(&self, diagonal: &mut Vector) -> Result<()>;
 
-    /// Largest sum of magnitudes in a row.
+    /// Largest sum of magnitudes in a row of this rank, or of all.
     fn norm_infinity(&self) -> Result<f64>;
 
     /// Floating-point operations of a product on this rank, for PETSc's log; a sweep has twice as many.
@@ -167,9 +167,11 @@ mod operator {
     }
 
     pub unsafe extern "C" fn norm(matrix: ffi::Mat, kind: ffi::NormType, norm: *mut f64) -> Code {
-        act(matrix, |action: &Square, _| {
+        act(matrix, |action: &Square, session| {
             assert_eq!(kind, ffi::NormType::NORM_INFINITY, "the one norm that shells have");
-            unsafe { *norm = action.norm_infinity()? };
+            let mut largest = [action.norm_infinity()?];
+            session.max(&mut largest);
+            unsafe { *norm = largest[0] };
             Ok(())
         })
     }

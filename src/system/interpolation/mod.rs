@@ -3,6 +3,7 @@
 mod halved_rows;
 
 use super::auxiliary::auxiliary_interpolations;
+use super::solver::want_entries;
 use super::{Discretisation, Scene, Space, SystemError};
 use crate::geometry::Point;
 use crate::mesh::lattice::{self, Place};
@@ -29,7 +30,7 @@ const EVEN: [f64; 2] = [0.5; 2];
 fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Matrix, SystemError> {
     let halved = halved_rows(scene, fine, coarse, session);
     let count: usize = halved.iter().map(|row| row.count).sum();
-    if !session.any(2 * count > fine.own.len()) {
+    if !session.any(2 * count > fine.own.len()) || want_entries(session) {
         return stored_rows(scene, fine, coarse, false, session);
     }
     let stored = stored_rows(scene, fine, coarse, true, session)?;

@@ -122,6 +122,10 @@ impl SaddlePoint {
 
     /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it. **Collective**
     pub fn stored_nest(&self, session: &Session) -> Result<Matrix, SystemError> {
+        if self.multipliers.scale.is_empty() {
+            // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
+            return Ok(self.nest.convert_aij()?);
+        }
         let Some(stiffness) = self.finest_stiffness().expanded(session)? else { return Ok(self.nest.clone()) };
         let blocks = &self.multipliers;
         Ok(Matrix::nest(session, [[&stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?)

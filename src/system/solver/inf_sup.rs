@@ -43,7 +43,7 @@ pub fn inf_sup(
     krylov.keep_eigenvalues()?;
     let nest = system.stored_nest(session)?;
     krylov.set_operators(&nest, &nest)?;
-    let [u, lambda] = nest.nest_index_sets()?;
+    let [u, lambda] = system.nest.nest_index_sets()?;
     krylov.preconditioner().field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
     krylov.set_from_options()?;
     krylov.set_tolerance(TOLERANCE, MOST_ITERATIONS)?;

@@ -10,11 +10,11 @@ mod inf_sup;
 mod ladder;
 mod options;
 
-pub(super) use self::options::SMALL;
+pub(super) use self::options::{SMALL, want_entries};
 pub use inf_sup::inf_sup;
 pub use ladder::Rung;
 
-use self::options::{CoarseSolver, FIELD_SPLIT, lambda_options, rung_options};
+use self::options::{CoarseSolver, FIELD_SPLIT, is_chosen, lambda_options, rung_options};
 use super::auxiliary::GalerkinLevels;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
@@ -109,7 +109,7 @@ impl LinearSolver {
         let krylov = Krylov::new(session, "")?;
         let nest = if rung == Rung::Factor { system.stored_nest(session)? } else { system.nest.clone() };
         krylov.set_operators(&nest, &nest)?;
-        let [u, lambda] = nest.nest_index_sets()?;
+        let [u, lambda] = system.nest.nest_index_sets()?;
         let preconditioner = krylov.preconditioner();
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
         krylov.set_from_options()?;
@@ -126,10 +126,9 @@ impl LinearSolver {
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;
         }
-        let name = match preconditioner.field_split_solvers()?[0].preconditioner().kind().as_str() {
-            "mg" | "hypre" | "cholesky" => format!("fieldsplit ({})", rung.words("multigrid F-cycle")),
-            other => format!("fieldsplit ({other})"),
-        };
+        let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
+        let own = kind == "mg" || kind == "cholesky" && rung == Rung::Factor;
+        let name = format!("fieldsplit ({})", if own { rung.words("multigrid F-cycle") } else { kind });
         let (session, form) = (session.clone(), Form::Augmented);
         Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, rung, name })
     }
@@ -250,7 +249,7 @@ impl LinearSolver {
 
     /// Takes the next rung that promises enough, if there is one. **Collective**
     fn climb(&mut self, system: &SaddlePoint, needed: f64, solve: &mut LinearSolve) -> Result<bool, SystemError> {
-        if self.form == Form::Plain {
+        if self.form == Form::Plain || is_chosen(&self.session) {
             return Ok(false);
         }
         let unknowns = system.finest_stiffness().operator().size().0;

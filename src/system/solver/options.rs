@@ -1,5 +1,6 @@
 //! The solver's recipes as PETSc options. What a user gives after `--` wins over all of them.
 
+use crate::petsc::{Session, options};
 use crate::system::{Rung, SchurPattern};
 
 /// Unknowns up to which a level is factorised on every rank; larger ones get auxiliary levels.
@@ -21,6 +22,20 @@ pub(super) const FIELD_SPLIT: Options = &[
     ("-fieldsplit_u_mg_levels_pc_type", "sor"),
     ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
 ];
+
+/// Whether options of the user's may ask more of the stiffness than its products and symmetric Gauss-Seidel sweeps: another
+/// preconditioner on the displacements or on the levels, settings of the sweep, Galerkin products. Then all rows are stored.
+pub fn want_entries(session: &Session) -> bool {
+    options::any_of_user(session, |name| {
+        let own = name.strip_prefix("-fieldsplit_u_").filter(|rest| !rest.starts_with("mg_coarse"));
+        own.is_some_and(|rest| rest.contains("pc_") && (!rest.contains("pc_mg_") || rest.contains("galerkin")))
+    })
+}
+
+/// Whether the user has chosen what preconditions the displacements.
+pub(super) fn is_chosen(session: &Session) -> bool {
+    options::any_of_user(session, |name| name == "-fieldsplit_u_pc_type")
+}
 
 /// The outer method and the smoother of each rung of the ladder.
 pub(super) fn rung_options(rung: Rung) -> Options {

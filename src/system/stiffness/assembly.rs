@@ -8,6 +8,7 @@ use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::{Strip, TriangleNumbers, lattice};
 use crate::petsc::{Matrix, Session};
+use crate::system::solver::want_entries;
 use crate::system::{Scene, Space, SystemError};
 use std::collections::BTreeMap;
 
@@ -25,13 +26,13 @@ impl<'a> Assembly<'a> {
         Self { scene, space, strips: BTreeMap::new(), has_strips: false }
     }
 
-    /// With strips, if they hold most nodes of some rank. **Collective**
+    /// With strips, if they hold most nodes of some rank and no option of the user's wants entries. **Collective**
     pub fn with_strips(scene: &'a Scene, space: &'a Space, session: &Session) -> Self {
         let own = scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
         let level = space.numbering.level;
         let strips: BTreeMap<usize, Vec<Strip>> = own.map(|triangle| (triangle, scene.mesh.strips(triangle, level))).collect();
         let count: usize = strips.values().flatten().map(|strip| strip.i.len()).sum();
-        if session.any(2 * count > space.own.len()) {
+        if session.any(2 * count > space.own.len()) && !want_entries(session) {
             Self { scene, space, strips, has_strips: true }
         } else {
             Self::stored(scene, space)

@@ -55,6 +55,9 @@ impl Stiffness {
         self.stored.assemble()?;
         if let Some(lattice) = &self.lattice {
             lattice.refresh()?;
+            // PETSc is told that values have changed; it forgets what else it knew.
+            self.operator.assemble()?;
+            self.operator.set_positive_definite(true)?;
         }
         Ok(())
     }
