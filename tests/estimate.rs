@@ -2,6 +2,7 @@
 
 mod support;
 
+use std::path::Path;
 use support::{Ended, Run};
 
 fn effectivity(ended: &Ended, truth: f64) -> f64 {
@@ -63,4 +64,12 @@ fn a_solve_to_the_discretisation_error_is_as_good() {
             assert!((b / a - 1.0).abs() < 0.01 * exact.number("/estimate/energy"), "{case}, P{order}: {a} becomes {b}");
         }
     }
+}
+
+/// A half cylinder that touches a fifth of its boundary: λ is compared where it presses.
+#[test]
+fn the_pressure_of_a_contact_that_closes_in_part_is_measured_there() {
+    let ended = Run::file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/first/case.toml")).converged();
+    assert!(ended.number("/estimate/seam/lambda") < 0.01);
+    assert_eq!(ended.value("/contact/seam/trust"), true);
 }

@@ -101,7 +101,7 @@ pub struct Geometry {
 pub struct Solver {
     /// Which solver.
     pub choice: SolverChoice,
-    /// Relative residual of the scaled augmented system, in (0, 0.01], or by the discretisation error.
+    /// Relative residual of the scaled augmented system, in [1e-16, 0.01], or by the discretisation error.
     pub tolerance: Tolerance,
     /// Whether the inf-sup constants are reported; by default where that is cheap.
     pub inf_sup: Option<bool>,

@@ -136,8 +136,8 @@ pub fn read_solver(root: &Section) -> Option<Solver> {
         Value::String(word) if word == "discretisation" => Ok(Tolerance::Discretisation),
         Value::String(_) => Err("must be a number like 1e-8, or \"discretisation\"".into()),
         _ => match values::number(value)? {
-            tolerance if tolerance > 0.0 && tolerance <= 1e-2 => Ok(Tolerance::Residual(tolerance)),
-            _ => Err("must lie in (0, 0.01]; 1e-8 is the default".into()),
+            tolerance if (1e-16..=1e-2).contains(&tolerance) => Ok(Tolerance::Residual(tolerance)),
+            _ => Err("must lie in [1e-16, 0.01]; 1e-8 is the default".into()),
         },
     });
     let inf_sup = section.or("inf_sup", "auto", |value| match value {

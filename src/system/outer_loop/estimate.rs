@@ -4,12 +4,12 @@
 //! difference `D_l = |u_l - u_(l-1)|` in the energy norm. If errors fall by the factor `√q` with each refinement, `q = (D_l/D_(l-1))²` and
 //! `e_l² = D_l² q/(1 - q)`: no order has to be known, so that corners are seen.
 
-use crate::geometry::gauss_points;
+use crate::geometry::{Point, gauss_points};
 use crate::petsc::Session;
 use crate::system::recovery::strain_energy;
-use crate::system::{CoarseSolution, Discretisation, Field, Solution, SystemError};
+use crate::system::{CoarseSolution, Contact, Discretisation, Field, Solution, SystemError};
 
-/// Share of the contact length that counts as its middle.
+/// Share of the length in contact that counts as its middle.
 const MIDDLE: f64 = 0.6;
 
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
@@ -54,22 +54,33 @@ impl Difference {
             let lambda = &solution.multipliers[contact.range()];
             let now: f64 = lambda.iter().enumerate().map(|(i, value)| value * contact.multipliers.weight(i)).sum();
             force.push(((now - before) / now).abs());
-            let knots = contact.boundary.knots();
-            let (arcs, length) = (contact.boundary.arcs(), contact.boundary.length());
-            let mut sums = [0.0; 2];
-            for (k, ends) in knots.windows(2).enumerate() {
-                let middle = (0.5 * (arcs[k] + arcs[k + 1]) / length - 0.5).abs();
-                for (z, weight) in gauss_points(3).iter().filter(|_| middle <= 0.5 * MIDDLE) {
-                    let here = contact.multipliers.value(lambda, k, *z);
-                    let there = coarse.pressure(at, contact.boundary.point(ends[0] + z * (ends[1] - ends[0])));
-                    sums[0] += weight * (arcs[k + 1] - arcs[k]) * (here - there).powi(2);
-                    sums[1] += weight * (arcs[k + 1] - arcs[k]) * here * here;
-                }
-            }
-            pressure.push(sums[0] / sums[1]);
+            pressure.push(pressure_difference(contact, lambda, |x| coarse.pressure(at, x)));
         }
         Ok(Self { energy: apart.iter().sum::<f64>() / whole.iter().sum::<f64>(), force, pressure })
     }
+}
+
+/// Square of the relative L2 difference between λ and what it was before, in the middle of the part that carries any; not a
+/// number where nothing does.
+fn pressure_difference(contact: &Contact, lambda: &[f64], before: impl Fn(Point) -> f64) -> f64 {
+    let knots = contact.boundary.knots();
+    let arcs = contact.boundary.arcs();
+    let carries = |k: &usize| contact.multipliers.value(lambda, *k, 0.5) != 0.0;
+    let carrying: Vec<usize> = (0..knots.len() - 1).filter(carries).collect();
+    let [Some(&first), Some(&last)] = [carrying.first(), carrying.last()] else { return f64::NAN };
+    let (start, length) = (arcs[first], arcs[last + 1] - arcs[first]);
+    let mut sums = [0.0; 2];
+    for k in carrying {
+        let middle = ((0.5 * (arcs[k] + arcs[k + 1]) - start) / length - 0.5).abs();
+        let ends = [knots[k], knots[k + 1]];
+        for (z, weight) in gauss_points(3).iter().filter(|_| middle <= 0.5 * MIDDLE) {
+            let here = contact.multipliers.value(lambda, k, *z);
+            let there = before(contact.boundary.point(ends[0] + z * (ends[1] - ends[0])));
+            sums[0] += weight * (arcs[k + 1] - arcs[k]) * (here - there).powi(2);
+            sums[1] += weight * (arcs[k + 1] - arcs[k]) * here * here;
+        }
+    }
+    sums[0] / sums[1]
 }
 
 impl Estimate {
@@ -86,9 +97,9 @@ impl Estimate {
     }
 }
 
-/// What is left of an additive error, from two successive differences of it; nothing if they do not fall.
+/// What is left of an additive error, from two successive differences of it; nothing if they do not fall, or are none.
 fn left(before: f64, last: f64) -> Option<f64> {
-    if last > before {
+    if last > before || last < 0.0 {
         return None;
     }
     let factor = (last / before).clamp(FACTORS[0], FACTORS[1]);
