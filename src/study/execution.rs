@@ -10,9 +10,9 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::{available_parallelism, sleep};
 use std::time::{Duration, Instant};
 
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::ended::{Ended, Status};
 use super::folder::{Folder, read_summary, result_name};
 use super::machine::machine;
 use super::plan::PlannedRun;
@@ -26,39 +26,6 @@ const GRACE: Duration = Duration::from_secs(10);
 /// How mezha's own lines on standard error begin.
 const OWN: &str = "mezha: ";
 
-/// How a run ended.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Status {
-    /// Exit code 0.
-    Converged,
-    /// Exit code 3: not converged, a mechanism, or an expected value missed.
-    NotConverged,
-    /// Exit code 2: the case cannot be used as the study makes it.
-    Refused,
-    /// It took too long and was stopped.
-    Timeout,
-    /// Anything else.
-    Failed,
-}
-
-/// What is left of a run.
-#[derive(Clone, Debug)]
-pub struct Ended {
-    /// How it ended.
-    pub status: Status,
-    /// Why, in words.
-    pub reason: String,
-    /// `summary.json`; null if there is none.
-    pub summary: Value,
-    /// From its start to its end, with mpirun.
-    pub wall: Duration,
-    /// Name of its result under the folder of the study.
-    pub result: String,
-    /// Where it was made.
-    pub machine: String,
-}
-
 /// What all runs of a study have in common.
 pub struct Execution<'a> {
     program: &'a Program,
@@ -66,30 +33,6 @@ pub struct Execution<'a> {
     timeout: Duration,
     cores: usize,
     machine: String,
-}
-
-impl Status {
-    /// All of them, the good one first.
-    pub const ALL: [Status; 5] = [Status::Converged, Status::NotConverged, Status::Refused, Status::Timeout, Status::Failed];
-
-    /// As the table has it.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Converged => "converged",
-            Self::NotConverged => "not_converged",
-            Self::Refused => "refused",
-            Self::Timeout => "timeout",
-            Self::Failed => "failed",
-        }
-    }
-}
-
-impl Ended {
-    /// Whether the run converged to a pressure that can be trusted, as far as is known; the reason goes without saying then.
-    pub fn is_good(&self) -> bool {
-        let mut contacts = self.summary["contact"].as_object().into_iter().flat_map(|contacts| contacts.values());
-        self.status == Status::Converged && contacts.all(|contact| contact["trust"] != false)
-    }
 }
 
 impl<'a> Execution<'a> {
@@ -253,20 +196,6 @@ mod tests {
         for (ending, summary, said, status, reason) in table {
             assert_eq!(judge(ending, summary, said), (status, reason.to_owned()), "{ending:?} {said}");
         }
-    }
-
-    #[test]
-    fn a_pressure_not_to_be_trusted_is_not_good() {
-        let ended = |trust: Value, status| Ended {
-            status,
-            reason: String::new(),
-            summary: json!({ "contact": { "a": { "trust": null }, "b": { "trust": trust } } }),
-            wall: PULSE,
-            result: String::new(),
-            machine: String::new(),
-        };
-        assert!(ended(json!(true), Status::Converged).is_good() && ended(Value::Null, Status::Converged).is_good());
-        assert!(!ended(json!(false), Status::Converged).is_good() && !ended(json!(true), Status::NotConverged).is_good());
     }
 
     #[test]

@@ -8,7 +8,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use super::StudyError;
-use super::execution::Ended;
+use super::ended::Ended;
 use super::record::{Identity, Record};
 use crate::output::OutputError;
 

@@ -6,10 +6,10 @@ use std::ops::Range;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::execution::{Ended, Status};
+use super::ended::{Ended, Status};
 use super::fit::{PowerLaw, front};
 use super::plan::{Plan, PlannedRun};
-use super::repeats::{Spread, groups};
+use super::repeats::Spread;
 
 /// Points that differ in one key alone, `mesh.refine` unless the study says otherwise.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -66,7 +66,7 @@ pub fn lines(plan: &Plan, results: &[Ended]) -> Vec<Line> {
         (&a.case, &a.curve, a.ranks) == (&b.case, &b.curve, b.ranks) && values.all(|(at, (a, b))| Some(at) == along || a == b)
     };
     let mut found: Vec<(&PlannedRun, Vec<Range<usize>>)> = Vec::new();
-    for group in groups(&plan.runs) {
+    for group in plan.groups() {
         let run = &plan.runs[group.start];
         match found.iter_mut().find(|(other, _)| same(other, run)) {
             Some((_, groups)) => groups.push(group),

@@ -1,6 +1,7 @@
 //! A grid of runs, each a process of its own and a row of one table; finished runs are kept, and made again only if they would
 //! differ.
 
+mod ended;
 mod execution;
 mod figure;
 mod fit;
@@ -21,11 +22,13 @@ use std::path::Path;
 use crate::case::CaseError;
 use crate::output::OutputError;
 
-use execution::{Ended, Execution};
+use ended::Ended;
+use execution::Execution;
 use folder::{Folder, Place, Wanted};
 use plan::Plan;
 use progress::Progress;
 use record::{Program, Record, what};
+use repeats::with_spreads;
 use table::Table;
 
 /// Why there is no table.
@@ -67,7 +70,7 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     let places = folder.places(&wanted, plan.timeout);
     let progress = Progress::start(&plan, &places);
     let results = make(&plan, &program, &folder, &wanted, places, &progress)?;
-    let table = Table::new(&plan, &results);
+    let table = with_spreads(Table::new(&plan, &results), &plan);
     let lines = lines::lines(&plan, &results);
     let figure = figure::figure(&plan, &lines).map_err(|words| StudyError::Failed(format!("cannot draw study.svg: {words}")))?;
     let mut texts = vec![

@@ -4,6 +4,7 @@ mod moves;
 mod settings;
 
 use std::cell::RefCell;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -66,6 +67,13 @@ pub struct PlannedRun {
 }
 
 impl Plan {
+    /// Runs that differ in nothing but the number of their repeat; they follow each other.
+    pub fn groups(&self) -> Vec<Range<usize>> {
+        let starts: Vec<usize> = (0..self.runs.len()).filter(|&index| self.runs[index].repeat == 1).collect();
+        let ends = starts.iter().copied().skip(1).chain([self.runs.len()]);
+        starts.iter().copied().zip(ends).map(|(start, end)| start..end).collect()
+    }
+
     /// Reads and checks a study file, after the overrides `KEY=VALUE`.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use std::io::{Write, stdout};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use super::execution::{Ended, Status};
+use super::ended::{Ended, Status};
 use super::folder::Place;
 use super::plan::{Plan, PlannedRun};
 

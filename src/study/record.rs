@@ -7,7 +7,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::execution::{Ended, Status};
+use super::ended::{Ended, Status};
 use super::plan::PlannedRun;
 use crate::case::Case;
 use crate::output::OutputError;

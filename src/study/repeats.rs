@@ -5,8 +5,8 @@ use std::ops::Range;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::execution::Status;
-use super::plan::PlannedRun;
+use super::ended::Status;
+use super::plan::Plan;
 use super::table::{Column, Kind, Table};
 
 /// What repeats say of one number.
@@ -30,11 +30,16 @@ impl Spread {
     }
 }
 
-/// Runs that differ in nothing but the number of their repeat; they follow each other.
-pub fn groups(runs: &[PlannedRun]) -> Vec<Range<usize>> {
-    let starts: Vec<usize> = (0..runs.len()).filter(|&index| runs[index].repeat == 1).collect();
-    let ends = starts.iter().copied().skip(1).chain([runs.len()]);
-    starts.iter().copied().zip(ends).map(|(start, end)| start..end).collect()
+/// A table with the spreads of its times, if runs are repeated.
+pub fn with_spreads(mut table: Table, plan: &Plan) -> Table {
+    if table.is_repeated() {
+        let mut timed = vec!["wall_s", "time_s.solve", "time_s.total"];
+        if !timed.contains(&plan.time.text.as_str()) {
+            timed.push(&plan.time.text);
+        }
+        add_spreads(&mut table, &timed);
+    }
+    table
 }
 
 /// Beside each of these columns come `.median`, `.least` and `.most` of the repeats that converged, the same in all of them.

@@ -5,9 +5,8 @@ use std::ops::Range;
 
 use serde_json::Value;
 
-use super::execution::{Ended, Status};
+use super::ended::{Ended, Status};
 use super::plan::{Plan, PlannedRun};
-use super::repeats::{add_spreads, groups};
 use super::summary_path::SummaryPath;
 
 /// Figures of each contact.
@@ -76,26 +75,18 @@ impl Table {
             cells.push(text(&ended.result));
             cells
         };
-        let mut table = Self {
+        Self {
             study: plan.name.clone(),
             errors: plan.errors.iter().map(|path| path.text.clone()).collect(),
             time: plan.time.text.clone(),
             columns: columns(plan, &places),
             rows: plan.runs.iter().zip(results).map(row).collect(),
-            groups: groups(&plan.runs),
+            groups: plan.groups(),
             good: results.iter().map(Ended::is_good).collect(),
             converged: results.iter().filter(|ended| ended.status == Status::Converged).count(),
             machines: once(results.iter().map(|ended| ended.machine.as_str())),
             blas: once(results.iter().filter_map(|ended| ended.summary["solver"]["blas"].as_str())),
-        };
-        if table.is_repeated() {
-            let mut timed = vec!["wall_s", "time_s.solve", "time_s.total"];
-            if !timed.contains(&plan.time.text.as_str()) {
-                timed.push(&plan.time.text);
-            }
-            add_spreads(&mut table, &timed);
         }
-        table
     }
 
     /// Whether any run is made more than once.

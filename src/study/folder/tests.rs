@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use super::super::execution::Status;
+use super::super::ended::Status;
 use super::*;
 
 const HOUR: Duration = Duration::from_secs(3600);

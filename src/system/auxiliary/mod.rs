@@ -11,12 +11,14 @@ mod tree;
 
 pub use operators::GalerkinLevels;
 
-use super::solver::SMALL;
 use super::{Discretisation, SystemError};
 use crate::petsc::{Matrix, Session};
 use grid::Grid;
 use level::{Nodes, Step};
 use tree::Tree;
+
+/// Unknowns up to which a level is factorised on every rank; larger ones get auxiliary levels.
+pub(super) const SMALL: usize = 3000;
 
 /// Unknowns of a level that needs none below it.
 const FEW: usize = 500;

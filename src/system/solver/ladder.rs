@@ -4,7 +4,7 @@
 //! 0.5 wear it out; two or four steps of CG with the same sweep are stronger and cost two and four times as much; a
 //! Cholesky factor of `K + BᵀDB` always does, as long as there is memory for it.
 
-use super::options::SMALL;
+use crate::system::auxiliary::SMALL;
 
 /// Iterations that a solve to 1e-8 may need before the next rung pays.
 const MOST: [(Rung, f64); 3] = [(Rung::Sweep, 26.0), (Rung::TwoSteps, 100.0), (Rung::FourSteps, 180.0)];

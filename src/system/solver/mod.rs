@@ -10,7 +10,7 @@ mod inf_sup;
 mod ladder;
 mod options;
 
-pub(super) use self::options::{SMALL, want_entries};
+pub(super) use self::options::want_entries;
 pub use inf_sup::inf_sup;
 pub use ladder::Rung;
 

@@ -1,10 +1,8 @@
 //! The solver's recipes as PETSc options. What a user gives after `--` wins over all of them.
 
 use crate::petsc::{Session, options};
+use crate::system::auxiliary::SMALL;
 use crate::system::{Rung, SchurPattern};
-
-/// Unknowns up to which a level is factorised on every rank; larger ones get auxiliary levels.
-pub(in crate::system) const SMALL: usize = 3000;
 
 /// Names and values of PETSc options.
 pub(super) type Options = &'static [(&'static str, &'static str)];

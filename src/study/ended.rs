@@ -1,0 +1,83 @@
+//! What is left of a run.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// Exit code 0.
+    Converged,
+    /// Exit code 3: not converged, a mechanism, or an expected value missed.
+    NotConverged,
+    /// Exit code 2: the case cannot be used as the study makes it.
+    Refused,
+    /// It took too long and was stopped.
+    Timeout,
+    /// Anything else.
+    Failed,
+}
+
+/// What is left of a run.
+#[derive(Clone, Debug)]
+pub struct Ended {
+    /// How it ended.
+    pub status: Status,
+    /// Why, in words.
+    pub reason: String,
+    /// `summary.json`; null if there is none.
+    pub summary: Value,
+    /// From its start to its end, with mpirun.
+    pub wall: Duration,
+    /// Name of its result under the folder of the study.
+    pub result: String,
+    /// Where it was made.
+    pub machine: String,
+}
+
+impl Status {
+    /// All of them, the good one first.
+    pub const ALL: [Status; 5] = [Status::Converged, Status::NotConverged, Status::Refused, Status::Timeout, Status::Failed];
+
+    /// As the table has it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::NotConverged => "not_converged",
+            Self::Refused => "refused",
+            Self::Timeout => "timeout",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+impl Ended {
+    /// Whether the run converged to a pressure that can be trusted, as far as is known; the reason goes without saying then.
+    pub fn is_good(&self) -> bool {
+        let mut contacts = self.summary["contact"].as_object().into_iter().flat_map(|contacts| contacts.values());
+        self.status == Status::Converged && contacts.all(|contact| contact["trust"] != false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_pressure_not_to_be_trusted_is_not_good() {
+        let ended = |trust: Value, status| Ended {
+            status,
+            reason: String::new(),
+            summary: json!({ "contact": { "a": { "trust": null }, "b": { "trust": trust } } }),
+            wall: Duration::ZERO,
+            result: String::new(),
+            machine: String::new(),
+        };
+        assert!(ended(json!(true), Status::Converged).is_good() && ended(Value::Null, Status::Converged).is_good());
+        assert!(!ended(json!(false), Status::Converged).is_good() && !ended(json!(true), Status::NotConverged).is_good());
+    }
+}
