@@ -328,3 +328,12 @@ fn a_study_starts_its_ranks_itself() {
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("without mpirun"));
 }
+
+/// The summaries of runs are known only when they are there: a place that none of them has is told then.
+#[test]
+fn a_place_that_no_summary_has_is_told() {
+    let study = Study::new("columns = ['energy.totl', 'energy.total']\n[grid]\n'mesh.refine' = [0]");
+    let said = text(&study.make(&[]).stdout);
+    assert!(said.contains("no run has a value at energy.totl"), "{said}");
+    assert!(!said.contains("energy.total "), "{said}");
+}

@@ -81,7 +81,7 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     ];
     texts.extend(figure.map(|text| ("study.svg", text)));
     folder.write_tables(&texts)?;
-    progress.end(&results, &out.join("study.html"));
+    progress.end(&plan, &results, &out.join("study.html"));
     Ok(())
 }
 

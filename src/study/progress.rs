@@ -38,8 +38,13 @@ impl Progress {
         say(&if ended.is_good() { format!("{words}\n") } else { format!("{words}: {}\n", ended.reason) });
     }
 
-    /// The last line: how many runs ended how, and where the page is.
-    pub fn end(&self, results: &[Ended], page: &Path) {
+    /// The last lines: what is asked of the results and none has, how many runs ended how, and where the page is.
+    pub fn end(&self, plan: &Plan, results: &[Ended], page: &Path) {
+        for path in plan.errors.iter().chain([&plan.time]).chain(&plan.columns) {
+            if results.iter().all(|ended| path.of(&ended.summary).is_null()) {
+                say(&format!("mezha: no run has a value at {} of its summary.json; is it spelt right?\n", path.text));
+            }
+        }
         say(&format!("mezha: {}; {} in all; see {}\n", verdict(results), clock(self.started.elapsed()), page.display()));
     }
 }
