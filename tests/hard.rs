@@ -150,13 +150,18 @@ fn a_contact_narrower_than_an_edge_is_told_by_its_estimate() {
         let row = rows.iter().find(|row| row.name == name).expect("a row of the study");
         let ended = row.coarser(0, ranks);
         row.check(&ended, ranks);
-        ["energy", "seam/lambda"].map(|key| ended.number(&format!("/estimate/{key}")))
+        // Differences of λ that do not fall from mesh to mesh tell nothing: null.
+        (
+            ended.number("/estimate/energy"),
+            ended.value("/estimate/seam/lambda").as_f64(),
+            ended.value("/contact/seam/trust") == true,
+        )
     };
     for ranks in RANKS {
-        let [energy, lambda] = estimates("contact 0.8 edges wide", ranks);
-        assert!(energy > 0.3 && lambda > 0.5, "{ranks} ranks: {energy}, {lambda}");
-        let [energy, lambda] = estimates("as it stands", ranks);
-        assert!(energy < 0.02 && lambda < 0.01, "{ranks} ranks: {energy}, {lambda}");
+        let (energy, lambda, trust) = estimates("contact 0.8 edges wide", ranks);
+        assert!(energy > 0.3 && lambda.is_none_or(|lambda| lambda > 0.5) && !trust, "{ranks} ranks: {energy}, {lambda:?}");
+        let (energy, lambda, trust) = estimates("as it stands", ranks);
+        assert!(energy < 0.02 && lambda.is_some_and(|lambda| lambda < 0.01) && trust, "{ranks} ranks: {energy}, {lambda:?}");
     }
 }
 
