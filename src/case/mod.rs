@@ -25,8 +25,8 @@ use crate::system::{SolverChoice, Tolerance};
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 
-use overrides::{apply_override, set_value};
-use section::{Log, Section, read_text};
+use overrides::{overridden, set_value};
+use section::{Section, read_text};
 
 /// A checked case: what to solve, on which mesh, and what is known of the result.
 #[derive(Clone, Debug)]
@@ -139,14 +139,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let mut table: Table = toml::from_str(text).map_err(|error| CaseError::of_syntax(file, text, &error))?;
-        let mut log = Log::default();
-        for text in overrides {
-            match apply_override(&mut table, text) {
-                Ok(path) => log.overridden.push(path),
-                Err(problem) => log.problems.push(problem),
-            }
-        }
+        let (mut table, log) = overridden(text, file, overrides)?;
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let log = log.into_inner();

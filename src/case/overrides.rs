@@ -1,14 +1,33 @@
 //! `--set KEY=VALUE`.
 
+use std::path::Path;
+
 use toml::{Table, Value};
 
-use super::error::{Problem, dotted};
+use super::error::{CaseError, Problem, dotted};
+use super::section::Log;
+
+/// The table of a TOML text after its overrides, and a log that knows these; `file` gives errors their name.
+///
+/// # Errors
+/// [`CaseError`] if the text is no TOML. What is wrong with an override is in the log.
+pub fn overridden(text: &str, file: &Path, overrides: &[String]) -> Result<(Table, Log), CaseError> {
+    let mut table: Table = toml::from_str(text).map_err(|error| CaseError::of_syntax(file, text, &error))?;
+    let mut log = Log::default();
+    for text in overrides {
+        match apply_override(&mut table, text) {
+            Ok(path) => log.overridden.push(path),
+            Err(problem) => log.problems.push(problem),
+        }
+    }
+    Ok((table, log))
+}
 
 /// Does one override and returns the path of its key. VALUE is read as TOML, and as a string if that fails.
 ///
 /// # Errors
 /// A [`Problem`] if the text is not `KEY=VALUE`, or if a table is wanted where a value stands.
-pub fn apply_override(table: &mut Table, text: &str) -> Result<Vec<String>, Problem> {
+fn apply_override(table: &mut Table, text: &str) -> Result<Vec<String>, Problem> {
     let problem = |key: String, words: &str| Problem { key, value: None, words: words.into() };
     let wanted = "must be KEY=VALUE, as in --set body.upper.young=7e6";
     let (key, value) = text.split_once('=').ok_or_else(|| problem(format!("--set {text}"), wanted))?;

@@ -146,15 +146,19 @@ mod operator {
     pub unsafe extern "C" fn relax(
         matrix: ffi::Mat,
         b: ffi::Vec,
-        _factor: f64,
+        factor: f64,
         kind: ffi::MatSORType,
-        _shift: f64,
+        shift: f64,
         sweeps: i32,
         local_sweeps: i32,
         x: ffi::Vec,
     ) -> Code {
-        let zero = kind.0 & ffi::MatSORType::SOR_ZERO_INITIAL_GUESS.0 != 0;
+        let from_zero = ffi::MatSORType::SOR_ZERO_INITIAL_GUESS.0;
+        let zero = kind.0 & from_zero != 0;
+        let symmetric = [ffi::MatSORType::SOR_SYMMETRIC_SWEEP.0, ffi::MatSORType::SOR_LOCAL_SYMMETRIC_SWEEP.0];
         act(matrix, |action: &Square, session| {
+            let known = symmetric.contains(&(kind.0 & !from_zero)) && (factor, shift) == (1.0, 0.0);
+            assert!(known, "shells have symmetric sweeps without relaxation factor and shift");
             let (b, mut x) = (Lent::new(session, b), Lent::new(session, x));
             let sweeps = sweeps * local_sweeps;
             (0..sweeps).try_for_each(|sweep| action.relax(&b, &mut x, zero && sweep == 0))?;

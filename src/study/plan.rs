@@ -8,12 +8,12 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use toml::{Table, Value};
+use toml::Value;
 
 use super::summary_path::SummaryPath;
 use crate::case::error::{CaseError, dotted};
-use crate::case::overrides::{apply_override, read_key};
-use crate::case::section::{Log, Section, read_text};
+use crate::case::overrides::{overridden, read_key};
+use crate::case::section::{Section, read_text};
 use crate::case::{Case, name_of, values};
 
 use moves::Moves;
@@ -87,14 +87,7 @@ impl Plan {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let mut table: Table = toml::from_str(text).map_err(|error| CaseError::of_syntax(file, text, &error))?;
-        let mut log = Log::default();
-        for text in overrides {
-            match apply_override(&mut table, text) {
-                Ok(path) => log.overridden.push(path),
-                Err(problem) => log.problems.push(problem),
-            }
-        }
+        let (table, log) = overridden(text, file, overrides)?;
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let problems = log.into_inner().problems;

@@ -1,7 +1,8 @@
 //! The stiffness of strips: rows of a lattice inside a straight macro triangle, whose couplings repeat and are not stored.
 //!
 //! A P1 node has six neighbours, all of the same kind; a P2 row alternates between two kinds of nodes with 18 or 8. Node
-//! numbers of lattice rows are contiguous, so a neighbour lies at the same distance from each node of a strip.
+//! numbers of lattice rows are contiguous, so a neighbour lies at the same distance from each node of a strip. After the
+//! stencils of hierarchical hybrid grids (Bergen, Hülsemann 2004).
 
 use crate::body::MacroStiffness;
 use crate::element::{Block, Order};
