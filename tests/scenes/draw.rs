@@ -112,15 +112,15 @@ fn drawn(scene: &mut Scene, lot: &mut Lot, softness: f64) {
         for k in 0..3 {
             let at = (phase + k as f64) / 2.0;
             if at < 1.0 {
-                scene.focus.push(Peak { at, reach: 1.3 * half_width, edge: half_width / 14.0 });
+                scene.focus.push(Peak { at, reach: 1.3 * half_width, edge: half_width / 8.0 });
             }
         }
     } else {
-        scene.focus.push(Peak { at: middle, reach: 1.3 * half_width, edge: half_width / 14.0 });
+        scene.focus.push(Peak { at: middle, reach: 1.3 * half_width, edge: half_width / 8.0 });
     }
     let mean = 0.5 * PI * peak * half_width * scene.focus.len() as f64;
     scene.press = Press::Pressure { mean, tilt: 0.0 };
-    if lot.chance(0.3) {
+    if !matches!(upper, Shape::Wave { .. }) && lot.chance(0.3) {
         scene.drawn_aside = lot.between(-0.4, 0.4) * half_width;
     }
 }
@@ -182,7 +182,7 @@ fn declared_gap(scene: &mut Scene, lot: &mut Lot, softness: f64, mean: f64) {
             Bump { at, width, share: if k == 0 { 1.0 } else { lot.one(&[1.0, 1.0, 0.8]) } }
         };
         let bumps: Vec<Bump> = (0..count).map(|k| bump(k, lot)).collect();
-        scene.focus = bumps.iter().map(|bump| (bump.at, bump.width / length)).map(|(at, width)| Peak { at, reach: width, edge: width / 12.0 }).collect();
+        scene.focus = bumps.iter().map(|bump| (bump.at, bump.width / length)).map(|(at, width)| Peak { at, reach: width, edge: width / 8.0 }).collect();
         let base = if lot.chance(0.25) { lot.between(0.9, 1.05) } else { 1.0 };
         scene.gap = Gap::Bumps { rise, base, bumps };
         if !ring && lot.chance(0.2) {

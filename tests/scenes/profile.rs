@@ -69,6 +69,21 @@ impl Profile {
         (0..SAMPLES).map(|k| self.at(from + (k as f64 + 0.5) * step)).collect()
     }
 
+    /// The parameter about which λ has no moment.
+    pub fn centre(&self) -> f64 {
+        let piece = |pair: &[[f64; 2]]| {
+            let force = 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][0] - pair[0][0]);
+            [force, 0.5 * force * (pair[0][0] + pair[1][0])]
+        };
+        let [force, moment] = self.points.windows(2).map(piece).fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
+        if force > 0.0 { moment / force } else { 0.0 }
+    }
+
+    /// The same λ, further along.
+    pub fn moved(&self, by: f64) -> Self {
+        Self { points: self.points.iter().map(|[u, lambda]| [u + by, *lambda]).collect(), force: self.force }
+    }
+
     /// The zones that carry a hundredth of the force at least.
     pub fn zones(&self) -> Vec<Zone> {
         let top = self.points.iter().fold(0.0, |top: f64, point| top.max(point[1]));
@@ -99,7 +114,7 @@ impl Profile {
         let mut apart = Apart { force: (self.force / reference.force - 1.0).abs(), ..Apart::default() };
         for (k, zone) in zones.iter().enumerate() {
             let width = zone.to - zone.from;
-            let reach = 0.02 * (ends[1] - ends[0]);
+            let reach = 0.02 * (ends[1] - ends[0]).min(1.0);
             let cornered = [zone.from < ends[0] + reach && !smooth[0], zone.to > ends[1] - reach && !smooth[1]];
             // A little beside the zone counts, and nothing beside a corner.
             let before = if k == 0 { f64::NEG_INFINITY } else { 0.5 * (zones[k - 1].to + zone.from) };

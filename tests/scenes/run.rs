@@ -5,13 +5,7 @@ use crate::scene::{Scene, Settings};
 use crate::support::Run;
 use crate::support::mesh::write_scene;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
-
-/// Where case and mesh of a run are left.
-pub enum Folder {
-    Lost,
-    Kept(PathBuf),
-}
+use std::path::Path;
 
 /// How a run ended.
 #[derive(Clone, Debug, Default)]
@@ -28,20 +22,15 @@ pub struct Said {
     pub estimate: [Option<f64>; 2],
 }
 
-/// Runs a scene on as many ranks as its settings say.
-pub fn solve(scene: &Scene, settings: &Settings, folder: &Folder) -> Said {
-    let lost = tempfile::tempdir().expect("a temporary folder");
-    let place = match folder {
-        Folder::Lost => lost.path(),
-        Folder::Kept(path) => path,
-    };
-    std::fs::create_dir_all(place).expect("a folder");
-    let file = write_scene(place, &scene.mesh(&settings.layers), &scene.case(settings));
+/// Runs a scene on as many ranks as its settings say; case and mesh stay in the folder.
+pub fn solve(scene: &Scene, settings: &Settings, folder: &Path) -> Said {
+    std::fs::create_dir_all(folder).expect("a folder");
+    let file = write_scene(folder, &scene.mesh(&settings.layers), &scene.case(settings));
     run(&file, settings.ranks, |x| scene.parameter(x))
 }
 
 /// Runs a case of one contact `c`; `parameter` says where on the seam a point lies.
-pub fn run(file: &std::path::Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Said {
+pub fn run(file: &Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Said {
     let run = Run::file(file);
     let run = if ranks == 1 { run.alone() } else { run.ranks(ranks) };
     let Ok(ended) = catch_unwind(AssertUnwindSafe(|| run.ended())) else {
@@ -55,7 +44,8 @@ pub fn run(file: &std::path::Path, ranks: usize, parameter: impl Fn([f64; 2]) ->
     let summary = ended.summary();
     said.reason = summary["reason"].as_str().unwrap_or_default().to_string();
     let contact = &summary["contact"]["c"];
-    said.trust = contact["trust"].as_bool();
+    let all: Vec<_> = summary["contact"].as_object().into_iter().flatten().map(|(_, own)| own["trust"].as_bool()).collect();
+    said.trust = if all.contains(&Some(false)) { Some(false) } else { (!all.contains(&None)).then_some(true) };
     said.estimate = ["force", "lambda"].map(|key| summary["estimate"]["c"][key].as_f64());
     if let Some(force) = contact["force"].as_f64().filter(|_| ended.out.join("contact_c.csv").exists()) {
         let points = ended.trace("c").iter().map(|point| [parameter(point.x), point.lambda]).collect();

@@ -2,7 +2,7 @@
 
 use crate::layers::{Layers, Peak};
 use crate::shape::{Frame, Shape};
-use crate::support::mesh::Mesh;
+use crate::support::mesh::{Block, Mesh};
 
 /// One of the two bodies, between its seam and a boundary beside it.
 #[derive(Clone, Debug)]
@@ -24,6 +24,8 @@ pub enum Gap {
     Number(f64),
     /// `rise` (`base` - Σ share exp(-d²/width²)), d the distance from the seam's point at a parameter.
     Bumps { rise: f64, base: f64, bumps: Vec<Bump> },
+    /// A formula of the plane's x and y, in its lengths.
+    Formula(String),
     /// As the bodies are drawn.
     Drawn,
 }
@@ -89,7 +91,12 @@ const SIDES: [[&str; 4]; 2] =
 impl Scene {
     /// The mesh file.
     pub fn mesh(&self, layers: &[Layers; 2]) -> String {
-        let bodies = [0, 1].map(|k| {
+        Mesh { bodies: self.blocks(layers).into() }.text()
+    }
+
+    /// The bodies' meshes with the names of their sides.
+    pub fn blocks(&self, layers: &[Layers; 2]) -> [(&'static str, Block, [&'static str; 4]); 2] {
+        [0, 1].map(|k| {
             let (body, down) = (&self.bodies[k], if k == 0 { -1.0 } else { 1.0 });
             let [a, b] = body.range;
             let block = layers[k].block(|u, v| {
@@ -101,8 +108,7 @@ impl Scene {
                 self.frame.place([x + v * (far_x - x), y + v * (far_y - y)])
             });
             (NAMES[k], block, SIDES[k])
-        });
-        Mesh { bodies: bodies.into() }.text()
+        })
     }
 
     /// The case file.
@@ -111,13 +117,13 @@ impl Scene {
         for (name, body) in NAMES.iter().zip(&self.bodies) {
             text += &format!("[body.{name}]\nyoung = {:?}\npoisson = {:?}\n", body.young * self.stress, body.poisson);
         }
-        text += &self.geometries(settings);
+        text += &self.geometries();
         text += &self.supports();
         text += &self.loads();
         text + &self.contact(settings)
     }
 
-    fn geometries(&self, settings: &Settings) -> String {
+    fn geometries(&self) -> String {
         let [lower, upper] = &self.bodies;
         let mut all = if lower.seam == upper.seam {
             vec![("seam", "[\"lower.seam\", \"upper.seam\"]", lower.seam)]
@@ -132,7 +138,6 @@ impl Scene {
             let lines = shape.geometry(&self.frame);
             lines.map(|lines| format!("[geometry.{name}]\ncurves = {curves}\n{lines}\n")).unwrap_or_default()
         };
-        let _ = settings;
         all.into_iter().map(line).collect()
     }
 
@@ -175,6 +180,7 @@ impl Scene {
         text += &match &self.gap {
             Gap::Closed => "gap = \"closed\"\n".to_string(),
             Gap::Number(gap) => format!("gap = {:?}\n", gap * self.frame.scale),
+            Gap::Formula(formula) => format!("gap = \"{formula}\"\n"),
             Gap::Drawn => "gap = \"geometry\"\n".to_string(),
             Gap::Bumps { rise, base, bumps } => {
                 let near = |bump: &Bump| {
@@ -194,15 +200,30 @@ impl Scene {
         text
     }
 
+    /// Bodies with flat seams and the gap as a formula, where one is drawn flat: the same to the square of the slopes.
+    pub fn flattened(&self) -> Option<Self> {
+        let [lower, upper] = [self.bodies[0].seam, self.bodies[1].seam];
+        let flat = Shape::Line { height: 0.0 };
+        if !matches!(self.gap, Gap::Drawn) || lower != flat && upper != flat {
+            return None;
+        }
+        let x = self.frame.local_x();
+        let formula = format!("{:?}*(({})-({}))", self.frame.scale, upper.height(&x), lower.height(&x));
+        let mut scene = Self { gap: Gap::Formula(formula), drawn_aside: 0.0, ..self.clone() };
+        scene.bodies.iter_mut().for_each(|body| body.seam = flat);
+        Some(scene)
+    }
+
     /// The parameter on the lower body's seam of a point of the plane.
     pub fn parameter(&self, point: [f64; 2]) -> f64 {
         self.bodies[0].seam.parameter(self.frame.local(point))
     }
 
-    /// Whether contact that reaches this end of the seam, 0 or 1, ends there smoothly: between walls.
+    /// Whether contact that reaches this end of the seam, 0 or 1, ends there smoothly: between walls at right angles to it.
     pub fn smooth_end(&self, end: usize) -> bool {
         let [lower, upper] = &self.bodies;
-        lower.walls[end] && upper.walls[end] && lower.range[end] == upper.range[end]
+        let square = lower.seam.is_square(end as f64) && upper.seam.is_square(end as f64);
+        square && lower.walls[end] && upper.walls[end] && lower.range[end] == upper.range[end]
     }
 
     /// Where the seam that both bodies have begins and ends, as parameters.

@@ -107,9 +107,30 @@ impl Shape {
         }
     }
 
+    /// Whether it meets its side at a right angle, to a few degrees.
+    pub fn is_square(&self, end: f64) -> bool {
+        let ([a, low], [b, high]) = (self.at(end - 1e-4), self.at(end + 1e-4));
+        matches!(self, Self::Arc { .. }) || ((high - low) / (b - a)).abs() < 0.05
+    }
+
     /// Whether it is straight.
     pub fn is_line(&self) -> bool {
         matches!(self, Self::Line { .. })
+    }
+
+    /// Its height over the scene's own x, as a formula of what stands for x.
+    pub fn height(&self, x: &str) -> String {
+        match *self {
+            Self::Line { height } => format!("({height:?})"),
+            Self::Parabola { height, bend, middle } => format!("({height:?})+({bend:?})*({x}-({middle:?}))^2"),
+            Self::Wave { height, rise, count, phase } => {
+                format!("({height:?})+({:?})*(1-cos(2*pi*({count:?}*{x}-({phase:?}))))", 0.5 * rise)
+            }
+            Self::Cap { height, radius, middle } => {
+                format!("({:?})-({:?})*sqrt({:?}-({x}-({middle:?}))^2)", height + radius, radius.signum(), radius * radius)
+            }
+            Self::Arc { .. } => unreachable!("an arc is no graph"),
+        }
     }
 
     /// What a `[geometry]` of it says after `curves`; nothing if it is straight.
@@ -118,18 +139,15 @@ impl Shape {
             let [a, b] = frame.place(centre);
             Some(format!("circle = {{ centre = [{a:?}, {b:?}], radius = {:?} }}", radius.abs() * frame.scale))
         };
-        let graph = |y: String| {
-            let (s, c) = frame.angle.sin_cos();
-            let ([a, b], size) = (frame.shift, frame.scale);
-            Some(format!(
-                "x = \"({a:?})+{size:?}*(({c:?})*t-({s:?})*({y}))\"\ny = \"({b:?})+{size:?}*(({s:?})*t+({c:?})*({y}))\"\nt = [-0.01, 1.01]"
-            ))
-        };
+        let (s, c) = frame.angle.sin_cos();
+        let ([a, b], size) = (frame.shift, frame.scale);
         match *self {
             Self::Line { .. } => None,
-            Self::Parabola { height, bend, middle } => graph(format!("({height:?})+({bend:?})*(t-({middle:?}))^2")),
-            Self::Wave { height, rise, count, phase } => {
-                graph(format!("({height:?})+({:?})*(1-cos(2*pi*({count:?}*t-({phase:?}))))", 0.5 * rise))
+            Self::Parabola { .. } | Self::Wave { .. } => {
+                let y = self.height("t");
+                Some(format!(
+                    "x = \"({a:?})+{size:?}*(({c:?})*t-({s:?})*({y}))\"\ny = \"({b:?})+{size:?}*(({s:?})*t+({c:?})*({y}))\"\nt = [-0.01, 1.01]"
+                ))
             }
             Self::Cap { height, radius, middle } => circle([middle, height + radius], radius),
             Self::Arc { radius, .. } => circle([0.0, 0.0], radius),
