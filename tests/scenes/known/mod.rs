@@ -20,8 +20,10 @@ pub type Parameter = Box<dyn Fn([f64; 2]) -> f64>;
 pub enum Answer {
     /// λ along a parameter. The seam ends smoothly. If `centred`, where the middle of contact lies is not asked.
     Pressure { profile: Profile, parameter: Parameter, centred: bool },
-    /// The force alone, to a tolerance.
-    Force(f64, f64),
+    /// The force to a tolerance, and where its middle lies, as parameters.
+    Force { force: f64, most: f64, at: Option<[f64; 2]> },
+    /// Exit code 2, with one of these words.
+    Refusal(&'static [&'static str]),
     /// It must be doubted or refused, with one of these words.
     Doubt(&'static [&'static str]),
 }
@@ -78,21 +80,24 @@ impl Known {
             words.replace('\n', " "),
             if words.contains(&warnings) { "" } else { &warnings },
         );
-        Outcome { good, doubted: !quiet && !matches!(self.answer, Answer::Doubt(_)), line }
+        Outcome { good, doubted: !quiet && !matches!(self.answer, Answer::Doubt(_) | Answer::Refusal(_)), line }
     }
 
     /// Whether it ended well, with its errors in words.
     fn judge(&self, said: &Said) -> (bool, String) {
         let quiet = is_quiet(said);
         match &self.answer {
-            Answer::Doubt(words) => {
+            Answer::Doubt(words) | Answer::Refusal(words) => {
                 let all = format!("{} {}", said.reason, said.warnings.join(" "));
                 let told = words.iter().any(|words| all.contains(words));
-                (!quiet && told, if quiet { "no word".into() } else if told { String::new() } else { "another word".into() })
+                let refused = said.code == Some(2) || matches!(self.answer, Answer::Doubt(_));
+                (!quiet && told && refused, if quiet { "no word" } else if told { "" } else { "another word" }.into())
             }
-            Answer::Force(force, most) => {
+            Answer::Force { force, most, at } => {
                 let error = said.profile.as_ref().map_or(f64::INFINITY, |own| (own.force / force - 1.0).abs());
-                (!quiet || error <= *most, format!("force {error:.1e}"))
+                let centre = said.profile.as_ref().map_or(f64::NAN, Profile::centre);
+                let right = error <= *most && at.is_none_or(|[at, most]| (centre - at).abs() <= most);
+                (!quiet || right, format!("force {error:.1e} at {centre:.3}"))
             }
             Answer::Pressure { profile, centred, .. } => {
                 let apart = said.profile.as_ref().map(|own| {

@@ -87,7 +87,7 @@ pub fn pairs() -> Vec<Known> {
             text += &format!("[contact.c{k}]\nbetween = {pair:?}{contact}");
         }
         let words: &[&str] = &["face", "opposed", "parallel", "apart", "twice", "same body", "one body", "another contact", "overlap"];
-        Known { name: format!("pairs, {name}"), mesh: scene.mesh(&settings.layers), case: text, ranks, answer: Answer::Doubt(words) }
+        Known { name: format!("pairs, {name}"), mesh: scene.mesh(&settings.layers), case: text, ranks, answer: Answer::Refusal(words) }
     };
     vec![
         known("seam and top", 1.0, &[["lower.seam", "upper.outer"]], "line", 1),
