@@ -4,6 +4,7 @@
 //! ([`Multipliers`]). Each body then couples to Γ_C alone ([`integrate`]), through the traces of its own boundary edges.
 
 mod active_set;
+mod bisector;
 mod contact_boundary;
 mod coupling;
 mod cutting;

@@ -114,7 +114,16 @@ impl Curve {
     /// Where the line from `origin` along the unit vector `direction` meets the curve next to the origin: signed
     /// distance, and by what share of its range the hit lies beyond an end (0 within). Nothing if the line misses.
     pub fn hit(&self, origin: Point, direction: Point) -> Option<(f64, f64)> {
-        let mut t = self.nearest(origin);
+        let t = self.hit_from(self.nearest(origin), origin, direction)?;
+        let offset = self.point(t) - origin;
+        let [first, last] = self.range();
+        let beyond = if self.period().is_some() { 0.0 } else { (first - t).max(t - last) / (last - first) };
+        Some((offset.dot(&direction), if beyond > 1e-9 { beyond } else { 0.0 }))
+    }
+
+    /// Parameter of the point where the line from `origin` along the unit vector `direction` meets the curve, by Newton's
+    /// method from the parameter `t`. Nothing if the line misses.
+    pub fn hit_from(&self, mut t: f64, origin: Point, direction: Point) -> Option<f64> {
         for _ in 0..100 {
             let offset = self.point(t) - origin;
             let slope = cross(direction, self.derivative(t));
@@ -129,9 +138,7 @@ impl Curve {
         }
         let offset = self.point(t) - origin;
         let missed = cross(direction, offset).abs() > 1e-9 * (offset.norm() + self.derivative(t).norm());
-        let [first, last] = self.range();
-        let beyond = if self.period().is_some() { 0.0 } else { (first - t).max(t - last) / (last - first) };
-        (!missed).then(|| (offset.dot(&direction), if beyond > 1e-9 { beyond } else { 0.0 }))
+        (!missed).then_some(t)
     }
 }
 

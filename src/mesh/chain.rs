@@ -38,6 +38,18 @@ impl MacroMesh {
         if straight { Curve::Line([first.into(), last.into()]) } else { Curve::Spline(Spline::through(&points)) }
     }
 
+    /// Whether a chain of edges comes back to where it begins.
+    pub fn is_closed(&self, chain: &[u32]) -> bool {
+        let vertices = |edge: u32| self.edges[edge as usize].vertices;
+        let [first, last] = [chain[0], chain[chain.len() - 1]];
+        let ends = |edge: u32| {
+            let (triangle, side) = self.beside(edge);
+            let corners = self.triangles[triangle as usize].vertices;
+            [corners[side], corners[(side + 1) % 3]]
+        };
+        chain.len() > 2 && ends(first)[0] == ends(last)[1] && vertices(first) != vertices(last)
+    }
+
     /// Edges in the order and direction of the boundary (body on the left), cut at corners and gaps, and where the
     /// shape changes.
     fn chains(&self, edges: &[u32]) -> Vec<Vec<u32>> {

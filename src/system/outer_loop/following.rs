@@ -138,7 +138,7 @@ impl Following {
             problem.contacts.iter().filter_map(|contact| contact.known.meeting.as_ref().map(|meeting| (contact, meeting)));
         for (contact, meeting) in fitted {
             let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
-            let depth = meeting.depth_beyond(&sides, &contact.boundary, contact.edge_length());
+            let depth = meeting.depth_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
             if depth > MOST_BEYOND * contact.boundary.length() {
                 return Onward::GivenUp(format!(
                     "contact {}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh, take more segments, or declare the curve",
