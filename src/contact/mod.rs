@@ -17,6 +17,7 @@ mod oscillation;
 mod pair;
 mod placing;
 mod quadrature;
+mod sliding;
 mod smooth_side;
 mod trace;
 
@@ -33,5 +34,6 @@ pub use oscillation::oscillation;
 pub use pair::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise};
 pub use placing::{Known, Placed, PlacingError, all_edges, faces, place};
 pub use quadrature::{QuadraturePoint, quadrature_points};
+pub use sliding::{Sliding, sliding};
 pub use smooth_side::{Displacement, SmoothSide};
 pub use trace::{Piece, Trace, pieces, trace};

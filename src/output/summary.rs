@@ -170,6 +170,10 @@ pub struct Contact {
     pub oscillation: Option<f64>,
     /// Quadrature points without a corresponding point.
     pub lost_points: Option<usize>,
+    /// Way of the bodies along each other, by the length that presses; of curved fits on undeformed bodies only.
+    pub slip: Option<f64>,
+    /// Estimated relative error of force or pressure by that way.
+    pub slip_error: Option<f64>,
     /// Whether the contact pressure can be trusted.
     pub trust: Option<bool>,
 }

@@ -9,7 +9,7 @@ use crate::contact::GapChoice;
 use crate::geometry::Point;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
-use crate::system::recovery::{TracePoint, balance, nodal_stress, probe, trace_points};
+use crate::system::recovery::{TracePoint, balance, nodal_stress, probe, sliding_errors, trace_points};
 use crate::system::{Contact, Discretisation, Field, Solution, Verdict};
 use std::path::Path;
 
@@ -75,10 +75,13 @@ impl Run<'_> {
         let u = Field::displacement(problem, &solution.displacement, session)?;
         let balance = balance(problem, solution, &u, session)?;
         summarise::balances(summary, problem, &balance);
+        let sliding = sliding_errors(problem, solution, balance.strain.iter().sum(), session);
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
-            summary.contact.insert(contact.pair.name.clone(), summarise::contact(problem, at, solution, &balance, &points));
+            let mut entry = summarise::contact(problem, at, solution, &balance, &points);
+            summarise::sliding(&mut entry, sliding[at]);
+            summary.contact.insert(contact.pair.name.clone(), entry);
             self.warn_if_apart(contact, &points);
             traces.push(contact_points(contact, &points));
         }

@@ -7,7 +7,7 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Balance, TracePoint};
+use crate::system::recovery::{Balance, SlidingError, TracePoint};
 use crate::system::{BoundaryStep, Contact, Discretisation, Estimate, Solution};
 
 /// What is known without the solution's fields.
@@ -127,8 +127,16 @@ pub fn contact(
         oscillation,
         inf_sup,
         trust: None,
+        slip: None,
+        slip_error: None,
         lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
+}
+
+/// What sliding spoils, where a curved contact is modelled on the undeformed bodies.
+pub fn sliding(contact: &mut summary::Contact, found: Option<SlidingError>) {
+    contact.slip = found.map(|found| found.slip);
+    contact.slip_error = found.map(|found| found.force.max(found.pressure));
 }
 
 /// Name of a multiplier space in the case file.

@@ -22,6 +22,12 @@ const MOST_ERROR: f64 = 0.3;
 /// Largest difference of the forces on both bodies, relative: the pressure is off by as much at least.
 const MOST_UNBALANCED: f64 = 0.01;
 
+/// Sliding by less than this share of the length in contact changes no normal.
+const LITTLE_SLIP: f64 = 0.02;
+
+/// Largest error of force and pressure by sliding.
+const MOST_SLIP_ERROR: f64 = 0.01;
+
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
     figure: String,
@@ -37,6 +43,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Option<Stri
         let mut doubts = stability_doubts(contact, pair, case);
         if converged {
             doubts.extend(size_doubts(summary, contact, &pair.name));
+            doubts.extend(slip_doubt(contact));
         }
         let known = contact.inf_sup.is_some() || contact.oscillation.is_some();
         let trust = if doubts.is_empty() && converged { known.then_some(true) } else { Some(false) };
@@ -84,6 +91,19 @@ fn size_doubts(summary: &Summary, contact: &summary::Contact, name: &str) -> Vec
     let words = |off| format!("forces on the two bodies differ by {}, at most {MOST_UNBALANCED} wanted", short(off));
     doubts.extend(off.map(|off| (words(off), "see lost_points: the bodies must face each other all along the boundary")));
     doubts.into_iter().map(|(figure, remedy)| Doubt { figure, remedy }).collect()
+}
+
+/// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.
+fn slip_doubt(contact: &summary::Contact) -> Option<Doubt> {
+    let (slip, error) = (contact.slip?, contact.slip_error?);
+    (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR).then(|| Doubt {
+        figure: format!(
+            "the bodies slide along each other by {} of the length in contact, which changes pressures by about {}",
+            short(slip),
+            short(error)
+        ),
+        remedy: "take configuration = \"deformed\"",
+    })
 }
 
 /// Whether contact ends between the ends of its boundary.
