@@ -15,8 +15,10 @@ pub struct Sliding {
     pub slip: f64,
     /// `∫λ e ds` with `e` the gap of the deformed bodies less that of the linear theory (force times length).
     pub work: f64,
-    /// Standard deviation of `e` weighted with λ (length).
+    /// Standard deviation of `e` from its mean, weighted with λ (length).
     pub deviation: f64,
+    /// The same from a straight line along Γ_C: the tilt that moves a contact with two free ends is left out (length).
+    pub bend: f64,
     /// `∫λ ds` (force per thickness).
     pub force: f64,
     /// Length of the segments that press.
@@ -25,29 +27,40 @@ pub struct Sliding {
 
 /// Integrates over the segments that press; `lambda` are the multipliers' values, tension does not count.
 pub fn sliding(sides: [&SmoothSide; 2], boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64]) -> Sliding {
-    let (mut slips, mut work, mut squares, mut force, mut length) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    let mut length = 0.0;
+    // Rows of (force, arc length, slip, error) at the points that press.
+    let mut rows: Vec<[f64; 4]> = Vec::new();
     for (k, ends) in boundary.knots().windows(2).enumerate() {
-        let mut presses = false;
+        let before = rows.len();
         for (z, weight) in gauss_points(POINTS) {
-            let pressure = multipliers.value(lambda, k, *z).max(0.0);
+            let pressure = multipliers.value(lambda, k, *z);
             let t = ends[0] + z * (ends[1] - ends[0]);
-            let Some([slip, error]) = at(sides, boundary.point(t), boundary.normal(t)).filter(|_| pressure > 0.0) else {
-                continue;
-            };
-            let part = pressure * weight * boundary.segment_length(k);
-            presses = true;
-            force += part;
-            slips += part * slip * slip;
-            work += part * error;
-            squares += part * error * error;
+            if pressure > 0.0
+                && let Some([slip, error]) = at(sides, boundary.point(t), boundary.normal(t))
+            {
+                rows.push([pressure * weight * boundary.segment_length(k), boundary.arc(t), slip, error]);
+            }
         }
-        length += if presses { boundary.segment_length(k) } else { 0.0 };
+        length += if rows.len() > before { boundary.segment_length(k) } else { 0.0 };
     }
+    let force: f64 = rows.iter().map(|[part, ..]| part).sum();
     if force == 0.0 {
         return Sliding::default();
     }
-    let deviation = (squares / force - (work / force).powi(2)).max(0.0).sqrt();
-    Sliding { slip: (slips / force).sqrt(), work, deviation, force, length }
+    let mean = |value: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(|row| row[0] * value(row)).sum::<f64>() / force;
+    let [middle, error] = [mean(&|row| row[1]), mean(&|row| row[3])];
+    let square = mean(&|row| (row[3] - error).powi(2));
+    let spread = mean(&|row| (row[1] - middle).powi(2));
+    let common = mean(&|row| (row[1] - middle) * (row[3] - error));
+    let tilted = if spread > 0.0 { common * common / spread } else { 0.0 };
+    Sliding {
+        slip: mean(&|row| row[2] * row[2]).sqrt(),
+        work: force * error,
+        deviation: square.sqrt(),
+        bend: (square - tilted).max(0.0).sqrt(),
+        force,
+        length,
+    }
 }
 
 /// Slip, and gap of the deformed bodies less the linear one, at a point of Γ_C that moves with the bodies' mean.

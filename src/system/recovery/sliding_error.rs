@@ -40,11 +40,14 @@ pub fn sliding_errors(
         let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
         let lambda = &solution.multipliers[contact.range()];
         let found = sliding(meeting.sides(&sides), &contact.boundary, &contact.multipliers, lambda);
+        let knots = contact.boundary.knots();
+        let ends_inside = knots[0] > contact.limits[0] && knots[knots.len() - 1] < contact.limits[1];
+        let uneven = if ends_inside { found.bend } else { found.deviation };
         (found.force > 0.0 && energy > 0.0).then(|| SlidingError {
             slip: found.slip / found.length,
             force: found.work.abs() / (2.0 * energy),
             // On a half-plane a gap that varies by e over the half length a takes the pressure E* e/a; E* is about E_c/2.
-            pressure: contact.modulus * found.deviation / found.force,
+            pressure: contact.modulus * uneven / found.force,
         })
     };
     problem.contacts.iter().map(one).collect()
