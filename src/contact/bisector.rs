@@ -194,4 +194,69 @@ mod tests {
         assert!(fit_by_the_data(&scattered, None).spans() <= 2, "scatter between two bodies is not followed");
         assert_eq!(fit_by_the_data(&on_arc(1.0, 200), Some(7)).spans(), 7);
     }
+
+    use crate::contact::{
+        Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule, Stabilise,
+    };
+    use crate::element::Order;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{EdgeNode, Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    fn pair(between: [&str; 2]) -> Pair {
+        Pair {
+            name: "seam".into(),
+            between: between.map(String::from),
+            curve: CurveChoice::Fit,
+            gap: GapChoice::Geometry,
+            space: MultiplierSpace::P0,
+            segments: SegmentRule::Auto,
+            law: Law::Unilateral,
+            quadrature: Quadrature::Cut,
+            stabilise: Stabilise::Off,
+            configuration: Configuration::Deformed,
+            spans: None,
+            grading: [1.0, 1.0],
+            ends: EndRule::Free,
+        }
+    }
+
+    /// A flat side and one that rises from it like a parabola, of different meshes, and what lies half-way, in both orders.
+    #[test]
+    fn it_is_as_far_from_one_side_as_from_the_other_whichever_is_first() {
+        let mesh = two_blocks();
+        let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
+        let numbering = Numbering::new(Level { intervals: 16, order: Order::P2 }, &partition);
+        let upper = mesh.bodies.iter().position(|name| name == "upper");
+        let displacement = |node: EdgeNode| {
+            let x = node.place(&mesh, &numbering);
+            let rises = Some(mesh.body_beside(node.edge)) == upper;
+            Point::new(0.0, if rises { 0.2 * (x.x - 0.7).powi(2) } else { 0.0 })
+        };
+        let orders = [["lower.seam", "upper.seam"], ["upper.seam", "lower.seam"]];
+        let found = orders.map(|between| {
+            let pair = pair(between);
+            let sides = SmoothSide::of_pair(&mesh, &numbering, &pair, &displacement);
+            let sides = [&sides[0][0], &sides[1][0]];
+            let nodes = sides.map(|side| 0..side.points.len());
+            let bisector = Bisector::between(sides, &nodes, &pair).expect("they face each other");
+            for k in 0..=40 {
+                let t = bisector.limits[0] + (bisector.limits[1] - bisector.limits[0]) * f64::from(k) / 40.0;
+                let (x, normal) = (bisector.curve.point(t), turn_right(bisector.curve.tangent(t)));
+                let curves = sides.map(|side| side.curve(Configuration::Deformed));
+                let [a, b] = curves.map(|curve| curve.hit(x, normal).expect("both sides are there").0);
+                assert!((a + b).abs() < 1e-5 + 1e-3 * a.abs(), "{a} and {b} at {x}");
+            }
+            bisector
+        });
+        let [first, second] = &found;
+        for k in 0..=20 {
+            let x = first.curve.point(first.limits[0] + (first.limits[1] - first.limits[0]) * f64::from(k) / 20.0);
+            let t = second.curve.nearest(x);
+            assert!((second.curve.point(t) - x).norm() < 1e-5);
+            // The tangent of `0.1 (x - 0.7)²` turns evenly along the curve.
+            let tangent = second.curve.tangent(t);
+            assert!((tangent.y / tangent.x - 0.2 * (x.x - 0.7)).abs() < 0.02, "{tangent} at {x}");
+        }
+    }
 }

@@ -40,24 +40,20 @@ impl MacroMesh {
 
     /// Whether a chain of edges comes back to where it begins.
     pub fn is_closed(&self, chain: &[u32]) -> bool {
-        let vertices = |edge: u32| self.edges[edge as usize].vertices;
-        let [first, last] = [chain[0], chain[chain.len() - 1]];
-        let ends = |edge: u32| {
-            let (triangle, side) = self.beside(edge);
-            let corners = self.triangles[triangle as usize].vertices;
-            [corners[side], corners[(side + 1) % 3]]
-        };
-        chain.len() > 2 && ends(first)[0] == ends(last)[1] && vertices(first) != vertices(last)
+        chain.len() > 2 && self.directed(chain[0])[0] == self.directed(chain[chain.len() - 1])[1]
+    }
+
+    /// Vertices of a boundary edge in the direction of the boundary.
+    fn directed(&self, edge: u32) -> [u32; 2] {
+        let (triangle, side) = self.beside(edge);
+        let corners = self.triangles[triangle as usize].vertices;
+        [corners[side], corners[(side + 1) % 3]]
     }
 
     /// Edges in the order and direction of the boundary (body on the left), cut at corners and gaps, and where the
     /// shape changes.
     fn chains(&self, edges: &[u32]) -> Vec<Vec<u32>> {
-        let ends = |edge: u32| {
-            let (triangle, side) = self.beside(edge);
-            let corners = self.triangles[triangle as usize].vertices;
-            [corners[side], corners[(side + 1) % 3]]
-        };
+        let ends = |edge: u32| self.directed(edge);
         let along = |edge: u32| {
             let [a, b] = ends(edge).map(|vertex| self.vertices[vertex as usize]);
             (b - a).normalize()
@@ -85,10 +81,7 @@ impl MacroMesh {
 
     /// Vertices of a chain of edges.
     fn chain_points(&self, chain: &[u32]) -> Vec<Point> {
-        let corner = |edge: u32, end: usize| {
-            let (triangle, side) = self.beside(edge);
-            self.vertices[self.triangles[triangle as usize].vertices[(side + end) % 3] as usize]
-        };
+        let corner = |edge: u32, end: usize| self.vertices[self.directed(edge)[end] as usize];
         let mut points: Vec<Point> = chain.iter().map(|&edge| corner(edge, 0)).collect();
         points.push(corner(chain[chain.len() - 1], 1));
         points

@@ -141,7 +141,7 @@ impl Following {
             let depth = meeting.depth_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
             if depth > MOST_BEYOND * contact.boundary.length() {
                 return Onward::GivenUp(format!(
-                    "contact {}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh, take more segments, or declare the curve",
+                    "contact {}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh there, or take more segments",
                     contact.pair.name
                 ));
             }
@@ -261,7 +261,7 @@ fn way(before: &[Contact], after: &[Contact]) -> Option<f64> {
 fn given_up(step: &BoundaryStep) -> String {
     let figure = |value: Option<f64>| value.map_or("others".to_string(), |value| format!("{value:.1e}"));
     format!(
-        "the contact boundary still moves after {MOST_BOUNDARIES} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; take another number of segments, or declare the curve",
+        "the contact boundary still moves after {MOST_BOUNDARIES} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; refine the mesh where contact is, or take another number of segments",
         figure(step.moved),
         figure(step.du),
         step.flipped.map_or("all".to_string(), |count| count.to_string())
