@@ -88,7 +88,8 @@ impl Curve {
             }
             Self::Parametric { .. } => self.nearest_by_search(p, 64),
             // A spline through many nodes turns little within a span.
-            Self::Spline(spline) => self.nearest_by_search(p, (4 * spline.spans()).min(spline.spans().max(256))),
+            Self::Spline(spline) if spline.spans() > 64 => self.nearest_from(p, spline.nearest_knot(p), spline.spans()),
+            Self::Spline(spline) => self.nearest_by_search(p, 4 * spline.spans()),
         }
     }
 
@@ -98,8 +99,14 @@ impl Curve {
         let [first, last] = self.range();
         let sample = |k: usize| first + (last - first) * k as f64 / samples as f64;
         let distance = |t: f64| (self.point(t) - p).norm_squared();
-        let mut t = (0..=samples).map(sample).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(first);
-        let longest = (last - first).abs() / samples as f64;
+        let t = (0..=samples).map(sample).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(first);
+        self.nearest_from(p, t, samples)
+    }
+
+    /// The same from a parameter near it, by steps of one part of its range at most.
+    fn nearest_from(&self, p: Point, mut t: f64, parts: usize) -> f64 {
+        let [first, last] = self.range();
+        let longest = (last - first).abs() / parts as f64;
         for _ in 0..200 {
             let slope = self.derivative(t);
             let step = ((p - self.point(t)).dot(&slope) / slope.norm_squared()).clamp(-longest, longest);
