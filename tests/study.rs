@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use rustix::process::{Pid, Signal, kill_process_group};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -159,8 +160,7 @@ fn a_study_that_was_killed_goes_on_where_it_stopped() {
         assert!(start.elapsed() < Duration::from_secs(60) && child.try_wait().expect("a child").is_none());
         std::thread::sleep(Duration::from_millis(2));
     }
-    let killed = Command::new("kill").args(["-KILL", "--", &format!("-{}", child.id())]).status();
-    assert!(killed.expect("kill runs").success());
+    kill_process_group(Pid::from_child(&child), Signal::KILL).expect("a group can be killed");
     child.wait().expect("a child can be waited for");
     let finished: Vec<usize> = (1..=6).filter(|number| study.out().join(format!("runs/{number:03}.json")).exists()).collect();
     assert!(finished.len() >= 2 && finished.len() < 6 && !study.out().join("study.csv").exists(), "{finished:?}");

@@ -10,6 +10,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::{available_parallelism, sleep};
 use std::time::{Duration, Instant};
 
+use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
 
 use super::ended::{Ended, Status};
@@ -106,7 +107,7 @@ fn wait(mut child: Child, timeout: Duration) -> io::Result<Option<ExitStatus>> {
         return Ok(Some(status));
     }
     // The polite signal first: mpirun passes it on to the ranks.
-    let asked = Command::new("kill").arg(child.id().to_string()).stderr(Stdio::null()).status();
+    let asked = kill_process(Pid::from_child(&child), Signal::TERM);
     if asked.is_err() || wait_for(&mut child, GRACE)?.is_none() {
         child.kill()?;
         child.wait()?;
