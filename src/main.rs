@@ -13,17 +13,13 @@ use std::time::{Duration, Instant};
 
 /// How long a rank with an error waits for the others to come to the same one.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// How long other ranks leave the word to rank 0, if it has the same to say.
+/// How long other ranks leave the word to rank 0, where they cannot tell whether it has the same to say: the first that ends
+/// with an error makes mpirun end all others.
 const PAUSE: Duration = Duration::from_secs(1);
 
 fn main() {
     let started = Instant::now();
-    let arguments = Arguments::try_parse().unwrap_or_else(|error| {
-        if is_first_rank() {
-            let _ = error.print();
-        }
-        exit(error.exit_code())
-    });
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| exit(usage(&error)));
     let code = match arguments.command {
         Command::Run(arguments) => run_case(&arguments, started),
         Command::Check(arguments) => check_case(&arguments),
@@ -31,6 +27,23 @@ fn main() {
         Command::Info => info(),
     };
     exit(code)
+}
+
+/// Prints help, or what is wrong with the command line, and gives the exit code.
+fn usage(error: &clap::Error) -> i32 {
+    let code = error.exit_code();
+    let session = if code == 0 { take_part() } else { Ok(None) };
+    match (session, is_first_rank()) {
+        (Err(code), _) => return code,
+        (_, true) => drop(error.print()),
+        (_, false) => sleep(if code == 0 { Duration::ZERO } else { PAUSE }),
+    }
+    code
+}
+
+/// Under mpirun every rank takes part in MPI, even where rank 0 alone has work: the others might wait for it for ever.
+fn take_part() -> Result<Option<Session>, i32> {
+    given_rank().map(|_| Session::start(&[], &[]).map_err(cannot_start)).transpose()
 }
 
 /// The rank that mpirun has given to this process, known before MPI has started; None without mpirun.
@@ -46,7 +59,7 @@ fn is_first_rank() -> bool {
 fn run_case(arguments: &Run, started: Instant) -> i32 {
     if let Some(word) = arguments.petsc_options.first().filter(|word| !word.starts_with('-')) {
         let words = format!("`{word}` after -- is not a PETSc option: their names begin with a minus");
-        return if is_first_rank() { print(&RunError::Input(words)) } else { 2 };
+        return print_once(&RunError::Input(words));
     }
     let session = match Session::start(&[], &arguments.petsc_options) {
         Ok(session) => session,
@@ -94,8 +107,7 @@ fn end(session: Session, outcome: Outcome) -> i32 {
 /// PETSc has failed at its start, perhaps on this rank alone, or the ranks disagree on what to start.
 fn cannot_start(error: petsc::Error) -> i32 {
     if matches!(error, petsc::Error::UnequalWords { .. }) {
-        let error = RunError::Input(error.to_string());
-        return if is_first_rank() { print(&error) } else { error.code() };
+        return print_once(&RunError::Input(error.to_string()));
     }
     end_alone(&RunError::Failed(error.to_string()))
 }
@@ -111,6 +123,10 @@ fn end_alone(error: &RunError) -> i32 {
 }
 
 fn check_case(arguments: &CaseArguments) -> i32 {
+    let _session = match take_part() {
+        Ok(session) => session,
+        Err(code) => return code,
+    };
     if !is_first_rank() {
         return 0;
     }
@@ -125,11 +141,8 @@ fn check_case(arguments: &CaseArguments) -> i32 {
 
 fn study(arguments: &Study) -> i32 {
     if given_rank().is_some() {
-        if is_first_rank() {
-            let words = "a study starts its runs itself: start it without mpirun, and write ranks = [...] into the study file";
-            return print(&RunError::Input(words.into()));
-        }
-        return 2;
+        let words = "a study starts its runs itself: start it without mpirun, and write ranks = [...] into the study file";
+        return print_once(&RunError::Input(words.into()));
     }
     match study::run(&arguments.file, &arguments.overrides, &arguments.out, arguments.force) {
         Ok(()) => 0,
@@ -158,6 +171,15 @@ fn say(words: &str) -> i32 {
         }
         _ => 0,
     }
+}
+
+/// Prints an error that all ranks have, outside of MPI, on rank 0 alone, and gives its exit code.
+fn print_once(error: &RunError) -> i32 {
+    if is_first_rank() {
+        return print(error);
+    }
+    sleep(PAUSE);
+    error.code()
 }
 
 /// Prints an error and gives its exit code, which matters more than whether anybody can read the words.
