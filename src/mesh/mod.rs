@@ -20,7 +20,7 @@ mod strip;
 
 pub use chain::Stretch;
 pub use edge_trace::{BoundaryEdge, EdgeNode};
-pub use gmsh::read_gmsh;
+pub use gmsh::{parse_gmsh, read_bytes, read_gmsh};
 pub use macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
 pub use numbering::{Level, Numbering, TriangleNumbers, levels};
 pub use partition::{Graph, Partition};

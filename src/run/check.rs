@@ -16,7 +16,7 @@ pub fn check(case: &Case) -> Result<String, RunError> {
 }
 
 fn describe(case: &Case) -> Result<String, RunError> {
-    let mesh = scene::read_mesh(case).map_err(RunError::Input)?;
+    let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);
     let spaces = spaces(&scene, 0)?;

@@ -67,7 +67,8 @@ impl Report {
     /// A line of warning on standard error, also if the run is quiet.
     pub fn warn(&self, line: &str) {
         if self.first {
-            eprintln!("mezha: warning: {line}");
+            // The run is worth more than the words.
+            let _ = std::io::stderr().write_all(format!("mezha: warning: {line}\n").as_bytes());
         }
     }
 
@@ -165,7 +166,9 @@ impl Report {
     pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
         match outcome {
             Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),
-            Outcome::NotConverged if self.first && !self.speaks => eprintln!("mezha: NOT converged: {reason}"),
+            Outcome::NotConverged if self.first && !self.speaks => {
+                let _ = std::io::stderr().write_all(format!("mezha: NOT converged: {reason}\n").as_bytes());
+            }
             Outcome::NotConverged => self.say(&format!("mezha: NOT converged: {reason}")),
         }
         self.say(&format!("results in {}", out.display()));

@@ -61,7 +61,9 @@ impl Run<'_> {
         summary.time_s = self.report.times(&self.stages, self.session);
         summary.memory_mib = memory(self.session);
         let finished = folder.map_or(Ok(()), |folder| finish(self.case, &summary, folder));
-        self.session.agree(finished.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
+        let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
+        let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
+        self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
         self.report.table(&summary);
         let outcome = if status == Status::Converged { Outcome::Converged } else { Outcome::NotConverged };
         self.report.verdict(outcome, &reason, &self.options.out);
@@ -113,14 +115,14 @@ impl Run<'_> {
     /// Traces in files; fields and figures too, unless the case wants none. **Collective**
     fn write_files(&self, problem: &Discretisation, u: &Field<2>, traces: &[Vec<ContactPoint>]) -> Result<(), RunError> {
         let (case, session) = (self.case, self.session);
-        let folder = ResultFolder::temporary_path(&self.options.out);
-        let written = if session.rank() == 0 { write_tables(&folder, problem, traces) } else { Ok(()) };
+        let folder = &self.files;
+        let written = if session.rank() == 0 { write_tables(folder, problem, traces) } else { Ok(()) };
         session.agree(written.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
         if !case.output.fields {
             return Ok(());
         }
         let stress = nodal_stress(problem, u, session)?;
-        let written = fields::write(&folder, problem, u, &stress, session);
+        let written = fields::write(folder, problem, u, &stress, session);
         session.agree(written).map_err(RunError::Failed)?;
         let facets = fields::facets(problem, u, &stress, session);
         if session.rank() != 0 {
