@@ -11,7 +11,7 @@ mod solve;
 mod summarise;
 mod trust;
 
-pub use check::{check, info};
+pub use check::{Checked, check, info};
 
 use crate::case::Case;
 use crate::output::{OutputError, ResultFolder};
