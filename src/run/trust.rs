@@ -22,6 +22,9 @@ const MOST_ERROR: f64 = 0.3;
 /// Largest difference of the forces on both bodies, relative: the pressure is off by as much at least.
 const MOST_UNBALANCED: f64 = 0.01;
 
+/// Largest mean strain of a macro triangle at which a theory of small strain still means something.
+const MOST_STRAIN: f64 = 0.2;
+
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
     figure: String,
@@ -37,6 +40,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Option<Stri
         let mut doubts = stability_doubts(contact, pair, case);
         if converged {
             doubts.extend(size_doubts(summary, contact, &pair.name));
+            doubts.extend(strain_doubts(summary));
         }
         let known = contact.inf_sup.is_some() || contact.oscillation.is_some();
         let trust = if doubts.is_empty() && converged { known.then_some(true) } else { Some(false) };
@@ -84,6 +88,16 @@ fn size_doubts(summary: &Summary, contact: &summary::Contact, name: &str) -> Vec
     let words = |off| format!("forces on the two bodies differ by {}, at most {MOST_UNBALANCED} wanted", short(off));
     doubts.extend(off.map(|off| (words(off), "see lost_points: the bodies must face each other all along the boundary")));
     doubts.into_iter().map(|(figure, remedy)| Doubt { figure, remedy }).collect()
+}
+
+/// What tells that bodies are strained beyond a theory of small strain.
+fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
+    let large = summary.strain_max.iter().filter_map(|(body, strain)| Some((body, strain.filter(|strain| *strain > MOST_STRAIN)?)));
+    let words = |(body, strain): (&String, f64)| {
+        format!("body {body} strained by {:.0} %, at most {:.0} % wanted", 100.0 * strain, 100.0 * MOST_STRAIN)
+    };
+    let remedy = "press less, or correct the units of E, loads and displacements: the model is that of small strain";
+    large.map(|found| Doubt { figure: words(found), remedy }).collect()
 }
 
 /// Whether contact ends between the ends of its boundary.
