@@ -98,6 +98,25 @@ fn a_ring_that_rolls_is_found_on_polygons_and_on_circles() {
     }
 }
 
+/// In a smooth round hole, a support along the normal, a ring turns, although the normals of its unequal edges do not meet in
+/// the centre.
+#[test]
+fn a_ring_on_normal_supports_turns() {
+    let uneven = |u: f64| u + 0.02 * (7.0 * u).sin() * (1.0 - u);
+    let mut ring = ring(48);
+    for x in &mut ring.points {
+        let [dx, dy] = [x[0], x[1] - 1.0];
+        let (radius, angle) = (dx.hypot(dy), dy.atan2(dx).rem_euclid(2.0 * PI));
+        let angle = 2.0 * PI * uneven(angle / (2.0 * PI));
+        *x = [radius * angle.cos(), 1.0 + radius * angle.sin()];
+    }
+    let mesh = Mesh { bodies: vec![("ring", ring, ["rim.low", "slit", "rim.high", "bore"])] };
+    let case = "mesh = { file = \"mesh.msh\", refine = 1 }\nbody.ring = { young = 1.0, poisson = 0.3 }\n\
+                support.hole = { on = [\"rim.low\", \"rim.high\"], normal = 0.0 }";
+    loose(&mesh, case, &[], &["body ring can turn about (0, 1)"]);
+    right(&mesh, case, &["support.slit={ on = \"slit\", uy = 0.0 }"]);
+}
+
 /// The same before a run, on any number of ranks, with a summary that says so.
 #[test]
 fn a_run_tells_what_rolls_before_it_solves() {
@@ -201,7 +220,8 @@ fn a_piece_that_nothing_holds_is_named() {
     let upper = &mut mesh.bodies[1];
     upper.1.sides[1] = upper.1.sides[0].split_off(3);
     upper.2 = ["upper.seam", "foot", "top", "left"];
-    let words = ["the piece of body upper around (3.", "shares no edge with the rest of the body", "can move by (0, 1)", "uy = 0"];
+    let words =
+        ["the piece of body upper around (3.", "shares no edge with the rest of the body", "can move by (0, 1)", "uy = 0"];
     loose(&mesh, GOOD, &[], &words);
     right(&mesh, GOOD, &["support.foot={ on = \"foot\", uy = 0.0 }"]);
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -242,6 +262,13 @@ fn boundaries_that_do_not_face_each_other_are_refused() {
             refused(&mesh, GOOD, &[&between, &format!("contact.seam.gap={gap}")], &["contact.seam", "do not face each other"]);
         }
     }
+    // Thin plates of long edges too.
+    let bodies = vec![
+        ("lower", block([0.0, 2.0], [0.0, 0.02], [5, 1], 1), ["bottom", "right", "lower.seam", "left"]),
+        ("upper", block([0.0, 2.0], [0.02, 0.04], [6, 1], 2), ["upper.seam", "right", "top", "left"]),
+    ];
+    let between = "contact.seam.between=[\"bottom\", \"top\"]";
+    refused(&Mesh { bodies }, GOOD, &[between], &["contact.seam", "do not face each other"]);
     // What touches by declaration is drawn so, but for what polygons lie apart; other gaps may be drawn as one likes.
     refused(&two_blocks(0.5), GOOD, &[], &["gap = \"closed\"", "5.000e-1 apart"]);
     refused(&two_blocks(-0.5), GOOD, &[], &["gap = \"closed\"", "5.000e-1 into each other"]);

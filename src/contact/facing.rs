@@ -3,7 +3,7 @@
 
 use super::{ContactBoundary, GapChoice, Pair, Side, all_edges, faces};
 use crate::geometry::Point;
-use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
+use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, SmoothNormals};
 use std::collections::HashMap;
 
 /// Places along Γ_C that are looked at, at most.
@@ -15,8 +15,11 @@ const MOST_BACKS: f64 = 0.25;
 /// Boundaries that touch lie within this share of the length of Γ_C.
 const TOUCHING: f64 = 0.05;
 
-/// Polygons lie within this share of their edges from the curve they stand for.
-const POLYGON: f64 = 0.1;
+/// The same as a share of the edges, on a Γ_C shorter than these.
+const NEAR: f64 = 0.1;
+
+/// Drawn boundaries lie this many times farther behind each other than chords from their arcs, if that means anything.
+const POLYGONS: f64 = 4.0;
 
 /// Share of the shorter of two contacts that another may claim too, if its second body is another.
 const MOST_SHARED: f64 = 0.5;
@@ -98,7 +101,7 @@ impl<'a> Facing<'a> {
 
     /// Drawn boundaries that lie behind each other must lie in each other's bodies: an overlap.
     fn check_sides(&self, mesh: &MacroMesh, facing: &[(f64, [Point; 2])]) -> Result<(), String> {
-        let least = POLYGON * self.longest_edge(mesh);
+        let least = POLYGONS * self.largest_sagitta(mesh) + 1e-6 * self.boundary.length();
         let behind: Vec<&(f64, [Point; 2])> = facing.iter().filter(|(t, points)| self.gap(*t, points) < -least).collect();
         let few = behind.iter().step_by(behind.len().div_ceil(PLACES / 8).max(1));
         let bodies = [0, 1].map(|k| self.seen[k].first().map(|seen| mesh.triangles[seen.edge.triangle].body));
@@ -138,7 +141,7 @@ impl<'a> Facing<'a> {
         let mut gaps: Vec<f64> = facing.iter().map(|(t, points)| self.gap(*t, points)).collect();
         gaps.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
         let middle = gaps[gaps.len() / 2];
-        if middle.abs() <= (TOUCHING * self.boundary.length()).max(POLYGON * self.longest_edge(mesh)) {
+        if middle.abs() <= (TOUCHING * self.boundary.length()).max(NEAR * self.longest_edge(mesh)) {
             return Ok(());
         }
         Err(format!(
@@ -186,6 +189,25 @@ impl<'a> Facing<'a> {
     fn longest_edge(&self, mesh: &MacroMesh) -> f64 {
         let edges = self.seen.iter().flatten().map(|seen| seen.edge.nodes[0].edge);
         edges.map(|edge| mesh.edge_length(edge)).fold(0.0, f64::max)
+    }
+
+    /// How far chords of both boundaries lie from their arcs at most: declared ones from the small edges, others from those of
+    /// the mesh file.
+    fn largest_sagitta(&self, mesh: &MacroMesh) -> f64 {
+        let of = |seen: &[Seen]| {
+            let mut edges: Vec<u32> = seen.iter().map(|seen| seen.edge.nodes[0].edge).collect();
+            edges.sort_unstable();
+            edges.dedup();
+            let normals = SmoothNormals::new(mesh, &edges);
+            let small = |edge: u32| seen.iter().filter(|seen| seen.edge.nodes[0].edge == edge).count().max(1) as f64;
+            let sagitta = |&edge: &u32| {
+                let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+                let height = (normals.at(mesh, edge, 0.5).place - 0.5 * (a + b)).norm();
+                if mesh.edges[edge as usize].shape.is_some() { height / small(edge).powi(2) } else { height }
+            };
+            edges.iter().map(sagitta).fold(0.0, f64::max)
+        };
+        of(&self.seen[0]) + of(&self.seen[1])
     }
 
     /// Words, if this contact and another claim the same place of a boundary.

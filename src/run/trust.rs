@@ -92,7 +92,8 @@ fn size_doubts(summary: &Summary, contact: &summary::Contact, name: &str) -> Vec
 
 /// What tells that bodies are strained beyond a theory of small strain.
 fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
-    let large = summary.strain_max.iter().filter_map(|(body, strain)| Some((body, strain.filter(|strain| *strain > MOST_STRAIN)?)));
+    let large =
+        summary.strain_max.iter().filter_map(|(body, strain)| Some((body, strain.filter(|strain| *strain > MOST_STRAIN)?)));
     let words = |(body, strain): (&String, f64)| {
         format!("body {body} strained by {:.0} %, at most {:.0} % wanted", 100.0 * strain, 100.0 * MOST_STRAIN)
     };

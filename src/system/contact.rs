@@ -2,8 +2,9 @@
 
 use super::{Scene, SystemError};
 use crate::contact::{
-    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace,
-    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, Facing, GapChoice, Jump, Known,
+    MultiplierSpace, Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_edge_lengths,
+    segment_ratio,
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};

@@ -6,9 +6,13 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering, SmoothNormals};
 use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError};
+use std::collections::HashMap;
 
 /// Places of a boundary that are proposed for a support.
 const PLACES: usize = 8;
+
+/// Cosine of the angle (8 degrees) between a chord's normal and that of its arc at most.
+const ALIKE: f64 = 0.99;
 
 /// Places that are tried, whether a support there would hold all.
 const MOST_PLACES: usize = 32;
@@ -196,15 +200,40 @@ struct Place<'a> {
 /// Everything that supports hold, at the macro vertices.
 fn support_conditions(scene: &Scene) -> Vec<Condition> {
     let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
-    let condition =
-        |held: Held| Condition { piece: held.piece, against: None, terms: vec![(held.place, held.direction)], doubt: 0.0 };
+    let normals = normal_supports(scene);
+    let condition = |held: Held| {
+        // A direction along the mean of two chords' normals stands for the normal of their arc.
+        let smooth = normals.get(&held.vertex).map(|normal| normal * normal.dot(&held.direction).signum());
+        let direction = smooth.filter(|normal| normal.dot(&held.direction) > ALIKE).unwrap_or(held.direction);
+        Condition { piece: held.piece, against: None, terms: vec![(held.place, direction)], doubt: 0.0 }
+    };
     supported(scene, &numbering).into_iter().map(condition).collect()
+}
+
+/// Smooth normals at the vertices that supports hold along the normal.
+fn normal_supports(scene: &Scene) -> HashMap<u32, Point> {
+    let mesh = &scene.mesh;
+    let mut normals = HashMap::new();
+    for support in scene.supports.iter().filter(|support| support.normal.is_some()) {
+        let on = support.on.iter().filter_map(|name| mesh.boundary(name));
+        let edges: Vec<u32> = on.flat_map(|boundary| boundary.edges.iter().copied()).collect();
+        let smooth = SmoothNormals::new(mesh, &edges);
+        for &edge in &edges {
+            for (vertex, t) in mesh.edges[edge as usize].vertices.into_iter().zip([0.0, 1.0]) {
+                *normals.entry(vertex).or_insert_with(Point::zeros) += smooth.at(mesh, edge, t).normal;
+            }
+        }
+    }
+    normals.values_mut().for_each(|normal: &mut Point| *normal = normal.normalize());
+    normals
 }
 
 /// A displacement that is prescribed.
 pub struct Held {
     /// Piece of a body.
     pub piece: usize,
+    /// Macro vertex.
+    pub vertex: u32,
     /// Where.
     pub place: Point,
     /// In which direction, a unit vector.
@@ -226,7 +255,7 @@ pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
         for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
             if constraint.fixed[k] {
                 let direction = constraint.to_global(axis);
-                all.push(Held { piece: piece[vertex], place, direction, value: constraint.value[k] });
+                all.push(Held { piece: piece[vertex], vertex: vertex as u32, place, direction, value: constraint.value[k] });
             }
         }
     }
