@@ -134,7 +134,11 @@ fn check_case(arguments: &CaseArguments) -> i32 {
         .map_err(|error| RunError::Input(error.to_string()))
         .and_then(|case| run::check(&case));
     match checked {
-        Ok(words) => say(&words),
+        Ok(checked) => {
+            say(&checked.words);
+            let loose = checked.not_held.inspect(|words| eprintln!("mezha: {words}"));
+            if loose.is_some() { 3 } else { 0 }
+        }
         Err(error) => print(&error),
     }
 }

@@ -36,6 +36,9 @@ pub struct Summary {
     pub contact: BTreeMap<String, Contact>,
     /// Energies of the solution.
     pub energy: Energy,
+    /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
+    #[serde(default)]
+    pub strain_max: BTreeMap<String, Option<f64>>,
     /// Estimated discretisation errors.
     pub estimate: Estimate,
     /// Relative residuals of force, moment and energy balance.

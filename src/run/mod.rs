@@ -12,7 +12,7 @@ mod solve;
 mod summarise;
 mod trust;
 
-pub use check::{check, info};
+pub use check::{Checked, check, info};
 pub use input::read_case;
 
 use crate::case::{Case, Inputs};

@@ -9,7 +9,7 @@ use crate::contact::GapChoice;
 use crate::geometry::Point;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
-use crate::system::recovery::{TracePoint, balance, nodal_stress, probe, sliding_errors, trace_points};
+use crate::system::recovery::{TracePoint, balance, largest_strains, nodal_stress, probe, sliding_errors, trace_points};
 use crate::system::{Contact, Discretisation, Field, Solution, Verdict};
 use std::path::Path;
 
@@ -78,6 +78,9 @@ impl Run<'_> {
         let balance = balance(problem, solution, &u, session)?;
         summarise::balances(summary, problem, &balance);
         let sliding = sliding_errors(problem, solution, balance.strain.iter().sum(), session);
+        let strains = largest_strains(problem, &u, session)?;
+        summarise::strains(summary, problem, &strains);
+        self.report.large_strains(problem, &strains);
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;

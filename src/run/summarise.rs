@@ -7,7 +7,7 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Balance, SlidingError, TracePoint};
+use crate::system::recovery::{Balance, LargestStrain, SlidingError, TracePoint};
 use crate::system::{BoundaryStep, Contact, Discretisation, Estimate, Solution};
 
 /// What is known without the solution's fields.
@@ -91,6 +91,12 @@ pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balan
     };
     summary.balance =
         summary::Balance { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
+}
+
+/// The largest strains of the bodies.
+pub fn strains(summary: &mut Summary, problem: &Discretisation, strains: &[LargestStrain]) {
+    let names = problem.scene.bodies.iter().map(|body| body.name.clone());
+    summary.strain_max = names.zip(strains.iter().map(|largest| Some(largest.strain))).collect();
 }
 
 /// One contact; `at` is its place among all.

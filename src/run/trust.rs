@@ -28,6 +28,9 @@ const LITTLE_SLIP: f64 = 0.02;
 /// Largest error of force and pressure by sliding.
 const MOST_SLIP_ERROR: f64 = 0.01;
 
+/// Largest mean strain of a macro triangle at which a theory of small strain still means something.
+const MOST_STRAIN: f64 = 0.2;
+
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
     figure: String,
@@ -44,6 +47,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Option<Stri
         if converged {
             doubts.extend(size_doubts(summary, contact, &pair.name));
             doubts.extend(slip_doubt(contact));
+            doubts.extend(strain_doubts(summary));
         }
         let known = contact.inf_sup.is_some() || contact.oscillation.is_some();
         let trust = if doubts.is_empty() && converged { known.then_some(true) } else { Some(false) };
@@ -104,6 +108,17 @@ fn slip_doubt(contact: &summary::Contact) -> Option<Doubt> {
         ),
         remedy: "take configuration = \"deformed\"",
     })
+}
+
+/// What tells that bodies are strained beyond a theory of small strain.
+fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
+    let large =
+        summary.strain_max.iter().filter_map(|(body, strain)| Some((body, strain.filter(|strain| *strain > MOST_STRAIN)?)));
+    let words = |(body, strain): (&String, f64)| {
+        format!("body {body} strained by {:.0} %, at most {:.0} % wanted", 100.0 * strain, 100.0 * MOST_STRAIN)
+    };
+    let remedy = "press less, or correct the units of E, loads and displacements: the model is that of small strain";
+    large.map(|found| Doubt { figure: words(found), remedy }).collect()
 }
 
 /// Whether contact ends between the ends of its boundary.

@@ -40,7 +40,13 @@ fn main() -> std::process::ExitCode {
             stages_add_up,
         ],
         outside: named![
-            a_panic_ends_all_ranks, a_rank_alone_gives_up, an_error_beside_a_factor_ends_all_ranks, a_leak_is_listed, a_second_start_is_an_error, a_session_needs_no_mpirun,],
+            a_panic_ends_all_ranks,
+            a_rank_alone_gives_up,
+            an_error_beside_a_factor_ends_all_ranks,
+            a_leak_is_listed,
+            a_second_start_is_an_error,
+            a_session_needs_no_mpirun,
+        ],
         scenarios: named![panic_on_the_last_rank, meet_nobody, fail_beside_a_factor, leak_a_solver, start_twice, solve_alone],
     }
     .run()

@@ -218,7 +218,7 @@ impl ContactLoop<'_> {
     fn next_set(&self, set: &mut ActiveSet, force: impl Fn(usize) -> f64, kept: &mut usize) -> (Step, Option<String>) {
         let active = set.active().to_vec();
         let outcome = set.update(&force);
-        let lost = if outcome == Step::Settled { None } else { not_held(self.problem, set.active()) };
+        let lost = not_held(self.problem, set.active());
         if lost.is_none() || *kept == MOST_KEPT || !matches!(outcome, Step::Changed { .. }) {
             return (outcome, lost);
         }
@@ -234,6 +234,8 @@ impl ContactLoop<'_> {
     fn judge(&self, outcome: Step, lost: Option<String>, ending: Ending, loose: bool, passes: usize, set: &ActiveSet) -> Next {
         match (outcome, ending) {
             (_, Ending::Failed(words)) => Next::End(Verdict::NotConverged(words)),
+            // A set that a coarser mesh or another boundary has left may hold less here.
+            (Step::Settled, _) if lost.is_some() => Next::End(Verdict::NotConverged(lost.unwrap_or_default())),
             (Step::Settled, _) if loose => Next::Tighten,
             (Step::Settled, Ending::Rounding(words)) => Next::End(Verdict::Converged(words)),
             (Step::Settled, Ending::Converged) => Next::End(Verdict::Converged(settled(set))),
