@@ -4,8 +4,11 @@ use crate::contact::{Found, Law};
 use crate::petsc::{Session, Vector};
 use crate::system::{Contact, Discretisation, SaddlePoint};
 
-/// What is left of the contact conditions at most, as a share of the largest pressure.
+/// What is left of the contact conditions at most, as a share of the largest pressure,
 const MOST_VIOLATED: f64 = 1e-3;
+
+/// and by the relative residual of the solve.
+const BY_RESIDUAL: f64 = 1e4;
 
 /// What was solved for an active set; the same on every rank.
 pub(super) struct ContactState {
@@ -48,9 +51,10 @@ impl ContactState {
     }
 
     /// Looks at the contact conditions themselves, whatever led to the set: no multiplier of a unilateral contact pulls, none
-    /// that is open penetrates, and closed ones touch, to a share of the largest pressure. Otherwise words with the figure of
-    /// the worst.
-    pub(super) fn violated(&self, problem: &Discretisation, active: &[bool]) -> Option<String> {
+    /// that is open penetrates, and closed ones touch, to a share of the largest pressure that the relative `residual` allows.
+    /// Otherwise words with the figure of the worst.
+    pub(super) fn violated(&self, problem: &Discretisation, active: &[bool], residual: f64) -> Option<String> {
+        let allowed = MOST_VIOLATED.max(BY_RESIDUAL * residual);
         let most = self.lambda.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let mut worst: Option<(f64, String)> = None;
         for contact in &problem.contacts {
@@ -63,7 +67,7 @@ impl ContactState {
                     (false, _) => (apart, "penetrates"),
                 };
                 // Written so that what is not a number counts.
-                let holds = off <= MOST_VIOLATED * most;
+                let holds = off <= allowed * most;
                 if !holds && worst.as_ref().is_none_or(|(value, _)| off > *value) {
                     let place = super::unsettled::place(contact, i);
                     worst = Some((off, format!("{place} {what}, by {:.1e} of the largest pressure", off / most)));
