@@ -10,6 +10,7 @@ mod scene;
 mod solve;
 mod summarise;
 mod trust;
+mod unresolved;
 
 pub use check::{check, info};
 

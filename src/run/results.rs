@@ -3,6 +3,7 @@
 use super::exact::{Errors, compare};
 use super::report::memory;
 use super::solve::Solved;
+use super::unresolved::unresolved_force;
 use super::{Outcome, Run, RunError, fields, summarise, trust};
 use crate::case::Case;
 use crate::contact::GapChoice;
@@ -78,9 +79,12 @@ impl Run<'_> {
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
-            summary.contact.insert(contact.pair.name.clone(), summarise::contact(problem, at, solution, &balance, &points));
+            let table = contact_points(contact, &points);
+            let mut own = summarise::contact(problem, at, solution, &balance, &points);
+            own.unresolved_force = Some(unresolved_force(contact, &table));
+            summary.contact.insert(contact.pair.name.clone(), own);
             self.warn_if_apart(contact, &points);
-            traces.push(contact_points(contact, &points));
+            traces.push(table);
         }
         for point in &case.probes {
             let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
