@@ -4,6 +4,7 @@
 //! ([`Multipliers`]). Each body then couples to Γ_C alone ([`integrate`]), through the traces of its own boundary edges.
 
 mod active_set;
+mod ascent;
 mod bisector;
 mod contact_boundary;
 mod coupling;
@@ -23,6 +24,7 @@ mod smooth_side;
 mod trace;
 
 pub use active_set::{ActiveSet, Step};
+pub use ascent::{Ascent, Found};
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, Side, declared_gap, integrate};
 pub use cutting::{safe_ratio_of, segment_edge_lengths, segment_ratio};

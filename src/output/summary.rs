@@ -162,6 +162,8 @@ pub struct Contact {
     pub closed_points: Option<Vec<[[f64; 2]; 2]>>,
     /// ∫ λ ds (force per thickness).
     pub force: Option<f64>,
+    /// Force that penetration within single segments is worth (force per thickness).
+    pub unresolved_force: Option<f64>,
     /// Resultant on body 2 (force per thickness).
     #[serde(deserialize_with = "numbers")]
     pub resultant: Option<[f64; 2]>,

@@ -11,6 +11,7 @@ mod scene;
 mod solve;
 mod summarise;
 mod trust;
+mod unresolved;
 
 pub use check::{Checked, check, info};
 pub use input::read_case;

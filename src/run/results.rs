@@ -3,6 +3,7 @@
 use super::exact::{Errors, compare};
 use super::report::memory;
 use super::solve::Solved;
+use super::unresolved::unresolved_force;
 use super::{Outcome, Run, RunError, fields, summarise, trust};
 use crate::case::Case;
 use crate::contact::GapChoice;
@@ -84,11 +85,13 @@ impl Run<'_> {
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
+            let table = contact_points(contact, &points);
             let mut entry = summarise::contact(problem, at, solution, &balance, &points);
+            entry.unresolved_force = Some(unresolved_force(contact, &table));
             summarise::sliding(&mut entry, sliding[at]);
             summary.contact.insert(contact.pair.name.clone(), entry);
             self.warn_if_apart(contact, &points);
-            traces.push(contact_points(contact, &points));
+            traces.push(table);
         }
         for point in &case.probes {
             let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");

@@ -127,6 +127,7 @@ pub fn contact(
         closed_edges: closed_edges(contact, &closed),
         closed: Some(closed),
         force: Some(force.force),
+        unresolved_force: None,
         resultant: Some(pair(force.resultants[1])),
         moment: Some(force.moments[1]),
         pressure_max: Some(lambda.iter().copied().fold(f64::NEG_INFINITY, f64::max)),

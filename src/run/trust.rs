@@ -31,6 +31,9 @@ const MOST_SLIP_ERROR: f64 = 0.01;
 /// Largest mean strain of a macro triangle at which a theory of small strain still means something.
 const MOST_STRAIN: f64 = 0.2;
 
+/// Share of the force that penetration within single segments may be worth: more is contact narrower than they are.
+const MOST_UNRESOLVED: f64 = 0.2;
+
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
     figure: String,
@@ -85,6 +88,9 @@ fn size_doubts(summary: &Summary, contact: &summary::Contact, name: &str) -> Vec
     let mut doubts = Vec::new();
     let narrow = contact.closed_edges.filter(|edges| *edges < if ends_inside(contact) { LEAST_EDGES } else { 1.0 });
     doubts.extend(narrow.map(|edges| (format!("contact {edges:.1} edges wide, at least {LEAST_EDGES} wanted"), finer)));
+    let unresolved = contact.unresolved_force.filter(|off| *off > MOST_UNRESOLVED * contact.force.unwrap_or(0.0).abs());
+    let words = |off| format!("the bodies penetrate each other within segments, worth a force of {}", short(off));
+    doubts.extend(unresolved.map(|off| (words(off), "take more segments, and refine the mesh where contact is")));
     let estimate = &summary.estimate;
     let errors = [("of λ", estimate.contact.get(name).and_then(|own| own.lambda)), ("in the energy norm", estimate.energy)];
     for (what, error) in errors {
@@ -165,6 +171,9 @@ mod tests {
         let worse = |summary: &mut Summary| summary.estimate.contact.get_mut("seam").expect("there").lambda = Some(0.9);
         assert!(words(|summary, _| worse(summary)).contains("of λ 0.90"));
         assert!(words(|summary, _| summary.balance.force = Some(1.0)).contains("differ by 1.00"));
+        let within = |force: f64, off: f64| words(|_, contact| (contact.force, contact.unresolved_force) = (Some(force), Some(off)));
+        assert_eq!((within(5.4, 0.2), within(0.0, 0.0)), (String::new(), String::new()));
+        assert!(within(5.4, 4.2).contains("worth a force of 4.20") && within(0.0, 4.2).contains("within segments"));
     }
 
     #[test]

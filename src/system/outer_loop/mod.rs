@@ -2,11 +2,14 @@
 
 mod coarse_solution;
 mod contact_loop;
+mod contact_state;
 mod estimate;
+mod first_set;
 mod following;
 mod held;
 mod rigid_start;
 mod solution;
+mod unsettled;
 
 pub use coarse_solution::CoarseSolution;
 pub use contact_loop::{ContactLoop, OuterStep, Start};
