@@ -49,6 +49,9 @@ pub struct Run {
     /// Overwrite a folder that holds a result
     #[arg(long)]
     pub force: bool,
+    /// Fingerprints of case file and mesh: a run that finds others ends (for `mezha study`)
+    #[arg(long, hide = true, value_name = "CASE:MESH")]
+    pub inputs: Option<String>,
     /// Print errors only
     #[arg(long)]
     pub quiet: bool,

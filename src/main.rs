@@ -2,21 +2,24 @@
 
 use clap::Parser;
 use mezha::arguments::{Arguments, CaseArguments, Command, Run, Study};
-use mezha::case::Case;
-use mezha::petsc::Session;
+use mezha::case::{Case, Inputs};
+use mezha::petsc::{self, Session, end_all_ranks};
 use mezha::run::{self, Outcome, RunError, RunOptions};
 use mezha::study::{self, StudyError};
+use std::io::{ErrorKind, Write, stderr, stdout};
 use std::process::exit;
-use std::time::Instant;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// How long a rank with an error waits for the others to come to the same one.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// How long other ranks leave the word to rank 0, where they cannot tell whether it has the same to say: the first that ends
+/// with an error makes mpirun end all others.
+const PAUSE: Duration = Duration::from_secs(1);
 
 fn main() {
     let started = Instant::now();
-    let arguments = Arguments::try_parse().unwrap_or_else(|error| {
-        if is_first_rank() {
-            let _ = error.print();
-        }
-        exit(error.exit_code())
-    });
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| exit(usage(&error)));
     let code = match arguments.command {
         Command::Run(arguments) => run_case(&arguments, started),
         Command::Check(arguments) => check_case(&arguments),
@@ -24,6 +27,23 @@ fn main() {
         Command::Info => info(),
     };
     exit(code)
+}
+
+/// Prints help, or what is wrong with the command line, and gives the exit code.
+fn usage(error: &clap::Error) -> i32 {
+    let code = error.exit_code();
+    let session = if code == 0 { take_part() } else { Ok(None) };
+    match (session, is_first_rank()) {
+        (Err(code), _) => return code,
+        (_, true) => drop(error.print()),
+        (_, false) => sleep(if code == 0 { Duration::ZERO } else { PAUSE }),
+    }
+    code
+}
+
+/// Under mpirun every rank takes part in MPI, even where rank 0 alone has work: the others might wait for it for ever.
+fn take_part() -> Result<Option<Session>, i32> {
+    given_rank().map(|_| Session::start(&[], &[]).map_err(cannot_start)).transpose()
 }
 
 /// The rank that mpirun has given to this process, known before MPI has started; None without mpirun.
@@ -39,34 +59,74 @@ fn is_first_rank() -> bool {
 fn run_case(arguments: &Run, started: Instant) -> i32 {
     if let Some(word) = arguments.petsc_options.first().filter(|word| !word.starts_with('-')) {
         let words = format!("`{word}` after -- is not a PETSc option: their names begin with a minus");
-        return if is_first_rank() { print(&RunError::Input(words)) } else { 2 };
+        return print_once(&RunError::Input(words));
     }
     let session = match Session::start(&[], &arguments.petsc_options) {
         Ok(session) => session,
-        Err(error) => return print(&RunError::Failed(error.to_string())),
+        Err(error) => return cannot_start(error),
     };
-    let outcome =
-        session.agree(Case::read(&arguments.case.case, &arguments.case.overrides)).map_err(RunError::Input).and_then(|case| {
-            let out = arguments.folder(&case.name);
-            run::run(&case, &RunOptions { out, force: arguments.force, quiet: arguments.quiet, started }, &session)
-        });
-    match outcome {
-        Ok(Outcome::Converged) => 0,
-        Ok(Outcome::NotConverged) => 3,
-        Err(error @ (RunError::Input(_) | RunError::Key(_))) => {
-            let code = if session.rank() == 0 { print(&error) } else { 2 };
-            session.barrier();
-            code
-        }
-        Err(error) => {
-            let code = print(&error);
+    match solve(arguments, started, &session) {
+        Ok(outcome) => end(session, outcome),
+        Err(RunError::Failed(words)) => {
+            let code = print(&RunError::Failed(words));
             // The others may wait for this rank for ever.
             if session.size() > 1 { session.abort(code) } else { code }
+        }
+        Err(alike) => {
+            let all_know = session.meet(PATIENCE);
+            let code = if session.rank() == 0 || !all_know { print(&alike) } else { alike.code() };
+            if all_know { code } else { session.abort(code) }
         }
     }
 }
 
+/// Reads the case and solves it. **Collective**
+fn solve(arguments: &Run, started: Instant, session: &Session) -> Result<Outcome, RunError> {
+    let CaseArguments { case, overrides } = &arguments.case;
+    let inputs = arguments.inputs.as_deref().map(Inputs::parse).transpose();
+    let inputs = inputs.map_err(|words| RunError::Input(format!("--inputs: {words}")))?;
+    let case = run::read_case(case, overrides, inputs.as_ref(), session)?;
+    let out = arguments.folder(&case.name);
+    run::run(&case, &RunOptions { out, inputs, force: arguments.force, quiet: arguments.quiet, started }, session)
+}
+
+/// Ends PETSc and MPI after a run whose result is written. **Collective**
+fn end(session: Session, outcome: Outcome) -> i32 {
+    match session.end() {
+        Ok(()) => match outcome {
+            Outcome::Converged => 0,
+            Outcome::NotConverged => 3,
+        },
+        Err(error) => {
+            let words = "the result is written and whole, but what PETSc was asked to say at its end is not";
+            end_alone(&RunError::Failed(format!("{error}; {words}")))
+        }
+    }
+}
+
+/// PETSc has failed at its start, perhaps on this rank alone, or the ranks disagree on what to start.
+fn cannot_start(error: petsc::Error) -> i32 {
+    if matches!(error, petsc::Error::UnequalWords { .. }) {
+        return print_once(&RunError::Input(error.to_string()));
+    }
+    end_alone(&RunError::Failed(error.to_string()))
+}
+
+/// Ends all ranks for an error of the libraries' start or end, which this rank may have alone; if all have it, rank 0 speaks.
+fn end_alone(error: &RunError) -> i32 {
+    if !is_first_rank() {
+        sleep(PAUSE);
+    }
+    let code = print(error);
+    end_all_ranks(code);
+    code
+}
+
 fn check_case(arguments: &CaseArguments) -> i32 {
+    let _session = match take_part() {
+        Ok(session) => session,
+        Err(code) => return code,
+    };
     if !is_first_rank() {
         return 0;
     }
@@ -74,9 +134,10 @@ fn check_case(arguments: &CaseArguments) -> i32 {
         .map_err(|error| RunError::Input(error.to_string()))
         .and_then(|case| run::check(&case));
     match checked {
-        Ok(words) => {
-            println!("{words}");
-            0
+        Ok(checked) => {
+            say(&checked.words);
+            let loose = checked.not_held.inspect(|words| eprintln!("mezha: {words}"));
+            if loose.is_some() { 3 } else { 0 }
         }
         Err(error) => print(&error),
     }
@@ -84,12 +145,8 @@ fn check_case(arguments: &CaseArguments) -> i32 {
 
 fn study(arguments: &Study) -> i32 {
     if given_rank().is_some() {
-        if is_first_rank() {
-            eprintln!(
-                "mezha: a study starts its runs itself: start it without mpirun, and write ranks = [...] into the study file"
-            );
-        }
-        return 2;
+        let words = "a study starts its runs itself: start it without mpirun, and write ranks = [...] into the study file";
+        return print_once(&RunError::Input(words.into()));
     }
     match study::run(&arguments.file, &arguments.overrides, &arguments.out, arguments.force) {
         Ok(()) => 0,
@@ -99,22 +156,39 @@ fn study(arguments: &Study) -> i32 {
 }
 
 fn info() -> i32 {
-    match Session::start(&[], &[]) {
-        Ok(session) => {
-            if session.rank() == 0 {
-                println!("{}", run::info(&session));
-            }
-            0
-        }
-        Err(error) => print(&RunError::Failed(error.to_string())),
+    let session = match Session::start(&[], &[]) {
+        Ok(session) => session,
+        Err(error) => return cannot_start(error),
+    };
+    let code = if session.rank() == 0 { say(&run::info(&session)) } else { 0 };
+    match session.end() {
+        Ok(()) => code,
+        Err(error) => cannot_start(error),
     }
 }
 
-/// Prints an error and gives its exit code.
-fn print(error: &RunError) -> i32 {
-    eprintln!("mezha: {error}");
-    match error {
-        RunError::Input(_) | RunError::Key(_) => 2,
-        RunError::Failed(_) => 1,
+/// Prints what was asked for, and gives the exit code. A reader that has gone away wants no more.
+fn say(words: &str) -> i32 {
+    match writeln!(stdout(), "{words}").and_then(|()| stdout().flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            print(&RunError::Failed(format!("cannot write to standard output: {error}")))
+        }
+        _ => 0,
     }
+}
+
+/// Prints an error that all ranks have, outside of MPI, on rank 0 alone, and gives its exit code.
+fn print_once(error: &RunError) -> i32 {
+    if is_first_rank() {
+        return print(error);
+    }
+    sleep(PAUSE);
+    error.code()
+}
+
+/// Prints an error and gives its exit code, which matters more than whether anybody can read the words.
+fn print(error: &RunError) -> i32 {
+    // In one piece: other ranks may speak at the same time.
+    let _ = stderr().write_all(format!("mezha: {error}\n").as_bytes());
+    error.code()
 }

@@ -3,8 +3,9 @@
 mod support;
 
 use serde_json::Value;
+use std::path::Path;
 use std::time::{Duration, Instant};
-use support::{Run, difference, mezha, names_in};
+use support::{Run, difference, mezha, mezha_in, names_in};
 
 /// What "ends all ranks" may take.
 const SOON: Duration = Duration::from_secs(20);
@@ -227,24 +228,184 @@ fn a_folder_that_cannot_be_made_ends_all_ranks() {
     assert!(ended.time < SOON && ended.errors.contains("is not a folder"), "{}", ended.said());
 }
 
-/// Ranks of one run with different words: what rank 1 alone cannot do ends rank 0, which would wait for it for ever.
+/// Ranks of one run with different words: all end, and are told which.
 #[test]
-fn an_error_on_one_rank_ends_all() {
+fn ranks_with_different_words_do_not_start() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("result").display().to_string();
-    let good = case("patch_flat");
-    for (bad, code, told) in [
-        (format!("run no/case.toml --out {out}"), 2, "no/case.toml"),
-        (format!("run {good} --out {out} --set body.lower.young=-1"), 2, "body.lower.young"),
-        (format!("run {good} --out {out} --set mesh.file=no.msh"), 2, "no.msh"),
-        (format!("run {good} --out {out} -- -ksp_type nonsense"), 1, "nonsense"),
+    let good = format!("run {} --out {out}", case("patch_flat"));
+    for bad in [
+        format!("run no/case.toml --out {out}"),
+        format!("{good} --set body.lower.young=-1"),
+        format!("{good} -- -ksp_type nonsense"),
+        format!("{good} -- -log_view"),
+        "info".into(),
+        format!("check {}", case("patch_flat")),
+        "--help".into(),
     ] {
-        let line = format!("run {good} --out {out} : -n 1 {} {bad}", env!("CARGO_BIN_EXE_mezha"));
+        let line = format!("{good} : -n 1 {} {bad}", env!("CARGO_BIN_EXE_mezha"));
         let start = Instant::now();
-        let (found, output, errors) = mezha(Some(1), &words(&line));
-        assert_eq!(found, Some(code), "{bad}: {output}{errors}");
-        assert!(start.elapsed() < SOON && errors.contains(told), "{bad}: {output}{errors}");
-        assert!(!folder.path().join("result").exists(), "{bad}: a result is left");
+        let (found, output, errors) = mezha(Some(2), &words(&line));
+        assert_eq!(found, Some(2), "{bad}: {output}{errors}");
+        let told = format!("rank 2 was started with other words than rank 0: `{bad}`");
+        assert!(start.elapsed() < SOON && errors.matches(&told).count() == 1, "{bad}: {output}{errors}");
+        assert_eq!(names_in(folder.path()), Vec::<String>::new(), "{bad}: a result is left");
+    }
+}
+
+/// What rank 0 alone cannot do ends the others, which would wait for it for ever.
+#[test]
+fn an_error_on_one_rank_ends_all() {
+    for (solver, option) in [("direct", "-ksp_view"), ("fieldsplit", "-ksp_view"), ("direct", "-mat_view")] {
+        let run = Run::case("patch_flat").ranks(3).set("solver.name", solver);
+        let ended = run.petsc(&format!("{option} :no/such/folder/x.txt")).ended();
+        assert_eq!(ended.code, Some(1), "{}", ended.said());
+        assert!(ended.time < SOON && ended.errors.contains("mezha: ") && ended.errors.contains("no/such/folder"));
+        assert!(!ended.out.exists());
+    }
+}
+
+/// PETSc fails on rank 0 before it has told the others what to do.
+#[test]
+fn a_start_of_petsc_that_fails_ends_all_ranks() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let line = format!("run {} --out result", case("patch_flat"));
+    for (options, file, told) in [
+        (" -- -options_file /no/such/file", "", "Unable to open options file /no/such/file"),
+        (" -- -log_trace /no/such/file", "", "Unable to open trace file: /no/such/file"),
+        (" -- -help intro", "", "a library has ended the program"),
+        ("", "unreadable \" words\n", "Unknown first token in options file"),
+    ] {
+        std::fs::write(folder.path().join(".petscrc"), file).expect("a file");
+        for ranks in [None, Some(1), Some(2), Some(3)] {
+            let start = Instant::now();
+            let (code, output, errors) = mezha_in(folder.path(), ranks, &words(&format!("{line}{options}")));
+            assert_eq!(code, Some(1), "{options} {ranks:?}: {output}{errors}");
+            let said = errors.lines().any(|line| line.starts_with("mezha: ") && line.contains(told));
+            assert!(start.elapsed() < SOON && said, "{options} {ranks:?}: {output}{errors}");
+            assert_eq!(names_in(folder.path()), [".petscrc"]);
+        }
+    }
+}
+
+/// PETSc fails at its end, on rank 0 alone or on all, when the result is there.
+#[test]
+fn an_end_of_petsc_that_fails_is_no_success() {
+    for options in ["-log_view :no/such/folder/x.txt", "-malloc_view no/such/folder/x"] {
+        for run in [1, 2, 3].map(|ranks| Run::case("patch_flat").set("mesh.refine", 0).ranks(ranks)) {
+            let ended = run.petsc(options).ended();
+            assert_eq!(ended.code, Some(1), "{options}: {}", ended.said());
+            let told = "; the result is written and whole, but what PETSc was asked to say at its end is not";
+            assert!(ended.time < SOON && ended.errors.contains(told), "{options}: {}", ended.said());
+            assert!(ended.errors.contains("no/such/folder/x"), "{options}: {}", ended.said());
+            assert_eq!(ended.value("/status"), "converged");
+            assert_eq!(ended.left_behind(), ["result"]);
+        }
+    }
+}
+
+/// Rank 1 would find another case and another mesh under the same names: it works on those of rank 0.
+#[test]
+fn all_ranks_work_on_what_rank_0_has_read() {
+    let folders = [1.0, 1.7].map(|pressure| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/patch_flat");
+        let text = std::fs::read_to_string(original.join("case.toml")).expect("a case").replace("must_hold = true", "");
+        let text = text.replace("pressure = 1.0", &format!("pressure = {pressure}"));
+        std::fs::write(folder.path().join("case.toml"), text).expect("a file");
+        let mesh = std::fs::read(original.join("blocks.msh")).expect("a mesh");
+        let mesh = if pressure == 1.0 { mesh } else { mesh[..mesh.len() / 2].to_vec() };
+        std::fs::write(folder.path().join("blocks.msh"), mesh).expect("a file");
+        folder
+    });
+    let [here, there] = [folders[0].path(), folders[1].path()];
+    let line = "run case.toml --out result";
+    let elsewhere = format!(" : -n 2 -wdir {} {} {line}", there.display(), env!("CARGO_BIN_EXE_mezha"));
+    let (code, output, errors) = mezha_in(here, Some(1), &words(&format!("{line}{elsewhere}")));
+    assert_eq!(code, Some(0), "{output}{errors}");
+    let text = std::fs::read_to_string(here.join("result/summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(summary["ranks"], 3);
+    let force = summary["contact"]["seam"]["force"].as_f64().expect("a force");
+    assert!((force - 2.0).abs() < 1e-8, "{force}");
+    assert!((0..3).all(|rank| here.join(format!("result/fields_000{rank}.vtu")).is_file()));
+    assert_eq!(names_in(there), ["blocks.msh", "case.toml"]);
+}
+
+/// Runs that are started at the same time: the folder is of one of them, and the others are told.
+#[test]
+fn a_folder_is_of_one_run() {
+    let (rounds, mut told) = (8, 0);
+    for (round, force) in (0..rounds).flat_map(|round| [(round, false), (round, true)]) {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let run = |load: usize| {
+            let line = format!("run {} --out result --quiet --set load.top.pressure={load}", case("patch_flat"));
+            let more = " --set exact.must_hold=false --set mesh.refine=1";
+            let line = line + more + if force { " --force" } else { "" };
+            mezha_in(folder.path(), if round == 0 { Some(2) } else { None }, &words(&line))
+        };
+        let ended: Vec<_> = std::thread::scope(|scope| {
+            let runs: Vec<_> = (1..=3).map(|load| scope.spawn(move || run(load))).collect();
+            runs.into_iter().map(|run| run.join().expect("a run ends")).collect()
+        });
+        for (code, _, errors) in ended.iter().filter(|(code, _, _)| *code != Some(0)) {
+            let words = if *code == Some(1) { "another run has put its result into" } else { "already holds a result" };
+            assert!(errors.contains(words) && (*code == Some(1) || !force && *code == Some(2)), "{code:?}: {errors}");
+            told += usize::from(*code == Some(1));
+        }
+        assert!(
+            ended.iter().any(|(code, _, _)| *code == Some(0))
+                && (force || ended.iter().filter(|(code, _, _)| *code == Some(0)).count() == 1)
+        );
+        assert_eq!(names_in(folder.path()), ["result"]);
+        let read = |name: &str| std::fs::read_to_string(folder.path().join("result").join(name)).expect(name);
+        let summary: Value = serde_json::from_str(&read("summary.json")).expect("JSON");
+        let load = summary["contact"]["seam"]["force"].as_f64().expect("a force") / 2.0;
+        let table = read("contact_seam.csv");
+        let lambda: f64 = table.lines().rev().next().and_then(|line| line.split(',').nth(5)?.parse().ok()).expect("a number");
+        assert!((lambda / load - 1.0).abs() < 1e-6, "λ = {lambda} beside a load of {load}");
+        assert!(read("case.toml").contains(&format!("pressure = {load:.0}\n")), "{load}: {}", read("case.toml"));
+    }
+    assert!(told > 0, "no two runs of {rounds} rounds have met");
+}
+
+/// A run that was killed leaves half a result under a name of its own; the next one clears it away.
+#[test]
+fn what_a_killed_run_has_left_is_cleared_away() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let line = format!("run {} --out result --quiet", case("patch_flat"));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mezha"));
+    command.args(words(&format!("{line} --set mesh.refine=6"))).current_dir(folder.path());
+    let mut child = command.spawn().expect("mezha starts");
+    while names_in(folder.path()).is_empty() {
+        assert!(child.try_wait().expect("a child").is_none());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().expect("a child can be killed");
+    child.wait().expect("a child can be waited for");
+    let left = names_in(folder.path());
+    assert!(left.len() == 1 && left[0].starts_with(".result.") && left[0].ends_with(".partial"), "{left:?}");
+    let (code, _, errors) = mezha_in(folder.path(), Some(2), &words(&line));
+    assert_eq!((code, names_in(folder.path())), (Some(0), vec!["result".into()]), "{errors}");
+}
+
+/// Nobody listens: the exit code is what it would be.
+#[test]
+fn words_that_nobody_can_read_change_nothing() {
+    let full = || std::fs::File::options().write(true).open("/dev/full").expect("/dev/full");
+    let good = case("patch_flat");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (line, code) in [
+        (format!("run {good} --out result --set mesh.refine=0"), 0),
+        (format!("run {good} --out other --set body.lower.young=-1"), 2),
+        (format!("run {good} --out lifted --set load.top.pressure=-1.0 --quiet"), 3),
+        (format!("check {good} --set mesh.file=no.msh"), 2),
+        (format!("check {good}"), 1),
+        ("info".into(), 1),
+    ] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mezha"));
+        command.args(words(&line)).current_dir(folder.path()).stdout(full()).stderr(full());
+        assert_eq!(command.status().expect("mezha starts").code(), Some(code), "{line}");
     }
 }
 

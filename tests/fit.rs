@@ -66,3 +66,110 @@ fn polygons_get_their_gap_from_splines() {
         assert!(errors[2] <= 0.02, "{errors:?}");
     }
 }
+
+/// An interference that is declared and varies, between rings that are drawn as touching: the bodies as they lie deformed
+/// are apart by it, and the fit must not take that for an end of contact.
+#[test]
+fn a_declared_gap_rules_where_a_fitted_boundary_reaches() {
+    for ranks in RANKS {
+        let run = Run::case("rings_michell/stiff.toml").ranks(ranks).set("contact.seam.curve", "fit");
+        // The case's own expected values hold, or it would end with exit code 3.
+        let length = run.converged().number("/contact/seam/length");
+        assert!((length - std::f64::consts::PI).abs() < 1e-4, "{length}");
+    }
+}
+
+/// A sector of a cylinder of radius 1 above a block, a hundredth apart.
+fn cylinder_on_block() -> Mesh {
+    let block = grid(26, 8, 3, |u, v| {
+        let x = 2.0 * u - 1.0;
+        [0.5 * x + 0.7 * x * x * x, v - 1.0]
+    });
+    let sector = grid(22, 6, 4, |u, v| {
+        let x = 2.0 * u - 1.0;
+        let angle = (0.5 * x + 0.5 * x * x * x) * 0.7;
+        let r = 1.0 - 0.5 * v;
+        [r * angle.sin(), 1.01 - r * angle.cos()]
+    });
+    Mesh {
+        bodies: vec![
+            ("block", block, ["bottom", "", "block.top", ""]),
+            ("cylinder", sector, ["cylinder.arc", "", "cylinder.inside", ""]),
+        ],
+    }
+}
+
+const CYLINDER: &str = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.block = { young = 1000.0, poisson = 0.3 }
+body.cylinder = { young = 1000.0, poisson = 0.3 }
+geometry.circle = { curves = ["cylinder.arc"], circle = { centre = [0, 1.01], radius = 1 } }
+support.bottom = { on = "bottom", ux = 0.0, uy = 0.0 }
+support.press = { on = "cylinder.inside", ux = 0.0, uy = -0.02 }
+contact.seam = { between = ["block.top", "cylinder.arc"] }
+"#;
+
+/// A cylinder that slides on a block presses as one that does not: there is no friction, and the block is flat. On
+/// undeformed bodies this holds for small slip; a larger one is told, and the deformed bodies have it right.
+#[test]
+fn a_cylinder_that_slides_keeps_its_pressure_or_tells() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &cylinder_on_block().text(), CYLINDER);
+    let run = |slip: f64| Run::file(&file).set("support.press.ux", slip);
+    let figures = |run: Run| {
+        let ended = run.converged();
+        (["force", "pressure_max"].map(|key| ended.number(&format!("/contact/seam/{key}"))), ended)
+    };
+    let ([force, peak], at_rest) = figures(run(0.0));
+    let width = at_rest.number("/contact/seam/length");
+    let alike = |found: [f64; 2], tolerance: f64, words: &str| {
+        assert!(
+            (found[0] / force - 1.0).abs() < tolerance && (found[1] / peak - 1.0).abs() < 2.0 * tolerance,
+            "{words}: {found:?}"
+        );
+    };
+    for (ranks, order) in [(1, ["block.top", "cylinder.arc"]), (2, ["cylinder.arc", "block.top"])] {
+        let between = format!("[\"{}\", \"{}\"]", order[0], order[1]);
+        let (found, ended) = figures(run(0.12 * width).ranks(ranks).set("contact.seam.between", &between));
+        alike(found, 0.01, "slid by a quarter of the half width");
+        assert_eq!(ended.value("/contact/seam/trust"), true);
+        let (found, _) = figures(run(0.5 * width).ranks(ranks).set("contact.seam.configuration", "deformed"));
+        alike(found, 0.02, "slid by the half width, deformed");
+        let (found, ended) = figures(run(0.5 * width).ranks(ranks).set("contact.seam.between", &between));
+        let error = found[0] / force - 1.0;
+        assert!((ended.number("/contact/seam/slip_error") / error - 1.0).abs() < 0.3, "error {error}");
+        assert_eq!(ended.value("/contact/seam/trust"), false);
+        assert!(ended.errors.contains("take configuration = \"deformed\""), "{}", ended.errors);
+    }
+}
+
+/// What closes in itself is refused in words that say so.
+#[test]
+fn a_full_circle_is_refused() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let whole = |seed: u64, n: usize, inner: f64, outer: f64| {
+        let mut ring = grid(n, 2, seed, move |u, v| {
+            let (r, angle) = (outer - v * (outer - inner), 2.0 * std::f64::consts::PI * u);
+            [r * angle.cos(), r * angle.sin()]
+        });
+        // The last column is the first.
+        let first = |k: usize| if k % (n + 1) == n { k - n } else { k };
+        ring.triangles.iter_mut().flatten().for_each(|k| *k = first(*k));
+        ring.sides.iter_mut().flatten().flatten().for_each(|k| *k = first(*k));
+        ring
+    };
+    let mut bodies = vec![
+        ("inner", whole(1, 16, 1.0, 2.0), ["inner.seam", "", "inner.rim", ""]),
+        ("outer", whole(2, 20, 2.0, 3.0), ["outer.rim", "", "outer.seam", ""]),
+    ];
+    // Points that nothing uses any more lie on the circle, and are left out of the file's triangles.
+    bodies.iter_mut().for_each(|(_, ring, _)| ring.sides[1].clear());
+    let file = write_scene(
+        folder.path(),
+        &Mesh { bodies }.text(),
+        &RINGS.replace("\"flat\"", "\"inner.rim\"").replace("\"upright\"", "\"outer.rim\""),
+    );
+    let ended = Run::file(&file).set("contact.seam.curve", "fit").ended();
+    assert_eq!(ended.code, Some(2), "{}", ended.said());
+    assert!(ended.errors.contains("is a closed curve"), "{}", ended.errors);
+}

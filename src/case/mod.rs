@@ -5,6 +5,7 @@
 mod contact;
 pub(crate) mod error;
 mod exact;
+mod fingerprint;
 mod grade;
 mod model;
 pub(crate) mod overrides;
@@ -24,9 +25,11 @@ use crate::system::{SolverChoice, Tolerance};
 
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
+pub use fingerprint::{Inputs, fingerprint};
+pub(crate) use section::read_text;
 
 use overrides::{overridden, set_value};
-use section::{Section, read_text};
+use section::Section;
 
 /// A checked case: what to solve, on which mesh, and what is known of the result.
 #[derive(Clone, Debug)]

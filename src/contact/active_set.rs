@@ -1,7 +1,6 @@
 //! The primal-dual active set: which multipliers carry pressure.
 
-/// Number of multipliers that a verdict names at most.
-const NAMED: usize = 6;
+use super::ascent::{Ascent, Found};
 
 /// What a new active set means for the loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,8 +14,8 @@ pub enum Step {
         /// Multipliers that were released.
         released: usize,
     },
-    /// A set seen before: the loop would go round for ever. The multipliers that flip.
-    Repeated(Vec<usize>),
+    /// A set seen before: the loop would go round for ever.
+    Repeated,
 }
 
 /// The active multipliers of all contacts, with every set that was tried.
@@ -28,19 +27,26 @@ pub struct ActiveSet {
     /// Multipliers of bilateral contacts: always active.
     bilateral: Vec<bool>,
     tried: Vec<Vec<bool>>,
+    /// Set once the plain rule has been given up.
+    ascent: Option<Ascent>,
 }
 
 impl ActiveSet {
     /// Everything active.
     pub fn new(bilateral: Vec<bool>) -> Self {
         let active = vec![true; bilateral.len()];
-        Self { tried: vec![active.clone()], active, bilateral }
+        Self { tried: vec![active.clone()], active, bilateral, ascent: None }
     }
 
     /// The same, beginning with another set; bilateral multipliers are active whatever it says.
     pub fn starting_from(self, active: &[bool]) -> Self {
         let active: Vec<bool> = active.iter().zip(&self.bilateral).map(|(&active, &bilateral)| active || bilateral).collect();
         Self { tried: vec![active.clone()], active, ..self }
+    }
+
+    /// Begins with another set, which keeps bilateral multipliers active.
+    pub fn start_from(&mut self, active: &[bool]) {
+        *self = Self::new(std::mem::take(&mut self.bilateral)).starting_from(active);
     }
 
     /// Which multipliers are active.
@@ -64,11 +70,32 @@ impl ActiveSet {
         let added = changed.iter().filter(|&&i| next[i]).count();
         let step = Step::Changed { added, released: changed.len() - added };
         self.active = next;
-        if let Some(first) = self.tried.iter().position(|set| *set == self.active) {
-            return Step::Repeated(self.flipping(first));
+        if self.tried.contains(&self.active) {
+            return Step::Repeated;
         }
         self.tried.push(self.active.clone());
         step
+    }
+
+    /// Gives up the plain rule: from here on sets follow by [`ActiveSet::ascend`].
+    pub fn begin_ascent(&mut self) {
+        self.ascent = Some(Ascent::new());
+    }
+
+    /// Whether the plain rule has been given up.
+    pub fn ascends(&self) -> bool {
+        self.ascent.is_some()
+    }
+
+    /// The next set by rising energy, after [`ActiveSet::begin_ascent`].
+    pub fn ascend(&mut self, found: &Found) -> Step {
+        let Some(ascent) = &mut self.ascent else { return Step::Settled };
+        let Some(next) = ascent.next(&self.active, &self.bilateral, found) else { return Step::Settled };
+        let added = next.iter().zip(&self.active).filter(|&(&is, &was)| is && !was).count();
+        let released = next.iter().zip(&self.active).filter(|&(&is, &was)| was && !is).count();
+        self.active = next;
+        self.tried.push(self.active.clone());
+        Step::Changed { added, released }
     }
 
     /// Closes `more` multipliers in the set that was found last, before anything is solved for it. Nothing changes, and the
@@ -89,11 +116,6 @@ impl ActiveSet {
     pub fn forget(&mut self) {
         self.tried = vec![self.active.clone()];
     }
-
-    fn flipping(&self, first: usize) -> Vec<usize> {
-        let cycle = &self.tried[first..];
-        (0..self.active.len()).filter(|&i| cycle.iter().any(|set| set[i] != cycle[0][i])).take(NAMED).collect()
-    }
 }
 
 #[cfg(test)]
@@ -110,10 +132,10 @@ mod tests {
     }
 
     #[test]
-    fn a_cycle_is_told_with_the_multipliers_that_flip() {
+    fn a_cycle_is_told() {
         let mut set = ActiveSet::new(vec![false; 3]);
         assert!(matches!(set.update(|i| if i == 2 { -1.0 } else { 1.0 }), Step::Changed { .. }));
-        assert_eq!(set.update(|_| 1.0), Step::Repeated(vec![2]));
+        assert_eq!(set.update(|_| 1.0), Step::Repeated);
     }
 
     #[test]

@@ -1,8 +1,9 @@
-//! Γ_C as a spline fitted between two bodies, where they touch or penetrate each other.
+//! Where two bodies touch or penetrate each other: the nodes that Γ_C is fitted to, and its ends.
 
+use super::bisector::Bisector;
 use super::smooth_side::SmoothSide;
-use super::{Configuration, ContactBoundary, Pair};
-use crate::geometry::{Curve, Point, Spline};
+use super::{ContactBoundary, GapChoice, Pair};
+use crate::geometry::Point;
 use std::ops::Range;
 
 /// Before anything is solved, nodes closer to the other body than this share of the boundary's length count as touching.
@@ -10,9 +11,6 @@ const NEAR: f64 = 1e-3;
 
 /// The same once displacements are known.
 const TOUCHING: f64 = 1e-4;
-
-/// Spans at most.
-const MOST_SPANS: usize = 64;
 
 /// Where two sides meet: what Γ_C is fitted to, and its ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,14 +38,19 @@ impl Meeting {
             }
         }
         let [first, second] = &pair.between;
-        if let Some(x) = nearest_node(sides, 64.0 * NEAR) {
+        if let Some(x) = nearest_node(sides, pair, 64.0 * NEAR) {
             return Err(format!(
-                "curve = \"fit\", but \"{first}\" and \"{second}\" come near each other at one node only, at ({}, {}): a corner, or edges too long; refine the mesh there, or declare the curve",
+                "curve = \"fit\", but \"{first}\" and \"{second}\" come near each other at one node only, at ({}, {}): a corner, or edges too long; refine the mesh there",
                 x.x, x.y
             ));
         }
+        let remedy = match pair.gap {
+            GapChoice::Geometry => "move the bodies together, or give `gap` as a number or a formula",
+            GapChoice::Closed => "move the bodies together: gap = \"closed\" says that they touch",
+            GapChoice::Formula(_) => "correct `gap`, or name boundaries that face each other",
+        };
         Err(format!(
-            "curve = \"fit\", but \"{first}\" and \"{second}\" lie farther apart than 6 % of their length; move the bodies together, or declare the curve"
+            "curve = \"fit\", but the gap between \"{first}\" and \"{second}\" is wider than 6 % of their length everywhere, or they do not face each other; {remedy}"
         ))
     }
 
@@ -60,7 +63,8 @@ impl Meeting {
     }
 
     fn within(sides: &[Vec<SmoothSide>; 2], pair: &Pair, share: f64) -> Result<Option<Self>, String> {
-        let near: [Vec<Near>; 2] = [0, 1].map(|k| sides[k].iter().map(|side| near_nodes(side, &sides[1 - k], share)).collect());
+        let near: [Vec<Near>; 2] =
+            [0, 1].map(|k| sides[k].iter().map(|side| near_nodes(side, &sides[1 - k], pair, share)).collect());
         let mut stretches = [0; 2];
         for k in 0..2 {
             let Some(found) = only_stretch(&sides[k], &near[k]).map_err(|count| {
@@ -75,92 +79,89 @@ impl Meeting {
             stretches[k] = found;
         }
         let of = |k: usize| (&sides[k][stretches[k]], near[k][stretches[k]].unwrap_or([0; 2]));
-        Ok(Some(Self::between([of(0), of(1)], stretches)))
+        Ok(Some(Self::between([of(0), of(1)], stretches, pair)))
     }
 
     /// From the first to the last node that is near, where both bodies have such nodes, and one element farther.
-    fn between(sides: [(&SmoothSide, [usize; 2]); 2], stretches: [usize; 2]) -> Self {
+    fn between(sides: [(&SmoothSide, [usize; 2]); 2], stretches: [usize; 2], pair: &Pair) -> Self {
         let [(first, own), (second, other)] = sides;
-        let foot = |k: usize| first.nearest(second.points[k], Configuration::Deformed);
-        let far = other.map(foot);
+        let configuration = pair.configuration;
+        let far = other.map(|k| first.nearest(second.positions(configuration)[k], configuration));
         let [low, high] = [far[0].min(far[1]), far[0].max(far[1])];
         let element = first.edge_length(own[0], own[1]).max(second.edge_length(other[0], other[1]));
         let ends = [first.parameters[own[0]].max(low) - element, first.parameters[own[1]].min(high) + element];
+        let mut meeting = Self { stretches, nodes: [own, other].map(|[from, to]| from..to + 1), ends };
+        meeting.reach(ends, [first, second], pair);
+        meeting
+    }
+
+    /// Takes in nodes of both sides up to an element beyond these ends of Γ_C.
+    fn reach(&mut self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) {
+        let edges = [first, second].into_iter().zip(&self.nodes);
+        let element = edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
         let inside = |t: f64| t >= ends[0] - element && t <= ends[1] + element;
-        let range = |count: usize, parameter: &dyn Fn(usize) -> f64| {
-            let from = (0..count).find(|&k| inside(parameter(k))).unwrap_or(0);
-            let to = (from..count).rev().find(|&k| inside(parameter(k))).unwrap_or(from);
-            from..to + 1
-        };
-        let nodes = [range(first.points.len(), &|k| first.parameters[k]), range(second.points.len(), &foot)];
-        Self { stretches, nodes, ends }
+        for (k, side) in [first, second].into_iter().enumerate() {
+            let parameter = |node: usize| match k {
+                0 => first.parameters[node],
+                _ => first.nearest(second.positions(pair.configuration)[node], pair.configuration),
+            };
+            let nodes = &mut self.nodes[k];
+            while nodes.start > 0 && inside(parameter(nodes.start - 1)) {
+                nodes.start -= 1;
+            }
+            while nodes.end < side.points.len() && inside(parameter(nodes.end)) {
+                nodes.end += 1;
+            }
+        }
     }
 
     /// How deep nodes of body 1 lie in body 2 as they are now, more than `margin` beyond the ends of Γ_C.
-    pub fn depth_beyond(&self, sides: &[Vec<SmoothSide>; 2], boundary: &ContactBoundary, margin: f64) -> f64 {
+    pub fn depth_beyond(&self, sides: &[Vec<SmoothSide>; 2], pair: &Pair, boundary: &ContactBoundary, margin: f64) -> f64 {
         let [first, second] = [0, 1].map(|k| &sides[k][self.stretches[k]]);
         let knots = boundary.knots();
         let [low, high] = [knots[0] - margin, knots[knots.len() - 1] + margin];
-        let beyond = first.parameters.iter().zip(&first.points).filter(|(t, _)| **t < low || **t > high);
-        let depth = beyond.filter_map(|(_, x)| second.outside(*x, 1e-9 * second.length())).map(|outside| -outside);
+        let beyond = (0..first.points.len()).filter(|&node| first.parameters[node] < low || first.parameters[node] > high);
+        let depth = beyond.filter_map(|node| first.gap(node, second, pair, 1e-9 * second.length())).map(|gap| -gap);
         depth.fold(0.0, f64::max)
     }
 
-    /// Fits a spline to the nodes of both sides in a configuration: least squares, each node weighted by the length it
-    /// stands for, so that a finer body does not pull the curve. Its parameter is that of body 1's stretch. Without a wish
-    /// the data choose the number of spans. The range goes as far as both stretches do.
+    /// The curve half-way between both sides, from an element before these ends of Γ_C to an element behind.
     ///
     /// # Errors
-    /// Words, if the pair wants more spans than the nodes bear.
-    pub fn fit(&self, sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Result<(Curve, [f64; 2]), String> {
-        let configuration = pair.configuration;
+    /// Words, if the sides do not face each other there, or if the pair wants more spans than the nodes bear.
+    pub fn fit(&mut self, sides: &[Vec<SmoothSide>; 2], pair: &Pair, ends: [f64; 2]) -> Result<Bisector, String> {
         let both = [0, 1].map(|k| &sides[k][self.stretches[k]]);
-        let mut samples: Vec<Sample> = Vec::new();
-        for (k, side) in both.into_iter().enumerate() {
-            samples.extend(self.nodes[k].clone().map(|node| {
-                let x = side.positions(configuration)[node];
-                let t = if k == 0 { side.parameters[node] } else { both[0].nearest(x, configuration) };
-                (t, x, side.weight(node))
-            }));
-        }
-        let most = (samples.len() / 4).max(1);
-        if let Some(spans) = pair.spans.filter(|&spans| spans > most) {
-            return Err(format!(
-                "spans = {spans}: where they meet, \"{}\" and \"{}\" have {} nodes, which bear {most}; give {most} or fewer, or \"auto\", or refine the mesh",
-                pair.between[0],
-                pair.between[1],
-                samples.len()
-            ));
-        }
-        let curve = Curve::Spline(fit_by_the_data(&samples, pair.spans));
-        let [mut first, mut last] = [f64::NEG_INFINITY, f64::INFINITY];
-        for side in both {
-            let positions = side.positions(configuration);
-            let feet = [positions[0], positions[positions.len() - 1]].map(|x| curve.nearest(x));
-            first = first.max(feet[0].min(feet[1]));
-            last = last.min(feet[0].max(feet[1]));
-        }
-        Ok((curve, [first, last]))
+        self.reach(ends, both, pair);
+        Bisector::between(both, &self.nodes, pair)
+    }
+
+    /// The two stretches that meet.
+    pub fn sides<'a>(&self, sides: &'a [Vec<SmoothSide>; 2]) -> [&'a SmoothSide; 2] {
+        [0, 1].map(|k| &sides[k][self.stretches[k]])
     }
 }
 
 /// A node of either side that is near the other body.
-fn nearest_node(sides: &[Vec<SmoothSide>; 2], share: f64) -> Option<Point> {
+fn nearest_node(sides: &[Vec<SmoothSide>; 2], pair: &Pair, share: f64) -> Option<Point> {
     let near = |side: &SmoothSide, others: &[SmoothSide]| {
-        let close = |x: &&Point| others.iter().any(|other| other.is_near(**x, share * side.length().max(other.length())));
-        side.points.iter().find(close).copied()
+        (0..side.points.len()).find(|&node| is_near(side, node, others, pair, share)).map(|node| side.points[node])
     };
     (0..2).find_map(|k| sides[k].iter().find_map(|side| near(side, &sides[1 - k])))
 }
 
-/// A node of the cloud: its parameter on body 1's boundary, its place, and the length it stands for.
-type Sample = (f64, Point, f64);
+/// Whether a node touches or penetrates the other body, but for a share of the length.
+fn is_near(side: &SmoothSide, node: usize, others: &[SmoothSide], pair: &Pair, share: f64) -> bool {
+    others.iter().any(|other| {
+        let tolerance = share * side.length().max(other.length());
+        side.gap(node, other, pair, tolerance).is_some_and(|gap| gap < tolerance)
+    })
+}
 
 /// First and last node of a side that is near some stretch of the other body.
-fn near_nodes(side: &SmoothSide, others: &[SmoothSide], share: f64) -> Near {
-    let near = |x: &Point| others.iter().any(|other| other.is_near(*x, share * side.length().max(other.length())));
-    let first = side.points.iter().position(near)?;
-    let last = side.points.iter().rposition(near)?;
+fn near_nodes(side: &SmoothSide, others: &[SmoothSide], pair: &Pair, share: f64) -> Near {
+    let near = |&node: &usize| is_near(side, node, others, pair, share);
+    let first = (0..side.points.len()).find(near)?;
+    let last = (0..side.points.len()).rev().find(near)?;
     (last > first).then_some([first, last])
 }
 
@@ -175,50 +176,5 @@ fn only_stretch(sides: &[SmoothSide], near: &[Near]) -> Result<Option<usize>, us
     match (0..sides.len()).filter(|&k| length(k) > 0.05 * length(longest)).count() {
         1 => Ok(Some(longest)),
         several => Err(several),
-    }
-}
-
-/// The fewest spans whose mean distance from the samples is as small as that of any number, but for a half: more would
-/// follow the scatter between the two bodies.
-fn fit_by_the_data(samples: &[Sample], wish: Option<usize>) -> Spline {
-    if let Some(spans) = wish {
-        return Spline::fit(samples, spans);
-    }
-    let most = (samples.len() / 4).clamp(1, MOST_SPANS);
-    let counts = std::iter::successors(Some(1), |count| (2 * count <= most).then_some(2 * count));
-    let fits: Vec<(f64, Spline)> = counts
-        .map(|count| {
-            let spline = Spline::fit(samples, count);
-            let squares: f64 = samples.iter().map(|(t, x, weight)| weight * (spline.point(*t) - x).norm_squared()).sum();
-            (squares.sqrt(), spline)
-        })
-        .collect();
-    let size = samples.iter().map(|(_, x, weight)| weight * x.norm_squared()).sum::<f64>().sqrt();
-    let least = fits.iter().map(|fit| fit.0).fold(f64::INFINITY, f64::min);
-    let good = fits.iter().position(|fit| fit.0 <= (1.5 * least).max(1e-14 * size)).unwrap_or(0);
-    fits.into_iter().nth(good).map(|fit| fit.1).unwrap_or_else(|| Spline::fit(samples, 1))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn on_arc(radius: f64, count: usize) -> Vec<Sample> {
-        let sample = |k: usize| {
-            let a = k as f64 / count as f64;
-            (a, Point::new(radius * a.sin(), radius * a.cos()), 1.0 / count as f64)
-        };
-        (0..=count).map(sample).collect()
-    }
-
-    #[test]
-    fn the_data_choose_the_spans() {
-        assert!(fit_by_the_data(&on_arc(1.0, 200), None).spans() >= 16, "an arc wants many");
-        let straight: Vec<Sample> = (0..40).map(|k| (f64::from(k), Point::new(f64::from(k), 2.0), 1.0)).collect();
-        assert_eq!(fit_by_the_data(&straight, None).spans(), 1);
-        let mut scattered = on_arc(1.0, 60);
-        scattered.extend(on_arc(1.01, 47));
-        assert!(fit_by_the_data(&scattered, None).spans() <= 2, "scatter between two bodies is not followed");
-        assert_eq!(fit_by_the_data(&on_arc(1.0, 200), Some(7)).spans(), 7);
     }
 }

@@ -1,85 +1,195 @@
-//! Bodies that nothing holds, found from rigid motions alone: a dense matrix of three motions per body.
+//! How well supports and contact hold the bodies, from rigid motions alone: a dense matrix of three motions for each piece of
+//! a body.
+//!
+//! A motion that slides a body along its own boundary does not change the gap. So a closed contact resists a motion only as
+//! far as the true normals say, those of either body: the normals of a fitted Γ_C tilt a little between the two, and would
+//! hold a disc that rolls.
 
 use crate::geometry::Point;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// A motion costs nothing if its share of what resists is below this.
-const NOTHING: f64 = 1e-12;
+/// A motion of unit size is held if some support or contact sees at least this much of it. A short seat holds a long bar by
+/// its length over the bar's, a wedge by its slope: both far more than this. Nodes in a file of six digits make less.
+const LEAST_HOLD: f64 = 1e-4;
 
-/// One condition on rigid motions: the displacement of one point of a body in one direction, or a weighted sum of such.
-pub type Condition = Vec<(usize, Point, Point)>;
+/// Shares of a motion that count as none.
+const NOTHING: f64 = 1e-9;
 
-/// Middle and half size of each body, which scale its rotation.
+/// Contacts on curved boundaries up to which all choices of the normals are tried.
+const MOST_CHOICES: usize = 6;
+
+/// One condition on rigid motions: the mean displacement of some points of a piece, each in its own direction, against the
+/// same points moved with another piece, or against the ground.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    /// The piece that is held.
+    pub piece: usize,
+    /// The piece that holds it; nothing if a support does.
+    pub against: Option<usize>,
+    /// Places and weighted directions.
+    pub terms: Vec<(Point, Point)>,
+    /// By how much the directions are uncertain (radians).
+    pub doubt: f64,
+}
+
+/// What a contact resists: by the normals of body 1, and by those of body 2. One of them is enough to let go.
+pub type Touch = [Vec<Condition>; 2];
+
+/// Middle and half size of a piece, which scale its rotation.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
-    /// Middle of the body.
+    /// Middle of the piece.
     pub middle: Point,
     /// Half the diagonal of its box (length).
     pub radius: f64,
 }
 
-/// A body that can move without resistance.
+/// A piece that can move without resistance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
-    /// Index of the body that moves most.
-    pub body: usize,
+    /// Index of the piece that moves most.
+    pub piece: usize,
     /// Its motion in words.
     pub motion: String,
+    /// Its displacement at the middle, and its turn (radians).
+    pub moves: (Point, f64),
 }
 
-/// Looks for a rigid motion of the bodies that no condition resists. Each condition lists
-/// `(body, point, weighted direction)`: supports and the active multipliers.
-pub fn find_mechanism(bodies: &[Extent], conditions: &[Condition]) -> Option<Mechanism> {
-    let mut gram = DMatrix::<f64>::zeros(3 * bodies.len(), 3 * bodies.len());
-    for condition in conditions {
-        let mut row = DVector::<f64>::zeros(3 * bodies.len());
-        for (body, point, direction) in condition {
-            let arm = (point - bodies[*body].middle) / bodies[*body].radius;
-            row[3 * body] += direction.x;
-            row[3 * body + 1] += direction.y;
-            row[3 * body + 2] += direction.y * arm.x - direction.x * arm.y;
-        }
-        let size: f64 = condition.iter().map(|(.., direction)| direction.norm()).sum();
-        if size > 0.0 {
-            row /= size;
-            gram.ger(1.0, &row, &row, 1.0);
-        }
+impl Mechanism {
+    /// Displacement at a point of the piece with this extent.
+    pub fn displacement(&self, extent: &Extent, x: Point) -> Point {
+        let (arm, (shift, turn)) = (x - extent.middle, self.moves);
+        shift + turn * Point::new(-arm.y, arm.x)
     }
-    let resistance = |motion: &DVector<f64>| (&gram * motion).norm() / (gram.norm() * motion.norm()).max(f64::MIN_POSITIVE);
-    if gram.norm() == 0.0 {
-        return Some(Mechanism { body: 0, motion: "move in every direction".into() });
+}
+
+/// Looks for a rigid motion of the pieces that supports and closed contacts resist hardly, whichever body's normals count.
+pub fn find_mechanism(pieces: &[Extent], supports: &[Condition], contacts: &[Touch]) -> Option<Mechanism> {
+    let supports = Rows::new(pieces, supports);
+    let contacts: Vec<[Rows; 2]> = contacts.iter().map(|touch| touch.each_ref().map(|own| Rows::new(pieces, own))).collect();
+    let differ = |[a, b]: &[Rows; 2]| (&a.gram - &b.gram).amax() > NOTHING * a.gram.amax().max(b.gram.amax());
+    let curved: Vec<usize> = (0..contacts.len()).filter(|&contact| differ(&contacts[contact])).collect();
+    choices(&contacts, &curved).into_iter().find_map(|choice| {
+        let chosen = contacts.iter().zip(&choice).map(|(touch, &side)| &touch[side]);
+        softest(pieces, &std::iter::once(&supports).chain(chosen).collect::<Vec<_>>())
+    })
+}
+
+/// For each contact the body whose normals count: all combinations for few curved contacts. For many of them those in which
+/// one piece slides along its own boundary, or along those of all its neighbours.
+fn choices(contacts: &[[Rows; 2]], curved: &[usize]) -> Vec<Vec<usize>> {
+    if curved.len() <= MOST_CHOICES {
+        let choice = |bits: usize| {
+            let mut choice = vec![0; contacts.len()];
+            curved.iter().enumerate().for_each(|(k, &contact)| choice[contact] = bits >> k & 1);
+            choice
+        };
+        return (0..1 << curved.len()).map(choice).collect();
     }
-    for (body, axis) in (0..bodies.len()).flat_map(|body| (0..3).map(move |axis| (body, axis))) {
-        let mut motion = DVector::zeros(3 * bodies.len());
-        motion[3 * body + axis] = 1.0;
-        if resistance(&motion) < NOTHING {
-            return Some(describe(body, bodies, &motion));
+    let pieces = contacts.iter().flatten().flat_map(|rows| &rows.all).map(|row| row.piece + 1).max().unwrap_or(0);
+    let of = |piece: usize, [first, _]: &[Rows; 2]| usize::from(!first.all.iter().any(|row| row.piece == piece));
+    let along = |piece: usize| contacts.iter().map(|touch| of(piece, touch)).collect::<Vec<usize>>();
+    let other = |choice: Vec<usize>| choice.into_iter().map(|side| 1 - side).collect::<Vec<usize>>();
+    let ends = [vec![0; contacts.len()], vec![1; contacts.len()]];
+    ends.into_iter().chain((0..pieces).flat_map(|piece| [along(piece), other(along(piece))])).collect()
+}
+
+/// A condition on the scaled motions of the pieces: shifts, and turns by the radius.
+struct Row {
+    piece: usize,
+    entries: Vec<(usize, f64)>,
+    doubt: f64,
+}
+
+/// Conditions, and the sum of their squares.
+struct Rows {
+    all: Vec<Row>,
+    gram: DMatrix<f64>,
+}
+
+impl Rows {
+    fn new(pieces: &[Extent], conditions: &[Condition]) -> Self {
+        let all: Vec<Row> = conditions.iter().filter_map(|condition| Row::new(pieces, condition)).collect();
+        let mut gram = DMatrix::zeros(3 * pieces.len(), 3 * pieces.len());
+        for row in &all {
+            for &(i, left) in &row.entries {
+                row.entries.iter().for_each(|&(j, right)| gram[(i, j)] += left * right);
+            }
         }
+        Self { all, gram }
     }
-    let eigen = SymmetricEigen::new(gram.clone());
-    let softest = eigen.eigenvalues.imin();
-    let motion = eigen.eigenvectors.column(softest).into_owned();
-    if eigen.eigenvalues[softest] > NOTHING * eigen.eigenvalues.max() {
+}
+
+impl Row {
+    fn new(pieces: &[Extent], condition: &Condition) -> Option<Self> {
+        let size: f64 = condition.terms.iter().map(|(_, direction)| direction.norm()).sum();
+        if size == 0.0 || condition.against == Some(condition.piece) {
+            return None;
+        }
+        let mut entries = Vec::new();
+        for (piece, sign) in std::iter::once((condition.piece, 1.0)).chain(condition.against.map(|piece| (piece, -1.0))) {
+            let Extent { middle, radius } = pieces[piece];
+            let mut sums = [0.0; 3];
+            for (x, direction) in &condition.terms {
+                let arm = (x - middle) / radius;
+                let values = [direction.x, direction.y, direction.y * arm.x - direction.x * arm.y];
+                (0..3).for_each(|k| sums[k] += sign / size * values[k]);
+            }
+            entries.extend((0..3).map(|k| (3 * piece + k, sums[k])));
+        }
+        Some(Self { piece: condition.piece, entries, doubt: condition.doubt })
+    }
+
+    /// How much of a motion it certainly resists. What the motion does across the direction may be mistaken for resistance,
+    /// by the doubt about the direction.
+    fn resists(&self, motion: &DVector<f64>) -> f64 {
+        let seen: f64 = self.entries.iter().map(|&(i, value)| value * motion[i]).sum();
+        let most = |at: usize| self.entries[at..at + 3].iter().map(|&(i, _)| motion[i].powi(2)).sum::<f64>().sqrt();
+        let size: f64 = (0..self.entries.len()).step_by(3).map(most).sum();
+        seen.abs() - self.doubt * size
+    }
+}
+
+/// The motion that is resisted least, if that is hardly at all. Motions along one axis come first: they have the plainest
+/// words.
+fn softest(pieces: &[Extent], rows: &[&Rows]) -> Option<Mechanism> {
+    let count = 3 * pieces.len();
+    let loose = |motion: &DVector<f64>| {
+        let size = (0..pieces.len()).map(|piece| motion.rows(3 * piece, 3).norm()).fold(0.0, f64::max);
+        rows.iter().flat_map(|rows| &rows.all).all(|row| row.resists(motion) <= LEAST_HOLD * size)
+    };
+    let unit = |axis: usize| DVector::from_fn(count, |i, _| if i == axis { 1.0 } else { 0.0 });
+    if rows.iter().all(|rows| rows.all.is_empty()) {
+        let shift = Point::new(1.0, 0.0);
+        return Some(Mechanism { piece: 0, motion: "move in every direction".into(), moves: (shift, 0.0) });
+    }
+    if let Some(axis) = (0..count).find(|&axis| loose(&unit(axis))) {
+        return Some(describe(axis / 3, pieces, &unit(axis)));
+    }
+    let gram = rows.iter().fold(DMatrix::zeros(count, count), |sum, rows| sum + &rows.gram);
+    let eigen = SymmetricEigen::new(gram);
+    let motion = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned();
+    if !loose(&motion) {
         return None;
     }
-    let share = |body: &usize| motion.rows(3 * body, 3).norm();
-    let body = (0..bodies.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
-    Some(describe(body, bodies, &motion))
+    let share = |piece: &usize| motion.rows(3 * piece, 3).norm();
+    let piece = (0..pieces.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
+    Some(describe(piece, pieces, &motion))
 }
 
-fn describe(body: usize, bodies: &[Extent], motion: &DVector<f64>) -> Mechanism {
-    let own = motion.rows(3 * body, 3);
+fn describe(piece: usize, pieces: &[Extent], motion: &DVector<f64>) -> Mechanism {
+    let own = motion.rows(3 * piece, 3);
     let own = own / own.amax();
-    let (u, turn) = (Point::new(own[0], own[1]), own[2] / bodies[body].radius);
-    let words = if own[2].abs() < 1e-6 {
+    let (u, turn) = (Point::new(own[0], own[1]), own[2] / pieces[piece].radius);
+    let words = if own[2].abs() < LEAST_HOLD {
         let u = u * u[u.iamax()].signum();
         format!("move by ({}, {})", tidy(u.x, 1.0), tidy(u.y, 1.0))
     } else {
         // Centre of the rotation: u + turn * (-(y - y0), x - x0) = 0.
-        let centre = bodies[body].middle + Point::new(-u.y, u.x) / turn;
-        format!("turn about ({}, {})", tidy(centre.x, bodies[body].radius), tidy(centre.y, bodies[body].radius))
+        let centre = pieces[piece].middle + Point::new(-u.y, u.x) / turn;
+        format!("turn about ({}, {})", tidy(centre.x, pieces[piece].radius), tidy(centre.y, pieces[piece].radius))
     };
-    Mechanism { body, motion: words }
+    Mechanism { piece, motion: words, moves: (u, turn) }
 }
 
 /// A number to about four digits of what counts as large.
@@ -106,37 +216,80 @@ mod tests {
         [Extent { middle: Point::new(1.0, 0.5), radius: 1.0 }, Extent { middle: Point::new(1.0, 1.5), radius: 1.0 }]
     }
 
-    fn held(body: usize) -> Vec<Condition> {
-        vec![vec![(body, Point::new(0.0, 0.0), X)], vec![(body, Point::new(0.0, 0.0), Y)], vec![(body, Point::new(2.0, 0.0), Y)]]
+    fn hold(piece: usize, x: f64, y: f64, direction: Point) -> Condition {
+        Condition { piece, against: None, terms: vec![(Point::new(x, y), direction)], doubt: 0.0 }
     }
 
-    fn touching(x: f64) -> Condition {
-        vec![(0, Point::new(x, 1.0), Y), (1, Point::new(x, 1.0), -Y)]
+    fn held(piece: usize) -> Vec<Condition> {
+        vec![hold(piece, 0.0, 0.0, X), hold(piece, 0.0, 0.0, Y), hold(piece, 2.0, 0.0, Y)]
+    }
+
+    /// Closed contact of two flat boundaries at these places.
+    fn touching(places: &[f64]) -> Touch {
+        let at = |piece: usize, sign: f64| {
+            let one = |&x: &f64| Condition { against: Some(1 - piece), ..hold(piece, x, 1.0, sign * Y) };
+            places.iter().map(one).collect()
+        };
+        [at(0, 1.0), at(1, -1.0)]
+    }
+
+    /// The disc of radius 1 on top of a flat body that is held, touching over an angle; its normals are off by `doubt`.
+    fn disc(angle: f64, doubt: f64) -> ([Extent; 2], Vec<Condition>, Touch) {
+        let pieces = [two()[0], Extent { middle: Point::new(1.0, 2.0), radius: 1.5 }];
+        let places: Vec<f64> = (-3..=3).map(|k| f64::from(k) / 3.0 * angle).collect();
+        let round = |a: &f64| {
+            let normal = Point::new((a + doubt).sin(), -(a + doubt).cos());
+            let x = Point::new(1.0 + a.sin(), 2.0 - a.cos());
+            Condition { piece: 1, against: Some(0), terms: vec![(x, normal)], doubt }
+        };
+        let [flat, _] = touching(&places.iter().map(|a| 1.0 + a.sin()).collect::<Vec<_>>());
+        (pieces, held(0), [flat, places.iter().map(round).collect()])
     }
 
     #[test]
     fn two_held_bodies_are_held() {
-        let mut conditions = held(0);
-        conditions.extend(held(1));
-        assert_eq!(find_mechanism(&two(), &conditions), None);
+        let mut supports = held(0);
+        supports.extend(held(1));
+        assert_eq!(find_mechanism(&two(), &supports, &[]), None);
     }
 
     #[test]
     fn contact_holds_a_floating_body_against_the_normal_only() {
-        let mut conditions = held(0);
-        conditions.extend([touching(0.2), touching(1.7)]);
-        let found = find_mechanism(&two(), &conditions).expect("it slides");
-        assert_eq!((found.body, found.motion.as_str()), (1, "move by (1, 0)"));
-        conditions.push(vec![(1, Point::new(0.0, 2.0), X)]);
-        assert_eq!(find_mechanism(&two(), &conditions), None);
+        let mut supports = held(0);
+        let contact = [touching(&[0.2, 1.7])];
+        let found = find_mechanism(&two(), &supports, &contact).expect("it slides");
+        assert_eq!((found.piece, found.motion.as_str()), (1, "move by (1, 0)"));
+        supports.push(hold(1, 0.0, 2.0, X));
+        assert_eq!(find_mechanism(&two(), &supports, &contact), None);
+    }
+
+    #[test]
+    fn a_short_seat_holds_a_long_body() {
+        let mut supports = held(0);
+        supports.push(hold(1, 0.0, 2.0, X));
+        assert_eq!(find_mechanism(&two(), &supports, &[touching(&[0.9, 0.901])]), None);
+        assert!(find_mechanism(&two(), &supports, &[touching(&[0.9, 0.900001])]).is_some(), "as good as a point");
+    }
+
+    #[test]
+    fn a_disc_rolls_however_wide_it_touches_until_it_is_held() {
+        for (angle, doubt) in [(0.05, 0.0), (1.0, 0.0), (0.3, 1e-3)] {
+            let (pieces, mut supports, contact) = disc(angle, doubt);
+            let found = |supports: &[Condition]| find_mechanism(&pieces, supports, std::slice::from_ref(&contact));
+            assert_eq!(found(&supports).expect("it slides").motion, "move by (1, 0)");
+            supports.push(hold(1, 1.0, 2.0, X));
+            assert_eq!(found(&supports).expect("it rolls").motion, "turn about (1, 2)");
+            supports.push(hold(1, 1.0, 3.0, X));
+            assert_eq!(found(&supports), None);
+        }
     }
 
     #[test]
     fn a_body_on_one_pin_turns_about_it() {
-        let mut conditions = held(0);
-        conditions.extend([vec![(1, Point::new(0.25, 1.0), X)], vec![(1, Point::new(0.25, 1.0), Y)]]);
-        let found = find_mechanism(&two(), &conditions).expect("it turns");
-        assert_eq!((found.body, found.motion.as_str()), (1, "turn about (0.25, 1)"));
+        let mut supports = held(0);
+        supports.extend([hold(1, 0.25, 1.0, X), hold(1, 0.25, 1.0, Y)]);
+        let found = find_mechanism(&two(), &supports, &[]).expect("it turns");
+        assert_eq!((found.piece, found.motion.as_str()), (1, "turn about (0.25, 1)"));
     }
 
     #[test]

@@ -4,10 +4,13 @@
 //! ([`Multipliers`]). Each body then couples to Γ_C alone ([`integrate`]), through the traces of its own boundary edges.
 
 mod active_set;
+mod ascent;
+mod bisector;
 mod contact_boundary;
 mod coupling;
 mod cutting;
 mod ends;
+mod facing;
 mod fitting;
 mod jump_term;
 mod mechanism;
@@ -16,21 +19,25 @@ mod oscillation;
 mod pair;
 mod placing;
 mod quadrature;
+mod sliding;
 mod smooth_side;
 mod trace;
 
 pub use active_set::{ActiveSet, Step};
+pub use ascent::{Ascent, Found};
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, Side, declared_gap, integrate};
 pub use cutting::{safe_ratio_of, segment_edge_lengths, segment_ratio};
 pub use ends::{End, true_end};
+pub use facing::Facing;
 pub use fitting::Meeting;
 pub use jump_term::{Jump, SparseRows, jump_matrix, jumps};
-pub use mechanism::{Condition, Extent, Mechanism, find_mechanism, tidy};
+pub use mechanism::{Condition, Extent, Mechanism, Touch, find_mechanism, tidy};
 pub use multiplier::{DiagonalBlock, Multipliers};
 pub use oscillation::oscillation;
 pub use pair::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise};
 pub use placing::{Known, Placed, PlacingError, all_edges, faces, place};
 pub use quadrature::{QuadraturePoint, quadrature_points};
+pub use sliding::{Sliding, sliding};
 pub use smooth_side::{Displacement, SmoothSide};
 pub use trace::{Piece, Trace, pieces, trace};

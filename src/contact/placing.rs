@@ -1,5 +1,6 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
+use super::bisector::stray;
 use super::cutting::fractions;
 use super::{Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, SegmentRule, Side, SmoothSide};
 use crate::geometry::{Curve, Point};
@@ -52,17 +53,20 @@ pub fn place(
 ) -> Result<Placed, PlacingError> {
     let error = |words: String| PlacingError { pair: pair.name.clone(), words };
     let sides = [0, 1].map(|k| mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]));
-    let (curve, limits, meeting) = match pair.curve {
+    let mut fitted = None;
+    let (curve, limits) = match pair.curve {
         CurveChoice::Fit => {
+            check_open(mesh, pair, sides).map_err(error)?;
             let smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
-            let meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
-            let (curve, limits) = meeting.fit(&smooth, pair).map_err(error)?;
-            (curve, limits, Some(meeting))
+            let mut meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
+            let found = meeting.fit(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
+            fitted = Some((meeting, smooth));
+            (found.curve, found.limits)
         }
-        CurveChoice::Line => line_between(mesh, pair, sides).map(|(curve, range)| (curve, range, None)).map_err(error)?,
-        CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map(|(curve, range)| (curve, range, None)).map_err(error)?,
+        CurveChoice::Line => line_between(mesh, pair, sides).map_err(error)?,
+        CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,
     };
-    let wanted = known.ends.or(meeting.as_ref().map(|meeting| meeting.ends)).unwrap_or(limits);
+    let wanted = known.ends.or(fitted.as_ref().map(|(meeting, _)| meeting.ends)).unwrap_or(limits);
     let range = [wanted[0].max(limits[0]), wanted[1].min(limits[1])];
     if range[1] - range[0] <= 1e-9 * (wanted[1] - wanted[0]) {
         return Err(error("the two boundaries face each other nowhere over a length".into()));
@@ -80,7 +84,10 @@ pub fn place(
     }
     check_count(pair, &edges).map_err(error)?;
     boundary.cut(&fractions(&edges, numbering.level.order, pair, young, &boundary, known.segments));
-    Ok(Placed { boundary, limits, meeting })
+    if let Some((meeting, smooth)) = &fitted {
+        check_stray(meeting.sides(smooth), &boundary, pair).map_err(error)?;
+    }
+    Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting) })
 }
 
 /// Segments to an edge at most: shorter ones tell nothing, and their active set changes one by one.
@@ -100,6 +107,30 @@ fn check_count(pair: &Pair, edges: &[Vec<BoundaryEdge>; 2]) -> Result<(), String
     }
 }
 
+/// A fitted boundary has two ends, and so have the boundaries that it lies between.
+fn check_open(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(), String> {
+    let closed = |edges: &[u32]| mesh.stretches(edges).iter().any(|stretch| mesh.is_closed(&stretch.edges));
+    match (0..2).find(|&k| closed(sides[k])) {
+        Some(k) => Err(closed_curve(&pair.between[k])),
+        None => Ok(()),
+    }
+}
+
+fn closed_curve(name: &str) -> String {
+    format!("\"{name}\" is a closed curve; closed contact boundaries are not available yet: name an arc of it that is open")
+}
+
+/// A fitted boundary stays between the bodies.
+fn check_stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -> Result<(), String> {
+    match stray(sides, boundary, pair) {
+        Some(distance) => Err(format!(
+            "the fitted contact boundary leaves the bodies: one of its points lies {distance:.1e} away from \"{}\" or \"{}\", more than their distance and an edge; refine the mesh, or give `curve` and `gap` by a [geometry]",
+            pair.between[0], pair.between[1]
+        )),
+        None => Ok(()),
+    }
+}
+
 /// Both boundaries must cover Γ_C without a hole, and must not close around it.
 fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &ContactBoundary) -> Result<(), String> {
     let (first, last) = (boundary.knots()[0], boundary.knots()[1]);
@@ -109,10 +140,7 @@ fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &Con
         let mut parts: Vec<[f64; 2]> = edges.iter().map(part).collect();
         let whole: f64 = parts.iter().map(|[a, b]| b - a).sum();
         if boundary.period().is_some_and(|period| whole > (1.0 - 1e-6) * period) {
-            return Err(format!(
-                "\"{}\" is a closed curve; closed contact boundaries are not available yet: name an arc of it that is open",
-                pair.between[side]
-            ));
+            return Err(closed_curve(&pair.between[side]));
         }
         parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
         parts.push([last; 2]);

@@ -1,8 +1,14 @@
 //! One side of a contact as a smooth curve through its nodes, undeformed and as it lies now.
 
-use super::{Configuration, Pair};
+use super::{Configuration, GapChoice, Pair};
 use crate::geometry::{Curve, Point, Spline, chord_lengths, turn_right};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering, Stretch};
+
+/// What lies deeper in a body than this share of a stretch belongs to another side of it.
+const DEEP: f64 = 0.25;
+
+/// Boundaries that are said to touch do so where they are drawn closer than this share of their length.
+pub const APART: f64 = 6.4e-2;
 
 /// Displacement of a boundary node.
 pub type Displacement<'a> = &'a dyn Fn(EdgeNode) -> Point;
@@ -96,20 +102,47 @@ impl SmoothSide {
             .fold(0.0, f64::max)
     }
 
-    /// Whether a point lies in the body or outside it by less than `tolerance`, as the body lies now, with its foot on
-    /// this stretch. What lies deeper than a quarter of the stretch belongs to another side of the body.
-    pub fn is_near(&self, x: Point, tolerance: f64) -> bool {
-        let outside = self.outside(x, tolerance);
-        outside.is_some_and(|outside| outside < tolerance && outside > -0.25 * self.length())
+    /// The side as a curve in a configuration.
+    pub fn curve(&self, configuration: Configuration) -> &Curve {
+        match configuration {
+            Configuration::Reference => &self.undeformed,
+            Configuration::Deformed => &self.deformed,
+        }
     }
 
-    /// Distance of a point out of the body as it lies now, negative inside; nothing if its foot lies beyond the ends by
-    /// more than `tolerance`.
-    pub fn outside(&self, x: Point, tolerance: f64) -> Option<f64> {
-        let t = self.nearest(x, Configuration::Deformed).clamp(0.0, self.length());
-        let offset = x - self.deformed.point(t);
-        let tangent = self.deformed.tangent(t);
-        (offset.dot(&tangent).abs() <= tolerance).then(|| offset.dot(&turn_right(tangent)) * self.hand)
+    /// Gap between one of the nodes and another side, as the pair declares it (length; negative where they penetrate);
+    /// nothing if the node's foot lies beyond the ends of that side by more than `reach`, or if it belongs to another part
+    /// of the body. On undeformed bodies it is the gap before loading and the normal part of the displacements, as in the
+    /// contact law; on deformed ones the distance as they lie.
+    pub fn gap(&self, node: usize, other: &Self, pair: &Pair, reach: f64) -> Option<f64> {
+        let configuration = pair.configuration;
+        let x = self.positions(configuration)[node];
+        let t = other.nearest(x, configuration).clamp(0.0, other.length());
+        let curve = other.curve(configuration);
+        let (foot, tangent) = (curve.point(t), curve.tangent(t));
+        if (x - foot).dot(&tangent).abs() > reach {
+            return None;
+        }
+        let outward = turn_right(tangent) * other.hand;
+        let drawn = (x - foot).dot(&outward);
+        if drawn < -DEEP * other.length() {
+            return None;
+        }
+        if configuration == Configuration::Deformed {
+            return Some(drawn);
+        }
+        let initial = match &pair.gap {
+            GapChoice::Closed if drawn.abs() <= APART * self.length().max(other.length()) => 0.0,
+            GapChoice::Closed | GapChoice::Geometry => drawn,
+            GapChoice::Formula(formula) => {
+                let middle = 0.5 * (x + foot);
+                formula.value(&[middle.x, middle.y])
+            }
+        };
+        // The normal of the contact law bisects those of both sides.
+        let own = turn_right(self.undeformed.tangent(self.parameters[node])) * self.hand;
+        let moved = (self.points[node] - x) - (other.deformed.point(t) - foot);
+        Some(initial + moved.dot(&(outward - own).normalize()))
     }
 }
 

@@ -88,7 +88,8 @@ impl Curve {
             }
             Self::Parametric { .. } => self.nearest_by_search(p, 64),
             // A spline through many nodes turns little within a span.
-            Self::Spline(spline) => self.nearest_by_search(p, (4 * spline.spans()).min(spline.spans().max(256))),
+            Self::Spline(spline) if spline.spans() > 64 => self.nearest_from(p, spline.nearest_knot(p), spline.spans()),
+            Self::Spline(spline) => self.nearest_by_search(p, 4 * spline.spans()),
         }
     }
 
@@ -98,8 +99,14 @@ impl Curve {
         let [first, last] = self.range();
         let sample = |k: usize| first + (last - first) * k as f64 / samples as f64;
         let distance = |t: f64| (self.point(t) - p).norm_squared();
-        let mut t = (0..=samples).map(sample).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(first);
-        let longest = (last - first).abs() / samples as f64;
+        let t = (0..=samples).map(sample).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(first);
+        self.nearest_from(p, t, samples)
+    }
+
+    /// The same from a parameter near it, by steps of one part of its range at most.
+    fn nearest_from(&self, p: Point, mut t: f64, parts: usize) -> f64 {
+        let [first, last] = self.range();
+        let longest = (last - first).abs() / parts as f64;
         for _ in 0..200 {
             let slope = self.derivative(t);
             let step = ((p - self.point(t)).dot(&slope) / slope.norm_squared()).clamp(-longest, longest);
@@ -114,7 +121,16 @@ impl Curve {
     /// Where the line from `origin` along the unit vector `direction` meets the curve next to the origin: signed
     /// distance, and by what share of its range the hit lies beyond an end (0 within). Nothing if the line misses.
     pub fn hit(&self, origin: Point, direction: Point) -> Option<(f64, f64)> {
-        let mut t = self.nearest(origin);
+        let t = self.hit_from(self.nearest(origin), origin, direction)?;
+        let offset = self.point(t) - origin;
+        let [first, last] = self.range();
+        let beyond = if self.period().is_some() { 0.0 } else { (first - t).max(t - last) / (last - first) };
+        Some((offset.dot(&direction), if beyond > 1e-9 { beyond } else { 0.0 }))
+    }
+
+    /// Parameter of the point where the line from `origin` along the unit vector `direction` meets the curve, by Newton's
+    /// method from the parameter `t`. Nothing if the line misses.
+    pub fn hit_from(&self, mut t: f64, origin: Point, direction: Point) -> Option<f64> {
         for _ in 0..100 {
             let offset = self.point(t) - origin;
             let slope = cross(direction, self.derivative(t));
@@ -129,9 +145,7 @@ impl Curve {
         }
         let offset = self.point(t) - origin;
         let missed = cross(direction, offset).abs() > 1e-9 * (offset.norm() + self.derivative(t).norm());
-        let [first, last] = self.range();
-        let beyond = if self.period().is_some() { 0.0 } else { (first - t).max(t - last) / (last - first) };
-        (!missed).then(|| (offset.dot(&direction), if beyond > 1e-9 { beyond } else { 0.0 }))
+        (!missed).then_some(t)
     }
 }
 

@@ -95,6 +95,13 @@ impl Spline {
         [self.knots[0], self.knots[self.knots.len() - 1]]
     }
 
+    /// Parameter of the span end that is nearest to `p`.
+    pub fn nearest_knot(&self, p: Point) -> f64 {
+        let last = (self.range()[1], self.point(self.range()[1]));
+        let ends = self.knots.iter().zip(&self.spans).map(|(&t, span)| (t, span[0])).chain([last]);
+        ends.map(|(t, x)| (t, (x - p).norm_squared())).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(last.0, |(t, _)| t)
+    }
+
     fn span(&self, t: f64) -> (&[Point; 4], f64) {
         let k = self.knots.partition_point(|&knot| knot <= t).clamp(1, self.spans.len()) - 1;
         (&self.spans[k], t - self.knots[k])

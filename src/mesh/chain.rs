@@ -38,24 +38,15 @@ impl MacroMesh {
         if straight { Curve::Line([first.into(), last.into()]) } else { Curve::Spline(Spline::through(&points)) }
     }
 
+    /// Whether a chain of edges comes back to where it begins.
+    pub fn is_closed(&self, chain: &[u32]) -> bool {
+        chain.len() > 2 && self.directed(chain[0])[0] == self.directed(chain[chain.len() - 1])[1]
+    }
+
     /// Edges in the order and direction of the boundary (body on the left), cut at corners and gaps, and where the
     /// shape changes.
     fn chains(&self, edges: &[u32]) -> Vec<Vec<u32>> {
-        let ends = |edge: u32| {
-            let (triangle, side) = self.beside(edge);
-            let corners = self.triangles[triangle as usize].vertices;
-            [corners[side], corners[(side + 1) % 3]]
-        };
-        let along = |edge: u32| {
-            let [a, b] = ends(edge).map(|vertex| self.vertices[vertex as usize]);
-            (b - a).normalize()
-        };
-        let alike = |a: u32, b: u32| match (&self.edges[a as usize].shape, &self.edges[b as usize].shape) {
-            (None, None) => along(a).dot(&along(b)) > CORNER.cos(),
-            (Some(a), Some(b)) => a.curve == b.curve,
-            _ => false,
-        };
-        let follows = |a: u32, b: u32| a != b && ends(a)[1] == ends(b)[0] && alike(a, b);
+        let follows = |a: u32, b: u32| a != b && self.directed(a)[1] == self.directed(b)[0] && self.goes_on(a, b);
         let next = |edge: u32| edges.iter().copied().find(|&other| follows(edge, other));
         let mut left: Vec<u32> = edges.to_vec();
         let mut chains = Vec::new();
@@ -71,12 +62,22 @@ impl MacroMesh {
         chains
     }
 
+    /// Whether a boundary edge goes on as another that begins at its end: without a corner, in the same shape.
+    pub(super) fn goes_on(&self, edge: u32, other: u32) -> bool {
+        let along = |edge: u32| {
+            let [a, b] = self.directed(edge).map(|vertex| self.vertices[vertex as usize]);
+            (b - a).normalize()
+        };
+        match (&self.edges[edge as usize].shape, &self.edges[other as usize].shape) {
+            (None, None) => along(edge).dot(&along(other)) > CORNER.cos(),
+            (Some(a), Some(b)) => a.curve == b.curve,
+            _ => false,
+        }
+    }
+
     /// Vertices of a chain of edges.
     fn chain_points(&self, chain: &[u32]) -> Vec<Point> {
-        let corner = |edge: u32, end: usize| {
-            let (triangle, side) = self.beside(edge);
-            self.vertices[self.triangles[triangle as usize].vertices[(side + end) % 3] as usize]
-        };
+        let corner = |edge: u32, end: usize| self.vertices[self.directed(edge)[end] as usize];
         let mut points: Vec<Point> = chain.iter().map(|&edge| corner(edge, 0)).collect();
         points.push(corner(chain[chain.len() - 1], 1));
         points

@@ -12,8 +12,23 @@ use std::str::FromStr;
 /// # Errors
 /// [`MeshError`] with file and line, what was found, and the gmsh command that mends it.
 pub fn read_gmsh(file: &Path) -> Result<MacroMesh, MeshError> {
-    let bytes = std::fs::read(file).map_err(|source| MeshError::Unreadable { file: file.to_path_buf(), source })?;
-    let text = String::from_utf8_lossy(&bytes);
+    parse_gmsh(&read_bytes(file)?, file)
+}
+
+/// The bytes of a mesh file, for [`parse_gmsh`] on all ranks.
+///
+/// # Errors
+/// [`MeshError::Unreadable`]
+pub fn read_bytes(file: &Path) -> Result<Vec<u8>, MeshError> {
+    std::fs::read(file).map_err(|source| MeshError::Unreadable { file: file.to_path_buf(), source })
+}
+
+/// The mesh of a Gmsh 4.1 ASCII file that has been read; `file` is its name in errors.
+///
+/// # Errors
+/// [`MeshError`] as of [`read_gmsh`].
+pub fn parse_gmsh(bytes: &[u8], file: &Path) -> Result<MacroMesh, MeshError> {
+    let text = String::from_utf8_lossy(bytes);
     MacroMesh::build(Reader::new(file, &text).read()?, file)
 }
 

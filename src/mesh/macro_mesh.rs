@@ -1,6 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
 use super::MeshError;
+use super::pieces::BodyPiece;
 use super::shape::EdgeShape;
 use crate::geometry::{Point, cross};
 use std::collections::HashMap;
@@ -25,6 +26,8 @@ pub struct MacroTriangle {
     pub forward: [bool; 3],
     /// Index of its body.
     pub body: u32,
+    /// Index of its piece of the body.
+    pub piece: u32,
 }
 
 /// A macro edge, directed from its first vertex to its second.
@@ -62,6 +65,8 @@ pub struct MacroMesh {
     pub edges: Vec<MacroEdge>,
     /// Physical surfaces.
     pub bodies: Vec<String>,
+    /// Pieces of the bodies, which hang together by edges; one for each body in most meshes.
+    pub pieces: Vec<BodyPiece>,
     /// Physical curves.
     pub boundaries: Vec<Boundary>,
 }
@@ -77,6 +82,7 @@ impl MacroMesh {
             triangles: Vec::with_capacity(raw.triangles.len()),
             edges: Vec::new(),
             bodies: Vec::new(),
+            pieces: Vec::new(),
             boundaries: Vec::new(),
         };
         let mut known = HashMap::new();
@@ -89,6 +95,8 @@ impl MacroMesh {
             return Err(MeshError::unusable(file, "has no triangles; mesh it with `gmsh -2`"));
         }
         mesh.check_bodies_are_apart()?;
+        mesh.find_pieces()?;
+        mesh.check_overlap()?;
         for (name, ends, line) in raw.lines {
             mesh.add_line(name, ends, line, &known)?;
         }
@@ -158,7 +166,7 @@ impl MacroMesh {
             }
             edges[k] = edge;
         }
-        self.triangles.push(MacroTriangle { vertices, edges, forward, body });
+        self.triangles.push(MacroTriangle { vertices, edges, forward, body, piece: 0 });
         Ok(())
     }
 
@@ -226,13 +234,14 @@ impl MacroMesh {
         (self.vertices[b as usize] - self.vertices[a as usize]).norm()
     }
 
-    /// Smallest box around all vertices of a body: lower left and upper right corner.
-    pub fn bounds(&self, body: usize) -> [Point; 2] {
-        let mut bounds = [Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)];
-        for triangle in self.triangles.iter().filter(|triangle| triangle.body as usize == body) {
+    /// Smallest box around all vertices of each piece: lower left and upper right corner.
+    pub fn bounds(&self) -> Vec<[Point; 2]> {
+        let mut bounds = vec![[Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)]; self.pieces.len()];
+        for triangle in &self.triangles {
+            let [low, high] = &mut bounds[triangle.piece as usize];
             for &vertex in &triangle.vertices {
                 let x = self.vertices[vertex as usize];
-                bounds = [bounds[0].inf(&x), bounds[1].sup(&x)];
+                (*low, *high) = (low.inf(&x), high.sup(&x));
             }
         }
         bounds

@@ -11,21 +11,26 @@ mod grading;
 pub mod lattice;
 mod macro_mesh;
 mod numbering;
+mod overlap;
 mod partition;
 mod piece;
+mod pieces;
 #[cfg(test)]
 pub(crate) mod samples;
 mod shape;
+mod smooth_normal;
 mod strip;
 
 pub use chain::Stretch;
 pub use edge_trace::{BoundaryEdge, EdgeNode};
-pub use gmsh::read_gmsh;
+pub use gmsh::{parse_gmsh, read_bytes, read_gmsh};
 pub use macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
 pub use numbering::{Level, Numbering, TriangleNumbers, levels};
 pub use partition::{Graph, Partition};
 pub use piece::Shapes;
+pub use pieces::BodyPiece;
 pub use shape::EdgeShape;
+pub use smooth_normal::{SmoothNormals, SmoothPoint};
 pub use strip::Strip;
 
 use std::path::{Path, PathBuf};

@@ -18,6 +18,12 @@ pub enum OutputError {
     /// The target has no name of its own, such as `.` or `/`.
     #[error("`{}` does not name a folder that can be made; name one with --out, such as out/result", .0.display())]
     NoName(PathBuf),
+    /// Another run was faster.
+    #[error(
+        "another run has put its result into `{}` since this one began, so that this result is dropped and that one kept; choose another folder with --out, or let one run end before the next begins",
+        .0.display()
+    )]
+    Overtaken(PathBuf),
     /// The operating system refused.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {

@@ -1,20 +1,28 @@
 //! A result folder appears whole or not at all.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
+use rustix::fs::{CWD, RenameFlags, renameat_with};
+
 use super::OutputError;
+use super::leftover::{make_hidden, recover, retire};
 
 /// A result under construction: files go to a temporary folder beside the target, which takes its name at the end.
 ///
-/// For a target `out/bars` the temporary is `out/.bars.partial`, on every rank; a replaced result rests as `out/.bars.old`
-/// for the moment between two renames. Dropped without [`commit`](ResultFolder::commit), the temporary is removed.
-/// In parallel rank 0 alone creates and commits; the other ranks write to [`temporary_path`](ResultFolder::temporary_path)
-/// after rank 0 has created the folder and before it commits.
+/// For a target `out/bars` the temporary is `out/.bars.HOST-PROCESS-NUMBER.partial`, which no other run has.
+/// Dropped without [`commit`](ResultFolder::commit), it is removed. In parallel rank 0 alone creates and commits; the other
+/// ranks write to its [`temporary`](ResultFolder::temporary) in between.
 #[derive(Debug)]
 pub struct ResultFolder {
     target: PathBuf,
     temporary: PathBuf,
+    /// The result that is to be replaced; while it is open, no other folder can be taken for it.
+    replaced: Option<File>,
+    /// Locked while this lives, so that nobody clears the temporary away.
+    _lock: Option<File>,
     committed: bool,
 }
 
@@ -22,27 +30,27 @@ impl ResultFolder {
     /// Makes the temporary folder for the target `out`, with all folders above it.
     ///
     /// The target may be missing or empty; if it holds a result (a `summary.json`) it is replaced with `force` only,
-    /// and if it holds anything else, never. What a killed run left under the temporary names is cleared first.
+    /// and if it holds anything else, never. What killed runs of this host have left beside it is cleared first.
     ///
     /// # Errors
     /// The target must not be replaced, has no name, or the operating system refuses.
     pub fn create(out: &Path, force: bool) -> Result<ResultFolder, OutputError> {
-        let temporary = Self::temporary_path(out);
         if out.file_name().is_none() {
             return Err(OutputError::NoName(out.to_path_buf()));
         }
-        recover_old(out)?;
-        check_target(out, force)?;
-        if temporary.exists() {
-            fs::remove_dir_all(&temporary).map_err(OutputError::io("clear", &temporary))?;
-        }
-        fs::create_dir_all(&temporary).map_err(OutputError::io("create the folder", &temporary))?;
-        Ok(ResultFolder { target: out.to_path_buf(), temporary, committed: false })
+        recover(out);
+        let replaced = match holds_result(out, force)? {
+            true => Some(File::open(out).map_err(OutputError::io("open", out))?),
+            false => None,
+        };
+        let temporary = make_hidden(out).map_err(OutputError::io("create a folder beside", out))?;
+        let lock = File::open(&temporary).ok().filter(|folder| folder.try_lock().is_ok());
+        Ok(ResultFolder { target: out.to_path_buf(), temporary, replaced, _lock: lock, committed: false })
     }
 
-    /// The temporary folder of the target `out`; the same on every rank.
-    pub fn temporary_path(out: &Path) -> PathBuf {
-        hidden_sibling(out, "partial")
+    /// The temporary folder, by its path from the root.
+    pub fn temporary(&self) -> &Path {
+        &self.temporary
     }
 
     /// Where the file `name` of this result is written to: a path in the temporary folder.
@@ -53,18 +61,60 @@ impl ResultFolder {
     /// Gives the whole result its name. A result that was there is removed; files in it that no run writes are carried over.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// [`OutputError::Overtaken`] if the target is no longer what it was at the start; else the operating system refuses.
     pub fn commit(mut self) -> Result<(), OutputError> {
-        let old = hidden_sibling(&self.target, "old");
-        if self.target.exists() {
-            fs::rename(&self.target, &old).map_err(OutputError::io("set aside", &self.target))?;
-        }
-        if let Err(error) = fs::rename(&self.temporary, &self.target) {
-            recover_old(&self.target)?;
-            return Err(OutputError::io("make", &self.target)(error));
-        }
+        let left = match &self.replaced {
+            Some(seen) if is_there(&self.target) => self.replace(seen)?,
+            _ => self.appear()?,
+        };
         self.committed = true;
-        if old.exists() { retire(&old, &self.target) } else { Ok(()) }
+        left.map_or(Ok(()), |old| retire(&old, &self.target))
+    }
+
+    /// Takes the name of a target that is missing or empty: a folder never replaces one that holds anything.
+    fn appear(&self) -> Result<Option<PathBuf>, OutputError> {
+        match fs::rename(&self.temporary, &self.target) {
+            Ok(()) => Ok(None),
+            Err(error) if is_taken(&error) => Err(self.overtaken()),
+            Err(error) => Err(OutputError::io("make", &self.target)(error)),
+        }
+    }
+
+    /// Takes the name of the result that was `seen` at the start, in one step; where that rests until it is removed.
+    fn replace(&self, seen: &File) -> Result<Option<PathBuf>, OutputError> {
+        let exchange = || renameat_with(CWD, &self.temporary, CWD, &self.target, RenameFlags::EXCHANGE);
+        if !is_same(&self.target, seen) {
+            return Err(self.overtaken());
+        }
+        if exchange().is_err() {
+            return self.replace_in_two_steps(seen);
+        }
+        if is_same(&self.temporary, seen) {
+            return Ok(Some(self.temporary.clone()));
+        }
+        // Another run came between the look and the step: its result goes back to its place.
+        exchange().map_err(|error| OutputError::io("give back", &self.target)(error.into()))?;
+        Err(self.overtaken())
+    }
+
+    /// The same where the file system cannot exchange folders: there is no target for a moment.
+    fn replace_in_two_steps(&self, seen: &File) -> Result<Option<PathBuf>, OutputError> {
+        let old = self.temporary.with_extension("old");
+        fs::rename(&self.target, &old).map_err(OutputError::io("set aside", &self.target))?;
+        if is_same(&old, seen) {
+            match self.appear() {
+                Ok(_) => return Ok(Some(old)),
+                // The one that has come instead is the newer one.
+                Err(error @ OutputError::Overtaken(_)) => return retire(&old, &self.target).and(Err(error)),
+                Err(error) => return fs::rename(&old, &self.target).map_err(OutputError::io("restore", &old)).and(Err(error)),
+            }
+        }
+        fs::rename(&old, &self.target).map_err(OutputError::io("give back", &old))?;
+        Err(self.overtaken())
+    }
+
+    fn overtaken(&self) -> OutputError {
+        OutputError::Overtaken(self.target.clone())
     }
 }
 
@@ -77,16 +127,28 @@ impl Drop for ResultFolder {
     }
 }
 
-/// `out/bars` and `partial` make `out/.bars.partial`.
-fn hidden_sibling(out: &Path, suffix: &str) -> PathBuf {
-    let name = out.file_name().unwrap_or_default().to_string_lossy();
-    out.with_file_name(format!(".{name}.{suffix}"))
+/// Whether anything has this name.
+fn is_there(path: &Path) -> bool {
+    path.symlink_metadata().is_ok()
 }
 
-/// Refuses a target that must not be replaced.
-fn check_target(out: &Path, force: bool) -> Result<(), OutputError> {
+/// Whether a path leads to this open folder.
+fn is_same(path: &Path, open: &File) -> bool {
+    match (path.symlink_metadata(), open.metadata()) {
+        (Ok(one), Ok(other)) => (one.dev(), one.ino()) == (other.dev(), other.ino()),
+        _ => false,
+    }
+}
+
+/// Whether a folder could not get a name because something else has it.
+fn is_taken(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::DirectoryNotEmpty | ErrorKind::AlreadyExists | ErrorKind::NotADirectory)
+}
+
+/// Whether the target holds a result that is to be replaced; refuses one that must not be.
+fn holds_result(out: &Path, force: bool) -> Result<bool, OutputError> {
     if !out.exists() && !out.is_symlink() {
-        return Ok(());
+        return Ok(false);
     }
     // A link is not followed: replacing the result would replace the link.
     if !out.is_dir() || out.is_symlink() {
@@ -95,49 +157,11 @@ fn check_target(out: &Path, force: bool) -> Result<(), OutputError> {
     let empty = fs::read_dir(out).map_err(OutputError::io("read the folder", out))?.next().is_none();
     let holds_result = out.join("summary.json").is_file();
     match (empty, holds_result, force) {
-        (true, _, _) | (_, true, true) => Ok(()),
+        (true, _, _) => Ok(false),
+        (_, true, true) => Ok(true),
         (_, true, false) => Err(OutputError::HoldsResult(out.to_path_buf())),
         (_, false, _) => Err(OutputError::HoldsOtherFiles(out.to_path_buf())),
     }
-}
-
-/// After a run killed between the two renames of `commit`: brings the old result back, or finishes retiring it.
-fn recover_old(out: &Path) -> Result<(), OutputError> {
-    let old = hidden_sibling(out, "old");
-    if !old.exists() {
-        Ok(())
-    } else if out.exists() {
-        retire(&old, out)
-    } else {
-        fs::rename(&old, out).map_err(OutputError::io("restore", out))
-    }
-}
-
-/// Carries files that no run writes from the old folder to the new one, then removes the old folder.
-fn retire(old: &Path, new: &Path) -> Result<(), OutputError> {
-    for entry in fs::read_dir(old).map_err(OutputError::io("read the folder", old))? {
-        let name = entry.map_err(OutputError::io("read the folder", old))?.file_name();
-        let (from, to) = (old.join(&name), new.join(&name));
-        if !is_result_name(&name.to_string_lossy()) && !to.exists() {
-            fs::rename(&from, &to).map_err(OutputError::io("carry over", &from))?;
-        }
-    }
-    fs::remove_dir_all(old).map_err(OutputError::io("remove", old))
-}
-
-/// Whether a run writes a file of this name.
-fn is_result_name(name: &str) -> bool {
-    const WRITTEN: [(&str, &str); 8] = [
-        ("summary", ".json"),
-        ("case", ".toml"),
-        ("contact_", ".csv"),
-        ("contact_", ".vtu"),
-        ("fields", "vtu"),
-        ("pressure_", ".svg"),
-        ("displacement_", ".svg"),
-        ("deformed", ".svg"),
-    ];
-    WRITTEN.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
 }
 
 #[cfg(test)]
@@ -164,7 +188,8 @@ mod tests {
         let folder = ResultFolder::create(&out, false).unwrap();
         fs::write(folder.path("summary.json"), "{}").unwrap();
         assert!(!out.exists());
-        assert_eq!(folder.path("a"), ResultFolder::temporary_path(&out).join("a"));
+        assert_eq!(folder.path("a"), folder.temporary().join("a"));
+        assert!(folder.temporary().is_absolute() && folder.temporary().parent() == out.parent());
         folder.commit().unwrap();
         assert_eq!(names(&out), ["summary.json"]);
         assert_eq!(names(out.parent().unwrap()), ["bars"]);
@@ -230,18 +255,86 @@ mod tests {
         assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
     }
 
+    /// Two results that were begun at the same time: the first that ends stays, whether it replaces one or not.
     #[test]
-    fn leftovers_of_a_killed_run_are_cleared() {
+    fn the_second_is_told() {
+        for force in [false, true] {
+            let root = tempfile::tempdir().unwrap();
+            let out = root.path().join("bars");
+            if force {
+                write_result(&out, false, "before").unwrap();
+            }
+            let [first, second] = ["first", "second"].map(|text| {
+                let folder = ResultFolder::create(&out, force).unwrap();
+                fs::write(folder.path("summary.json"), text).unwrap();
+                folder
+            });
+            assert_ne!(first.temporary(), second.temporary());
+            first.commit().unwrap();
+            let refusal = second.commit().unwrap_err();
+            assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
+            assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "first");
+            assert_eq!(names(root.path()), ["bars"]);
+        }
+    }
+
+    #[test]
+    fn a_result_that_was_taken_away_is_not_missed() {
         let root = tempfile::tempdir().unwrap();
         let out = root.path().join("bars");
-        drop(write_result(&out, false, "first"));
-        fs::rename(&out, hidden_sibling(&out, "old")).unwrap();
-        let temporary = ResultFolder::temporary_path(&out);
-        fs::create_dir(&temporary).unwrap();
-        fs::write(temporary.join("fields_3.vtu"), "stale").unwrap();
-        assert!(matches!(ResultFolder::create(&out, false), Err(OutputError::HoldsResult(_))));
-        write_result(&out, true, "second").unwrap();
-        assert_eq!(names(&out), ["summary.json"]);
+        write_result(&out, false, "first").unwrap();
+        let folder = ResultFolder::create(&out, true).unwrap();
+        fs::write(folder.path("summary.json"), "second").unwrap();
+        fs::remove_dir_all(&out).unwrap();
+        folder.commit().unwrap();
+        assert_eq!((names(&out), names(root.path())), (vec!["summary.json".into()], vec!["bars".into()]));
+    }
+
+    /// As on file systems that cannot exchange two folders.
+    #[test]
+    fn two_steps_do_the_same() {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("bars");
+        write_result(&out, false, "first").unwrap();
+        let [a, b] = [0, 1].map(|_| ResultFolder::create(&out, true).unwrap());
+        fs::write(a.path("summary.json"), "second").unwrap();
+        let old = a.replace_in_two_steps(a.replaced.as_ref().unwrap()).unwrap().unwrap();
+        assert_eq!(fs::read_to_string(old.join("summary.json")).unwrap(), "first");
+        retire(&old, &out).unwrap();
+        let refusal = b.replace_in_two_steps(b.replaced.as_ref().unwrap()).unwrap_err();
+        assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
+        drop((a, b));
+        assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "second");
         assert_eq!(names(root.path()), ["bars"]);
+    }
+
+    /// Many at once, and one at a time: what stands under the name is always whole, and of one run.
+    #[test]
+    fn a_race_has_whole_results_only() {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("bars");
+        write_result(&out, false, "before").unwrap();
+        let write = |runner: usize| {
+            let mut won = 0;
+            for round in 0..50 {
+                let Ok(folder) = ResultFolder::create(&out, true) else { continue };
+                let text = format!("{runner} {round}");
+                fs::write(folder.path("contact_a.csv"), &text).unwrap();
+                fs::write(folder.path("summary.json"), &text).unwrap();
+                match folder.commit() {
+                    Ok(()) => won += 1,
+                    Err(OutputError::Overtaken(_)) => {}
+                    Err(error) => panic!("{error}"),
+                }
+            }
+            won
+        };
+        let won: usize = std::thread::scope(|scope| {
+            let runners: Vec<_> = (0..4).map(|runner| scope.spawn(move || write(runner))).collect();
+            runners.into_iter().map(|runner| runner.join().unwrap()).sum()
+        });
+        let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+        assert!(won > 0 && read("summary.json") == read("contact_a.csv"));
+        assert_eq!((names(&out).len(), names(root.path())), (2, vec!["bars".into()]));
     }
 }

@@ -13,6 +13,7 @@
 mod csv;
 mod error;
 mod folder;
+mod leftover;
 pub mod plot;
 pub mod summary;
 pub mod vtk;

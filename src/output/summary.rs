@@ -36,6 +36,9 @@ pub struct Summary {
     pub contact: BTreeMap<String, Contact>,
     /// Energies of the solution.
     pub energy: Energy,
+    /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
+    #[serde(default)]
+    pub strain_max: BTreeMap<String, Option<f64>>,
     /// Estimated discretisation errors.
     pub estimate: Estimate,
     /// Relative residuals of force, moment and energy balance.
@@ -159,6 +162,8 @@ pub struct Contact {
     pub closed_points: Option<Vec<[[f64; 2]; 2]>>,
     /// ∫ λ ds (force per thickness).
     pub force: Option<f64>,
+    /// Force that penetration within single segments is worth (force per thickness).
+    pub unresolved_force: Option<f64>,
     /// Resultant on body 2 (force per thickness).
     #[serde(deserialize_with = "numbers")]
     pub resultant: Option<[f64; 2]>,
@@ -170,6 +175,10 @@ pub struct Contact {
     pub oscillation: Option<f64>,
     /// Quadrature points without a corresponding point.
     pub lost_points: Option<usize>,
+    /// Way of the bodies along each other, by the length that presses; of curved fits on undeformed bodies only.
+    pub slip: Option<f64>,
+    /// Estimated relative error of force or pressure by that way.
+    pub slip_error: Option<f64>,
     /// Whether the contact pressure can be trusted.
     pub trust: Option<bool>,
 }

@@ -3,7 +3,11 @@
 use super::session::Session;
 use mpi::collective::SystemOperation;
 use mpi::datatype::PartitionMut;
+use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives, Equivalence, Root};
+
+/// MPI counts in 32 bits: longer texts are sent in pieces.
+const PIECE: usize = 1 << 30;
 
 /// Numbers that ranks can send each other: integers and reals.
 pub trait Datum: Equivalence + Copy + Default {}
@@ -80,13 +84,41 @@ impl Session {
         if failed == self.size() {
             return own;
         }
-        let mut message =
-            own.as_ref().err().filter(|_| failed == self.rank()).map(|text| text.clone().into_bytes()).unwrap_or_default();
-        let root = self.world().process_at_rank(failed as i32);
-        let mut length = message.len();
-        root.broadcast_into(&mut length);
-        message.resize(length, 0);
-        root.broadcast_into(&mut message[..]);
+        let message = own.as_ref().err().map(|text| text.clone().into_bytes()).unwrap_or_default();
+        let message = broadcast(self.world(), failed, message);
         own.and_then(|_| Err(format!("another rank failed: {}", String::from_utf8_lossy(&message))))
     }
+
+    /// What rank 0 has got, on every rank: it alone reads, so that all work on the same bytes. **Collective**
+    ///
+    /// # Errors
+    /// Those of rank 0, in its words, on every rank.
+    pub fn share<E: ToString>(
+        &self,
+        on_rank_0: impl FnOnce() -> std::result::Result<Vec<u8>, E>,
+    ) -> std::result::Result<Vec<u8>, String> {
+        let own = if self.rank() == 0 { on_rank_0().map_err(|error| error.to_string()) } else { Ok(Vec::new()) };
+        let failed = self.any(own.is_err());
+        let bytes = broadcast(self.world(), 0, own.unwrap_or_else(String::into_bytes));
+        if failed { Err(String::from_utf8_lossy(&bytes).into_owned()) } else { Ok(bytes) }
+    }
+}
+
+/// The bytes of one rank, on every rank. **Collective**
+pub(super) fn broadcast(world: &SimpleCommunicator, rank: usize, mut bytes: Vec<u8>) -> Vec<u8> {
+    let root = world.process_at_rank(rank as i32);
+    let mut length = bytes.len();
+    root.broadcast_into(&mut length);
+    bytes.resize(length, 0);
+    bytes.chunks_mut(PIECE).for_each(|piece| root.broadcast_into(piece));
+    bytes
+}
+
+/// The lowest rank that has other bytes than rank 0, and those bytes; None if there is none. **Collective**
+pub(super) fn odd_one(world: &SimpleCommunicator, bytes: &[u8]) -> Option<(usize, Vec<u8>)> {
+    let (rank, size) = (world.rank() as usize, world.size() as usize);
+    let first = broadcast(world, 0, if rank == 0 { bytes.to_vec() } else { Vec::new() });
+    let mut odd = 0;
+    world.all_reduce_into(&if bytes == first { size } else { rank }, &mut odd, SystemOperation::min());
+    (odd < size).then(|| (odd, broadcast(world, odd, if rank == odd { bytes.to_vec() } else { Vec::new() })))
 }

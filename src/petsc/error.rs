@@ -30,6 +30,14 @@ pub enum Error {
         /// Norm of the last residual.
         residual: f64,
     },
+    /// Ranks of one run that were to do different things.
+    #[error("rank {rank} was started with other words than rank 0: `{words}`; start all ranks with the same")]
+    UnequalWords {
+        /// The lowest such rank.
+        rank: usize,
+        /// Its words.
+        words: String,
+    },
     /// MPI runs once in the life of a process.
     #[error("MPI has already been started in this process")]
     AlreadyStarted,
@@ -59,6 +67,24 @@ pub(super) fn check(call: &'static str, code: ffi::PetscErrorCode) -> Result<()>
 fn failure(call: &'static str, code: ffi::PetscErrorCode) -> Error {
     let heard = DEEPEST.take().filter(|message| !message.is_empty());
     Error::Petsc { call, code, message: heard.unwrap_or_else(|| general_message(code)) }
+}
+
+/// Calls PETSc at its start or end, when [`remember`] is not there to hear: what PETSc would print about an error is kept instead.
+pub(super) fn listened(call: &'static str, function: impl FnOnce() -> ffi::PetscErrorCode) -> Result<()> {
+    unsafe { ffi::mezha_listen(ffi::PetscBool::PETSC_TRUE) };
+    let code = function();
+    unsafe { ffi::mezha_listen(ffi::PetscBool::PETSC_FALSE) };
+    DEEPEST.set(Some(essence(&words(unsafe { ffi::mezha_heard() }))));
+    let outcome = check(call, code);
+    DEEPEST.set(None);
+    outcome
+}
+
+/// The error itself in what PETSc prints about it: between a ruler and the hints.
+fn essence(printed: &str) -> String {
+    let is_hint = |line: &&str| !["WARNING!", "See http"].iter().any(|start| line.starts_with(start));
+    let lines = printed.lines().map(str::trim).skip_while(|line| !line.starts_with("----")).skip(1);
+    lines.take_while(is_hint).filter(|line| !line.is_empty()).last().unwrap_or_default().to_owned()
 }
 
 /// What PETSc says in general about a code.

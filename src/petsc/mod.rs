@@ -34,7 +34,7 @@ pub use matrix::Matrix;
 pub use multigrid::Level;
 pub use partition::partition;
 pub use preconditioner::Preconditioner;
-pub use session::Session;
+pub use session::{Session, end_all_ranks};
 pub use shell::{Operator, Transfer};
 pub use stage::{Stage, StageGuard};
 pub use vector::Vector;

@@ -1,6 +1,7 @@
 //! Start and end of PETSc and MPI.
 
-use super::error::{Error, Result, petsc, remember};
+use super::collective::odd_one;
+use super::error::{Error, Result, listened, petsc, remember};
 use super::{environment, ffi};
 use mpi::environment::Universe;
 use mpi::topology::{Communicator, SimpleCommunicator};
@@ -8,9 +9,16 @@ use mpi::traits::CommunicatorCollectives;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::ffi::{CString, c_char, c_int};
+use std::io::Write;
+use std::mem::{ManuallyDrop, forget};
 use std::ptr;
 use std::rc::Rc;
 use std::sync::Once;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// How often it is asked whether all ranks have come.
+const PULSE: Duration = Duration::from_millis(1);
 
 /// PETSc and MPI, started together and ended together. Every wrapper holds a clone; when the last one is dropped,
 /// PETSc and then MPI end. A session stays on the thread that started it.
@@ -19,12 +27,14 @@ pub struct Session(Rc<Inner>);
 
 struct Inner {
     world: SimpleCommunicator,
+    /// For [`Session::meet`] alone, so that it is not mistaken for something else; given back by the end of MPI.
+    farewell: ManuallyDrop<SimpleCommunicator>,
     /// Names of options that mezha has set, the user has not.
     defaults: RefCell<BTreeSet<String>>,
     /// PETSc keeps pointers to its arguments until it ends: the array, and the words in it.
     _arguments: (Vec<*mut c_char>, Vec<CString>),
-    /// Ends MPI when dropped, hence after PETSc.
-    _universe: Universe,
+    /// Ends MPI when dropped; None when PETSc has ended.
+    universe: Option<Universe>,
 }
 
 impl Session {
@@ -34,11 +44,16 @@ impl Session {
     /// From here on a panic on any rank ends all ranks with exit code 1, after its message has been printed.
     ///
     /// # Errors
-    /// [`Error::AlreadyStarted`] on a second start, even after the end of the first; else PETSc's own.
+    /// [`Error::AlreadyStarted`] on a second start, even after the end of the first; [`Error::UnequalWords`] on every rank, if
+    /// their command lines differ; else PETSc's own, perhaps on this rank
+    /// alone: MPI is not ended then, since that would wait for ranks that PETSc has left in the middle; [`end_all_ranks`] is.
     pub fn start(defaults: &[&str], user: &[String]) -> Result<Self> {
         environment::prepare();
         let universe = mpi::initialize().ok_or(Error::AlreadyStarted)?;
         let world = universe.world();
+        end_all_ranks_on_panic();
+        refuse_unequal_words(&world)?;
+        let farewell = ManuallyDrop::new(world.duplicate());
 
         let given = user.iter().map(String::as_str);
         let words: Vec<CString> = ["mezha", "-no_signal_handler", "-options_left", "no"]
@@ -50,15 +65,52 @@ impl Session {
         let mut pointers: Vec<*mut c_char> = words.iter().map(|word| word.as_ptr().cast_mut()).chain([ptr::null_mut()]).collect();
         let mut count = words.len() as c_int;
         let mut array = pointers.as_mut_ptr();
-        petsc!(PetscInitialize(&mut count, &mut array, ptr::null(), ptr::null()))?;
-        petsc!(PetscPushErrorHandler(Some(remember), ptr::null_mut()))?;
-        end_all_ranks_on_panic();
+        let initialize = || unsafe { ffi::PetscInitialize(&mut count, &mut array, ptr::null(), ptr::null()) };
+        the_end_is_ours(true);
+        let started = listened("PetscInitialize", initialize);
+        if let Err(error) = started.and_then(|()| petsc!(PetscPushErrorHandler(Some(remember), ptr::null_mut()))) {
+            the_end_is_ours(false);
+            if world.size() > 1 {
+                forget(universe);
+            }
+            return Err(error);
+        }
 
         let mut own: BTreeSet<String> = defaults.iter().filter(|word| is_name(word)).map(|word| word.to_lowercase()).collect();
         for name in given.filter(|word| is_name(word)) {
             own.remove(&name.to_lowercase());
         }
-        Ok(Self(Rc::new(Inner { world, defaults: RefCell::new(own), _arguments: (pointers, words), _universe: universe })))
+        Ok(Self(Rc::new(Inner {
+            world,
+            farewell,
+            defaults: RefCell::new(own),
+            _arguments: (pointers, words),
+            universe: Some(universe),
+        })))
+    }
+
+    /// Ends PETSc and MPI, if nothing else holds the session. **Collective**
+    ///
+    /// # Errors
+    /// PETSc's own, perhaps on this rank alone: the others wait then, and [`end_all_ranks`] ends them.
+    pub fn end(self) -> Result<()> {
+        Rc::try_unwrap(self.0).map_or(Ok(()), |mut inner| inner.end())
+    }
+
+    /// Waits for all ranks, but not for ever: whether all have come here. A rank that nobody has joined goes on to
+    /// [`abort`](Self::abort), since the others may wait elsewhere. **Collective**
+    pub fn meet(&self, patience: Duration) -> bool {
+        let start = Instant::now();
+        let mut all_here = self.0.farewell.immediate_barrier();
+        while start.elapsed() < patience {
+            match all_here.test() {
+                Ok(_) => return true,
+                Err(waiting) => all_here = waiting,
+            }
+            sleep(PULSE);
+        }
+        forget(all_here);
+        false
     }
 
     /// Number of this rank, from 0.
@@ -78,6 +130,7 @@ impl Session {
 
     /// Ends all ranks at once with this exit code.
     pub fn abort(&self, code: i32) -> ! {
+        the_end_is_ours(false);
         self.0.world.abort(code)
     }
 
@@ -97,13 +150,49 @@ impl Session {
     }
 }
 
-impl Drop for Inner {
-    /// Ends PETSc; MPI follows. **Collective**
-    fn drop(&mut self) {
-        unsafe {
-            ffi::PetscPopErrorHandler();
-            ffi::PetscFinalize();
+impl Inner {
+    /// Ends PETSc, and MPI if PETSc has ended well. **Collective**
+    fn end(&mut self) -> Result<()> {
+        let Some(universe) = self.universe.take() else { return Ok(()) };
+        unsafe { ffi::PetscPopErrorHandler() };
+        let ended = listened("PetscFinalize", || unsafe { ffi::PetscFinalize() });
+        the_end_is_ours(false);
+        if ended.is_err() && self.world.size() > 1 {
+            forget(universe);
         }
+        ended
+    }
+}
+
+impl Drop for Inner {
+    /// Ends PETSc and MPI; a failure has nobody else left to tell. **Collective**
+    fn drop(&mut self) {
+        if let Err(error) = self.end() {
+            let _ = std::io::stderr().write_all(format!("mezha: {error}\n").as_bytes());
+            end_all_ranks(1);
+        }
+    }
+}
+
+/// Ends all ranks at once with this exit code, from a rank that cannot end with them; returns if there are no others.
+pub fn end_all_ranks(code: i32) {
+    the_end_is_ours(false);
+    if mpi::environment::is_initialized() && !mpi::environment::is_finalized() && SimpleCommunicator::world().size() > 1 {
+        SimpleCommunicator::world().abort(code);
+    }
+}
+
+/// Whether a library that ends this process, as PETSc does after some options, cuts a run short: exit code 1 then.
+fn the_end_is_ours(ours: bool) {
+    unsafe { ffi::mezha_end_is_ours(if ours { ffi::PetscBool::PETSC_TRUE } else { ffi::PetscBool::PETSC_FALSE }) };
+}
+
+/// Ranks with different words would wait for each other, or mix two cases. **Collective**
+fn refuse_unequal_words(world: &SimpleCommunicator) -> Result<()> {
+    let words = std::env::args_os().skip(1).collect::<Vec<_>>().join(" ".as_ref());
+    match odd_one(world, words.as_encoded_bytes()) {
+        None => Ok(()),
+        Some((rank, words)) => Err(Error::UnequalWords { rank, words: String::from_utf8_lossy(&words).into_owned() }),
     }
 }
 
@@ -122,6 +211,7 @@ fn end_all_ranks_on_panic() {
         std::panic::set_hook(Box::new(move |panic| {
             abort.call_once(|| {
                 print(panic);
+                the_end_is_ours(false);
                 if !mpi::environment::is_finalized() {
                     SimpleCommunicator::world().abort(1);
                 }

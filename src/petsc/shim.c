@@ -1,6 +1,11 @@
 #define _GNU_SOURCE
 #include "shim.h"
 #include <dlfcn.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 PetscErrorCode mezha_malloc(size_t bytes, void **memory)
 {
@@ -27,4 +32,48 @@ void mezha_restart_scotch(void)
   /* Scotch comes with PETSc, so its development files need not be there: look the function up. */
   void (*reset)(void) = (void (*)(void))dlsym(RTLD_DEFAULT, "SCOTCH_randomReset");
   if (reset) reset();
+}
+
+static char heard[4096];
+
+static PetscErrorCode hear(const char format[], ...)
+{
+  const size_t used = strlen(heard);
+  va_list      values;
+  va_start(values, format);
+  vsnprintf(heard + used, sizeof(heard) - used, format, values);
+  va_end(values);
+  return 0;
+}
+
+void mezha_listen(PetscBool keep)
+{
+  if (keep) {
+    heard[0]         = 0;
+    PetscErrorPrintf = hear;
+  } else if (PetscErrorPrintf == hear) {
+    PetscErrorPrintf = PetscErrorPrintfDefault;
+  }
+}
+
+const char *mezha_heard(void)
+{
+  return heard;
+}
+
+static PetscBool end_is_ours;
+
+/* PETSc ends some runs itself, with code 0, as after `-help intro`. */
+static void refuse_end(void)
+{
+  if (!end_is_ours) return;
+  fputs("mezha: a library has ended the program before its end; an option such as -help intro asks PETSc to\n", stderr);
+  _exit(1);
+}
+
+void mezha_end_is_ours(PetscBool ours)
+{
+  static PetscBool known;
+  if (!known && ours) known = atexit(refuse_end) == 0 ? PETSC_TRUE : PETSC_FALSE;
+  end_is_ours = ours;
 }

@@ -11,6 +11,12 @@ PetscErrorCode mezha_callback_error(const char *message);
 PetscErrorCode mezha_log_work(double operations);
 /* Starts the random numbers of Scotch afresh, if this PETSc has loaded it. */
 void mezha_restart_scotch(void);
+/* From now on PETSc's words about errors are kept, or printed again. */
+void mezha_listen(PetscBool keep);
+/* What was kept since the last start: the error, more about it, hints and a list of calls, a line each. */
+const char *mezha_heard(void);
+/* While `ours`, the end of this process from inside a library is a failure, whatever code it chooses. */
+void mezha_end_is_ours(PetscBool ours);
 /* Sizes that PETSc works out, and its default real tolerance. */
 static const PetscInt  mezha_determine    = PETSC_DETERMINE;
 static const PetscReal mezha_default_real = PETSC_DEFAULT;

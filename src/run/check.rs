@@ -5,18 +5,28 @@ use crate::case::Case;
 use crate::element::Order;
 use crate::mesh::Partition;
 use crate::petsc::{Session, versions};
-use crate::system::{Contact, spaces};
+use crate::system::{Contact, not_held_if_closed, spaces};
 
-/// Reads everything, solves nothing, and says what would be solved.
+/// What a look at a case finds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// What would be solved.
+    pub words: String,
+    /// Words for a body that can move though contact is closed everywhere; nothing if all are held.
+    pub not_held: Option<String>,
+}
+
+/// Reads everything, solves nothing, and says what would be solved, and whether contact, closed everywhere, would hold all
+/// bodies.
 ///
 /// # Errors
 /// [`RunError::Input`] with words.
-pub fn check(case: &Case) -> Result<String, RunError> {
+pub fn check(case: &Case) -> Result<Checked, RunError> {
     describe(case).map_err(|error| error.in_case(case))
 }
 
-fn describe(case: &Case) -> Result<String, RunError> {
-    let mesh = scene::read_mesh(case).map_err(RunError::Input)?;
+fn describe(case: &Case) -> Result<Checked, RunError> {
+    let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);
     let spaces = spaces(&scene, 0)?;
@@ -45,7 +55,8 @@ fn describe(case: &Case) -> Result<String, RunError> {
             contact.multipliers.count()
         ));
     }
-    Ok(lines.join("\n"))
+    let not_held = not_held_if_closed(&scene, &finest.numbering, &contacts)?;
+    Ok(Checked { words: lines.join("\n"), not_held })
 }
 
 /// Versions of everything that matters.

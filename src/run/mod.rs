@@ -4,20 +4,25 @@ mod check;
 mod exact;
 mod fields;
 mod follow;
+mod input;
 mod report;
 mod results;
 mod scene;
 mod solve;
 mod summarise;
 mod trust;
+mod unresolved;
 
-pub use check::{check, info};
+pub use check::{Checked, check, info};
+pub use input::read_case;
 
-use crate::case::Case;
+use crate::case::{Case, Inputs};
 use crate::output::{OutputError, ResultFolder};
 use crate::petsc::{self, Session, Stage};
 use crate::system::{Discretisation, SystemError, spaces};
 use report::Report;
+use std::ffi::OsString;
+use std::os::unix::ffi::OsStringExt;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -39,12 +44,23 @@ pub enum RunError {
     /// The same, in words that begin with a key; the caller puts the case file before them.
     #[error("{0}")]
     Key(String),
+    /// Somebody has changed the input, or has put another result where this one belongs; on every rank alike: 1.
+    #[error("{0}")]
+    Overtaken(String),
     /// PETSc, MPI or the disk failed, perhaps on this rank alone: 1.
     #[error("{0}")]
     Failed(String),
 }
 
 impl RunError {
+    /// The exit code.
+    pub fn code(&self) -> i32 {
+        match self {
+            Self::Input(_) | Self::Key(_) => 2,
+            Self::Overtaken(_) | Self::Failed(_) => 1,
+        }
+    }
+
     /// With the case file before words that begin with a key.
     fn in_case(self, case: &Case) -> Self {
         match self {
@@ -83,6 +99,8 @@ impl From<OutputError> for RunError {
 pub struct RunOptions {
     /// Folder of the results.
     pub out: PathBuf,
+    /// What the run is to be made of; anything else is refused.
+    pub inputs: Option<Inputs>,
     /// Replace a result that is there.
     pub force: bool,
     /// Print errors only.
@@ -125,9 +143,9 @@ pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outco
 
 fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
     refuse_options(session)?;
-    let folder = claim_folder(options, session)?;
+    let (folder, files) = claim_folder(options, session)?;
     let report = Report::new(options, session);
-    let run = Run { case, options, session, stages: Stages::new(session)?, report };
+    let run = Run { case, options, session, stages: Stages::new(session)?, report, files };
     run.report.start(case);
     let mut problem = run.set_up()?;
     run.report.sizes(&problem);
@@ -148,14 +166,17 @@ fn refuse_options(session: &Session) -> Result<(), RunError> {
     Ok(())
 }
 
-/// The folder of the results: made by rank 0, known to all. **Collective**
-fn claim_folder(options: &RunOptions, session: &Session) -> Result<Option<ResultFolder>, RunError> {
-    let folder = if session.rank() == 0 { ResultFolder::create(&options.out, options.force).map(Some) } else { Ok(None) };
-    let refused = folder.as_ref().err().map(|error| error.to_string());
-    match session.agree(refused.map_or(Ok(()), Err)) {
-        Ok(()) => Ok(folder?),
-        Err(words) => Err(RunError::Input(words)),
-    }
+/// The folder of the results, made by rank 0, and the place that all ranks write to until it is whole. **Collective**
+fn claim_folder(options: &RunOptions, session: &Session) -> Result<(Option<ResultFolder>, PathBuf), RunError> {
+    let mut folder = None;
+    let create = || ResultFolder::create(&options.out, options.force).map(|made| place(folder.insert(made)));
+    let place = session.share(create).map_err(RunError::Input)?;
+    Ok((folder, OsString::from_vec(place).into()))
+}
+
+/// The temporary place of a folder, as it is sent.
+fn place(folder: &ResultFolder) -> Vec<u8> {
+    folder.temporary().as_os_str().as_encoded_bytes().to_vec()
 }
 
 /// A run on its way.
@@ -165,6 +186,8 @@ struct Run<'a> {
     session: &'a Session,
     stages: Stages,
     report: Report,
+    /// Where all ranks write their files to.
+    files: PathBuf,
 }
 
 impl Run<'_> {
@@ -172,7 +195,7 @@ impl Run<'_> {
     fn set_up(&self) -> Result<Discretisation, RunError> {
         let (scene, spaces) = {
             let _stage = self.stages.mesh.enter();
-            let mesh = self.session.agree(scene::read_mesh(self.case)).map_err(RunError::Input)?;
+            let mesh = input::read_mesh(self.case, self.options.inputs.as_ref(), self.session)?;
             let scene = scene::spread(self.case, mesh, self.session)?;
             let spaces = spaces(&scene, self.session.rank())?;
             (scene, spaces)

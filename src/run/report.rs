@@ -6,6 +6,7 @@ use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
+use crate::system::recovery::LargestStrain;
 use crate::system::{BoundaryStep, Discretisation, OuterStep, Solution, Verdict};
 use std::io::Write;
 use std::path::Path;
@@ -13,6 +14,9 @@ use std::time::Instant;
 
 /// Poisson's ratio from which P1 triangles are too stiff.
 pub const LOCKING: f64 = 0.45;
+
+/// Above this strain a theory of small strain is off by more than pressures are computed to.
+const SMALL_STRAIN: f64 = 0.05;
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
 pub struct Report {
@@ -67,7 +71,8 @@ impl Report {
     /// A line of warning on standard error, also if the run is quiet.
     pub fn warn(&self, line: &str) {
         if self.first {
-            eprintln!("mezha: warning: {line}");
+            // The run is worth more than the words.
+            let _ = std::io::stderr().write_all(format!("mezha: warning: {line}\n").as_bytes());
         }
     }
 
@@ -81,6 +86,19 @@ impl Report {
                     body.name, body.material.poisson
                 ));
             }
+        }
+    }
+
+    /// Bodies that are strained farther than a theory of small strain goes.
+    pub fn large_strains(&self, problem: &Discretisation, strains: &[LargestStrain]) {
+        for (body, largest) in problem.scene.bodies.iter().zip(strains).filter(|(_, largest)| largest.strain > SMALL_STRAIN) {
+            self.warn(&format!(
+                "body {} is strained by {:.0} % near ({}, {}): the model is that of small strain, and is off by as much as that",
+                body.name,
+                100.0 * largest.strain,
+                short(largest.place.x),
+                short(largest.place.y)
+            ));
         }
     }
 
@@ -165,7 +183,9 @@ impl Report {
     pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
         match outcome {
             Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),
-            Outcome::NotConverged if self.first && !self.speaks => eprintln!("mezha: NOT converged: {reason}"),
+            Outcome::NotConverged if self.first && !self.speaks => {
+                let _ = std::io::stderr().write_all(format!("mezha: NOT converged: {reason}\n").as_bytes());
+            }
             Outcome::NotConverged => self.say(&format!("mezha: NOT converged: {reason}")),
         }
         self.say(&format!("results in {}", out.display()));

@@ -3,13 +3,14 @@
 use super::exact::{Errors, compare};
 use super::report::memory;
 use super::solve::Solved;
+use super::unresolved::unresolved_force;
 use super::{Outcome, Run, RunError, fields, summarise, trust};
 use crate::case::Case;
 use crate::contact::GapChoice;
 use crate::geometry::Point;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
-use crate::system::recovery::{TracePoint, balance, nodal_stress, probe, trace_points};
+use crate::system::recovery::{TracePoint, balance, largest_strains, nodal_stress, probe, sliding_errors, trace_points};
 use crate::system::{Contact, Discretisation, Field, Solution, Verdict};
 use std::path::Path;
 
@@ -61,7 +62,9 @@ impl Run<'_> {
         summary.time_s = self.report.times(&self.stages, self.session);
         summary.memory_mib = memory(self.session);
         let finished = folder.map_or(Ok(()), |folder| finish(self.case, &summary, folder));
-        self.session.agree(finished.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
+        let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
+        let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
+        self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
         self.report.table(&summary);
         let outcome = if status == Status::Converged { Outcome::Converged } else { Outcome::NotConverged };
         self.report.verdict(outcome, &reason, &self.options.out);
@@ -75,12 +78,20 @@ impl Run<'_> {
         let u = Field::displacement(problem, &solution.displacement, session)?;
         let balance = balance(problem, solution, &u, session)?;
         summarise::balances(summary, problem, &balance);
+        let sliding = sliding_errors(problem, solution, balance.strain.iter().sum(), session);
+        let strains = largest_strains(problem, &u, session)?;
+        summarise::strains(summary, problem, &strains);
+        self.report.large_strains(problem, &strains);
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
-            summary.contact.insert(contact.pair.name.clone(), summarise::contact(problem, at, solution, &balance, &points));
+            let table = contact_points(contact, &points);
+            let mut entry = summarise::contact(problem, at, solution, &balance, &points);
+            entry.unresolved_force = Some(unresolved_force(contact, &table));
+            summarise::sliding(&mut entry, sliding[at]);
+            summary.contact.insert(contact.pair.name.clone(), entry);
             self.warn_if_apart(contact, &points);
-            traces.push(contact_points(contact, &points));
+            traces.push(table);
         }
         for point in &case.probes {
             let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
@@ -110,14 +121,14 @@ impl Run<'_> {
     /// Traces in files; fields and figures too, unless the case wants none. **Collective**
     fn write_files(&self, problem: &Discretisation, u: &Field<2>, traces: &[Vec<ContactPoint>]) -> Result<(), RunError> {
         let (case, session) = (self.case, self.session);
-        let folder = ResultFolder::temporary_path(&self.options.out);
-        let written = if session.rank() == 0 { write_tables(&folder, problem, traces) } else { Ok(()) };
+        let folder = &self.files;
+        let written = if session.rank() == 0 { write_tables(folder, problem, traces) } else { Ok(()) };
         session.agree(written.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
         if !case.output.fields {
             return Ok(());
         }
         let stress = nodal_stress(problem, u, session)?;
-        let written = fields::write(&folder, problem, u, &stress, session);
+        let written = fields::write(folder, problem, u, &stress, session);
         session.agree(written).map_err(RunError::Failed)?;
         let facets = fields::facets(problem, u, &stress, session);
         if session.rank() != 0 {

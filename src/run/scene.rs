@@ -3,22 +3,27 @@
 use super::RunError;
 use crate::case::Case;
 use crate::geometry::Point;
-use crate::mesh::{Graph, MacroMesh, MeshError, Partition, read_gmsh};
+use crate::mesh::{Graph, MacroMesh, Partition, parse_gmsh, read_bytes};
 use crate::petsc::{Session, partition};
 use crate::system::Scene;
 use std::rc::Rc;
 
-/// Reads the mesh of a case, bends and grades it, and checks that every name of the case is in it.
+/// The bytes of the mesh file of a case.
+///
+/// # Errors
+/// Words with file, key and remedy.
+pub fn read_mesh_file(case: &Case) -> Result<Vec<u8>, String> {
+    read_bytes(&case.mesh.file).map_err(|error| {
+        format!("{}: mesh.file: {error}; name a Gmsh 4.1 file by its path from the case file", case.file.display())
+    })
+}
+
+/// The mesh of a case from the bytes of its file: bends and grades it, and checks that every name of the case is in it.
 ///
 /// # Errors
 /// Words with file, key, value and remedy.
-pub fn read_mesh(case: &Case) -> Result<MacroMesh, String> {
-    let mut mesh = read_gmsh(&case.mesh.file).map_err(|error| match error {
-        MeshError::Unreadable { .. } => {
-            format!("{}: mesh.file: {error}; name a Gmsh 4.1 file by its path from the case file", case.file.display())
-        }
-        error => error.to_string(),
-    })?;
+pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
+    let mut mesh = parse_gmsh(bytes, &case.mesh.file).map_err(|error| error.to_string())?;
     let names = Names { case, mesh: &mesh };
     names.check_bodies()?;
     for (key, boundaries) in names.used() {

@@ -7,7 +7,7 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Balance, TracePoint};
+use crate::system::recovery::{Balance, LargestStrain, SlidingError, TracePoint};
 use crate::system::{BoundaryStep, Contact, Discretisation, Estimate, Solution};
 
 /// What is known without the solution's fields.
@@ -93,6 +93,12 @@ pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balan
         summary::Balance { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
 }
 
+/// The largest strains of the bodies.
+pub fn strains(summary: &mut Summary, problem: &Discretisation, strains: &[LargestStrain]) {
+    let names = problem.scene.bodies.iter().map(|body| body.name.clone());
+    summary.strain_max = names.zip(strains.iter().map(|largest| Some(largest.strain))).collect();
+}
+
 /// One contact; `at` is its place among all.
 pub fn contact(
     problem: &Discretisation,
@@ -121,14 +127,23 @@ pub fn contact(
         closed_edges: closed_edges(contact, &closed),
         closed: Some(closed),
         force: Some(force.force),
+        unresolved_force: None,
         resultant: Some(pair(force.resultants[1])),
         moment: Some(force.moments[1]),
         pressure_max: Some(lambda.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
         oscillation,
         inf_sup,
         trust: None,
+        slip: None,
+        slip_error: None,
         lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
+}
+
+/// What sliding spoils, where a curved contact is modelled on the undeformed bodies.
+pub fn sliding(contact: &mut summary::Contact, found: Option<SlidingError>) {
+    contact.slip = found.map(|found| found.slip);
+    contact.slip_error = found.map(|found| found.force.max(found.pressure));
 }
 
 /// Name of a multiplier space in the case file.

@@ -22,6 +22,18 @@ const MOST_ERROR: f64 = 0.3;
 /// Largest difference of the forces on both bodies, relative: the pressure is off by as much at least.
 const MOST_UNBALANCED: f64 = 0.01;
 
+/// Sliding by less than this share of the length in contact changes no normal.
+const LITTLE_SLIP: f64 = 0.02;
+
+/// Largest error of force and pressure by sliding.
+const MOST_SLIP_ERROR: f64 = 0.01;
+
+/// Largest mean strain of a macro triangle at which a theory of small strain still means something.
+const MOST_STRAIN: f64 = 0.2;
+
+/// Share of the force that penetration within single segments may be worth: more is contact narrower than they are.
+const MOST_UNRESOLVED: f64 = 0.2;
+
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
     figure: String,
@@ -37,6 +49,8 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Option<Stri
         let mut doubts = stability_doubts(contact, pair, case);
         if converged {
             doubts.extend(size_doubts(summary, contact, &pair.name));
+            doubts.extend(slip_doubt(contact));
+            doubts.extend(strain_doubts(summary));
         }
         let known = contact.inf_sup.is_some() || contact.oscillation.is_some();
         let trust = if doubts.is_empty() && converged { known.then_some(true) } else { Some(false) };
@@ -74,6 +88,9 @@ fn size_doubts(summary: &Summary, contact: &summary::Contact, name: &str) -> Vec
     let mut doubts = Vec::new();
     let narrow = contact.closed_edges.filter(|edges| *edges < if ends_inside(contact) { LEAST_EDGES } else { 1.0 });
     doubts.extend(narrow.map(|edges| (format!("contact {edges:.1} edges wide, at least {LEAST_EDGES} wanted"), finer)));
+    let unresolved = contact.unresolved_force.filter(|off| *off > MOST_UNRESOLVED * contact.force.unwrap_or(0.0).abs());
+    let words = |off| format!("the bodies penetrate each other within segments, worth a force of {}", short(off));
+    doubts.extend(unresolved.map(|off| (words(off), "take more segments, and refine the mesh where contact is")));
     let estimate = &summary.estimate;
     let errors = [("of λ", estimate.contact.get(name).and_then(|own| own.lambda)), ("in the energy norm", estimate.energy)];
     for (what, error) in errors {
@@ -84,6 +101,30 @@ fn size_doubts(summary: &Summary, contact: &summary::Contact, name: &str) -> Vec
     let words = |off| format!("forces on the two bodies differ by {}, at most {MOST_UNBALANCED} wanted", short(off));
     doubts.extend(off.map(|off| (words(off), "see lost_points: the bodies must face each other all along the boundary")));
     doubts.into_iter().map(|(figure, remedy)| Doubt { figure, remedy }).collect()
+}
+
+/// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.
+fn slip_doubt(contact: &summary::Contact) -> Option<Doubt> {
+    let (slip, error) = (contact.slip?, contact.slip_error?);
+    (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR).then(|| Doubt {
+        figure: format!(
+            "the bodies slide along each other by {} of the length in contact, which changes pressures by about {}",
+            short(slip),
+            short(error)
+        ),
+        remedy: "take configuration = \"deformed\"",
+    })
+}
+
+/// What tells that bodies are strained beyond a theory of small strain.
+fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
+    let large =
+        summary.strain_max.iter().filter_map(|(body, strain)| Some((body, strain.filter(|strain| *strain > MOST_STRAIN)?)));
+    let words = |(body, strain): (&String, f64)| {
+        format!("body {body} strained by {:.0} %, at most {:.0} % wanted", 100.0 * strain, 100.0 * MOST_STRAIN)
+    };
+    let remedy = "press less, or correct the units of E, loads and displacements: the model is that of small strain";
+    large.map(|found| Doubt { figure: words(found), remedy }).collect()
 }
 
 /// Whether contact ends between the ends of its boundary.
@@ -130,6 +171,9 @@ mod tests {
         let worse = |summary: &mut Summary| summary.estimate.contact.get_mut("seam").expect("there").lambda = Some(0.9);
         assert!(words(|summary, _| worse(summary)).contains("of λ 0.90"));
         assert!(words(|summary, _| summary.balance.force = Some(1.0)).contains("differ by 1.00"));
+        let within = |force: f64, off: f64| words(|_, contact| (contact.force, contact.unresolved_force) = (Some(force), Some(off)));
+        assert_eq!((within(5.4, 0.2), within(0.0, 0.0)), (String::new(), String::new()));
+        assert!(within(5.4, 4.2).contains("worth a force of 4.20") && within(0.0, 4.2).contains("within segments"));
     }
 
     #[test]

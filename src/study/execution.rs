@@ -10,6 +10,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::{available_parallelism, sleep};
 use std::time::{Duration, Instant};
 
+use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
 
 use super::ended::{Ended, Status};
@@ -17,6 +18,7 @@ use super::folder::{Folder, read_summary, result_name};
 use super::machine::machine;
 use super::plan::PlannedRun;
 use super::record::Program;
+use crate::case::Inputs;
 use crate::output::OutputError;
 
 /// How often it is asked whether a run has ended.
@@ -41,15 +43,16 @@ impl<'a> Execution<'a> {
         Self { program, folder, timeout, cores: cores(), machine: machine() }
     }
 
-    /// Makes a run, with its result under this number. What it says on standard error stays beside the result.
+    /// Makes a run of these inputs, with its result under this number; one that finds others fails. What it says on standard error
+    /// stays beside the result.
     ///
     /// # Errors
     /// The disk refuses; a run that fails is no error.
-    pub fn execute(&self, run: &PlannedRun, number: usize) -> Result<Ended, OutputError> {
+    pub fn execute(&self, run: &PlannedRun, inputs: &Inputs, number: usize) -> Result<Ended, OutputError> {
         let result = self.folder.result(number);
         let said = result.with_extension("stderr");
         let errors = File::create(&said).map_err(OutputError::io("write", &said))?;
-        let mut command = self.command(run, &result);
+        let mut command = self.command(run, inputs, &result);
         // The lock is an empty file: a run that outlives this program holds it.
         let nothing = self.folder.lock().map_or_else(Stdio::null, Stdio::from);
         command.stdin(nothing).stdout(Stdio::null()).stderr(errors);
@@ -60,8 +63,10 @@ impl<'a> Execution<'a> {
         if text.is_empty() {
             fs::remove_file(&said).map_err(OutputError::io("remove", &said))?;
         }
-        let summary = read_summary(&result);
+        let change = self.program.change();
+        let summary = if change.is_none() { read_summary(&result) } else { Value::Null };
         let (status, reason) = match ending {
+            _ if change.is_some() => (Status::Failed, change.unwrap_or_default()),
             Ok(Some(ending)) => {
                 let (status, reason) = judge(ending, &summary, &String::from_utf8_lossy(&text));
                 let file = format!("{}: ", run.file.display());
@@ -75,7 +80,7 @@ impl<'a> Execution<'a> {
     }
 
     /// `mezha run`, under mpirun if there are several ranks. More ranks than cores share them: those that wait give way.
-    fn command(&self, run: &PlannedRun, result: &Path) -> Command {
+    fn command(&self, run: &PlannedRun, inputs: &Inputs, result: &Path) -> Command {
         let mut command = if run.ranks == 1 {
             Command::new(&self.program.path)
         } else {
@@ -89,7 +94,7 @@ impl<'a> Execution<'a> {
         };
         let words =
             [OsString::from("run"), run.file.clone().into(), "--out".into(), result.into(), "--force".into(), "--quiet".into()];
-        command.args(words).args(run.overrides.iter().flat_map(|text| ["--set", text]));
+        command.args(words).args(["--inputs", &inputs.word()]).args(run.overrides.iter().flat_map(|text| ["--set", text]));
         command
     }
 }
@@ -106,7 +111,7 @@ fn wait(mut child: Child, timeout: Duration) -> io::Result<Option<ExitStatus>> {
         return Ok(Some(status));
     }
     // The polite signal first: mpirun passes it on to the ranks.
-    let asked = Command::new("kill").arg(child.id().to_string()).stderr(Stdio::null()).status();
+    let asked = kill_process(Pid::from_child(&child), Signal::TERM);
     if asked.is_err() || wait_for(&mut child, GRACE)?.is_none() {
         child.kill()?;
         child.wait()?;

@@ -10,6 +10,7 @@ use serde_json::Value;
 use super::StudyError;
 use super::ended::Ended;
 use super::record::{Identity, Record};
+use crate::case::Inputs;
 use crate::output::OutputError;
 
 /// What a whole study leaves, but for the runs.
@@ -43,6 +44,8 @@ pub struct Wanted {
     pub identity: Identity,
     /// The same in words.
     pub what: String,
+    /// What of it the run has to find again.
+    pub inputs: Inputs,
 }
 
 impl Folder {
@@ -142,7 +145,13 @@ impl Folder {
     /// The operating system refuses.
     pub fn clear(&self, number: usize) -> Result<(), OutputError> {
         let result = self.result(number);
-        [result.with_extension("json"), result.with_extension("stderr"), result].iter().try_for_each(|path| remove_if_there(path))
+        [result.with_extension("json"), result.with_extension("stderr"), result]
+            .iter()
+            .try_for_each(|path| remove_if_there(path))?;
+        // All that live in the folder have locked it: what is half done is of nobody.
+        let hidden = |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+        let left = numbered(&self.out.join(RUNS))?.into_iter().filter(|(other, path)| *other == number && hidden(path));
+        left.map(|(_, path)| path).try_for_each(|path| remove_if_there(&path))
     }
 
     /// Removes the tables and figures: what they say is about to change.

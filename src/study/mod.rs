@@ -25,9 +25,9 @@ use crate::output::OutputError;
 use ended::Ended;
 use execution::Execution;
 use folder::{Folder, Place, Wanted};
-use plan::Plan;
+use plan::{Plan, PlannedRun};
 use progress::Progress;
-use record::{Program, Record, what};
+use record::{Program, Record, inputs, what};
 use repeats::with_spreads;
 use table::Table;
 
@@ -66,7 +66,11 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     let plan = Plan::read(file, overrides)?;
     let program = Program::this()?;
     let folder = Folder::open(out, &plan.name, force)?;
-    let wanted: Vec<Wanted> = plan.runs.iter().map(|run| Wanted { identity: program.identity(run), what: what(run) }).collect();
+    let want = |run: &PlannedRun| {
+        let inputs = inputs(run);
+        Wanted { identity: program.identity(run, &inputs), what: what(run), inputs }
+    };
+    let wanted: Vec<Wanted> = plan.runs.iter().map(want).collect();
     let places = folder.places(&wanted, plan.timeout);
     let progress = Progress::start(&plan, &places);
     let results = make(&plan, &program, &folder, &wanted, places, &progress)?;
@@ -106,7 +110,7 @@ fn make(
             None => {
                 folder.clear(place.number)?;
                 progress.begin(index, planned);
-                let ended = execution.execute(planned, place.number)?;
+                let ended = execution.execute(planned, &wanted[index].inputs, place.number)?;
                 progress.ended(&ended);
                 let record = Record::new(&plan.name, planned, &wanted[index].identity, plan.timeout, &ended);
                 folder.keep(place.number, &record)?;

@@ -1,6 +1,8 @@
 //! What a finished run was made of, so that another call knows it again.
 
+use std::env::var_os;
 use std::fs;
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -9,7 +11,7 @@ use serde_json::Value;
 
 use super::ended::{Ended, Status};
 use super::plan::PlannedRun;
-use crate::case::Case;
+use crate::case::{Case, Inputs, fingerprint};
 use crate::output::OutputError;
 
 /// Everything that a run depends on: two runs with the same identity are the same run.
@@ -49,13 +51,18 @@ pub struct Record {
     pub machine: String,
 }
 
-/// The program that makes the runs: this one.
+/// The program that makes the runs, this one, and what PETSc reads for each of them.
 #[derive(Clone, Debug)]
 pub struct Program {
     /// Where it is.
     pub path: PathBuf,
     fingerprint: String,
+    file: FileState,
+    options: String,
 }
+
+/// What tells a file from the one that replaces it: device, inode, length, time of the last change.
+type FileState = Option<[i64; 5]>;
 
 impl Program {
     /// This program.
@@ -65,17 +72,24 @@ impl Program {
     pub fn this() -> Result<Self, OutputError> {
         let path = std::env::current_exe().map_err(OutputError::io("find", Path::new("mezha")))?;
         let bytes = fs::read(&path).map_err(OutputError::io("read", &path))?;
-        Ok(Self { path, fingerprint: fingerprint(&[&bytes]) })
+        Ok(Self { fingerprint: fingerprint(&[&bytes]), file: file_state(&path), options: petsc_options(), path })
     }
 
-    /// What a run of this program is made of.
-    pub fn identity(&self, run: &PlannedRun) -> Identity {
-        let case = fs::read(&run.file).unwrap_or_default();
-        let mesh = Case::read(&run.file, &run.overrides).ok().and_then(|case| fs::read(case.mesh.file).ok()).unwrap_or_default();
+    /// Why runs are no longer made by the program that has begun the study, or with its options; None if they are.
+    pub fn change(&self) -> Option<String> {
+        if file_state(&self.path) != self.file {
+            return Some(format!("{} was replaced after the study had begun; make the study again", self.path.display()));
+        }
+        let words = "an options file of PETSc (.petscrc) was changed after the study had begun; make the study again";
+        (petsc_options() != self.options).then(|| words.into())
+    }
+
+    /// What a run of this program is made of, with these inputs.
+    pub fn identity(&self, run: &PlannedRun, inputs: &Inputs) -> Identity {
         let mut overrides = run.overrides.clone();
         overrides.sort();
-        let options = std::env::var("PETSC_OPTIONS").unwrap_or_default();
-        let input = fingerprint(&[&case, overrides.join("\n").as_bytes(), &mesh, options.as_bytes()]);
+        let overrides = overrides.join("\n");
+        let input = fingerprint(&[&inputs.case, &overrides, &inputs.mesh, &self.options].map(|text| text.as_bytes()));
         let mezha = env!("CARGO_PKG_VERSION").into();
         Identity { mezha, program: self.fingerprint.clone(), input, ranks: run.ranks, repeat: run.repeat }
     }
@@ -117,18 +131,31 @@ impl Record {
     }
 }
 
+/// What the case file and the mesh of a run are now. The run itself compares it with what it reads.
+pub fn inputs(run: &PlannedRun) -> Inputs {
+    let case = fs::read(&run.file).unwrap_or_default();
+    let text = String::from_utf8(case.clone()).ok();
+    let parsed = text.and_then(|text| Case::parse(&text, &run.file, &run.overrides).ok());
+    Inputs::of(&case, &parsed.and_then(|case| fs::read(case.mesh.file).ok()).unwrap_or_default())
+}
+
+/// Fingerprint of what PETSc reads for every run: two variables of the environment, and files of options.
+fn petsc_options() -> String {
+    let variables = ["PETSC_OPTIONS", "PETSC_OPTIONS_YAML"].map(|name| var_os(name).unwrap_or_default().into_encoded_bytes());
+    let files = [PathBuf::from(var_os("HOME").unwrap_or_default()).join(".petscrc"), ".petscrc".into(), "petscrc".into()];
+    let files = files.map(|file| fs::read(file).unwrap_or_default());
+    fingerprint(&variables.iter().chain(&files).map(Vec::as_slice).collect::<Vec<_>>())
+}
+
+fn file_state(path: &Path) -> FileState {
+    let data = fs::metadata(path).ok()?;
+    Some([data.dev() as i64, data.ino() as i64, data.len() as i64, data.mtime(), data.mtime_nsec()])
+}
+
 /// Case file and overrides, in words.
 pub fn what(run: &PlannedRun) -> String {
     let overrides = run.overrides.iter().map(|text| format!(" --set {text}"));
     format!("{}{}", run.file.display(), overrides.collect::<String>())
-}
-
-/// The 64-bit hash of Fowler, Noll and Vo (FNV-1a) of some texts and their lengths, in hexadecimal digits.
-fn fingerprint(texts: &[&[u8]]) -> String {
-    let lengths: Vec<[u8; 8]> = texts.iter().map(|text| (text.len() as u64).to_le_bytes()).collect();
-    let bytes = lengths.iter().flatten().chain(texts.iter().copied().flatten());
-    let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-    format!("{hash:016x}")
 }
 
 #[cfg(test)]
@@ -157,32 +184,42 @@ mod tests {
         write("case.toml", case);
         write("a.msh", "a mesh");
         write("b.msh", "another mesh");
-        let program = Program { path: PathBuf::new(), fingerprint: "a".into() };
+        let program = Program { path: PathBuf::new(), fingerprint: "a".into(), file: None, options: String::new() };
+        let identity = |run: &PlannedRun| program.identity(run, &inputs(run));
         let plain = run(folder.path(), &["mesh.refine=1", "mesh.order=2"]);
-        let first = program.identity(&plain);
-        assert_eq!(program.identity(&PlannedRun { curve: Some("renamed".into()), ..plain.clone() }), first);
-        assert_eq!(program.identity(&run(folder.path(), &["mesh.order=2", "mesh.refine=1"])), first, "another order");
+        let first = identity(&plain);
+        assert_eq!(identity(&PlannedRun { curve: Some("renamed".into()), ..plain.clone() }), first);
+        assert_eq!(identity(&run(folder.path(), &["mesh.order=2", "mesh.refine=1"])), first, "another order");
         let others = [
-            program.identity(&run(folder.path(), &["mesh.refine=2", "mesh.order=2"])),
-            program.identity(&run(folder.path(), &["mesh.refine=1", "mesh.order=2", "mesh.file=\"b.msh\""])),
-            program.identity(&PlannedRun { ranks: 2, ..plain.clone() }),
-            program.identity(&PlannedRun { repeat: 2, ..plain.clone() }),
-            Program { fingerprint: "b".into(), ..program.clone() }.identity(&plain),
+            identity(&run(folder.path(), &["mesh.refine=2", "mesh.order=2"])),
+            identity(&run(folder.path(), &["mesh.refine=1", "mesh.order=2", "mesh.file=\"b.msh\""])),
+            identity(&PlannedRun { ranks: 2, ..plain.clone() }),
+            identity(&PlannedRun { repeat: 2, ..plain.clone() }),
+            Program { fingerprint: "b".into(), ..program.clone() }.identity(&plain, &inputs(&plain)),
+            Program { options: "-ksp_view".into(), ..program.clone() }.identity(&plain, &inputs(&plain)),
         ];
         assert!(others.iter().all(|other| *other != first));
         write("a.msh", "a mesh, corrected");
-        assert_ne!(program.identity(&plain), first);
+        assert_ne!(identity(&plain), first);
         write("a.msh", "a mesh");
-        assert_eq!(program.identity(&plain), first);
+        assert_eq!(identity(&plain), first);
         write("case.toml", &case.replace("0.3", "0.2"));
-        assert_ne!(program.identity(&plain), first);
+        assert_ne!(identity(&plain), first);
     }
 
     #[test]
-    fn fingerprints_tell_texts_apart() {
-        assert_eq!(fingerprint(&[]), "cbf29ce484222325");
-        assert_ne!(fingerprint(&[b"ab", b"c"]), fingerprint(&[b"a", b"bc"]));
-        assert_ne!(fingerprint(&[b""]), fingerprint(&[b"", b""]));
+    fn a_program_that_is_replaced_is_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mezha");
+        fs::write(&path, "one").unwrap();
+        let program =
+            Program { file: file_state(&path), path: path.clone(), fingerprint: String::new(), options: petsc_options() };
+        assert_eq!(program.change(), None);
+        fs::write(folder.path().join("new"), "two").unwrap();
+        fs::rename(folder.path().join("new"), &path).unwrap();
+        assert!(program.change().unwrap().contains("was replaced after the study had begun"));
+        let program = Program { file: file_state(&path), options: String::new(), ..program };
+        assert!(program.change().unwrap().contains(".petscrc"));
     }
 
     #[test]

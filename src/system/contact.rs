@@ -2,8 +2,9 @@
 
 use super::{Scene, SystemError};
 use crate::contact::{
-    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, GapChoice, Jump, Known, MultiplierSpace,
-    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, Facing, GapChoice, Jump, Known,
+    MultiplierSpace, Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_edge_lengths,
+    segment_ratio,
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};
@@ -47,10 +48,13 @@ impl Contact {
     /// Places every contact of the scene on the finest level, on the undeformed bodies.
     ///
     /// # Errors
-    /// [`SystemError::Case`] if a boundary cannot be placed.
+    /// [`SystemError::Case`] if a boundary cannot be placed, the boundaries of a contact do not face each other, or two contacts
+    /// claim the same place.
     pub fn all(scene: &Scene, numbering: &Numbering, rank: usize) -> Result<Vec<Self>, SystemError> {
         let nothing = vec![Known::default(); scene.pairs.len()];
-        Self::all_again(scene, numbering, rank, &nothing, &|_| Point::zeros())
+        let contacts = Self::all_again(scene, numbering, rank, &nothing, &|_| Point::zeros())?;
+        check_facing(scene, numbering, &contacts)?;
+        Ok(contacts)
     }
 
     /// Places every contact again, by what is `known` of each, on bodies moved by `displacement`.
@@ -183,6 +187,19 @@ impl Contact {
         };
         self.boundary.knots().windows(2).map(owner).collect()
     }
+}
+
+/// The boundaries of every contact must face each other, and no two contacts claim the same place.
+fn check_facing(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Result<(), SystemError> {
+    let words = |contact: &Contact, words: String| SystemError::Case(format!("contact.{}: {words}", contact.pair.name));
+    let all: Vec<Facing> =
+        contacts.iter().map(|contact| Facing::new(&scene.mesh, numbering, &contact.pair, &contact.boundary)).collect();
+    for (at, facing) in all.iter().enumerate() {
+        facing.check(&scene.mesh).map_err(|why| words(&contacts[at], why))?;
+        let clash = all[..at].iter().find_map(|other| facing.clash(other));
+        clash.map_or(Ok(()), |why| Err(words(&contacts[at], why)))?;
+    }
+    Ok(())
 }
 
 /// `D` of all contacts, numbered through.

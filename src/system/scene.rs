@@ -3,6 +3,7 @@
 use crate::body::{Body, Load, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneStrain};
+use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Partition};
 use std::rc::Rc;
 
@@ -32,12 +33,9 @@ impl Scene {
         self.bodies.iter().map(|body| body.material.law()).collect()
     }
 
-    /// Middle and half size of each body.
+    /// Middle and half size of each piece of the bodies.
     pub fn extents(&self) -> Vec<Extent> {
-        let extent = |body| {
-            let [low, high] = self.mesh.bounds(body);
-            Extent { middle: 0.5 * (low + high), radius: 0.5 * (high - low).norm() }
-        };
-        (0..self.bodies.len()).map(extent).collect()
+        let extent = |[low, high]: [Point; 2]| Extent { middle: 0.5 * (low + high), radius: 0.5 * (high - low).norm() };
+        self.mesh.bounds().into_iter().map(extent).collect()
     }
 }

@@ -21,6 +21,8 @@ fn main() -> std::process::ExitCode {
             versions_are_known,
             ranks_tell_each_other,
             ranks_agree,
+            ranks_share_what_the_first_has,
+            ranks_meet,
             vector_algebra,
             vector_adds_across_ranks,
             gather_fetches_any_entry,
@@ -37,8 +39,15 @@ fn main() -> std::process::ExitCode {
             partition_is_balanced_and_cheap,
             stages_add_up,
         ],
-        outside: named![a_panic_ends_all_ranks, a_leak_is_listed, a_second_start_is_an_error, a_session_needs_no_mpirun,],
-        scenarios: named![panic_on_the_last_rank, leak_a_solver, start_twice, solve_alone],
+        outside: named![
+            a_panic_ends_all_ranks,
+            a_rank_alone_gives_up,
+            an_error_beside_a_factor_ends_all_ranks,
+            a_leak_is_listed,
+            a_second_start_is_an_error,
+            a_session_needs_no_mpirun,
+        ],
+        scenarios: named![panic_on_the_last_rank, meet_nobody, fail_beside_a_factor, leak_a_solver, start_twice, solve_alone],
     }
     .run()
 }
@@ -108,6 +117,24 @@ fn ranks_agree(session: &Session) {
         (_, rank) => Err(format!("no luck on {rank}")),
     };
     assert_eq!(session.agree(here), expected);
+}
+
+fn ranks_share_what_the_first_has(session: &Session) {
+    for length in [0, 1, 100_000] {
+        let own: Vec<u8> = (0..length).map(|i| (i % 251) as u8).collect();
+        let read = || if session.rank() == 0 { Ok::<_, String>(own.clone()) } else { panic!("only rank 0 reads") };
+        assert_eq!(session.share(read), Ok(own.clone()));
+    }
+    assert_eq!(session.share(|| Err("no such file")), Err("no such file".to_string()), "the same words on every rank");
+}
+
+/// A rank that nobody joins does not wait for ever; one that is late is waited for.
+fn ranks_meet(session: &Session) {
+    let late = session.rank() + 1 == session.size();
+    if late {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    assert!(session.meet(Duration::from_secs(60)));
 }
 
 fn vector_algebra(session: &Session) {
@@ -506,6 +533,23 @@ fn a_panic_ends_all_ranks() {
 fn panic_on_the_last_rank() {
     let session = Session::start(&[], &[]).unwrap();
     assert!(session.rank() + 1 < session.size(), "a rank lost its way");
+    session.barrier();
+}
+
+fn a_rank_alone_gives_up() {
+    for ranks in 2..=3 {
+        let ended = mpirun(ranks, Some("meet_nobody"), &[], "");
+        assert_eq!(ended.code, Some(7), "{}", ended.errors);
+    }
+}
+
+/// Rank 0 waits in another call.
+fn meet_nobody() {
+    let session = Session::start(&[], &[]).unwrap();
+    if session.rank() > 0 {
+        assert!(!session.meet(Duration::from_millis(200)));
+        session.abort(7);
+    }
     session.barrier();
 }
 

@@ -197,6 +197,14 @@ pub fn difference(a: &[f64], b: &[f64]) -> f64 {
 /// # Panics
 /// If it takes too long.
 pub fn mezha<S: AsRef<str>>(ranks: Option<usize>, words: &[S]) -> (Option<i32>, String, String) {
+    mezha_in(Path::new("."), ranks, words)
+}
+
+/// Runs mezha in a folder with these words, under `mpirun` unless `ranks` is `None`: exit code, standard output, standard error.
+///
+/// # Panics
+/// If it takes too long.
+pub fn mezha_in<S: AsRef<str>>(folder: &Path, ranks: Option<usize>, words: &[S]) -> (Option<i32>, String, String) {
     let mut command = Command::new("mpirun");
     match ranks {
         Some(ranks) => {
@@ -207,6 +215,6 @@ pub fn mezha<S: AsRef<str>>(ranks: Option<usize>, words: &[S]) -> (Option<i32>, 
             &mut command
         }
     };
-    command.args(words.iter().map(S::as_ref)).env("PETSC_OPTIONS", "");
+    command.args(words.iter().map(S::as_ref)).env("PETSC_OPTIONS", "").current_dir(folder);
     process::finish(command)
 }

@@ -1,12 +1,13 @@
 //! A command run to its end, with both its outputs, and not for ever.
 
+use rustix::process::{Pid, Signal, kill_process};
 use std::io::Read;
 use std::process::{Child, Command, Stdio};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// The longest that a command may take.
-pub const PATIENCE: Duration = Duration::from_secs(120);
+pub const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Root may run `mpirun`; ranks that wait leave the processor to others.
 pub const ENVIRONMENT: [(&str, &str); 5] = [
@@ -54,7 +55,7 @@ fn wait(child: &mut Child) -> Option<i32> {
         std::thread::sleep(Duration::from_millis(5));
     }
     // The polite signal: mpirun passes it on to the ranks.
-    Command::new("kill").arg(child.id().to_string()).status().expect("kill runs");
+    kill_process(Pid::from_child(child), Signal::TERM).expect("a child can be told to end");
     child.wait().expect("a child can be waited for");
     None
 }

@@ -7,7 +7,7 @@ const HOUR: Duration = Duration::from_secs(3600);
 
 fn wanted(what: &str, input: &str) -> Wanted {
     let identity = Identity { mezha: "1".into(), program: "2".into(), input: input.into(), ranks: 1, repeat: 1 };
-    Wanted { identity, what: what.into() }
+    Wanted { identity, what: what.into(), inputs: Inputs::of(b"", b"") }
 }
 
 /// Leaves a run behind that has converged, or a record that says so without a result.
@@ -86,8 +86,11 @@ fn a_run_that_has_changed_takes_the_place_of_its_older_self() {
         "same input, other words: the same run"
     );
     assert_eq!(said(&made.places(&[wanted("b", "2"), wanted("c", "3")], HOUR)), "2a 3n", "the place of a is kept for it");
+    let left = |number: usize| folder.path().join(format!("runs/.{number:03}.elsewhere-7-00000001.partial"));
+    [1, 2].into_iter().for_each(|number| fs::create_dir(left(number)).unwrap());
     made.clear(2).unwrap();
     assert!(!made.result(2).exists() && made.result(1).exists());
+    assert!(!left(2).exists() && left(1).exists(), "what a run of another host has left goes with its result");
     drop(made);
     let made = Folder::open(folder.path(), "bars", false).unwrap();
     assert_eq!(said(&made.places(&[wanted("b", "1")], HOUR)), "1k");

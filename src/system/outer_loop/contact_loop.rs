@@ -1,10 +1,13 @@
 //! The loop over active sets.
 
-use crate::contact::{ActiveSet, SegmentRule, Step, tidy};
+use super::contact_state::{ContactState, pressures};
+use super::first_set::first_set;
+use super::unsettled::going_on;
+use crate::contact::{ActiveSet, Step};
 use crate::petsc::{Session, Vector};
 use crate::system::{
-    Contact, Discretisation, Ending, LinearSolver, SaddlePoint, Solution, Space, SystemError, Tolerance, Verdict, few_that_hold,
-    not_held, rigid_start,
+    Discretisation, Ending, LinearSolver, SaddlePoint, Solution, Space, SystemError, Tolerance, Verdict, few_that_hold, not_held,
+    rigid_start,
 };
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
@@ -14,10 +17,25 @@ const LOOSE: f64 = 1e-4;
 const FROM_START: f64 = 2e-4;
 
 /// Relative residual that is small enough for any discretisation error.
-const LEAST: f64 = 1e-10;
+const SMALL: f64 = 1e-10;
+
+/// Relative residual that no solve goes below.
+const LEAST: f64 = 1e-13;
+
+/// How much smaller a residual is asked for if the contact conditions are not met.
+const FURTHER: f64 = 1e-2;
+
+/// What helps where they cannot be met.
+const NOT_MET: &str = "rounding allows no better; take fewer segments, or a mesh whose bodies are less slender or less unlike in stiffness";
+
+/// Active sets tried by the plain rule at most; from then on they are those of rising energy.
+const MOST_PLAIN: usize = 12;
 
 /// Active sets tried at most.
-const MOST_SETS: usize = 60;
+const MOST_SETS: usize = 120;
+
+/// Relative residual of the solves by which sets of rising energy are told, if the tolerance asks for no less.
+const TELLING: f64 = 1e-8;
 
 /// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
 const LEAST_SHARE: f64 = 1e-8;
@@ -56,8 +74,29 @@ enum Next {
     End(Verdict),
     /// It solves again to the final tolerance.
     Tighten,
+    /// It solves to a smaller residual than the tolerance: the contact conditions ask for it.
+    Further,
+    /// It solves again, and goes over to sets of rising energy.
+    Ascend,
     /// It solves again.
     Go,
+}
+
+/// What the next step is judged by.
+struct Judged<'a> {
+    outcome: Step,
+    /// The body that the new set lets go, in words.
+    lost: Option<String>,
+    ending: Ending,
+    /// Relative residual that the last solve is to reach.
+    residual: f64,
+    /// Whether the solve was less exact than the last one is to be.
+    loose: bool,
+    /// Solves made.
+    passes: usize,
+    /// The set that was solved for.
+    active: &'a [bool],
+    state: &'a ContactState,
 }
 
 /// What a solve begins with.
@@ -102,6 +141,8 @@ impl ContactLoop<'_> {
         if let Some(start) = start {
             self.begin(system, &mut x, &start);
             before.copy_from_slice(&x.values()[..self.finest().local_unknowns()]);
+        } else if let Some(first) = first_set(self.problem, system, self.session) {
+            set.start_from(&first);
         }
         if !set.active().iter().all(|&active| active) {
             system.activate(self.problem, set.active())?;
@@ -109,7 +150,7 @@ impl ContactLoop<'_> {
             self.release(system, &mut x, set.active());
         }
         let share = self.share(system, set.active())?;
-        let tolerance = share * self.last_residual(system, &x, set.active())?;
+        let mut tolerance = share * self.last_residual(system, &x, set.active())?;
         let mut goal = if set.may_change() { tolerance.max(share * LOOSE) } else { tolerance };
         let (mut steps, mut kept) = (Vec::new(), 0);
         loop {
@@ -118,11 +159,10 @@ impl ContactLoop<'_> {
             let b = system.right_hand_side(&active, self.finest())?;
             let residual = self.goal(goal, tolerance, system, &b, &x)?;
             let solve = solver.solve(system, &b, &mut x, residual)?;
-            let lambda = self.pressures(system, &x);
-            let penetration = self.penetration(system, &x, &lambda);
+            let state = ContactState::new(self.problem, system, &x, &active, self.session);
             let (outcome, lost) = match solve.ending {
                 Ending::Failed(_) => (Step::Settled, None),
-                _ => self.next_set(set, |i| self.force(i, &active, &lambda, &penetration), &mut kept),
+                _ => self.next_set(set, &state, &mut kept),
             };
             let (added, released) = if let Step::Changed { added, released } = outcome { (added, released) } else { (0, 0) };
             let step = OuterStep {
@@ -133,18 +173,29 @@ impl ContactLoop<'_> {
                 released,
                 krylov_iterations: solve.iterations,
                 residual: solve.residual / share,
-                max_penetration: self.largest_penetration(&penetration),
+                max_penetration: state.largest_penetration(self.problem),
                 du: self.change(&x, &mut before),
                 climbed: solve.climbed,
             };
             report(&step);
             steps.push(step);
-            match self.judge(outcome, lost, solve.ending, goal > tolerance, steps.len(), set) {
+            let loose = goal > tolerance;
+            let (ending, residual) = (solve.ending, tolerance / share);
+            let pass = Judged { outcome, lost, ending, residual, loose, passes: steps.len(), active: &active, state: &state };
+            match self.judge(pass, set) {
                 Next::End(verdict) => return self.finish(system, &x, active, share, steps, verdict),
                 Next::Tighten => {
                     // Sets that inexact solves led to prove no cycle.
                     goal = tolerance;
                     set.forget();
+                }
+                Next::Further => {
+                    tolerance = (FURTHER * tolerance).max(share * LEAST);
+                    goal = tolerance;
+                }
+                Next::Ascend => {
+                    goal = tolerance.min(share * TELLING);
+                    set.begin_ascent();
                 }
                 Next::Go => {}
             }
@@ -179,7 +230,7 @@ impl ContactLoop<'_> {
                 let b = system.right_hand_side(active, self.finest())?;
                 let mut r = b.duplicate()?;
                 system.nest.residual(&b, x, &mut r)?;
-                Ok((FROM_START * r.norm()? / b.norm()?).clamp(LEAST, LOOSE))
+                Ok((FROM_START * r.norm()? / b.norm()?).clamp(SMALL, LOOSE))
             }
         }
     }
@@ -215,10 +266,11 @@ impl ContactLoop<'_> {
     /// The set that follows from the forces. One that lets a body go may do so only because contact was closed where it is
     /// to open, and pulled: the few multipliers that are pulled least, and hold all, stay closed then, so that the rest
     /// comes to rest on them. If that has been tried, the words for the body.
-    fn next_set(&self, set: &mut ActiveSet, force: impl Fn(usize) -> f64, kept: &mut usize) -> (Step, Option<String>) {
+    fn next_set(&self, set: &mut ActiveSet, state: &ContactState, kept: &mut usize) -> (Step, Option<String>) {
         let active = set.active().to_vec();
-        let outcome = set.update(&force);
-        let lost = if outcome == Step::Settled { None } else { not_held(self.problem, set.active()) };
+        let force = |i: usize| state.force(i);
+        let outcome = if set.ascends() { set.ascend(&state.found()) } else { set.update(force) };
+        let lost = not_held(self.problem, set.active());
         if lost.is_none() || *kept == MOST_KEPT || !matches!(outcome, Step::Changed { .. }) {
             return (outcome, lost);
         }
@@ -230,20 +282,29 @@ impl ContactLoop<'_> {
         (Step::Changed { added: changed(true), released: changed(false) }, None)
     }
 
-    /// What follows from a solve and the set it leads to; `lost` is the body that this set lets go, in words.
-    fn judge(&self, outcome: Step, lost: Option<String>, ending: Ending, loose: bool, passes: usize, set: &ActiveSet) -> Next {
+    /// What follows from a pass.
+    fn judge(&self, pass: Judged, set: &ActiveSet) -> Next {
+        let Judged { outcome, lost, ending, residual, loose, passes, active, state } = pass;
+        let repeated = outcome == Step::Repeated;
         match (outcome, ending) {
             (_, Ending::Failed(words)) => Next::End(Verdict::NotConverged(words)),
+            // A set that a coarser mesh or another boundary has left may hold less here.
+            (Step::Settled, _) if lost.is_some() => Next::End(Verdict::NotConverged(lost.unwrap_or_default())),
             (Step::Settled, _) if loose => Next::Tighten,
-            (Step::Settled, Ending::Rounding(words)) => Next::End(Verdict::Converged(words)),
-            (Step::Settled, Ending::Converged) => Next::End(Verdict::Converged(settled(set))),
-            (Step::Repeated(flipping), _) if !loose => Next::End(Verdict::NotConverged(self.cycle(&flipping))),
-            (outcome, _) => match lost {
+            (Step::Settled, ending) => match (state.violated(self.problem, active, residual), ending) {
+                (Some(_), Ending::Converged) if residual > LEAST => Next::Further,
+                (Some(words), _) => Next::End(Verdict::NotConverged(format!("{words}; {NOT_MET}"))),
+                (None, Ending::Rounding(words)) => Next::End(Verdict::Converged(words)),
+                _ => Next::End(Verdict::Converged(settled(set))),
+            },
+            _ => match lost {
                 Some(words) => Next::End(Verdict::NotConverged(words)),
                 None if passes >= MOST_SETS => {
-                    Next::End(Verdict::NotConverged(format!("the active set still changes after {MOST_SETS} solves")))
+                    let changed: Vec<usize> = (0..active.len()).filter(|&i| active[i] != set.active()[i]).collect();
+                    Next::End(Verdict::NotConverged(going_on(self.problem, passes, &changed)))
                 }
-                None if matches!(outcome, Step::Repeated(_)) => Next::Tighten,
+                None if !set.ascends() && (passes >= MOST_PLAIN || repeated && !loose) => Next::Ascend,
+                None if repeated => Next::Tighten,
                 None => Next::Go,
             },
         }
@@ -273,7 +334,7 @@ impl ContactLoop<'_> {
         Ok(Solution {
             verdict,
             displacement,
-            multipliers: self.pressures(system, x),
+            multipliers: pressures(self.problem, system, x, self.session),
             active,
             residual: if norm == 0.0 { 0.0 } else { r.norm()? / norm },
             plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)? / share,
@@ -281,46 +342,6 @@ impl ContactLoop<'_> {
             boundaries: Vec::new(),
             inf_sup: Vec::new(),
         })
-    }
-
-    /// `λ_i = s_i λ̂_i` of all multipliers. **Collective**
-    fn pressures(&self, system: &SaddlePoint, x: &Vector) -> Vec<f64> {
-        let all = system.multipliers.collect(&x.values()[self.finest().local_unknowns()..], self.session);
-        all.iter().zip(&system.multipliers.scale).map(|(value, scale)| value * scale).collect()
-    }
-
-    /// `(B u - C λ - c)_i` of all multipliers, active or not (length squared). **Collective**
-    fn penetration(&self, system: &SaddlePoint, x: &Vector, lambda: &[f64]) -> Vec<f64> {
-        let values = x.values();
-        let own = &self.finest().own;
-        let mut all = vec![0.0; system.gap.len()];
-        for (i, sum) in all.iter_mut().enumerate() {
-            for &(node, entry) in system.finest_rows().row(i) {
-                if own.contains(&node) {
-                    let at = 2 * (node - own.start);
-                    *sum += entry.x * values[at] + entry.y * values[at + 1];
-                }
-            }
-        }
-        self.session.sum(&mut all);
-        let jumps = system.jump_term(lambda);
-        all.iter_mut().zip(system.gap.iter().zip(&jumps)).for_each(|(sum, (gap, jump))| *sum -= gap + jump);
-        all
-    }
-
-    /// `λ_i + κ_i (B u - C λ - c)_i`: positive where the next set is active.
-    fn force(&self, i: usize, active: &[bool], lambda: &[f64], penetration: &[f64]) -> f64 {
-        let contact = self.problem.contact_of(i);
-        let penalty = contact.multipliers.penalty(i - contact.first, contact.modulus);
-        (if active[i] { lambda[i] } else { 0.0 }) + penalty * penetration[i]
-    }
-
-    fn largest_penetration(&self, penetration: &[f64]) -> f64 {
-        let mean = |contact: &Contact| {
-            let own = |i: usize| penetration[i] / contact.multipliers.weight(i - contact.first);
-            contact.range().map(own).fold(0.0, f64::max)
-        };
-        self.problem.contacts.iter().map(mean).fold(0.0, f64::max)
     }
 
     /// Change of the displacement since the last call, relative to its norm. **Collective**
@@ -344,21 +365,6 @@ impl ContactLoop<'_> {
                 values[unknowns + at] = 0.0;
             }
         }
-    }
-
-    fn cycle(&self, flipping: &[usize]) -> String {
-        let name = |&i: &usize| {
-            let contact = self.problem.contact_of(i);
-            let segment = contact.multipliers.segment_of(i - contact.first);
-            let [s, t] = [contact.boundary.arcs()[segment], contact.boundary.arcs()[segment + 1]];
-            let [s, t] = [s, t].map(|s| tidy(s, contact.boundary.length()));
-            format!("{} segment {segment} (s = {s} ... {t})", contact.pair.name)
-        };
-        let mut names: Vec<String> = flipping.iter().map(name).collect();
-        names.dedup();
-        let given = flipping.iter().any(|&i| self.problem.contact_of(i).pair.segments != SegmentRule::Auto);
-        let remedy = if given { "use fewer segments" } else { "refine the mesh" };
-        format!("the active set repeats itself; these flip: {}; {remedy} or take another multiplier space", names.join(", "))
     }
 }
 

@@ -29,6 +29,9 @@ const MOST_HELD: f64 = 1e-2;
 /// Penetration beyond the ends, as a share of the length of Γ_C, that is no contact missed.
 const MOST_BEYOND: f64 = 1e-3;
 
+/// An end of Γ_C lies at the end of a body if less than this share of an edge is between them.
+const AT_THE_END: f64 = 1e-2;
+
 /// A boundary whose ends move by less than this share of its length is the same.
 const SAME: f64 = 1e-5;
 
@@ -138,10 +141,10 @@ impl Following {
             problem.contacts.iter().filter_map(|contact| contact.known.meeting.as_ref().map(|meeting| (contact, meeting)));
         for (contact, meeting) in fitted {
             let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
-            let depth = meeting.depth_beyond(&sides, &contact.boundary, contact.edge_length());
+            let depth = meeting.depth_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
             if depth > MOST_BEYOND * contact.boundary.length() {
                 return Onward::GivenUp(format!(
-                    "contact {}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh, take more segments, or declare the curve",
+                    "contact {}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh there, or take more segments",
                     contact.pair.name
                 ));
             }
@@ -210,10 +213,12 @@ fn free_ends(contact: &Contact, solution: &Solution, history: &mut [Found; 2]) -
     let now = [knots[0], knots[knots.len() - 1]];
     let (lambda, active) = (&solution.multipliers[contact.range()], &solution.active[contact.range()]);
     let mut next = now;
+    let edge = contact.edge_length() / boundary.speed(now[0]);
     for (k, end) in [End::First, End::Last].into_iter().enumerate() {
-        // At the end of a body contact may end with any pressure.
+        // At the end of a body contact may end with any pressure: it stays there, wherever the body goes.
         let last = multipliers_at(contact, end);
-        if now[k] == contact.limits[k] && last.iter().all(|&i| active[i]) {
+        if (now[k] - contact.limits[k]).abs() < AT_THE_END * edge && last.iter().all(|&i| active[i]) {
+            next[k] = contact.limits[k] + if end == End::First { -edge } else { edge };
             continue;
         }
         let Some(arc) = true_end(boundary, &contact.multipliers, lambda, active, end) else { continue };
@@ -226,11 +231,11 @@ fn free_ends(contact: &Contact, solution: &Solution, history: &mut [Found; 2]) -
             _ => off,
         };
         history[k] = Some((now[k], off));
-        next[k] = now[k] + step;
+        let found = now[k] + step;
+        next[k] = if end == End::First { found.max(contact.limits[0]) } else { found.min(contact.limits[1]) };
     }
-    next = [next[0].max(contact.limits[0]), next[1].min(contact.limits[1])];
     // A contact smaller than an edge is none that the mesh can tell.
-    if next[1] - next[0] > contact.edge_length() / boundary.speed(now[0]) { next } else { now }
+    if next[1].min(contact.limits[1]) - next[0].max(contact.limits[0]) > edge { next } else { now }
 }
 
 /// Multipliers of the segment at an end.
@@ -261,7 +266,7 @@ fn way(before: &[Contact], after: &[Contact]) -> Option<f64> {
 fn given_up(step: &BoundaryStep) -> String {
     let figure = |value: Option<f64>| value.map_or("others".to_string(), |value| format!("{value:.1e}"));
     format!(
-        "the contact boundary still moves after {MOST_BOUNDARIES} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; take another number of segments, or declare the curve",
+        "the contact boundary still moves after {MOST_BOUNDARIES} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; refine the mesh where contact is, or take another number of segments",
         figure(step.moved),
         figure(step.du),
         step.flipped.map_or("all".to_string(), |count| count.to_string())

@@ -1,32 +1,57 @@
-//! Whether supports and contact hold every body.
+//! Whether supports and contact hold every piece of every body.
 
 use crate::body::Constraints;
-use crate::contact::{Condition, Mechanism, find_mechanism};
+use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, integrate, tidy};
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::{Level, Numbering};
-use crate::system::{Coupled, Discretisation, Scene};
+use crate::mesh::{Level, Numbering, SmoothNormals};
+use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError};
+use std::collections::HashMap;
+
+/// Places of a boundary that are proposed for a support.
+const PLACES: usize = 8;
+
+/// Cosine of the angle (8 degrees) between a chord's normal and that of its arc at most.
+const ALIKE: f64 = 0.99;
+
+/// Places that are tried, whether a support there would hold all.
+const MOST_PLACES: usize = 32;
 
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held.
 pub fn not_held(problem: &Discretisation, active: &[bool]) -> Option<String> {
-    let mechanism = mechanism(problem, active)?;
-    let by = if active.contains(&true) {
-        "supports and contact do not hold it"
-    } else {
-        "contact is open everywhere and supports do not hold it"
-    };
-    Some(format!("body {} can {}: {by}", problem.scene.bodies[mechanism.body].name, mechanism.motion))
+    Whole::of(problem).not_held(active)
+}
+
+/// The same where all contact is closed, of contacts whose edges are all on this rank.
+///
+/// # Errors
+/// [`SystemError::Case`] if a contact cannot be integrated.
+pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Result<Option<String>, SystemError> {
+    let mut rows = vec![Vec::new(); contacts.last().map_or(0, |contact| contact.range().end)];
+    for contact in contacts {
+        for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
+            let (rule, edges) = (contact.pair.quadrature, &contact.edges[k]);
+            let own = integrate(&contact.boundary, &contact.multipliers, rule, side, edges, &contact.distance(k))
+                .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
+            for entry in own.entries {
+                let coupled = Coupled { node: entry.node, body: contact.bodies[k], side, value: entry.value };
+                rows[contact.first + entry.multiplier].push(coupled);
+            }
+        }
+    }
+    let active = vec![true; rows.len()];
+    Ok(Whole { scene, numbering, contacts, rows: &rows }.not_held(&active))
 }
 
 /// Of the open multipliers those with the largest `force`, 1, 2, 4, ... of them: as many as it takes to hold every body.
 pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut open: Vec<usize> = (0..active.len()).filter(|&i| !active[i]).collect();
     open.sort_by(|&a, &b| force(b).total_cmp(&force(a)));
-    let mut count = 1;
+    let (whole, mut count) = (Whole::of(problem), 1);
     while count < open.len() {
         let mut closed = active.to_vec();
         open[..count].iter().for_each(|&i| closed[i] = true);
-        if mechanism(problem, &closed).is_none() {
+        if whole.mechanism(&closed).is_none() {
             break;
         }
         count *= 2;
@@ -35,35 +60,202 @@ pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(u
     open
 }
 
-/// A motion that neither supports nor the active multipliers resist.
-fn mechanism(problem: &Discretisation, active: &[bool]) -> Option<Mechanism> {
-    let (scene, finest) = (&problem.scene, problem.finest());
-    let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
-    let mut conditions = support_conditions(scene, &numbering);
-    let place = |coupled: &Coupled| (coupled.body, coupled.node.place(&scene.mesh, &finest.numbering), coupled.value);
-    let rows = problem.coupling.rows.iter().zip(active).filter(|(_, active)| **active);
-    conditions.extend(rows.map(|(row, _)| row.iter().map(place).collect::<Condition>()));
-    find_mechanism(&scene.extents(), &conditions)
+/// Everything that holds bodies. Rigid motions are those of the undeformed bodies: a disc that is pressed flat rolls on.
+struct Whole<'a> {
+    scene: &'a Scene,
+    numbering: &'a Numbering,
+    contacts: &'a [Contact],
+    rows: &'a [Vec<Coupled>],
+}
+
+impl<'a> Whole<'a> {
+    fn of(problem: &'a Discretisation) -> Self {
+        Self {
+            scene: &problem.scene,
+            numbering: &problem.finest().numbering,
+            contacts: &problem.contacts,
+            rows: &problem.coupling.rows,
+        }
+    }
+
+    /// What the closed multipliers of all contacts resist.
+    fn touches(&self, active: &[bool]) -> Vec<Touch> {
+        self.contacts.iter().map(|contact| self.touch(contact, active)).collect()
+    }
+
+    fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
+        find_mechanism(&self.scene.extents(), &support_conditions(self.scene), &self.touches(active))
+    }
+
+    fn not_held(&self, active: &[bool]) -> Option<String> {
+        let (extents, touches) = (self.scene.extents(), self.touches(active));
+        let mechanism = find_mechanism(&extents, &support_conditions(self.scene), &touches)?;
+        let by = if active.contains(&true) {
+            "supports and contact do not hold it"
+        } else {
+            "contact is open everywhere and supports do not hold it"
+        };
+        let name = self.scene.mesh.name_of_piece(mechanism.piece);
+        Some(format!("{name} can {}: {by}; {}", mechanism.motion, self.remedy(&mechanism, &extents, &touches)))
+    }
+
+    /// What the closed multipliers of a contact resist, by the normals of body 1 and by those of body 2.
+    fn touch(&self, contact: &Contact, active: &[bool]) -> Touch {
+        let mesh = &self.scene.mesh;
+        let normals = contact.pair.between.each_ref().map(|name| {
+            let edges = mesh.boundary(name).map(|boundary| boundary.edges.as_slice()).unwrap_or(&[]);
+            SmoothNormals::new(mesh, edges)
+        });
+        let mut touch = Touch::default();
+        for row in contact.range().filter(|&i| active[i]).map(|i| &self.rows[i]) {
+            let pieces = [Side::First, Side::Second].map(|side| self.heaviest_piece(row, side));
+            let [Some(first), Some(second)] = pieces else { continue };
+            for (k, (side, against)) in [(Side::First, second), (Side::Second, first)].into_iter().enumerate() {
+                touch[k].extend(self.conditions(row, side, &normals[k], against));
+            }
+        }
+        touch
+    }
+
+    /// The piece that takes most of a multiplier on one side.
+    fn heaviest_piece(&self, row: &[Coupled], side: Side) -> Option<usize> {
+        let own = row.iter().filter(|coupled| coupled.side == side);
+        let heaviest = own.max_by(|a, b| a.value.norm().total_cmp(&b.value.norm()))?;
+        Some(self.scene.mesh.piece_beside(heaviest.node.edge))
+    }
+
+    /// What one multiplier resists by the normals of one body, for each of its pieces that takes part.
+    fn conditions(&self, row: &[Coupled], side: Side, normals: &SmoothNormals, against: usize) -> Vec<Condition> {
+        let mesh = &self.scene.mesh;
+        let mut conditions: Vec<Condition> = Vec::new();
+        for coupled in row.iter().filter(|coupled| coupled.side == side) {
+            let piece = mesh.piece_beside(coupled.node.edge);
+            let point = normals.at(mesh, coupled.node.edge, coupled.node.fraction(mesh, self.numbering));
+            let at = conditions.iter().position(|condition| condition.piece == piece).unwrap_or_else(|| {
+                conditions.push(Condition { piece, against: Some(against), terms: Vec::new(), doubt: 0.0 });
+                conditions.len() - 1
+            });
+            conditions[at].terms.push((point.place, coupled.value.norm() * point.normal));
+            conditions[at].doubt = conditions[at].doubt.max(point.doubt);
+        }
+        conditions
+    }
+
+    /// A support at one point that would hold the motion, on a named boundary without contact if there is one; rather such a
+    /// one that leaves no other motion free.
+    fn remedy(&self, mechanism: &Mechanism, extents: &[Extent], touches: &[Touch]) -> String {
+        let extent = &extents[mechanism.piece];
+        let supports = support_conditions(self.scene);
+        let holds_all = |place: &Place| {
+            let direction = Point::ith(place.axis, 1.0);
+            let terms = vec![(place.point, direction)];
+            let with = Condition { piece: mechanism.piece, against: None, terms, doubt: 0.0 };
+            find_mechanism(extents, &[supports.as_slice(), &[with]].concat(), touches).is_none()
+        };
+        let mut places = self.places(mechanism, extent);
+        places.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
+        let Some(place) = places.iter().take(MOST_PLACES).find(|place| holds_all(place)).or(places.first()) else {
+            return "give a part of its boundary a name in the mesh, and a support".into();
+        };
+        format!(
+            "hold it, for example by a support {} = 0 at one point of \"{}\", near ({}, {})",
+            ["ux", "uy"][place.axis],
+            place.boundary,
+            tidy(place.point.x, extent.radius),
+            tidy(place.point.y, extent.radius)
+        )
+    }
+
+    /// Vertices on the named boundaries of a piece, with the axis in which they move most; some of each boundary.
+    fn places(&self, mechanism: &Mechanism, extent: &Extent) -> Vec<Place<'_>> {
+        let mesh = &self.scene.mesh;
+        let touches = |name: &str| self.scene.pairs.iter().any(|pair| pair.between.iter().any(|side| side == name));
+        let mut places = Vec::new();
+        for boundary in &mesh.boundaries {
+            let own: Vec<u32> =
+                boundary.edges.iter().copied().filter(|&edge| mesh.piece_beside(edge) == mechanism.piece).collect();
+            for &edge in own.iter().step_by(own.len().div_ceil(PLACES).max(1)) {
+                let point = mesh.vertices[mesh.edges[edge as usize].vertices[0] as usize];
+                let u = mechanism.displacement(extent, point);
+                // Rounded, so that the order does not hang on the last digit.
+                let moves = (1e6 * u.amax()).round();
+                places.push(Place { free: !touches(&boundary.name), moves, boundary: &boundary.name, point, axis: u.iamax() });
+            }
+        }
+        places
+    }
+}
+
+/// Where a support might be.
+struct Place<'a> {
+    /// Whether no contact is there.
+    free: bool,
+    /// How far the point moves.
+    moves: f64,
+    boundary: &'a str,
+    point: Point,
+    axis: usize,
 }
 
 /// Everything that supports hold, at the macro vertices.
-fn support_conditions(scene: &Scene, numbering: &Numbering) -> Vec<Condition> {
-    supported(scene, numbering).into_iter().map(|(body, x, direction, _)| vec![(body, x, direction)]).collect()
+fn support_conditions(scene: &Scene) -> Vec<Condition> {
+    let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
+    let normals = normal_supports(scene);
+    let condition = |held: Held| {
+        // A direction along the mean of two chords' normals stands for the normal of their arc.
+        let smooth = normals.get(&held.vertex).map(|normal| normal * normal.dot(&held.direction).signum());
+        let direction = smooth.filter(|normal| normal.dot(&held.direction) > ALIKE).unwrap_or(held.direction);
+        Condition { piece: held.piece, against: None, terms: vec![(held.place, direction)], doubt: 0.0 }
+    };
+    supported(scene, &numbering).into_iter().map(condition).collect()
 }
 
-/// Body, place, direction and prescribed displacement of everything that supports hold at the macro vertices.
-pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<(usize, Point, Point, f64)> {
+/// Smooth normals at the vertices that supports hold along the normal.
+fn normal_supports(scene: &Scene) -> HashMap<u32, Point> {
+    let mesh = &scene.mesh;
+    let mut normals = HashMap::new();
+    for support in scene.supports.iter().filter(|support| support.normal.is_some()) {
+        let on = support.on.iter().filter_map(|name| mesh.boundary(name));
+        let edges: Vec<u32> = on.flat_map(|boundary| boundary.edges.iter().copied()).collect();
+        let smooth = SmoothNormals::new(mesh, &edges);
+        for &edge in &edges {
+            for (vertex, t) in mesh.edges[edge as usize].vertices.into_iter().zip([0.0, 1.0]) {
+                *normals.entry(vertex).or_insert_with(Point::zeros) += smooth.at(mesh, edge, t).normal;
+            }
+        }
+    }
+    normals.values_mut().for_each(|normal: &mut Point| *normal = normal.normalize());
+    normals
+}
+
+/// A displacement that is prescribed.
+pub struct Held {
+    /// Piece of a body.
+    pub piece: usize,
+    /// Macro vertex.
+    pub vertex: u32,
+    /// Where.
+    pub place: Point,
+    /// In which direction, a unit vector.
+    pub direction: Point,
+    /// How far (length).
+    pub value: f64,
+}
+
+/// Everything that supports prescribe at the macro vertices.
+pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
     let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports) else { return Vec::new() };
-    let mut body = vec![0; scene.mesh.vertices.len()];
+    let mut piece = vec![0; scene.mesh.vertices.len()];
     for triangle in &scene.mesh.triangles {
-        triangle.vertices.iter().for_each(|&vertex| body[vertex as usize] = triangle.body as usize);
+        triangle.vertices.iter().for_each(|&vertex| piece[vertex as usize] = triangle.piece as usize);
     }
     let mut all = Vec::new();
-    for (vertex, &x) in scene.mesh.vertices.iter().enumerate() {
+    for (vertex, &place) in scene.mesh.vertices.iter().enumerate() {
         let Some(constraint) = constraints.get(numbering.vertex(vertex as u32)) else { continue };
         for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
             if constraint.fixed[k] {
-                all.push((body[vertex], x, constraint.to_global(axis), constraint.value[k]));
+                let direction = constraint.to_global(axis);
+                all.push(Held { piece: piece[vertex], vertex: vertex as u32, place, direction, value: constraint.value[k] });
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The rigid motion that supports ask of each body: what prescribed displacements are like without any strain.
 
-use super::held::supported;
+use super::held::{Held, supported};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering, lattice};
@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 /// Rigid motions flatter than this share of the largest are not told by the supports.
 const FLAT: f64 = 1e-9;
 
-/// This rank's displacements, in the nodes' frames, where every body moves by the rigid motion that is nearest to what its
+/// This rank's displacements, in the nodes' frames, where every piece of a body moves by the rigid motion that is nearest to what its
 /// supports prescribe at the macro vertices (least squares); nothing if they prescribe zero everywhere.
 pub fn rigid_start(problem: &Discretisation, rank: usize) -> Option<Vec<f64>> {
     let (scene, space) = (&problem.scene, problem.finest());
@@ -18,7 +18,7 @@ pub fn rigid_start(problem: &Discretisation, rank: usize) -> Option<Vec<f64>> {
     let extents = scene.extents();
     let mut values = vec![0.0; space.local_unknowns()];
     for &triangle in scene.partition.triangles_of(rank) {
-        let body = scene.mesh.triangles[triangle as usize].body as usize;
+        let piece = scene.mesh.triangles[triangle as usize].piece as usize;
         let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
         for (i, j) in lattice::nodes(space.numbering.level.intervals) {
             let node = numbers.node(i, j);
@@ -26,8 +26,8 @@ pub fn rigid_start(problem: &Discretisation, rank: usize) -> Option<Vec<f64>> {
                 continue;
             }
             let x = scene.mesh.node_position(triangle as usize, space.numbering.level, (i, j));
-            let arm = (x - extents[body].middle) / extents[body].radius;
-            let [u, v, turn] = motions[body].into();
+            let arm = (x - extents[piece].middle) / extents[piece].radius;
+            let [u, v, turn] = motions[piece].into();
             let moved = space.to_frame(node, Point::new(u - turn * arm.y, v + turn * arm.x));
             let at = 2 * (node - space.own.start);
             (values[at], values[at + 1]) = (moved.x, moved.y);
@@ -36,17 +36,17 @@ pub fn rigid_start(problem: &Discretisation, rank: usize) -> Option<Vec<f64>> {
     Some(values)
 }
 
-/// Shift and turn of each body, the turn by its radius.
+/// Shift and turn of each piece, the turn by its radius.
 fn motions(scene: &Scene) -> Option<Vec<Vector3<f64>>> {
     let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
     let extents = scene.extents();
     let mut sums = vec![(Matrix3::<f64>::zeros(), Vector3::<f64>::zeros()); extents.len()];
     let mut moves = false;
-    for (body, x, direction, value) in supported(scene, &numbering) {
-        let arm = (x - extents[body].middle) / extents[body].radius;
+    for Held { piece, place, direction, value, .. } in supported(scene, &numbering) {
+        let arm = (place - extents[piece].middle) / extents[piece].radius;
         let row = Vector3::new(direction.x, direction.y, direction.y * arm.x - direction.x * arm.y);
-        sums[body].0 += row * row.transpose();
-        sums[body].1 += value * row;
+        sums[piece].0 += row * row.transpose();
+        sums[piece].1 += value * row;
         moves |= value != 0.0;
     }
     let solve = |(gram, right): (Matrix3<f64>, Vector3<f64>)| {

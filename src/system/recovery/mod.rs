@@ -4,6 +4,8 @@ mod balance;
 mod error_norm;
 mod exact_pressure;
 mod probe;
+mod sliding_error;
+mod strain;
 mod stress;
 mod traces;
 
@@ -11,6 +13,8 @@ pub use balance::{Balance, ContactForce, balance, strain_energy};
 pub use error_norm::energy_error;
 pub use exact_pressure::{pressure_at, pressure_error};
 pub use probe::{Probed, probe};
+pub use sliding_error::{SlidingError, sliding_errors};
+pub use strain::{LargestStrain, largest_strains};
 pub use stress::nodal_stress;
 pub use traces::{TracePoint, trace_points};
 

@@ -1,0 +1,263 @@
+//! The curve half-way between two smooth sides: what Γ_C is where nobody declares it.
+//!
+//! Its points are as far from one side as from the other along its own normal, so its tangent bisects theirs. A curve
+//! through the nodes of both sides would follow one side where the other has no node, and turn its normal there: as bodies
+//! slide, a normal that turns unevenly acts like a curvature that they do not have.
+
+use super::smooth_side::SmoothSide;
+use super::{ContactBoundary, Pair};
+use crate::geometry::{Curve, Point, Spline, turn_right};
+use std::ops::Range;
+
+/// Spans at most.
+const MOST_SPANS: usize = 64;
+
+/// Corrections of the points half-way; each leaves a share of the square of the angle between the sides.
+const CORRECTIONS: usize = 2;
+
+/// A point half-way between two sides.
+#[derive(Clone, Copy, Debug)]
+struct Halfway {
+    /// Parameter of the curve: that of the first side.
+    parameter: f64,
+    /// Parameters of the points of both sides that it lies between.
+    feet: [f64; 2],
+    /// Where it lies.
+    place: Point,
+    /// Length that it stands for.
+    weight: f64,
+}
+
+/// A sample of a fit: parameter, place, weight.
+type Sample = (f64, Point, f64);
+
+/// The curve half-way between two sides.
+pub struct Bisector {
+    /// The curve; its parameter is that of the first side.
+    pub curve: Curve,
+    /// Parameters up to which both sides are known.
+    pub limits: [f64; 2],
+}
+
+impl Bisector {
+    /// Through the points half-way between some nodes of each side and the other side, in the pair's configuration: least
+    /// squares, each weighted by the length it stands for, so that a finer body does not pull the curve. Without a wish the
+    /// data choose the number of spans.
+    ///
+    /// # Errors
+    /// Words, if the nodes do not face the other side, or if the pair wants more spans than they bear.
+    pub fn between(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> Result<Self, String> {
+        let mut points = halfway(sides, nodes, pair);
+        points.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
+        if points.len() < 2 || points[0].parameter >= points[points.len() - 1].parameter {
+            let [first, second] = &pair.between;
+            return Err(format!(
+                "\"{first}\" and \"{second}\" face each other nowhere over a length; name boundaries that do, or correct the mesh"
+            ));
+        }
+        let most = (points.len() / 4).max(1);
+        if let Some(spans) = pair.spans.filter(|&spans| spans > most) {
+            return Err(format!(
+                "spans = {spans}: where they meet, \"{}\" and \"{}\" have {} nodes, which bear {most}; give {most} or fewer, or \"auto\", or refine the mesh",
+                pair.between[0],
+                pair.between[1],
+                points.len()
+            ));
+        }
+        let curves = sides.map(|side| side.curve(pair.configuration));
+        let fit = |points: &[Halfway]| {
+            let samples: Vec<Sample> = points.iter().map(|point| (point.parameter, point.place, point.weight)).collect();
+            Curve::Spline(fit_by_the_data(&samples, pair.spans))
+        };
+        let mut curve = fit(&points);
+        for _ in 0..CORRECTIONS {
+            points.iter_mut().for_each(|point| point.centre(&curve, curves));
+            curve = fit(&points);
+        }
+        let data = [points[0].parameter, points[points.len() - 1].parameter];
+        let limits = limits(sides, nodes, pair, &curve, data);
+        Ok(Self { curve, limits })
+    }
+}
+
+impl Halfway {
+    /// Moves it to the middle between the sides, along the normal of a curve that is nearly half-way.
+    fn centre(&mut self, curve: &Curve, sides: [&Curve; 2]) {
+        let (x, normal) = (curve.point(self.parameter), turn_right(curve.tangent(self.parameter)));
+        let hits = [0, 1].map(|k| sides[k].hit_from(self.feet[k], x, normal));
+        if let [Some(first), Some(second)] = hits {
+            self.feet = [first, second];
+            let away = [0, 1].map(|k| (sides[k].point(self.feet[k]) - x).dot(&normal));
+            self.place = x + 0.5 * (away[0] + away[1]) * normal;
+        }
+    }
+}
+
+/// Points half-way between the nodes of each side and their feet on the other, where there is one.
+fn halfway(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> Vec<Halfway> {
+    let configuration = pair.configuration;
+    let mut points = Vec::new();
+    for (k, nodes) in nodes.iter().enumerate() {
+        let (side, other) = (sides[k], sides[1 - k]);
+        let least = 1e-9 * other.length();
+        for node in nodes.clone() {
+            let x = side.positions(configuration)[node];
+            let foot = other.nearest(x, configuration);
+            if foot < -least || foot > other.length() + least {
+                continue;
+            }
+            let own = side.parameters[node];
+            let feet = if k == 0 { [own, foot] } else { [foot, own] };
+            let place = 0.5 * (x + other.curve(configuration).point(foot));
+            points.push(Halfway { parameter: feet[0], feet, place, weight: side.weight(node) });
+        }
+    }
+    points
+}
+
+/// The part of the curve that both sides see: the data, but no farther than the feet of the ends of a side.
+fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve: &Curve, data: [f64; 2]) -> [f64; 2] {
+    let middle = 0.5 * (data[0] + data[1]);
+    let mut limits = data;
+    for (side, nodes) in sides.iter().zip(nodes) {
+        let last = side.points.len() - 1;
+        for node in [0, last].into_iter().filter(|node| nodes.contains(node)) {
+            let foot = curve.nearest(side.positions(pair.configuration)[node]);
+            if foot < middle {
+                limits[0] = limits[0].max(foot);
+            } else {
+                limits[1] = limits[1].min(foot);
+            }
+        }
+    }
+    limits
+}
+
+/// How far Γ_C leaves the two sides, in any case where it should not: nothing where each of its points lies within an
+/// element of both sides, but for the distance between them, and not beyond their ends.
+pub fn stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -> Option<f64> {
+    let knots = boundary.knots();
+    let places = knots.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]).chain([knots[knots.len() - 1]]);
+    let element = sides.iter().map(|side| side.edge_length(0, side.points.len() - 1)).fold(0.0, f64::max);
+    let mut worst: f64 = 0.0;
+    for x in places.map(|t| boundary.point(t)) {
+        let feet = sides.map(|side| side.nearest(x, pair.configuration).clamp(0.0, side.length()));
+        let [a, b] = [0, 1].map(|k| sides[k].curve(pair.configuration).point(feet[k]));
+        let away = (x - a).norm().max((x - b).norm());
+        if away > (a - b).norm() + element {
+            worst = worst.max(away);
+        }
+    }
+    (worst > 0.0).then_some(worst)
+}
+
+/// The fewest spans whose mean distance from the samples is as small as that of any number, but for a half: more would
+/// follow the scatter between the two bodies.
+fn fit_by_the_data(samples: &[Sample], wish: Option<usize>) -> Spline {
+    if let Some(spans) = wish {
+        return Spline::fit(samples, spans);
+    }
+    let most = (samples.len() / 4).clamp(1, MOST_SPANS);
+    let counts = std::iter::successors(Some(1), |count| (2 * count <= most).then_some(2 * count));
+    let fits: Vec<(f64, Spline)> = counts
+        .map(|count| {
+            let spline = Spline::fit(samples, count);
+            let squares: f64 = samples.iter().map(|(t, x, weight)| weight * (spline.point(*t) - x).norm_squared()).sum();
+            (squares.sqrt(), spline)
+        })
+        .collect();
+    let size = samples.iter().map(|(_, x, weight)| weight * x.norm_squared()).sum::<f64>().sqrt();
+    let least = fits.iter().map(|fit| fit.0).fold(f64::INFINITY, f64::min);
+    let good = fits.iter().position(|fit| fit.0 <= (1.5 * least).max(1e-14 * size)).unwrap_or(0);
+    fits.into_iter().nth(good).map(|fit| fit.1).unwrap_or_else(|| Spline::fit(samples, 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn on_arc(radius: f64, count: usize) -> Vec<Sample> {
+        let sample = |k: usize| {
+            let a = k as f64 / count as f64;
+            (a, Point::new(radius * a.sin(), radius * a.cos()), 1.0 / count as f64)
+        };
+        (0..=count).map(sample).collect()
+    }
+
+    #[test]
+    fn the_data_choose_the_spans() {
+        assert!(fit_by_the_data(&on_arc(1.0, 200), None).spans() >= 16, "an arc wants many");
+        let straight: Vec<Sample> = (0..40).map(|k| (f64::from(k), Point::new(f64::from(k), 2.0), 1.0)).collect();
+        assert_eq!(fit_by_the_data(&straight, None).spans(), 1);
+        let mut scattered = on_arc(1.0, 60);
+        scattered.extend(on_arc(1.01, 47));
+        assert!(fit_by_the_data(&scattered, None).spans() <= 2, "scatter between two bodies is not followed");
+        assert_eq!(fit_by_the_data(&on_arc(1.0, 200), Some(7)).spans(), 7);
+    }
+
+    use crate::contact::{
+        Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule, Stabilise,
+    };
+    use crate::element::Order;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{EdgeNode, Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    fn pair(between: [&str; 2]) -> Pair {
+        Pair {
+            name: "seam".into(),
+            between: between.map(String::from),
+            curve: CurveChoice::Fit,
+            gap: GapChoice::Geometry,
+            space: MultiplierSpace::P0,
+            segments: SegmentRule::Auto,
+            law: Law::Unilateral,
+            quadrature: Quadrature::Cut,
+            stabilise: Stabilise::Off,
+            configuration: Configuration::Deformed,
+            spans: None,
+            grading: [1.0, 1.0],
+            ends: EndRule::Free,
+        }
+    }
+
+    /// A flat side and one that rises from it like a parabola, of different meshes, and what lies half-way, in both orders.
+    #[test]
+    fn it_is_as_far_from_one_side_as_from_the_other_whichever_is_first() {
+        let mesh = two_blocks();
+        let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
+        let numbering = Numbering::new(Level { intervals: 16, order: Order::P2 }, &partition);
+        let upper = mesh.bodies.iter().position(|name| name == "upper");
+        let displacement = |node: EdgeNode| {
+            let x = node.place(&mesh, &numbering);
+            let rises = Some(mesh.body_beside(node.edge)) == upper;
+            Point::new(0.0, if rises { 0.2 * (x.x - 0.7).powi(2) } else { 0.0 })
+        };
+        let orders = [["lower.seam", "upper.seam"], ["upper.seam", "lower.seam"]];
+        let found = orders.map(|between| {
+            let pair = pair(between);
+            let sides = SmoothSide::of_pair(&mesh, &numbering, &pair, &displacement);
+            let sides = [&sides[0][0], &sides[1][0]];
+            let nodes = sides.map(|side| 0..side.points.len());
+            let bisector = Bisector::between(sides, &nodes, &pair).expect("they face each other");
+            for k in 0..=40 {
+                let t = bisector.limits[0] + (bisector.limits[1] - bisector.limits[0]) * f64::from(k) / 40.0;
+                let (x, normal) = (bisector.curve.point(t), turn_right(bisector.curve.tangent(t)));
+                let curves = sides.map(|side| side.curve(Configuration::Deformed));
+                let hits = curves.map(|curve| curve.hit_from(curve.nearest(x), x, normal).expect("both sides are there"));
+                let [a, b] = [0, 1].map(|k| (curves[k].point(hits[k]) - x).dot(&normal));
+                assert!((a + b).abs() < 1e-5 + 2e-3 * a.abs(), "{a} and {b} at {x}");
+                let angle = |curve: &Curve, t: f64| curve.tangent(t).y.atan2(curve.tangent(t).x);
+                let sides = 0.5 * (angle(curves[0], hits[0]) + angle(curves[1], hits[1]));
+                assert!((angle(&bisector.curve, t) - sides).abs() < 5e-3, "{} and {sides} at {x}", angle(&bisector.curve, t));
+            }
+            bisector
+        });
+        let [first, second] = &found;
+        for k in 0..=20 {
+            let x = first.curve.point(first.limits[0] + (first.limits[1] - first.limits[0]) * f64::from(k) / 20.0);
+            let t = second.curve.nearest(x);
+            assert!((second.curve.point(t) - x).norm() < 1e-5);
+        }
+    }
+}

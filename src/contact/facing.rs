@@ -1,0 +1,255 @@
+//! Whether the two boundaries of a contact, as they are drawn, face each other along Γ_C, and no other contact claims the same
+//! place.
+
+use super::{ContactBoundary, GapChoice, Pair, Side, all_edges, faces};
+use crate::geometry::Point;
+use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, SmoothNormals};
+use std::collections::HashMap;
+
+/// Places along Γ_C that are looked at, at most.
+const PLACES: usize = 64;
+
+/// Share of Γ_C along which boundaries may turn their backs: more is no end that bends away.
+const MOST_BACKS: f64 = 0.25;
+
+/// Boundaries that touch lie within this share of the length of Γ_C.
+const TOUCHING: f64 = 0.05;
+
+/// The same as a share of the edges, on a Γ_C shorter than these.
+const NEAR: f64 = 0.1;
+
+/// Drawn boundaries lie this many times farther behind each other than chords from their arcs, if that means anything.
+const POLYGONS: f64 = 4.0;
+
+/// Share of the shorter of two contacts that another may claim too, if its second body is another.
+const MOST_SHARED: f64 = 0.5;
+
+/// Edges that two contacts of the same boundaries may both reach, because each ends somewhere on one.
+const SHARED_EDGES: f64 = 1.5;
+
+/// The boundaries of one contact as they are drawn, seen along the normals of Γ_C.
+pub struct Facing<'a> {
+    pair: &'a Pair,
+    boundary: &'a ContactBoundary,
+    /// For each body its edges that see Γ_C.
+    seen: [Vec<Seen>; 2],
+}
+
+/// An edge that sees a part of Γ_C.
+struct Seen {
+    edge: BoundaryEdge,
+    /// Parameters of Γ_C at its ends, lower first, and its ends in that order.
+    feet: [f64; 2],
+    ends: [Point; 2],
+    /// Whether its outward normal points at the other body.
+    faces: bool,
+}
+
+/// What stands across Γ_C at one of its points.
+enum Across {
+    /// Both bodies look at it: the places of body 1 and of body 2.
+    Facing([Point; 2]),
+    /// One of them has its back to it only.
+    Back(Side),
+    /// One of them has nothing there.
+    Nothing,
+}
+
+impl<'a> Facing<'a> {
+    /// Looks at the undeformed boundaries of a pair on the level that is numbered.
+    pub fn new(mesh: &MacroMesh, numbering: &Numbering, pair: &'a Pair, boundary: &'a ContactBoundary) -> Self {
+        let all = all_edges(mesh, numbering, pair, &|_| Point::zeros());
+        let [first, last] = ends(boundary);
+        let mut sides = [Side::First, Side::Second].into_iter();
+        let seen = all.map(|edges| {
+            let side = sides.next().unwrap_or(Side::Second);
+            let see = |edge: BoundaryEdge| {
+                let feet = boundary.feet([edge.points[0], edge.points[1]]);
+                let straight = boundary.foot(edge.points[0]) <= boundary.foot(edge.points[1]);
+                let ends = if straight { [edge.points[0], edge.points[1]] } else { [edge.points[1], edge.points[0]] };
+                let faces = faces(boundary, side, &edge);
+                (feet[0] < last && feet[1] > first).then_some(Seen { edge, feet, ends, faces })
+            };
+            edges.into_iter().filter_map(see).collect()
+        });
+        Self { pair, boundary, seen }
+    }
+
+    /// # Errors
+    /// Words, if the boundaries turn their backs to each other, lie on the wrong sides of each other, or are said to touch and
+    /// lie apart.
+    pub fn check(&self, mesh: &MacroMesh) -> Result<(), String> {
+        let [a, b] = &self.pair.between;
+        let (mut backs, mut facing) = (Vec::new(), Vec::new());
+        for t in self.places() {
+            match self.across(t) {
+                Across::Facing(points) => facing.push((t, points)),
+                Across::Back(side) => backs.push((t, side)),
+                Across::Nothing => {}
+            }
+        }
+        if let Some((t, side)) = backs.first().filter(|_| backs.len() as f64 > MOST_BACKS * (backs.len() + facing.len()) as f64) {
+            let (x, name) = (self.boundary.point(*t), if *side == Side::First { a } else { b });
+            return Err(format!(
+                "\"{a}\" and \"{b}\" do not face each other: at ({:.6}, {:.6}) \"{name}\" has its body on the side of the other one; name the boundaries that look at each other",
+                x.x, x.y
+            ));
+        }
+        self.check_sides(mesh, &facing)?;
+        self.check_touching(mesh, &facing)
+    }
+
+    /// Drawn boundaries that lie behind each other must lie in each other's bodies: an overlap.
+    fn check_sides(&self, mesh: &MacroMesh, facing: &[(f64, [Point; 2])]) -> Result<(), String> {
+        let least = POLYGONS * self.largest_sagitta(mesh) + 1e-6 * self.boundary.length();
+        let behind: Vec<&(f64, [Point; 2])> = facing.iter().filter(|(t, points)| self.gap(*t, points) < -least).collect();
+        let few = behind.iter().step_by(behind.len().div_ceil(PLACES / 8).max(1));
+        let bodies = [0, 1].map(|k| self.seen[k].first().map(|seen| mesh.triangles[seen.edge.triangle].body));
+        let holds = |body: Option<u32>, x: Point| {
+            let own = |triangle: &usize| Some(mesh.triangles[*triangle].body) == body;
+            (0..mesh.triangles.len()).filter(own).any(|triangle| mesh.locate(triangle, x).is_some())
+        };
+        let apart = |points: &[Point; 2]| !holds(bodies[1], points[0]) && !holds(bodies[0], points[1]);
+        let (mut count, mut wrong) = (0, Vec::new());
+        for place in few {
+            count += 1;
+            if apart(&place.1) {
+                wrong.push(*place);
+            }
+        }
+        match wrong.first() {
+            Some((t, points)) if 2 * wrong.len() > count && 4 * behind.len() > facing.len() => {
+                let x = self.boundary.point(*t);
+                Err(format!(
+                    "\"{}\" and \"{}\" do not face each other: near ({:.6}, {:.6}) each lies {:.3e} behind the other, and outside the other body; name the boundaries that look at each other",
+                    self.pair.between[0],
+                    self.pair.between[1],
+                    x.x,
+                    x.y,
+                    -self.gap(*t, points)
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Where the gap is zero by declaration, the middle one of the drawn distances is small.
+    fn check_touching(&self, mesh: &MacroMesh, facing: &[(f64, [Point; 2])]) -> Result<(), String> {
+        if !matches!(self.pair.gap, GapChoice::Closed) || facing.is_empty() {
+            return Ok(());
+        }
+        let mut gaps: Vec<f64> = facing.iter().map(|(t, points)| self.gap(*t, points)).collect();
+        gaps.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let middle = gaps[gaps.len() / 2];
+        if middle.abs() <= (TOUCHING * self.boundary.length()).max(NEAR * self.longest_edge(mesh)) {
+            return Ok(());
+        }
+        Err(format!(
+            "gap = \"closed\", but \"{}\" and \"{}\" are drawn {:.3e} {}, on a length of {:.3e}; name the boundaries that touch, or give gap = \"geometry\" or a number",
+            self.pair.between[0],
+            self.pair.between[1],
+            middle.abs(),
+            if middle > 0.0 { "apart" } else { "into each other" },
+            self.boundary.length()
+        ))
+    }
+
+    /// Drawn distance of body 2 from body 1.
+    fn gap(&self, t: f64, points: &[Point; 2]) -> f64 {
+        (points[1] - points[0]).dot(&self.boundary.normal(t))
+    }
+
+    /// Parameters between the ends of Γ_C, evenly.
+    fn places(&self) -> impl Iterator<Item = f64> {
+        let [first, last] = ends(self.boundary);
+        (0..PLACES).map(move |k| first + (last - first) * (k as f64 + 0.5) / PLACES as f64)
+    }
+
+    fn across(&self, t: f64) -> Across {
+        let x = self.boundary.point(t);
+        let mut points = [x; 2];
+        for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
+            let there = self.seen[k].iter().filter(|seen| seen.feet[0] <= t && t <= seen.feet[1]);
+            let (front, back): (Vec<&Seen>, Vec<&Seen>) = there.partition(|seen| seen.faces);
+            let place = |seen: &&Seen| {
+                let share = (t - seen.feet[0]) / (seen.feet[1] - seen.feet[0]).max(f64::MIN_POSITIVE);
+                seen.ends[0] + share * (seen.ends[1] - seen.ends[0])
+            };
+            let nearest = front.iter().map(place).min_by(|a, b| (a - x).norm().total_cmp(&(b - x).norm()));
+            match nearest {
+                Some(point) => points[k] = point,
+                None if back.is_empty() => return Across::Nothing,
+                None => return Across::Back(side),
+            }
+        }
+        Across::Facing(points)
+    }
+
+    /// Longest macro edge of both boundaries.
+    fn longest_edge(&self, mesh: &MacroMesh) -> f64 {
+        let edges = self.seen.iter().flatten().map(|seen| seen.edge.nodes[0].edge);
+        edges.map(|edge| mesh.edge_length(edge)).fold(0.0, f64::max)
+    }
+
+    /// How far chords of both boundaries lie from their arcs at most: declared ones from the small edges, others from those of
+    /// the mesh file.
+    fn largest_sagitta(&self, mesh: &MacroMesh) -> f64 {
+        let of = |seen: &[Seen]| {
+            let mut edges: Vec<u32> = seen.iter().map(|seen| seen.edge.nodes[0].edge).collect();
+            edges.sort_unstable();
+            edges.dedup();
+            let normals = SmoothNormals::new(mesh, &edges);
+            let small = |edge: u32| seen.iter().filter(|seen| seen.edge.nodes[0].edge == edge).count().max(1) as f64;
+            let sagitta = |&edge: &u32| {
+                let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+                let height = (normals.at(mesh, edge, 0.5).place - 0.5 * (a + b)).norm();
+                if mesh.edges[edge as usize].shape.is_some() { height / small(edge).powi(2) } else { height }
+            };
+            edges.iter().map(sagitta).fold(0.0, f64::max)
+        };
+        of(&self.seen[0]) + of(&self.seen[1])
+    }
+
+    /// Words, if this contact and another claim the same place of a boundary.
+    pub fn clash(&self, other: &Self) -> Option<String> {
+        let shared = [0, 1].map(|k| [0, 1].map(|l| self.shared(k, other, l)));
+        let longest = |of: &Self| of.seen.iter().flatten().map(|seen| seen.edge.length()).fold(0.0, f64::max);
+        let edge = longest(self).max(longest(other));
+        let shorter = self.boundary.length().min(other.boundary.length());
+        // Both boundaries are the other's too, in either order.
+        let both = shared[0][0].min(shared[1][1]).max(shared[0][1].min(shared[1][0]));
+        let most = shared.iter().flatten().copied().fold(0.0, f64::max);
+        if both <= SHARED_EDGES * edge && most <= (MOST_SHARED * shorter).max(SHARED_EDGES * edge) {
+            return None;
+        }
+        let (k, _) = (0..4).map(|at| (at, shared[at / 2][at % 2])).max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(format!(
+            "\"{}\" is in contact.{} too, over {:.3e} of the same length: one place of a boundary can bear the pressure of one contact only; leave one of them out, or name parts of the boundary",
+            self.pair.between[k / 2],
+            other.pair.name,
+            most
+        ))
+    }
+
+    /// Length of body `k`'s boundary here that is body `l`'s boundary there, where both contacts reach.
+    fn shared(&self, k: usize, other: &Self, l: usize) -> f64 {
+        let key = |seen: &Seen| (seen.edge.nodes[0], seen.edge.nodes[1]);
+        let theirs: HashMap<_, f64> =
+            other.seen[l].iter().filter(|seen| seen.faces).map(|seen| (key(seen), other.share(seen))).collect();
+        let own = self.seen[k].iter().filter(|seen| seen.faces);
+        let both = own.filter_map(|seen| Some(self.share(seen).min(*theirs.get(&key(seen))?) * seen.edge.length()));
+        both.sum()
+    }
+
+    /// Share of an edge that lies across Γ_C.
+    fn share(&self, seen: &Seen) -> f64 {
+        let [first, last] = ends(self.boundary);
+        let [from, to] = seen.feet;
+        (to.min(last) - from.max(first)).max(0.0) / (to - from).max(f64::MIN_POSITIVE)
+    }
+}
+
+fn ends(boundary: &ContactBoundary) -> [f64; 2] {
+    let knots = boundary.knots();
+    [knots[0], knots[knots.len() - 1]]
+}

@@ -1,0 +1,121 @@
+//! Triangles that overlap their own body.
+
+use super::{MacroMesh, MeshError};
+use crate::geometry::{Point, cross};
+use std::collections::{BTreeSet, HashMap};
+
+/// Triangles overlap if they lie in each other by more than this share of their size.
+const DEPTH: f64 = 1e-6;
+
+impl MacroMesh {
+    /// No two triangles of a body may cover the same place. Where two regions overlap, the boundary of one runs inside the
+    /// other: so it is enough to look at the triangles on boundaries.
+    ///
+    /// # Errors
+    /// Words with the place.
+    pub(super) fn check_overlap(&self) -> Result<(), MeshError> {
+        let on_boundary = |triangle: usize| {
+            let edges = self.triangles[triangle].edges;
+            edges.iter().any(|&edge| self.edges[edge as usize].triangles[1].is_none())
+        };
+        let bounding = Cells::new(self, (0..self.triangles.len()).filter(|&triangle| on_boundary(triangle)));
+        let all = Cells::new(self, 0..self.triangles.len());
+        for triangle in 0..self.triangles.len() {
+            let cells = if on_boundary(triangle) { &all } else { &bounding };
+            let alike = |other: &usize| *other != triangle && self.triangles[*other].body == self.triangles[triangle].body;
+            let corners = self.corners(triangle);
+            if cells.near(&corners).filter(alike).any(|other| overlap(corners, self.corners(other))) {
+                let [a, b, c] = corners;
+                let x = (a + b + c) / 3.0;
+                return Err(MeshError::unusable(
+                    &self.file,
+                    format!(
+                        "triangles of body \"{}\" overlap near ({}, {}): the same place would count twice; mesh the scene again",
+                        self.bodies[self.triangles[triangle].body as usize], x.x, x.y
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn corners(&self, triangle: usize) -> [Point; 3] {
+        self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize])
+    }
+}
+
+/// Whether two triangles, both counter-clockwise, have an area in common: no side of either parts them.
+fn overlap(a: [Point; 3], b: [Point; 3]) -> bool {
+    let size = |t: &[Point; 3]| (t[1] - t[0]).norm().max((t[2] - t[1]).norm()).max((t[0] - t[2]).norm());
+    let least = DEPTH * size(&a).min(size(&b));
+    let parts = |own: &[Point; 3], other: &[Point; 3]| {
+        (0..3).any(|k| {
+            let along = (own[(k + 1) % 3] - own[k]).normalize();
+            other.iter().all(|x| cross(along, x - own[k]) <= least)
+        })
+    };
+    !parts(&a, &b) && !parts(&b, &a)
+}
+
+/// A square of a grid: the level of its size 2^level, and its place.
+type Cell = (i32, i64, i64);
+
+/// Grids of squares of many sizes. Each triangle stands in those squares of about its own size that its box meets.
+struct Cells {
+    low: Point,
+    levels: BTreeSet<i32>,
+    triangles: HashMap<Cell, Vec<u32>>,
+}
+
+impl Cells {
+    fn new(mesh: &MacroMesh, triangles: impl Iterator<Item = usize>) -> Self {
+        let low = mesh.vertices.iter().fold(Point::repeat(f64::INFINITY), |low, x| low.inf(x));
+        let mut cells = Self { low, levels: BTreeSet::new(), triangles: HashMap::new() };
+        for triangle in triangles {
+            let corners = mesh.corners(triangle);
+            let level = level(&corners);
+            cells.levels.insert(level);
+            for cell in cells.under(&corners, level) {
+                cells.triangles.entry(cell).or_default().push(triangle as u32);
+            }
+        }
+        cells
+    }
+
+    /// The squares of a level under the box of a triangle.
+    fn under(&self, corners: &[Point; 3], level: i32) -> impl Iterator<Item = Cell> + use<> {
+        let [a, b, c] = corners.map(|x| (x - self.low) / 2f64.powi(level));
+        let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+        let [i0, j0, i1, j1] = [low.x, low.y, high.x, high.y].map(|v| v.floor() as i64);
+        (i0..=i1).flat_map(move |i| (j0..=j1).map(move |j| (level, i, j)))
+    }
+
+    /// Triangles at least as large as one that may overlap it; some come more than once.
+    fn near<'a>(&'a self, corners: &'a [Point; 3]) -> impl Iterator<Item = usize> + 'a {
+        let levels = self.levels.range(level(corners)..);
+        let cells = levels.flat_map(move |&level| self.under(corners, level)).filter_map(|cell| self.triangles.get(&cell));
+        cells.flatten().map(|&other| other as usize)
+    }
+}
+
+/// Squares of size 2^level are as large as the box of a triangle, or up to twice.
+fn level(corners: &[Point; 3]) -> i32 {
+    let [a, b, c] = corners;
+    (a.sup(b).sup(c) - a.inf(b).inf(c)).amax().log2().ceil() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_overlap_if_they_have_an_area_in_common() {
+        let at = |x: f64, y: f64| [Point::new(x, y), Point::new(x + 1.0, y), Point::new(x, y + 1.0)];
+        assert!(overlap(at(0.0, 0.0), at(0.3, 0.3)));
+        assert!(overlap(at(0.0, 0.0), at(0.0, 0.0)));
+        assert!(!overlap(at(0.0, 0.0), at(1.0, 0.0)), "a corner in common");
+        assert!(!overlap(at(0.0, 0.0), at(0.6, 0.6)));
+        let mirrored = [Point::new(1.0, 0.0), Point::new(1.0, 1.0), Point::new(0.0, 1.0)];
+        assert!(!overlap(at(0.0, 0.0), mirrored), "an edge in common");
+    }
+}

@@ -1,0 +1,200 @@
+//! What runs leave beside their results: for a while each, and for ever if they are killed.
+
+use std::fs::{self, File, TryLockError};
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use rustix::io::Errno;
+use rustix::process::{Pid, test_kill_process};
+use rustix::system::uname;
+
+use super::OutputError;
+
+/// Ending of a result under construction, or of one that it has just replaced.
+const PARTIAL: &str = "partial";
+/// Ending of a result that is being replaced, where that takes two steps.
+const OLD: &str = "old";
+
+/// A hidden folder beside a target, and who has made it.
+struct Leftover {
+    path: PathBuf,
+    host: String,
+    process: i32,
+    is_old: bool,
+}
+
+/// Makes a hidden folder beside `out` that nobody else has, with all folders above it: `.bars.HOST-PROCESS-NUMBER.partial` for
+/// `bars`. Its path begins at the root.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn make_hidden(out: &Path) -> io::Result<PathBuf> {
+    let out = std::path::absolute(out)?;
+    out.parent().map_or(Ok(()), fs::create_dir_all)?;
+    loop {
+        let number = RandomState::new().build_hasher().finish() as u32;
+        let path = out.with_file_name(format!(".{}.{}-{}-{number:08x}.{PARTIAL}", name(&out), host(), std::process::id()));
+        match fs::create_dir(&path) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            made => return made.map(|()| path),
+        }
+    }
+}
+
+/// Clears away what killed runs of this host have left beside `out`, and brings back a result that one has set aside. What
+/// cannot be cleared stays; so does what another host has left, since nobody can tell here whether its run lives.
+pub fn recover(out: &Path) {
+    for left in leftovers(out).filter(Leftover::is_dead) {
+        // Others may do the same at the same time.
+        let _ = match (left.is_old, out.is_dir()) {
+            (true, false) => fs::rename(&left.path, out).map_err(OutputError::io("restore", out)),
+            (_, true) => retire(&left.path, out),
+            (false, false) => fs::remove_dir_all(&left.path).map_err(OutputError::io("remove", &left.path)),
+        };
+    }
+}
+
+/// Carries files that no run writes from the old folder to the new one, then removes the old folder.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn retire(old: &Path, new: &Path) -> Result<(), OutputError> {
+    for entry in fs::read_dir(old).map_err(OutputError::io("read the folder", old))? {
+        let name = entry.map_err(OutputError::io("read the folder", old))?.file_name();
+        let (from, to) = (old.join(&name), new.join(&name));
+        if !is_result_name(&name.to_string_lossy()) && !to.exists() {
+            fs::rename(&from, &to).map_err(OutputError::io("carry over", &from))?;
+        }
+    }
+    fs::remove_dir_all(old).map_err(OutputError::io("remove", old))
+}
+
+/// All hidden folders of runs beside `out`.
+fn leftovers(out: &Path) -> impl Iterator<Item = Leftover> {
+    let folder = out.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let start = format!(".{}.", name(out));
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.filter_map(move |entry| Leftover::of(entry.path(), &start))
+}
+
+impl Leftover {
+    /// None if the name is not made as [`make_hidden`] does.
+    fn of(path: PathBuf, start: &str) -> Option<Self> {
+        let (maker, ending) = name(&path).strip_prefix(start)?.rsplit_once('.').map(|(a, b)| (a.to_owned(), b.to_owned()))?;
+        let mut words = maker.rsplitn(3, '-').skip(1);
+        let (process, host) = (words.next()?.parse().ok()?, words.next()?.to_owned());
+        let is_ours = !host.contains('.') && [PARTIAL, OLD].contains(&ending.as_str());
+        is_ours.then(|| Self { path, host, process, is_old: ending == OLD })
+    }
+
+    /// Whether its maker is known to live no more: a process of this host that is gone, and has not locked the folder, as one that
+    /// is hidden from this process would have.
+    fn is_dead(&self) -> bool {
+        let is_gone = Pid::from_raw(self.process).is_some_and(|process| test_kill_process(process) == Err(Errno::SRCH));
+        let is_locked = || File::open(&self.path).is_ok_and(|it| matches!(it.try_lock(), Err(TryLockError::WouldBlock)));
+        self.host == host() && is_gone && !is_locked()
+    }
+}
+
+/// The last name of a path.
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Name of this host, as far as a file name takes it.
+fn host() -> String {
+    let name = uname().nodename().to_string_lossy().into_owned();
+    name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect()
+}
+
+/// Whether a run writes a file of this name.
+fn is_result_name(name: &str) -> bool {
+    const WRITTEN: [(&str, &str); 8] = [
+        ("summary", ".json"),
+        ("case", ".toml"),
+        ("contact_", ".csv"),
+        ("contact_", ".vtu"),
+        ("fields", "vtu"),
+        ("pressure_", ".svg"),
+        ("displacement_", ".svg"),
+        ("deformed", ".svg"),
+    ];
+    WRITTEN.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::process::Command;
+
+    /// A process that was there once.
+    fn gone() -> u32 {
+        let mut child = Command::new("true").spawn().unwrap();
+        child.wait().unwrap();
+        child.id()
+    }
+
+    /// Folders beside the target `bars`, each with a summary that says its name, and what is left of them.
+    fn recovered(target: Option<&str>, folders: &[String]) -> (Vec<String>, Option<String>) {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("bars");
+        for folder in folders.iter().map(String::as_str).chain(target) {
+            fs::create_dir(root.path().join(folder)).unwrap();
+            fs::write(root.path().join(folder).join("summary.json"), folder).unwrap();
+        }
+        recover(&out);
+        let entries = fs::read_dir(root.path()).unwrap();
+        let mut names: Vec<String> = entries.map(|entry| name(&entry.unwrap().path())).filter(|name| name != "bars").collect();
+        names.sort();
+        (names, fs::read_to_string(out.join("summary.json")).ok())
+    }
+
+    #[test]
+    fn the_dead_are_cleared_away_and_no_others() {
+        let (gone, here) = (gone(), host());
+        let dead = format!(".bars.{here}-{gone}-00000001.partial");
+        let mut kept = vec![
+            format!(".bars.{here}-{}-00000002.partial", std::process::id()),
+            format!(".bars.elsewhere-{gone}-00000003.partial"),
+            format!(".bars.x.{here}-{gone}-00000004.partial"),
+            ".bars.partial".into(),
+            format!(".bars.{here}-{gone}-00000005.mine"),
+            format!(".barsx.{here}-{gone}-00000006.partial"),
+        ];
+        kept.sort();
+        let all: Vec<String> = kept.iter().cloned().chain([dead]).collect();
+        assert_eq!(recovered(None, &all), (kept.clone(), None));
+        assert_eq!(recovered(Some("bars"), &all), (kept, Some("bars".into())));
+    }
+
+    #[test]
+    fn a_result_that_was_set_aside_comes_back() {
+        let old = format!(".bars.{}-{}-00000001.old", host(), gone());
+        assert_eq!(recovered(None, std::slice::from_ref(&old)), (vec![], Some(old.clone())));
+        assert_eq!(recovered(Some("bars"), &[old]), (vec![], Some("bars".into())));
+    }
+
+    #[test]
+    fn a_folder_that_is_locked_has_somebody() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join(format!(".bars.{}-{}-00000001.partial", host(), gone()));
+        fs::create_dir(&path).unwrap();
+        let lock = File::open(&path).unwrap();
+        lock.lock().unwrap();
+        recover(&root.path().join("bars"));
+        assert!(path.exists());
+        drop(lock);
+        recover(&root.path().join("bars"));
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn names_are_of_one_run_each() {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("deep/bars");
+        let [a, b] = [0, 1].map(|_| make_hidden(&out).unwrap());
+        assert!(a != b && a.is_absolute() && a.is_dir() && b.is_dir());
+        assert_eq!(leftovers(&out).filter(|left| left.process as u32 == std::process::id()).count(), 2);
+    }
+}

@@ -1,0 +1,40 @@
+//! What a run is made of: rank 0 alone reads the files, and all ranks work on its bytes.
+
+use super::{RunError, scene};
+use crate::case::{Case, Inputs, fingerprint, read_text};
+use crate::mesh::MacroMesh;
+use crate::petsc::Session;
+use std::path::Path;
+
+/// Reads and checks a case file, after the overrides `KEY=VALUE`; it must be the one that is `wanted`, if any is. **Collective**
+///
+/// # Errors
+/// [`RunError::Input`] with everything that is wrong, [`RunError::Overtaken`] if it is another file; on every rank alike.
+pub fn read_case(file: &Path, overrides: &[String], wanted: Option<&Inputs>, session: &Session) -> Result<Case, RunError> {
+    let text = session.share(|| read_text(file, "case").map(String::into_bytes));
+    refuse_change(file, &text, wanted.map(|inputs| &inputs.case))?;
+    let text = String::from_utf8(text.map_err(RunError::Input)?).expect("rank 0 has read a text");
+    session.agree(Case::parse(&text, file, overrides)).map_err(RunError::Input)
+}
+
+/// The mesh of a case, bent, graded and checked; its file must be the one that is `wanted`, if any is. **Collective**
+///
+/// # Errors
+/// As of [`read_case`].
+pub(super) fn read_mesh(case: &Case, wanted: Option<&Inputs>, session: &Session) -> Result<MacroMesh, RunError> {
+    let bytes = session.share(|| scene::read_mesh_file(case));
+    refuse_change(&case.mesh.file, &bytes, wanted.map(|inputs| &inputs.mesh))?;
+    session.agree(scene::read_mesh(case, &bytes.map_err(RunError::Input)?)).map_err(RunError::Input)
+}
+
+/// A file that cannot be read counts as an empty one.
+fn refuse_change(file: &Path, bytes: &Result<Vec<u8>, String>, wanted: Option<&String>) -> Result<(), RunError> {
+    let found = || fingerprint(&[bytes.as_deref().unwrap_or_default()]);
+    match wanted {
+        Some(wanted) if *wanted != found() => {
+            let words = "has changed since this run was asked for; ask for it again";
+            Err(RunError::Overtaken(format!("{} {words}", file.display())))
+        }
+        _ => Ok(()),
+    }
+}

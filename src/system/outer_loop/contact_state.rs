@@ -1,0 +1,109 @@
+//! Pressures and penetrations of a solve, for every multiplier, and whether they are a solution of the contact conditions.
+
+use crate::contact::{Found, Law};
+use crate::petsc::{Session, Vector};
+use crate::system::{Contact, Discretisation, SaddlePoint};
+
+/// What is left of the contact conditions at most, as a share of the largest pressure,
+const MOST_VIOLATED: f64 = 1e-3;
+
+/// and by the relative residual of the solve.
+const BY_RESIDUAL: f64 = 1e4;
+
+/// What was solved for an active set; the same on every rank.
+pub(super) struct ContactState {
+    /// `λ_i`, zero on open multipliers (stress).
+    lambda: Vec<f64>,
+    /// `(B u - C λ - c)_i` of all multipliers, active or not (length squared).
+    penetration: Vec<f64>,
+    /// `κ_i` (stress per length squared).
+    penalty: Vec<f64>,
+}
+
+impl ContactState {
+    /// Reads it off the unknowns `x`. **Collective**
+    pub(super) fn new(problem: &Discretisation, system: &SaddlePoint, x: &Vector, active: &[bool], session: &Session) -> Self {
+        let mut lambda = pressures(problem, system, x, session);
+        lambda.iter_mut().zip(active).filter(|(_, active)| !**active).for_each(|(value, _)| *value = 0.0);
+        let jumps = system.jump_term(&lambda);
+        let mut penetration = penetration(problem, system, &x.values()[..problem.finest().local_unknowns()], session);
+        penetration.iter_mut().zip(&jumps).for_each(|(sum, jump)| *sum -= jump);
+        Self { lambda, penetration, penalty: penalties(problem) }
+    }
+
+    /// `λ_i + κ_i (B u - C λ - c)_i`: positive where the next set of the plain rule is active.
+    pub(super) fn force(&self, i: usize) -> f64 {
+        self.lambda[i] + self.penalty[i] * self.penetration[i]
+    }
+
+    /// For the search by rising energy.
+    pub(super) fn found(&self) -> Found<'_> {
+        Found { lambda: &self.lambda, penetration: &self.penetration, penalty: &self.penalty }
+    }
+
+    /// Largest mean penetration over a multiplier (length).
+    pub(super) fn largest_penetration(&self, problem: &Discretisation) -> f64 {
+        let mean = |contact: &Contact| {
+            let own = |i: usize| self.penetration[i] / contact.multipliers.weight(i - contact.first);
+            contact.range().map(own).fold(0.0, f64::max)
+        };
+        problem.contacts.iter().map(mean).fold(0.0, f64::max)
+    }
+
+    /// Looks at the contact conditions themselves, whatever led to the set: no multiplier of a unilateral contact pulls, none
+    /// that is open penetrates, and closed ones touch, to a share of the largest pressure that the relative `residual` allows.
+    /// Otherwise words with the figure of the worst.
+    pub(super) fn violated(&self, problem: &Discretisation, active: &[bool], residual: f64) -> Option<String> {
+        let allowed = MOST_VIOLATED.max(BY_RESIDUAL * residual);
+        let most = self.lambda.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let mut worst: Option<(f64, String)> = None;
+        for contact in &problem.contacts {
+            let unilateral = contact.pair.law == Law::Unilateral;
+            for i in contact.range() {
+                let apart = self.penalty[i] * self.penetration[i];
+                let (off, what) = match (active[i], unilateral) {
+                    (true, true) if self.lambda[i] < 0.0 => (-self.lambda[i], "pulls"),
+                    (true, _) => (apart.abs(), "does not touch"),
+                    (false, _) => (apart, "penetrates"),
+                };
+                // Written so that what is not a number counts.
+                let holds = off <= allowed * most;
+                if !holds && worst.as_ref().is_none_or(|(value, _)| off > *value) {
+                    let place = super::unsettled::place(contact, i);
+                    worst = Some((off, format!("{place} {what}, by {:.1e} of the largest pressure", off / most)));
+                }
+            }
+        }
+        worst.map(|(_, words)| words)
+    }
+}
+
+/// `λ_i = s_i λ̂_i` of all multipliers. **Collective**
+pub(super) fn pressures(problem: &Discretisation, system: &SaddlePoint, x: &Vector, session: &Session) -> Vec<f64> {
+    let all = system.multipliers.collect(&x.values()[problem.finest().local_unknowns()..], session);
+    all.iter().zip(&system.multipliers.scale).map(|(value, scale)| value * scale).collect()
+}
+
+/// `(B u - c)_i` of all multipliers, for this rank's displacements without prescribed components (length squared).
+/// **Collective**
+pub(super) fn penetration(problem: &Discretisation, system: &SaddlePoint, u: &[f64], session: &Session) -> Vec<f64> {
+    let own = &problem.finest().own;
+    let mut all = vec![0.0; system.gap.len()];
+    for (i, sum) in all.iter_mut().enumerate() {
+        for &(node, entry) in system.finest_rows().row(i).iter().filter(|(node, _)| own.contains(node)) {
+            let at = 2 * (node - own.start);
+            *sum += entry.x * u[at] + entry.y * u[at + 1];
+        }
+    }
+    session.sum(&mut all);
+    all.iter_mut().zip(&system.gap).for_each(|(sum, gap)| *sum -= gap);
+    all
+}
+
+/// `κ_i` of all multipliers.
+fn penalties(problem: &Discretisation) -> Vec<f64> {
+    let own = |contact: &Contact| -> Vec<f64> {
+        (0..contact.multipliers.count()).map(|i| contact.multipliers.penalty(i, contact.modulus)).collect()
+    };
+    problem.contacts.iter().flat_map(own).collect()
+}

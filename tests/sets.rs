@@ -1,0 +1,138 @@
+//! Active sets that are hard to find, and contact that the multipliers do not see.
+
+mod support;
+
+use std::f64::consts::PI;
+use support::mesh::{Block, Mesh, grid, write_scene};
+use support::{Ended, RANKS, Run};
+
+/// A rectangle with its lower left corner at `(x, y)`.
+fn rectangle([x, y]: [f64; 2], [width, height]: [f64; 2], cells: [usize; 2], seed: u64) -> Block {
+    grid(cells[0], cells[1], seed, |u, v| [x + width * u, y + height * v])
+}
+
+fn passes(ended: &Ended) -> usize {
+    ended.value("/outer").as_array().expect("a list").len()
+}
+
+/// A leaf spring, clamped on the left, bent by a force F on its tip onto a stiff seat with the curvature c: a beam lies on the
+/// seat up to where F(L - a) = EI c, carries no load there, and presses with F at a. Lengths and moduli by factors.
+fn leaf(length: f64, modulus: f64) -> (Mesh, String, f64) {
+    let [span, depth, young, radius] = [100.0 * length, 2.0 * length, 210_000.0 * modulus, 2500.0 * length];
+    let seat = rectangle([0.0, -20.0 * length], [span, 20.0 * length], [40, 4], 1);
+    let leaf = rectangle([0.0, 0.0], [span, depth], [50, 1], 2);
+    let mesh = Mesh {
+        bodies: vec![("seat", seat, ["base", "", "seat.top", ""]), ("leaf", leaf, ["leaf.bottom", "tip", "", "wall"])],
+    };
+    let bending = young / (1.0 - 0.09) * depth.powi(3) / 12.0;
+    let force = bending / radius / (0.5 * span);
+    let case = format!(
+        "mesh = {{ file = \"mesh.msh\", refine = 1, order = 2 }}
+         body.seat = {{ young = {:?}, poisson = 0.3 }}
+         body.leaf = {{ young = {young:?}, poisson = 0.3 }}
+         support.base = {{ on = [\"base\", \"wall\"], ux = 0.0, uy = 0.0 }}
+         load.tip = {{ on = \"tip\", traction = [0.0, {:?}] }}
+         contact.c = {{ between = [\"seat.top\", \"leaf.bottom\"], curve = \"line\", gap = \"x^2/{:?}\" }}",
+        100.0 * young,
+        -force / depth,
+        2.0 * radius
+    );
+    (mesh, case, force)
+}
+
+/// Force on the contact line beyond a fifth of its length, and the mean place where it acts, as a share of it. Before, the
+/// clamped end keeps its thickness, which the bent leaf does not: it presses there, which no beam knows.
+fn beyond_the_clamp(ended: &Ended) -> [f64; 2] {
+    let length = ended.number("/contact/c/length");
+    let points = ended.trace("c");
+    let mut sums = [0.0; 2];
+    for ends in points.windows(2).filter(|ends| ends[0].s > 0.2 * length) {
+        let part = 0.5 * (ends[0].lambda + ends[1].lambda) * (ends[1].s - ends[0].s);
+        sums[0] += part;
+        sums[1] += part * ends[0].s / length;
+    }
+    [sums[0], sums[1] / sums[0]]
+}
+
+#[test]
+fn a_leaf_spring_rolls_onto_its_seat_in_any_unit_space_and_number_of_ranks() {
+    for (length, modulus) in [(1.0, 1.0), (1e-3, 1e6)] {
+        let (mesh, case, force) = leaf(length, modulus);
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = write_scene(folder.path(), &mesh.text(), &case);
+        for space in ["p0", "p1-discontinuous", "p1-continuous"] {
+            let found = RANKS.map(|ranks| {
+                let run = Run::file(&file).ranks(ranks).set("contact.c.multiplier", space).set("output.fields", false);
+                let ended = run.converged();
+                let [found, place] = beyond_the_clamp(&ended);
+                let words = format!("{space}, lengths by {length:e}, {ranks} ranks: force {}, at {place}", found / force);
+                assert!(passes(&ended) <= 40, "{words}, {} passes", passes(&ended));
+                assert!((found / force - 1.0).abs() < 0.05 && (place - 0.5).abs() < 0.03, "{words}");
+                ended.number("/contact/c/force")
+            });
+            assert!(found.iter().all(|force| (force / found[0] - 1.0).abs() < 1e-4), "{space}: {found:?}");
+        }
+    }
+}
+
+/// A pin, smaller than its hole by a thousandth, lies in it under a load that strains it by a millionth.
+#[test]
+fn a_pin_under_a_light_load_stays_in_its_hole() {
+    let (clearance, load, young) = (1e-3, 1e-6, 7000.0);
+    let radius = 1.0 - clearance;
+    let turn = |r: f64, v: f64| [r * (PI * (v - 0.5)).cos(), r * (PI * (v - 0.5)).sin()];
+    let plate = grid(6, 14, 1, |u, v| turn(1.0 + 1.8 * u * u + 1.2 * u, v));
+    let pin = grid(5, 12, 2, |u, v| {
+        let [x, y] = turn(radius * (0.25 + 0.75 * u), v);
+        [x, y - clearance]
+    });
+    let mesh =
+        Mesh { bodies: vec![("plate", plate, ["cut", "far", "cut", "hole"]), ("pin", pin, ["cut", "rim", "cut", ""])] };
+    let area = 0.5 * PI * radius * radius * (1.0 - 0.0625);
+    let case = format!(
+        "mesh = {{ file = \"mesh.msh\", refine = 1, order = 2 }}
+         body.plate = {{ young = {young:?}, poisson = 0.3 }}
+         body.pin = {{ young = {young:?}, poisson = 0.3, body_force = [0.0, {:?}] }}
+         geometry.hole = {{ curves = [\"hole\"], circle = {{ centre = [0, 0], radius = 1 }} }}
+         geometry.rim = {{ curves = [\"rim\"], circle = {{ centre = [0, {:?}], radius = {radius:?} }} }}
+         support.cut = {{ on = \"cut\", ux = 0.0 }}
+         support.far = {{ on = \"far\", ux = 0.0, uy = 0.0 }}
+         contact.c = {{ between = [\"hole\", \"rim\"], curve = \"fit\", gap = \"geometry\" }}",
+        -load * young / area,
+        -clearance
+    );
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), &case);
+    for ranks in [1, 3] {
+        let ended = Run::file(&file).ranks(ranks).set("output.fields", false).converged();
+        // It is so narrow that its pressure acts downwards.
+        let found = ended.number("/contact/c/force") / (load * young);
+        assert!((found - 1.0).abs() < 0.02, "{found}, {ranks} ranks");
+    }
+}
+
+/// A round block, pressed onto a flat one, touches it on a tenth of a segment: the mean gap of every segment is open.
+#[test]
+fn contact_that_is_narrower_than_a_segment_is_not_passed_over_in_silence() {
+    let lower = rectangle([0.0, 0.0], [2.0, 1.0], [12, 6], 1);
+    let upper = rectangle([0.0, 1.0], [2.0, 1.0], [14, 7], 2);
+    let mesh = Mesh {
+        bodies: vec![("lower", lower, ["bottom", "", "lower.top", ""]), ("upper", upper, ["upper.bottom", "", "top", ""])],
+    };
+    let case = "
+        mesh = { file = \"mesh.msh\", refine = 1 }
+        body.lower = { young = 1000.0, poisson = 0.3 }
+        body.upper = { young = 1000.0, poisson = 0.3 }
+        support.bottom = { on = \"bottom\", ux = 0.0, uy = 0.0 }
+        support.top = { on = \"top\", ux = 0.0, uy = -0.04 }
+        contact.c = { between = [\"lower.top\", \"upper.bottom\"], curve = \"line\", gap = \"0.5*(x-1)^2\" }";
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    let run = |segments: &str| Run::file(&file).set("contact.c.segments", segments).set("output.fields", false).converged();
+    let [few, auto] = ["2", "auto"].map(run);
+    let force = auto.number("/contact/c/force");
+    assert!(auto.number("/contact/c/unresolved_force") < 0.1 * force, "{force}");
+    assert_eq!((few.number("/contact/c/force"), few.value("/contact/c/trust")), (0.0, false.into()));
+    assert!(few.said().contains("penetrate each other within segments"), "{}", few.said());
+    assert!(few.number("/contact/c/unresolved_force") > 0.2 * force);
+}
