@@ -62,6 +62,7 @@ fn finest(scene: &Scene, focus: &[Peak], refine: usize, seed: u64) -> Settings {
 
 /// The truth of a scene, from the last time or from new runs; their cases stay beside it.
 pub fn truth(scene: &Scene, seed: u64) -> Truth {
+    let smooth = [scene.smooth_end(0), scene.smooth_end(1)];
     let flat = scene.flattened();
     let scene = flat.as_ref().unwrap_or(scene);
     let mut hasher = DefaultHasher::new();
@@ -73,7 +74,7 @@ pub fn truth(scene: &Scene, seed: u64) -> Truth {
     if let Some(truth) = std::fs::read_to_string(&file).ok().and_then(|text| serde_json::from_str(&text).ok()) {
         return truth;
     }
-    let truth = converge(scene, seed);
+    let truth = converge(scene, smooth, seed);
     std::fs::write(&file, serde_json::to_string(&truth).expect("JSON")).expect("target/scenes can be written");
     truth
 }
@@ -92,7 +93,7 @@ fn reference(scene: &Scene, settings: &Settings, seed: u64, name: &str) -> Resul
 }
 
 /// A first run tells where the bodies press; meshes that are fine there follow until two agree.
-fn converge(scene: &Scene, seed: u64) -> Truth {
+fn converge(scene: &Scene, smooth: [bool; 2], seed: u64) -> Truth {
     let first = match reference(scene, &finest(scene, &scene.focus, 1, seed), seed, "first") {
         Ok(first) if first.force == 0.0 => return Truth::Unknown("nothing presses".into()),
         Ok(first) => Some(first),
@@ -109,7 +110,7 @@ fn converge(scene: &Scene, seed: u64) -> Truth {
         match reference(scene, &finest(scene, &focus, refine, seed), seed, &format!("finest-{refine}")) {
             Ok(found) => {
                 if let Some(last) = &last {
-                    let apart = last.apart(&found, scene.ends(), [scene.smooth_end(0), scene.smooth_end(1)]);
+                    let apart = last.apart(&found, scene.ends(), smooth);
                     if apart.lambda().max(apart.force) < AGREED {
                         return Truth::Known(found);
                     }

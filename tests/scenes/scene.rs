@@ -222,8 +222,26 @@ impl Scene {
     /// Whether contact that reaches this end of the seam, 0 or 1, ends there smoothly: between walls at right angles to it.
     pub fn smooth_end(&self, end: usize) -> bool {
         let [lower, upper] = &self.bodies;
-        let square = lower.seam.is_square(end as f64) && upper.seam.is_square(end as f64);
+        let square = lower.seam.is_square(end as f64) && upper.seam.is_square(end as f64) && self.gap_is_level(end as f64);
         square && lower.walls[end] && upper.walls[end] && lower.range[end] == upper.range[end]
+    }
+
+    /// Whether the gap has no slope at an end. At a wall, the mirror of another gap has a kink: λ is singular like a logarithm.
+    fn gap_is_level(&self, end: f64) -> bool {
+        let gap = |u: f64| match &self.gap {
+            Gap::Bumps { bumps, .. } => {
+                let square = |bump: &Bump| {
+                    let ([x, y], [a, b]) = (self.bodies[0].seam.at(u), self.bodies[0].seam.at(bump.at));
+                    ((x - a).powi(2) + (y - b).powi(2)) / bump.width.powi(2)
+                };
+                bumps.iter().map(|bump| -bump.share * (-square(bump)).exp()).sum()
+            }
+            Gap::Drawn => self.bodies[1].seam.at(u)[1] - self.bodies[0].seam.at(u)[1],
+            Gap::Closed | Gap::Number(_) | Gap::Formula(_) => 0.0,
+        };
+        let slope = |u: f64| (gap(u + 1e-4) - gap(u - 1e-4)).abs();
+        let most = (1..100).map(|k| slope(k as f64 / 100.0)).fold(0.0, f64::max);
+        slope(end) <= 0.02 * most
     }
 
     /// Where the seam that both bodies have begins and ends, as parameters.
