@@ -23,8 +23,10 @@ pub struct Zone {
 /// How far a pressure is from another, zone by zone: the largest of each, relative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Apart {
-    /// Mean square over a zone, by the zone's peak.
+    /// Mean square over a zone, by the zone's peak; of steps (p0), from the reference's mean over each.
     pub mean: f64,
+    /// The same from the reference itself: what steps cannot follow counts as well.
+    pub plain: f64,
     /// Peak.
     pub peak: f64,
     /// Force of a zone.
@@ -67,6 +69,27 @@ impl Profile {
     fn samples(&self, from: f64, to: f64) -> Vec<f64> {
         let step = (to - from) / SAMPLES as f64;
         (0..SAMPLES).map(|k| self.at(from + (k as f64 + 0.5) * step)).collect()
+    }
+
+    /// If this λ goes in steps: samples of the reference's mean over each of them.
+    fn steps(&self, reference: &Self, from: f64, to: f64) -> Option<Vec<f64>> {
+        let wide = |pair: &&[[f64; 2]]| pair[1][0] > pair[0][0];
+        if self.points.windows(2).filter(wide).any(|pair| (pair[1][1] - pair[0][1]).abs() > 1e-9 * pair[0][1].abs()) {
+            return None;
+        }
+        let jumps = self.points.windows(2).filter(|pair| pair[1][0] == pair[0][0]).map(|pair| pair[0][0]);
+        let ends: Vec<f64> = self.points.first().map(|point| point[0]).into_iter().chain(jumps).collect();
+        let ends: Vec<f64> = ends.into_iter().chain(self.points.last().map(|point| point[0])).collect();
+        let means: Vec<f64> = ends
+            .windows(2)
+            .map(|pair| (0..200).map(|k| reference.at(pair[0] + (k as f64 + 0.5) / 200.0 * (pair[1] - pair[0]))).sum::<f64>() / 200.0)
+            .collect();
+        let at = |u: f64| {
+            let k = ends.partition_point(|end| *end <= u);
+            if k == 0 || k > means.len() { reference.at(u) } else { means[k - 1] }
+        };
+        let step = (to - from) / SAMPLES as f64;
+        Some((0..SAMPLES).map(|k| at(from + (k as f64 + 0.5) * step)).collect())
     }
 
     /// The parameter about which λ has no moment.
@@ -122,11 +145,16 @@ impl Profile {
             let from = if cornered[0] { zone.from + 0.1 * width } else { (zone.from - 0.25 * width).max(before).max(ends[0]) };
             let to = if cornered[1] { zone.to - 0.1 * width } else { (zone.to + 0.25 * width).min(after).min(ends[1]) };
             let (a, b) = (self.samples(from, to), reference.samples(from, to));
+            let steps = self.steps(reference, from, to);
             let peak = |values: &[f64]| values.iter().fold(0.0, |top: f64, value| top.max(*value));
             let sum = |values: &[f64]| values.iter().sum::<f64>();
-            let square: f64 = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum();
             let share = (to - from) / (zone.to - zone.from).min(to - from);
-            apart.mean = apart.mean.max((square * share / SAMPLES as f64).sqrt() / peak(&b));
+            let mean = |b: &[f64], peak: f64| {
+                let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+                (square * share / SAMPLES as f64).sqrt() / peak
+            };
+            apart.plain = apart.plain.max(mean(&b, peak(&b)));
+            apart.mean = apart.mean.max(mean(steps.as_ref().unwrap_or(&b), peak(&b)));
             apart.peak = apart.peak.max((peak(&a) / peak(&b) - 1.0).abs());
             apart.part = apart.part.max((sum(&a) / sum(&b) - 1.0).abs());
             let nearest = |end: fn(&Zone) -> f64| own.iter().map(|own| (end(own) - end(zone)).abs()).fold(f64::INFINITY, f64::min);

@@ -45,7 +45,7 @@ pub fn run(file: &Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Sa
     said.reason = summary["reason"].as_str().unwrap_or_default().to_string();
     let contact = &summary["contact"]["c"];
     let all: Vec<_> = summary["contact"].as_object().into_iter().flatten().map(|(_, own)| own["trust"].as_bool()).collect();
-    said.trust = if all.contains(&Some(false)) { Some(false) } else { (!all.contains(&None)).then_some(true) };
+    said.trust = if all.contains(&Some(false)) { Some(false) } else { (!all.is_empty() && !all.contains(&None)).then_some(true) };
     said.estimate = ["force", "lambda"].map(|key| summary["estimate"]["c"][key].as_f64());
     if let Some(force) = contact["force"].as_f64().filter(|_| ended.out.join("contact_c.csv").exists()) {
         let points = ended.trace("c").iter().map(|point| [parameter(point.x), point.lambda]).collect();

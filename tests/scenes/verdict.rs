@@ -22,6 +22,8 @@ pub enum Kind {
 pub struct Row {
     pub seed: u64,
     pub kind: Kind,
+    /// Whether the scene has an answer at all.
+    pub possible: bool,
     pub apart: Option<Apart>,
     pub said: Said,
     pub words: String,
@@ -67,4 +69,61 @@ impl Row {
             if is_quiet(&self.said) { "" } else { self.said.reason.trim() },
         )
     }
+}
+
+/// What a table of rows adds up to.
+pub struct Totals {
+    pub text: String,
+    /// Whether the figures that are wanted are held.
+    pub held: bool,
+}
+
+/// Most of the rows may be wrong by 5 to 10 % without a word, and most may be doubted without need.
+const MOST_QUIET: f64 = 0.02;
+const MOST_FALSE: f64 = 0.1;
+
+/// Estimates count where the true error is above what the reference itself may be off by: of ∫λ ds, of λ.
+const FLOORS: [f64; 2] = [1e-3, 0.01];
+
+/// Adds rows up; `dropped` scenes have no reference that is good enough.
+pub fn totals(rows: &[Row], dropped: usize) -> Totals {
+    let count = |kind: Kind| rows.iter().filter(|row| row.kind == kind).count();
+    let [right, alarm, needless, quiet, loud] =
+        [Kind::Right, Kind::Alarm, Kind::FalseAlarm, Kind::Quiet, Kind::Loud].map(count);
+    let share = |part: usize| part as f64 / rows.len().max(1) as f64;
+    let steps = rows.iter().filter(|row| row.kind == Kind::Right && row.apart.is_some_and(|apart| apart.plain > 0.05)).count();
+    let mut text = format!(
+        "{} scenes, {dropped} dropped: {right} right, {alarm} doubted and wrong, {needless} doubted without need ({:.1} %, {:.0} at most),\n\
+         {quiet} wrong by 5 to 10 % without a word ({:.1} %, {:.0} at most), {loud} by more (0 at most); {steps} right but for the steps of p0\n",
+        rows.len(),
+        1e2 * share(needless),
+        1e2 * MOST_FALSE,
+        1e2 * share(quiet),
+        1e2 * MOST_QUIET,
+    );
+    for (k, name) in ["force", "λ"].into_iter().enumerate() {
+        text += &format!("estimate of {name} by true error: {}\n", effectivity(rows, k));
+    }
+    Totals { text, held: loud == 0 && share(quiet) <= MOST_QUIET && share(needless) <= MOST_FALSE }
+}
+
+/// How estimates compare with true errors, in words.
+fn effectivity(rows: &[Row], which: usize) -> String {
+    let ratio = |row: &Row| {
+        let apart = row.apart.filter(|_| row.possible && row.said.code == Some(0))?;
+        let error = [apart.force, apart.plain][which];
+        row.said.estimate[which].filter(|_| error > FLOORS[which]).map(|estimate| estimate / error)
+    };
+    let mut ratios: Vec<f64> = rows.iter().filter_map(ratio).collect();
+    ratios.sort_by(f64::total_cmp);
+    let Some(least) = ratios.first() else { return "none to compare".into() };
+    let below = |limit: f64| ratios.iter().filter(|ratio| **ratio < limit).count();
+    format!(
+        "{} rows, least {least:.2}, median {:.2}, most {:.1}; {} below .3, {} of .5 to 3",
+        ratios.len(),
+        ratios[ratios.len() / 2],
+        ratios[ratios.len() - 1],
+        below(0.3),
+        below(3.0) - below(0.5),
+    )
 }

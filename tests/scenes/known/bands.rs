@@ -152,7 +152,7 @@ impl Leaf {
         case += &format!("[load.tip]\non = \"upper.right\"\ntraction = [0.0, {:?}]\n", -self.force / self.thickness);
         let answer = match self.clamped {
             Some(force) => Answer::Force { force, most: 0.025, at: None },
-            None => Answer::Force { force: self.force * size, most: 0.01, at: Some([self.lift, self.thickness / self.length]) },
+            None => Answer::Force { force: self.force * size, most: 0.01, at: Some([self.lift * self.length * size, self.thickness * size]) },
         };
         Known { name: format!("leaf, {name}"), mesh: scene.mesh(&settings.layers), case, ranks, answer }
     }

@@ -14,13 +14,13 @@ use crate::verdict::is_quiet;
 use std::path::PathBuf;
 
 /// Where on the seam a point of the plane lies.
-pub type Parameter = Box<dyn Fn([f64; 2]) -> f64>;
+pub type Parameter = Box<dyn Fn([f64; 2]) -> f64 + Sync + Send>;
 
 /// What is known of a scene.
 pub enum Answer {
     /// λ along a parameter. The seam ends smoothly. If `centred`, where the middle of contact lies is not asked.
     Pressure { profile: Profile, parameter: Parameter, centred: bool },
-    /// The force to a tolerance, and where its middle lies, as parameters.
+    /// The force to a tolerance, and the x of its middle, with a tolerance.
     Force { force: f64, most: f64, at: Option<[f64; 2]> },
     /// Exit code 2, with one of these words.
     Refusal(&'static [&'static str]),
