@@ -16,8 +16,10 @@ mod oscillation;
 mod pair;
 mod placing;
 mod quadrature;
+mod reconstruction;
 mod smooth_side;
 mod trace;
+mod zones;
 
 pub use active_set::{ActiveSet, Step};
 pub use contact_boundary::ContactBoundary;
@@ -32,5 +34,7 @@ pub use oscillation::oscillation;
 pub use pair::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise};
 pub use placing::{Known, Placed, PlacingError, all_edges, faces, place};
 pub use quadrature::{QuadraturePoint, quadrature_points};
+pub use reconstruction::{Roughness, roughness};
 pub use smooth_side::{Displacement, SmoothSide};
 pub use trace::{Piece, Trace, pieces, trace};
+pub use zones::Zone;

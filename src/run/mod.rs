@@ -10,6 +10,7 @@ mod scene;
 mod solve;
 mod summarise;
 mod trust;
+mod zones;
 
 pub use check::{check, info};
 

@@ -3,14 +3,14 @@
 use super::exact::{Errors, compare};
 use super::report::memory;
 use super::solve::Solved;
-use super::{Outcome, Run, RunError, fields, summarise, trust};
+use super::{Outcome, Run, RunError, fields, summarise, trust, zones};
 use crate::case::Case;
-use crate::contact::GapChoice;
+use crate::contact::{Configuration, GapChoice};
 use crate::geometry::Point;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
 use crate::system::recovery::{TracePoint, balance, nodal_stress, probe, trace_points};
-use crate::system::{Contact, Discretisation, Field, Solution, Verdict};
+use crate::system::{Contact, Discretisation, Field, Verdict};
 use std::path::Path;
 
 impl Run<'_> {
@@ -28,10 +28,10 @@ impl Run<'_> {
             Verdict::NotConverged(words) => (Status::NotConverged, words.clone()),
         };
         summarise::describe(&mut summary, self.case, problem, solved);
-        summarise::estimate(&mut summary, problem, &solved.estimate);
+        summary.estimate.energy = solved.estimate.energy;
         if solution.is_solved() {
             let _stage = self.stages.output.enter();
-            let errors = self.evaluate(&mut summary, problem, solution)?;
+            let errors = self.evaluate(&mut summary, problem, solved)?;
             if status == Status::Converged && !errors.missed.is_empty() {
                 errors.missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
                 if self.case.exact.must_hold {
@@ -40,12 +40,17 @@ impl Run<'_> {
                 }
             }
             summary.errors = errors.values;
-            if let Some(words) = trust::judge(&mut summary, self.case, matches!(solution.verdict, Verdict::Converged(_))) {
+            let judgement = trust::judge(&mut summary, self.case, matches!(solution.verdict, Verdict::Converged(_)));
+            if let Some(words) = judgement.unreliable {
                 reason = match status {
                     Status::Converged => format!("pressure unreliable: {words}"),
                     Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
                 };
                 self.report.warn(&format!("pressure unreliable: {words}"));
+            }
+            for words in judgement.unknown {
+                reason = format!("{reason}; {words}");
+                self.report.warn(&words);
             }
         }
         if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
@@ -69,7 +74,8 @@ impl Run<'_> {
     }
 
     /// Fields, traces, balances and errors; their files too. **Collective**
-    fn evaluate(&self, summary: &mut Summary, problem: &Discretisation, solution: &Solution) -> Result<Errors, RunError> {
+    fn evaluate(&self, summary: &mut Summary, problem: &Discretisation, solved: &Solved) -> Result<Errors, RunError> {
+        let solution = &solved.solution;
         let (case, session) = (self.case, self.session);
         let scene = &problem.scene;
         let u = Field::displacement(problem, &solution.displacement, session)?;
@@ -78,9 +84,18 @@ impl Run<'_> {
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
-            summary.contact.insert(contact.pair.name.clone(), summarise::contact(problem, at, solution, &balance, &points));
             self.warn_if_apart(contact, &points);
-            traces.push(contact_points(contact, &points));
+            let traced = contact_points(contact, &points);
+            let zones = zones::zones(problem, at, solution, &solved.estimate, &points);
+            let force = solved.estimate.force.get(at).copied().flatten();
+            summary.estimate.contact.insert(contact.pair.name.clone(), zones::contact_estimate(force, &zones));
+            let mut found = summarise::contact(problem, at, solution, &balance, &points);
+            if contact.pair.configuration == Configuration::Reference {
+                found.missing = zones::missing_force(contact, &zones, &traced, balance.contacts[at].force);
+            }
+            found.zones = zones;
+            summary.contact.insert(contact.pair.name.clone(), found);
+            traces.push(traced);
         }
         for point in &case.probes {
             let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");

@@ -7,6 +7,7 @@ mod following;
 mod held;
 mod rigid_start;
 mod solution;
+mod zone_estimate;
 
 pub use coarse_solution::CoarseSolution;
 pub use contact_loop::{ContactLoop, OuterStep, Start};
@@ -15,3 +16,4 @@ pub use following::{BoundaryStep, Following, Onward, carried, stands};
 pub use held::{few_that_hold, not_held};
 pub use rigid_start::rigid_start;
 pub use solution::{Solution, Verdict};
+pub use zone_estimate::{ZoneDifference, ZoneEstimate};

@@ -6,6 +6,7 @@ mod exact_pressure;
 mod probe;
 mod stress;
 mod traces;
+mod zone_errors;
 
 pub use balance::{Balance, ContactForce, balance, strain_energy};
 pub use error_norm::energy_error;
@@ -13,6 +14,7 @@ pub use exact_pressure::{pressure_at, pressure_error};
 pub use probe::{Probed, probe};
 pub use stress::nodal_stress;
 pub use traces::{TracePoint, trace_points};
+pub use zone_errors::{ZoneErrors, zone_errors};
 
 use super::{Discretisation, Field, SystemError};
 use crate::geometry::Point;
