@@ -82,7 +82,8 @@ impl Run<'_> {
             differences.push(Difference::new(problem, &solution, coarse, self.session)?);
         }
         self.measure_inf_sup(problem, &prepared.system, &mut solution)?;
-        Ok(Solved { solution, solver: prepared.solver.name, estimate: Estimate::new(&differences), coarse: solves })
+        let estimate = Estimate::new(&differences, problem.scene.order, solution.residual);
+        Ok(Solved { solution, solver: prepared.solver.name, estimate, coarse: solves })
     }
 
     /// Where the ladder begins; what `name = "auto"` comes to is said with its reason.
