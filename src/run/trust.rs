@@ -136,7 +136,8 @@ mod tests {
         let worse = |summary: &mut Summary| summary.estimate.contact.get_mut("seam").expect("there").lambda = Some(0.9);
         assert!(words(|summary, _| worse(summary)).contains("of λ 0.90"));
         assert!(words(|summary, _| summary.balance.force = Some(1.0)).contains("differ by 1.00"));
-        let within = |force: f64, off: f64| words(|_, contact| (contact.force, contact.unresolved_force) = (Some(force), Some(off)));
+        let within =
+            |force: f64, off: f64| words(|_, contact| (contact.force, contact.unresolved_force) = (Some(force), Some(off)));
         assert_eq!((within(5.4, 0.2), within(0.0, 0.0)), (String::new(), String::new()));
         assert!(within(5.4, 4.2).contains("worth a force of 4.20") && within(0.0, 4.2).contains("within segments"));
     }
