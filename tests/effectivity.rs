@@ -126,9 +126,11 @@ output.fields = false
 #[test]
 fn a_second_zone_narrower_than_an_edge_is_not_trusted() {
     let case = |width: f64| {
+        // Two wide humps are given ten times the load, so that they are resolved.
+        let load = if width > 0.5 { 3.0 } else { 0.3 };
         format!(
             r#"mesh = {{ file = "mesh.msh", refine = 2 }}
-load.top = {{ on = "top", pressure = 0.3 }}
+load.top = {{ on = "top", pressure = {load} }}
 contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = "0.01*(1-exp(-((x+1.5)/0.8)^2)-exp(-((x-1.5)/{width})^2))" }}"#
         )
     };
@@ -164,14 +166,14 @@ contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = 
 /// Edges 1:20 across the line, few of them: λ is off by a quarter, and no coarser mesh is there to tell.
 #[test]
 fn a_coarse_mesh_is_told_by_the_stresses() {
-    let case = |pressure: &str| {
+    let case = |gap: &str| {
         format!(
             r#"mesh = {{ file = "mesh.msh", order = 1 }}
-load.top = {{ on = "top", pressure = "{pressure}" }}
-contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed", multiplier = "p0" }}"#
+load.top = {{ on = "top", pressure = 1 }}
+contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = "{gap}", multiplier = "p0" }}"#
         )
     };
-    let trust = |pressure: &str| blocks([4, 40], &case(pressure), 1).value("/contact/seam/trust");
-    assert!(trust("1 + cos(pi*x)") != true, "a pressure that the mesh cannot follow");
-    assert!(trust("1") == true, "an even one");
+    let trust = |gap: &str| blocks([4, 40], &case(gap), 1).value("/contact/seam/trust");
+    assert!(trust("0.0005*cos(pi*x)") != true, "waves that the mesh cannot follow");
+    assert!(trust("closed") == true, "an even pressure");
 }

@@ -3,6 +3,9 @@
 use super::{ContactBoundary, MultiplierSpace, Multipliers, Zone};
 use crate::geometry::gauss_points;
 
+/// A sample nearer to the one before than this share of its distance to the next says the same.
+const SAME: f64 = 0.02;
+
 /// Samples that a value is interpolated from.
 const NEIGHBOURS: usize = 4;
 
@@ -19,7 +22,7 @@ pub struct Roughness {
 /// discontinuous), their ends (P1 continuous), and zero where contact ends inside the boundary. Nothing if there are fewer
 /// than three samples.
 pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], zone: &Zone) -> Option<Roughness> {
-    let samples = samples(boundary, multipliers, lambda, zone);
+    let samples = apart(&samples(boundary, multipliers, lambda, zone));
     if samples.len() < 3 {
         return None;
     }
@@ -64,6 +67,21 @@ fn samples(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64]
     samples
 }
 
+/// Samples without those of a segment much shorter than its neighbours.
+fn apart(samples: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for (k, sample) in samples.iter().enumerate() {
+        let near = match (kept.last(), samples.get(k + 1)) {
+            (Some(last), Some(next)) => sample[0] - last[0] < SAME * (next[0] - sample[0]),
+            _ => false,
+        };
+        if !near {
+            kept.push(*sample);
+        }
+    }
+    kept
+}
+
 /// The polynomial through the nearest samples.
 fn interpolate(samples: &[[f64; 2]], arc: f64) -> f64 {
     let count = samples.len().min(NEIGHBOURS);
@@ -75,4 +93,44 @@ fn interpolate(samples: &[[f64; 2]], arc: f64) -> f64 {
         (0..count).filter(|&k| k != j).map(factor).product()
     };
     (0..count).map(|j| weight(j) * near[j][1]).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Curve, Point};
+
+    /// Of a pressure x (4 - x) on a line from 0 to 4, at these segment ends.
+    fn found(space: MultiplierSpace, ends: &[f64]) -> Roughness {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [4.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&ends.iter().map(|x| x / 4.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(space, &boundary);
+        let at = |x: f64| x * (4.0 - x);
+        let lambda: Vec<f64> = match space {
+            MultiplierSpace::P0 => ends.windows(2).map(|e| at(0.5 * (e[0] + e[1]))).collect(),
+            MultiplierSpace::P1Discontinuous => ends.windows(2).flat_map(|e| [at(e[0]), at(e[1])]).collect(),
+            MultiplierSpace::P1Continuous => ends.iter().map(|x| at(*x)).collect(),
+        };
+        let zones = Zone::all(&boundary, &multipliers, &lambda, &vec![true; lambda.len()]);
+        assert_eq!(zones.len(), 1);
+        roughness(&boundary, &multipliers, &lambda, &zones[0]).expect("enough samples")
+    }
+
+    #[test]
+    fn a_parabola_is_missed_by_as_much_as_its_space_must() {
+        let ends: Vec<f64> = (0..=8).map(|k| 0.5 * k as f64).collect();
+        // On a segment of length H a constant misses the slope λ' by λ' H/√12, and a chord the curvature by H² λ''/√120.
+        assert!((found(MultiplierSpace::P0, &ends).middle / 0.035 - 1.0).abs() < 0.2, "{:?}", found(MultiplierSpace::P0, &ends));
+        let chord = found(MultiplierSpace::P1Continuous, &ends);
+        assert!((chord.middle / (0.5 / 120f64.sqrt() / 3.6) - 1.0).abs() < 0.2, "{chord:?}");
+        assert!(chord.peak < 1e-3);
+    }
+
+    #[test]
+    fn a_segment_of_no_length_does_no_harm() {
+        let ends = [0.0, 0.5, 1.0, 1.5, 2.0, 2.0 + 1e-7, 2.5, 3.0, 3.5, 4.0];
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
+            assert!(found(space, &ends).middle < 0.1, "{space:?}: {:?}", found(space, &ends));
+        }
+    }
 }

@@ -14,10 +14,10 @@ const LEAST_INF_SUP: f64 = 0.1;
 const MOST_OSCILLATION: f64 = 0.05;
 
 /// On fewer edges, or fewer segments, the pressure of a zone is off by tens of per cent, unless the estimate proves it good.
-const LEAST_PARTS: f64 = 4.0;
+pub(super) const LEAST_PARTS: f64 = 4.0;
 
 /// The largest sign of an error that proves a pressure good.
-const PROVES: f64 = 0.05;
+pub(super) const PROVES: f64 = 0.05;
 
 /// Largest estimated relative error in the energy norm.
 const MOST_ERROR: f64 = 0.3;
@@ -141,7 +141,7 @@ fn zone_doubts(contact: &summary::Contact, trust_force: Option<bool>) -> Vec<Dou
             continue;
         }
         let proved = is_proved(zone.worst) && edges >= 1.0;
-        let good = proved || segments > 2 && is_proved(zone.lambda) && zone.worst.is_some_and(|worst| worst <= MOST_PEAK_ERROR);
+        let good = proved || is_proved(zone.lambda) && zone.worst.is_some_and(|worst| worst <= MOST_PEAK_ERROR);
         if edges < LEAST_PARTS && !proved {
             doubts.push(Doubt {
                 figure: format!("contact{place} {edges:.1} edges wide, at least {LEAST_PARTS} wanted"),

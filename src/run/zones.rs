@@ -1,5 +1,6 @@
 //! What each zone of a contact that presses is, and what is estimated of its pressure.
 
+use super::trust::{LEAST_PARTS, PROVES};
 use crate::contact::Zone;
 use crate::output::ContactPoint;
 use crate::output::summary;
@@ -9,6 +10,9 @@ use crate::system::{Contact, Discretisation, Estimate, Solution, ZoneEstimate};
 /// Growth of the pressure from the last segment but one to the last, and by one refinement, above which it may be singular at
 /// an end.
 const GROWS: f64 = 1.02;
+
+/// Fewer segments say nothing of each other.
+const LEAST_SEGMENTS: usize = 3;
 
 /// Two ends are one if they are nearer than this share of the length.
 const SAME: f64 = 1e-6;
@@ -33,16 +37,20 @@ pub fn zones(
         let found = ZoneEstimate::new(contact.pair.space, &errors[k], differences);
         let before = |end: usize| differences[0].map(|last| last.at_ends[end]);
         let singular = (0..2).any(|end| grows_towards(contact, lambda, zone, end, before(end)));
+        let edges: f64 = zone.segments.clone().map(|k| contact.boundary.segment_length(k) / contact.edge_lengths[k]).sum();
+        // All signs of a narrow zone may be small beside its error, unless they are very small.
+        let wide = edges >= LEAST_PARTS && zone.segments.len() >= LEAST_SEGMENTS;
+        let tells = |_: &f64| wide || found.worst.is_some_and(|worst| worst <= PROVES);
         summary::Zone {
             ends: Some(zone.arcs),
-            edges: Some(zone.segments.clone().map(|k| contact.boundary.segment_length(k) / contact.edge_lengths[k]).sum()),
+            edges: Some(edges),
             segments: Some(zone.segments.len()),
             share: Some(forces[k] / whole),
             pressure_max: Some(zone.peak(&contact.multipliers, lambda)),
-            lambda: found.pressure,
+            lambda: found.pressure.filter(tells),
             worst: found.worst,
             force: found.force,
-            peak: found.peak.filter(|_| !singular),
+            peak: found.peak.filter(tells).filter(|_| !singular),
             singular: Some(singular),
             corner: Some((0..2).any(|end| ends_at_a_corner(problem, contact, zone, end))),
         }
