@@ -1,0 +1,55 @@
+//! One run of a scene, and what it says.
+
+use crate::profile::Profile;
+use crate::scene::{Scene, Settings};
+use crate::support::Run;
+use crate::support::mesh::write_scene;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+/// How a run ended.
+#[derive(Clone, Debug, Default)]
+pub struct Said {
+    /// Nothing if it had to be ended.
+    pub code: Option<i32>,
+    pub trust: Option<bool>,
+    /// The reason of the summary, or what stands on standard error.
+    pub reason: String,
+    /// Lines of warning.
+    pub warnings: Vec<String>,
+    pub profile: Option<Profile>,
+    /// Estimated errors of ∫λ ds and of λ.
+    pub estimate: [Option<f64>; 2],
+}
+
+/// Runs a scene on as many ranks as its settings say; case and mesh stay in the folder.
+pub fn solve(scene: &Scene, settings: &Settings, folder: &Path) -> Said {
+    std::fs::create_dir_all(folder).expect("a folder");
+    let file = write_scene(folder, &scene.mesh(&settings.layers), &scene.case(settings));
+    run(&file, settings.ranks, |x| scene.parameter(x))
+}
+
+/// Runs a case of one contact `c`; `parameter` says where on the seam a point lies.
+pub fn run(file: &Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Said {
+    let run = Run::file(file);
+    let run = if ranks == 1 { run.alone() } else { run.ranks(ranks) };
+    let Ok(ended) = catch_unwind(AssertUnwindSafe(|| run.ended())) else {
+        return Said { reason: "it does not end".into(), ..Said::default() };
+    };
+    let warnings: Vec<String> = ended.errors.lines().filter(|line| line.contains("warning:")).map(String::from).collect();
+    let mut said = Said { code: ended.code, reason: ended.errors.clone(), warnings, ..Said::default() };
+    if !ended.out.join("summary.json").exists() {
+        return said;
+    }
+    let summary = ended.summary();
+    said.reason = summary["reason"].as_str().unwrap_or_default().to_string();
+    let contact = &summary["contact"]["c"];
+    let all: Vec<_> = summary["contact"].as_object().into_iter().flatten().map(|(_, own)| own["trust"].as_bool()).collect();
+    said.trust = if all.contains(&Some(false)) { Some(false) } else { (!all.contains(&None)).then_some(true) };
+    said.estimate = ["force", "lambda"].map(|key| summary["estimate"]["c"][key].as_f64());
+    if let Some(force) = contact["force"].as_f64().filter(|_| ended.out.join("contact_c.csv").exists()) {
+        let points = ended.trace("c").iter().map(|point| [parameter(point.x), point.lambda]).collect();
+        said.profile = Some(Profile::new(points, force));
+    }
+    said
+}
