@@ -3,7 +3,7 @@
 use clap::Parser;
 use mezha::arguments::{Arguments, CaseArguments, Command, Run, Study};
 use mezha::case::{Case, Inputs};
-use mezha::petsc::{self, Session, end_all_ranks};
+use mezha::petsc::{self, Session, end_all_ranks, errors_are_final};
 use mezha::run::{self, Outcome, RunError, RunOptions};
 use mezha::study::{self, StudyError};
 use std::io::{ErrorKind, Write, stderr, stdout};
@@ -61,6 +61,7 @@ fn run_case(arguments: &Run, started: Instant) -> i32 {
         let words = format!("`{word}` after -- is not a PETSc option: their names begin with a minus");
         return print_once(&RunError::Input(words));
     }
+    errors_are_final();
     let session = match Session::start(&[], &arguments.petsc_options) {
         Ok(session) => session,
         Err(error) => return cannot_start(error),

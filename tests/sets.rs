@@ -21,9 +21,8 @@ fn leaf(length: f64, modulus: f64) -> (Mesh, String, f64) {
     let [span, depth, young, radius] = [100.0 * length, 2.0 * length, 210_000.0 * modulus, 2500.0 * length];
     let seat = rectangle([0.0, -20.0 * length], [span, 20.0 * length], [40, 4], 1);
     let leaf = rectangle([0.0, 0.0], [span, depth], [50, 1], 2);
-    let mesh = Mesh {
-        bodies: vec![("seat", seat, ["base", "", "seat.top", ""]), ("leaf", leaf, ["leaf.bottom", "tip", "", "wall"])],
-    };
+    let mesh =
+        Mesh { bodies: vec![("seat", seat, ["base", "", "seat.top", ""]), ("leaf", leaf, ["leaf.bottom", "tip", "", "wall"])] };
     let bending = young / (1.0 - 0.09) * depth.powi(3) / 12.0;
     let force = bending / radius / (0.5 * span);
     let case = format!(
@@ -86,8 +85,7 @@ fn a_pin_under_a_light_load_stays_in_its_hole() {
         let [x, y] = turn(radius * (0.25 + 0.75 * u), v);
         [x, y - clearance]
     });
-    let mesh =
-        Mesh { bodies: vec![("plate", plate, ["cut", "far", "cut", "hole"]), ("pin", pin, ["cut", "rim", "cut", ""])] };
+    let mesh = Mesh { bodies: vec![("plate", plate, ["cut", "far", "cut", "hole"]), ("pin", pin, ["cut", "rim", "cut", ""])] };
     let area = 0.5 * PI * radius * radius * (1.0 - 0.0625);
     let case = format!(
         "mesh = {{ file = \"mesh.msh\", refine = 1, order = 2 }}

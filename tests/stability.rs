@@ -28,7 +28,7 @@ fn spaces_twice_too_rich_are_not_and_the_words_say_so() {
     for (order, space, segments) in [(1, "p0", 176), (2, "p0", 176), (2, "p1-discontinuous", 120), (2, "p1-continuous", 176)] {
         let ended = bars(order, space, segments, "direct").set("contact.seam.stabilise", false).converged();
         assert!(!trusted(&ended), "P{order} and {space}");
-        assert!(ended.number("/contact/seam/oscillation") > 0.1);
+        assert!(ended.number("/contact/seam/oscillation") > 0.05);
         assert!(ended.errors.contains("pressure unreliable"), "{}", ended.errors);
     }
 }

@@ -179,8 +179,56 @@ pub struct Contact {
     pub slip: Option<f64>,
     /// Estimated relative error of force or pressure by that way.
     pub slip_error: Option<f64>,
-    /// Whether the contact pressure can be trusted.
+    /// Intervals of arc length that press, each with what is estimated of it.
+    pub zones: Vec<Zone>,
+    /// Force that is missing because the bodies overlap where no segment presses, relative to `force`.
+    pub missing: Option<f64>,
+    /// Whether the contact pressure can be trusted; null if nothing tells, or if it is singular: the reason says which.
     pub trust: Option<bool>,
+    /// Whether ∫ λ ds can be trusted to one per cent.
+    pub trust_force: Option<bool>,
+}
+
+/// An interval of a contact that presses.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Zone {
+    /// Arc lengths of its ends.
+    pub ends: Option<[f64; 2]>,
+    /// Edges of the softer body on it.
+    pub edges: Option<f64>,
+    /// Segments on it.
+    pub segments: Option<usize>,
+    /// Its share of the force.
+    pub share: Option<f64>,
+    /// Largest contact pressure.
+    pub pressure_max: Option<f64>,
+    /// Estimated relative error of λ in its middle, root mean square.
+    pub lambda: Option<f64>,
+    /// The largest of all signs of an error of λ; where it is small, so is the error.
+    pub worst: Option<f64>,
+    /// Estimated relative error of its force.
+    pub force: Option<f64>,
+    /// Estimated relative error of its largest pressure; null where that is singular.
+    pub peak: Option<f64>,
+    /// Whether λ grows without bound towards an end of the contact boundary, as far as can be seen.
+    pub singular: Option<bool>,
+    /// Whether it lies at an end of the contact boundary where one body has a corner and the other goes on.
+    pub corner: Option<bool>,
+}
+
+/// Share of the force from which a zone counts.
+const LEAST_SHARE: f64 = 0.01;
+
+/// Share of the highest pressure from which a zone counts, however small its force is.
+const LEAST_PRESSURE: f64 = 0.1;
+
+impl Zone {
+    /// Whether anyone would look at it, among `all` of its contact.
+    pub fn counts(&self, all: &[Self]) -> bool {
+        let highest = all.iter().filter_map(|zone| zone.pressure_max).fold(0.0, f64::max);
+        self.share.is_none_or(|share| share.abs() >= LEAST_SHARE)
+            || self.pressure_max.is_some_and(|pressure| pressure >= LEAST_PRESSURE * highest)
+    }
 }
 
 /// Energies per thickness.
@@ -211,8 +259,10 @@ pub struct Estimate {
 pub struct ContactEstimate {
     /// Of ∫ λ ds.
     pub force: Option<f64>,
-    /// Of λ.
+    /// Of λ in the middle of its worst zone, root mean square.
     pub lambda: Option<f64>,
+    /// Of the largest λ; null where that is singular.
+    pub peak: Option<f64>,
 }
 
 /// Relative residuals of the balances.

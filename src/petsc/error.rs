@@ -1,8 +1,10 @@
 //! Errors: what PETSc says, and where.
 
 use super::ffi;
+use super::session::has_others;
 use std::cell::RefCell;
 use std::ffi::{CStr, c_char, c_int, c_void};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What every call to PETSc returns.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -63,8 +65,27 @@ pub(super) fn check(call: &'static str, code: ffi::PetscErrorCode) -> Result<()>
     if code == 0 { Ok(()) } else { Err(failure(call, code)) }
 }
 
+/// Whether an error of PETSc is the end of all ranks.
+static FINAL: AtomicBool = AtomicBool::new(false);
+/// Whether there has been one.
+static LEAVING: AtomicBool = AtomicBool::new(false);
+
+/// From now on an error of PETSc is the end: where there are several ranks, nothing is given back after it, since that takes all
+/// of them (a factor of MUMPS, say), and those without the error wait elsewhere. The caller prints it and ends them all.
+pub fn errors_are_final() {
+    FINAL.store(true, Ordering::Relaxed);
+}
+
+/// Gives back a reference that PETSc counts, unless all ranks are about to be ended.
+pub(super) fn give_back(destroy: impl FnOnce() -> ffi::PetscErrorCode) {
+    if !LEAVING.load(Ordering::Relaxed) {
+        destroy();
+    }
+}
+
 #[cold]
 fn failure(call: &'static str, code: ffi::PetscErrorCode) -> Error {
+    LEAVING.store(FINAL.load(Ordering::Relaxed) && has_others(), Ordering::Relaxed);
     let heard = DEEPEST.take().filter(|message| !message.is_empty());
     Error::Petsc { call, code, message: heard.unwrap_or_else(|| general_message(code)) }
 }

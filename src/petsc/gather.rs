@@ -1,6 +1,6 @@
 //! Entries of a distributed vector that a rank needs and others own.
 
-use super::error::{Result, petsc};
+use super::error::{Result, give_back, petsc};
 use super::ffi;
 use super::index_set::IndexSet;
 use super::vector::{Vector, length};
@@ -54,6 +54,6 @@ impl Gather {
 impl Drop for Gather {
     /// Gives back one PETSc reference. **Collective**
     fn drop(&mut self) {
-        unsafe { ffi::VecScatterDestroy(&mut self.raw) };
+        give_back(|| unsafe { ffi::VecScatterDestroy(&mut self.raw) });
     }
 }

@@ -1,6 +1,6 @@
 //! Sets of global numbers.
 
-use super::error::{Result, petsc};
+use super::error::{Result, give_back, petsc};
 use super::ffi;
 use super::session::Session;
 use super::vector::length;
@@ -43,6 +43,6 @@ impl IndexSet {
 impl Drop for IndexSet {
     /// Gives back one PETSc reference. **Collective**
     fn drop(&mut self) {
-        unsafe { ffi::ISDestroy(&mut self.raw) };
+        give_back(|| unsafe { ffi::ISDestroy(&mut self.raw) });
     }
 }

@@ -1,6 +1,6 @@
 //! Linear solvers.
 
-use super::error::{Error, Result, petsc, words};
+use super::error::{Error, Result, give_back, petsc, words};
 use super::ffi;
 use super::matrix::Matrix;
 use super::preconditioner::Preconditioner;
@@ -148,6 +148,6 @@ impl Krylov {
 impl Drop for Krylov {
     /// Gives back one PETSc reference. **Collective**
     fn drop(&mut self) {
-        unsafe { ffi::KSPDestroy(&mut self.raw) };
+        give_back(|| unsafe { ffi::KSPDestroy(&mut self.raw) });
     }
 }

@@ -1,6 +1,6 @@
 //! Distributed matrices.
 
-use super::error::{Result, petsc};
+use super::error::{Result, give_back, petsc};
 use super::ffi;
 use super::session::Session;
 use super::vector::{Vector, length};
@@ -286,6 +286,6 @@ impl Clone for Matrix {
 impl Drop for Matrix {
     /// Gives back one PETSc reference. **Collective**
     fn drop(&mut self) {
-        unsafe { ffi::MatDestroy(&mut self.raw) };
+        give_back(|| unsafe { ffi::MatDestroy(&mut self.raw) });
     }
 }

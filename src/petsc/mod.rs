@@ -26,7 +26,7 @@ mod vector;
 pub mod versions;
 
 pub use collective::Datum;
-pub use error::{Error, Result};
+pub use error::{Error, Result, errors_are_final};
 pub use gather::Gather;
 pub use index_set::IndexSet;
 pub use krylov::{Krylov, Solved};

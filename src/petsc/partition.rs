@@ -1,6 +1,6 @@
 //! Division of a graph into parts.
 
-use super::error::{Result, petsc};
+use super::error::{Result, give_back, petsc};
 use super::ffi;
 use super::index_set::IndexSet;
 use super::matrix::Matrix;
@@ -87,6 +87,6 @@ impl Partitioning {
 impl Drop for Partitioning {
     /// Gives back one PETSc reference. **Collective**
     fn drop(&mut self) {
-        unsafe { ffi::MatPartitioningDestroy(&mut self.0) };
+        give_back(|| unsafe { ffi::MatPartitioningDestroy(&mut self.0) });
     }
 }

@@ -1,6 +1,6 @@
 //! Preconditioners.
 
-use super::error::{Result, petsc, words};
+use super::error::{Result, give_back, petsc, words};
 use super::ffi;
 use super::index_set::IndexSet;
 use super::krylov::Krylov;
@@ -112,6 +112,6 @@ impl Preconditioner {
 impl Drop for Preconditioner {
     /// Gives back one PETSc reference. **Collective**
     fn drop(&mut self) {
-        unsafe { ffi::PCDestroy(&mut self.raw) };
+        give_back(|| unsafe { ffi::PCDestroy(&mut self.raw) });
     }
 }

@@ -177,9 +177,14 @@ impl Drop for Inner {
 /// Ends all ranks at once with this exit code, from a rank that cannot end with them; returns if there are no others.
 pub fn end_all_ranks(code: i32) {
     the_end_is_ours(false);
-    if mpi::environment::is_initialized() && !mpi::environment::is_finalized() && SimpleCommunicator::world().size() > 1 {
+    if has_others() {
         SimpleCommunicator::world().abort(code);
     }
+}
+
+/// Whether there are several ranks.
+pub(super) fn has_others() -> bool {
+    mpi::environment::is_initialized() && !mpi::environment::is_finalized() && SimpleCommunicator::world().size() > 1
 }
 
 /// Whether a library that ends this process, as PETSc does after some options, cuts a run short: exit code 1 then.

@@ -1,6 +1,6 @@
 //! Distributed vectors.
 
-use super::error::{Result, petsc};
+use super::error::{Result, give_back, petsc};
 use super::ffi;
 use super::session::Session;
 use std::ops::{Deref, DerefMut, Range};
@@ -137,7 +137,7 @@ impl Vector {
 impl Drop for Vector {
     /// Gives back one PETSc reference. **Collective**
     fn drop(&mut self) {
-        unsafe { ffi::VecDestroy(&mut self.raw) };
+        give_back(|| unsafe { ffi::VecDestroy(&mut self.raw) });
     }
 }
 

@@ -12,6 +12,7 @@ mod solve;
 mod summarise;
 mod trust;
 mod unresolved;
+mod zones;
 
 pub use check::{Checked, check, info};
 pub use input::read_case;

@@ -4,14 +4,14 @@ use super::exact::{Errors, compare};
 use super::report::memory;
 use super::solve::Solved;
 use super::unresolved::unresolved_force;
-use super::{Outcome, Run, RunError, fields, summarise, trust};
+use super::{Outcome, Run, RunError, fields, summarise, trust, zones};
 use crate::case::Case;
-use crate::contact::GapChoice;
+use crate::contact::{Configuration, GapChoice};
 use crate::geometry::Point;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
 use crate::system::recovery::{TracePoint, balance, largest_strains, nodal_stress, probe, sliding_errors, trace_points};
-use crate::system::{Contact, Discretisation, Field, Solution, Verdict};
+use crate::system::{Contact, Discretisation, Field, Verdict};
 use std::path::Path;
 
 impl Run<'_> {
@@ -29,10 +29,10 @@ impl Run<'_> {
             Verdict::NotConverged(words) => (Status::NotConverged, words.clone()),
         };
         summarise::describe(&mut summary, self.case, problem, solved);
-        summarise::estimate(&mut summary, problem, &solved.estimate);
+        summary.estimate.energy = solved.estimate.energy;
         if solution.is_solved() {
             let _stage = self.stages.output.enter();
-            let errors = self.evaluate(&mut summary, problem, solution)?;
+            let errors = self.evaluate(&mut summary, problem, solved)?;
             if status == Status::Converged && !errors.missed.is_empty() {
                 errors.missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
                 if self.case.exact.must_hold {
@@ -41,12 +41,17 @@ impl Run<'_> {
                 }
             }
             summary.errors = errors.values;
-            if let Some(words) = trust::judge(&mut summary, self.case, matches!(solution.verdict, Verdict::Converged(_))) {
+            let judgement = trust::judge(&mut summary, self.case, matches!(solution.verdict, Verdict::Converged(_)));
+            if let Some(words) = judgement.unreliable {
                 reason = match status {
                     Status::Converged => format!("pressure unreliable: {words}"),
                     Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
                 };
                 self.report.warn(&format!("pressure unreliable: {words}"));
+            }
+            for words in judgement.unknown {
+                reason = format!("{reason}; {words}");
+                self.report.warn(&words);
             }
         }
         if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
@@ -72,7 +77,8 @@ impl Run<'_> {
     }
 
     /// Fields, traces, balances and errors; their files too. **Collective**
-    fn evaluate(&self, summary: &mut Summary, problem: &Discretisation, solution: &Solution) -> Result<Errors, RunError> {
+    fn evaluate(&self, summary: &mut Summary, problem: &Discretisation, solved: &Solved) -> Result<Errors, RunError> {
+        let solution = &solved.solution;
         let (case, session) = (self.case, self.session);
         let scene = &problem.scene;
         let u = Field::displacement(problem, &solution.displacement, session)?;
@@ -85,13 +91,20 @@ impl Run<'_> {
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
-            let table = contact_points(contact, &points);
-            let mut entry = summarise::contact(problem, at, solution, &balance, &points);
-            entry.unresolved_force = Some(unresolved_force(contact, &table));
-            summarise::sliding(&mut entry, sliding[at]);
-            summary.contact.insert(contact.pair.name.clone(), entry);
             self.warn_if_apart(contact, &points);
-            traces.push(table);
+            let traced = contact_points(contact, &points);
+            let zones = zones::zones(problem, at, solution, &solved.estimate, &points);
+            let force = solved.estimate.force.get(at).copied().flatten();
+            summary.estimate.contact.insert(contact.pair.name.clone(), zones::contact_estimate(force, &zones));
+            let mut found = summarise::contact(problem, at, solution, &balance, &points);
+            if contact.pair.configuration == Configuration::Reference {
+                found.missing = zones::missing_force(contact, &zones, &traced, balance.contacts[at].force);
+            }
+            found.unresolved_force = Some(unresolved_force(contact, &traced));
+            summarise::sliding(&mut found, sliding[at]);
+            found.zones = zones;
+            summary.contact.insert(contact.pair.name.clone(), found);
+            traces.push(traced);
         }
         for point in &case.probes {
             let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");

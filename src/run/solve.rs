@@ -10,7 +10,7 @@ use crate::system::{
     Solution, SolverChoice, Start, Tolerance, Verdict, bilateral, inf_sup, interpolations, load, nodal_forces, not_held,
 };
 
-/// Displacement unknowns up to which a failed solve is looked into.
+/// Displacement unknowns up to which a solve that failed, or whose active set was hard to find, is looked into.
 const LARGE_INF_SUP: usize = 200_000;
 
 /// Displacement unknowns up to which the inf-sup constants take less than a tenth of a run.
@@ -82,7 +82,8 @@ impl Run<'_> {
             differences.push(Difference::new(problem, &solution, coarse, self.session)?);
         }
         self.measure_inf_sup(problem, &prepared.system, &mut solution)?;
-        Ok(Solved { solution, solver: prepared.solver.name, estimate: Estimate::new(&differences), coarse: solves })
+        let estimate = Estimate::new(&differences, problem.scene.order, solution.residual);
+        Ok(Solved { solution, solver: prepared.solver.name, estimate, coarse: solves })
     }
 
     /// Where the ladder begins; what `name = "auto"` comes to is said with its reason.
@@ -245,12 +246,14 @@ impl Run<'_> {
         Ok(contact_loop.solve(&mut prepared.system, &mut prepared.solver, &mut set, start, report)?)
     }
 
-    /// The inf-sup constants, where they are cheap, asked for, or may tell why a solve has failed. **Collective**
+    /// The inf-sup constants, where they are cheap, asked for, or may tell why a solve has failed or an active set was hard to find. **Collective**
     fn measure_inf_sup(&self, problem: &Discretisation, system: &SaddlePoint, solution: &mut Solution) -> Result<(), RunError> {
-        let failed = matches!(solution.verdict, Verdict::NotConverged(_)) && problem.unknown_count() <= LARGE_INF_SUP;
+        // Too many multipliers are one reason why a set is hard to find.
+        let hard = solution.ascended || matches!(solution.verdict, Verdict::NotConverged(_));
+        let hard = hard && problem.unknown_count() <= LARGE_INF_SUP;
         let cheap = problem.unknown_count() <= CHEAP_INF_SUP;
         let possible = self.case.solver.choice.form() == Form::Augmented && !problem.contacts.is_empty();
-        if possible && self.case.solver.inf_sup.unwrap_or(cheap || failed) {
+        if possible && self.case.solver.inf_sup.unwrap_or(cheap || hard) {
             let _stage = self.stages.solve.enter();
             solution.inf_sup = inf_sup(system, &problem.contacts, &solution.active, self.session)?;
         }

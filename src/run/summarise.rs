@@ -2,13 +2,13 @@
 
 use super::solve::Solved;
 use crate::case::Case;
-use crate::contact::{MultiplierSpace, oscillation};
+use crate::contact::{MultiplierSpace, Zone, oscillation};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Balance, LargestStrain, SlidingError, TracePoint};
-use crate::system::{BoundaryStep, Contact, Discretisation, Estimate, Solution};
+use crate::system::{BoundaryStep, Contact, Discretisation, Solution};
 
 /// What is known without the solution's fields.
 pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solved: &Solved) {
@@ -70,16 +70,6 @@ fn edge_count(problem: &Discretisation) -> usize {
     mesh.edges.len() * count + mesh.triangles.len() * (3 * count * (count - 1) / 2)
 }
 
-/// Estimated discretisation errors.
-pub fn estimate(summary: &mut Summary, problem: &Discretisation, estimate: &Estimate) {
-    summary.estimate.energy = estimate.energy;
-    for (at, contact) in problem.contacts.iter().enumerate() {
-        let of = |errors: &[Option<f64>]| errors.get(at).copied().flatten();
-        let errors = summary::ContactEstimate { force: of(&estimate.force), lambda: of(&estimate.pressure) };
-        summary.estimate.contact.insert(contact.pair.name.clone(), errors);
-    }
-}
-
 /// Energies and balances.
 pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balance) {
     let names = problem.scene.bodies.iter().map(|body| body.name.clone());
@@ -114,7 +104,8 @@ pub fn contact(
     let force = &balance.contacts[at];
     let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
     let lambda = &solution.multipliers[contact.range()];
-    let closed = closed(contact, lambda, &solution.active[contact.range()]);
+    let zones = Zone::all(boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
+    let closed: Vec<[f64; 2]> = zones.iter().map(|zone| zone.arcs).collect();
     let oscillation = oscillation(boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
     let inf_sup = solution.inf_sup.get(at).copied().flatten();
     summary::Contact {
@@ -133,9 +124,12 @@ pub fn contact(
         pressure_max: Some(lambda.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
         oscillation,
         inf_sup,
+        zones: Vec::new(),
+        missing: None,
         trust: None,
         slip: None,
         slip_error: None,
+        trust_force: None,
         lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
 }
@@ -153,27 +147,6 @@ fn space_name(space: MultiplierSpace) -> &'static str {
         MultiplierSpace::P1Discontinuous => "p1-discontinuous",
         MultiplierSpace::P1Continuous => "p1-continuous",
     }
-}
-
-/// Arc-length intervals of segments with an active multiplier; none where nothing presses at all, because then active
-/// ones touch without pressure.
-fn closed(contact: &Contact, lambda: &[f64], active: &[bool]) -> Vec<[f64; 2]> {
-    let arcs = contact.boundary.arcs();
-    let mut intervals: Vec<[f64; 2]> = Vec::new();
-    if lambda.iter().all(|&pressure| pressure == 0.0) {
-        return intervals;
-    }
-    for k in 0..contact.boundary.segments() {
-        let rows = contact.multipliers.on_segment(k, 0.0).0;
-        if !rows.iter().any(|&i| active[i]) {
-            continue;
-        }
-        match intervals.last_mut() {
-            Some([_, end]) if *end == arcs[k] => *end = arcs[k + 1],
-            _ => intervals.push([arcs[k], arcs[k + 1]]),
-        }
-    }
-    intervals
 }
 
 /// Most edges of the softer body on an interval.

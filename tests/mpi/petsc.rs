@@ -4,7 +4,9 @@ mod launch;
 mod support;
 
 use launch::{LIST_LEAKS, Suite, alone, mpirun, named};
-use mezha::petsc::{Error, Gather, Krylov, Matrix, Operator, Session, Stage, Vector, options, partition, versions};
+use mezha::petsc::{
+    Error, Gather, Krylov, Matrix, Operator, Session, Stage, Vector, errors_are_final, options, partition, versions,
+};
 use std::time::{Duration, Instant};
 use support::{HeldString, laplacian, ramp, share, sparse};
 
@@ -548,6 +550,35 @@ fn meet_nobody() {
     let session = Session::start(&[], &[]).unwrap();
     if session.rank() > 0 {
         assert!(!session.meet(Duration::from_millis(200)));
+        session.abort(7);
+    }
+    session.barrier();
+}
+
+/// Giving back a factor of MUMPS takes all ranks; rank 0 has an error, and the others wait in another call.
+fn an_error_beside_a_factor_ends_all_ranks() {
+    let ended = mpirun(2, Some("fail_beside_a_factor"), &[], "-ksp_type preonly -pc_type lu -pc_factor_mat_solver_type mumps");
+    assert_eq!(ended.code, Some(7), "{}", ended.errors);
+}
+
+fn fail_beside_a_factor() {
+    errors_are_final();
+    let session = Session::start(&[], &[]).unwrap();
+    if session.rank() == 0 {
+        // Ends this process where nothing else does.
+        std::thread::spawn(|| {
+            std::thread::sleep(Duration::from_secs(20));
+            std::process::exit(9);
+        });
+    }
+    let matrix = laplacian(&session, 40, |_| 0.0);
+    let krylov = Krylov::new(&session, "").unwrap();
+    krylov.set_operators(&matrix, &matrix).unwrap();
+    krylov.set_from_options().unwrap();
+    krylov.set_up().unwrap();
+    if session.rank() == 0 {
+        krylov.set_tolerance(-7.0, 1).unwrap_err();
+        drop((krylov, matrix));
         session.abort(7);
     }
     session.barrier();

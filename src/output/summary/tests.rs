@@ -20,11 +20,12 @@ fn filled() -> Summary {
         closed_points: Some(vec![[[0.0, 3.0], [6.0, 4.0]]]),
         resultant: Some([1.0, -6.0]),
         trust: Some(true),
+        zones: vec![Zone { ends: Some([0.0, 6.0]), ..Zone::default() }],
         ..Contact::default()
     };
     summary.contact.insert("seam".into(), contact);
     summary.energy.strain.insert("lower".into(), Some(1e-3));
-    summary.estimate.contact.insert("seam".into(), ContactEstimate { force: Some(1e-9), lambda: None });
+    summary.estimate.contact.insert("seam".into(), ContactEstimate { force: Some(1e-9), ..ContactEstimate::default() });
     summary.probe.insert("corner".into(), Probe { x: Some([6.0, 4.0]), ..Probe::default() });
     summary.solver.iterations = vec![12, 7];
     summary.errors.insert("energy".into(), Some(1e-6));
@@ -57,11 +58,12 @@ fn keys_are_the_names_that_other_tools_rely_on() {
         ("/outer/0", "active added boundary du iteration krylov_iterations max_penetration released residual"),
         (
             "/contact/seam",
-            "closed closed_edges closed_points ends force h_ratio inf_sup length lost_points moment multiplier oscillation pressure_max resultant segments trust",
+            "closed closed_edges closed_points ends force h_ratio inf_sup length lost_points missing moment multiplier oscillation pressure_max resultant segments trust trust_force zones",
         ),
+        ("/contact/seam/zones/0", "corner edges ends force lambda peak pressure_max segments share singular worst"),
         ("/energy", "external_work stationary strain total"),
         ("/estimate", "energy seam"),
-        ("/estimate/seam", "force lambda"),
+        ("/estimate/seam", "force lambda peak"),
         ("/balance", "bodies energy force moment"),
         ("/probe/corner", "stress u x"),
         ("/solver", "blas coarse iterations krylov name plain_residual residual"),

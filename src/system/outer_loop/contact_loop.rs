@@ -26,7 +26,8 @@ const LEAST: f64 = 1e-13;
 const FURTHER: f64 = 1e-2;
 
 /// What helps where they cannot be met.
-const NOT_MET: &str = "rounding allows no better; take fewer segments, or a mesh whose bodies are less slender or less unlike in stiffness";
+const NOT_MET: &str =
+    "rounding allows no better; take fewer segments, or a mesh whose bodies are less slender or less unlike in stiffness";
 
 /// Active sets tried by the plain rule at most; from then on they are those of rising energy.
 const MOST_PLAIN: usize = 12;
@@ -183,7 +184,10 @@ impl ContactLoop<'_> {
             let (ending, residual) = (solve.ending, tolerance / share);
             let pass = Judged { outcome, lost, ending, residual, loose, passes: steps.len(), active: &active, state: &state };
             match self.judge(pass, set) {
-                Next::End(verdict) => return self.finish(system, &x, active, share, steps, verdict),
+                Next::End(verdict) => {
+                    let solution = self.finish(system, &x, active, share, steps, verdict)?;
+                    return Ok(Solution { ascended: set.ascends(), ..solution });
+                }
                 Next::Tighten => {
                     // Sets that inexact solves led to prove no cycle.
                     goal = tolerance;
@@ -336,6 +340,7 @@ impl ContactLoop<'_> {
             displacement,
             multipliers: pressures(self.problem, system, x, self.session),
             active,
+            ascended: false,
             residual: if norm == 0.0 { 0.0 } else { r.norm()? / norm },
             plain_residual: system.plain_residual(&r, &b, self.finest(), self.session)? / share,
             steps,

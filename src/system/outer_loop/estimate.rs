@@ -2,28 +2,40 @@
 //!
 //! On nested meshes Galerkin's orthogonality gives `e_(l-1)² = e_l² + D_l²` for the errors `e_l = |u - u_l|` and the
 //! difference `D_l = |u_l - u_(l-1)|` in the energy norm. If errors fall by the factor `√q` with each refinement, `q = (D_l/D_(l-1))²` and
-//! `e_l² = D_l² q/(1 - q)`: no order has to be known, so that corners are seen.
+//! `e_l² = D_l² q/(1 - q)`: no order has to be known, so that corners are seen. Where active sets or contact boundaries change
+//! from mesh to mesh the spaces are not nested, and this is an analogy.
 
-use crate::geometry::{Point, gauss_points};
+use super::ZoneDifference;
+use crate::contact::Zone;
+use crate::element::Order;
 use crate::petsc::Session;
 use crate::system::recovery::strain_energy;
-use crate::system::{CoarseSolution, Contact, Discretisation, Field, Solution, SystemError};
-
-/// Share of the length in contact that counts as its middle.
-const MIDDLE: f64 = 0.6;
+use crate::system::{CoarseSolution, Discretisation, Field, Solution, SystemError};
 
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
 const FACTORS: [f64; 2] = [1.0 / 80.0, 0.75];
+
+/// The same by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
+const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
+
+/// Factors by which errors of a force fall on a smooth solution, P1 and P2.
+const FORCE_FALLS: [f64; 2] = [0.25, 0.125];
+
+/// Largest factor by which errors of a force are taken to fall.
+const FORCE_SLOWEST: f64 = 0.6;
+
+/// Error of a force by a difference that says nothing of how it falls.
+const FORCE_UNKNOWN: f64 = 0.6;
 
 /// How a solution differs from that on the mesh before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// Square of the relative energy norm.
     energy: f64,
-    /// Relative difference of `∫λ ds`, for each contact; signs cancel, so that errors themselves add up.
+    /// Relative difference of `∫λ ds`, for each contact.
     force: Vec<f64>,
-    /// Square of the relative L2 difference of λ in the middle of each contact.
-    pressure: Vec<f64>,
+    /// The zones of each contact.
+    zones: Vec<Vec<ZoneDifference>>,
 }
 
 /// Estimated relative errors; nothing where there is not enough to tell.
@@ -33,8 +45,8 @@ pub struct Estimate {
     pub energy: Option<f64>,
     /// Of `∫λ ds`, for each contact.
     pub force: Vec<Option<f64>>,
-    /// Of λ in the middle of each contact, root mean square.
-    pub pressure: Vec<Option<f64>>,
+    /// For each zone of each contact, the last difference and, if the zone was there, the one before.
+    pub zones: Vec<Vec<[Option<ZoneDifference>; 2]>>,
 }
 
 impl Difference {
@@ -49,50 +61,38 @@ impl Difference {
         apart.iter_mut().zip(&solution.displacement).for_each(|(before, now)| *before = now - *before);
         let whole = strain_energy(problem, &Field::displacement(problem, &solution.displacement, session)?, session)?;
         let apart = strain_energy(problem, &Field::displacement(problem, &apart, session)?, session)?;
-        let (mut force, mut pressure) = (Vec::new(), Vec::new());
+        let (mut force, mut zones) = (Vec::new(), Vec::new());
         for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
             let lambda = &solution.multipliers[contact.range()];
             let now: f64 = lambda.iter().enumerate().map(|(i, value)| value * contact.multipliers.weight(i)).sum();
             force.push(((now - before) / now).abs());
-            pressure.push(pressure_difference(contact, lambda, |x| coarse.pressure(at, x)));
+            let own = Zone::all(&contact.boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
+            zones.push(own.iter().map(|zone| ZoneDifference::new(contact, lambda, zone, |x| coarse.pressure(at, x))).collect());
         }
-        Ok(Self { energy: apart.iter().sum::<f64>() / whole.iter().sum::<f64>(), force, pressure })
+        Ok(Self { energy: apart.iter().sum::<f64>() / whole.iter().sum::<f64>(), force, zones })
     }
-}
-
-/// Square of the relative L2 difference between λ and what it was before, in the middle of the part that carries any; not a
-/// number where nothing does.
-fn pressure_difference(contact: &Contact, lambda: &[f64], before: impl Fn(Point) -> f64) -> f64 {
-    let knots = contact.boundary.knots();
-    let arcs = contact.boundary.arcs();
-    let carries = |k: &usize| contact.multipliers.value(lambda, *k, 0.5) != 0.0;
-    let carrying: Vec<usize> = (0..knots.len() - 1).filter(carries).collect();
-    let [Some(&first), Some(&last)] = [carrying.first(), carrying.last()] else { return f64::NAN };
-    let (start, length) = (arcs[first], arcs[last + 1] - arcs[first]);
-    let mut sums = [0.0; 2];
-    for k in carrying {
-        let middle = ((0.5 * (arcs[k] + arcs[k + 1]) - start) / length - 0.5).abs();
-        let ends = [knots[k], knots[k + 1]];
-        for (z, weight) in gauss_points(3).iter().filter(|_| middle <= 0.5 * MIDDLE) {
-            let here = contact.multipliers.value(lambda, k, *z);
-            let there = before(contact.boundary.point(ends[0] + z * (ends[1] - ends[0])));
-            sums[0] += weight * (arcs[k + 1] - arcs[k]) * (here - there).powi(2);
-            sums[1] += weight * (arcs[k + 1] - arcs[k]) * here * here;
-        }
-    }
-    sums[0] / sums[1]
 }
 
 impl Estimate {
-    /// From the differences between successive meshes, the coarsest first; three meshes make two.
-    pub fn new(differences: &[Difference]) -> Self {
-        let [.., before, last] = differences else { return Self::default() };
-        let root = |square: Option<f64>| square.map(f64::sqrt);
+    /// From the differences between successive meshes, the coarsest first. `residual` is that of the solve (relative): no
+    /// force is better than it.
+    pub fn new(differences: &[Difference], order: Order, residual: f64) -> Self {
+        let Some((last, earlier)) = differences.split_last() else { return Self::default() };
+        let before = earlier.last();
         let contacts = 0..last.force.len();
+        let zones = |k: usize| -> Vec<[Option<ZoneDifference>; 2]> {
+            let again = |zone: &ZoneDifference| zone.again(&before?.zones[k]).cloned();
+            last.zones[k].iter().map(|zone| [Some(zone.clone()), again(zone)]).collect()
+        };
+        let energy = match before {
+            Some(before) => left(before.energy, last.energy),
+            None => Some(last.energy * ENERGY_BY_ONE[order.degree() - 1].powi(2)),
+        };
+        let force = |k: usize| force_left(before.map(|before| before.force[k]), last.force[k], order);
         Self {
-            energy: root(left(before.energy, last.energy)),
-            force: contacts.clone().map(|k| left(before.force[k], last.force[k])).collect(),
-            pressure: contacts.map(|k| root(left(before.pressure[k], last.pressure[k]))).collect(),
+            energy: energy.map(f64::sqrt).filter(|error| error.is_finite()),
+            force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
+            zones: contacts.map(zones).collect(),
         }
     }
 }
@@ -107,12 +107,27 @@ fn left(before: f64, last: f64) -> Option<f64> {
     rest.is_finite().then_some(rest)
 }
 
+/// What is left of the error of a force, from one difference or two. The last one may be small by luck, where errors of either
+/// sign meet: so it counts for no less than the one before leaves of itself on a smooth solution.
+fn force_left(before: Option<f64>, last: f64, order: Order) -> Option<f64> {
+    let fall = FORCE_FALLS[order.degree() - 1];
+    let left = match before {
+        Some(before) if last < fall * before => fall * before * FORCE_UNKNOWN,
+        Some(before) => {
+            let factor = (last / before).min(FORCE_SLOWEST);
+            last * factor / (1.0 - factor)
+        }
+        None => last * FORCE_UNKNOWN,
+    };
+    left.is_finite().then_some(left)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn difference(square: f64) -> Difference {
-        Difference { energy: square, force: vec![square.sqrt()], pressure: vec![square] }
+        Difference { energy: square, force: vec![square], zones: vec![Vec::new()] }
     }
 
     #[test]
@@ -121,10 +136,19 @@ mod tests {
             // Errors 1, q, q² in the square; differences of squares.
             let squares = [1.0, factor, factor * factor];
             let differences = [difference(squares[0] - squares[1]), difference(squares[1] - squares[2])];
-            let found = Estimate::new(&differences);
+            let found = Estimate::new(&differences, Order::P1, 0.0);
             assert!((found.energy.expect("two differences") / factor - 1.0).abs() < 1e-12);
-            assert!((found.pressure[0].expect("two differences") / factor - 1.0).abs() < 1e-12);
         }
-        assert_eq!(Estimate::new(&[difference(1.0)]).energy, None);
+        assert!(Estimate::new(&[difference(1.0)], Order::P1, 0.0).energy.is_some_and(|error| error > 0.5));
+        assert_eq!(Estimate::new(&[], Order::P1, 0.0), Estimate::default());
+    }
+
+    #[test]
+    fn a_force_is_no_better_than_the_difference_before_allows() {
+        let force = |before, last| Estimate::new(&[difference(before), difference(last)], Order::P1, 1e-8).force[0];
+        // Errors 16, 4, 1.
+        assert!((force(12.0, 3.0).expect("two differences") - 1.0).abs() < 1e-12);
+        assert!(force(12.0, 1e-5).expect("two differences") > 1.0, "a difference that is small by luck");
+        assert_eq!(force(0.0, 0.0), Some(1e-8), "a force that supports and loads alone decide");
     }
 }

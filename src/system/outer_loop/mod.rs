@@ -10,6 +10,7 @@ mod held;
 mod rigid_start;
 mod solution;
 mod unsettled;
+mod zone_estimate;
 
 pub use coarse_solution::CoarseSolution;
 pub use contact_loop::{ContactLoop, OuterStep, Start};
@@ -18,3 +19,4 @@ pub use following::{BoundaryStep, Following, Onward, carried, stands};
 pub use held::{few_that_hold, not_held, not_held_if_closed};
 pub use rigid_start::rigid_start;
 pub use solution::{Solution, Verdict};
+pub use zone_estimate::{ZoneDifference, ZoneEstimate};

@@ -21,6 +21,8 @@ pub struct Solution {
     pub multipliers: Vec<f64>,
     /// Which multipliers are active.
     pub active: Vec<bool>,
+    /// Whether the active set was found by rising energy, because the plain rule did not.
+    pub ascended: bool,
     /// Every pass.
     pub steps: Vec<OuterStep>,
     /// Every contact boundary, where some follow the solution.
@@ -41,6 +43,7 @@ impl Solution {
             displacement: vec![0.0; space.local_unknowns()],
             multipliers: vec![0.0; active.len()],
             active: active.to_vec(),
+            ascended: false,
             steps: Vec::new(),
             boundaries: Vec::new(),
             residual: f64::NAN,

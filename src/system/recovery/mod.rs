@@ -8,6 +8,7 @@ mod sliding_error;
 mod strain;
 mod stress;
 mod traces;
+mod zone_errors;
 
 pub use balance::{Balance, ContactForce, balance, strain_energy};
 pub use error_norm::energy_error;
@@ -17,6 +18,7 @@ pub use sliding_error::{SlidingError, sliding_errors};
 pub use strain::{LargestStrain, largest_strains};
 pub use stress::nodal_stress;
 pub use traces::{TracePoint, trace_points};
+pub use zone_errors::{ZoneErrors, zone_errors};
 
 use super::{Discretisation, Field, SystemError};
 use crate::geometry::Point;

@@ -1,0 +1,136 @@
+//! λ made smoother than its space: what the segments are too coarse for shows in the difference.
+
+use super::{ContactBoundary, MultiplierSpace, Multipliers, Zone};
+use crate::geometry::gauss_points;
+
+/// A sample nearer to the one before than this share of its distance to the next says the same.
+const SAME: f64 = 0.02;
+
+/// Samples that a value is interpolated from.
+const NEIGHBOURS: usize = 4;
+
+/// Differences between λ on a zone and its reconstruction, relative to λ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roughness {
+    /// Root mean square, in the middle of the zone.
+    pub middle: f64,
+    /// Of the largest value.
+    pub peak: f64,
+}
+
+/// How far λ on a zone is from the cubics through its best samples: the middles of segments (P0), their two Gauss points (P1
+/// discontinuous), their ends (P1 continuous), and zero where contact ends inside the boundary. Nothing if there are fewer
+/// than three samples.
+pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], zone: &Zone) -> Option<Roughness> {
+    let samples = apart(&samples(boundary, multipliers, lambda, zone));
+    if samples.len() < 3 {
+        return None;
+    }
+    let arcs = boundary.arcs();
+    let (mut sums, mut peak) = ([0.0; 2], f64::NEG_INFINITY);
+    for k in zone.segments.clone() {
+        let length = arcs[k + 1] - arcs[k];
+        for (z, weight) in gauss_points(5) {
+            let arc = arcs[k] + z * length;
+            let smooth = interpolate(&samples, arc);
+            peak = peak.max(smooth);
+            if zone.has_in_its_middle(arc) {
+                let here = multipliers.value(lambda, k, *z);
+                sums[0] += weight * length * (here - smooth).powi(2);
+                sums[1] += weight * length * here * here;
+            }
+        }
+    }
+    let found = zone.peak(multipliers, lambda);
+    Some(Roughness { middle: (sums[0] / sums[1]).sqrt(), peak: (peak / found - 1.0).abs() })
+}
+
+/// Arc lengths and values.
+fn samples(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], zone: &Zone) -> Vec<[f64; 2]> {
+    let arcs = boundary.arcs();
+    let at = |k: usize, z: f64| [arcs[k] + z * (arcs[k + 1] - arcs[k]), multipliers.value(lambda, k, z)];
+    let gauss = 0.5 / 3f64.sqrt();
+    let segments = zone.segments.clone();
+    let mut samples: Vec<[f64; 2]> = match multipliers.space {
+        MultiplierSpace::P0 => segments.map(|k| at(k, 0.5)).collect(),
+        MultiplierSpace::P1Discontinuous => segments.flat_map(|k| [at(k, 0.5 - gauss), at(k, 0.5 + gauss)]).collect(),
+        MultiplierSpace::P1Continuous => {
+            return (zone.segments.start..=zone.segments.end).map(|i| [arcs[i], lambda[i]]).collect();
+        }
+    };
+    if zone.segments.start > 0 {
+        samples.insert(0, [zone.arcs[0], 0.0]);
+    }
+    if zone.segments.end < boundary.segments() {
+        samples.push([zone.arcs[1], 0.0]);
+    }
+    samples
+}
+
+/// Samples without those of a segment much shorter than its neighbours.
+fn apart(samples: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for (k, sample) in samples.iter().enumerate() {
+        let near = match (kept.last(), samples.get(k + 1)) {
+            (Some(last), Some(next)) => sample[0] - last[0] < SAME * (next[0] - sample[0]),
+            _ => false,
+        };
+        if !near {
+            kept.push(*sample);
+        }
+    }
+    kept
+}
+
+/// The polynomial through the nearest samples.
+fn interpolate(samples: &[[f64; 2]], arc: f64) -> f64 {
+    let count = samples.len().min(NEIGHBOURS);
+    let after = samples.partition_point(|sample| sample[0] < arc);
+    let first = after.saturating_sub(count / 2).min(samples.len() - count);
+    let near = &samples[first..first + count];
+    let weight = |j: usize| -> f64 {
+        let factor = |k: usize| (arc - near[k][0]) / (near[j][0] - near[k][0]);
+        (0..count).filter(|&k| k != j).map(factor).product()
+    };
+    (0..count).map(|j| weight(j) * near[j][1]).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Curve, Point};
+
+    /// Of a pressure x (4 - x) on a line from 0 to 4, at these segment ends.
+    fn found(space: MultiplierSpace, ends: &[f64]) -> Roughness {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [4.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&ends.iter().map(|x| x / 4.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(space, &boundary);
+        let at = |x: f64| x * (4.0 - x);
+        let lambda: Vec<f64> = match space {
+            MultiplierSpace::P0 => ends.windows(2).map(|e| at(0.5 * (e[0] + e[1]))).collect(),
+            MultiplierSpace::P1Discontinuous => ends.windows(2).flat_map(|e| [at(e[0]), at(e[1])]).collect(),
+            MultiplierSpace::P1Continuous => ends.iter().map(|x| at(*x)).collect(),
+        };
+        let zones = Zone::all(&boundary, &multipliers, &lambda, &vec![true; lambda.len()]);
+        assert_eq!(zones.len(), 1);
+        roughness(&boundary, &multipliers, &lambda, &zones[0]).expect("enough samples")
+    }
+
+    #[test]
+    fn a_parabola_is_missed_by_as_much_as_its_space_must() {
+        let ends: Vec<f64> = (0..=8).map(|k| 0.5 * k as f64).collect();
+        // On a segment of length H a constant misses the slope λ' by λ' H/√12, and a chord the curvature by H² λ''/√120.
+        assert!((found(MultiplierSpace::P0, &ends).middle / 0.056 - 1.0).abs() < 0.2, "{:?}", found(MultiplierSpace::P0, &ends));
+        let chord = found(MultiplierSpace::P1Continuous, &ends);
+        assert!((chord.middle / (0.5 / 120f64.sqrt() / 3.6) - 1.0).abs() < 0.2, "{chord:?}");
+        assert!(chord.peak < 1e-3);
+    }
+
+    #[test]
+    fn a_segment_of_no_length_does_no_harm() {
+        let ends = [0.0, 0.5, 1.0, 1.5, 2.0, 2.0 + 1e-7, 2.5, 3.0, 3.5, 4.0];
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
+            assert!(found(space, &ends).middle < 0.1, "{space:?}: {:?}", found(space, &ends));
+        }
+    }
+}

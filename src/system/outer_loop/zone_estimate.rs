@@ -1,0 +1,205 @@
+//! Estimated errors of λ on one zone that presses, from three signs that are independent of each other: how λ differs from
+//! what it was on the mesh before, how far the bodies' stresses are from it, and how coarse the segments are for it.
+
+use crate::contact::{MultiplierSpace, Zone};
+use crate::geometry::{Point, gauss_points};
+use crate::system::Contact;
+use crate::system::recovery::ZoneErrors;
+
+/// Largest factor by which squares of errors of λ are taken to fall.
+const SLOWEST: f64 = 0.75;
+
+/// Error of λ by its difference from the mesh before, where there is one difference only: P0, and linear.
+const BY_ONE: [f64; 2] = [0.58, 0.5];
+
+/// What an estimate is multiplied by: too large does less harm than too small.
+const MARGIN: f64 = 1.2;
+
+/// Share of the stresses' distance from λ that an estimate has at least. Where bodies are bent, their stresses are off by much
+/// more than λ is, but not by any factor.
+const LEAST_OF_STRESS: f64 = 0.02;
+
+/// What a sign is multiplied by that stands alone: it may be small by luck.
+const ALONE: f64 = 10.0;
+
+/// Error of the peak by its difference from the mesh before.
+const PEAK_BY_ONE: f64 = 0.7;
+
+/// How λ differs on one zone, relative to what it is there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ZoneDifference {
+    /// Its ends, to be found again on another mesh.
+    ends: [Point; 2],
+    /// L2 difference of λ in its middle.
+    pressure: f64,
+    /// Of its force.
+    force: f64,
+    /// Of its peak.
+    peak: f64,
+    /// What λ was at its ends (stress).
+    pub at_ends: [f64; 2],
+}
+
+/// Estimated relative errors on one zone; nothing where there is not enough to tell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ZoneEstimate {
+    /// Of λ in the middle of the zone, root mean square.
+    pub pressure: Option<f64>,
+    /// The largest of all signs of error of λ, and many times it if there is but one: if it is small, so is the error.
+    pub worst: Option<f64>,
+    /// Of the force of the zone.
+    pub force: Option<f64>,
+    /// Of the largest λ.
+    pub peak: Option<f64>,
+}
+
+impl ZoneDifference {
+    /// Compares λ of a contact on a zone with what it was `before`.
+    pub(super) fn new(contact: &Contact, lambda: &[f64], zone: &Zone, before: impl Fn(Point) -> f64) -> Self {
+        let (knots, arcs) = (contact.boundary.knots(), contact.boundary.arcs());
+        let (mut sums, mut force, mut peak) = ([0.0; 2], 0.0, f64::NEG_INFINITY);
+        for k in (0..contact.boundary.segments()).filter(|&k| arcs[k + 1] > zone.reach[0] && arcs[k] < zone.reach[1]) {
+            let (length, ends) = (arcs[k + 1] - arcs[k], [knots[k], knots[k + 1]]);
+            for (z, weight) in gauss_points(3) {
+                let arc = arcs[k] + z * length;
+                let there = before(contact.boundary.point(ends[0] + z * (ends[1] - ends[0])));
+                if arc > zone.reach[0] && arc < zone.reach[1] {
+                    force += weight * length * there;
+                    peak = there.max(peak);
+                }
+                if zone.has_in_its_middle(arc) {
+                    let here = contact.multipliers.value(lambda, k, *z);
+                    sums[0] += weight * length * (here - there).powi(2);
+                    sums[1] += weight * length * here * here;
+                }
+            }
+        }
+        let [now, top] = [zone.force(&contact.multipliers, lambda), zone.peak(&contact.multipliers, lambda)];
+        let end = |arc: f64| contact.boundary.point(contact.boundary.parameter_at(arc));
+        Self {
+            ends: zone.arcs.map(end),
+            pressure: (sums[0] / sums[1]).sqrt(),
+            force: (force / now - 1.0).abs(),
+            peak: (peak / top - 1.0).abs(),
+            at_ends: [(zone.segments.start, 0.05), (zone.segments.end - 1, 0.95)]
+                .map(|(k, z)| before(contact.boundary.point(knots[k] + z * (knots[k + 1] - knots[k])))),
+        }
+    }
+
+    /// The nearest of the zones on another mesh, if it is near.
+    pub(super) fn again<'a>(&self, others: &'a [Self]) -> Option<&'a Self> {
+        let middle = |zone: &Self| 0.5 * (zone.ends[0] + zone.ends[1]);
+        let length = |zone: &Self| (zone.ends[1] - zone.ends[0]).norm();
+        let away = |other: &&Self| (middle(self) - middle(other)).norm();
+        let nearest = others.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        nearest.filter(|other| away(other) < 0.5 * length(self).max(length(other)))
+    }
+
+    /// Error of λ that is left, if it falls halfway between how the differences fall and how it should.
+    fn left(&self, before: Option<&Self>, space: MultiplierSpace) -> Option<f64> {
+        let [at_best, by_one] = match space {
+            MultiplierSpace::P0 => [0.25, BY_ONE[0]],
+            _ => [0.0625, BY_ONE[1]],
+        };
+        let rest = |factor: f64| (factor / (1.0 - factor)).sqrt();
+        let left = match before {
+            Some(before) => {
+                let factor = (self.pressure / before.pressure).powi(2).clamp(at_best, SLOWEST);
+                self.pressure * (rest(factor) * rest(at_best)).sqrt()
+            }
+            None => self.pressure * by_one,
+        };
+        Some(left).filter(|left| left.is_finite())
+    }
+}
+
+impl ZoneEstimate {
+    /// From what the solution itself says, and the last two differences between meshes as far as there are any.
+    pub fn new(space: MultiplierSpace, errors: &ZoneErrors, differences: [Option<&ZoneDifference>; 2]) -> Self {
+        let [last, before] = differences;
+        let stress = geometric_mean(errors.stress);
+        let left = last.and_then(|last| last.left(before, space));
+        let rough = errors.roughness.map(|rough| rough.middle).filter(|rough| rough.is_finite());
+        let largest_stress = errors.stress.into_iter().filter(|stress| stress.is_finite()).reduce(f64::max);
+        let signs = [largest_stress, left, rough].into_iter().flatten();
+        let alone = if signs.clone().count() == 1 { ALONE } else { 1.0 };
+        let pressure = match ([stress, left].into_iter().flatten().reduce(f64::min), rough) {
+            (Some(error), Some(rough)) => {
+                Some(MARGIN * error.max(rough).max(stress.map_or(0.0, |stress| LEAST_OF_STRESS * stress)))
+            }
+            _ => None,
+        };
+        Self {
+            pressure,
+            worst: signs.reduce(f64::max).map(|sign| MARGIN * alone * sign),
+            force: last.map(|last| 0.5 * last.force).filter(|force| force.is_finite()),
+            peak: pressure.and_then(|error| peak(error, stress, errors, last)),
+        }
+    }
+}
+
+/// Error of the peak; stresses count in so far as they did for `error`, that of λ.
+fn peak(error: f64, stress: Option<f64>, errors: &ZoneErrors, last: Option<&ZoneDifference>) -> Option<f64> {
+    let share = stress.filter(|stress| *stress > error).map_or(1.0, |stress| (error / stress).sqrt());
+    let signs = [
+        errors.roughness.map(|rough| rough.peak),
+        geometric_mean(errors.stress_at_peak).map(|stress| share * stress),
+        last.map(|last| PEAK_BY_ONE * last.peak),
+    ];
+    signs.into_iter().flatten().filter(|sign| sign.is_finite()).reduce(f64::max)
+}
+
+/// Of both bodies' distances: the finer body follows λ whatever it is, the coarser one is off by its own error.
+fn geometric_mean([a, b]: [f64; 2]) -> Option<f64> {
+    Some((a * b).sqrt()).filter(|mean| mean.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Roughness;
+
+    fn difference(pressure: f64) -> ZoneDifference {
+        ZoneDifference { ends: [Point::zeros(), Point::new(1.0, 0.0)], pressure, force: 0.1, peak: 0.1, at_ends: [1.0; 2] }
+    }
+
+    fn errors(stress: f64, middle: f64) -> ZoneErrors {
+        ZoneErrors { stress: [stress; 2], stress_at_peak: [stress; 2], roughness: Some(Roughness { middle, peak: 0.01 }) }
+    }
+
+    #[test]
+    fn errors_that_fall_as_they_should_are_found() {
+        // Errors 1/4 and 1/16 of P0 in the square: differences are 3/4 and 3/16 of the first.
+        let [before, last] = [0.75f64.sqrt(), 0.1875f64.sqrt()].map(difference);
+        let left = last.left(Some(&before), MultiplierSpace::P0).expect("two differences");
+        assert!((left / 0.0625f64.sqrt() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_smaller_of_stress_and_difference_counts_but_never_less_than_roughness() {
+        let pressure = |stress, last: f64, middle| {
+            let found = ZoneEstimate::new(MultiplierSpace::P0, &errors(stress, middle), [Some(&difference(last)), None]);
+            found.pressure.expect("an estimate") / MARGIN
+        };
+        assert!((pressure(0.02, 1.0, 0.01) - 0.02).abs() < 1e-12);
+        assert!((pressure(0.02, 1.0, 0.05) - 0.05).abs() < 1e-12);
+        assert!((pressure(0.5, 0.1, 0.01) - 0.058).abs() < 1e-12, "bent bodies");
+        assert!((pressure(2.0, 0.01, 0.01) - 0.04).abs() < 1e-12, "a difference that is small by luck");
+    }
+
+    #[test]
+    fn one_sign_alone_is_no_estimate() {
+        let alone = ZoneErrors { stress: [f64::NAN; 2], ..errors(0.1, 0.1) };
+        let found = ZoneEstimate::new(MultiplierSpace::P0, &alone, [None, None]);
+        assert_eq!([found.pressure, found.force, found.peak], [None; 3]);
+        assert!(found.worst.is_some_and(|worst| worst > 1.0));
+    }
+
+    #[test]
+    fn a_zone_is_found_again_where_it_was() {
+        let at = |from: f64, to: f64| ZoneDifference { ends: [from, to].map(|x| Point::new(x, 0.0)), ..difference(0.1) };
+        let others = [at(0.0, 1.0), at(3.0, 4.0)];
+        assert_eq!(at(3.2, 3.6).again(&others), Some(&others[1]));
+        assert_eq!(at(6.0, 6.5).again(&others), None);
+    }
+}

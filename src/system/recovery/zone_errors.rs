@@ -1,0 +1,48 @@
+//! What one solution alone says of the errors of λ on each zone that presses.
+
+use super::TracePoint;
+use crate::contact::{Roughness, Zone, roughness};
+use crate::system::Contact;
+
+/// Signs of error on one zone, relative to its pressure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ZoneErrors {
+    /// Root mean squares of `λ + n·σn` of body 1 and body 2 in the middle of the zone.
+    pub stress: [f64; 2],
+    /// The same on the segments beside its peak.
+    pub stress_at_peak: [f64; 2],
+    /// λ against its reconstruction.
+    pub roughness: Option<Roughness>,
+}
+
+/// One for each zone; `points` are those of [`super::trace_points`].
+pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[TracePoint]) -> Vec<ZoneErrors> {
+    let one = |zone: &Zone| {
+        let arcs = contact.boundary.arcs();
+        let height = |k: &usize| contact.multipliers.value(lambda, *k, 0.5);
+        let top = zone.segments.clone().max_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(zone.segments.start);
+        let near = [arcs[top.saturating_sub(1).max(zone.segments.start)], arcs[(top + 2).min(zone.segments.end)]];
+        ZoneErrors {
+            stress: apart(points, |arc| zone.has_in_its_middle(arc)),
+            stress_at_peak: apart(points, |arc| arc >= near[0] && arc <= near[1]),
+            roughness: roughness(&contact.boundary, &contact.multipliers, lambda, zone),
+        }
+    };
+    zones.iter().map(one).collect()
+}
+
+/// Relative root mean squares of `λ + n·σn` of both bodies over some arc lengths, by the trapezoidal rule.
+fn apart(points: &[TracePoint], counts: impl Fn(f64) -> bool) -> [f64; 2] {
+    let mut sums = [0.0; 3];
+    let inside: Vec<&TracePoint> = points.iter().filter(|point| point.is_complete() && counts(point.arc)).collect();
+    for ends in inside.windows(2) {
+        let half = 0.5 * (ends[1].arc - ends[0].arc);
+        for point in ends {
+            for (sum, stress) in sums.iter_mut().zip(point.stress) {
+                *sum += half * (point.lambda + stress).powi(2);
+            }
+            sums[2] += half * point.lambda.powi(2);
+        }
+    }
+    [0, 1].map(|k| (sums[k] / sums[2]).sqrt())
+}

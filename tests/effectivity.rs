@@ -1,0 +1,179 @@
+//! Estimated errors of λ, its peak and the force against true ones, over cases with a known answer; and scenes whose pressure is
+//! wrong, or right where it seems not.
+
+mod support;
+
+use std::fmt::Write;
+use support::mesh::{Block, Mesh, grid, write_scene};
+use support::{Ended, PAIRS, RANKS, Run, TracePoint};
+
+/// A case whose pressure is known along its contact, from a point (x, y).
+struct Known {
+    case: &'static str,
+    pressure: fn([f64; 2]) -> f64,
+    /// `∫λ ds`.
+    force: f64,
+}
+
+const KNOWN: [Known; 4] = [
+    Known { case: "rings", pressure: |_| 0.86487884184123709, force: 2.7170970157736791 },
+    Known {
+        case: "rings_michell",
+        pressure: |[x, y]| 1.7086288418412372 + 0.5884994128949614 * (x * x - y * y) / (x * x + y * y),
+        force: 5.367815817240067,
+    },
+    Known {
+        case: "rings_michell/stiff.toml",
+        pressure: |[x, y]| 15.759215989510665 + 1.3674290870520769 * (x * x - y * y) / (x * x + y * y),
+        force: 49.50903717898151,
+    },
+    Known { case: "open_zone", pressure: |[x, _]| 1.5 * (x - 0.3).max(0.0).powi(2), force: 2.775997186990461 },
+];
+
+/// Root mean square of λ minus the exact one over that of λ, in the middle 60 % of the only zone, by the trapezoidal rule.
+fn true_error(trace: &[TracePoint], [from, to]: [f64; 2], exact: fn([f64; 2]) -> f64) -> f64 {
+    let inside: Vec<&TracePoint> = trace.iter().filter(|p| ((p.s - from) / (to - from) - 0.5).abs() <= 0.3).collect();
+    let mut sums = [0.0; 2];
+    for ends in inside.windows(2) {
+        for point in ends {
+            let half = 0.5 * (ends[1].s - ends[0].s);
+            sums[0] += half * (point.lambda - exact(point.x)).powi(2);
+            sums[1] += half * point.lambda.powi(2);
+        }
+    }
+    (sums[0] / sums[1]).sqrt()
+}
+
+fn zone_ends(ended: &Ended) -> [f64; 2] {
+    assert_eq!(ended.value("/contact/seam/zones").as_array().map(Vec::len), Some(1));
+    [0, 1].map(|k| ended.number(&format!("/contact/seam/zones/0/ends/{k}")))
+}
+
+/// Effectivities of λ, of the peak and of the force, with the run's name.
+fn effectivities(known: &Known, order: usize, space: &str, refine: usize) -> (String, [Option<f64>; 3]) {
+    let run = Run::case(known.case).set("mesh.order", order).set("mesh.refine", refine).set("exact.must_hold", false);
+    let run = run.set("contact.seam.multiplier", space).set("output.fields", false);
+    let ended = run.converged();
+    let trace = ended.trace("seam");
+    let error = true_error(&trace, zone_ends(&ended), known.pressure);
+    let highest = trace.iter().map(|point| (known.pressure)(point.x)).fold(0.0, f64::max);
+    let peak = 1.0 - highest / ended.number("/contact/seam/pressure_max");
+    let force = 1.0 - known.force / ended.number("/contact/seam/force");
+    let ratio = |key: &str, truth: f64| {
+        // Errors of a few parts in 10⁴ are not asked for: some are zero by chance.
+        let estimate = ended.value(&format!("/estimate/seam/{key}")).as_f64();
+        estimate.filter(|_| truth.abs() > 3e-4).map(|estimate| estimate / truth.abs())
+    };
+    let name = format!("{}, P{order}/{space}, refine {refine}", known.case);
+    (name, [ratio("lambda", error), ratio("peak", peak), ratio("force", force)])
+}
+
+/// An estimate that is too large by some factor costs a refinement, one that is too small costs trust.
+#[test]
+fn estimates_are_of_the_size_of_the_errors() {
+    let (mut lambda, mut others, mut table) = (Vec::new(), Vec::new(), String::new());
+    for known in &KNOWN {
+        for (order, space) in PAIRS {
+            for refine in [1, 2, 3] {
+                let (name, found) = effectivities(known, order, space, refine);
+                writeln!(table, "{name}: {found:.2?}").expect("a string grows");
+                lambda.extend(found[0]);
+                others.extend(found[1..].iter().flatten());
+            }
+        }
+    }
+    let share = |all: &[f64], good: &dyn Fn(f64) -> bool| all.iter().filter(|v| good(**v)).count() as f64 / all.len() as f64;
+    assert!(lambda.len() > 40 && others.len() > 60, "{table}");
+    assert!(lambda.iter().all(|ratio| *ratio >= 0.3), "{table}");
+    assert!(share(&lambda, &|ratio| (0.5..=3.0).contains(&ratio)) >= 0.8, "{table}");
+    assert!(share(&others, &|ratio| ratio >= 0.3) >= 0.95, "{table}");
+}
+
+/// Without a coarser mesh the stresses tell: too much where bodies are bent, never too little.
+#[test]
+fn a_mesh_without_levels_has_an_estimate_of_its_pressure() {
+    for known in &KNOWN {
+        for (order, space) in [(1, "p0"), (2, "p1-discontinuous"), (2, "p1-continuous")] {
+            let (name, [lambda, ..]) = effectivities(known, order, space, 0);
+            assert!(lambda.is_none_or(|ratio| ratio > 0.5), "{name}: {lambda:?}");
+        }
+    }
+}
+
+/// Two blocks of 6 x 2, one on the other, with `edges` on the line between them; E = 1000, ν = 0.3.
+fn blocks(edges: [usize; 2], case: &str, ranks: usize) -> Ended {
+    let block =
+        |n: usize, seed: u64, from: f64| -> Block { grid(n, n.div_ceil(3), seed, |u, v| [6.0 * u - 3.0, from + 2.0 * v]) };
+    let bodies = vec![
+        ("lower", block(edges[0], 1, -2.0), ["bottom", "side", "lower.seam", "side.l"]),
+        ("upper", block(edges[1], 2, 0.0), ["upper.seam", "side", "top", "side.l"]),
+    ];
+    let text = format!(
+        r#"
+body.lower = {{ young = 1000.0, poisson = 0.3 }}
+body.upper = {{ young = 1000.0, poisson = 0.3 }}
+support.bottom = {{ on = "bottom", uy = 0.0 }}
+support.sides = {{ on = ["side", "side.l"], ux = 0.0 }}
+output.fields = false
+{case}"#
+    );
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), &text);
+    Run::file(&file).ranks(ranks).converged()
+}
+
+/// Two humps, one wide, one narrower than an edge: the wide one is fine, the whole is not.
+#[test]
+fn a_second_zone_narrower_than_an_edge_is_not_trusted() {
+    let case = |width: f64| {
+        // Two wide humps are given ten times the load, so that they are resolved.
+        let load = if width > 0.5 { 3.0 } else { 0.3 };
+        format!(
+            r#"mesh = {{ file = "mesh.msh", refine = 2 }}
+load.top = {{ on = "top", pressure = {load} }}
+contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = "0.01*(1-exp(-((x+1.5)/0.8)^2)-exp(-((x-1.5)/{width})^2))" }}"#
+        )
+    };
+    let trust = |width: f64, ranks: usize| {
+        let ended = blocks([12, 14], &case(width), ranks);
+        (ended.value("/contact/seam/trust"), ended.value("/reason").to_string())
+    };
+    for ranks in RANKS {
+        let (trusted, reason) = trust(0.08, ranks);
+        assert!(trusted == false && reason.contains("contact at s = 4."), "{ranks} ranks: {reason}");
+    }
+    let (trusted, reason) = trust(0.8, 1);
+    assert!(trusted == true, "{reason}");
+}
+
+/// Contact on a fifth of the length, under segments as long as that.
+#[test]
+fn too_few_segments_are_told_whatever_their_space() {
+    for space in ["p0", "p1-discontinuous", "p1-continuous"] {
+        for segments in [3, 5, 8] {
+            let case = format!(
+                r#"mesh = {{ file = "mesh.msh", refine = 2 }}
+load.top = {{ on = "top", pressure = 0.3 }}
+contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = "0.01*(1-cos(pi*x/3))", multiplier = "{space}", segments = {segments} }}"#
+            );
+            let ended = blocks([12, 14], &case, 1);
+            assert!(ended.value("/contact/seam/trust") != true, "{space}, {segments}: {}", ended.output);
+            assert!(ended.errors.contains("warning"), "{}", ended.errors);
+        }
+    }
+}
+
+/// Edges 1:10 across the line, few of them: λ is off by a sixth, and no coarser mesh is there to tell.
+#[test]
+fn a_coarse_mesh_is_told_by_the_stresses() {
+    let case = |pressure: &str| {
+        format!(
+            r#"mesh = {{ file = "mesh.msh", order = 1 }}
+load.top = {{ on = "top", pressure = "{pressure}" }}
+contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed", multiplier = "p0" }}"#
+        )
+    };
+    let trust = |pressure: &str| blocks([8, 80], &case(pressure), 1).value("/contact/seam/trust");
+    assert!(trust("1 + 0.33*x") != true, "a steep pressure");
+    assert!(trust("1") == true, "an even pressure");
+}
