@@ -135,11 +135,14 @@ fn check_case(arguments: &CaseArguments) -> i32 {
         .map_err(|error| RunError::Input(error.to_string()))
         .and_then(|case| run::check(&case));
     match checked {
-        Ok(checked) => {
-            say(&checked.words);
-            let loose = checked.not_held.inspect(|words| eprintln!("mezha: {words}"));
-            if loose.is_some() { 3 } else { 0 }
-        }
+        Ok(checked) => match (say(&checked.words), checked.not_held) {
+            (0, Some(words)) => {
+                // A reader that has gone away is no reason for another exit code.
+                let _ = writeln!(stderr(), "mezha: {words}");
+                3
+            }
+            (code, _) => code,
+        },
         Err(error) => print(&error),
     }
 }

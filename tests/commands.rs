@@ -200,7 +200,10 @@ fn nothing_leaks() {
             for solver in ["fieldsplit", "direct"] {
                 let run = coarse(case).set("mesh.refine", refine).set("solver.name", solver);
                 let ended = run.ranks(2).word("--quiet").petsc("-malloc_debug -malloc_dump -objects_dump").converged();
-                assert_eq!(ended.said(), "", "{case}, refine {refine}, {solver}");
+                // On meshes as coarse as these pressures are not to be trusted: that is no leak.
+                let said = ended.said();
+                let other: Vec<&str> = said.lines().filter(|line| !line.contains("pressure unreliable")).collect();
+                assert!(other.is_empty(), "{case}, refine {refine}, {solver}: {other:?}");
             }
         }
     }
