@@ -291,6 +291,13 @@ impl ContactLoop<'_> {
         let Judged { outcome, lost, ending, residual, loose, passes, active, state } = pass;
         let repeated = outcome == Step::Repeated;
         match (outcome, ending) {
+            // What went on below the tolerance and could not is as good as rounding allows.
+            (_, Ending::Failed(_)) if residual <= self.tolerance.residual() => {
+                Next::End(match state.violated(self.problem, active, residual) {
+                    Some(words) => Verdict::NotConverged(format!("{words}; {NOT_MET}")),
+                    None => Verdict::Converged(settled(set)),
+                })
+            }
             (_, Ending::Failed(words)) => Next::End(Verdict::NotConverged(words)),
             // A set that a coarser mesh or another boundary has left may hold less here.
             (Step::Settled, _) if lost.is_some() => Next::End(Verdict::NotConverged(lost.unwrap_or_default())),

@@ -60,7 +60,10 @@ impl ContactState {
         for contact in &problem.contacts {
             let unilateral = contact.pair.law == Law::Unilateral;
             for i in contact.range() {
-                let apart = self.penalty[i] * self.penetration[i];
+                // A gap over less than an edge takes the pressure that it would take over an edge.
+                let (own, segment) = (i - contact.first, contact.multipliers.segment_of(i - contact.first));
+                let share = (contact.multipliers.length(own) / contact.edge_lengths[segment]).min(1.0);
+                let apart = share * self.penalty[i] * self.penetration[i];
                 let (off, what) = match (active[i], unilateral) {
                     (true, true) if self.lambda[i] < 0.0 => (-self.lambda[i], "pulls"),
                     (true, _) => (apart.abs(), "does not touch"),
