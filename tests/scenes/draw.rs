@@ -43,7 +43,8 @@ pub fn draw(seed: u64) -> (Scene, Settings) {
     let young = if lot.chance(0.3) { [1.0, 1.0] } else { [ratio.max(1.0), (1.0 / ratio).max(1.0)] };
     let poisson = [lot.between(0.0, 0.45), lot.between(0.0, 0.45)];
     let depth = [lot.factor(0.25, 1.0), lot.factor(0.25, 1.0)];
-    let body = |k: usize, seam, walls| Body { seam, range: [0.0, 1.0], depth: depth[k], young: young[k], poisson: poisson[k], walls };
+    let body =
+        |k: usize, seam, walls| Body { seam, range: [0.0, 1.0], depth: depth[k], young: young[k], poisson: poisson[k], walls };
     let softness = (0..2).map(|k| (1.0 - poisson[k] * poisson[k]) / young[k]).sum::<f64>();
     let mean = lot.factor(1e-4, 3e-3);
     let kind = lot.between(0.0, 1.0);
@@ -100,7 +101,10 @@ fn drawn(scene: &mut Scene, lot: &mut Lot, softness: f64) {
         _ => Shape::Parabola { height, bend: 0.5 * bend, middle },
     };
     let (lower, upper) = if lot.chance(0.25) {
-        (Shape::Line { height: 0.0 }, Shape::Wave { height: apart, rise: 2.0 * bend / (4.0 * PI * PI * 4.0), count: 2.0, phase: lot.between(0.0, 1.0) })
+        (
+            Shape::Line { height: 0.0 },
+            Shape::Wave { height: apart, rise: 2.0 * bend / (4.0 * PI * PI * 4.0), count: 2.0, phase: lot.between(0.0, 1.0) },
+        )
     } else if lot.chance(0.5) {
         (shape(base, 0.0), shape(base + bend, apart))
     } else {
@@ -128,9 +132,9 @@ fn drawn(scene: &mut Scene, lot: &mut Lot, softness: f64) {
 /// Both bodies along one parabola.
 fn curve(scene: &mut Scene, lot: &mut Lot) {
     let shape = Shape::Parabola { height: 0.0, bend: lot.between(-0.4, 0.4), middle: lot.between(0.0, 1.0) };
-    for (k, body) in scene.bodies.iter_mut().enumerate() {
+    for body in &mut scene.bodies {
         body.seam = shape;
-        body.depth = if k == 0 { body.depth.max(0.6) } else { body.depth.max(0.6) };
+        body.depth = body.depth.max(0.6);
     }
 }
 
@@ -182,7 +186,11 @@ fn declared_gap(scene: &mut Scene, lot: &mut Lot, softness: f64, mean: f64) {
             Bump { at, width, share: if k == 0 { 1.0 } else { lot.one(&[1.0, 1.0, 0.8]) } }
         };
         let bumps: Vec<Bump> = (0..count).map(|k| bump(k, lot)).collect();
-        scene.focus = bumps.iter().map(|bump| (bump.at, bump.width / length)).map(|(at, width)| Peak { at, reach: width, edge: width / 8.0 }).collect();
+        scene.focus = bumps
+            .iter()
+            .map(|bump| (bump.at, bump.width / length))
+            .map(|(at, width)| Peak { at, reach: width, edge: width / 8.0 })
+            .collect();
         let base = if lot.chance(0.25) { lot.between(0.9, 1.05) } else { 1.0 };
         scene.gap = Gap::Bumps { rise, base, bumps };
         if !ring && lot.chance(0.2) {

@@ -98,12 +98,7 @@ impl Layers {
         }
         let along = |row: &[(usize, f64)]| row.windows(2).map(|pair| [pair[0].0, pair[1].0]).collect::<Vec<_>>();
         let side = |end: fn(&[(usize, f64)]) -> usize| rows.windows(2).map(|pair| [end(&pair[0]), end(&pair[1])]).collect();
-        let sides = [
-            along(&rows[0]),
-            side(|row| row[row.len() - 1].0),
-            along(&rows[last]),
-            side(|row| row[0].0),
-        ];
+        let sides = [along(&rows[0]), side(|row| row[row.len() - 1].0), along(&rows[last]), side(|row| row[0].0)];
         Block { points, triangles, sides }
     }
 }

@@ -62,7 +62,7 @@ impl Profile {
             let last = if k == 0 { self.points.first() } else { self.points.last() };
             return last.filter(|point| point[0] == u).map_or(0.0, |point| point[1]);
         }
-        let ([a, low], [b, high]) = (self.points[k - 1].into(), self.points[k].into());
+        let ([a, low], [b, high]) = (self.points[k - 1], self.points[k]);
         if b > a { low + (high - low) * (u - a) / (b - a) } else { low }
     }
 
@@ -82,7 +82,9 @@ impl Profile {
         let ends: Vec<f64> = ends.into_iter().chain(self.points.last().map(|point| point[0])).collect();
         let means: Vec<f64> = ends
             .windows(2)
-            .map(|pair| (0..200).map(|k| reference.at(pair[0] + (k as f64 + 0.5) / 200.0 * (pair[1] - pair[0]))).sum::<f64>() / 200.0)
+            .map(|pair| {
+                (0..200).map(|k| reference.at(pair[0] + (k as f64 + 0.5) / 200.0 * (pair[1] - pair[0]))).sum::<f64>() / 200.0
+            })
             .collect();
         let at = |u: f64| {
             let k = ends.partition_point(|end| *end <= u);
@@ -124,7 +126,7 @@ impl Profile {
                 _ => {}
             }
             // Where λ jumps from a value to another nothing opens.
-            open = !presses && b > a || open && !presses;
+            open = !presses && (b > a || open);
         }
         let all: f64 = zones.iter().map(|(_, force)| force).sum();
         zones.into_iter().filter(|(_, force)| *force > 0.01 * all).map(|(zone, _)| zone).collect()
@@ -157,7 +159,8 @@ impl Profile {
             apart.mean = apart.mean.max(mean(steps.as_ref().unwrap_or(&b), peak(&b)));
             apart.peak = apart.peak.max((peak(&a) / peak(&b) - 1.0).abs());
             apart.part = apart.part.max((sum(&a) / sum(&b) - 1.0).abs());
-            let nearest = |end: fn(&Zone) -> f64| own.iter().map(|own| (end(own) - end(zone)).abs()).fold(f64::INFINITY, f64::min);
+            let nearest =
+                |end: fn(&Zone) -> f64| own.iter().map(|own| (end(own) - end(zone)).abs()).fold(f64::INFINITY, f64::min);
             apart.ends = apart.ends.max(nearest(|zone| zone.from).max(nearest(|zone| zone.to)) / width);
         }
         if zones.is_empty() { Apart { mean: f64::NAN, ..apart } } else { apart }

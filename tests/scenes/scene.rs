@@ -23,7 +23,11 @@ pub enum Gap {
     Closed,
     Number(f64),
     /// `rise` (`base` - Σ share exp(-d²/width²)), d the distance from the seam's point at a parameter.
-    Bumps { rise: f64, base: f64, bumps: Vec<Bump> },
+    Bumps {
+        rise: f64,
+        base: f64,
+        bumps: Vec<Bump>,
+    },
     /// A formula of the plane's x and y, in its lengths.
     Formula(String),
     /// As the bodies are drawn.
@@ -183,9 +187,8 @@ impl Scene {
             Gap::Formula(formula) => format!("gap = \"{formula}\"\n"),
             Gap::Drawn => "gap = \"geometry\"\n".to_string(),
             Gap::Bumps { rise, base, bumps } => {
-                let near = |bump: &Bump| {
-                    format!("-({:?})*{}", bump.share, self.frame.bump(self.bodies[0].seam.at(bump.at), bump.width))
-                };
+                let near =
+                    |bump: &Bump| format!("-({:?})*{}", bump.share, self.frame.bump(self.bodies[0].seam.at(bump.at), bump.width));
                 let bumps: String = bumps.iter().map(near).collect();
                 format!("gap = \"{:?}*(({base:?}){bumps})\"\n", rise * self.frame.scale)
             }

@@ -88,8 +88,7 @@ const FLOORS: [f64; 2] = [1e-3, 0.01];
 /// Adds rows up; `dropped` scenes have no reference that is good enough.
 pub fn totals(rows: &[Row], dropped: usize) -> Totals {
     let count = |kind: Kind| rows.iter().filter(|row| row.kind == kind).count();
-    let [right, alarm, needless, quiet, loud] =
-        [Kind::Right, Kind::Alarm, Kind::FalseAlarm, Kind::Quiet, Kind::Loud].map(count);
+    let [right, alarm, needless, quiet, loud] = [Kind::Right, Kind::Alarm, Kind::FalseAlarm, Kind::Quiet, Kind::Loud].map(count);
     let share = |part: usize| part as f64 / rows.len().max(1) as f64;
     let steps = rows.iter().filter(|row| row.kind == Kind::Right && row.apart.is_some_and(|apart| apart.plain > 0.05)).count();
     let mut text = format!(

@@ -86,7 +86,8 @@ pub fn all() -> Vec<Known> {
         Wave { segments: None, ..plain }.known("auto", 1),
         Wave { segments: None, share: 0.004, ..plain }.known("auto, narrow", 2),
         Wave { segments: None, share: 0.02, space: "p1-continuous", ..plain }.known("auto, a tenth wide", 3),
-        Wave { segments: None, share: 0.15, refine: 1, order: 1, space: "p0", counts: [7, 60], ..plain }.known("auto, refine 1, P1", 1),
+        Wave { segments: None, share: 0.15, refine: 1, order: 1, space: "p0", counts: [7, 60], ..plain }
+            .known("auto, refine 1, P1", 1),
         Wave { segments: None, share: 0.4, refine: 0, counts: [30, 41], ..plain }.known("auto, refine 0", 2),
     ]
 }
@@ -140,10 +141,7 @@ impl Leaf {
             deformed: false,
             swapped: false,
             ranks,
-            layers: [
-                Layers::even(count + 3, 0.3, 0.1, 21),
-                Layers::even(count, self.thickness / self.length, 0.1, 22),
-            ],
+            layers: [Layers::even(count + 3, 0.3, 0.1, 21), Layers::even(count, self.thickness / self.length, 0.1, 22)],
         };
         let mut case = scene.case(&settings);
         if self.clamped.is_some() {
@@ -152,15 +150,27 @@ impl Leaf {
         case += &format!("[load.tip]\non = \"upper.right\"\ntraction = [0.0, {:?}]\n", -self.force / self.thickness);
         let answer = match self.clamped {
             Some(force) => Answer::Force { force, most: 0.025, at: None },
-            None => Answer::Force { force: self.force * size, most: 0.01, at: Some([self.lift * self.length * size, self.thickness * size]) },
+            None => Answer::Force {
+                force: self.force * size,
+                most: 0.01,
+                at: Some([self.lift * self.length * size, self.thickness * size]),
+            },
         };
         Known { name: format!("leaf, {name}"), mesh: scene.mesh(&settings.layers), case, ranks, answer }
     }
 }
 
 pub fn leaves() -> Vec<Known> {
-    let plain =
-        Leaf { length: 100.0, thickness: 4.0, lift: 0.5, force: 12.0, size: 1.0, segments: None, space: "p1-discontinuous", clamped: None };
+    let plain = Leaf {
+        length: 100.0,
+        thickness: 4.0,
+        lift: 0.5,
+        force: 12.0,
+        size: 1.0,
+        segments: None,
+        space: "p1-discontinuous",
+        clamped: None,
+    };
     vec![
         plain.known("lifts off in the middle", 1),
         Leaf { segments: Some(40), ..plain }.known("40 segments", 2),

@@ -45,7 +45,13 @@ fn closed(mut block: Block) -> Block {
 fn without_strays(block: Block) -> Block {
     let mut used = vec![false; block.points.len()];
     block.triangles.iter().flatten().for_each(|k| used[*k] = true);
-    let new: Vec<usize> = used.iter().scan(0, |next, used| { *next += usize::from(*used); Some(next.saturating_sub(1)) }).collect();
+    let new: Vec<usize> = used
+        .iter()
+        .scan(0, |next, used| {
+            *next += usize::from(*used);
+            Some(next.saturating_sub(1))
+        })
+        .collect();
     Block {
         points: block.points.into_iter().zip(&used).filter(|(_, used)| **used).map(|(x, _)| x).collect(),
         triangles: block.triangles.into_iter().map(|triangle| triangle.map(|k| new[k])).collect(),
@@ -115,7 +121,11 @@ impl Groove {
         let edge = self.half_width / 2.5;
         let mesh = Mesh {
             bodies: vec![
-                ("block", plate([s, -c], self.angle.to_radians(), edge, size), ["block.top", "block.right", "bottom", "block.left"]),
+                (
+                    "block",
+                    plate([s, -c], self.angle.to_radians(), edge, size),
+                    ["block.top", "block.right", "bottom", "block.left"],
+                ),
                 ("disc", ring([-FRAC_PI_2, FRAC_PI_2], &[touch], edge, [0.0; 2], size), ["rim", "axis", "hole", "axis"]),
             ],
         };
@@ -182,7 +192,10 @@ impl Loose {
         if self.plate {
             all.push(("plate", plate([0.0, 2.0], PI, edge, size), ["plate.low", "wall", "top", "wall"]));
             moduli.push(("plate", young));
-            rest += &format!("[load.top]\non = \"top\"\npressure = {:?}\n[contact.d]\nbetween = [\"rim.up\", \"plate.low\"]\n", force / (1.6 * size));
+            rest += &format!(
+                "[load.top]\non = \"top\"\npressure = {:?}\n[contact.d]\nbetween = [\"rim.up\", \"plate.low\"]\n",
+                force / (1.6 * size)
+            );
         }
         if self.held {
             rest += "[support.hole]\non = \"hole\"\nux = 0.0\n";
@@ -195,11 +208,7 @@ impl Loose {
             self.space,
         );
         let (profile, parameter) = round(materials, force, [0.0, 1.0], size, -FRAC_PI_2);
-        let answer = if self.held {
-            Answer::Pressure { profile, parameter, centred: true }
-        } else {
-            Answer::Doubt(&["disc"])
-        };
+        let answer = if self.held { Answer::Pressure { profile, parameter, centred: true } } else { Answer::Doubt(&["disc"]) };
         Known { name: format!("disc, {name}"), mesh: Mesh { bodies: all }.text(), case, ranks, answer }
     }
 }

@@ -51,6 +51,10 @@ pub fn westergaard(x: f64, length: f64, share: f64, mean: f64) -> f64 {
 
 #[test]
 fn rings_have_the_pressures_that_are_known() {
-    let rings = rings([Material { young: 5000.0, poisson: 0.33 }, Material { young: 11000.0, poisson: 0.2 }], [1.0, 2.0, 3.0], [0.004, 0.0015]);
+    let rings = rings(
+        [Material { young: 5000.0, poisson: 0.33 }, Material { young: 11000.0, poisson: 0.2 }],
+        [1.0, 2.0, 3.0],
+        [0.004, 0.0015],
+    );
     assert!((rings[0] - 4.3670).abs() < 1e-4 && (rings[1] - 0.23908).abs() < 1e-5, "{rings:?}");
 }

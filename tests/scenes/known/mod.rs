@@ -51,10 +51,20 @@ const MOST: [f64; 2] = [0.05, 0.01];
 
 /// All scenes: five or so of each kind.
 pub fn all() -> Vec<Known> {
-    [rings::all(), motions::shifted(), discs::grooves(), discs::loose(), refused::pieces(), refused::pairs(), refused::strains(), bands::all(), bands::leaves()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        rings::all(),
+        motions::shifted(),
+        discs::grooves(),
+        discs::loose(),
+        refused::pieces(),
+        refused::pairs(),
+        refused::strains(),
+        bands::all(),
+        bands::leaves(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 impl Known {
@@ -91,7 +101,17 @@ impl Known {
                 let all = format!("{} {}", said.reason, said.warnings.join(" "));
                 let told = words.iter().any(|words| all.contains(words));
                 let refused = said.code == Some(2) || matches!(self.answer, Answer::Doubt(_));
-                (!quiet && told && refused, if quiet { "no word" } else if told { "" } else { "another word" }.into())
+                (
+                    !quiet && told && refused,
+                    if quiet {
+                        "no word"
+                    } else if told {
+                        ""
+                    } else {
+                        "another word"
+                    }
+                    .into(),
+                )
             }
             Answer::Force { force, most, at } => {
                 let error = said.profile.as_ref().map_or(f64::INFINITY, |own| (own.force / force - 1.0).abs());
@@ -116,7 +136,8 @@ impl Known {
 /// A profile from a formula between two parameters, one unit of which is so long.
 pub fn sampled(from: f64, to: f64, length: f64, lambda: impl Fn(f64) -> f64) -> Profile {
     const COUNT: usize = 4000;
-    let points: Vec<[f64; 2]> = (0..=COUNT).map(|k| from + (to - from) * k as f64 / COUNT as f64).map(|u| [u, lambda(u)]).collect();
+    let points: Vec<[f64; 2]> =
+        (0..=COUNT).map(|k| from + (to - from) * k as f64 / COUNT as f64).map(|u| [u, lambda(u)]).collect();
     let force = points.windows(2).map(|pair| 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][0] - pair[0][0])).sum::<f64>() * length;
     Profile::new(points, force)
 }

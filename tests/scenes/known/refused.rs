@@ -8,7 +8,14 @@ use crate::support::mesh::{Block, Mesh};
 
 /// Two blocks, one on the other, held at their walls, under a pressure.
 fn blocks(size: f64, pressure: f64, walls: [bool; 2]) -> (Scene, Settings) {
-    let body = |depth: f64, young: f64| Body { seam: Shape::Line { height: 0.0 }, range: [0.0, 1.0], depth, young, poisson: 0.227, walls };
+    let body = |depth: f64, young: f64| Body {
+        seam: Shape::Line { height: 0.0 },
+        range: [0.0, 1.0],
+        depth,
+        young,
+        poisson: 0.227,
+        walls,
+    };
     let scene = Scene {
         frame: Frame { scale: size, ..Frame::PLAIN },
         stress: 1.0,
@@ -86,8 +93,15 @@ pub fn pairs() -> Vec<Known> {
         for (k, pair) in pairs.iter().enumerate().skip(1) {
             text += &format!("[contact.c{k}]\nbetween = {pair:?}{contact}");
         }
-        let words: &[&str] = &["face", "opposed", "parallel", "apart", "twice", "same body", "one body", "another contact", "overlap"];
-        Known { name: format!("pairs, {name}"), mesh: scene.mesh(&settings.layers), case: text, ranks, answer: Answer::Refusal(words) }
+        let words: &[&str] =
+            &["face", "opposed", "parallel", "apart", "twice", "same body", "one body", "another contact", "overlap"];
+        Known {
+            name: format!("pairs, {name}"),
+            mesh: scene.mesh(&settings.layers),
+            case: text,
+            ranks,
+            answer: Answer::Refusal(words),
+        }
     };
     vec![
         known("seam and top", 1.0, &[["lower.seam", "upper.outer"]], "line", 1),
