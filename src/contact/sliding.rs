@@ -13,7 +13,7 @@ const POINTS: usize = 2;
 pub struct Sliding {
     /// Way along each other, root mean square weighted with λ (length).
     pub slip: f64,
-    /// `∫λ e ds` with `e` the gap of the deformed bodies less that of the linear theory (force times length).
+    /// `∫λ e ds` with `e` the gap of the displaced bodies less that of the linear theory (force times length).
     pub work: f64,
     /// Standard deviation of `e` from its mean, weighted with λ (length).
     pub deviation: f64,
@@ -63,24 +63,25 @@ pub fn sliding(sides: [&SmoothSide; 2], boundary: &ContactBoundary, multipliers:
     }
 }
 
-/// Slip, and gap of the deformed bodies less the linear one, at a point of Γ_C that moves with the bodies' mean.
+/// Slip, and gap of the displaced bodies less the linear one, at a point of Γ_C that moves with the bodies' mean. Each
+/// boundary keeps its shape and moves by the displacement of its corresponding point: what it is strained moves on with
+/// the contact, and is no error.
 fn at(sides: [&SmoothSide; 2], x: Point, normal: Point) -> Option<[f64; 2]> {
-    let curves = [Configuration::Reference, Configuration::Deformed].map(|which| sides.map(|side| side.curve(which)));
-    let meet = |curve: &Curve, origin: Point, from: f64| {
-        let t = curve.hit_from(from, origin, normal)?;
-        Some((t, (curve.point(t) - origin).dot(&normal)))
-    };
-    let mut before = [(0.0, 0.0); 2];
-    for (found, curve) in before.iter_mut().zip(curves[0]) {
-        *found = meet(curve, x, curve.nearest(x))?;
+    let [undeformed, deformed] =
+        [Configuration::Reference, Configuration::Deformed].map(|which| sides.map(|side| side.curve(which)));
+    let distance = |curve: &Curve, t: f64, origin: Point| (curve.point(t) - origin).dot(&normal);
+    let mut feet = [0.0; 2];
+    for (foot, curve) in feet.iter_mut().zip(undeformed) {
+        *foot = curve.hit_from(curve.nearest(x), x, normal)?;
     }
-    let moved = [0, 1].map(|k| curves[1][k].point(before[k].0) - curves[0][k].point(before[k].0));
-    let origin = x + 0.5 * (moved[0] + moved[1]);
-    let mut after = [0.0; 2];
-    for k in 0..2 {
-        after[k] = meet(curves[1][k], origin, before[k].0)?.1;
-    }
+    let moved = [0, 1].map(|k| deformed[k].point(feet[k]) - undeformed[k].point(feet[k]));
     let apart = moved[1] - moved[0];
-    let error = (after[1] - after[0]) - (before[1].1 - before[0].1) - apart.dot(&normal);
-    Some([apart.dot(&turn_right(normal)).abs(), error])
+    let mut change = [0.0; 2];
+    for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {
+        let curve = undeformed[k];
+        let origin = x - 0.5 * sign * apart;
+        let foot = curve.hit_from(feet[k], origin, normal)?;
+        change[k] = distance(curve, foot, origin) - distance(curve, feet[k], x);
+    }
+    Some([apart.dot(&turn_right(normal)).abs(), change[1] - change[0] - apart.dot(&normal)])
 }

@@ -29,7 +29,7 @@ pub use interpolation::interpolations;
 pub use nodal_force::{load, nodal_forces};
 pub use outer_loop::{
     BoundaryStep, CoarseSolution, ContactLoop, Difference, Estimate, Following, Onward, OuterStep, Solution, Start, Verdict,
-    ZoneEstimate, carried, few_that_hold, not_held, not_held_if_closed, rigid_start, stands,
+    ZoneEstimate, carried, few_that_hold, is_needed, not_held, not_held_if_closed, rigid_start, stands,
 };
 pub use saddle_point::{CouplingRows, Form, MultiplierBlocks, SaddlePoint, SchurPattern};
 pub use scene::Scene;

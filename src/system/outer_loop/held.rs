@@ -43,6 +43,14 @@ pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Cont
     Ok(Whole { scene, numbering, contacts, rows: &rows }.not_held(&active))
 }
 
+/// Whether some body could move if this contact were open: then equilibrium sets its force, and bodies that are a little
+/// farther apart there come together again.
+pub fn is_needed(problem: &Discretisation, active: &[bool], contact: &Contact) -> bool {
+    let mut others = active.to_vec();
+    others[contact.range()].fill(false);
+    Whole::of(problem).mechanism(&others).is_some()
+}
+
 /// Of the open multipliers those with the largest `force`, 1, 2, 4, ... of them: as many as it takes to hold every body.
 pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut open: Vec<usize> = (0..active.len()).filter(|&i| !active[i]).collect();

@@ -16,7 +16,7 @@ pub use coarse_solution::CoarseSolution;
 pub use contact_loop::{ContactLoop, OuterStep, Start};
 pub use estimate::{Difference, Estimate};
 pub use following::{BoundaryStep, Following, Onward, carried, stands};
-pub use held::{few_that_hold, not_held, not_held_if_closed};
+pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};
 pub use rigid_start::rigid_start;
 pub use solution::{Solution, Verdict};
 pub use zone_estimate::{ZoneDifference, ZoneEstimate};

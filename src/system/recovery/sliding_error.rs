@@ -3,14 +3,15 @@
 use crate::contact::{Configuration, SmoothSide, sliding};
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
-use crate::system::{BoundaryMotion, Contact, Discretisation, Solution};
+use crate::system::{BoundaryMotion, Contact, Discretisation, Solution, is_needed};
 
 /// Sliding along a curved contact, and what it spoils.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlidingError {
     /// Way of the bodies along each other, as a share of the length that presses.
     pub slip: f64,
-    /// Estimated relative error of `∫λ ds`: what the gap that is left out does, by twice the strain energy.
+    /// Estimated relative error of `∫λ ds`: what the gap that is left out does, by twice the strain energy; zero where
+    /// equilibrium sets the force.
     pub force: f64,
     /// Estimated relative error of λ: what an uneven gap of this size takes in pressure on a half-plane.
     pub pressure: f64,
@@ -45,7 +46,7 @@ pub fn sliding_errors(
         let uneven = if ends_inside { found.bend } else { found.deviation };
         (found.force > 0.0 && energy > 0.0).then(|| SlidingError {
             slip: found.slip / found.length,
-            force: found.work.abs() / (2.0 * energy),
+            force: if is_needed(problem, &solution.active, contact) { 0.0 } else { found.work.abs() / (2.0 * energy) },
             // On a half-plane a gap that varies by e over the half length a takes the pressure E* e/a; E* is about E_c/2.
             pressure: contact.modulus * uneven / found.force,
         })
