@@ -57,6 +57,16 @@ impl Run<'_> {
         if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
             reason = format!("{reason}; estimated error {error:.1e} in the energy norm");
         }
+        let grows = |(_, contact): &(&String, &summary::Contact)| {
+            contact.zones.iter().any(|zone| zone.singular == Some(true) && zone.counts(&contact.zones))
+        };
+        let singular: Vec<&str> = summary.contact.iter().filter(grows).map(|(name, _)| name.as_str()).collect();
+        if status == Status::Converged && !singular.is_empty() {
+            reason = format!(
+                "{reason}; towards an end of contact {} λ grows without bound, as far as the meshes tell: its largest value says nothing",
+                singular.join(", ")
+            );
+        }
         let idle = |(_, contact): &(&String, &summary::Contact)| contact.closed.as_ref().is_some_and(|closed| closed.is_empty());
         let idle: Vec<&str> = summary.contact.iter().filter(idle).map(|(name, _)| name.as_str()).collect();
         if !idle.is_empty() {

@@ -51,7 +51,7 @@ const MOST_SLIP_ERROR: f64 = 0.01;
 const MOST_STRAIN: f64 = 0.2;
 
 /// Share of the force that penetration within single segments may be worth: more is contact narrower than they are.
-const MOST_UNRESOLVED: f64 = 0.2;
+const MOST_UNRESOLVED: f64 = 0.1;
 
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
@@ -76,16 +76,18 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     for pair in &case.contacts {
         let Some(contact) = summary.contact.get(&pair.name) else { continue };
         let force = summary.estimate.contact.get(&pair.name).and_then(|own| own.force);
-        let trust_force =
+        let mut trust_force =
             if converged { force.map(|error| error <= MOST_FORCE_ERROR && is_balanced(summary)) } else { Some(false) };
         let mut doubts = stability_doubts(contact, pair, case);
         let mut unknown = None;
         if converged {
             doubts.extend(zone_doubts(contact, trust_force));
             doubts.extend(size_doubts(summary));
-            doubts.extend(slip_doubt(contact));
+            doubts.extend(force_doubt(force));
+            let beyond_the_model: Vec<Doubt> = slip_doubt(contact).into_iter().chain(strain_doubts(summary)).collect();
+            trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
+            doubts.extend(beyond_the_model);
             doubts.extend(unresolved_doubt(contact));
-            doubts.extend(strain_doubts(summary));
             unknown = unknown_words(contact, &pair.name, trust_force);
         }
         let trust = if doubts.is_empty() && converged { unknown.is_none().then_some(true) } else { Some(false) };
@@ -179,6 +181,15 @@ fn size_doubts(summary: &Summary) -> Vec<Doubt> {
     let words = |off| format!("forces on the two bodies differ by {}, at most {MOST_UNBALANCED} wanted", short(off));
     doubts.extend(off.map(|off| (words(off), "see lost_points: the bodies must face each other all along the boundary")));
     doubts.into_iter().map(|(figure, remedy)| Doubt { figure, remedy }).collect()
+}
+
+/// What tells that the force of a contact is not known.
+fn force_doubt(error: Option<f64>) -> Option<Doubt> {
+    let error = error.filter(|error| *error > MOST_PRESSURE_ERROR)?;
+    Some(Doubt {
+        figure: format!("estimated error of the whole force {error:.2}, at most {MOST_PRESSURE_ERROR} wanted"),
+        remedy: "refine the mesh where contact is",
+    })
 }
 
 /// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.

@@ -1,7 +1,7 @@
 //! What each zone of a contact that presses is, and what is estimated of its pressure.
 
 use super::trust::{LEAST_PARTS, PROVES};
-use crate::contact::Zone;
+use crate::contact::{MultiplierSpace, Zone};
 use crate::output::ContactPoint;
 use crate::output::summary;
 use crate::system::recovery::{TracePoint, zone_errors};
@@ -10,6 +10,10 @@ use crate::system::{Contact, Discretisation, Estimate, Solution, ZoneEstimate};
 /// Growth of the pressure from the last segment but one to the last, and by one refinement, above which it may be singular at
 /// an end.
 const GROWS: f64 = 1.02;
+
+/// Share of the growth by one refinement that the next one adds where λ goes like a power of the distance below zero: one or
+/// more; where it is bounded a half or less.
+const GOES_ON: f64 = 0.75;
 
 /// Fewer segments say nothing of each other.
 const LEAST_SEGMENTS: usize = 3;
@@ -35,7 +39,7 @@ pub fn zones(
         let differences = estimate.zones.get(at).and_then(|of_contact| of_contact.get(k));
         let differences = differences.map_or([None, None], |pair| pair.each_ref().map(Option::as_ref));
         let found = ZoneEstimate::new(contact.pair.space, &errors[k], differences);
-        let before = |end: usize| differences[0].map(|last| last.at_ends[end]);
+        let before = |end: usize| differences.map(|difference| difference.map(|found| found.at_ends[end]));
         let singular = (0..2).any(|end| grows_towards(contact, lambda, zone, end, before(end)));
         let edges: f64 = zone.segments.clone().map(|k| contact.boundary.segment_length(k) / contact.edge_lengths[k]).sum();
         // All signs of a narrow zone may be small beside its error, unless they are very small.
@@ -58,8 +62,9 @@ pub fn zones(
     zones.iter().enumerate().map(describe).collect()
 }
 
-/// Whether λ grows towards an end of Γ_C, ever more quickly, and more than on the mesh `before`.
-fn grows_towards(contact: &Contact, lambda: &[f64], zone: &Zone, end: usize, before: Option<f64>) -> bool {
+/// Whether λ grows towards an end of Γ_C, ever more quickly, and without bound as meshes are refined, as far as the values
+/// there on the mesh `before` and the one before that tell. Steps grow towards any steep end.
+fn grows_towards(contact: &Contact, lambda: &[f64], zone: &Zone, end: usize, [before, earlier]: [Option<f64>; 2]) -> bool {
     if !touches(contact, zone, end) || zone.segments.len() < 3 {
         return false;
     }
@@ -68,7 +73,12 @@ fn grows_towards(contact: &Contact, lambda: &[f64], zone: &Zone, end: usize, bef
     let lengths = [0, 1, 2].map(|i| contact.boundary.segment_length(nth(i)));
     let slopes = [(a - b) / (lengths[0] + lengths[1]), (b - c) / (lengths[1] + lengths[2])];
     let last = contact.multipliers.value(lambda, nth(0), if end == 0 { 0.05 } else { 0.95 });
-    a > GROWS * b && slopes[0] > slopes[1] && before.is_none_or(|before| last > GROWS * before)
+    let grown = match (before, earlier) {
+        (Some(before), Some(earlier)) => last > GROWS * before && last - before > GOES_ON * (before - earlier),
+        (Some(before), None) => contact.multipliers.space != MultiplierSpace::P0 && last > GROWS * before,
+        _ => true,
+    };
+    a > GROWS * b && slopes[0] > slopes[1] && grown
 }
 
 /// Whether a zone reaches an end of Γ_C.
