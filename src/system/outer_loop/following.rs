@@ -23,7 +23,7 @@ const STILL_BOUNDARY: f64 = 1e3;
 /// However loose the solves are.
 const LEAST_STILL: f64 = 1e-4;
 
-/// Share of its length by which held ends may still move: beyond it they are not known.
+/// Share of its length by which ends may still move when they are held where they are.
 const MOST_HELD: f64 = 1e-2;
 
 /// Penetration beyond the ends, as a share of the length of Γ_C, that is no contact missed.
@@ -74,6 +74,8 @@ pub struct Following {
     ends: Vec<[Found; 2]>,
     /// How far the boundary moved last before its ends were held.
     last_way: f64,
+    /// How far each boundary has reached so far.
+    widest: Vec<[f64; 2]>,
 }
 
 impl Following {
@@ -86,6 +88,7 @@ impl Following {
             active: Vec::new(),
             ends: vec![[None; 2]; problem.contacts.len()],
             last_way: 0.0,
+            widest: vec![[f64::INFINITY, f64::NEG_INFINITY]; problem.contacts.len()],
         }
     }
 
@@ -123,7 +126,6 @@ impl Following {
             self.last_way = way;
         }
         let onward = match moved {
-            _ if number >= HELD && self.last_way > MOST_HELD => Onward::GivenUp(restless(self.last_way)),
             // The same boundary has the same solution.
             Some(0.0) => self.beyond(problem, &motion),
             Some(way) if way <= still_boundary && still => self.beyond(problem, &motion),
@@ -175,8 +177,15 @@ impl Following {
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let mut all = Vec::new();
         let settled = number >= self.frozen;
-        for (contact, ends) in problem.contacts.iter().zip(&mut self.ends) {
+        for ((contact, ends), widest) in problem.contacts.iter().zip(&mut self.ends).zip(&mut self.widest) {
             let mut known = contact.known.clone();
+            let knots = contact.boundary.knots();
+            *widest = [widest[0].min(knots[0]), widest[1].max(knots[knots.len() - 1])];
+            if contact.pair.has_free_ends() && number == HELD && self.last_way > MOST_HELD {
+                // Ends that find no rest, as where contact has several zones, are left to the active set.
+                all.push(Known { ends: Some(*widest), segments: None, ..known });
+                continue;
+            }
             if contact.pair.curve == CurveChoice::Fit && !settled {
                 let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
                 let meeting = Meeting::now(&sides, &contact.pair)
@@ -273,22 +282,17 @@ fn given_up(step: &BoundaryStep) -> String {
     )
 }
 
-fn restless(way: f64) -> String {
-    format!(
-        "the ends of the contact boundary do not come to rest: they still moved by {way:.0e} of its length at fit {}; refine the mesh, or take another number of segments",
-        HELD - 1
-    )
-}
-
 /// Words for a boundary that stands.
 pub fn stands(steps: &[BoundaryStep]) -> String {
     let place = match steps.len() {
         1 => "the contact boundary fits what touches".to_string(),
         count if count < HELD => format!("the contact boundary stands after {count} fits, and so does the displacement"),
         count => {
-            let last = steps[HELD - 2].moved.map_or("others".into(), |way| format!("{way:.0e} of its length"));
+            let way = steps[HELD - 2].moved;
+            let last = way.map_or("others".into(), |way| format!("{way:.0e} of its length"));
+            let held = if way.is_some_and(|way| way > MOST_HELD) { "held where they reached farthest" } else { "held" };
             format!(
-                "the ends of the contact boundary still moved by {last} at fit {} and are held; it stands after {count}",
+                "the ends of the contact boundary still moved by {last} at fit {} and are {held}; it stands after {count}",
                 HELD - 1
             )
         }
