@@ -133,8 +133,8 @@ fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve
     limits
 }
 
-/// How far Γ_C leaves the two sides, in any case where it should not: nothing where each of its points lies within an
-/// element of both sides, but for the distance between them, and not beyond their ends.
+/// Largest distance from a side of those points of Γ_C that are farther from one of the two sides than the sides are from
+/// each other and an edge; nothing if there are none.
 pub fn stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -> Option<f64> {
     let knots = boundary.knots();
     let places = knots.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]).chain([knots[knots.len() - 1]]);

@@ -1,4 +1,4 @@
-//! Where two bodies touch or penetrate each other: the nodes that Γ_C is fitted to, and its ends.
+//! Where two bodies touch or penetrate each other: the nodes whose points half-way Γ_C is fitted to, and its ends.
 
 use super::bisector::Bisector;
 use super::smooth_side::SmoothSide;

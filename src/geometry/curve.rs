@@ -3,6 +3,9 @@
 use super::{Formula, Point, Spline, cross};
 use std::f64::consts::TAU;
 
+/// Spans of a spline from which the nearest point is looked for among their ends.
+const MANY: usize = 16;
+
 /// A plane curve `t -> (x, y)` over a range of its parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Curve {
@@ -87,8 +90,8 @@ impl Curve {
                 r.y.atan2(r.x).rem_euclid(TAU)
             }
             Self::Parametric { .. } => self.nearest_by_search(p, 64),
-            // A spline through many nodes turns little within a span.
-            Self::Spline(spline) if spline.spans() > 64 => self.nearest_from(p, spline.nearest_knot(p), spline.spans()),
+            // A spline of many spans turns little within one of them.
+            Self::Spline(spline) if spline.spans() >= MANY => self.nearest_from(p, spline.nearest_knot(p), spline.spans()),
             Self::Spline(spline) => self.nearest_by_search(p, 4 * spline.spans()),
         }
     }

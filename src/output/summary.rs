@@ -181,11 +181,13 @@ pub struct Contact {
     pub slip_error: Option<f64>,
     /// Intervals of arc length that press, each with what is estimated of it.
     pub zones: Vec<Zone>,
-    /// Force that is missing because the bodies overlap where no segment presses, relative to `force`.
+    /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,
+    /// the largest overlap relative to the largest displacement.
     pub missing: Option<f64>,
-    /// Whether the contact pressure can be trusted; null if nothing tells, or if it is singular: the reason says which.
+    /// Whether the contact pressure can be trusted; null if nothing tells, or if the corner of a body presses on too
+    /// few edges: the reason says which.
     pub trust: Option<bool>,
-    /// Whether ∫ λ ds can be trusted to one per cent.
+    /// Whether ∫ λ ds can be trusted to one per cent; null if nothing estimates it.
     pub trust_force: Option<bool>,
 }
 

@@ -69,7 +69,8 @@ pub struct Judgement {
 }
 
 /// Sets `trust` of every contact: false if a figure speaks against its pressure, or if the solve it comes from has not
-/// `converged`; null if nothing tells, or if the pressure is singular. Sets `trust_force`, too.
+/// `converged`; null if nothing tells, or if the corner of a body presses on too few
+/// edges. Sets `trust_force`, too.
 pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     let (mut told, mut remedies) = (Vec::new(), Vec::new());
     let mut judgement = Judgement::default();

@@ -23,7 +23,8 @@ const STILL_BOUNDARY: f64 = 1e3;
 /// However loose the solves are.
 const LEAST_STILL: f64 = 1e-4;
 
-/// Share of its length by which ends may still move when they are held where they are.
+/// Ends that moved by more than this share of the length just before are held where they have reached farthest, others
+/// where they are.
 const MOST_HELD: f64 = 1e-2;
 
 /// Penetration beyond the ends, as a share of the length of Γ_C, that is no contact missed.
