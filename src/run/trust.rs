@@ -19,6 +19,9 @@ pub(super) const LEAST_PARTS: f64 = 4.0;
 /// The largest sign of an error that proves a pressure good.
 pub(super) const PROVES: f64 = 0.05;
 
+/// Signs of error that prove a pressure on one or two segments, too.
+const NEXT_TO_NOTHING: f64 = 1e-3;
+
 /// Largest estimated relative error in the energy norm.
 const MOST_ERROR: f64 = 0.3;
 
@@ -143,7 +146,7 @@ fn zone_doubts(contact: &summary::Contact, trust_force: Option<bool>) -> Vec<Dou
         if is_concentrated(zone, trust_force) {
             continue;
         }
-        let proved = is_proved(zone.worst) && edges >= 1.0;
+        let proved = is_proved(zone.worst) && edges >= 1.0 && is_divided(zone);
         let good = proved || is_proved(zone.lambda) && zone.worst.is_some_and(|worst| worst <= MOST_PEAK_ERROR);
         if edges < LEAST_PARTS && !proved {
             doubts.push(Doubt {
@@ -237,13 +240,19 @@ fn unknown_words(contact: &summary::Contact, name: &str, trust_force: Option<boo
         ));
     }
     counting()
-        .any(|zone| zone.lambda.is_none() && !is_proved(zone.worst))
+        .any(|zone| zone.lambda.is_none() && !(is_proved(zone.worst) && is_divided(zone)))
         .then(|| format!("contact {name}: nothing estimates the error of its pressure; refine the mesh, or take more segments"))
 }
 
 /// A reaction at the corner of a body that no mesh resolves: the force is right.
 fn is_concentrated(zone: &summary::Zone, trust_force: Option<bool>) -> bool {
     zone.corner == Some(true) && zone.edges.is_some_and(|edges| edges < LEAST_PARTS) && trust_force == Some(true)
+}
+
+/// Whether its signs of error can tell anything: on one or two segments they may all be small beside the error, unless they
+/// are next to nothing, as where the pressure is even.
+fn is_divided(zone: &summary::Zone) -> bool {
+    zone.segments.is_some_and(|segments| segments > 2) || zone.worst.is_some_and(|worst| worst <= NEXT_TO_NOTHING)
 }
 
 fn is_proved(worst: Option<f64>) -> bool {

@@ -10,6 +10,9 @@ const MOST_VIOLATED: f64 = 1e-3;
 /// and by the relative residual of the solve.
 const BY_RESIDUAL: f64 = 1e4;
 
+/// Length, in edges, below which a multiplier is too short for its gap to be a pressure of its own.
+const LEAST_LENGTH: f64 = 0.1;
+
 /// What was solved for an active set; the same on every rank.
 pub(super) struct ContactState {
     /// `λ_i`, zero on open multipliers (stress).
@@ -60,9 +63,9 @@ impl ContactState {
         for contact in &problem.contacts {
             let unilateral = contact.pair.law == Law::Unilateral;
             for i in contact.range() {
-                // A gap over less than an edge takes the pressure that it would take over an edge.
+                // A gap over next to no length takes the pressure that it would take over a part of an edge.
                 let (own, segment) = (i - contact.first, contact.multipliers.segment_of(i - contact.first));
-                let share = (contact.multipliers.length(own) / contact.edge_lengths[segment]).min(1.0);
+                let share = (contact.multipliers.length(own) / (LEAST_LENGTH * contact.edge_lengths[segment])).min(1.0);
                 let apart = share * self.penalty[i] * self.penetration[i];
                 let (off, what) = match (active[i], unilateral) {
                     (true, true) if self.lambda[i] < 0.0 => (-self.lambda[i], "pulls"),
