@@ -261,4 +261,21 @@ mod tests {
             assert!((second.curve.point(t) - x).norm() < 3e-4, "{} at {x}", (second.curve.point(t) - x).norm());
         }
     }
+
+    /// A boundary between two flat sides is where it should be; one that leaves them is told with its distance.
+    #[test]
+    fn a_boundary_that_leaves_both_sides_is_told_with_its_distance() {
+        let mesh = two_blocks();
+        let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
+        let numbering = Numbering::new(Level { intervals: 16, order: Order::P2 }, &partition);
+        let pair = pair(["lower.seam", "upper.seam"]);
+        let sides = SmoothSide::of_pair(&mesh, &numbering, &pair, &|_| Point::zeros());
+        let sides = [&sides[0][0], &sides[1][0]];
+        for (end, distance) in [([2.0, 1.0], None), ([2.0, 1.8], Some(0.8)), ([2.6, 1.0], Some(0.6))] {
+            let boundary = ContactBoundary::new(Curve::Line([[0.0, 1.0], end]), [0.0, 1.0], Point::new(0.0, 1.0));
+            let found = stray(sides, &boundary, &pair);
+            assert_eq!(found.is_some(), distance.is_some(), "{end:?}: {found:?}");
+            assert!((found.unwrap_or(0.0) - distance.unwrap_or(0.0)).abs() < 1e-9, "{end:?}: {found:?}");
+        }
+    }
 }
