@@ -39,6 +39,9 @@ pub struct Summary {
     /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
     #[serde(default)]
     pub strain_max: BTreeMap<String, Option<f64>>,
+    /// Mean rotation by name of the body, anticlockwise (radians).
+    #[serde(default)]
+    pub rotation: BTreeMap<String, Option<f64>>,
     /// Estimated discretisation errors.
     pub estimate: Estimate,
     /// Relative residuals of force, moment and energy balance.
@@ -177,8 +180,10 @@ pub struct Contact {
     pub lost_points: Option<usize>,
     /// Way of the bodies along each other, by the length that presses; of curved fits on undeformed bodies only.
     pub slip: Option<f64>,
-    /// Estimated relative error of force or pressure by that way.
+    /// Estimated relative error of force or pressure by that way, and by the turning of the bodies.
     pub slip_error: Option<f64>,
+    /// The same by their turning alone, in all contacts; where nothing presses, the growth of what turns by the smallest gap.
+    pub rotation_error: Option<f64>,
     /// Intervals of arc length that press, each with what is estimated of it.
     pub zones: Vec<Zone>,
     /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,

@@ -6,7 +6,7 @@ use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
-use crate::system::recovery::LargestStrain;
+use crate::system::recovery::Deformation;
 use crate::system::{BoundaryStep, Discretisation, OuterStep, Solution, Verdict};
 use std::io::Write;
 use std::path::Path;
@@ -90,10 +90,10 @@ impl Report {
     }
 
     /// Bodies that are strained farther than a theory of small strain goes.
-    pub fn large_strains(&self, problem: &Discretisation, strains: &[LargestStrain]) {
-        for (body, largest) in problem.scene.bodies.iter().zip(strains).filter(|(_, largest)| largest.strain > SMALL_STRAIN) {
+    pub fn large_strains(&self, problem: &Discretisation, found: &[Deformation]) {
+        for (body, largest) in problem.scene.bodies.iter().zip(found).filter(|(_, largest)| largest.strain > SMALL_STRAIN) {
             self.warn(&format!(
-                "body {} is strained by {:.0} % near ({}, {}): the model is that of small strain, and is off by as much as that",
+                "body {} is strained by {:.0} % near ({}, {}): the model is that of small strain, and may be off by more than that",
                 body.name,
                 100.0 * largest.strain,
                 short(largest.place.x),

@@ -10,7 +10,7 @@ use crate::contact::{Configuration, GapChoice};
 use crate::geometry::Point;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
-use crate::system::recovery::{TracePoint, balance, largest_strains, nodal_stress, probe, sliding_errors, trace_points};
+use crate::system::recovery::{TracePoint, balance, deformations, motion_errors, nodal_stress, probe, trace_points};
 use crate::system::{Contact, Discretisation, Field, Verdict};
 use std::path::Path;
 
@@ -94,10 +94,10 @@ impl Run<'_> {
         let u = Field::displacement(problem, &solution.displacement, session)?;
         let balance = balance(problem, solution, &u, session)?;
         summarise::balances(summary, problem, &balance);
-        let sliding = sliding_errors(problem, solution, balance.strain.iter().sum(), session);
-        let strains = largest_strains(problem, &u, session)?;
-        summarise::strains(summary, problem, &strains);
-        self.report.large_strains(problem, &strains);
+        let deformed = deformations(problem, &u, session)?;
+        summarise::deformations(summary, problem, &deformed);
+        self.report.large_strains(problem, &deformed);
+        let motions = motion_errors(problem, solution, &balance.strain, &deformed, session);
         let mut traces = Vec::new();
         for (at, contact) in problem.contacts.iter().enumerate() {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
@@ -111,7 +111,7 @@ impl Run<'_> {
                 found.missing = zones::missing_force(contact, &zones, &traced, balance.contacts[at].force);
             }
             found.unresolved_force = Some(unresolved_force(contact, &traced));
-            summarise::sliding(&mut found, sliding[at]);
+            summarise::motions(&mut found, motions[at], contact.bodies.map(|body| &deformed[body]), &traced);
             found.zones = zones;
             summary.contact.insert(contact.pair.name.clone(), found);
             traces.push(traced);

@@ -5,10 +5,14 @@ use crate::case::Case;
 use crate::contact::{MultiplierSpace, Zone, oscillation};
 use crate::element::Order;
 use crate::geometry::Point;
+use crate::output::ContactPoint;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Balance, LargestStrain, SlidingError, TracePoint};
+use crate::system::recovery::{Balance, Deformation, MotionError, TracePoint};
 use crate::system::{BoundaryStep, Contact, Discretisation, Solution};
+
+/// Growth by less than this share of the displacements is rounding.
+const ROUNDING: f64 = 1e-5;
 
 /// What is known without the solution's fields.
 pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solved: &Solved) {
@@ -83,10 +87,11 @@ pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balan
         summary::Balance { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
 }
 
-/// The largest strains of the bodies.
-pub fn strains(summary: &mut Summary, problem: &Discretisation, strains: &[LargestStrain]) {
-    let names = problem.scene.bodies.iter().map(|body| body.name.clone());
-    summary.strain_max = names.zip(strains.iter().map(|largest| Some(largest.strain))).collect();
+/// Largest strain and mean rotation of the bodies.
+pub fn deformations(summary: &mut Summary, problem: &Discretisation, found: &[Deformation]) {
+    let names = || problem.scene.bodies.iter().map(|body| body.name.clone());
+    summary.strain_max = names().zip(found.iter().map(|body| Some(body.strain))).collect();
+    summary.rotation = names().zip(found.iter().map(|body| Some(body.rotation))).collect();
 }
 
 /// One contact; `at` is its place among all.
@@ -129,15 +134,33 @@ pub fn contact(
         trust: None,
         slip: None,
         slip_error: None,
+        rotation_error: None,
         trust_force: None,
         lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
 }
 
-/// What sliding spoils, where a curved contact is modelled on the undeformed bodies.
-pub fn sliding(contact: &mut summary::Contact, found: Option<SlidingError>) {
-    contact.slip = found.map(|found| found.slip);
-    contact.slip_error = found.map(|found| found.force.max(found.pressure));
+/// What sliding and turning spoil. Where nothing presses, the growth of bodies that turn is compared with the smallest gap.
+pub fn motions(
+    contact: &mut summary::Contact,
+    found: Option<MotionError>,
+    bodies: [&Deformation; 2],
+    points: &[ContactPoint],
+) {
+    contact.slip = found.and_then(|found| found.slip);
+    contact.slip_error = found.and_then(|found| found.slip_error);
+    contact.rotation_error = match found {
+        Some(found) => Some(found.rotation_error),
+        None => growth_by_gap(bodies, points),
+    };
+}
+
+/// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.
+fn growth_by_gap(bodies: [&Deformation; 2], points: &[ContactPoint]) -> Option<f64> {
+    let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
+    let moved = points.iter().map(|point| point.un_1.abs().max(point.un_2.abs())).fold(0.0, f64::max);
+    let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
+    (growth > ROUNDING * moved).then(|| growth / smallest.max(growth * f64::EPSILON))
 }
 
 /// Name of a multiplier space in the case file.

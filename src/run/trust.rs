@@ -47,8 +47,11 @@ const MOST_UNBALANCED: f64 = 0.01;
 /// Sliding by less than this share of the length in contact changes no normal.
 const LITTLE_SLIP: f64 = 0.02;
 
-/// Largest error of force and pressure by sliding.
+/// Largest error of force and pressure by sliding, or by turning.
 const MOST_SLIP_ERROR: f64 = 0.01;
+
+/// Largest growth of bodies that turn, relative to the smallest gap of a contact where nothing presses.
+const MOST_GROWTH: f64 = 0.5;
 
 /// Largest mean strain of a macro triangle at which a theory of small strain still means something.
 const MOST_STRAIN: f64 = 0.2;
@@ -88,7 +91,8 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             doubts.extend(zone_doubts(contact, trust_force));
             doubts.extend(size_doubts(summary));
             doubts.extend(force_doubt(force));
-            let beyond_the_model: Vec<Doubt> = slip_doubt(contact).into_iter().chain(strain_doubts(summary)).collect();
+            let motions = slip_doubt(contact).into_iter().chain(rotation_doubt(contact));
+            let beyond_the_model: Vec<Doubt> = motions.chain(strain_doubts(summary)).collect();
             trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
             doubts.extend(beyond_the_model);
             doubts.extend(unresolved_doubt(contact));
@@ -199,14 +203,29 @@ fn force_doubt(error: Option<f64>) -> Option<Doubt> {
 /// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.
 fn slip_doubt(contact: &summary::Contact) -> Option<Doubt> {
     let (slip, error) = (contact.slip?, contact.slip_error?);
-    (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR).then(|| Doubt {
+    let by_turning = contact.rotation_error.unwrap_or(0.0) > 0.5 * error;
+    (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR && !by_turning).then(|| Doubt {
         figure: format!(
-            "the bodies slide along each other by {} of the length in contact, which changes pressures by about {}",
+            "the bodies slide along each other by {} of the length in contact: force or pressure off by about {} of itself, at most {MOST_SLIP_ERROR} wanted",
             short(slip),
             short(error)
         ),
         remedy: "take configuration = \"deformed\"",
     })
+}
+
+/// What tells that bodies have turned too far for a theory that makes larger what turns.
+fn rotation_doubt(contact: &summary::Contact) -> Option<Doubt> {
+    let error = contact.rotation_error?;
+    let remedy = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
+    if contact.zones.is_empty() {
+        let figure = format!("nothing presses, but bodies that turn grow in this theory, by {} of the smallest gap", short(error));
+        return (error > MOST_GROWTH).then_some(Doubt { figure, remedy });
+    }
+    // Sliding and turning may undo each other, as where a round body turns about its centre.
+    let wrong = error > MOST_SLIP_ERROR && contact.slip_error.is_none_or(|error| error > MOST_SLIP_ERROR);
+    let figure = || format!("the bodies turn: force or pressure off by about {} of itself, at most {MOST_SLIP_ERROR} wanted", short(error));
+    wrong.then(|| Doubt { figure: figure(), remedy })
 }
 
 /// What tells that bodies are strained beyond a theory of small strain.

@@ -41,6 +41,9 @@ pub fn run(file: &Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Sa
     if !ended.out.join("summary.json").exists() {
         return said;
     }
+    // What it said stays beside the case, to be looked at.
+    let kept = file.with_file_name("said.json");
+    std::fs::copy(ended.out.join("summary.json"), kept).expect("the folder of the case can be written");
     let summary = ended.summary();
     said.reason = summary["reason"].as_str().unwrap_or_default().to_string();
     let contact = &summary["contact"]["c"];

@@ -1,21 +1,21 @@
 //! What a solution means on the bodies: energies, reactions, stresses, traces on Γ_C, values at points, errors.
 
 mod balance;
+mod deformation;
 mod error_norm;
 mod exact_pressure;
+mod motion_error;
 mod probe;
-mod sliding_error;
-mod strain;
 mod stress;
 mod traces;
 mod zone_errors;
 
 pub use balance::{Balance, ContactForce, balance, strain_energy};
+pub use deformation::{Deformation, deformations};
 pub use error_norm::energy_error;
 pub use exact_pressure::{pressure_at, pressure_error};
+pub use motion_error::{MotionError, motion_errors};
 pub use probe::{Probed, probe};
-pub use sliding_error::{SlidingError, sliding_errors};
-pub use strain::{LargestStrain, largest_strains};
 pub use stress::nodal_stress;
 pub use traces::{TracePoint, trace_points};
 pub use zone_errors::{ZoneErrors, zone_errors};

@@ -1,0 +1,139 @@
+//! How far the bodies are strained and turned: whether a theory of small strains and rotations holds.
+
+use super::{agreed, nodal};
+use crate::body::positions;
+use crate::element::{Order, PlaneStrain, jacobian};
+use crate::geometry::Point;
+use crate::mesh::{MacroMesh, MacroTriangle, lattice};
+use crate::petsc::Session;
+use crate::system::{Discretisation, Field, SystemError};
+use nalgebra::Matrix2;
+
+/// Refinements from which on a macro triangle alone is a region of many triangles.
+const MANY: usize = 2;
+
+/// How far a body is deformed and turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deformation {
+    /// Mean, over a macro triangle, of the larger principal strain by magnitude: the largest (no unit).
+    pub strain: f64,
+    /// Middle of that macro triangle.
+    pub place: Point,
+    /// Mean rotation, anticlockwise (radians).
+    pub rotation: f64,
+    /// `∫(ω² - ε²)/2 tr σ` where the rotation ω is larger than the strain ε: the work of the stresses on the growth that a
+    /// linear theory gives to what turns (energy per thickness).
+    pub growth: f64,
+    /// Middle of the body.
+    pub middle: Point,
+    /// Largest distance of a vertex from there (length).
+    pub radius: f64,
+}
+
+/// Integrals over a macro triangle: of the larger principal strain, of 1, of the rotation, of the work on its growth.
+type Sums = [f64; 4];
+
+/// Strain, rotation and growth of each body. Strains are means over a macro triangle; where these are hardly refined, over it
+/// and its neighbours. So a corner where the strain is singular counts by what its surroundings see, on fine meshes as on
+/// coarse ones. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from an inverted triangle.
+pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<Deformation>, SystemError> {
+    let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
+    let mut sums: Vec<Sums> = vec![Sums::default(); mesh.triangles.len()];
+    let own = problem.scene.partition.triangles_of(session.rank());
+    let added = own.iter().try_for_each(|&triangle| {
+        let law = &laws[mesh.triangles[triangle as usize].body as usize];
+        sums[triangle as usize] = match problem.finest().numbering.level.order {
+            Order::P1 => integrals::<3>(problem, u, triangle as usize, law)?,
+            Order::P2 => integrals::<6>(problem, u, triangle as usize, law)?,
+        };
+        Ok(())
+    });
+    agreed(session, added)?;
+    session.sum(sums.as_flattened_mut());
+    let mut found: Vec<Deformation> = (0..mesh.bodies.len()).map(|body| whole(mesh, body, &sums)).collect();
+    for _ in problem.scene.refine..MANY {
+        sums = with_neighbours(mesh, &sums);
+    }
+    for (triangle, sum) in mesh.triangles.iter().zip(&sums) {
+        let of_body = &mut found[triangle.body as usize];
+        if sum[0] / sum[1] > of_body.strain {
+            (of_body.strain, of_body.place) = (sum[0] / sum[1], centroid(mesh, triangle));
+        }
+    }
+    Ok(found)
+}
+
+/// What is known of a body as a whole; its strain is left at zero.
+fn whole(mesh: &MacroMesh, body: usize, sums: &[Sums]) -> Deformation {
+    let own = || mesh.triangles.iter().zip(sums).filter(|(triangle, _)| triangle.body as usize == body);
+    let total = |k: usize| own().map(|(_, sum)| sum[k]).sum::<f64>();
+    let area = total(1);
+    let middle = own().map(|(triangle, sum)| centroid(mesh, triangle) * sum[1]).sum::<Point>() / area;
+    let distance = |vertex: u32| (mesh.vertices[vertex as usize] - middle).norm();
+    let radius = own().flat_map(|(triangle, _)| triangle.vertices).map(distance).fold(0.0, f64::max);
+    Deformation { strain: 0.0, place: middle, rotation: total(2) / area, growth: total(3), middle, radius }
+}
+
+fn centroid(mesh: &MacroMesh, triangle: &MacroTriangle) -> Point {
+    triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]).into_iter().sum::<Point>() / 3.0
+}
+
+/// Each sum with those of the macro triangles beside it.
+fn with_neighbours(mesh: &MacroMesh, sums: &[Sums]) -> Vec<Sums> {
+    let mut wider = sums.to_vec();
+    for edge in &mesh.edges {
+        let [Some(a), Some(b)] = edge.triangles.map(|triangle| triangle.map(|triangle| triangle as usize)) else { continue };
+        for k in 0..sums[a].len() {
+            wider[a][k] += sums[b][k];
+            wider[b][k] += sums[a][k];
+        }
+    }
+    wider
+}
+
+/// The integrals over a macro triangle: one point for each triangle.
+fn integrals<const N: usize>(
+    problem: &Discretisation,
+    u: &Field<2>,
+    triangle: usize,
+    law: &PlaneStrain,
+) -> Result<Sums, SystemError> {
+    const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
+    let level = problem.finest().numbering.level;
+    let mut sums = Sums::default();
+    for small in lattice::triangles(level.intervals, level.order) {
+        let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
+        let (gradients, area) = jacobian(&x, MIDDLE)?;
+        let u = nodal::<N>(problem, u, triangle, &small);
+        let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
+        let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
+        let (strain, [xx, yy, ..]) = (principal(&gradient), law.stress(&gradient));
+        let growth = 0.5 * (rotation * rotation - strain * strain).max(0.0);
+        let values = [strain, 1.0, rotation, growth * (xx + yy)];
+        sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
+    }
+    Ok(sums)
+}
+
+/// The larger principal strain of a displacement gradient, by magnitude.
+fn principal(gradient: &Matrix2<f64>) -> f64 {
+    let mean = 0.5 * (gradient[(0, 0)] + gradient[(1, 1)]);
+    let half = 0.5 * (gradient[(0, 0)] - gradient[(1, 1)]);
+    let shear = 0.5 * (gradient[(0, 1)] + gradient[(1, 0)]);
+    mean.abs() + half.hypot(shear)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn principal_strains_do_not_see_rotations() {
+        assert_eq!(principal(&Matrix2::new(0.0, -0.3, 0.3, 0.0)), 0.0);
+        assert!((principal(&Matrix2::new(0.1, 0.0, 0.0, -0.4)) - 0.4).abs() < 1e-15);
+        assert!((principal(&Matrix2::new(0.0, 0.2, 0.0, 0.0)) - 0.1).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,88 @@
+//! Bodies that turn: a linear theory makes them larger, and says how far that spoils the contact.
+
+mod support;
+
+use support::mesh::{Block, Mesh, grid, write_scene};
+use support::{Ended, Run};
+
+/// A sector of a ring about the origin between two radii and two angles.
+fn sector(n: usize, seed: u64, radii: [f64; 2], angles: [f64; 2]) -> Block {
+    grid(n, 6, seed, move |u, v| {
+        let angle = angles[1] - u * (angles[1] - angles[0]);
+        let r = radii[0] + v * (radii[1] - radii[0]);
+        [r * angle.cos(), r * angle.sin()]
+    })
+}
+
+/// A pad of half a radian in a bore of radius 2.
+fn pad_in_bore() -> Mesh {
+    let pad = sector(14, 1, [1.5, 2.0], [0.7, 1.2]);
+    let bore = sector(26, 2, [2.0, 3.0], [0.0, 2.0]);
+    Mesh {
+        bodies: vec![("pad", pad, ["hub", "", "pad.arc", ""]), ("bore", bore, ["bore.arc", "", "outside", ""])],
+    }
+}
+
+const PAD: &str = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.pad = { young = 1000.0, poisson = 0.3 }
+body.bore = { young = 1000.0, poisson = 0.3 }
+geometry.circle = { curves = ["pad.arc", "bore.arc"], circle = { centre = [0, 0], radius = 2 } }
+support.hub = { on = "hub", ux = 0.0, uy = 0.0 }
+support.outside = { on = "outside", ux = 0.0, uy = 0.0 }
+contact.seam = { between = ["pad.arc", "bore.arc"] }
+output.fields = false
+"#;
+
+/// The hub turned about the origin by an angle, and pushed outwards by a share of its radius.
+fn turned(folder: &std::path::Path, angle: f64, push: f64, configuration: &str, ranks: usize) -> Ended {
+    let file = write_scene(folder, &pad_in_bore().text(), PAD);
+    let (s, c) = angle.sin_cos();
+    let (c, s) = ((1.0 + push) * c - 1.0, (1.0 + push) * s);
+    Run::file(&file)
+        .ranks(ranks)
+        .set("support.hub.ux", format!("{c:?}*x - ({s:?})*y"))
+        .set("support.hub.uy", format!("({s:?})*x + {c:?}*y"))
+        .set("contact.seam.configuration", configuration)
+        .converged()
+}
+
+/// A pad presses on its bore with one force wherever it has been turned to. The program is off, and says by how much.
+#[test]
+fn a_pad_that_turns_in_its_bore_presses_as_before_or_tells() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let force = |ended: &Ended| ended.number("/contact/seam/force");
+    for (ranks, configuration) in [(1, "reference"), (2, "deformed"), (3, "reference")] {
+        let at_rest = turned(folder.path(), 0.0, 2e-3, configuration, ranks);
+        assert_eq!(at_rest.value("/contact/seam/trust"), true, "{}", at_rest.said());
+        let little = turned(folder.path(), 2e-3, 2e-3, configuration, ranks);
+        assert_eq!(little.value("/contact/seam/trust"), true, "{}", little.said());
+        assert!((force(&little) / force(&at_rest) - 1.0).abs() < 0.01);
+        for angle in [0.02, -0.03] {
+            let ended = turned(folder.path(), angle, 2e-3, configuration, ranks);
+            let error = (force(&at_rest) / force(&ended) - 1.0).abs();
+            let said = ended.number("/contact/seam/rotation_error");
+            assert!(error > 0.03 && said > 0.4 * error && said < 2.5 * error, "{configuration} {angle}: {said} for {error}");
+            assert!((ended.number("/rotation/pad") / angle - 1.0).abs() < 0.1);
+            assert_eq!(ended.value("/contact/seam/trust"), false);
+            assert_eq!(ended.value("/contact/seam/trust_force"), false);
+            assert!(ended.errors.contains("the bodies turn"), "{}", ended.errors);
+            assert!(!ended.errors.contains("deformed"), "{}", ended.errors);
+        }
+    }
+}
+
+/// A pad that would press if it did not shrink by being turned: nothing presses, and that is not believed.
+#[test]
+fn a_gap_that_turning_makes_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for ranks in [1, 2] {
+        let ended = turned(folder.path(), 0.08, 1e-3, "reference", ranks);
+        assert_eq!(ended.number("/contact/seam/force"), 0.0);
+        assert_eq!(ended.value("/contact/seam/trust"), false);
+        assert!(ended.errors.contains("nothing presses, but bodies that turn"), "{}", ended.errors);
+        // Drawn back without being turned, nothing presses either, and that is right.
+        let ended = turned(folder.path(), 0.0, -1e-3, "reference", ranks);
+        assert!(!ended.errors.contains("turn"), "{}", ended.errors);
+    }
+}
