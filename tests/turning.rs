@@ -18,9 +18,7 @@ fn sector(n: usize, seed: u64, radii: [f64; 2], angles: [f64; 2]) -> Block {
 fn pad_in_bore() -> Mesh {
     let pad = sector(14, 1, [1.5, 2.0], [0.7, 1.2]);
     let bore = sector(26, 2, [2.0, 3.0], [0.0, 2.0]);
-    Mesh {
-        bodies: vec![("pad", pad, ["hub", "", "pad.arc", ""]), ("bore", bore, ["bore.arc", "", "outside", ""])],
-    }
+    Mesh { bodies: vec![("pad", pad, ["hub", "", "pad.arc", ""]), ("bore", bore, ["bore.arc", "", "outside", ""])] }
 }
 
 const PAD: &str = r#"

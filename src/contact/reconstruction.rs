@@ -14,6 +14,8 @@ const NEIGHBOURS: usize = 4;
 pub struct Roughness {
     /// Root mean square, in the middle of the zone.
     pub middle: f64,
+    /// The same all over it, but for its ends at those of the boundary.
+    pub inside: f64,
     /// Of the largest value.
     pub peak: f64,
 }
@@ -27,22 +29,25 @@ pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: 
         return None;
     }
     let arcs = boundary.arcs();
-    let (mut sums, mut peak) = ([0.0; 2], f64::NEG_INFINITY);
+    let (mut middle, mut inside, mut peak) = ([0.0; 2], [0.0; 2], f64::NEG_INFINITY);
     for k in zone.segments.clone() {
         let length = arcs[k + 1] - arcs[k];
         for (z, weight) in gauss_points(5) {
             let arc = arcs[k] + z * length;
             let smooth = interpolate(&samples, arc);
             peak = peak.max(smooth);
-            if zone.has_in_its_middle(arc) {
-                let here = multipliers.value(lambda, k, *z);
-                sums[0] += weight * length * (here - smooth).powi(2);
-                sums[1] += weight * length * here * here;
+            let here = multipliers.value(lambda, k, *z);
+            for (sums, counts) in [(&mut middle, zone.has_in_its_middle(arc)), (&mut inside, zone.has_inside(arc))] {
+                if counts {
+                    sums[0] += weight * length * (here - smooth).powi(2);
+                    sums[1] += weight * length * here * here;
+                }
             }
         }
     }
     let found = zone.peak(multipliers, lambda);
-    Some(Roughness { middle: (sums[0] / sums[1]).sqrt(), peak: (peak / found - 1.0).abs() })
+    let [middle, inside] = [middle, inside].map(|sums| (sums[0] / sums[1]).sqrt());
+    Some(Roughness { middle, inside, peak: (peak / found - 1.0).abs() })
 }
 
 /// Arc lengths and values.

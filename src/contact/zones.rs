@@ -6,6 +6,9 @@ use std::ops::Range;
 /// Share of the length of a zone that counts as its middle: at its ends λ falls like a root, or is singular.
 const MIDDLE: f64 = 0.6;
 
+/// Share of it beside an end of the boundary that is left out of the rest.
+const BESIDE: f64 = 0.1;
+
 /// Neighbouring segments that carry pressure, with none beside them that does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zone {
@@ -15,6 +18,8 @@ pub struct Zone {
     pub arcs: [f64; 2],
     /// Arc lengths of the ends of its reach: half way to the next zone, or the end of the boundary.
     pub reach: [f64; 2],
+    /// Whether it reaches the ends of the boundary.
+    pub is_at_end: [bool; 2],
 }
 
 impl Zone {
@@ -42,6 +47,7 @@ impl Zone {
             segments: range.clone(),
             arcs: [arcs[range.start], arcs[range.end]],
             reach: [between(k), between(k + 1)],
+            is_at_end: [range.start == 0, range.end == boundary.segments()],
         };
         ranges.iter().enumerate().map(zone).collect()
     }
@@ -54,6 +60,12 @@ impl Zone {
     /// Whether an arc length lies in its middle.
     pub fn has_in_its_middle(&self, arc: f64) -> bool {
         ((arc - self.arcs[0]) / self.length() - 0.5).abs() <= 0.5 * MIDDLE
+    }
+
+    /// Whether an arc length lies in it, and not beside an end of the boundary, where λ may be singular.
+    pub fn has_inside(&self, arc: f64) -> bool {
+        let beside = |end: usize| if self.is_at_end[end] { BESIDE * self.length() } else { 0.0 };
+        arc >= self.arcs[0] + beside(0) && arc <= self.arcs[1] - beside(1)
     }
 
     /// `∫λ ds` (force per thickness).

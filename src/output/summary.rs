@@ -211,6 +211,8 @@ pub struct Zone {
     pub pressure_max: Option<f64>,
     /// Estimated relative error of λ in its middle, root mean square.
     pub lambda: Option<f64>,
+    /// The same all over it, without the tenth beside an end of the contact boundary.
+    pub whole: Option<f64>,
     /// The largest of all signs of an error of λ; where it is small, so is the error.
     pub worst: Option<f64>,
     /// Estimated relative error of its force.

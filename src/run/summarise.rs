@@ -141,12 +141,7 @@ pub fn contact(
 }
 
 /// What sliding and turning spoil. Where nothing presses, the growth of bodies that turn is compared with the smallest gap.
-pub fn motions(
-    contact: &mut summary::Contact,
-    found: Option<MotionError>,
-    bodies: [&Deformation; 2],
-    points: &[ContactPoint],
-) {
+pub fn motions(contact: &mut summary::Contact, found: Option<MotionError>, bodies: [&Deformation; 2], points: &[ContactPoint]) {
     contact.slip = found.and_then(|found| found.slip);
     contact.slip_error = found.and_then(|found| found.slip_error);
     contact.rotation_error = match found {

@@ -28,8 +28,12 @@ const MOST_ERROR: f64 = 0.3;
 /// The same of λ in the middle of a zone that presses, and of the force of a zone.
 const MOST_PRESSURE_ERROR: f64 = 0.08;
 
+/// The same of λ all over a zone: where it falls to zero it is steep, and steps (`p0`) miss it by more than their means do.
+const MOST_ERROR_ALL_OVER: f64 = 0.06;
+const MOST_ERROR_OF_STEPS: f64 = 0.12;
+
 /// The same of the largest λ of a zone.
-const MOST_PEAK_ERROR: f64 = 0.15;
+const MOST_PEAK_ERROR: f64 = 0.12;
 
 /// The same of a force that is to be trusted.
 const MOST_FORCE_ERROR: f64 = 0.01;
@@ -58,6 +62,9 @@ const MOST_STRAIN: f64 = 0.2;
 
 /// Share of the force that penetration within single segments may be worth: more is contact narrower than they are.
 const MOST_UNRESOLVED: f64 = 0.1;
+
+/// What mends a pressure whose bodies are too coarse for it.
+const FINER: &str = "refine the mesh where contact is";
 
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
@@ -88,14 +95,14 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
         let mut doubts = stability_doubts(contact, pair, case);
         let mut unknown = None;
         if converged {
-            doubts.extend(zone_doubts(contact, trust_force));
+            doubts.extend(zone_doubts(contact, trust_force, more_segments(pair)));
             doubts.extend(size_doubts(summary));
             doubts.extend(force_doubt(force));
             let motions = slip_doubt(contact).into_iter().chain(rotation_doubt(contact));
             let beyond_the_model: Vec<Doubt> = motions.chain(strain_doubts(summary)).collect();
             trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
             doubts.extend(beyond_the_model);
-            doubts.extend(unresolved_doubt(contact));
+            doubts.extend(unresolved_doubt(contact, more_segments(pair)));
             unknown = unknown_words(contact, &pair.name, trust_force);
         }
         let trust = if doubts.is_empty() && converged { unknown.is_none().then_some(true) } else { Some(false) };
@@ -103,9 +110,9 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             judgement.unknown.extend(unknown);
         }
         if !doubts.is_empty() {
-            let mut figures: Vec<String> = doubts.iter().map(|doubt| doubt.figure.clone()).collect();
-            figures.extend(contact.h_ratio.map(|ratio| format!("shortest segment {} edges of the softer body", short(ratio))));
-            told.push(format!("contact {} ({})", pair.name, figures.join("; ")));
+            let figures: Vec<&str> = doubts.iter().map(|doubt| doubt.figure.as_str()).collect();
+            let force = if trust_force == Some(true) { ", whose force is to be trusted" } else { "" };
+            told.push(format!("contact {} ({}){force}", pair.name, figures.join("; ")));
         }
         let new = doubts.into_iter().map(|doubt| doubt.remedy);
         new.for_each(|remedy| {
@@ -125,19 +132,18 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
 /// What tells that the displacements do not control the pressure; it may be why a solve has failed.
 fn stability_doubts(contact: &summary::Contact, pair: &Pair, case: &Case) -> Vec<Doubt> {
     let unstable = contact.inf_sup.filter(|beta| *beta < LEAST_INF_SUP);
-    let unstable = unstable.map(|beta| format!("inf-sup constant {beta:.3}, at least {LEAST_INF_SUP} wanted"));
+    let segment = contact.h_ratio.map_or(String::new(), |ratio| format!(" with segments of {} edges", short(ratio)));
+    let unstable = unstable.map(|beta| format!("inf-sup constant {beta:.3}{segment}, at least {LEAST_INF_SUP} wanted"));
     // Beside a singular end λ swings without harm to its middle, which the estimate tells.
     let harmless = contact.zones.iter().filter(|zone| zone.counts(&contact.zones)).all(|zone| is_proved(zone.lambda));
     let rough = contact.oscillation.filter(|share| *share > MOST_OSCILLATION && !harmless);
-    let rough = rough.map(|share| format!("oscillation {share:.3}, at most {MOST_OSCILLATION} wanted"));
+    let rough = rough.map(|share| format!("oscillation {share:.3}{segment}, at most {MOST_OSCILLATION} wanted"));
     let remedy = stability(pair, case);
     [unstable, rough].into_iter().flatten().map(|figure| Doubt { figure, remedy }).collect()
 }
 
 /// What tells that zones are too narrow, or too coarse, for their pressure.
-fn zone_doubts(contact: &summary::Contact, trust_force: Option<bool>) -> Vec<Doubt> {
-    let finer = "refine the mesh where contact is";
-    let shorter = "take more segments (\"auto\" takes as many as the mesh bears), or refine the mesh where contact is";
+fn zone_doubts(contact: &summary::Contact, trust_force: Option<bool>, shorter: &'static str) -> Vec<Doubt> {
     let mut doubts = Vec::new();
     let zones = &contact.zones;
     for zone in zones.iter().filter(|zone| zone.counts(zones)) {
@@ -155,22 +161,25 @@ fn zone_doubts(contact: &summary::Contact, trust_force: Option<bool>) -> Vec<Dou
         if edges < LEAST_PARTS && !proved {
             doubts.push(Doubt {
                 figure: format!("contact{place} {edges:.1} edges wide, at least {LEAST_PARTS} wanted"),
-                remedy: finer,
+                remedy: FINER,
             });
         } else if (segments as f64) < LEAST_PARTS && !good {
             let words = format!("contact{place} on {segments} segments, at least {LEAST_PARTS} wanted");
             doubts.push(Doubt { figure: words, remedy: shorter });
         }
         let force = zone.force.filter(|_| zone.share.is_some_and(|share| share.abs() >= LEAST_SHARE));
+        let steps = contact.multiplier.as_deref() == Some("p0");
+        let most_all_over = if steps { MOST_ERROR_OF_STEPS } else { MOST_ERROR_ALL_OVER };
         let errors = [
             ("of λ", zone.lambda, MOST_PRESSURE_ERROR),
+            ("of λ up to the ends of contact", zone.whole, most_all_over),
             ("of the largest λ", zone.peak, MOST_PEAK_ERROR),
             ("of the force", force, MOST_PRESSURE_ERROR),
         ];
         for (what, error, most) in errors {
             let wrong = error.filter(|error| *error > most);
             let figure = |error| format!("estimated error {what}{place} {error:.2}, at most {most} wanted");
-            doubts.extend(wrong.map(|error| Doubt { figure: figure(error), remedy: finer }));
+            doubts.extend(wrong.map(|error| Doubt { figure: figure(error), remedy: FINER }));
         }
     }
     let [most, most_alone] = MOST_MISSING;
@@ -184,7 +193,7 @@ fn size_doubts(summary: &Summary) -> Vec<Doubt> {
     let mut doubts = Vec::new();
     let wrong = summary.estimate.energy.filter(|error| *error > MOST_ERROR);
     let words = |error| format!("estimated error in the energy norm {error:.2}, at most {MOST_ERROR} wanted");
-    doubts.extend(wrong.map(|error| (words(error), "refine the mesh where contact is")));
+    doubts.extend(wrong.map(|error| (words(error), FINER)));
     let off = summary.balance.force.filter(|_| !is_balanced(summary));
     let words = |off| format!("forces on the two bodies differ by {}, at most {MOST_UNBALANCED} wanted", short(off));
     doubts.extend(off.map(|off| (words(off), "see lost_points: the bodies must face each other all along the boundary")));
@@ -196,7 +205,7 @@ fn force_doubt(error: Option<f64>) -> Option<Doubt> {
     let error = error.filter(|error| *error > MOST_PRESSURE_ERROR)?;
     Some(Doubt {
         figure: format!("estimated error of the whole force {error:.2}, at most {MOST_PRESSURE_ERROR} wanted"),
-        remedy: "refine the mesh where contact is",
+        remedy: FINER,
     })
 }
 
@@ -219,12 +228,15 @@ fn rotation_doubt(contact: &summary::Contact) -> Option<Doubt> {
     let error = contact.rotation_error?;
     let remedy = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
     if contact.zones.is_empty() {
-        let figure = format!("nothing presses, but bodies that turn grow in this theory, by {} of the smallest gap", short(error));
+        let figure =
+            format!("nothing presses, but bodies that turn grow in this theory, by {} of the smallest gap", short(error));
         return (error > MOST_GROWTH).then_some(Doubt { figure, remedy });
     }
     // Sliding and turning may undo each other, as where a round body turns about its centre.
     let wrong = error > MOST_SLIP_ERROR && contact.slip_error.is_none_or(|error| error > MOST_SLIP_ERROR);
-    let figure = || format!("the bodies turn: force or pressure off by about {} of itself, at most {MOST_SLIP_ERROR} wanted", short(error));
+    let figure = || {
+        format!("the bodies turn: force or pressure off by about {} of itself, at most {MOST_SLIP_ERROR} wanted", short(error))
+    };
     wrong.then(|| Doubt { figure: figure(), remedy })
 }
 
@@ -240,12 +252,19 @@ fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
 }
 
 /// What tells of contact that is narrower than a segment.
-fn unresolved_doubt(contact: &summary::Contact) -> Option<Doubt> {
-    let off = contact.unresolved_force.filter(|off| *off > MOST_UNRESOLVED * contact.force.unwrap_or(0.0).abs())?;
-    Some(Doubt {
-        figure: format!("the bodies penetrate each other within segments, worth a force of {}", short(off)),
-        remedy: "take more segments, and refine the mesh where contact is",
-    })
+fn unresolved_doubt(contact: &summary::Contact, shorter: &'static str) -> Option<Doubt> {
+    let force = contact.force.unwrap_or(0.0).abs();
+    let off = contact.unresolved_force.filter(|off| *off > MOST_UNRESOLVED * force)?;
+    let worth = if force > 0.0 { format!(", which is worth {} of its force", short(off / force)) } else { String::new() };
+    Some(Doubt { figure: format!("the bodies penetrate each other within segments{worth}"), remedy: shorter })
+}
+
+/// What makes segments shorter.
+fn more_segments(pair: &Pair) -> &'static str {
+    match pair.segments {
+        SegmentRule::Auto => FINER,
+        _ => "take more segments (\"auto\" takes as many as the mesh bears), or refine the mesh where contact is",
+    }
 }
 
 /// What neither speaks for a pressure nor against it, in words.
@@ -295,99 +314,4 @@ fn stability(pair: &Pair, case: &Case) -> &'static str {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::output::summary::{Balance, Contact, Estimate, Zone};
-
-    fn zone() -> Zone {
-        Zone {
-            ends: Some([0.0, 0.4]),
-            edges: Some(8.0),
-            segments: Some(6),
-            share: Some(1.0),
-            pressure_max: Some(2.0),
-            lambda: Some(0.01),
-            worst: Some(0.08),
-            force: Some(0.001),
-            peak: Some(0.02),
-            singular: Some(false),
-            corner: Some(false),
-        }
-    }
-
-    fn words_of(zones: Vec<Zone>, missing: f64) -> String {
-        let contact = Contact { zones, missing: Some(missing), ..Contact::default() };
-        zone_doubts(&contact, Some(true)).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
-    }
-
-    fn words(change: impl Fn(&mut Zone)) -> String {
-        let mut zone = zone();
-        change(&mut zone);
-        words_of(vec![zone], 0.0)
-    }
-
-    #[test]
-    fn a_pressure_is_doubted_by_what_is_far_off() {
-        assert_eq!(words(|_| ()), "");
-        assert!(words(|zone| zone.edges = Some(1.5)).starts_with("contact 1.5 edges wide"));
-        assert!(words(|zone| (zone.segments, zone.worst) = (Some(3), Some(0.2))).starts_with("contact on 3 segments"));
-        assert!(words(|zone| zone.lambda = Some(0.9)).contains("of λ 0.90"));
-        assert!(words(|zone| zone.peak = Some(0.2)).contains("of the largest λ 0.20"));
-        assert!(words_of(vec![zone()], 0.5).contains("overlap"));
-        let far = |energy, force| {
-            let summary = Summary {
-                estimate: Estimate { energy: Some(energy), ..Estimate::default() },
-                balance: Balance { force: Some(force), ..Balance::default() },
-                ..Summary::default()
-            };
-            size_doubts(&summary).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
-        };
-        assert_eq!(far(0.02, 1e-15), "");
-        assert!(far(0.6, 1e-15).contains("energy norm 0.60"));
-        assert!(far(0.02, 1.0).contains("differ by 1.00"));
-        let within = |force: f64, off: f64| {
-            let contact = Contact { force: Some(force), unresolved_force: Some(off), ..Contact::default() };
-            unresolved_doubt(&contact).map_or(String::new(), |doubt| doubt.figure)
-        };
-        assert_eq!((within(5.4, 0.2), within(0.0, 0.0)), (String::new(), String::new()));
-        assert!(within(5.4, 4.2).contains("worth a force of 4.20") && within(0.0, 4.2).contains("within segments"));
-    }
-
-    #[test]
-    fn every_zone_that_counts_is_judged() {
-        let narrow = Zone { ends: Some([0.6, 0.62]), edges: Some(0.9), share: Some(0.05), ..zone() };
-        assert!(words_of(vec![zone(), narrow.clone()], 0.0).contains("contact at s = 0.60 to 0.62 0.9 edges wide"));
-        let faint = Zone { share: Some(1e-4), pressure_max: Some(1e-3), ..narrow };
-        assert_eq!(words_of(vec![zone(), faint], 0.0), "");
-    }
-
-    #[test]
-    fn a_narrow_zone_may_be_proved_good() {
-        let patch = |edges| words(|zone| (zone.edges, zone.segments, zone.worst) = (Some(edges), Some(1), Some(1e-9)));
-        assert_eq!(patch(2.0), "");
-        assert!(patch(0.5).contains("0.5 edges wide"));
-    }
-
-    #[test]
-    fn bodies_that_overlap_where_nothing_presses_are_told() {
-        assert_eq!(words_of(Vec::new(), 1e-9), "");
-        assert!(words_of(Vec::new(), 0.05).contains("overlap"));
-    }
-
-    #[test]
-    fn the_pressure_at_a_corner_is_left_open_if_the_force_is_right() {
-        let corner = Zone { edges: Some(1.5), corner: Some(true), lambda: None, worst: None, ..zone() };
-        let contact = Contact { zones: vec![corner], ..Contact::default() };
-        assert!(zone_doubts(&contact, Some(true)).is_empty());
-        assert!(unknown_words(&contact, "seam", Some(true)).is_some_and(|words| words.contains("singular")));
-        assert!(!zone_doubts(&contact, Some(false)).is_empty());
-    }
-
-    #[test]
-    fn what_nothing_estimates_is_told() {
-        let told =
-            |lambda| unknown_words(&Contact { zones: vec![Zone { lambda, ..zone() }], ..Contact::default() }, "seam", None);
-        assert_eq!(told(Some(0.01)), None);
-        assert!(told(None).is_some_and(|words| words.contains("nothing estimates")));
-    }
-}
+mod tests;

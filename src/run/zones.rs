@@ -52,6 +52,7 @@ pub fn zones(
             share: Some(forces[k] / whole),
             pressure_max: Some(zone.peak(&contact.multipliers, lambda)),
             lambda: found.pressure.filter(tells),
+            whole: found.inside.filter(tells),
             worst: found.worst,
             force: found.force,
             peak: found.peak.filter(tells).filter(|_| !singular),
@@ -74,7 +75,9 @@ fn grows_towards(contact: &Contact, lambda: &[f64], zone: &Zone, end: usize, [be
     let slopes = [(a - b) / (lengths[0] + lengths[1]), (b - c) / (lengths[1] + lengths[2])];
     let last = contact.multipliers.value(lambda, nth(0), if end == 0 { 0.05 } else { 0.95 });
     let grown = match (before, earlier) {
-        (Some(before), Some(earlier)) => last > GROWS * before && last - before > GOES_ON * (before - earlier),
+        (Some(before), Some(earlier)) => {
+            last > GROWS * before && before > earlier && last - before > GOES_ON * (before - earlier)
+        }
         (Some(before), None) => contact.multipliers.space != MultiplierSpace::P0 && last > GROWS * before,
         _ => true,
     };

@@ -34,6 +34,11 @@ fn one(seed: u64) -> Result<Row, String> {
     };
     let possible = matches!(truth, Truth::Known(_));
     let mut kind = verdict::judge(&said, apart.as_ref());
+    // Bodies that do not touch are right without a pressure.
+    let idle = matches!(&truth, Truth::Unknown(words) if words == "nothing presses");
+    if idle && said.code == Some(0) && said.profile.as_ref().is_some_and(|own| own.force == 0.0) {
+        kind = if verdict::is_quiet(&said) { Kind::Right } else { Kind::FalseAlarm };
+    }
     // A right scene that gets no answer, though nobody chose its segments badly.
     if possible && (apart.is_none() || said.code != Some(0) && settings.segments.is_none()) {
         kind = Kind::FalseAlarm;

@@ -27,7 +27,7 @@ pub struct Apart {
     pub mean: f64,
     /// The same from the reference itself: what steps cannot follow counts as well.
     pub plain: f64,
-    /// Peak.
+    /// Peak; of steps, from that of the reference's means over them.
     pub peak: f64,
     /// Force of a zone.
     pub part: f64,
@@ -155,9 +155,14 @@ impl Profile {
                 let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
                 (square * share / SAMPLES as f64).sqrt() / peak
             };
+            let possible = steps.as_ref().unwrap_or(&b);
             apart.plain = apart.plain.max(mean(&b, peak(&b)));
-            apart.mean = apart.mean.max(mean(steps.as_ref().unwrap_or(&b), peak(&b)));
-            apart.peak = apart.peak.max((peak(&a) / peak(&b) - 1.0).abs());
+            apart.mean = apart.mean.max(mean(possible, peak(&b)));
+            // Where λ rises all the way into a corner it has no largest value.
+            let rises = |end: usize, at: usize| cornered[end] && possible[at] >= (1.0 - 1e-9) * peak(possible);
+            if !rises(0, 0) && !rises(1, SAMPLES - 1) {
+                apart.peak = apart.peak.max((peak(&a) / peak(possible) - 1.0).abs());
+            }
             apart.part = apart.part.max((sum(&a) / sum(&b) - 1.0).abs());
             let nearest =
                 |end: fn(&Zone) -> f64| own.iter().map(|own| (end(own) - end(zone)).abs()).fold(f64::INFINITY, f64::min);

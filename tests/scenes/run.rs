@@ -18,7 +18,7 @@ pub struct Said {
     /// Lines of warning.
     pub warnings: Vec<String>,
     pub profile: Option<Profile>,
-    /// Estimated errors of ∫λ ds and of λ.
+    /// Estimated errors of ∫λ ds and of λ, all over its worst zone.
     pub estimate: [Option<f64>; 2],
 }
 
@@ -49,7 +49,10 @@ pub fn run(file: &Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Sa
     let contact = &summary["contact"]["c"];
     let all: Vec<_> = summary["contact"].as_object().into_iter().flatten().map(|(_, own)| own["trust"].as_bool()).collect();
     said.trust = if all.contains(&Some(false)) { Some(false) } else { (!all.is_empty() && !all.contains(&None)).then_some(true) };
-    said.estimate = ["force", "lambda"].map(|key| summary["estimate"]["c"][key].as_f64());
+    let zones = contact["zones"].as_array().into_iter().flatten();
+    let whole = zones.filter(|zone| zone["share"].as_f64().is_some_and(|share| share > 0.01)).map(|zone| zone["whole"].as_f64());
+    let worst = whole.collect::<Option<Vec<f64>>>().and_then(|all| all.into_iter().reduce(f64::max));
+    said.estimate = [summary["estimate"]["c"]["force"].as_f64(), worst];
     if let Some(force) = contact["force"].as_f64().filter(|_| ended.out.join("contact_c.csv").exists()) {
         let points = ended.trace("c").iter().map(|point| [parameter(point.x), point.lambda]).collect();
         said.profile = Some(Profile::new(points, force));

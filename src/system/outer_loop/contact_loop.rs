@@ -1,7 +1,7 @@
 //! The loop over active sets.
 
 use super::contact_state::{ContactState, pressures};
-use super::first_set::first_set;
+use super::first_set::{carried_set, first_set};
 use super::unsettled::going_on;
 use crate::contact::{ActiveSet, Step};
 use crate::petsc::{Session, Vector};
@@ -142,6 +142,10 @@ impl ContactLoop<'_> {
         if let Some(start) = start {
             self.begin(system, &mut x, &start);
             before.copy_from_slice(&x.values()[..self.finest().local_unknowns()]);
+            let carried = carried_set(self.problem, system, set.active(), start.displacement, self.session);
+            if carried != set.active() {
+                set.start_from(&carried);
+            }
         } else if let Some(first) = first_set(self.problem, system, self.session) {
             set.start_from(&first);
         }

@@ -76,7 +76,8 @@ impl ContactState {
                 let holds = off <= allowed * most;
                 if !holds && worst.as_ref().is_none_or(|(value, _)| off > *value) {
                     let place = super::unsettled::place(contact, i);
-                    worst = Some((off, format!("{place} {what}, by {:.1e} of the largest pressure", off / most)));
+                    let by = if most > 0.0 { format!(", by {:.1e} of the largest pressure", off / most) } else { String::new() };
+                    worst = Some((off, format!("{place} {what}{by}")));
                 }
             }
         }

@@ -15,20 +15,47 @@ const CLOSED: f64 = 1e-6;
 /// above those of the loads: what they say of the next set is nothing.
 pub(super) fn first_set(problem: &Discretisation, system: &SaddlePoint, session: &Session) -> Option<Vec<bool>> {
     let start = rigid_start(problem, session.rank()).unwrap_or_else(|| vec![0.0; problem.finest().local_unknowns()]);
-    let depth = penetration(problem, system, &start, session);
-    let mut gap = vec![0.0; depth.len()];
-    let mut active = vec![true; depth.len()];
+    let gap = gaps(problem, system, &start, session);
+    let mut active = vec![true; gap.len()];
     for contact in &problem.contacts {
         for i in contact.range() {
-            gap[i] = -depth[i] / contact.multipliers.weight(i - contact.first);
             active[i] = contact.pair.law == Law::Bilateral || gap[i] <= CLOSED * contact.boundary.length();
         }
     }
     if !active.contains(&false) {
         return None;
     }
-    if not_held(problem, &active).is_some() {
-        few_that_hold(problem, &active, |i| -gap[i]).into_iter().for_each(|i| active[i] = true);
-    }
+    hold(problem, &gap, &mut active);
     Some(active)
+}
+
+/// A set that a coarser mesh or another boundary has left, and what it takes to hold all bodies here: where the gap is
+/// smallest, with the displacements carried over. **Collective**
+pub(super) fn carried_set(
+    problem: &Discretisation,
+    system: &SaddlePoint,
+    carried: &[bool],
+    displacement: &[f64],
+    session: &Session,
+) -> Vec<bool> {
+    let gap = gaps(problem, system, displacement, session);
+    let mut active = carried.to_vec();
+    hold(problem, &gap, &mut active);
+    active
+}
+
+/// Mean gap over each multiplier (length). **Collective**
+fn gaps(problem: &Discretisation, system: &SaddlePoint, displacement: &[f64], session: &Session) -> Vec<f64> {
+    let mut gap = penetration(problem, system, displacement, session);
+    for contact in &problem.contacts {
+        contact.range().for_each(|i| gap[i] /= -contact.multipliers.weight(i - contact.first));
+    }
+    gap
+}
+
+/// Closes what has the smallest gap until all bodies are held, or all is closed.
+fn hold(problem: &Discretisation, gap: &[f64], active: &mut [bool]) {
+    if not_held(problem, active).is_some() {
+        few_that_hold(problem, active, |i| -gap[i]).into_iter().for_each(|i| active[i] = true);
+    }
 }

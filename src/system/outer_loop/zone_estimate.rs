@@ -32,6 +32,8 @@ pub struct ZoneDifference {
     ends: [Point; 2],
     /// L2 difference of λ in its middle.
     pressure: f64,
+    /// The same all over it, but for its ends at those of the boundary.
+    inside: f64,
     /// Of its force.
     force: f64,
     /// Of its peak.
@@ -45,6 +47,8 @@ pub struct ZoneDifference {
 pub struct ZoneEstimate {
     /// Of λ in the middle of the zone, root mean square.
     pub pressure: Option<f64>,
+    /// The same all over it, but for its ends at those of the boundary.
+    pub inside: Option<f64>,
     /// The largest of all signs of error of λ, and many times it if there is but one: if it is small, so is the error.
     pub worst: Option<f64>,
     /// Of the force of the zone.
@@ -57,7 +61,7 @@ impl ZoneDifference {
     /// Compares λ of a contact on a zone with what it was `before`.
     pub(super) fn new(contact: &Contact, lambda: &[f64], zone: &Zone, before: impl Fn(Point) -> f64) -> Self {
         let (knots, arcs) = (contact.boundary.knots(), contact.boundary.arcs());
-        let (mut sums, mut force, mut peak) = ([0.0; 2], 0.0, f64::NEG_INFINITY);
+        let (mut middle, mut inside, mut force, mut peak) = ([0.0; 2], [0.0; 2], 0.0, f64::NEG_INFINITY);
         for k in (0..contact.boundary.segments()).filter(|&k| arcs[k + 1] > zone.reach[0] && arcs[k] < zone.reach[1]) {
             let (length, ends) = (arcs[k + 1] - arcs[k], [knots[k], knots[k + 1]]);
             for (z, weight) in gauss_points(3) {
@@ -67,10 +71,12 @@ impl ZoneDifference {
                     force += weight * length * there;
                     peak = there.max(peak);
                 }
-                if zone.has_in_its_middle(arc) {
-                    let here = contact.multipliers.value(lambda, k, *z);
-                    sums[0] += weight * length * (here - there).powi(2);
-                    sums[1] += weight * length * here * here;
+                let here = contact.multipliers.value(lambda, k, *z);
+                for (sums, counts) in [(&mut middle, zone.has_in_its_middle(arc)), (&mut inside, zone.has_inside(arc))] {
+                    if counts {
+                        sums[0] += weight * length * (here - there).powi(2);
+                        sums[1] += weight * length * here * here;
+                    }
                 }
             }
         }
@@ -78,7 +84,8 @@ impl ZoneDifference {
         let end = |arc: f64| contact.boundary.point(contact.boundary.parameter_at(arc));
         Self {
             ends: zone.arcs.map(end),
-            pressure: (sums[0] / sums[1]).sqrt(),
+            pressure: (middle[0] / middle[1]).sqrt(),
+            inside: (inside[0] / inside[1]).sqrt(),
             force: (force / now - 1.0).abs(),
             peak: (peak / top - 1.0).abs(),
             at_ends: [(zone.segments.start, 0.05), (zone.segments.end - 1, 0.95)]
@@ -96,7 +103,7 @@ impl ZoneDifference {
     }
 
     /// Error of λ that is left, if it falls halfway between how the differences fall and how it should.
-    fn left(&self, before: Option<&Self>, space: MultiplierSpace) -> Option<f64> {
+    fn left(&self, before: Option<&Self>, space: MultiplierSpace, of: fn(&Self) -> f64) -> Option<f64> {
         let [at_best, by_one] = match space {
             MultiplierSpace::P0 => [0.25, BY_ONE[0]],
             _ => [0.0625, BY_ONE[1]],
@@ -104,10 +111,10 @@ impl ZoneDifference {
         let rest = |factor: f64| (factor / (1.0 - factor)).sqrt();
         let left = match before {
             Some(before) => {
-                let factor = (self.pressure / before.pressure).powi(2).clamp(at_best, SLOWEST);
-                self.pressure * (rest(factor) * rest(at_best)).sqrt()
+                let factor = (of(self) / of(before)).powi(2).clamp(at_best, SLOWEST);
+                of(self) * (rest(factor) * rest(at_best)).sqrt()
             }
-            None => self.pressure * by_one,
+            None => of(self) * by_one,
         };
         Some(left).filter(|left| left.is_finite())
     }
@@ -118,7 +125,10 @@ impl ZoneEstimate {
     pub fn new(space: MultiplierSpace, errors: &ZoneErrors, differences: [Option<&ZoneDifference>; 2]) -> Self {
         let [last, before] = differences;
         let stress = geometric_mean(errors.stress);
-        let left = last.and_then(|last| last.left(before, space));
+        let left = last.and_then(|last| last.left(before, space, |zone| zone.pressure));
+        let left_inside = last.and_then(|last| last.left(before, space, |zone| zone.inside));
+        let stress_inside = geometric_mean(errors.stress_inside);
+        let rough_inside = errors.roughness.map(|rough| rough.inside).filter(|rough| rough.is_finite());
         let rough = errors.roughness.map(|rough| rough.middle).filter(|rough| rough.is_finite());
         let largest_stress = errors.stress.into_iter().filter(|stress| stress.is_finite()).reduce(f64::max);
         let signs = [largest_stress, left, rough].into_iter().flatten();
@@ -131,6 +141,12 @@ impl ZoneEstimate {
         };
         Self {
             pressure,
+            inside: [stress_inside, left_inside]
+                .into_iter()
+                .flatten()
+                .reduce(f64::min)
+                .zip(rough_inside)
+                .map(|(a, b)| MARGIN * a.max(b)),
             worst: signs.reduce(f64::max).map(|sign| MARGIN * alone * sign),
             force: last.map(|last| 0.5 * last.force).filter(|force| force.is_finite()),
             peak: pressure.and_then(|error| peak(error, stress, errors, last)),
@@ -160,18 +176,30 @@ mod tests {
     use crate::contact::Roughness;
 
     fn difference(pressure: f64) -> ZoneDifference {
-        ZoneDifference { ends: [Point::zeros(), Point::new(1.0, 0.0)], pressure, force: 0.1, peak: 0.1, at_ends: [1.0; 2] }
+        ZoneDifference {
+            ends: [Point::zeros(), Point::new(1.0, 0.0)],
+            pressure,
+            inside: pressure,
+            force: 0.1,
+            peak: 0.1,
+            at_ends: [1.0; 2],
+        }
     }
 
     fn errors(stress: f64, middle: f64) -> ZoneErrors {
-        ZoneErrors { stress: [stress; 2], stress_at_peak: [stress; 2], roughness: Some(Roughness { middle, peak: 0.01 }) }
+        ZoneErrors {
+            stress: [stress; 2],
+            stress_inside: [stress; 2],
+            stress_at_peak: [stress; 2],
+            roughness: Some(Roughness { middle, inside: middle, peak: 0.01 }),
+        }
     }
 
     #[test]
     fn errors_that_fall_as_they_should_are_found() {
         // Errors 1/4 and 1/16 of P0 in the square: differences are 3/4 and 3/16 of the first.
         let [before, last] = [0.75f64.sqrt(), 0.1875f64.sqrt()].map(difference);
-        let left = last.left(Some(&before), MultiplierSpace::P0).expect("two differences");
+        let left = last.left(Some(&before), MultiplierSpace::P0, |zone| zone.pressure).expect("two differences");
         assert!((left / 0.0625f64.sqrt() - 1.0).abs() < 1e-12);
     }
 

@@ -9,6 +9,8 @@ use crate::system::Contact;
 pub struct ZoneErrors {
     /// Root mean squares of `λ + n·σn` of body 1 and body 2 in the middle of the zone.
     pub stress: [f64; 2],
+    /// The same all over it, but for its ends at those of the boundary.
+    pub stress_inside: [f64; 2],
     /// The same on the segments beside its peak.
     pub stress_at_peak: [f64; 2],
     /// λ against its reconstruction.
@@ -24,6 +26,7 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
         let near = [arcs[top.saturating_sub(1).max(zone.segments.start)], arcs[(top + 2).min(zone.segments.end)]];
         ZoneErrors {
             stress: apart(points, |arc| zone.has_in_its_middle(arc)),
+            stress_inside: apart(points, |arc| zone.has_inside(arc)),
             stress_at_peak: apart(points, |arc| arc >= near[0] && arc <= near[1]),
             roughness: roughness(&contact.boundary, &contact.multipliers, lambda, zone),
         }

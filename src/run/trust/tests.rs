@@ -1,0 +1,97 @@
+//! What speaks against pressures.
+
+use super::*;
+use crate::output::summary::{Balance, Contact, Estimate, Zone};
+
+fn zone() -> Zone {
+    Zone {
+        ends: Some([0.0, 0.4]),
+        edges: Some(8.0),
+        segments: Some(6),
+        share: Some(1.0),
+        pressure_max: Some(2.0),
+        lambda: Some(0.01),
+        whole: Some(0.03),
+        worst: Some(0.08),
+        force: Some(0.001),
+        peak: Some(0.02),
+        singular: Some(false),
+        corner: Some(false),
+    }
+}
+
+fn words_of(zones: Vec<Zone>, missing: f64) -> String {
+    let contact = Contact { zones, missing: Some(missing), ..Contact::default() };
+    zone_doubts(&contact, Some(true), FINER).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
+}
+
+fn words(change: impl Fn(&mut Zone)) -> String {
+    let mut zone = zone();
+    change(&mut zone);
+    words_of(vec![zone], 0.0)
+}
+
+#[test]
+fn a_pressure_is_doubted_by_what_is_far_off() {
+    assert_eq!(words(|_| ()), "");
+    assert!(words(|zone| zone.edges = Some(1.5)).starts_with("contact 1.5 edges wide"));
+    assert!(words(|zone| (zone.segments, zone.worst) = (Some(3), Some(0.2))).starts_with("contact on 3 segments"));
+    assert!(words(|zone| zone.lambda = Some(0.9)).contains("of λ 0.90"));
+    assert!(words(|zone| zone.whole = Some(0.07)).contains("up to the ends of contact 0.07"));
+    assert!(words(|zone| zone.peak = Some(0.2)).contains("of the largest λ 0.20"));
+    assert!(words_of(vec![zone()], 0.5).contains("overlap"));
+    let far = |energy, force| {
+        let summary = Summary {
+            estimate: Estimate { energy: Some(energy), ..Estimate::default() },
+            balance: Balance { force: Some(force), ..Balance::default() },
+            ..Summary::default()
+        };
+        size_doubts(&summary).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
+    };
+    assert_eq!(far(0.02, 1e-15), "");
+    assert!(far(0.6, 1e-15).contains("energy norm 0.60"));
+    assert!(far(0.02, 1.0).contains("differ by 1.00"));
+    let within = |force: f64, off: f64| {
+        let contact = Contact { force: Some(force), unresolved_force: Some(off), ..Contact::default() };
+        unresolved_doubt(&contact, FINER).map_or(String::new(), |doubt| doubt.figure)
+    };
+    assert_eq!((within(5.4, 0.2), within(0.0, 0.0)), (String::new(), String::new()));
+    assert!(within(5.4, 4.2).contains("worth 0.78 of its force") && within(0.0, 4.2).contains("within segments"));
+}
+
+#[test]
+fn every_zone_that_counts_is_judged() {
+    let narrow = Zone { ends: Some([0.6, 0.62]), edges: Some(0.9), share: Some(0.05), ..zone() };
+    assert!(words_of(vec![zone(), narrow.clone()], 0.0).contains("contact at s = 0.60 to 0.62 0.9 edges wide"));
+    let faint = Zone { share: Some(1e-4), pressure_max: Some(1e-3), ..narrow };
+    assert_eq!(words_of(vec![zone(), faint], 0.0), "");
+}
+
+#[test]
+fn a_narrow_zone_may_be_proved_good() {
+    let patch = |edges| words(|zone| (zone.edges, zone.segments, zone.worst) = (Some(edges), Some(1), Some(1e-9)));
+    assert_eq!(patch(2.0), "");
+    assert!(patch(0.5).contains("0.5 edges wide"));
+}
+
+#[test]
+fn bodies_that_overlap_where_nothing_presses_are_told() {
+    assert_eq!(words_of(Vec::new(), 1e-9), "");
+    assert!(words_of(Vec::new(), 0.05).contains("overlap"));
+}
+
+#[test]
+fn the_pressure_at_a_corner_is_left_open_if_the_force_is_right() {
+    let corner = Zone { edges: Some(1.5), corner: Some(true), lambda: None, worst: None, ..zone() };
+    let contact = Contact { zones: vec![corner], ..Contact::default() };
+    assert!(zone_doubts(&contact, Some(true), FINER).is_empty());
+    assert!(unknown_words(&contact, "seam", Some(true)).is_some_and(|words| words.contains("singular")));
+    assert!(!zone_doubts(&contact, Some(false), FINER).is_empty());
+}
+
+#[test]
+fn what_nothing_estimates_is_told() {
+    let told = |lambda| unknown_words(&Contact { zones: vec![Zone { lambda, ..zone() }], ..Contact::default() }, "seam", None);
+    assert_eq!(told(Some(0.01)), None);
+    assert!(told(None).is_some_and(|words| words.contains("nothing estimates")));
+}
