@@ -19,6 +19,7 @@ mod pieces;
 pub(crate) mod samples;
 mod shape;
 mod smooth_normal;
+mod spline_shape;
 mod strip;
 
 pub use chain::Stretch;
