@@ -32,6 +32,7 @@ pub use piece::Shapes;
 pub use pieces::BodyPiece;
 pub use shape::EdgeShape;
 pub use smooth_normal::{SmoothNormals, SmoothPoint};
+pub use spline_shape::Corner;
 pub use strip::Strip;
 
 use std::path::{Path, PathBuf};

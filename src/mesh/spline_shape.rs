@@ -3,8 +3,8 @@
 //! Contact takes such a boundary for smooth: its normals and gaps are those of the spline. Chords that are only refined would
 //! keep the corners between them, and these would press.
 
-use super::MacroMesh;
 use super::shape::EdgeShape;
+use super::{MacroMesh, Stretch};
 use crate::geometry::{Curve, Point};
 use std::sync::Arc;
 
@@ -45,6 +45,15 @@ impl MacroMesh {
         }
     }
 
+    /// The corners within the smooth stretches of a boundary that is not bent: all of its chords have them.
+    pub fn corners_left(&self, boundary: &str) -> Vec<Corner> {
+        let edges = self.boundary(boundary).map(|found| found.edges.as_slice()).unwrap_or(&[]);
+        let unbent = |stretch: &Stretch| self.edges[stretch.edges[0] as usize].shape.is_none() && !stretch.curve.is_line();
+        let all = self.stretches(edges).into_iter().filter(unbent).map(|stretch| self.chain_points(&stretch.edges));
+        all.flat_map(|points| points.windows(3).map(|three| Corner { place: three[1], angle: turn(three) }).collect::<Vec<_>>())
+            .collect()
+    }
+
     /// How far the farthest chord of a boundary lies from the spline that it is bent onto (length); 0 if none is.
     pub fn bent_by(&self, boundary: &str) -> f64 {
         let edges = self.boundary(boundary).map(|found| found.edges.as_slice()).unwrap_or(&[]);
@@ -57,9 +66,17 @@ impl MacroMesh {
     }
 }
 
+/// A corner between two edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Where it is.
+    pub place: Point,
+    /// By how much the boundary turns there (radians).
+    pub angle: f64,
+}
+
 /// Whether a chain of points has a corner between pieces that are straight beside it.
 fn has_kink(points: &[Point]) -> bool {
-    let turn = |three: &[Point]| (three[1] - three[0]).angle(&(three[2] - three[1]));
     let turns: Vec<f64> = points.windows(3).map(turn).collect();
     let beside = |k: usize| {
         let before = if k == 0 { 0.0 } else { turns[k - 1] };
@@ -68,6 +85,11 @@ fn has_kink(points: &[Point]) -> bool {
     // On straight pieces rounding turns a little.
     let least = FAINT * turns.iter().copied().fold(0.0, f64::max);
     turns.len() > 1 && (0..turns.len()).any(|k| turns[k] > least && turns[k] > SHARPER * beside(k))
+}
+
+/// By how much the way through three points turns at the second (radians).
+fn turn(three: &[Point]) -> f64 {
+    (three[1] - three[0]).angle(&(three[2] - three[1]))
 }
 
 #[cfg(test)]
@@ -91,7 +113,9 @@ mod tests {
         let edges = mesh.boundary(&name).expect("named").edges.clone();
         for &edge in &edges {
             let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
-            assert!((mesh.edge_position(edge, 1e-9) - a).norm() < 1e-8 && (mesh.edge_position(edge, 1.0 - 1e-9) - b).norm() < 1e-8);
+            assert!(
+                (mesh.edge_position(edge, 1e-9) - a).norm() < 1e-8 && (mesh.edge_position(edge, 1.0 - 1e-9) - b).norm() < 1e-8
+            );
         }
         assert!((mesh.bent_by(&name) / (0.05 * 1.1f64.powi(2) / 4.0) - 1.0).abs() < 0.02, "{}", mesh.bent_by(&name));
         assert_eq!(mesh.stretches(&edges).len(), 1);

@@ -179,6 +179,10 @@ pub struct Contact {
     pub slip: Option<f64>,
     /// Estimated relative error of force or pressure by that way.
     pub slip_error: Option<f64>,
+    /// Sharpest corner of a body within what presses, in degrees; of fitted curves only.
+    pub corner_angle: Option<f64>,
+    /// Estimated relative error of λ by that corner.
+    pub corner_error: Option<f64>,
     /// Intervals of arc length that press, each with what is estimated of it.
     pub zones: Vec<Zone>,
     /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,

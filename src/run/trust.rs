@@ -50,6 +50,9 @@ const LITTLE_SLIP: f64 = 0.02;
 /// Largest error of force and pressure by sliding.
 const MOST_SLIP_ERROR: f64 = 0.01;
 
+/// Largest error of the pressure by corners within a contact.
+const MOST_CORNER_ERROR: f64 = 0.04;
+
 /// Largest mean strain of a macro triangle at which a theory of small strain still means something.
 const MOST_STRAIN: f64 = 0.2;
 
@@ -92,6 +95,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
             doubts.extend(beyond_the_model);
             doubts.extend(unresolved_doubt(contact));
+            doubts.extend(corner_doubt(contact, pair));
             unknown = unknown_words(contact, &pair.name, trust_force);
         }
         let trust = if doubts.is_empty() && converged { unknown.is_none().then_some(true) } else { Some(false) };
@@ -226,6 +230,20 @@ fn unresolved_doubt(contact: &summary::Contact) -> Option<Doubt> {
     Some(Doubt {
         figure: format!("the bodies penetrate each other within segments, worth a force of {}", short(off)),
         remedy: "take more segments, and refine the mesh where contact is",
+    })
+}
+
+/// What tells that bodies press with corners that the smooth contact boundary has not.
+fn corner_doubt(contact: &summary::Contact, pair: &Pair) -> Option<Doubt> {
+    let error = contact.corner_error.filter(|error| *error > MOST_CORNER_ERROR)?;
+    let [a, b] = &pair.between;
+    let angle = contact.corner_angle.unwrap_or(f64::NAN);
+    Some(Doubt {
+        figure: format!(
+            "\"{a}\" or \"{b}\" has corners of up to {angle:.0} degrees within the contact, which change λ by about {}",
+            short(error)
+        ),
+        remedy: "if these are chords of a curve, give it by a [geometry]; if the corners are meant, name the pieces between them, each with a contact of its own",
     })
 }
 
