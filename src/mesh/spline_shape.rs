@@ -14,6 +14,9 @@ const SHARPER: f64 = 4.0;
 /// Corners below this share of the sharpest one are none.
 const FAINT: f64 = 0.1;
 
+/// A line that turns by less (radians) is one whose points are rounded.
+const ROUNDED: f64 = 1e-5;
+
 impl EdgeShape {
     /// Whether it is a spline through nodes, which nobody has declared.
     pub fn is_spline(&self) -> bool {
@@ -33,7 +36,7 @@ impl MacroMesh {
         for stretch in all.iter().flat_map(|edges| self.stretches(edges)).collect::<Vec<_>>() {
             let bare = stretch.edges.iter().all(|&edge| self.edges[edge as usize].shape.is_none());
             let Curve::Spline(spline) = &stretch.curve else { continue };
-            if !bare || self.is_closed(&stretch.edges) || has_kink(&self.chain_points(&stretch.edges)) {
+            if !bare || self.is_closed(&stretch.edges) || !is_arc(&self.chain_points(&stretch.edges)) {
                 continue;
             }
             let curve = Arc::new(stretch.curve.clone());
@@ -75,16 +78,16 @@ pub struct Corner {
     pub angle: f64,
 }
 
-/// Whether a chain of points has a corner between pieces that are straight beside it.
-fn has_kink(points: &[Point]) -> bool {
+/// Whether a chain of points lies on an arc: it turns, and nowhere is a corner between pieces that are straight beside it.
+fn is_arc(points: &[Point]) -> bool {
     let turns: Vec<f64> = points.windows(3).map(turn).collect();
+    let largest = turns.iter().copied().fold(0.0, f64::max);
     let beside = |k: usize| {
         let before = if k == 0 { 0.0 } else { turns[k - 1] };
         before.max(turns.get(k + 1).copied().unwrap_or(0.0))
     };
-    // On straight pieces rounding turns a little.
-    let least = FAINT * turns.iter().copied().fold(0.0, f64::max);
-    turns.len() > 1 && (0..turns.len()).any(|k| turns[k] > least && turns[k] > SHARPER * beside(k))
+    let sharp = |k: usize| turns.len() > 1 && turns[k] > FAINT * largest && turns[k] > SHARPER * beside(k);
+    largest > ROUNDED && !(0..turns.len()).any(sharp)
 }
 
 /// By how much the way through three points turns at the second (radians).
@@ -136,17 +139,18 @@ mod tests {
             }
             all
         };
-        for (turns, kink) in [
-            (vec![0.1; 6], false),
-            (vec![0.0, 0.1, 0.2, 0.2, 0.1, 0.0], false),
-            (vec![0.2, 0.1, 0.0, -0.1, -0.2], false),
-            (vec![0.2], false),
-            (vec![1e-16, 0.0, 0.1, 0.2, 0.2], false),
-            (vec![0.0, 0.0, 0.2, 0.0], true),
-            (vec![0.05, 0.05, 0.3, 0.05], true),
-            (vec![0.2, 0.0, 0.0], true),
+        for (turns, arc) in [
+            (vec![0.1; 6], true),
+            (vec![0.0, 0.1, 0.2, 0.2, 0.1, 0.0], true),
+            (vec![0.2, 0.1, 0.0, -0.1, -0.2], true),
+            (vec![0.2], true),
+            (vec![1e-16, 0.0, 0.1, 0.2, 0.2], true),
+            (vec![1e-7, -1e-7, 1e-7], false),
+            (vec![0.0, 0.0, 0.2, 0.0], false),
+            (vec![0.05, 0.05, 0.3, 0.05], false),
+            (vec![0.2, 0.0, 0.0], false),
         ] {
-            assert_eq!(has_kink(&points(&turns)), kink, "{turns:?}");
+            assert_eq!(is_arc(&points(&turns)), arc, "{turns:?}");
         }
     }
 }
