@@ -95,7 +95,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
             doubts.extend(beyond_the_model);
             doubts.extend(unresolved_doubt(contact));
-            doubts.extend(corner_doubt(contact, pair));
+            doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
             unknown = unknown_words(contact, &pair.name, trust_force);
         }
         let trust = if doubts.is_empty() && converged { unknown.is_none().then_some(true) } else { Some(false) };
@@ -234,9 +234,8 @@ fn unresolved_doubt(contact: &summary::Contact) -> Option<Doubt> {
 }
 
 /// What tells that bodies press with corners that the smooth contact boundary has not.
-fn corner_doubt(contact: &summary::Contact, pair: &Pair) -> Option<Doubt> {
+fn corner_doubt(contact: &summary::Contact, [a, b]: [&str; 2]) -> Option<Doubt> {
     let error = contact.corner_error.filter(|error| *error > MOST_CORNER_ERROR)?;
-    let [a, b] = &pair.between;
     let angle = contact.corner_angle.unwrap_or(f64::NAN);
     Some(Doubt {
         figure: format!(
@@ -350,6 +349,14 @@ mod tests {
         };
         assert_eq!((within(5.4, 0.2), within(0.0, 0.0)), (String::new(), String::new()));
         assert!(within(5.4, 4.2).contains("worth a force of 4.20") && within(0.0, 4.2).contains("within segments"));
+    }
+
+    #[test]
+    fn corners_are_doubted_by_what_they_do() {
+        let pair = |error| Contact { corner_angle: Some(11.25), corner_error: Some(error), ..Contact::default() };
+        let told = |error| corner_doubt(&pair(error), ["a", "b"]).map(|doubt| doubt.figure);
+        assert_eq!(told(0.03), None);
+        assert!(told(0.07).is_some_and(|words| words.contains("\"a\" or \"b\" has corners of up to 11 degrees")));
     }
 
     #[test]
