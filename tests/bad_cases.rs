@@ -245,6 +245,21 @@ fn a_contact_forced_shut_and_then_released_converges() {
 fn a_formula_without_a_value_is_refused_with_its_key() {
     bad_key("contact.seam.gap", "sqrt(x-1)", &["contact.seam.gap", "finite"]);
     bad_key("load.top.pressure", "sqrt(x-1)", &["load", "finite"]);
+    for gap in ["sqrt(x-5)", "1/(x-x)", "sqrt(x-1)"] {
+        let words = [format!("gap = {gap} is no number at (0.000000, 1.000000)"), "correct the formula".into()];
+        let fitted = |run: Run| run.set("contact.seam.curve", "fit").set("contact.seam.gap", gap);
+        refused(&blocks().text(), GOOD, fitted, &words.each_ref().map(String::as_str));
+    }
+}
+
+#[test]
+fn a_boundary_in_pieces_is_not_one_with_corners() {
+    let fitted = |run: Run| run.set("contact.seam.curve", "fit");
+    let mut mesh = blocks();
+    mesh.bodies[1].1.sides[0].remove(1);
+    refused(&mesh.text(), GOOD, fitted, &["\"upper.seam\" is of pieces that do not hang together, 2 of which touch"]);
+    let steps = blocks().map(|[x, y]| [x, if y == 1.0 { y + 0.3 * (x - 1.0).abs() } else { y }]);
+    refused(&steps.text(), GOOD, fitted, &["has corners of more than 20 degrees, and 2 of its smooth stretches touch"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::mesh::{Mesh, grid, write_scene};
+use support::mesh::{GOOD, Mesh, grid, write_scene};
 use support::{PAIRS, RANKS, Run};
 
 #[test]
@@ -65,6 +65,59 @@ fn polygons_get_their_gap_from_splines() {
         println!("{errors:?}");
         assert!(errors[2] <= 0.02, "{errors:?}");
     }
+}
+
+/// Two quarter rings that are drawn as touching, of `n` and `n + 1` chords along the seam, each cut into `parts`.
+fn chords(n: usize, parts: usize) -> Mesh {
+    let ring = |n: usize, seed: u64, inner: f64, outer: f64| {
+        let at = move |k: f64| {
+            [(k / n as f64 * std::f64::consts::FRAC_PI_2).cos(), (k / n as f64 * std::f64::consts::FRAC_PI_2).sin()]
+        };
+        grid(n * parts / 2, n * parts, seed, move |u, v| {
+            let (k, r) = ((v * n as f64 + 1e-9).floor().min(n as f64 - 1.0), inner + u * (outer - inner));
+            let (share, [a, b]) = (v * n as f64 - k, [at(k), at(k + 1.0)]);
+            [0, 1].map(|i| r * (a[i] + share * (b[i] - a[i])))
+        })
+    };
+    Mesh {
+        bodies: vec![
+            ("inner", ring(n, 1, 1.0, 2.0), ["flat", "inner.seam", "upright", "inner.rim"]),
+            ("outer", ring(n + 1, 2, 2.0, 3.0), ["flat", "outer.rim", "upright", "outer.seam"]),
+        ],
+    }
+}
+
+const FINE_RINGS: [(&str, &str); 3] =
+    [("mesh.order", "2"), ("contact.seam.gap", "-1e-3"), ("contact.seam.multiplier", "p1-continuous")];
+
+/// Refined chords would keep the corners of 7 degrees between them, and λ would be 5 to 10 % off beside each.
+#[test]
+fn refined_polygons_follow_their_splines() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &chords(12, 1).text(), RINGS);
+    for (refine, ranks) in [(1, 1), (2, 2), (3, 3)] {
+        let run = Run::file(&file).ranks(ranks).set("mesh.refine", refine).set("exact.contact.seam.lambda.tolerance", 5e-3);
+        let ended = FINE_RINGS.into_iter().fold(run, |run, (key, value)| run.set(key, value)).converged();
+        assert!(ended.number("/errors/lambda_seam") < 4e-3, "{}", ended.number("/errors/lambda_seam"));
+        assert_eq!((ended.value("/contact/seam/trust"), ended.number("/contact/seam/corner_angle")), (true.into(), 0.0));
+        assert!(ended.output.contains("boundary inner.seam: no [geometry] gives its shape"), "{}", ended.output);
+    }
+}
+
+/// Chords of several edges are straight pieces with corners, which are meant for all that anyone knows.
+#[test]
+fn corners_within_a_contact_are_told_with_what_they_do() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &chords(8, 2).text(), RINGS);
+    let run = Run::file(&file).set("mesh.refine", 1).set("exact.contact.seam.lambda.tolerance", 1.0);
+    let ended = FINE_RINGS.into_iter().fold(run, |run, (key, value)| run.set(key, value)).converged();
+    assert_eq!(ended.value("/contact/seam/trust"), false);
+    assert!((ended.number("/contact/seam/corner_angle") - 11.25).abs() < 0.1);
+    assert!((0.04..0.1).contains(&ended.number("/contact/seam/corner_error")));
+    for words in ["has corners of up to 11 degrees within the contact", "give it by a [geometry]"] {
+        assert!(ended.errors.contains(words), "{}", ended.errors);
+    }
+    assert!(!ended.said().contains("grows without bound"), "{}", ended.said());
 }
 
 /// An interference that is declared and varies, between rings that are drawn as touching: the bodies as they lie deformed
@@ -140,6 +193,29 @@ fn a_cylinder_that_slides_keeps_its_pressure_or_tells() {
         assert!((ended.number("/contact/seam/slip_error") / error - 1.0).abs() < 0.3, "error {error}");
         assert_eq!(ended.value("/contact/seam/trust"), false);
         assert!(ended.errors.contains("take configuration = \"deformed\""), "{}", ended.errors);
+    }
+}
+
+/// A block a third of its height above another.
+#[test]
+fn a_declared_gap_that_is_not_the_drawn_one_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (height, gap, curve, told) in [
+        (0.3, "-0.01", "line", true),
+        (0.3, "\"-0.01-1e-3*x\"", "fit", true),
+        (0.3, "0.29", "line", false),
+        (0.0, "-0.01", "fit", false),
+    ] {
+        let lower = grid(6, 3, 1, |u, v| [2.0 * u, v]);
+        let upper = grid(7, 3, 2, |u, v| [2.0 * u, 1.0 + height + v]);
+        let bodies =
+            vec![("lower", lower, ["bottom", "", "lower.seam", "left"]), ("upper", upper, ["upper.seam", "", "top", "left"])];
+        let case = format!("{GOOD}support.lid = {{ on = \"top\", uy = -1e-3 }}\n")
+            .replace("load.top = { on = \"top\", pressure = 1.0 }", "");
+        let file = write_scene(folder.path(), &Mesh { bodies }.text(), &case);
+        let ended = Run::file(&file).ranks(2).set("contact.seam.gap", gap).set("contact.seam.curve", curve).converged();
+        let words = "but the boundaries are drawn 3.000e-1 apart";
+        assert_eq!(ended.errors.matches(words).count(), usize::from(told), "{height} {gap}: {}", ended.errors);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::bisector::Bisector;
 use super::smooth_side::SmoothSide;
-use super::{ContactBoundary, GapChoice, Pair};
+use super::{Configuration, ContactBoundary, GapChoice, Pair};
 use crate::geometry::Point;
 use std::ops::Range;
 
@@ -11,6 +11,9 @@ const NEAR: f64 = 1e-3;
 
 /// The same once displacements are known.
 const TOUCHING: f64 = 1e-4;
+
+/// Pieces that meet at a smaller angle (radians) are not split by a corner there.
+const JOINT: f64 = 0.3;
 
 /// Where two sides meet: what Γ_C is fitted to, and its ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +41,14 @@ impl Meeting {
             }
         }
         let [first, second] = &pair.between;
+        if let (GapChoice::Formula(formula), Some(x)) = (&pair.gap, undefined_node(sides, pair)) {
+            return Err(format!(
+                "gap = {} is no number at ({:.6}, {:.6}), and small over no length elsewhere; correct the formula: it needs a value wherever \"{first}\" and \"{second}\" may touch",
+                formula.text(),
+                x.x,
+                x.y
+            ));
+        }
         if let Some(x) = nearest_node(sides, pair, 64.0 * NEAR) {
             return Err(format!(
                 "curve = \"fit\", but \"{first}\" and \"{second}\" come near each other at one node only, at ({}, {}): a corner, or edges too long; refine the mesh there",
@@ -67,10 +78,12 @@ impl Meeting {
             [0, 1].map(|k| sides[k].iter().map(|side| near_nodes(side, &sides[1 - k], pair, share)).collect());
         let mut stretches = [0; 2];
         for k in 0..2 {
-            let Some(found) = only_stretch(&sides[k], &near[k]).map_err(|count| {
+            let Some(found) = only_stretch(&sides[k], &near[k]).map_err(|touching| {
                 format!(
-                    "\"{}\" has corners of more than 20 degrees, and {count} of its smooth stretches touch \"{}\"; give each a name and a contact of its own",
-                    pair.between[k], pair.between[1 - k]
+                    "\"{}\" {} touch \"{}\"; give each a name and a contact of its own",
+                    pair.between[k],
+                    what_splits(&sides[k], &touching),
+                    pair.between[1 - k]
                 )
             })?
             else {
@@ -165,16 +178,49 @@ fn near_nodes(side: &SmoothSide, others: &[SmoothSide], pair: &Pair, share: f64)
     (last > first).then_some([first, last])
 }
 
+/// A node of either side at which the gap to the other body is no number.
+fn undefined_node(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Option<Point> {
+    let undefined = |side: &SmoothSide, node: usize, other: &SmoothSide| {
+        side.gap(node, other, pair, other.length()).is_some_and(|gap| !gap.is_finite())
+    };
+    let of = |side: &SmoothSide, others: &[SmoothSide]| {
+        let node = (0..side.points.len()).find(|&node| others.iter().any(|other| undefined(side, node, other)));
+        node.map(|node| side.points[node])
+    };
+    (0..2).find_map(|k| sides[k].iter().find_map(|side| of(side, &sides[1 - k])))
+}
+
 /// The stretch that touches; others may do so at a corner only. Nothing if none does.
 ///
 /// # Errors
-/// Number of stretches that touch, if there are several.
-fn only_stretch(sides: &[SmoothSide], near: &[Near]) -> Result<Option<usize>, usize> {
+/// The stretches that touch, if there are several.
+fn only_stretch(sides: &[SmoothSide], near: &[Near]) -> Result<Option<usize>, Vec<usize>> {
     let length = |k: usize| near[k].map_or(0.0, |[a, b]| sides[k].parameters[b] - sides[k].parameters[a]);
     let longest = (0..sides.len()).max_by(|&a, &b| length(a).total_cmp(&length(b)));
     let Some(longest) = longest.filter(|&k| near[k].is_some()) else { return Ok(None) };
-    match (0..sides.len()).filter(|&k| length(k) > 0.05 * length(longest)).count() {
-        1 => Ok(Some(longest)),
-        several => Err(several),
+    let touching: Vec<usize> = (0..sides.len()).filter(|&k| length(k) > 0.05 * length(longest)).collect();
+    if touching.len() == 1 { Ok(Some(longest)) } else { Err(touching) }
+}
+
+/// Why the stretches of a boundary that touch are several, in words between its name and "touch".
+fn what_splits(sides: &[SmoothSide], touching: &[usize]) -> String {
+    // Both ends of a stretch, each with the direction in which it goes on there.
+    let ends = |side: &SmoothSide| {
+        let curve = side.curve(Configuration::Reference);
+        let [first, last] = [0.0, side.length()];
+        [(curve.point(first), -curve.tangent(first)), (curve.point(last), curve.tangent(last))]
+    };
+    let turn = |k: usize, other: usize| {
+        let least = 1e-9 * sides[k].length();
+        let pairs = ends(&sides[k]).into_iter().flat_map(|a| ends(&sides[other]).map(|b| (a, b)));
+        pairs.filter(|(a, b)| (a.0 - b.0).norm() <= least).map(|(a, b)| a.1.angle(&-b.1)).reduce(f64::max)
+    };
+    let others = |k: usize| (0..sides.len()).filter(move |&other| other != k).map(move |other| (k, other));
+    let turns = touching.iter().flat_map(|&k| others(k)).filter_map(|(k, other)| turn(k, other));
+    let count = touching.len();
+    match turns.reduce(f64::max) {
+        None => format!("is of pieces that do not hang together, {count} of which"),
+        Some(turn) if turn < JOINT => format!("is of pieces with different shapes, {count} of which"),
+        Some(_) => format!("has corners of more than 20 degrees, and {count} of its smooth stretches"),
     }
 }

@@ -229,7 +229,7 @@ fn shared_geometry(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<
     for (side, edges) in sides.into_iter().enumerate() {
         let mut extent: Option<[f64; 2]> = None;
         for &edge in edges {
-            let Some(shape) = &mesh.edges[edge as usize].shape else {
+            let Some(shape) = mesh.edges[edge as usize].shape.as_ref().filter(|shape| !shape.is_spline()) else {
                 return Err(format!("curve = \"geometry\", but no curved [geometry] lists \"{}\"", pair.between[side]));
             };
             let middle_of = |[a, b]: [f64; 2]| 0.5 * (a + b);

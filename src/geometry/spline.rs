@@ -90,6 +90,11 @@ impl Spline {
         self.spans.len()
     }
 
+    /// Parameters of the span ends, ascending.
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
     /// First and last parameter.
     pub fn range(&self) -> [f64; 2] {
         [self.knots[0], self.knots[self.knots.len() - 1]]

@@ -76,7 +76,7 @@ impl MacroMesh {
     }
 
     /// Vertices of a chain of edges.
-    fn chain_points(&self, chain: &[u32]) -> Vec<Point> {
+    pub(super) fn chain_points(&self, chain: &[u32]) -> Vec<Point> {
         let corner = |edge: u32, end: usize| self.vertices[self.directed(edge)[end] as usize];
         let mut points: Vec<Point> = chain.iter().map(|&edge| corner(edge, 0)).collect();
         points.push(corner(chain[chain.len() - 1], 1));

@@ -19,6 +19,7 @@ mod pieces;
 pub(crate) mod samples;
 mod shape;
 mod smooth_normal;
+mod spline_shape;
 mod strip;
 
 pub use chain::Stretch;
@@ -31,6 +32,7 @@ pub use piece::Shapes;
 pub use pieces::BodyPiece;
 pub use shape::EdgeShape;
 pub use smooth_normal::{SmoothNormals, SmoothPoint};
+pub use spline_shape::Corner;
 pub use strip::Strip;
 
 use std::path::{Path, PathBuf};

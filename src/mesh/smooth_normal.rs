@@ -4,6 +4,7 @@
 //! So the normal of a polygon comes from the circles through three nodes in a row, which lie on the circle if the nodes do.
 
 use super::MacroMesh;
+use super::shape::EdgeShape;
 use crate::geometry::{Point, cross, turn_right};
 use std::collections::HashMap;
 
@@ -32,7 +33,7 @@ impl SmoothNormals {
         let starts: HashMap<u32, u32> = edges.iter().map(|&edge| (mesh.directed(edge)[0], edge)).collect();
         let next = |edge: u32| starts.get(&mesh.directed(edge)[1]).copied().filter(|&other| mesh.goes_on(edge, other));
         let mut curvatures: HashMap<u32, [Option<f64>; 2]> = HashMap::new();
-        for &edge in edges.iter().filter(|&&edge| mesh.edges[edge as usize].shape.is_none()) {
+        for &edge in edges.iter().filter(|&&edge| is_undeclared(mesh, edge)) {
             let Some(other) = next(edge) else { continue };
             let [a, b] = mesh.directed(edge).map(|vertex| mesh.vertices[vertex as usize]);
             let c = mesh.vertices[mesh.directed(other)[1] as usize];
@@ -48,7 +49,7 @@ impl SmoothNormals {
     /// The point at the fraction `t` of an edge from its first vertex.
     pub fn at(&self, mesh: &MacroMesh, edge: u32, t: f64) -> SmoothPoint {
         let exact = SmoothPoint { place: mesh.edge_position(edge, t), normal: mesh.edge_normal(edge, t), doubt: 0.0 };
-        let (Some(curvatures), None) = (self.curvatures.get(&edge), &mesh.edges[edge as usize].shape) else { return exact };
+        let Some(curvatures) = self.curvatures.get(&edge).filter(|_| is_undeclared(mesh, edge)) else { return exact };
         let ends = mesh.directed(edge);
         let t = if ends == mesh.edges[edge as usize].vertices { t } else { 1.0 - t };
         let [a, b] = ends.map(|vertex| mesh.vertices[vertex as usize]);
@@ -59,6 +60,11 @@ impl SmoothNormals {
             doubt: (first.1 - second.1).norm(),
         }
     }
+}
+
+/// Whether nobody has declared the shape of an edge: it is a chord, or bent onto a spline through vertices.
+fn is_undeclared(mesh: &MacroMesh, edge: u32) -> bool {
+    mesh.edges[edge as usize].shape.as_ref().is_none_or(EdgeShape::is_spline)
 }
 
 impl MacroMesh {

@@ -184,6 +184,10 @@ pub struct Contact {
     pub slip_error: Option<f64>,
     /// The same by their turning alone, in all contacts; where nothing presses, the growth of what turns by the smallest gap.
     pub rotation_error: Option<f64>,
+    /// Sharpest corner of a body within what presses, in degrees; of fitted curves only.
+    pub corner_angle: Option<f64>,
+    /// Estimated relative error of λ by that corner.
+    pub corner_error: Option<f64>,
     /// Intervals of arc length that press, each with what is estimated of it.
     pub zones: Vec<Zone>,
     /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,

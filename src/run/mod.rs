@@ -1,6 +1,7 @@
 //! From a case to its result.
 
 mod check;
+mod corners;
 mod exact;
 mod fields;
 mod follow;

@@ -7,7 +7,7 @@ use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
 use crate::system::recovery::Deformation;
-use crate::system::{BoundaryStep, Discretisation, OuterStep, Solution, Verdict};
+use crate::system::{BoundaryStep, Contact, Discretisation, OuterStep, Solution, Verdict};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -65,6 +65,20 @@ impl Report {
                 contact.boundary.segments(),
                 length(contact.boundary.length())
             ));
+            self.bent(problem, contact);
+        }
+    }
+
+    /// Edges whose shape nobody has declared, and that are taken for chords of something smooth.
+    fn bent(&self, problem: &Discretisation, contact: &Contact) {
+        let names = contact.pair.between.iter();
+        let bent = names.map(|name| (name, problem.scene.mesh.bent_by(name))).filter(|(_, by)| *by > 0.0);
+        if problem.finest().numbering.level.intervals > 1 {
+            for (name, by) in bent {
+                self.say(&format!(
+                    "boundary {name}: no [geometry] gives its shape; its edges are bent onto a spline through the nodes of the mesh file, by up to {by:.1e}"
+                ));
+            }
         }
     }
 

@@ -1,18 +1,21 @@
 //! A solution made into a result folder.
 
 use super::exact::{Errors, compare};
-use super::report::memory;
+use super::report::{memory, short};
 use super::solve::Solved;
 use super::unresolved::unresolved_force;
-use super::{Outcome, Run, RunError, fields, summarise, trust, zones};
+use super::{Outcome, Run, RunError, corners, fields, summarise, trust, zones};
 use crate::case::Case;
-use crate::contact::{Configuration, GapChoice};
+use crate::contact::{Configuration, CurveChoice, GapChoice};
 use crate::geometry::Point;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
 use crate::system::recovery::{TracePoint, balance, deformations, motion_errors, nodal_stress, probe, trace_points};
 use crate::system::{Contact, Discretisation, Field, Verdict};
 use std::path::Path;
+
+/// Share of the drawn distance by which a declared gap may differ from it.
+const MOST_OFF: f64 = 0.25;
 
 impl Run<'_> {
     /// Evaluates a solution, writes everything, prints the verdict. **Collective**
@@ -103,7 +106,7 @@ impl Run<'_> {
             let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
             self.warn_if_apart(contact, &points);
             let traced = contact_points(contact, &points);
-            let zones = zones::zones(problem, at, solution, &solved.estimate, &points);
+            let mut zones = zones::zones(problem, at, solution, &solved.estimate, &points);
             let force = solved.estimate.force.get(at).copied().flatten();
             summary.estimate.contact.insert(contact.pair.name.clone(), zones::contact_estimate(force, &zones));
             let mut found = summarise::contact(problem, at, solution, &balance, &points);
@@ -112,6 +115,9 @@ impl Run<'_> {
             }
             found.unresolved_force = Some(unresolved_force(contact, &traced));
             summarise::motions(&mut found, motions[at], contact.bodies.map(|body| &deformed[body]), &traced);
+            if contact.pair.curve == CurveChoice::Fit {
+                corners::corners(problem, contact, &zones).describe(&mut found, &mut zones);
+            }
             found.zones = zones;
             summary.contact.insert(contact.pair.name.clone(), found);
             traces.push(traced);
@@ -128,17 +134,38 @@ impl Run<'_> {
         Ok(errors)
     }
 
-    /// Boundaries that are said to touch, but lie apart by more than their polygons can.
+    /// Boundaries that are drawn apart, or into each other, by more than their polygons can be, though the gap is declared to
+    /// be another.
     fn warn_if_apart(&self, contact: &Contact, points: &[TracePoint]) {
-        let apart = points.iter().filter(|point| point.is_complete()).map(|point| (point.distance[1] - point.distance[0]).abs());
-        let most = apart.fold(0.0, f64::max);
         let segment = contact.boundary.length() / contact.boundary.segments() as f64;
-        if matches!(contact.pair.gap, GapChoice::Closed) && most > 0.1 * segment {
-            self.report.warn(&format!(
-                "contact {}: gap = \"closed\", but the boundaries lie up to {most:.3e} apart; if that is no error of the mesh, give gap = \"geometry\"",
-                contact.pair.name
-            ));
-        }
+        let apart = |point: &TracePoint| {
+            let drawn = point.distance[1] - point.distance[0];
+            let (off, share) = match &contact.pair.gap {
+                GapChoice::Geometry => return None,
+                GapChoice::Closed => (drawn.abs(), 0.0),
+                GapChoice::Formula(formula) => ((drawn - formula.value(&[point.x.x, point.x.y])).abs(), MOST_OFF),
+            };
+            // Boundaries that are drawn as touching say nothing of the gap.
+            (drawn.abs().min(off) > 0.1 * segment + share * drawn.abs()).then_some((drawn, point.x))
+        };
+        let all = points.iter().filter(|point| point.is_complete()).filter_map(apart);
+        let Some((drawn, x)) = all.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) else { return };
+        let words = match &contact.pair.gap {
+            GapChoice::Formula(formula) => format!(
+                "gap = {} is declared, {:.3e} at ({}, {}), but the boundaries are drawn {:.3e} {} there; the declared gap counts; if the drawn one is meant, give gap = \"geometry\"",
+                formula.text(),
+                formula.value(&[x.x, x.y]),
+                short(x.x),
+                short(x.y),
+                drawn.abs(),
+                if drawn > 0.0 { "apart" } else { "into each other" }
+            ),
+            _ => format!(
+                "gap = \"closed\", but the boundaries lie up to {:.3e} apart; if that is no error of the mesh, give gap = \"geometry\"",
+                drawn.abs()
+            ),
+        };
+        self.report.warn(&format!("contact {}: {words}", contact.pair.name));
     }
 
     /// Traces in files; fields and figures too, unless the case wants none. **Collective**

@@ -2,6 +2,7 @@
 
 use super::RunError;
 use crate::case::Case;
+use crate::contact::CurveChoice;
 use crate::geometry::Point;
 use crate::mesh::{Graph, MacroMesh, Partition, parse_gmsh, read_bytes};
 use crate::petsc::{Session, partition};
@@ -37,6 +38,8 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     for geometry in &case.geometries {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }
+    let fitted = case.contacts.iter().filter(|pair| pair.curve == CurveChoice::Fit).flat_map(|pair| &pair.between);
+    mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
     for grade in &case.mesh.grades {
         let [x, y] = grade.point;
         mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {

@@ -135,6 +135,8 @@ pub fn contact(
         slip: None,
         slip_error: None,
         rotation_error: None,
+        corner_angle: None,
+        corner_error: None,
         trust_force: None,
         lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }

@@ -56,6 +56,8 @@ const MOST_SLIP_ERROR: f64 = 0.01;
 
 /// Largest growth of bodies that turn, relative to the smallest gap of a contact where nothing presses.
 const MOST_GROWTH: f64 = 0.5;
+/// Largest error of the pressure by corners within a contact.
+const MOST_CORNER_ERROR: f64 = 0.04;
 
 /// Largest mean strain of a macro triangle at which a theory of small strain still means something.
 const MOST_STRAIN: f64 = 0.2;
@@ -103,6 +105,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
             doubts.extend(beyond_the_model);
             doubts.extend(unresolved_doubt(contact, more_segments(pair)));
+            doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
             unknown = unknown_words(contact, &pair.name, trust_force);
         }
         let trust = if doubts.is_empty() && converged { unknown.is_none().then_some(true) } else { Some(false) };
@@ -265,6 +268,19 @@ fn more_segments(pair: &Pair) -> &'static str {
         SegmentRule::Auto => FINER,
         _ => "take more segments (\"auto\" takes as many as the mesh bears), or refine the mesh where contact is",
     }
+}
+
+/// What tells that bodies press with corners that the smooth contact boundary has not.
+fn corner_doubt(contact: &summary::Contact, [a, b]: [&str; 2]) -> Option<Doubt> {
+    let error = contact.corner_error.filter(|error| *error > MOST_CORNER_ERROR)?;
+    let angle = contact.corner_angle.unwrap_or(f64::NAN);
+    Some(Doubt {
+        figure: format!(
+            "\"{a}\" or \"{b}\" has corners of up to {angle:.0} degrees within the contact, which change λ by about {}",
+            short(error)
+        ),
+        remedy: "if these are chords of a curve, give it by a [geometry]; if the corners are meant, name the pieces between them, each with a contact of its own",
+    })
 }
 
 /// What neither speaks for a pressure nor against it, in words.

@@ -82,9 +82,13 @@ impl Coupling {
             owners.extend((0..contact.multipliers.count()).map(|i| segments[contact.multipliers.segment_of(i)]));
         }
         for contact in contacts {
-            if gap[contact.range()].iter().any(|value| !value.is_finite()) {
-                let words = "its gap has no finite value somewhere on the contact boundary; correct the formula";
-                return Err(SystemError::Case(format!("contact.{}.gap: {words}", contact.pair.name)));
+            if let Some(i) = gap[contact.range()].iter().position(|value| !value.is_finite()) {
+                let (boundary, segment) = (&contact.boundary, contact.multipliers.segment_of(i));
+                let x = boundary.point(0.5 * (boundary.knots()[segment] + boundary.knots()[segment + 1]));
+                return Err(SystemError::Case(format!(
+                    "contact.{}.gap: it is no finite number near ({:.6}, {:.6}) on the contact boundary; correct the formula: it needs a value wherever the bodies may touch",
+                    contact.pair.name, x.x, x.y
+                )));
             }
         }
         let lost = |(contact, points): (&Contact, f64)| match contact.pair.quadrature {

@@ -60,6 +60,14 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
 }
 
 #[test]
+fn corners_are_doubted_by_what_they_do() {
+    let pair = |error| Contact { corner_angle: Some(11.25), corner_error: Some(error), ..Contact::default() };
+    let told = |error| corner_doubt(&pair(error), ["a", "b"]).map(|doubt| doubt.figure);
+    assert_eq!(told(0.03), None);
+    assert!(told(0.07).is_some_and(|words| words.contains("\"a\" or \"b\" has corners of up to 11 degrees")));
+}
+
+#[test]
 fn every_zone_that_counts_is_judged() {
     let narrow = Zone { ends: Some([0.6, 0.62]), edges: Some(0.9), share: Some(0.05), ..zone() };
     assert!(words_of(vec![zone(), narrow.clone()], 0.0).contains("contact at s = 0.60 to 0.62 0.9 edges wide"));
