@@ -62,11 +62,17 @@ const MOST_CORNER_ERROR: f64 = 0.04;
 /// Largest mean strain of a macro triangle at which a theory of small strain still means something.
 const MOST_STRAIN: f64 = 0.2;
 
+/// Largest mean rotation of a body (radians): forces and lengths are off by half its square.
+const MOST_ROTATION: f64 = 0.2;
+
 /// Share of the force that penetration within single segments may be worth: more is contact narrower than they are.
 const MOST_UNRESOLVED: f64 = 0.1;
 
 /// What mends a pressure whose bodies are too coarse for it.
 const FINER: &str = "refine the mesh where contact is";
+
+/// What mends a solution whose bodies turn too far.
+const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
 
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
@@ -100,8 +106,8 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             doubts.extend(zone_doubts(contact, trust_force, more_segments(pair)));
             doubts.extend(size_doubts(summary));
             doubts.extend(force_doubt(force));
-            let motions = slip_doubt(contact).into_iter().chain(rotation_doubt(contact));
-            let beyond_the_model: Vec<Doubt> = motions.chain(strain_doubts(summary)).collect();
+            let motions = slip_doubt(contact).into_iter().chain(turning_doubt(contact));
+            let beyond_the_model: Vec<Doubt> = motions.chain(strain_doubts(summary)).chain(rotation_doubts(summary)).collect();
             trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
             doubts.extend(beyond_the_model);
             doubts.extend(unresolved_doubt(contact, more_segments(pair)));
@@ -227,9 +233,9 @@ fn slip_doubt(contact: &summary::Contact) -> Option<Doubt> {
 }
 
 /// What tells that bodies have turned too far for a theory that makes larger what turns.
-fn rotation_doubt(contact: &summary::Contact) -> Option<Doubt> {
+fn turning_doubt(contact: &summary::Contact) -> Option<Doubt> {
     let error = contact.rotation_error?;
-    let remedy = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
+    let remedy = TURN_LESS;
     if contact.zones.is_empty() {
         let figure =
             format!("nothing presses, but bodies that turn grow in this theory, by {} of the smallest gap", short(error));
@@ -252,6 +258,13 @@ fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
     };
     let remedy = "press less, or correct the units of E, loads and displacements: the model is that of small strain";
     large.map(|found| Doubt { figure: words(found), remedy }).collect()
+}
+
+/// What tells that bodies turn farther than any theory of small rotations goes.
+fn rotation_doubts(summary: &Summary) -> Vec<Doubt> {
+    let far = summary.rotation.iter().filter_map(|(body, angle)| Some((body, angle.filter(|a| a.abs() > MOST_ROTATION)?)));
+    let words = |(body, angle): (&String, f64)| format!("body {body} turns by {angle:.2}, at most {MOST_ROTATION} wanted");
+    far.map(|found| Doubt { figure: words(found), remedy: TURN_LESS }).collect()
 }
 
 /// What tells of contact that is narrower than a segment.

@@ -60,6 +60,16 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
 }
 
 #[test]
+fn far_rotations_are_doubted_wherever_contact_is() {
+    let told = |angle| {
+        let rotation = [("arm".to_string(), Some(angle))].into();
+        rotation_doubts(&Summary { rotation, ..Summary::default() }).into_iter().map(|doubt| doubt.figure).collect::<String>()
+    };
+    assert_eq!(told(0.1), "");
+    assert!(told(-0.4).contains("body arm turns by -0.40"));
+}
+
+#[test]
 fn corners_are_doubted_by_what_they_do() {
     let pair = |error| Contact { corner_angle: Some(11.25), corner_error: Some(error), ..Contact::default() };
     let told = |error| corner_doubt(&pair(error), ["a", "b"]).map(|doubt| doubt.figure);
