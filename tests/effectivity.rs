@@ -71,22 +71,23 @@ fn effectivities(known: &Known, order: usize, space: &str, refine: usize) -> (St
 /// An estimate that is too large by some factor costs a refinement, one that is too small costs trust.
 #[test]
 fn estimates_are_of_the_size_of_the_errors() {
-    let (mut lambda, mut others, mut table) = (Vec::new(), Vec::new(), String::new());
+    let ([mut lambda, mut peak, mut force], mut table) = ([Vec::new(), Vec::new(), Vec::new()], String::new());
     for known in &KNOWN {
         for (order, space) in PAIRS {
             for refine in [1, 2, 3] {
                 let (name, found) = effectivities(known, order, space, refine);
                 writeln!(table, "{name}: {found:.2?}").expect("a string grows");
-                lambda.extend(found[0]);
-                others.extend(found[1..].iter().flatten());
+                [&mut lambda, &mut peak, &mut force].into_iter().zip(found).for_each(|(all, ratio)| all.extend(ratio));
             }
         }
     }
     let share = |all: &[f64], good: &dyn Fn(f64) -> bool| all.iter().filter(|v| good(**v)).count() as f64 / all.len() as f64;
-    assert!(lambda.len() > 40 && others.len() > 60, "{table}");
-    assert!(lambda.iter().all(|ratio| *ratio >= 0.3), "{table}");
-    assert!(share(&lambda, &|ratio| (0.5..=3.0).contains(&ratio)) >= 0.8, "{table}");
-    assert!(share(&others, &|ratio| ratio >= 0.3) >= 0.95, "{table}");
+    let near = |all: &[f64]| share(all, &|ratio| (0.5..=3.0).contains(&ratio));
+    writeln!(table, "within .5 to 3: {:?}", [&lambda, &peak, &force].map(|all| (all.len(), near(all)))).expect("a string grows");
+    assert!(lambda.len() > 40 && peak.len() > 30 && force.len() > 30, "{table}");
+    assert!(lambda.iter().chain(&force).all(|ratio| *ratio >= 0.3), "{table}");
+    assert!(near(&lambda) >= 0.85 && near(&force) >= 0.9, "{table}");
+    assert!(share(&peak, &|ratio| ratio >= 0.3) >= 0.95, "{table}");
 }
 
 /// Without a coarser mesh the stresses tell: too much where bodies are bent, never too little.
