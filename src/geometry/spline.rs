@@ -117,7 +117,8 @@ impl Spline {
         let [first, last] = self.range();
         let inside = t.clamp(first, last);
         let (&[a, b, c, d], tau) = self.span(inside);
-        a + tau * (b + tau * (c + tau * d)) + (t - inside) * self.derivative(inside)
+        let point = a + tau * (b + tau * (c + tau * d));
+        if t == inside { point } else { point + (t - inside) * self.derivative(inside) }
     }
 
     /// Derivative of the point by the parameter.
