@@ -1,6 +1,6 @@
 //! The primal-dual active set: which multipliers carry pressure.
 
-use super::ascent::{Ascent, Found};
+use super::ascent::{Ascent, SetSolution};
 
 /// What a new active set means for the loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,7 +88,7 @@ impl ActiveSet {
     }
 
     /// The next set by rising energy, after [`ActiveSet::begin_ascent`].
-    pub fn ascend(&mut self, found: &Found) -> Step {
+    pub fn ascend(&mut self, found: &SetSolution) -> Step {
         let Some(ascent) = &mut self.ascent else { return Step::Settled };
         let Some(next) = ascent.next(&self.active, &self.bilateral, found) else { return Step::Settled };
         let added = next.iter().zip(&self.active).filter(|&(&is, &was)| is && !was).count();

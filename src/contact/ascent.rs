@@ -16,7 +16,7 @@ const FEWER: usize = 4;
 
 /// What was solved for a set, for every multiplier.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<'a> {
+pub struct SetSolution<'a> {
     /// Pressures, zero on the open ones (stress).
     pub lambda: &'a [f64],
     /// `(Bu - Cλ - c)_i` (length squared).
@@ -50,7 +50,7 @@ impl Ascent {
     }
 
     /// The set to be solved for next; nothing if the energy rises no more.
-    pub fn next(&mut self, active: &[bool], bilateral: &[bool], found: &Found) -> Option<Vec<bool>> {
+    pub fn next(&mut self, active: &[bool], bilateral: &[bool], found: &SetSolution) -> Option<Vec<bool>> {
         let pulls = |i: &usize| active[*i] && !bilateral[*i] && found.lambda[*i] < 0.0;
         let pulling: Vec<usize> = (0..active.len()).filter(pulls).collect();
         if !pulling.is_empty() {
@@ -86,7 +86,7 @@ impl Ascent {
 
     /// Which of the pulling multipliers are released: all of them, or on the way from one point to the next those that pass
     /// zero first.
-    fn released(&mut self, pulling: &[usize], found: &Found) -> Vec<usize> {
+    fn released(&mut self, pulling: &[usize], found: &SetSolution) -> Vec<usize> {
         let Some(way) = &mut self.way else { return pulling.to_vec() };
         let share = |way: &[f64], i: usize| way[i] / (way[i] - found.lambda[i]);
         let first = pulling.iter().map(|&i| share(way, i)).fold(1.0, f64::min);
@@ -99,7 +99,7 @@ impl Ascent {
 impl Highest {
     /// How much higher the dual energy of another set is (twice, per depth): `(p + p')ᵀ(λ' - λ)`, because the penetration p
     /// is the gradient of the energy; p is zero on its own set.
-    fn gain(&self, active: &[bool], found: &Found) -> f64 {
+    fn gain(&self, active: &[bool], found: &SetSolution) -> f64 {
         let pairs = (0..active.len()).map(|i| match (self.active[i], active[i]) {
             (false, true) => self.penetration[i] * found.lambda[i],
             (true, false) => -found.penetration[i] * self.lambda[i],
@@ -134,7 +134,7 @@ mod tests {
         let (mut active, mut ascent) = (vec![start; count], Ascent::new());
         for solves in 1..=1000 {
             let (lambda, penetration) = solved(compliance, d, &active);
-            let found = Found { lambda: &lambda, penetration: &penetration, penalty: &penalty };
+            let found = SetSolution { lambda: &lambda, penetration: &penetration, penalty: &penalty };
             let Some(next) = ascent.next(&active, &bilateral, &found) else {
                 let most = d.amax();
                 for i in 0..count {

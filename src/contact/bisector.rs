@@ -138,13 +138,13 @@ fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve
 pub fn stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -> Option<f64> {
     let knots = boundary.knots();
     let places = knots.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]).chain([knots[knots.len() - 1]]);
-    let element = sides.iter().map(|side| side.edge_length(0, side.points.len() - 1)).fold(0.0, f64::max);
+    let longest = sides.iter().map(|side| side.edge_length(0, side.points.len() - 1)).fold(0.0, f64::max);
     let mut worst: f64 = 0.0;
     for x in places.map(|t| boundary.point(t)) {
         let feet = sides.map(|side| side.nearest(x, pair.configuration).clamp(0.0, side.length()));
         let [a, b] = [0, 1].map(|k| sides[k].curve(pair.configuration).point(feet[k]));
         let away = (x - a).norm().max((x - b).norm());
-        if away > (a - b).norm() + element {
+        if away > (a - b).norm() + longest {
             worst = worst.max(away);
         }
     }

@@ -13,10 +13,10 @@ const PLACES: usize = 64;
 const MOST_BACKS: f64 = 0.25;
 
 /// Boundaries that touch lie within this share of the length of Γ_C.
-const TOUCHING: f64 = 0.05;
+const DRAWN_TOUCHING: f64 = 0.05;
 
 /// The same as a share of the edges, on a Γ_C shorter than these.
-const NEAR: f64 = 0.1;
+const WITHIN_EDGES: f64 = 0.1;
 
 /// Drawn boundaries lie this many times farther behind each other than chords from their arcs, if that means anything.
 const POLYGONS: f64 = 4.0;
@@ -141,7 +141,7 @@ impl<'a> Facing<'a> {
         let mut gaps: Vec<f64> = facing.iter().map(|(t, points)| self.gap(*t, points)).collect();
         gaps.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
         let middle = gaps[gaps.len() / 2];
-        if middle.abs() <= (TOUCHING * self.boundary.length()).max(NEAR * self.longest_edge(mesh)) {
+        if middle.abs() <= (DRAWN_TOUCHING * self.boundary.length()).max(WITHIN_EDGES * self.longest_edge(mesh)) {
             return Ok(());
         }
         Err(format!(

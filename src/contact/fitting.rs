@@ -7,10 +7,10 @@ use crate::geometry::Point;
 use std::ops::Range;
 
 /// Before anything is solved, nodes closer to the other body than this share of the boundary's length count as touching.
-const NEAR: f64 = 1e-3;
+const MEETS_AT_REST: f64 = 1e-3;
 
 /// The same once displacements are known.
-const TOUCHING: f64 = 1e-4;
+const TOUCHES_NOW: f64 = 1e-4;
 
 /// Pieces that meet at a smaller angle (radians) are not split by a corner there.
 const JOINT: f64 = 0.3;
@@ -36,7 +36,7 @@ impl Meeting {
     /// Words, if they are far apart, or touch on more than one stretch.
     pub fn at_rest(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Result<Self, String> {
         for factor in [1.0, 4.0, 16.0, 64.0] {
-            if let Some(found) = Self::within(sides, pair, factor * NEAR)? {
+            if let Some(found) = Self::within(sides, pair, factor * MEETS_AT_REST)? {
                 return Ok(found);
             }
         }
@@ -49,7 +49,7 @@ impl Meeting {
                 x.y
             ));
         }
-        if let Some(x) = nearest_node(sides, pair, 64.0 * NEAR) {
+        if let Some(x) = nearest_node(sides, pair, 64.0 * MEETS_AT_REST) {
             return Err(format!(
                 "curve = \"fit\", but \"{first}\" and \"{second}\" come near each other at one node only, at ({}, {}): a corner, or edges too long; refine the mesh there",
                 x.x, x.y
@@ -70,7 +70,7 @@ impl Meeting {
     /// # Errors
     /// Words, if they touch on more than one stretch.
     pub fn now(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Result<Option<Self>, String> {
-        Self::within(sides, pair, TOUCHING)
+        Self::within(sides, pair, TOUCHES_NOW)
     }
 
     fn within(sides: &[Vec<SmoothSide>; 2], pair: &Pair, share: f64) -> Result<Option<Self>, String> {
@@ -95,24 +95,24 @@ impl Meeting {
         Ok(Some(Self::between([of(0), of(1)], stretches, pair)))
     }
 
-    /// From the first to the last node that is near, where both bodies have such nodes, and one element farther.
+    /// From the first to the last node that is near, where both bodies have such nodes, and one edge farther.
     fn between(sides: [(&SmoothSide, [usize; 2]); 2], stretches: [usize; 2], pair: &Pair) -> Self {
         let [(first, own), (second, other)] = sides;
         let configuration = pair.configuration;
         let far = other.map(|k| first.nearest(second.positions(configuration)[k], configuration));
         let [low, high] = [far[0].min(far[1]), far[0].max(far[1])];
-        let element = first.edge_length(own[0], own[1]).max(second.edge_length(other[0], other[1]));
-        let ends = [first.parameters[own[0]].max(low) - element, first.parameters[own[1]].min(high) + element];
+        let edge = first.edge_length(own[0], own[1]).max(second.edge_length(other[0], other[1]));
+        let ends = [first.parameters[own[0]].max(low) - edge, first.parameters[own[1]].min(high) + edge];
         let mut meeting = Self { stretches, nodes: [own, other].map(|[from, to]| from..to + 1), ends };
         meeting.reach(ends, [first, second], pair);
         meeting
     }
 
-    /// Takes in nodes of both sides up to an element beyond these ends of Γ_C.
+    /// Takes in nodes of both sides up to an edge beyond these ends of Γ_C.
     fn reach(&mut self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) {
         let edges = [first, second].into_iter().zip(&self.nodes);
-        let element = edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
-        let inside = |t: f64| t >= ends[0] - element && t <= ends[1] + element;
+        let edge = edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
+        let inside = |t: f64| t >= ends[0] - edge && t <= ends[1] + edge;
         for (k, side) in [first, second].into_iter().enumerate() {
             let parameter = |node: usize| match k {
                 0 => first.parameters[node],
@@ -138,7 +138,7 @@ impl Meeting {
         depth.fold(0.0, f64::max)
     }
 
-    /// The curve half-way between both sides, from an element before these ends of Γ_C to an element behind.
+    /// The curve half-way between both sides, from an edge before these ends of Γ_C to an edge behind.
     ///
     /// # Errors
     /// Words, if the sides do not face each other there, or if the pair wants more spans than the nodes bear.

@@ -26,7 +26,7 @@ mod trace;
 mod zones;
 
 pub use active_set::{ActiveSet, Step};
-pub use ascent::{Ascent, Found};
+pub use ascent::{Ascent, SetSolution};
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, Side, declared_gap, integrate};
 pub use cutting::{safe_ratio_of, segment_edge_lengths, segment_ratio};

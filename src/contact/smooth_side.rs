@@ -24,7 +24,7 @@ pub struct SmoothSide {
     pub parameters: Vec<f64>,
     /// +1 if the body lies on the left of the curve, -1 if on the right.
     hand: f64,
-    /// Length of an element's edge, in nodes.
+    /// Length of an edge, in nodes.
     degree: usize,
     undeformed: Curve,
     deformed: Curve,
@@ -93,7 +93,7 @@ impl SmoothSide {
         0.5 * (at(node + 1) - at(node.saturating_sub(1)))
     }
 
-    /// Longest element edge that meets a range of nodes.
+    /// Longest edge that meets a range of nodes.
     pub fn edge_length(&self, first: usize, last: usize) -> f64 {
         let end = self.parameters.len() - 1;
         let [from, to] = [first.saturating_sub(self.degree), (last + self.degree).min(end)];

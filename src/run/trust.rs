@@ -39,7 +39,7 @@ const MOST_PEAK_ERROR: f64 = 0.12;
 const MOST_FORCE_ERROR: f64 = 0.01;
 
 /// Share of the force of a contact from which that of a zone is judged.
-const LEAST_SHARE: f64 = 0.05;
+const LEAST_FORCE_SHARE: f64 = 0.05;
 
 /// Largest force, relative to that found, that overlaps of the bodies beside the zones may ask for; where nothing presses, the
 /// largest overlap relative to the displacements.
@@ -176,7 +176,7 @@ fn zone_doubts(contact: &summary::Contact, trust_force: Option<bool>, shorter: &
             let words = format!("contact{place} on {segments} segments, at least {LEAST_PARTS} wanted");
             doubts.push(Doubt { figure: words, remedy: shorter });
         }
-        let force = zone.force.filter(|_| zone.share.is_some_and(|share| share.abs() >= LEAST_SHARE));
+        let force = zone.force.filter(|_| zone.share.is_some_and(|share| share.abs() >= LEAST_FORCE_SHARE));
         let steps = contact.multiplier.as_deref() == Some("p0");
         let most_all_over = if steps { MOST_ERROR_OF_STEPS } else { MOST_ERROR_ALL_OVER };
         let errors = [

@@ -1,6 +1,6 @@
 //! Pressures and penetrations of a solve, for every multiplier, and whether they are a solution of the contact conditions.
 
-use crate::contact::{Found, Law};
+use crate::contact::{Law, SetSolution};
 use crate::petsc::{Session, Vector};
 use crate::system::{Contact, Discretisation, SaddlePoint};
 
@@ -40,8 +40,8 @@ impl ContactState {
     }
 
     /// For the search by rising energy.
-    pub(super) fn found(&self) -> Found<'_> {
-        Found { lambda: &self.lambda, penetration: &self.penetration, penalty: &self.penalty }
+    pub(super) fn found(&self) -> SetSolution<'_> {
+        SetSolution { lambda: &self.lambda, penetration: &self.penetration, penalty: &self.penalty }
     }
 
     /// Largest mean penetration over a multiplier (length).
