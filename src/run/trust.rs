@@ -1,6 +1,7 @@
 //! Whether contact pressures are to be trusted, and what to do where they are not.
 
 use super::report::short;
+use crate::body::Body;
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, Pair, SegmentRule};
 use crate::element::Order;
@@ -65,6 +66,9 @@ const MOST_STRAIN: f64 = 0.2;
 /// Largest mean rotation of a body (radians): forces and lengths are off by half its square.
 const MOST_ROTATION: f64 = 0.2;
 
+/// Largest ν of P1 triangles whose pressure may be believed.
+const MOST_POISSON: f64 = 0.495;
+
 /// Share of the force that penetration within single segments may be worth: more is contact narrower than they are.
 const MOST_UNRESOLVED: f64 = 0.1;
 
@@ -107,7 +111,8 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             doubts.extend(size_doubts(summary));
             doubts.extend(force_doubt(force));
             let motions = slip_doubt(contact).into_iter().chain(turning_doubt(contact));
-            let beyond_the_model: Vec<Doubt> = motions.chain(strain_doubts(summary)).chain(rotation_doubts(summary)).collect();
+            let bodies = strain_doubts(summary).into_iter().chain(rotation_doubts(summary)).chain(locking_doubt(case));
+            let beyond_the_model: Vec<Doubt> = motions.chain(bodies).collect();
             trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
             doubts.extend(beyond_the_model);
             doubts.extend(unresolved_doubt(contact, more_segments(pair)));
@@ -149,6 +154,14 @@ fn stability_doubts(contact: &summary::Contact, pair: &Pair, case: &Case) -> Vec
     let rough = rough.map(|share| format!("oscillation {share:.3}{segment}, at most {MOST_OSCILLATION} wanted"));
     let remedy = stability(pair, case);
     [unstable, rough].into_iter().flatten().map(|figure| Doubt { figure, remedy }).collect()
+}
+
+/// What tells that P1 triangles have locked: meshes that all lock alike have differences that say too little.
+fn locking_doubt(case: &Case) -> Option<Doubt> {
+    let locks = |body: &&Body| case.mesh.order == Order::P1 && body.material.poisson > MOST_POISSON;
+    let body = case.bodies.iter().find(locks)?;
+    let figure = format!("P1 triangles with ν = {} of body {}, at most {MOST_POISSON} wanted", body.material.poisson, body.name);
+    Some(Doubt { figure, remedy: "take mesh.order = 2: P1 triangles lock" })
 }
 
 /// What tells that zones are too narrow, or too coarse, for their pressure.
