@@ -9,6 +9,7 @@ use crate::system::{
     CoarseSolution, ContactLoop, Difference, Discretisation, Elastic, Estimate, Form, LinearSolver, OuterStep, Rung, SaddlePoint,
     Solution, SolverChoice, Start, Tolerance, Verdict, bilateral, inf_sup, interpolations, load, nodal_forces, not_held,
 };
+use std::rc::Rc;
 
 /// Displacement unknowns up to which a solve that failed, or whose active set was hard to find, is looked into.
 const LARGE_INF_SUP: usize = 200_000;
@@ -26,7 +27,7 @@ const COARSE: f64 = 1e-6;
 pub(super) struct Lasting {
     /// The bodies without contact; only where boundaries follow the solution, otherwise the system holds them.
     elastic: Option<Elastic>,
-    interpolations: Vec<Matrix>,
+    interpolations: Rc<[Matrix]>,
 }
 
 /// The system of one boundary, with what solves it.
@@ -176,14 +177,14 @@ impl Run<'_> {
         heard: bool,
     ) -> Result<(Solution, Prepared), RunError> {
         let form = self.case.solver.choice.form();
-        let mut lasting = Lasting { elastic: None, interpolations: Vec::new() };
+        let mut lasting = Lasting { elastic: None, interpolations: Rc::new([]) };
         if problem.follows() {
             let _stage = self.stages.assemble.enter();
             lasting.elastic = Some(Elastic::alone(problem, self.load(problem)?, form, self.session)?);
         }
         if form == Form::Augmented {
             let _stage = self.stages.setup.enter();
-            lasting.interpolations = interpolations(problem, self.session)?;
+            lasting.interpolations = interpolations(problem, self.session)?.into();
         }
         let pass = Pass { boundary: 1, passes: 0, tolerance, heard };
         if problem.follows() {

@@ -19,18 +19,9 @@ pub use multiplier_blocks::{MultiplierBlocks, SchurPattern};
 
 use super::contact::weights;
 use super::stiffness::{ContactNeighbours, Elastic, Stiffness};
-use super::{Discretisation, Space, SystemError};
+use super::{Discretisation, Form, Space, SystemError};
 use crate::contact::{DiagonalBlock, SparseRows, jump_matrix};
 use crate::petsc::{Matrix, Session, Vector};
-
-/// Whether the system is augmented.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// With the augmentation, for the iterative solver.
-    Augmented,
-    /// Without, for the direct solver.
-    Plain,
-}
 
 /// The blocks, their levels, and the right-hand side.
 pub struct SaddlePoint {
@@ -65,7 +56,7 @@ impl SaddlePoint {
     pub fn around(problem: &Discretisation, elastic: &Elastic, form: Form, session: &Session) -> Result<Self, SystemError> {
         let rows = CouplingRows::of_levels(&problem.scene.mesh, &problem.coupling, &problem.spaces);
         let neighbours = neighbours(problem, &rows, form);
-        let stiffness = elastic.with_room(problem, form, &neighbours, session)?;
+        let stiffness = elastic.with_places(problem, form, &neighbours, session)?;
         Self::with(problem, rows, stiffness, elastic.load.clone(), form, session)
     }
 
@@ -120,15 +111,16 @@ impl SaddlePoint {
         Ok(())
     }
 
-    /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it. **Collective**
-    pub fn stored_nest(&self, session: &Session) -> Result<Matrix, SystemError> {
+    /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it; `None` if they are.
+    /// **Collective**
+    pub fn stored_nest(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
         if self.multipliers.scale.is_empty() {
             // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
-            return Ok(self.nest.convert_aij()?);
+            return Ok(Some(self.nest.convert_aij()?));
         }
-        let Some(stiffness) = self.finest_stiffness().expanded(session)? else { return Ok(self.nest.clone()) };
+        let Some(stiffness) = self.finest_stiffness().expanded(session)? else { return Ok(None) };
         let blocks = &self.multipliers;
-        Ok(Matrix::nest(session, [[&stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?)
+        Ok(Some(Matrix::nest(session, [[&stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?))
     }
 
     /// `K + Bᵀ D B` on the finest level.

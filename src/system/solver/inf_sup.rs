@@ -41,8 +41,9 @@ pub fn inf_sup(
     }
     let krylov = Krylov::new(session, "inf_sup_")?;
     krylov.keep_eigenvalues()?;
-    let nest = system.stored_nest(session)?;
-    krylov.set_operators(&nest, &nest)?;
+    let stored = system.stored_nest(session)?;
+    let nest = stored.as_ref().unwrap_or(&system.nest);
+    krylov.set_operators(nest, nest)?;
     let [u, lambda] = system.nest.nest_index_sets()?;
     krylov.preconditioner().field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
     krylov.set_from_options()?;

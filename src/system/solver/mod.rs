@@ -10,7 +10,6 @@ mod inf_sup;
 mod ladder;
 mod options;
 
-pub(super) use self::options::want_entries;
 pub use inf_sup::inf_sup;
 pub use ladder::Rung;
 
@@ -20,6 +19,7 @@ use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
 use crate::petsc::{self, Krylov, Level, Matrix, Session, Solved, Vector};
 use ladder::needed;
+use std::rc::Rc;
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
@@ -34,7 +34,7 @@ pub struct LinearSolver {
     form: Form,
     /// The converted system of the direct solver.
     converted: Option<Matrix>,
-    interpolations: Vec<Matrix>,
+    interpolations: Rc<[Matrix]>,
     auxiliary: GalerkinLevels,
     /// What preconditions the displacement block.
     pub rung: Rung,
@@ -66,36 +66,26 @@ pub struct LinearSolve {
     pub climbed: Option<String>,
 }
 
-impl SolverChoice {
-    /// Whether the system is augmented for this solver.
-    pub fn form(self) -> Form {
-        match self {
-            Self::Auto | Self::FieldSplit => Form::Augmented,
-            Self::Direct => Form::Plain,
-        }
-    }
-}
-
 impl LinearSolver {
     /// Sets a solver up, on a rung of the ladder; `interpolations[l]` leads from level `l` to level `l + 1`, where auxiliary
     /// levels come before those of the system (the direct solver wants none). A system of one level is factorised.
     /// **Collective**
     pub fn new(
         system: &SaddlePoint,
-        interpolations: &[Matrix],
+        interpolations: &Rc<[Matrix]>,
         choice: SolverChoice,
         rung: Rung,
         session: &Session,
     ) -> Result<Self, SystemError> {
         match choice.form() {
-            Form::Augmented => Self::field_split(system, interpolations.to_vec(), rung, session),
+            Form::Augmented => Self::field_split(system, interpolations.clone(), rung, session),
             Form::Plain => Self::direct(system, session),
         }
     }
 
     fn field_split(
         system: &SaddlePoint,
-        interpolations: Vec<Matrix>,
+        interpolations: Rc<[Matrix]>,
         rung: Rung,
         session: &Session,
     ) -> Result<Self, SystemError> {
@@ -107,8 +97,7 @@ impl LinearSolver {
             petsc::options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
-        let nest = if rung == Rung::Factor { system.stored_nest(session)? } else { system.nest.clone() };
-        krylov.set_operators(&nest, &nest)?;
+        set_operators(&krylov, system, rung, session)?;
         let [u, lambda] = system.nest.nest_index_sets()?;
         let preconditioner = krylov.preconditioner();
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
@@ -154,7 +143,7 @@ impl LinearSolver {
             session: session.clone(),
             form: Form::Plain,
             converted: None,
-            interpolations: Vec::new(),
+            interpolations: Rc::new([]),
             auxiliary: GalerkinLevels::default(),
             rung: Rung::Factor,
             name,
@@ -174,8 +163,7 @@ impl LinearSolver {
             self.converted = Some(converted);
         } else {
             self.auxiliary.refresh(system.stiffness[0].operator(), below(&self.interpolations, system))?;
-            let nest = if self.rung == Rung::Factor { system.stored_nest(&self.session)? } else { system.nest.clone() };
-            self.krylov.set_operators(&nest, &nest)?;
+            set_operators(&self.krylov, system, self.rung, &self.session)?;
         }
         Ok(())
     }
@@ -254,7 +242,7 @@ impl LinearSolver {
         }
         let unknowns = system.finest_stiffness().operator().size().0;
         let Some(rung) = self.rung.above(needed, unknowns) else { return Ok(false) };
-        *self = Self::field_split(system, std::mem::take(&mut self.interpolations), rung, &self.session)?;
+        *self = Self::field_split(system, self.interpolations.clone(), rung, &self.session)?;
         solve.climbed = Some(self.name.clone());
         Ok(true)
     }
@@ -285,6 +273,13 @@ impl LinearSolver {
         let stiffness = system.finest_stiffness().operator().norm_infinity()?;
         Ok(10.0 * f64::EPSILON * stiffness * x.norm()? / norm)
     }
+}
+
+/// The nest, or for a factor the one with all rows stored. **Collective**
+fn set_operators(krylov: &Krylov, system: &SaddlePoint, rung: Rung, session: &Session) -> Result<(), SystemError> {
+    let stored = if rung == Rung::Factor { system.stored_nest(session)? } else { None };
+    let nest = stored.as_ref().unwrap_or(&system.nest);
+    Ok(krylov.set_operators(nest, nest)?)
 }
 
 /// Those interpolations that lead to auxiliary levels, or up from them.
