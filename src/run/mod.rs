@@ -4,12 +4,11 @@ mod check;
 mod corners;
 mod exact;
 mod fields;
-mod follow;
 mod input;
+mod observe;
 mod report;
 mod results;
 mod scene;
-mod solve;
 mod summarise;
 mod trust;
 mod unresolved;
@@ -21,7 +20,7 @@ pub use input::read_case;
 use crate::case::{Case, Inputs};
 use crate::output::{OutputError, ResultFolder};
 use crate::petsc::{self, Session, Stage};
-use crate::system::{Discretisation, SystemError, spaces};
+use crate::system::{Scene, SystemError};
 use report::Report;
 use std::ffi::OsString;
 use std::os::unix::ffi::OsStringExt;
@@ -76,6 +75,7 @@ impl From<SystemError> for RunError {
     fn from(error: SystemError) -> Self {
         match error {
             SystemError::Case(words) => Self::Key(words),
+            error @ SystemError::UnusedOptions(_) => Self::Input(error.to_string()),
             SystemError::Petsc(error) => Self::Failed(error.to_string()),
         }
     }
@@ -149,11 +149,9 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let report = Report::new(options, session);
     let run = Run { case, options, session, stages: Stages::new(session)?, report, files };
     run.report.start(case);
-    let mut problem = run.set_up()?;
-    run.report.sizes(&problem);
-    run.report.warnings(&problem);
-    let solved = run.solve(&mut problem)?;
-    run.write(&problem, &solved, folder)
+    let scene = run.read_scene()?;
+    let solved = run.solve(scene)?;
+    run.write(&solved, folder)
 }
 
 /// What the case says is not said again to PETSc.
@@ -193,16 +191,10 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Reads the mesh, spreads it, and couples the contacts. **Collective**
-    fn set_up(&self) -> Result<Discretisation, RunError> {
-        let (scene, spaces) = {
-            let _stage = self.stages.mesh.enter();
-            let mesh = input::read_mesh(self.case, self.options.inputs.as_ref(), self.session)?;
-            let scene = scene::spread(self.case, mesh, self.session)?;
-            let spaces = spaces(&scene, self.session.rank())?;
-            (scene, spaces)
-        };
-        let _stage = self.stages.contact.enter();
-        Ok(Discretisation::new(scene, spaces, self.session)?)
+    /// Reads the mesh and spreads it. **Collective**
+    fn read_scene(&self) -> Result<Scene, RunError> {
+        let _stage = self.stages.mesh.enter();
+        let mesh = input::read_mesh(self.case, self.options.inputs.as_ref(), self.session)?;
+        scene::spread(self.case, mesh, self.session)
     }
 }

@@ -11,6 +11,9 @@ pub enum SystemError {
     /// The case asks for something that cannot be; in words.
     #[error("{0}")]
     Case(String),
+    /// PETSc options of the user's that nothing has asked for, each as `-name value`.
+    #[error("PETSc options that nothing has used: {}; check their spelling", .0.join(", "))]
+    UnusedOptions(Vec<String>),
     /// PETSc or MPI failed.
     #[error(transparent)]
     Petsc(#[from] petsc::Error),

@@ -1,23 +1,29 @@
 //! The saddle-point system: it alone builds matrices and solvers.
 //!
 //! A [`Scene`] becomes a [`Discretisation`]: [`Space`]s (one per multigrid level), [`Contact`]s and their [`Coupling`].
-//! From it come the blocks of the [`SaddlePoint`], a [`LinearSolver`] for them, and the [`ContactLoop`] over active
-//! sets. What the solution means on the bodies is in [`recovery`].
+//! From it come the blocks of a [`SaddlePoint`], and with a [`LinearSolver`] a [`System`], which is solved for one active set
+//! after the other. The [`Procedure`] does so, on one contact boundary after the other and one mesh after the other. What a
+//! solution means on the bodies is in [`recovery`].
 
 mod auxiliary;
 mod boundary_motion;
 mod choice;
 mod contact;
+mod contact_pressure;
+mod contact_system;
 mod coupling;
 mod discretisation;
 mod error;
 mod field;
+mod held;
 mod interpolation;
 mod nodal_force;
-mod outer_loop;
+mod procedure;
 pub mod recovery;
+mod rigid_start;
 mod saddle_point;
 mod scene;
+mod solution;
 mod solver;
 mod space;
 mod stiffness;
@@ -26,18 +32,23 @@ mod user_options;
 pub use boundary_motion::BoundaryMotion;
 pub use choice::{Form, SolverChoice, Tolerance};
 pub use contact::Contact;
+pub use contact_pressure::ContactPressure;
+pub use contact_system::{Residual, Start, System};
 pub use coupling::{Coupled, Coupling, bilateral};
-pub use discretisation::{Discretisation, spaces};
+pub use discretisation::{Discretisation, finest_numbering, spaces};
 pub use error::SystemError;
 pub use field::Field;
+pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};
 pub use interpolation::interpolations;
 pub use nodal_force::{load, nodal_forces};
-pub use outer_loop::{
-    BoundaryStep, CoarseSolution, ContactLoop, Difference, Estimate, Following, Onward, OuterStep, Solution, Start, Verdict,
-    ZoneEstimate, carried, few_that_hold, is_needed, not_held, not_held_if_closed, rigid_start, stands,
+pub use procedure::{
+    AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,
+    ZoneDifference, ZoneEstimate,
 };
-pub use saddle_point::{CouplingRows, MultiplierBlocks, SaddlePoint, SchurPattern};
+pub use rigid_start::rigid_start;
+pub use saddle_point::{SaddlePoint, SchurPattern};
 pub use scene::Scene;
-pub use solver::{Ending, LinearSolve, LinearSolver, Rung, inf_sup};
+pub use solution::Solution;
+pub use solver::{LinearEnding, LinearSolve, LinearSolver, Rung, inf_sup};
 pub use space::Space;
 pub use stiffness::Elastic;

@@ -44,20 +44,32 @@ pub struct LinearSolver {
 
 /// How a linear solve ended.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Ending {
+pub enum LinearEnding {
     /// The tolerance is reached.
     Converged,
-    /// Rounding allows no smaller residual; in words.
-    Rounding(String),
-    /// The residual stays too large; in words.
-    Failed(String),
+    /// Rounding allows no smaller residual.
+    Rounding {
+        /// The relative residual.
+        residual: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+    /// The residual stays too large.
+    Failed {
+        /// Why the solver gave up.
+        reason: String,
+        /// Krylov iterations.
+        iterations: usize,
+        /// The relative residual.
+        residual: f64,
+    },
 }
 
 /// A linear solve in figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearSolve {
     /// How it ended.
-    pub ending: Ending,
+    pub ending: LinearEnding,
     /// Krylov iterations.
     pub iterations: usize,
     /// True residual of the augmented system, relative to the right-hand side.
@@ -168,6 +180,11 @@ impl LinearSolver {
         Ok(())
     }
 
+    /// Operators of the auxiliary levels, coarsest first.
+    pub fn auxiliary_operators(&self) -> impl Iterator<Item = &Matrix> {
+        self.auxiliary.iter()
+    }
+
     /// Options that the user gave and no object of this solver has asked for.
     pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
         Ok(petsc::options::unused(&self.session)?)
@@ -182,7 +199,7 @@ impl LinearSolver {
         x: &mut Vector,
         tolerance: f64,
     ) -> Result<LinearSolve, SystemError> {
-        let mut solve = LinearSolve { ending: Ending::Converged, iterations: 0, residual: 0.0, climbed: None };
+        let mut solve = LinearSolve { ending: LinearEnding::Converged, iterations: 0, residual: 0.0, climbed: None };
         let norm = b.norm()?;
         if norm == 0.0 {
             x.set(0.0)?;
@@ -256,15 +273,13 @@ impl LinearSolver {
         tolerance: f64,
         &LinearSolve { residual, iterations, .. }: &LinearSolve,
         solved: Solved,
-    ) -> Result<Ending, SystemError> {
+    ) -> Result<LinearEnding, SystemError> {
         let floor = self.rounding(system, x, norm)?;
         Ok(if residual <= floor.min(MOST_ROUNDING) {
-            Ending::Rounding(format!(
-                "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
-            ))
+            LinearEnding::Rounding { residual, tolerance }
         } else {
             let reason = if solved.converged { "the residual no longer falls".to_string() } else { solved.reason };
-            Ending::Failed(format!("linear solver: {reason} after {iterations} iterations, residual {residual:.1e}"))
+            LinearEnding::Failed { reason, iterations, residual }
         })
     }
 

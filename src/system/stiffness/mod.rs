@@ -57,6 +57,14 @@ impl Stiffness {
         }
     }
 
+    /// The matrix of all rows, if all are stored.
+    pub fn into_stored(self) -> Option<Matrix> {
+        match self.rows {
+            Rows::Stored(matrix) => Some(matrix),
+            Rows::Lattice { .. } => None,
+        }
+    }
+
     /// Whether some rows are not stored.
     pub fn has_strips(&self) -> bool {
         matches!(self.rows, Rows::Lattice { .. })
