@@ -6,7 +6,7 @@ use super::session::Session;
 use std::ffi::CString;
 use std::ptr;
 
-/// The preconditioner of a [`Krylov`] method.
+/// The preconditioner of a [`super::Krylov`] method.
 pub struct Preconditioner {
     raw: ffi::PC,
     session: Session,
