@@ -1,7 +1,7 @@
 //! A scene as it lies before anything is solved.
 
 use crate::mesh::Numbering;
-use crate::system::{Contact, Scene, SystemError, finest_numbering, not_held_if_closed};
+use crate::system::{Contact, Scene, Space, SystemError, finest_numbering, not_held_if_closed};
 
 /// The mesh of the case with its contacts on bodies at rest.
 pub struct AtRest {
@@ -12,13 +12,14 @@ pub struct AtRest {
 }
 
 impl AtRest {
-    /// Places the contacts: a scene that is not sound is refused here.
+    /// Places the contacts and looks at the supports: a scene that is not sound is refused here.
     ///
     /// # Errors
-    /// [`SystemError::Case`] if the mesh is too fine, a boundary cannot be placed, the boundaries of a contact do not face each
+    /// [`SystemError::Case`] if the mesh is too fine, supports contradict each other, a boundary cannot be placed, the boundaries of a contact do not face each
     /// other, or two contacts claim the same place.
     pub fn new(scene: &Scene, rank: usize) -> Result<Self, SystemError> {
-        let numbering = finest_numbering(scene)?;
+        // The space shows whether supports contradict each other.
+        let Space { numbering, .. } = Space::new(scene, finest_numbering(scene)?.level, rank)?;
         let contacts = Contact::all(scene, &numbering, rank)?;
         Ok(Self { numbering, contacts })
     }
