@@ -1,9 +1,10 @@
-//! Imports go down only: reads every path in `src` and finds those that go up a floor.
+//! Imports go down only: reads every path in `src` and finds those that go up a floor, and ways through the files and folders
+//! of a module that come back to where they began.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Modules and their floors. A module imports from lower floors, from itself, and from its own floor where
-/// [`SIDEWAYS`] says so.
+/// Modules and their floors. A module imports from lower floors and from itself.
 const FLOORS: [(&str, u8); 13] = [
     ("petsc", 0),
     ("geometry", 0),
@@ -184,4 +185,206 @@ fn a_downward_import_is_none_of_its_business() {
     ] {
         assert_eq!(complaints(module, text), Vec::<String>::new(), "{module}: {text}");
     }
+}
+
+/// Rooms of a module are its files and folders; what a module's own file defines stands in a room called `mod`. Paths from
+/// one to another, by the names that the module's file gives them.
+struct Rooms {
+    /// Path of the module.
+    module: Vec<String>,
+    names: BTreeSet<String>,
+    /// Room of each name that the module's file takes from one of them.
+    exported: BTreeMap<String, String>,
+    paths: BTreeMap<String, BTreeSet<String>>,
+}
+
+const OWN: &str = "mod";
+
+impl Rooms {
+    fn new(module: &[String], files: &[(Vec<String>, String)]) -> Self {
+        let inside = files.iter().filter(|(path, _)| path.len() > module.len() && path.starts_with(module));
+        let names: BTreeSet<String> = inside.map(|(path, _)| path[module.len()].clone()).collect();
+        let own = files.iter().find(|(path, _)| path == module).map_or("", |(_, code)| code.as_str());
+        let mut rooms = Self { module: module.to_vec(), names, exported: BTreeMap::new(), paths: BTreeMap::new() };
+        for statement in own.split(';').map(str::trim) {
+            let (start, shown) = match statement.rsplit_once("use ") {
+                Some((before, path)) if before.is_empty() || before.ends_with(['\n', ' ', ')']) => {
+                    (path, before.trim_end().ends_with("pub") || before.trim_end().ends_with(')'))
+                }
+                _ => continue,
+            };
+            for path in trees(start) {
+                if rooms.names.contains(&path[0]) {
+                    rooms.exported.insert(path[path.len() - 1].clone(), path[0].clone());
+                    if !shown {
+                        rooms.add(OWN, path[0].clone());
+                    }
+                }
+            }
+        }
+        for (path, code) in files.iter().filter(|(path, _)| path.starts_with(module)) {
+            let from = path.get(module.len()).map_or(OWN, String::as_str);
+            let found: Vec<String> = absolute(path, code).iter().filter_map(|to| rooms.room_of(to)).collect();
+            for to in found {
+                rooms.add(from, to);
+            }
+        }
+        rooms
+    }
+
+    fn add(&mut self, from: &str, to: String) {
+        if from != to {
+            self.paths.entry(from.into()).or_default().insert(to);
+        }
+    }
+
+    /// The room that a path leads to, if it leads into this module.
+    fn room_of(&self, path: &[String]) -> Option<String> {
+        let name = path.strip_prefix(self.module.as_slice())?.first()?;
+        match (self.names.contains(name), self.exported.get(name)) {
+            (true, _) => Some(name.clone()),
+            (false, Some(room)) => Some(room.clone()),
+            (false, None) => (name != "*").then(|| OWN.to_string()),
+        }
+    }
+
+    /// A way through rooms that comes back to where it began.
+    fn circle(&self) -> Option<String> {
+        let mut done = BTreeSet::new();
+        self.paths.keys().find_map(|start| self.way_back(start, &mut Vec::new(), &mut done))
+    }
+
+    fn way_back(&self, at: &str, way: &mut Vec<String>, done: &mut BTreeSet<String>) -> Option<String> {
+        if let Some(first) = way.iter().position(|room| room == at) {
+            return Some(format!("{}: {} → {at}", self.module.join("::"), way[first..].join(" → ")));
+        }
+        if done.contains(at) {
+            return None;
+        }
+        way.push(at.into());
+        let found = self.paths.get(at).into_iter().flatten().find_map(|next| self.way_back(next, way, done));
+        way.pop();
+        done.insert(at.into());
+        found
+    }
+}
+
+/// Every path of a use tree such as `a::{B, c::D as E}`, up to its end.
+fn trees(text: &str) -> Vec<Vec<String>> {
+    let (mut open, mut path, mut name, mut found) = (Vec::new(), Vec::new(), String::new(), Vec::new());
+    let mut characters = text.chars().peekable();
+    loop {
+        let next = characters.next();
+        match next {
+            Some(c) if c.is_alphanumeric() || c == '_' || c == '*' => name.push(c),
+            Some(':') if characters.peek() == Some(&':') => {
+                characters.next();
+                path.push(std::mem::take(&mut name));
+            }
+            Some('{') if name.is_empty() && !path.is_empty() => open.push(path.len()),
+            Some(c) if c.is_whitespace() && name.is_empty() && !open.is_empty() => {}
+            Some(',' | '}') if !open.is_empty() => {
+                if !name.is_empty() {
+                    path.push(std::mem::take(&mut name));
+                    found.push(path.clone());
+                }
+                if next == Some('}') {
+                    path.truncate(open.pop().unwrap_or(0));
+                    if open.is_empty() {
+                        return found;
+                    }
+                }
+                path.truncate(*open.last().unwrap_or(&0));
+            }
+            _ => {
+                if !name.is_empty() {
+                    path.push(name);
+                }
+                if open.is_empty() && !path.is_empty() {
+                    found.push(path);
+                }
+                return found;
+            }
+        }
+    }
+}
+
+/// Every path of a file that begins with `crate`, `super` or `self`, from the root of the crate on.
+fn absolute(module: &[String], code: &str) -> Vec<Vec<String>> {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut found = Vec::new();
+    for start in ["crate::", "super::", "self::"] {
+        for (at, _) in code.match_indices(start) {
+            if code[..at].ends_with(|c: char| is_word(c) || c == ':') {
+                continue;
+            }
+            for path in trees(&code[at..]) {
+                let supers = path.iter().take_while(|name| *name == "super").count();
+                let base = if path[0] == "crate" { &[] } else { &module[..module.len() - supers.min(module.len())] };
+                let rest = path.iter().skip(supers.max(usize::from(path[0] != "super")));
+                found.push(base.iter().chain(rest).cloned().collect());
+            }
+        }
+    }
+    found
+}
+
+/// Every file of the library by its module, without its tests and comments.
+fn modules() -> Vec<(Vec<String>, String)> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let module = |file: &PathBuf| -> Vec<String> {
+        let below = file.strip_prefix(&src).expect("a file below src").with_extension("");
+        let names = below.components().map(|name| name.as_os_str().to_string_lossy().into_owned());
+        names.filter(|name| name != "mod").collect()
+    };
+    let text = |file: &PathBuf| {
+        let code = code(&std::fs::read_to_string(file).expect("a file can be read"));
+        code.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default().to_string()
+    };
+    let all = files(&src).into_iter().filter(|file| !file.ends_with("tests.rs"));
+    all.map(|file| (module(&file), text(&file))).collect()
+}
+
+fn circles(files: &[(Vec<String>, String)]) -> Vec<String> {
+    let parents: BTreeSet<&[String]> = files.iter().flat_map(|(path, _)| (1..path.len()).map(|end| &path[..end])).collect();
+    parents.into_iter().filter_map(|module| Rooms::new(module, files).circle()).collect()
+}
+
+#[test]
+fn no_way_through_the_rooms_of_a_module_comes_back() {
+    let found = circles(&modules());
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn a_circle_is_found_however_it_is_written() {
+    let file = |path: &str, code: &str| (path.split("::").map(String::from).collect::<Vec<_>>(), code.to_string());
+    let own = "mod a;\nmod b;\npub use a::{One, Other};\npub use b::two;\n";
+    for (a, b, own) in [
+        ("use super::b::two;", "use super::a::One;", own),
+        ("use crate::m::two;", "use super::One;", own),
+        ("fn f() { crate::m::two() }", "use super::{\n    Other,\n    One,\n};", own),
+        ("use super::two;", "fn f() -> super::One {}", own),
+        ("use super::Own;", "", "mod a;\nmod b;\nuse a::One;\npub struct Own(One);\n"),
+    ] {
+        assert_eq!(circles(&[file("m", own), file("m::a", a), file("m::b", b)]).len(), 1, "{a} {b}");
+    }
+    let deep = [file("m", own), file("m::a::c", "use crate::m::two;"), file("m::b::d", "use super::super::a::One;")];
+    assert_eq!(circles(&deep).len(), 1);
+    let down = [file("m", own), file("m::a", "use super::two;\nuse crate::n::One;"), file("m::b", "use crate::n::{One, Other};")];
+    assert_eq!(circles(&down), Vec::<String>::new());
+}
+
+/// What one module names of another, by the names under which that one shows it.
+fn named(files: &[(Vec<String>, String)], user: &str, used: &str) -> BTreeSet<String> {
+    let own = files.iter().filter(|(path, _)| path[0] == user);
+    let paths = own.flat_map(|(path, code)| absolute(path, code));
+    paths.filter(|path| path[0] == used && path.len() > 1).map(|path| path[1..].join("::")).collect()
+}
+
+#[test]
+fn a_run_names_few_items_of_the_system() {
+    let names = named(&modules(), "run", "system");
+    assert!(names.len() <= 12, "{}: {names:?}", names.len());
+    assert!(names.contains("Procedure") && names.contains("recovery::Evaluation"), "{names:?}");
 }

@@ -155,25 +155,34 @@ impl Multipliers {
         self.alpha * modulus / (self.length(multiplier) * mass)
     }
 
-    /// Augmentation weights `D = √γ W⁻¹ √γ` with `γ_i = α E_c / H_i` over the active multipliers; `W` is the mass
-    /// matrix, lumped for P1 continuous. `modulus` is `E_c` (stress); entries have the unit stress per length squared.
-    pub fn augmentation(&self, modulus: f64, active: &[bool]) -> Vec<DiagonalBlock> {
+    /// Group of a multiplier: those of a group are coupled by `W`. A group is one multiplier, or the two of a discontinuous
+    /// segment.
+    pub fn group_of(&self, multiplier: usize) -> usize {
+        if self.space == MultiplierSpace::P1Discontinuous { multiplier / 2 } else { multiplier }
+    }
+
+    /// How many groups there are; they have equally many multipliers, in the order of these.
+    pub fn groups(&self) -> usize {
+        if self.space == MultiplierSpace::P1Discontinuous { self.lengths.len() } else { self.count() }
+    }
+
+    /// Augmentation weights `D = √γ W⁻¹ √γ` with `γ_i = α E_c / H_i` over the active multipliers of one group, nothing if
+    /// none is; `W` is the mass matrix, lumped for P1 continuous. `modulus` is `E_c` (stress); entries have the unit stress
+    /// per length squared.
+    pub fn augmentation(&self, group: usize, modulus: f64, active: &[bool]) -> Option<DiagonalBlock> {
         let one = |i: usize| DiagonalBlock::single(i, self.single_weight(i, modulus));
         if self.space != MultiplierSpace::P1Discontinuous {
-            return (0..self.count()).filter(|&i| active[i]).map(one).collect();
+            return active[group].then(|| one(group));
         }
-        let pair = |k: usize| {
-            let (i, h) = (2 * k, self.lengths[k]);
-            match (active[i], active[i + 1]) {
-                (false, false) => None,
-                (true, true) => {
-                    let unit = self.alpha * modulus / h * 2.0 / h;
-                    Some(DiagonalBlock { rows: vec![i, i + 1], values: [[2.0 * unit, -unit], [-unit, 2.0 * unit]] })
-                }
-                (first, _) => Some(one(if first { i } else { i + 1 })),
+        let (i, h) = (2 * group, self.lengths[group]);
+        match (active[i], active[i + 1]) {
+            (false, false) => None,
+            (true, true) => {
+                let unit = self.alpha * modulus / h * 2.0 / h;
+                Some(DiagonalBlock { rows: vec![i, i + 1], values: [[2.0 * unit, -unit], [-unit, 2.0 * unit]] })
             }
-        };
-        (0..self.lengths.len()).filter_map(pair).collect()
+            (first, _) => Some(one(if first { i } else { i + 1 })),
+        }
     }
 }
 
@@ -202,7 +211,7 @@ mod tests {
     #[test]
     fn augmentation_inverts_the_mass_matrix() {
         let m = multipliers(MultiplierSpace::P1Discontinuous);
-        let block = &m.augmentation(1.0, &[true; 6])[2];
+        let block = m.augmentation(2, 1.0, &[true; 6]).expect("active multipliers");
         let h = 1.0;
         let (unit, gamma) = (h / 6.0, ALPHA / h);
         let inverse = block.inverse();
@@ -221,7 +230,8 @@ mod tests {
             let m = multipliers(space);
             let mut active = vec![true; m.count()];
             active[1] = false;
-            let rows: Vec<usize> = m.augmentation(7.0, &active).into_iter().flat_map(|block| block.rows).collect();
+            let blocks = (0..m.groups()).filter_map(|group| m.augmentation(group, 7.0, &active));
+            let rows: Vec<usize> = blocks.flat_map(|block| block.rows).collect();
             assert_eq!(rows, (0..m.count()).filter(|&i| i != 1).collect::<Vec<_>>());
         }
     }

@@ -1,6 +1,6 @@
 //! A contact pair as the case asks for it.
 
-use crate::geometry::Formula;
+use crate::geometry::{Formula, Point};
 
 /// Two boundaries that may touch, and how their contact is modelled.
 #[derive(Clone, Debug)]
@@ -119,6 +119,17 @@ pub enum GapChoice {
     Geometry,
     /// A formula of `x, y` on the curve (a number is a constant formula; negative: interference).
     Formula(Formula),
+}
+
+impl GapChoice {
+    /// Gap of the unloaded bodies at a point of Γ_C, from the distances of both along the normal from there.
+    pub fn at_rest(&self, x: Point, distance: [f64; 2]) -> f64 {
+        match self {
+            Self::Closed => 0.0,
+            Self::Formula(formula) => formula.value(&[x.x, x.y]),
+            Self::Geometry => distance[1] - distance[0],
+        }
+    }
 }
 
 /// Space of the contact pressure on the segments.

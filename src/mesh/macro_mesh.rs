@@ -1,8 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
 use super::MeshError;
-use super::pieces::BodyPiece;
-use super::shape::EdgeShape;
+use super::edge_shape::EdgeShape;
 use crate::geometry::{Point, cross};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -48,6 +47,15 @@ pub struct Boundary {
     pub name: String,
     /// Its macro edges.
     pub edges: Vec<u32>,
+}
+
+/// A part of a body whose triangles hang together by edges.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BodyPiece {
+    /// Index of the body.
+    pub body: usize,
+    /// Its first triangle.
+    pub first: u32,
 }
 
 /// The mesh of the file. Every rank holds the whole of it.

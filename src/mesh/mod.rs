@@ -5,6 +5,7 @@
 //! ([`MacroMesh::node_position`]), so no rank ever asks another about the mesh.
 
 mod chain;
+mod edge_shape;
 mod edge_trace;
 mod gmsh;
 mod grading;
@@ -23,14 +24,13 @@ mod spline_shape;
 mod strip;
 
 pub use chain::Stretch;
+pub use edge_shape::EdgeShape;
 pub use edge_trace::{BoundaryEdge, EdgeNode};
 pub use gmsh::{parse_gmsh, read_bytes, read_gmsh};
-pub use macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
+pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle};
 pub use numbering::{Level, Numbering, TriangleNumbers, levels};
 pub use partition::{Graph, Partition};
 pub use piece::Shapes;
-pub use pieces::BodyPiece;
-pub use shape::EdgeShape;
 pub use smooth_normal::{SmoothNormals, SmoothPoint};
 pub use spline_shape::Corner;
 pub use strip::Strip;

@@ -1,18 +1,9 @@
 //! Pieces of a body: triangles that hang together by edges.
 
-use super::{MacroMesh, MeshError};
+use super::{BodyPiece, MacroMesh, MeshError};
 
 /// A body in more pieces than this is a mesh whose triangles share no nodes.
 const MOST_PIECES: usize = 100;
-
-/// A part of a body whose triangles hang together by edges.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BodyPiece {
-    /// Index of the body.
-    pub body: usize,
-    /// Its first triangle.
-    pub first: u32,
-}
 
 impl MacroMesh {
     /// Finds the pieces of all bodies and gives each triangle the number of its own.

@@ -1,5 +1,6 @@
 //! True shapes of macro edges, and the smooth map of a macro triangle that follows them.
 
+use super::edge_shape::EdgeShape;
 use super::{MacroMesh, MeshError};
 use crate::geometry::{Curve, Point};
 use nalgebra::Matrix2;
@@ -7,22 +8,6 @@ use std::sync::Arc;
 
 /// Points so close to a macro triangle (barycentric) count as inside.
 const NEAR: f64 = 1e-8;
-
-/// The true shape of a macro edge: a piece of a curve.
-#[derive(Clone, Debug)]
-pub struct EdgeShape {
-    /// The curve.
-    pub curve: Arc<Curve>,
-    /// Its parameter at the edge's first and second vertex.
-    pub range: [f64; 2],
-}
-
-impl EdgeShape {
-    /// Parameter of the curve at the fraction `t` from the edge's first vertex.
-    pub fn parameter(&self, t: f64) -> f64 {
-        self.range[0] + t * (self.range[1] - self.range[0])
-    }
-}
 
 impl MacroMesh {
     /// Gives the edges of the named boundaries the shape of a curve and moves their vertices onto it.

@@ -4,7 +4,7 @@
 //! So the normal of a polygon comes from the circles through three nodes in a row, which lie on the circle if the nodes do.
 
 use super::MacroMesh;
-use super::shape::EdgeShape;
+use super::edge_shape::EdgeShape;
 use crate::geometry::{Point, cross, turn_right};
 use std::collections::HashMap;
 

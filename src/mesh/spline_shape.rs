@@ -3,7 +3,7 @@
 //! Contact takes such a boundary for smooth: its normals and gaps are those of the spline. Chords that are only refined would
 //! keep the corners between them, and these would press.
 
-use super::shape::EdgeShape;
+use super::edge_shape::EdgeShape;
 use super::{MacroMesh, Stretch};
 use crate::geometry::{Curve, Point};
 use std::sync::Arc;

@@ -1,13 +1,10 @@
 //! What all ranks tell each other.
 
+use super::broadcast::broadcast;
 use super::session::Session;
 use mpi::collective::SystemOperation;
 use mpi::datatype::PartitionMut;
-use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives, Equivalence, Root};
-
-/// MPI counts in 32 bits: longer texts are sent in pieces.
-const PIECE: usize = 1 << 30;
 
 /// Numbers that ranks can send each other: integers and reals.
 pub trait Datum: Equivalence + Copy + Default {}
@@ -102,23 +99,4 @@ impl Session {
         let bytes = broadcast(self.world(), 0, own.unwrap_or_else(String::into_bytes));
         if failed { Err(String::from_utf8_lossy(&bytes).into_owned()) } else { Ok(bytes) }
     }
-}
-
-/// The bytes of one rank, on every rank. **Collective**
-pub(super) fn broadcast(world: &SimpleCommunicator, rank: usize, mut bytes: Vec<u8>) -> Vec<u8> {
-    let root = world.process_at_rank(rank as i32);
-    let mut length = bytes.len();
-    root.broadcast_into(&mut length);
-    bytes.resize(length, 0);
-    bytes.chunks_mut(PIECE).for_each(|piece| root.broadcast_into(piece));
-    bytes
-}
-
-/// The lowest rank that has other bytes than rank 0, and those bytes; None if there is none. **Collective**
-pub(super) fn odd_one(world: &SimpleCommunicator, bytes: &[u8]) -> Option<(usize, Vec<u8>)> {
-    let (rank, size) = (world.rank() as usize, world.size() as usize);
-    let first = broadcast(world, 0, if rank == 0 { bytes.to_vec() } else { Vec::new() });
-    let mut odd = 0;
-    world.all_reduce_into(&if bytes == first { size } else { rank }, &mut odd, SystemOperation::min());
-    (odd < size).then(|| (odd, broadcast(world, odd, if rank == odd { bytes.to_vec() } else { Vec::new() })))
 }

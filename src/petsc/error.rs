@@ -1,7 +1,8 @@
 //! Errors: what PETSc says, and where.
 
 use super::ffi;
-use super::session::has_others;
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::Communicator;
 use std::cell::RefCell;
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -81,6 +82,11 @@ pub(super) fn give_back(destroy: impl FnOnce() -> ffi::PetscErrorCode) {
     if !LEAVING.load(Ordering::Relaxed) {
         destroy();
     }
+}
+
+/// Whether there are several ranks.
+pub(super) fn has_others() -> bool {
+    mpi::environment::is_initialized() && !mpi::environment::is_finalized() && SimpleCommunicator::world().size() > 1
 }
 
 #[cold]

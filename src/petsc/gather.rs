@@ -38,12 +38,12 @@ impl Gather {
     }
 
     /// The chosen entries of `vector`, in the order of the indices. **Collective**
-    pub fn fetch(&self, vector: &Vector) -> Result<Vec<f64>> {
+    pub fn fetch(&mut self, vector: &Vector) -> Result<Vec<f64>> {
         Ok(self.read(vector)?.to_vec())
     }
 
-    /// The same, to read until the next one. **Collective**
-    pub fn read(&self, vector: &Vector) -> Result<impl Deref<Target = [f64]> + '_> {
+    /// The same, to read until the next one, which writes to the same place: so this gather is borrowed for as long. **Collective**
+    pub fn read(&mut self, vector: &Vector) -> Result<impl Deref<Target = [f64]> + '_> {
         let (insert, forward) = (ffi::InsertMode::INSERT_VALUES, ffi::ScatterMode::SCATTER_FORWARD);
         petsc!(VecScatterBegin(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;
         petsc!(VecScatterEnd(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;

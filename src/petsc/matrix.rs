@@ -9,7 +9,8 @@ use std::{ptr, slice};
 
 /// A matrix whose rows lie in consecutive ranges on the ranks: sparse ([`Matrix::aij`]), two by two of others
 /// ([`Matrix::nest`]) or an action
-/// ([`Matrix::operator`], [`Matrix::transfer`]). A clone is the same matrix under another name.
+/// ([`Matrix::operator`], [`Matrix::transfer`]). It has one owner, who alone can change it; a nest and a solver keep references of
+/// PETSc's own to the matrices they are made of, and see their changes.
 pub struct Matrix {
     raw: ffi::Mat,
     session: Session,
@@ -272,14 +273,6 @@ impl Matrix {
         let mut raw = ptr::null_mut();
         petsc!(MatConvert(self.raw, c"aij".as_ptr(), ffi::MatReuse::MAT_INITIAL_MATRIX, &mut raw))?;
         Ok(Self::from_raw(&self.session, raw))
-    }
-}
-
-impl Clone for Matrix {
-    /// Another reference to the same matrix.
-    fn clone(&self) -> Self {
-        petsc!(PetscObjectReference(self.raw.cast())).expect("PETSc counts references");
-        Self { raw: self.raw, session: self.session.clone(), block: self.block }
     }
 }
 

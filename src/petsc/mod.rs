@@ -6,10 +6,12 @@
 //! added or inserted, negative ones are skipped.
 //! Functions marked **Collective** must be called by all ranks in the same order, and so must the drop of any object.
 
+mod broadcast;
 mod collective;
 mod environment;
 mod error;
 mod ffi;
+mod field_split;
 mod gather;
 mod index_set;
 mod krylov;

@@ -1,7 +1,7 @@
 //! Start and end of PETSc and MPI.
 
-use super::collective::odd_one;
-use super::error::{Error, Result, listened, petsc, remember};
+use super::broadcast::odd_one;
+use super::error::{Error, Result, has_others, listened, petsc, remember};
 use super::{environment, ffi};
 use mpi::environment::Universe;
 use mpi::topology::{Communicator, SimpleCommunicator};
@@ -180,11 +180,6 @@ pub fn end_all_ranks(code: i32) {
     if has_others() {
         SimpleCommunicator::world().abort(code);
     }
-}
-
-/// Whether there are several ranks.
-pub(super) fn has_others() -> bool {
-    mpi::environment::is_initialized() && !mpi::environment::is_finalized() && SimpleCommunicator::world().size() > 1
 }
 
 /// Whether a library that ends this process, as PETSc does after some options, cuts a run short: exit code 1 then.

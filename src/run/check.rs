@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::element::Order;
 use crate::mesh::Partition;
 use crate::petsc::{Session, versions};
-use crate::system::{Contact, not_held_if_closed, spaces};
+use crate::system::Procedure;
 
 /// What a look at a case finds.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,10 +29,8 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);
-    let spaces = spaces(&scene, 0)?;
-    let finest = &spaces[spaces.len() - 1];
-    let contacts = Contact::all(&scene, &finest.numbering, 0)?;
-    let triangles = scene.mesh.triangles.len() * finest.numbering.level.triangles_per_edge().pow(2);
+    let at_rest = Procedure::look(&scene, 0)?;
+    let triangles = scene.mesh.triangles.len() * at_rest.numbering.level.triangles_per_edge().pow(2);
     let order = if scene.order == Order::P1 { "P1" } else { "P2" };
     let mut lines = vec![
         format!("{}: {}", case.name, case.title),
@@ -40,13 +38,13 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
             "mesh: {} macro triangles, {triangles} {order} triangles after {} refinements, {} unknowns of displacement",
             scene.mesh.triangles.len(),
             scene.refine,
-            2 * finest.numbering.node_count()
+            2 * at_rest.numbering.node_count()
         ),
     ];
     for body in &scene.bodies {
         lines.push(format!("body {}: E = {}, ν = {}", body.name, body.material.young, body.material.poisson));
     }
-    for contact in &contacts {
+    for contact in &at_rest.contacts {
         lines.push(format!(
             "contact {}: {} segments over a length of {}, {} multipliers",
             contact.pair.name,
@@ -55,7 +53,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
             contact.multipliers.count()
         ));
     }
-    let not_held = not_held_if_closed(&scene, &finest.numbering, &contacts)?;
+    let not_held = at_rest.not_held(&scene)?;
     Ok(Checked { words: lines.join("\n"), not_held })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::contact::GapChoice;
 use crate::output::summary;
-use crate::system::{Contact, Discretisation};
+use crate::system::{Contact, Scene};
 
 /// Error of λ by a corner of one radian on the softer body (root mean square). Measured on rings of subdivided chords with
 /// corners of 4 to 18 degrees, on stiff and on alike ones.
@@ -40,19 +40,19 @@ impl Corners {
 }
 
 /// Looks for corners that are left in the edges of both bodies, on the undeformed bodies.
-pub fn corners(problem: &Discretisation, contact: &Contact, zones: &[summary::Zone]) -> Corners {
+pub fn corners(scene: &Scene, contact: &Contact, zones: &[summary::Zone]) -> Corners {
     let boundary = &contact.boundary;
     let within = |s: f64| {
         let ends = zones.iter().filter(|zone| zone.counts(zones)).filter_map(|zone| zone.ends);
         ends.into_iter().any(|[from, to]| (s - from).min(to - s) > END * (to - from))
     };
     let sharpest = contact.pair.between.each_ref().map(|name| {
-        let all = problem.scene.mesh.corners_left(name).into_iter();
+        let all = scene.mesh.corners_left(name).into_iter();
         let pressing = all.filter(|corner| within(boundary.arc(boundary.foot(corner.place))));
         pressing.map(|corner| corner.angle).fold(0.0, f64::max)
     });
     let compliance = contact.bodies.map(|body| {
-        let material = &problem.scene.bodies[body].material;
+        let material = &scene.bodies[body].material;
         (1.0 - material.poisson.powi(2)) / material.young
     });
     let part = |k: usize| sharpest[k] * compliance[k] / (compliance[0] + compliance[1]);

@@ -3,9 +3,7 @@
 use super::RunError;
 use crate::case::{Case, LambdaExact};
 use crate::geometry::Point;
-use crate::petsc::Session;
-use crate::system::recovery::{Balance, energy_error, pressure_at, pressure_error, probe};
-use crate::system::{Discretisation, Field, Solution};
+use crate::system::recovery::Evaluation;
 use std::collections::BTreeMap;
 
 /// Relative errors by name, and words for each that misses its tolerance.
@@ -30,14 +28,8 @@ impl Errors {
 ///
 /// # Errors
 /// [`RunError`] from PETSc or an inverted triangle.
-pub fn compare(
-    case: &Case,
-    problem: &Discretisation,
-    solution: &Solution,
-    balance: &Balance,
-    u: &Field<2>,
-    session: &Session,
-) -> Result<Errors, RunError> {
+pub fn compare(case: &Case, found: &Evaluation) -> Result<Errors, RunError> {
+    let Evaluation { problem, balance, .. } = found;
     let mut errors = Errors::default();
     if let Some(energy) = &case.exact.energy {
         let found = balance.stationary.unwrap_or_else(|| balance.strain.iter().sum());
@@ -45,51 +37,43 @@ pub fn compare(
     }
     for exact in &case.exact.contacts {
         let at = problem.contacts.iter().position(|contact| contact.pair.name == exact.name).expect("checked names");
-        let contact = &problem.contacts[at];
-        let lambda = &solution.multipliers[contact.range()];
+        let pressure = found.pressure(at);
         if let Some(force) = &exact.force {
             let found = balance.contacts[at].force;
             errors.add(format!("force_{}", exact.name), (found / force.value - 1.0).abs(), Some(force.tolerance));
         }
         let (error, tolerance) = match &exact.lambda {
             None => continue,
-            Some(LambdaExact::Formula { formula, tolerance }) => (pressure_error(contact, lambda, formula), *tolerance),
+            Some(LambdaExact::Formula { formula, tolerance }) => (pressure.error(formula), *tolerance),
             Some(LambdaExact::Points { at, value, tolerance }) => {
-                let one =
-                    |(x, value): (&[f64; 2], &f64)| (pressure_at(contact, lambda, Point::new(x[0], x[1])) / value - 1.0).abs();
+                let one = |(x, value): (&[f64; 2], &f64)| (pressure.mean_at_foot(Point::new(x[0], x[1])) / value - 1.0).abs();
                 (at.iter().zip(value).map(one).fold(0.0, f64::max), *tolerance)
             }
         };
         errors.add(format!("lambda_{}", exact.name), error, Some(tolerance));
     }
-    compare_bodies(case, problem, u, &mut errors, session)?;
+    compare_bodies(case, found, &mut errors)?;
     Ok(errors)
 }
 
-fn compare_bodies(
-    case: &Case,
-    problem: &Discretisation,
-    u: &Field<2>,
-    errors: &mut Errors,
-    session: &Session,
-) -> Result<(), RunError> {
+fn compare_bodies(case: &Case, found: &Evaluation, errors: &mut Errors) -> Result<(), RunError> {
     for exact in &case.exact.bodies {
-        let body = problem.scene.bodies.iter().position(|body| body.name == exact.name).expect("checked names");
-        let size = largest(u, session);
+        let body = found.problem.scene.bodies.iter().position(|body| body.name == exact.name).expect("checked names");
+        let size = largest(found);
         if let Some(displacement) = &exact.displacement {
             let mut worst: f64 = 0.0;
             for (x, value) in displacement.at.iter().zip(&displacement.value) {
-                let found = probe(problem, u, body, Point::new(x[0], x[1]), session)?.expect("checked points");
-                worst = worst.max((found.displacement - Point::new(value[0], value[1])).norm() / size);
+                let probed = found.probe(body, Point::new(x[0], x[1]))?.expect("checked points");
+                worst = worst.max((probed.displacement - Point::new(value[0], value[1])).norm() / size);
             }
             errors.add(format!("displacement_{}", exact.name), worst, Some(displacement.tolerance));
         }
         if let Some(stress) = &exact.stress {
-            let [difference, whole] = energy_error(problem, u, body, stress, session)?;
+            let [difference, whole] = found.energy_error(body, stress)?;
             errors.add(format!("energy_norm_{}", exact.name), (difference / whole).sqrt(), None);
         }
         if let Some(formulas) = &exact.u {
-            let error = displacement_error(problem, u, body, formulas, session);
+            let error = displacement_error(found, body, formulas);
             errors.add(format!("u_{}", exact.name), error, None);
         }
     }
@@ -97,7 +81,7 @@ fn compare_bodies(
 }
 
 /// Largest displacement of a node. **Collective**
-fn largest(u: &Field<2>, session: &Session) -> f64 {
+fn largest(Evaluation { u, session, .. }: &Evaluation) -> f64 {
     let mut size = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
     session.max(&mut size);
     size[0]
@@ -105,11 +89,9 @@ fn largest(u: &Field<2>, session: &Session) -> f64 {
 
 /// Root mean square error of the nodal displacements of a body, relative to their root mean square. **Collective**
 fn displacement_error(
-    problem: &Discretisation,
-    u: &Field<2>,
+    Evaluation { problem, u, session, .. }: &Evaluation,
     body: usize,
     exact: &[crate::geometry::Formula; 2],
-    session: &Session,
 ) -> f64 {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;

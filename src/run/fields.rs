@@ -5,27 +5,22 @@ use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::Facet;
 use crate::output::vtk::{Piece, write_parallel, write_piece};
-use crate::petsc::Session;
-use crate::system::{Discretisation, Field};
+use crate::system::recovery::Evaluation;
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Facets of the figure at most.
 const MOST_FACETS: usize = 20_000;
 
-/// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own.
-pub fn write(
-    folder: &Path,
-    problem: &Discretisation,
-    u: &Field<2>,
-    stress: &Field<5>,
-    session: &Session,
-) -> Result<(), RunError> {
+/// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own. `stress` is (xx, yy, xy, zz) at
+/// a node of this rank's macro triangles.
+pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Result<(), RunError> {
+    let Evaluation { problem, session, u, .. } = found;
     let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
-    let piece = Nodes::new(problem, session.rank());
+    let piece = Nodes::new(found);
     let points: Vec<[f64; 2]> = piece.places.clone();
     let displacement: Vec<[f64; 2]> = piece.numbers.iter().map(|&node| u.at(node)).collect();
-    let stresses: Vec<[f64; 4]> = piece.numbers.iter().map(|&node| first_four(stress.at(node))).collect();
+    let stresses: Vec<[f64; 4]> = piece.numbers.iter().map(|&node| stress(node)).collect();
     let mises: Vec<f64> = stresses.iter().map(|&s| von_mises(s)).collect();
     let file = folder.join(name(session.rank()));
     write_piece(
@@ -48,10 +43,6 @@ pub fn write(
     Ok(())
 }
 
-fn first_four([xx, yy, xy, zz, _]: [f64; 5]) -> [f64; 4] {
-    [xx, yy, xy, zz]
-}
-
 /// Nodes and cells of the macro triangles of one rank.
 struct Nodes {
     numbers: Vec<usize>,
@@ -61,12 +52,12 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn new(problem: &Discretisation, rank: usize) -> Self {
+    fn new(Evaluation { problem, session, .. }: &Evaluation) -> Self {
         let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
         let (n, order) = (numbering.level.intervals, numbering.level.order);
         let mut piece = Self { numbers: Vec::new(), places: Vec::new(), cells: Vec::new(), bodies: Vec::new() };
         let mut known: HashMap<usize, u32> = HashMap::new();
-        for &triangle in problem.scene.partition.triangles_of(rank) {
+        for &triangle in problem.scene.partition.triangles_of(session.rank()) {
             let numbers = numbering.triangle(mesh, triangle as usize);
             let mut local = Vec::with_capacity(lattice::node_count(n));
             for (i, j) in lattice::nodes(n) {
@@ -95,7 +86,8 @@ impl Nodes {
 }
 
 /// Facets for the figure of the deformed bodies, coarse enough to draw, from all ranks. **Collective**
-pub fn facets(problem: &Discretisation, u: &Field<2>, stress: &Field<5>, session: &Session) -> Vec<Facet> {
+pub fn facets(found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Vec<Facet> {
+    let Evaluation { problem, session, u, .. } = found;
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
     let mut shown = n;
@@ -117,7 +109,7 @@ pub fn facets(problem: &Discretisation, u: &Field<2>, stress: &Field<5>, session
                 let node = numbers.node(i, j);
                 values.extend([x.x, x.y]);
                 values.extend(u.at(node));
-                values.push(von_mises(first_four(stress.at(node))));
+                values.push(von_mises(stress(node)));
             }
         }
     }

@@ -3,11 +3,12 @@
 use super::{Outcome, RunOptions, Stages};
 use crate::case::Case;
 use crate::element::Order;
+use crate::mesh::Numbering;
 use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
-use crate::system::recovery::Deformation;
-use crate::system::{BoundaryStep, Contact, Discretisation, OuterStep, Solution, Verdict};
+use crate::system::recovery::Evaluation;
+use crate::system::{Contact, Event, Scene};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -51,34 +52,98 @@ impl Report {
         ));
     }
 
+    /// What the solution procedure tells.
+    pub fn hear(&self, event: &Event) {
+        match event {
+            Event::AtRest { scene, at_rest } => {
+                self.sizes(scene, &at_rest.contacts, &at_rest.numbering);
+                self.short_segments(&at_rest.contacts);
+                self.locking(scene);
+            }
+            Event::Solver(words) => self.say(&format!("solver: {words}")),
+            Event::Coarse { refine, unknowns, active, passes, converged } => {
+                let iterations: Vec<String> = passes.iter().map(|pass| pass.krylov_iterations.to_string()).collect();
+                self.say(&format!(
+                    "refine {refine}: {unknowns} unknowns, {}/{} multipliers in contact, {} iterations{}",
+                    active.iter().filter(|active| **active).count(),
+                    active.len(),
+                    iterations.join(" "),
+                    if *converged { "" } else { ", not converged: goes on without" }
+                ));
+                passes.iter().for_each(|pass| self.climbed(pass.climbed.as_deref()));
+            }
+            Event::Begin(follows) => {
+                if let Some([boundary, displacement]) = follows {
+                    self.say(&format!(
+                        "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes"
+                    ));
+                }
+                self.say("outer  active       +/-  Krylov  residual  penetration     du");
+            }
+            Event::Passed(pass, all) => {
+                self.say(&format!(
+                    "{:5}  {:>6}/{all:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
+                    pass.iteration,
+                    pass.active,
+                    format!("+{}", pass.added),
+                    format!("-{}", pass.released),
+                    pass.krylov_iterations,
+                    pass.residual,
+                    pass.max_penetration,
+                    pass.du
+                ));
+                self.climbed(pass.climbed.as_deref());
+            }
+            Event::Placed(step) => {
+                let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
+                self.say(&format!(
+                    "boundary {}: length {}, moves by {}, displacement by {}, multipliers changed {}",
+                    step.iteration,
+                    length(step.length),
+                    figure(step.moved),
+                    figure(step.du),
+                    step.flipped.map_or("-".to_string(), |count| count.to_string())
+                ));
+            }
+        }
+    }
+
     /// Sizes of mesh and contacts.
-    pub fn sizes(&self, problem: &Discretisation) {
-        let level = problem.finest().numbering.level;
+    fn sizes(&self, scene: &Scene, contacts: &[Contact], numbering: &Numbering) {
+        let level = numbering.level;
         let order = if level.order == Order::P1 { "P1" } else { "P2" };
-        let triangles = problem.scene.mesh.triangles.len() * level.triangles_per_edge().pow(2);
-        let unknowns = 2 * problem.finest().numbering.node_count();
-        self.say(&format!("{triangles} {order} triangles, {unknowns} unknowns, {} multipliers", problem.multiplier_count()));
-        for contact in &problem.contacts {
+        let triangles = scene.mesh.triangles.len() * level.triangles_per_edge().pow(2);
+        let unknowns = 2 * numbering.node_count();
+        let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
+        self.say(&format!("{triangles} {order} triangles, {unknowns} unknowns, {multipliers} multipliers"));
+        for contact in contacts {
             self.say(&format!(
                 "contact {}: {} segments over {}",
                 contact.pair.name,
                 contact.boundary.segments(),
                 length(contact.boundary.length())
             ));
-            self.bent(problem, contact);
+            self.bent(scene, contact, level.intervals);
         }
     }
 
     /// Edges whose shape nobody has declared, and that are taken for chords of something smooth.
-    fn bent(&self, problem: &Discretisation, contact: &Contact) {
+    fn bent(&self, scene: &Scene, contact: &Contact, intervals: usize) {
         let names = contact.pair.between.iter();
-        let bent = names.map(|name| (name, problem.scene.mesh.bent_by(name))).filter(|(_, by)| *by > 0.0);
-        if problem.finest().numbering.level.intervals > 1 {
+        let bent = names.map(|name| (name, scene.mesh.bent_by(name))).filter(|(_, by)| *by > 0.0);
+        if intervals > 1 {
             for (name, by) in bent {
                 self.say(&format!(
                     "boundary {name}: no [geometry] gives its shape; its edges are bent onto a spline through the nodes of the mesh file, by up to {by:.1e}"
                 ));
             }
+        }
+    }
+
+    /// A stronger preconditioner, which all solves after it keep.
+    fn climbed(&self, words: Option<&str>) {
+        if let Some(words) = words {
+            self.say(&format!("       slow; went over to {words}"));
         }
     }
 
@@ -90,11 +155,10 @@ impl Report {
         }
     }
 
-    /// What is known to spoil the result before it is computed.
-    pub fn warnings(&self, problem: &Discretisation) {
-        self.short_segments(problem);
-        for body in problem.scene.bodies.iter().filter(|body| body.material.poisson > LOCKING) {
-            if problem.scene.order == Order::P1 {
+    /// Bodies that P1 triangles are too stiff for.
+    fn locking(&self, scene: &Scene) {
+        for body in scene.bodies.iter().filter(|body| body.material.poisson > LOCKING) {
+            if scene.order == Order::P1 {
                 self.warn(&format!(
                     "body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2",
                     body.name, body.material.poisson
@@ -104,8 +168,9 @@ impl Report {
     }
 
     /// Bodies that are strained farther than a theory of small strain goes.
-    pub fn large_strains(&self, problem: &Discretisation, found: &[Deformation]) {
-        for (body, largest) in problem.scene.bodies.iter().zip(found).filter(|(_, largest)| largest.strain > SMALL_STRAIN) {
+    pub fn large_strains(&self, found: &Evaluation) {
+        let bodies = found.problem.scene.bodies.iter().zip(&found.deformations);
+        for (body, largest) in bodies.filter(|(_, largest)| largest.strain > SMALL_STRAIN) {
             self.warn(&format!(
                 "body {} is strained by {:.0} % near ({}, {}): the model is that of small strain, and may be off by more than that",
                 body.name,
@@ -117,8 +182,8 @@ impl Report {
     }
 
     /// Segments shorter than the safe rule, and what is done about them.
-    fn short_segments(&self, problem: &Discretisation) {
-        for contact in problem.contacts.iter().filter(|contact| contact.has_short_segments()) {
+    fn short_segments(&self, contacts: &[Contact]) {
+        for contact in contacts.iter().filter(|contact| contact.has_short_segments()) {
             let remedy =
                 if contact.jumps.is_empty() { "watch inf_sup and oscillation" } else { "the jump term is added (stabilise)" };
             self.warn(&format!(
@@ -128,69 +193,6 @@ impl Report {
                 contact.safe_ratio
             ));
         }
-    }
-
-    /// Heads the table of passes.
-    pub fn head(&self) {
-        self.say("outer  active       +/-  Krylov  residual  penetration     du");
-    }
-
-    /// What it takes for boundaries to stand.
-    pub fn follows(&self, [boundary, displacement]: [f64; 2]) {
-        self.say(&format!(
-            "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes"
-        ));
-    }
-
-    /// A pass of the contact loop.
-    pub fn step(&self, step: &OuterStep, all: usize) {
-        self.say(&format!(
-            "{:5}  {:>6}/{:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
-            step.iteration,
-            step.active,
-            all,
-            format!("+{}", step.added),
-            format!("-{}", step.released),
-            step.krylov_iterations,
-            step.residual,
-            step.max_penetration,
-            step.du
-        ));
-        self.climbed(step);
-    }
-
-    /// A stronger preconditioner, which all solves after it keep.
-    fn climbed(&self, step: &OuterStep) {
-        if let Some(words) = &step.climbed {
-            self.say(&format!("       slow; went over to {words}"));
-        }
-    }
-
-    /// A coarser mesh that was solved first.
-    pub fn coarse(&self, refine: usize, problem: &Discretisation, solution: &Solution) {
-        let iterations: Vec<String> = solution.steps.iter().map(|step| step.krylov_iterations.to_string()).collect();
-        let active = solution.active.iter().filter(|active| **active).count();
-        let failed = if matches!(solution.verdict, Verdict::NotConverged(_)) { ", not converged: goes on without" } else { "" };
-        self.say(&format!(
-            "refine {refine}: {} unknowns, {active}/{} multipliers in contact, {} iterations{failed}",
-            problem.unknown_count(),
-            solution.active.len(),
-            iterations.join(" ")
-        ));
-        solution.steps.iter().for_each(|step| self.climbed(step));
-    }
-
-    /// A contact boundary that was solved for, and how far it moves next.
-    pub fn boundary(&self, step: &BoundaryStep) {
-        let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
-        let flipped = step.flipped.map_or("-".to_string(), |count| count.to_string());
-        self.say(&format!(
-            "boundary {}: length {}, moves by {}, displacement by {}, multipliers changed {flipped}",
-            step.iteration,
-            length(step.length),
-            figure(step.moved),
-            figure(step.du)
-        ));
     }
 
     /// The last words: the verdict, and where the results are. A bad one is heard even if the run is quiet.

@@ -2,7 +2,6 @@
 
 use super::exact::{Errors, compare};
 use super::report::{memory, short};
-use super::solve::Solved;
 use super::unresolved::unresolved_force;
 use super::{Outcome, Run, RunError, corners, fields, summarise, trust, zones};
 use crate::case::Case;
@@ -10,8 +9,8 @@ use crate::contact::{Configuration, CurveChoice, GapChoice};
 use crate::geometry::Point;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
-use crate::system::recovery::{TracePoint, balance, deformations, motion_errors, nodal_stress, probe, trace_points};
-use crate::system::{Contact, Discretisation, Field, Verdict};
+use crate::system::recovery::{Evaluation, TracePoint};
+use crate::system::{Contact, Solved};
 use std::path::Path;
 
 /// Share of the drawn distance by which a declared gap may differ from it.
@@ -19,23 +18,16 @@ const MOST_OFF: f64 = 0.25;
 
 impl Run<'_> {
     /// Evaluates a solution, writes everything, prints the verdict. **Collective**
-    pub(super) fn write(
-        &self,
-        problem: &Discretisation,
-        solved: &Solved,
-        folder: Option<ResultFolder>,
-    ) -> Result<Outcome, RunError> {
-        let solution = &solved.solution;
+    pub(super) fn write(&self, solved: &Solved, folder: Option<ResultFolder>) -> Result<Outcome, RunError> {
+        let ending = &solved.ending;
         let mut summary = Summary::new(&self.case.name, self.session.size());
-        let (mut status, mut reason) = match &solution.verdict {
-            Verdict::Converged(words) => (Status::Converged, words.clone()),
-            Verdict::NotConverged(words) => (Status::NotConverged, words.clone()),
-        };
-        summarise::describe(&mut summary, self.case, problem, solved);
+        let mut status = if ending.is_converged() { Status::Converged } else { Status::NotConverged };
+        let mut reason = ending.to_string();
+        summarise::describe(&mut summary, self.case, solved);
         summary.estimate.energy = solved.estimate.energy;
-        if solution.is_solved() {
+        if solved.is_solved() {
             let _stage = self.stages.output.enter();
-            let errors = self.evaluate(&mut summary, problem, solved)?;
+            let errors = self.evaluate(&mut summary, solved)?;
             if status == Status::Converged && !errors.missed.is_empty() {
                 errors.missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
                 if self.case.exact.must_hold {
@@ -44,7 +36,7 @@ impl Run<'_> {
                 }
             }
             summary.errors = errors.values;
-            let judgement = trust::judge(&mut summary, self.case, matches!(solution.verdict, Verdict::Converged(_)));
+            let judgement = trust::judge(&mut summary, self.case, ending.is_converged());
             if let Some(words) = judgement.unreliable {
                 reason = match status {
                     Status::Converged => format!("pressure unreliable: {words}"),
@@ -90,47 +82,41 @@ impl Run<'_> {
     }
 
     /// Fields, traces, balances and errors; their files too. **Collective**
-    fn evaluate(&self, summary: &mut Summary, problem: &Discretisation, solved: &Solved) -> Result<Errors, RunError> {
-        let solution = &solved.solution;
-        let (case, session) = (self.case, self.session);
-        let scene = &problem.scene;
-        let u = Field::displacement(problem, &solution.displacement, session)?;
-        let balance = balance(problem, solution, &u, session)?;
-        summarise::balances(summary, problem, &balance);
-        let deformed = deformations(problem, &u, session)?;
-        summarise::deformations(summary, problem, &deformed);
-        self.report.large_strains(problem, &deformed);
-        let motions = motion_errors(problem, solution, &balance.strain, &deformed, session);
+    fn evaluate(&self, summary: &mut Summary, solved: &Solved) -> Result<Errors, RunError> {
+        let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
+        summarise::balances(summary, &found);
+        summarise::deformations(summary, &found);
+        self.report.large_strains(&found);
         let mut traces = Vec::new();
-        for (at, contact) in problem.contacts.iter().enumerate() {
-            let points = trace_points(problem, contact, &solution.multipliers[contact.range()], &u, session)?;
+        for (at, contact) in solved.problem.contacts.iter().enumerate() {
+            let points = found.traces(&found.pressure(at))?;
             self.warn_if_apart(contact, &points);
-            let traced = contact_points(contact, &points);
-            let mut zones = zones::zones(problem, at, solution, &solved.estimate, &points);
+            let traced: Vec<ContactPoint> = points.iter().map(contact_point).collect();
+            let mut zones = zones::zones(solved, at, &points);
             let force = solved.estimate.force.get(at).copied().flatten();
             summary.estimate.contact.insert(contact.pair.name.clone(), zones::contact_estimate(force, &zones));
-            let mut found = summarise::contact(problem, at, solution, &balance, &points);
+            let mut described = summarise::contact(&found, at, &points);
             if contact.pair.configuration == Configuration::Reference {
-                found.missing = zones::missing_force(contact, &zones, &traced, balance.contacts[at].force);
+                described.missing = zones::missing_force(contact, &zones, &traced, found.balance.contacts[at].force);
             }
-            found.unresolved_force = Some(unresolved_force(contact, &traced));
-            summarise::motions(&mut found, motions[at], contact.bodies.map(|body| &deformed[body]), &traced);
+            described.unresolved_force = Some(unresolved_force(contact, &traced));
+            summarise::motions(&mut described, &found, at, &traced);
             if contact.pair.curve == CurveChoice::Fit {
-                corners::corners(problem, contact, &zones).describe(&mut found, &mut zones);
+                corners::corners(&solved.problem.scene, contact, &zones).describe(&mut described, &mut zones);
             }
-            found.zones = zones;
-            summary.contact.insert(contact.pair.name.clone(), found);
+            described.zones = zones;
+            summary.contact.insert(contact.pair.name.clone(), described);
             traces.push(traced);
         }
-        for point in &case.probes {
-            let body = scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
-            let found = probe(problem, &u, body, Point::new(point.point[0], point.point[1]), session)?.expect("checked points");
-            let [xx, yy, xy, _] = found.stress;
-            let values = summary::Probe { x: Some(point.point), u: Some(found.displacement.into()), stress: Some([xx, yy, xy]) };
+        for point in &self.case.probes {
+            let body = solved.problem.scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
+            let probed = found.probe(body, Point::new(point.point[0], point.point[1]))?.expect("checked points");
+            let [xx, yy, xy, _] = probed.stress;
+            let values = summary::Probe { x: Some(point.point), u: Some(probed.displacement.into()), stress: Some([xx, yy, xy]) };
             summary.probe.insert(point.name.clone(), values);
         }
-        let errors = compare(case, problem, solution, &balance, &u, session)?;
-        self.write_files(problem, &u, &traces)?;
+        let errors = compare(self.case, &found)?;
+        self.write_files(&found, &traces)?;
         Ok(errors)
     }
 
@@ -169,23 +155,26 @@ impl Run<'_> {
     }
 
     /// Traces in files; fields and figures too, unless the case wants none. **Collective**
-    fn write_files(&self, problem: &Discretisation, u: &Field<2>, traces: &[Vec<ContactPoint>]) -> Result<(), RunError> {
+    fn write_files(&self, found: &Evaluation, traces: &[Vec<ContactPoint>]) -> Result<(), RunError> {
         let (case, session) = (self.case, self.session);
         let folder = &self.files;
-        let written = if session.rank() == 0 { write_tables(folder, problem, traces) } else { Ok(()) };
+        let written = if session.rank() == 0 { write_tables(folder, &found.problem.contacts, traces) } else { Ok(()) };
         session.agree(written.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
         if !case.output.fields {
             return Ok(());
         }
-        let stress = nodal_stress(problem, u, session)?;
-        let written = fields::write(folder, problem, u, &stress, session);
-        session.agree(written).map_err(RunError::Failed)?;
-        let facets = fields::facets(problem, u, &stress, session);
+        let stress = found.stress()?;
+        let at = |node: usize| {
+            let [xx, yy, xy, zz, _] = stress.at(node);
+            [xx, yy, xy, zz]
+        };
+        session.agree(fields::write(folder, found, at)).map_err(RunError::Failed)?;
+        let facets = fields::facets(found, at);
         if session.rank() != 0 {
             return Ok(());
         }
         let title = if case.title.is_empty() { &case.name } else { &case.title };
-        for (contact, points) in problem.contacts.iter().zip(traces) {
+        for (contact, points) in found.problem.contacts.iter().zip(traces) {
             let name = &contact.pair.name;
             vtk::write_curve(&folder.join(format!("contact_{name}.vtu")), points)?;
             plot::write_pressure(&folder.join(format!("pressure_{name}.svg")), title, points)?;
@@ -198,9 +187,9 @@ impl Run<'_> {
 }
 
 /// Writes the table along each contact boundary.
-fn write_tables(folder: &Path, problem: &Discretisation, traces: &[Vec<ContactPoint>]) -> Result<(), OutputError> {
+fn write_tables(folder: &Path, contacts: &[Contact], traces: &[Vec<ContactPoint>]) -> Result<(), OutputError> {
     let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
-    problem.contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), &[], points))
+    contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), &[], points))
 }
 
 /// Writes what tells a whole result, and puts the folder in its place.
@@ -211,24 +200,18 @@ fn finish(case: &Case, summary: &Summary, folder: ResultFolder) -> Result<(), Ou
     folder.commit()
 }
 
-fn contact_points(contact: &Contact, points: &[TracePoint]) -> Vec<ContactPoint> {
-    let initial = |p: &TracePoint| match &contact.pair.gap {
-        GapChoice::Closed => 0.0,
-        GapChoice::Formula(formula) => formula.value(&[p.x.x, p.x.y]),
-        GapChoice::Geometry => p.distance[1] - p.distance[0],
-    };
-    let one = |p: &TracePoint| ContactPoint {
+fn contact_point(p: &TracePoint) -> ContactPoint {
+    ContactPoint {
         s: p.arc,
         x: p.x.x,
         y: p.x.y,
         nx: p.normal.x,
         ny: p.normal.y,
         lambda: p.lambda,
-        gap: initial(p) + p.displacement[1] - p.displacement[0],
+        gap: p.gap,
         un_1: p.displacement[0],
         un_2: p.displacement[1],
         sigma_1: p.stress[0],
         sigma_2: p.stress[1],
-    };
-    points.iter().map(one).collect()
+    }
 }

@@ -77,7 +77,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         supports: case.supports.clone(),
         loads: case.loads.clone(),
         pairs: case.contacts.clone(),
-        mesh,
+        mesh: Rc::new(mesh),
     }
 }
 

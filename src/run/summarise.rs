@@ -1,27 +1,26 @@
 //! A solution in the terms of `summary.json`.
 
-use super::solve::Solved;
 use crate::case::Case;
-use crate::contact::{MultiplierSpace, Zone, oscillation};
+use crate::contact::MultiplierSpace;
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::output::ContactPoint;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Balance, Deformation, MotionError, TracePoint};
-use crate::system::{BoundaryStep, Contact, Discretisation, Solution};
+use crate::system::recovery::{Evaluation, TracePoint};
+use crate::system::{Contact, Solved};
 
 /// Growth by less than this share of the displacements is rounding.
 const ROUNDING: f64 = 1e-5;
 
 /// What is known without the solution's fields.
-pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, solved: &Solved) {
-    let solution = &solved.solution;
+pub fn describe(summary: &mut Summary, case: &Case, solved: &Solved) {
+    let Solved { problem, solution, .. } = solved;
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let count = numbering.level.triangles_per_edge();
     let triangles = scene.mesh.triangles.len() * count * count;
     let [shortest, longest] = scene.mesh.shortest_and_longest_edge(numbering.level);
-    let corners = if scene.order == Order::P1 { numbering.node_count() } else { numbering.node_count() - edge_count(problem) };
+    let corners = if scene.order == Order::P1 { numbering.node_count() } else { numbering.node_count() - edge_count(solved) };
     summary.mesh = summary::Mesh {
         triangles: Some(triangles as u64),
         vertices: Some(corners as u64),
@@ -33,8 +32,8 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
         displacement: Some(2 * numbering.node_count() as u64),
         multiplier: Some(problem.multiplier_count() as u64),
     };
-    summary.outer = solution
-        .steps
+    summary.outer = solved
+        .passes
         .iter()
         .map(|step| summary::OuterIteration {
             iteration: step.iteration,
@@ -48,19 +47,30 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
             du: Some(step.du),
         })
         .collect();
-    let boundary = |step: &BoundaryStep| summary::BoundaryIteration {
-        iteration: step.iteration,
-        length: Some(step.length),
-        moved: step.moved,
-        du: step.du,
-        flipped: step.flipped,
-    };
-    summary.boundaries = solution.boundaries.iter().map(boundary).collect();
+    summary.boundaries = solved
+        .boundaries
+        .iter()
+        .map(|step| summary::BoundaryIteration {
+            iteration: step.iteration,
+            length: Some(step.length),
+            moved: step.moved,
+            du: step.du,
+            flipped: step.flipped,
+        })
+        .collect();
     summary.solver = summary::Solver {
         name: Some(case.solver.choice.name().into()),
         krylov: Some(solved.solver.clone()),
-        iterations: solution.steps.iter().map(|step| step.krylov_iterations).collect(),
-        coarse: solved.coarse.clone(),
+        iterations: solved.passes.iter().map(|step| step.krylov_iterations).collect(),
+        coarse: solved
+            .coarse
+            .iter()
+            .map(|solve| summary::CoarseSolve {
+                refine: solve.refine,
+                unknowns: solve.unknowns,
+                iterations: solve.iterations.clone(),
+            })
+            .collect(),
         residual: Some(solution.residual),
         plain_residual: Some(solution.plain_residual),
         blas: Some(versions::blas()),
@@ -68,14 +78,14 @@ pub fn describe(summary: &mut Summary, case: &Case, problem: &Discretisation, so
 }
 
 /// Triangle edges of the finest level: the midside nodes of P2.
-fn edge_count(problem: &Discretisation) -> usize {
+fn edge_count(Solved { problem, .. }: &Solved) -> usize {
     let count = problem.finest().numbering.level.triangles_per_edge();
     let mesh = &problem.scene.mesh;
     mesh.edges.len() * count + mesh.triangles.len() * (3 * count * (count - 1) / 2)
 }
 
 /// Energies and balances.
-pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balance) {
+pub fn balances(summary: &mut Summary, Evaluation { problem, balance, .. }: &Evaluation) {
     let names = problem.scene.bodies.iter().map(|body| body.name.clone());
     summary.energy = summary::Energy {
         strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),
@@ -88,30 +98,23 @@ pub fn balances(summary: &mut Summary, problem: &Discretisation, balance: &Balan
 }
 
 /// Largest strain and mean rotation of the bodies.
-pub fn deformations(summary: &mut Summary, problem: &Discretisation, found: &[Deformation]) {
-    let names = || problem.scene.bodies.iter().map(|body| body.name.clone());
-    summary.strain_max = names().zip(found.iter().map(|body| Some(body.strain))).collect();
-    summary.rotation = names().zip(found.iter().map(|body| Some(body.rotation))).collect();
+pub fn deformations(summary: &mut Summary, found: &Evaluation) {
+    let names = || found.problem.scene.bodies.iter().map(|body| body.name.clone());
+    summary.strain_max = names().zip(found.deformations.iter().map(|body| Some(body.strain))).collect();
+    summary.rotation = names().zip(found.deformations.iter().map(|body| Some(body.rotation))).collect();
 }
 
 /// One contact; `at` is its place among all.
-pub fn contact(
-    problem: &Discretisation,
-    at: usize,
-    solution: &Solution,
-    balance: &Balance,
-    points: &[TracePoint],
-) -> summary::Contact {
-    let contact = &problem.contacts[at];
+pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary::Contact {
+    let Evaluation { problem, solution, balance, .. } = found;
+    let pressure = found.pressure(at);
+    let contact = pressure.contact;
     let boundary = &contact.boundary;
     let knots = boundary.knots();
     let pair = |p: Point| [p.x, p.y];
     let force = &balance.contacts[at];
     let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
-    let lambda = &solution.multipliers[contact.range()];
-    let zones = Zone::all(boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
-    let closed: Vec<[f64; 2]> = zones.iter().map(|zone| zone.arcs).collect();
-    let oscillation = oscillation(boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
+    let closed: Vec<[f64; 2]> = pressure.zones().iter().map(|zone| zone.arcs).collect();
     let inf_sup = solution.inf_sup.get(at).copied().flatten();
     summary::Contact {
         length: Some(boundary.length()),
@@ -126,8 +129,8 @@ pub fn contact(
         unresolved_force: None,
         resultant: Some(pair(force.resultants[1])),
         moment: Some(force.moments[1]),
-        pressure_max: Some(lambda.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
-        oscillation,
+        pressure_max: Some(pressure.largest()),
+        oscillation: pressure.oscillation(),
         inf_sup,
         zones: Vec::new(),
         missing: None,
@@ -143,17 +146,19 @@ pub fn contact(
 }
 
 /// What sliding and turning spoil. Where nothing presses, the growth of bodies that turn is compared with the smallest gap.
-pub fn motions(contact: &mut summary::Contact, found: Option<MotionError>, bodies: [&Deformation; 2], points: &[ContactPoint]) {
+pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usize, points: &[ContactPoint]) {
+    let found = evaluation.motions[at];
     contact.slip = found.and_then(|found| found.slip);
     contact.slip_error = found.and_then(|found| found.slip_error);
     contact.rotation_error = match found {
         Some(found) => Some(found.rotation_error),
-        None => growth_by_gap(bodies, points),
+        None => growth_by_gap(evaluation, at, points),
     };
 }
 
 /// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.
-fn growth_by_gap(bodies: [&Deformation; 2], points: &[ContactPoint]) -> Option<f64> {
+fn growth_by_gap(Evaluation { problem, deformations, .. }: &Evaluation, at: usize, points: &[ContactPoint]) -> Option<f64> {
+    let bodies = problem.contacts[at].bodies.map(|body| &deformations[body]);
     let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
     let moved = points.iter().map(|point| point.un_1.abs().max(point.un_2.abs())).fold(0.0, f64::max);
     let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;

@@ -2,10 +2,11 @@
 
 use super::trust::{LEAST_PARTS, PROVES};
 use crate::contact::{MultiplierSpace, Zone};
+use crate::mesh::MacroMesh;
 use crate::output::ContactPoint;
 use crate::output::summary;
-use crate::system::recovery::{TracePoint, zone_errors};
-use crate::system::{Contact, Discretisation, Estimate, Solution, ZoneEstimate};
+use crate::system::recovery::TracePoint;
+use crate::system::{Contact, ContactPressure, Solved};
 
 /// Growth of the pressure from the last segment but one to the last, and by one refinement, above which it may be singular at
 /// an end.
@@ -22,25 +23,18 @@ const LEAST_SEGMENTS: usize = 3;
 const SAME: f64 = 1e-6;
 
 /// The zones of contact `at`, in order of arc length; `points` are its traces.
-pub fn zones(
-    problem: &Discretisation,
-    at: usize,
-    solution: &Solution,
-    estimate: &Estimate,
-    points: &[TracePoint],
-) -> Vec<summary::Zone> {
+pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::Zone> {
+    let Solved { problem, solution, estimate, .. } = solved;
     let contact = &problem.contacts[at];
-    let lambda = &solution.multipliers[contact.range()];
-    let zones = Zone::all(&contact.boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
-    let forces: Vec<f64> = zones.iter().map(|zone| zone.force(&contact.multipliers, lambda)).collect();
+    let pressure = solution.pressure(contact);
+    let zones = pressure.zones();
+    let forces: Vec<f64> = zones.iter().map(|zone| pressure.force_of(zone)).collect();
     let whole: f64 = forces.iter().map(|force| force.abs()).sum();
-    let errors = zone_errors(contact, lambda, &zones, points);
+    let estimates = estimate.of_zones(at, &pressure, &zones, points);
     let describe = |(k, zone): (usize, &Zone)| {
-        let differences = estimate.zones.get(at).and_then(|of_contact| of_contact.get(k));
-        let differences = differences.map_or([None, None], |pair| pair.each_ref().map(Option::as_ref));
-        let found = ZoneEstimate::new(contact.pair.space, &errors[k], differences);
-        let before = |end: usize| differences.map(|difference| difference.map(|found| found.at_ends[end]));
-        let singular = (0..2).any(|end| grows_towards(contact, lambda, zone, end, before(end)));
+        let (found, at_ends) = &estimates[k];
+        let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
+        let singular = (0..2).any(|end| grows_towards(&pressure, zone, end, before(end)));
         let edges: f64 = zone.segments.clone().map(|k| contact.boundary.segment_length(k) / contact.edge_lengths[k]).sum();
         // All signs of a narrow zone may be small beside its error, unless they are very small.
         let wide = edges >= LEAST_PARTS && zone.segments.len() >= LEAST_SEGMENTS;
@@ -50,14 +44,14 @@ pub fn zones(
             edges: Some(edges),
             segments: Some(zone.segments.len()),
             share: Some(forces[k] / whole),
-            pressure_max: Some(zone.peak(&contact.multipliers, lambda)),
+            pressure_max: Some(pressure.peak_of(zone)),
             lambda: found.pressure.filter(tells),
             whole: found.inside.filter(tells),
             worst: found.worst,
             force: found.force,
             peak: found.peak.filter(tells).filter(|_| !singular),
             singular: Some(singular),
-            corner: Some((0..2).any(|end| ends_at_a_corner(problem, contact, zone, end))),
+            corner: Some((0..2).any(|end| ends_at_a_corner(&problem.scene.mesh, contact, zone, end))),
         }
     };
     zones.iter().enumerate().map(describe).collect()
@@ -65,15 +59,16 @@ pub fn zones(
 
 /// Whether λ grows towards an end of Γ_C, ever more quickly, and without bound as meshes are refined, as far as the values
 /// there on the mesh `before` and the one before that tell. Steps grow towards any steep end.
-fn grows_towards(contact: &Contact, lambda: &[f64], zone: &Zone, end: usize, [before, earlier]: [Option<f64>; 2]) -> bool {
+fn grows_towards(pressure: &ContactPressure, zone: &Zone, end: usize, [before, earlier]: [Option<f64>; 2]) -> bool {
+    let contact = pressure.contact;
     if !touches(contact, zone, end) || zone.segments.len() < 3 {
         return false;
     }
     let nth = |i: usize| if end == 0 { zone.segments.start + i } else { zone.segments.end - 1 - i };
-    let [a, b, c] = [0, 1, 2].map(|i| contact.multipliers.value(lambda, nth(i), 0.5));
+    let [a, b, c] = [0, 1, 2].map(|i| pressure.value(nth(i), 0.5));
     let lengths = [0, 1, 2].map(|i| contact.boundary.segment_length(nth(i)));
     let slopes = [(a - b) / (lengths[0] + lengths[1]), (b - c) / (lengths[1] + lengths[2])];
-    let last = contact.multipliers.value(lambda, nth(0), if end == 0 { 0.05 } else { 0.95 });
+    let last = pressure.value(nth(0), if end == 0 { 0.05 } else { 0.95 });
     let grown = match (before, earlier) {
         (Some(before), Some(earlier)) => {
             last > GROWS * before && before > earlier && last - before > GOES_ON * (before - earlier)
@@ -90,8 +85,8 @@ fn touches(contact: &Contact, zone: &Zone, end: usize) -> bool {
 }
 
 /// Whether a zone reaches an end of Γ_C where one of the bodies has a corner and the other goes on.
-fn ends_at_a_corner(problem: &Discretisation, contact: &Contact, zone: &Zone, end: usize) -> bool {
-    let (mesh, boundary) = (&problem.scene.mesh, &contact.boundary);
+fn ends_at_a_corner(mesh: &MacroMesh, contact: &Contact, zone: &Zone, end: usize) -> bool {
+    let boundary = &contact.boundary;
     if !touches(contact, zone, end) || boundary.period().is_some() {
         return false;
     }

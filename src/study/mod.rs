@@ -2,6 +2,7 @@
 //! differ.
 
 mod ended;
+mod error;
 mod execution;
 mod figure;
 mod fit;
@@ -19,8 +20,7 @@ mod table;
 
 use std::path::Path;
 
-use crate::case::CaseError;
-use crate::output::OutputError;
+pub use error::StudyError;
 
 use ended::Ended;
 use execution::Execution;
@@ -30,32 +30,6 @@ use progress::Progress;
 use record::{Program, Record, inputs, what};
 use repeats::with_spreads;
 use table::Table;
-
-/// Why there is no table.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum StudyError {
-    /// The study cannot be made as it stands: 2.
-    #[error("{0}")]
-    Input(String),
-    /// The disk failed: 1.
-    #[error("{0}")]
-    Failed(String),
-}
-
-impl From<CaseError> for StudyError {
-    fn from(error: CaseError) -> Self {
-        Self::Input(error.to_string())
-    }
-}
-
-impl From<OutputError> for StudyError {
-    fn from(error: OutputError) -> Self {
-        match error {
-            OutputError::Io { .. } => Self::Failed(error.to_string()),
-            refused => Self::Input(refused.to_string()),
-        }
-    }
-}
 
 /// Makes every run of a study that has not been made yet, and tables and figures of all in the folder `out`. A run that fails is a
 /// row too. `overrides` are `KEY=VALUE` for keys of the study; with `force` all runs are made anew.

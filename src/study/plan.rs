@@ -1,7 +1,10 @@
 //! The study file: TOML text to a checked list of runs.
 
 mod moves;
+mod planned;
 mod settings;
+
+pub use planned::PlannedRun;
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -17,10 +20,9 @@ use crate::case::section::{Section, read_text};
 use crate::case::{Case, name_of, values};
 
 use moves::Moves;
+use planned::Scene;
 use settings::{CASES, Curve, read_curve, read_grid, read_set};
 
-/// More runs than anybody wants to wait for.
-const MOST_RUNS: usize = 10_000;
 /// Longest time limit of a run, in seconds: a month.
 const LONGEST: f64 = 30.0 * 86_400.0;
 
@@ -43,27 +45,6 @@ pub struct Plan {
     pub timeout: Duration,
     /// In the order in which they are made.
     pub runs: Vec<PlannedRun>,
-}
-
-/// One run of a study.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlannedRun {
-    /// The case file.
-    pub file: PathBuf,
-    /// Name of the case in the table: that of its results, or its path in the study if another one is called the same.
-    pub case: String,
-    /// Title of the case.
-    pub title: String,
-    /// Name of the curve.
-    pub curve: Option<String>,
-    /// Number of ranks.
-    pub ranks: usize,
-    /// Which of the repeats this is, from 1.
-    pub repeat: usize,
-    /// Values of [`Plan::keys`]; None where the key does not move.
-    pub values: Vec<Option<Value>>,
-    /// `KEY=VALUE` of `[set]`, curve and grid.
-    pub overrides: Vec<String>,
 }
 
 impl Plan {
@@ -136,26 +117,6 @@ impl Plan {
             timeout,
             runs,
         })
-    }
-}
-
-/// A case of the study.
-struct Scene {
-    /// As it stands in `cases`.
-    written: String,
-    file: PathBuf,
-    label: String,
-    title: String,
-}
-
-impl Scene {
-    /// The curves of this case; one that is none if the study has no curves.
-    fn curves<'a>(&self, curves: &'a [Curve]) -> Vec<Option<&'a Curve>> {
-        if curves.is_empty() {
-            return vec![None];
-        }
-        let drawn = |curve: &&Curve| curve.cases.as_ref().is_none_or(|cases| cases.contains(&self.written));
-        curves.iter().filter(drawn).map(Some).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Displacements of the nodes on contact boundaries, known to all ranks.
 
-use super::{Discretisation, Space};
+use super::{Scene, Space};
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh};
 use crate::petsc::Session;
@@ -14,10 +14,11 @@ pub struct BoundaryMotion {
 
 impl BoundaryMotion {
     /// Each rank gives those of its nodes, from its unknowns in the nodes' frames. **Collective**
-    pub fn new(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Self {
-        let (mesh, space) = (&problem.scene.mesh, problem.finest());
+    pub fn new(scene: &Scene, space: &Space, unknowns: &[f64], session: &Session) -> Self {
+        let mesh = &scene.mesh;
         let (mut keys, mut values) = (Vec::new(), Vec::new());
-        for node in contact_nodes(problem).map(|node| node.number(mesh, &space.numbering)).filter(|n| space.own.contains(n)) {
+        for node in contact_nodes(scene, space).map(|node| node.number(mesh, &space.numbering)).filter(|n| space.own.contains(n))
+        {
             let at = 2 * (node - space.own.start);
             let u = space.to_global(node, Point::new(unknowns[at], unknowns[at + 1]));
             keys.push(node as i32);
@@ -38,10 +39,10 @@ impl BoundaryMotion {
 }
 
 /// Every node of the boundaries of all contacts, those between two edges twice.
-fn contact_nodes(problem: &Discretisation) -> impl Iterator<Item = EdgeNode> {
-    let mesh = &problem.scene.mesh;
-    let n = problem.finest().numbering.level.intervals as u32;
-    let names = problem.scene.pairs.iter().flat_map(|pair| &pair.between);
+fn contact_nodes<'a>(scene: &'a Scene, space: &Space) -> impl Iterator<Item = EdgeNode> + use<'a> {
+    let mesh = &scene.mesh;
+    let n = space.numbering.level.intervals as u32;
+    let names = scene.pairs.iter().flat_map(|pair| &pair.between);
     let edges = names.flat_map(|name| mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]));
     edges.flat_map(move |&edge| (0..=n).map(move |position| EdgeNode { edge, position }))
 }

@@ -2,9 +2,8 @@
 
 use super::{Scene, SystemError};
 use crate::contact::{
-    Configuration, ContactBoundary, CurveChoice, DiagonalBlock, Displacement, Distance, Facing, GapChoice, Jump, Known,
-    MultiplierSpace, Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_edge_lengths,
-    segment_ratio,
+    Configuration, ContactBoundary, CurveChoice, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace,
+    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};
@@ -200,14 +199,4 @@ fn check_facing(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> R
         clash.map_or(Ok(()), |why| Err(words(&contacts[at], why)))?;
     }
     Ok(())
-}
-
-/// `D` of all contacts, numbered through.
-pub(super) fn weights(contacts: &[Contact], active: &[bool]) -> Vec<DiagonalBlock> {
-    let own = |contact: &Contact| {
-        let mut blocks = contact.multipliers.augmentation(contact.modulus, &active[contact.range()]);
-        blocks.iter_mut().flat_map(|block| &mut block.rows).for_each(|row| *row += contact.first);
-        blocks
-    };
-    contacts.iter().flat_map(own).collect()
 }

@@ -1,8 +1,8 @@
 //! A scene cut into unknowns: spaces of all levels, contacts, couplings.
 
-use super::{BoundaryMotion, CoarseSolution, Contact, Coupling, Scene, Space, SystemError};
-use crate::contact::{Jump, Pair};
-use crate::mesh::{Level, levels};
+use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError};
+use crate::contact::Jump;
+use crate::mesh::{Level, Numbering, levels};
 use crate::petsc::Session;
 
 /// Everything that a system is assembled from.
@@ -20,15 +20,30 @@ pub struct Discretisation {
 }
 
 impl Discretisation {
-    /// Couples the contacts of a scene whose spaces are at hand. **Collective**
+    /// A scene with its contacts at rest. **Collective**
     ///
     /// # Errors
-    /// [`SystemError::Case`] if a contact boundary cannot be placed or measured.
-    pub fn new(scene: Scene, spaces: Vec<Space>, session: &Session) -> Result<Self, SystemError> {
-        let finest = &spaces[spaces.len() - 1];
-        let contacts = Contact::all(&scene, &finest.numbering, session.rank())?;
+    /// [`SystemError::Case`] if supports contradict each other, the mesh is too fine, or a contact boundary cannot be placed or
+    /// measured.
+    pub fn new(scene: Scene, session: &Session) -> Result<Self, SystemError> {
+        let spaces = spaces(&scene, session.rank())?;
+        let contacts = Contact::all(&scene, &spaces[spaces.len() - 1].numbering, session.rank())?;
+        Self::with(scene, spaces, contacts, BoundaryMotion::default(), session)
+    }
+
+    /// Couples contacts that are placed, on bodies that have moved. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact boundary cannot be measured.
+    pub fn with(
+        scene: Scene,
+        spaces: Vec<Space>,
+        contacts: Vec<Contact>,
+        motion: BoundaryMotion,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
         let coupling = Coupling::new(&scene, &contacts, session)?;
-        Ok(Self { scene, spaces, contacts, coupling, motion: BoundaryMotion::default() })
+        Ok(Self { scene, spaces, contacts, coupling, motion })
     }
 
     /// Puts contacts in place that were placed again on moved bodies, and couples them. **Collective**
@@ -39,29 +54,6 @@ impl Discretisation {
         self.coupling = Coupling::new(&self.scene, &contacts, session)?;
         (self.contacts, self.motion) = (contacts, motion);
         Ok(())
-    }
-
-    /// Goes to another refinement of the same scene, with the given pairs, at rest or where a coarser solution says;
-    /// gives that solution's displacements in the new unknowns. **Collective**
-    ///
-    /// # Errors
-    /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on this mesh.
-    pub fn refine_to(
-        &mut self,
-        refine: usize,
-        pairs: Vec<Pair>,
-        coarse: Option<&CoarseSolution>,
-        session: &Session,
-    ) -> Result<Option<Vec<f64>>, SystemError> {
-        (self.scene.refine, self.scene.pairs) = (refine, pairs);
-        self.spaces = spaces(&self.scene, session.rank())?;
-        let start = coarse.map(|coarse| coarse.displacement(self, session.rank()));
-        let (contacts, motion) = match (coarse, &start) {
-            (Some(coarse), Some(start)) => coarse.contacts(self, start, session)?,
-            _ => (Contact::all(&self.scene, &self.finest().numbering, session.rank())?, BoundaryMotion::default()),
-        };
-        self.replace(contacts, motion, session)?;
-        Ok(start)
     }
 
     /// Whether some contact boundary depends on the solution.
@@ -107,6 +99,17 @@ fn check_size(scene: &Scene, level: Level) -> Result<(), SystemError> {
         return Err(SystemError::Case(words));
     }
     Ok(())
+}
+
+/// The nodes of the level that is solved in.
+///
+/// # Errors
+/// [`SystemError::Case`] if the mesh is too fine.
+pub fn finest_numbering(scene: &Scene) -> Result<Numbering, SystemError> {
+    let levels = levels(scene.order, scene.refine);
+    let finest = levels[levels.len() - 1];
+    check_size(scene, finest)?;
+    Ok(Numbering::new(finest, &scene.partition))
 }
 
 /// Spaces of all levels that multigrid uses, coarsest first.

@@ -7,10 +7,11 @@ use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Partition};
 use std::rc::Rc;
 
-/// Everything that defines the system, the same on every rank.
+/// Everything that defines the system, the same on every rank. Copies share the mesh.
+#[derive(Clone)]
 pub struct Scene {
     /// The macro mesh, bent onto its geometries.
-    pub mesh: MacroMesh,
+    pub mesh: Rc<MacroMesh>,
     /// Which rank owns what.
     pub partition: Rc<Partition>,
     /// Displacement elements.
@@ -28,6 +29,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The same scene on a mesh that is `times` refinements coarser, with as many segments less.
+    pub fn coarser(&self, times: usize) -> Self {
+        let pairs = self.pairs.iter().map(|pair| pair.coarser(times)).collect();
+        Self { refine: self.refine - times, pairs, ..self.clone() }
+    }
+
     /// Plane-strain law of each body.
     pub fn laws(&self) -> Vec<PlaneStrain> {
         self.bodies.iter().map(|body| body.material.law()).collect()

@@ -9,7 +9,7 @@ mod bars;
 
 use mezha::element::Order;
 use mezha::petsc::Session;
-use mezha::system::{Discretisation, Elastic, Form, spaces};
+use mezha::system::{Discretisation, Elastic, Form};
 use std::time::Instant;
 
 fn main() {
@@ -18,8 +18,7 @@ fn main() {
     for (order, refine) in [(Order::P1, 7), (Order::P2, 6)] {
         if wanted.is_empty() || wanted.contains(&format!("{order:?}")) {
             let scene = bars::scene(&session, order, refine, false);
-            let spaces = spaces(&scene, session.rank()).expect("supports agree");
-            let problem = Discretisation::new(scene, spaces, &session).expect("a discretisation");
+            let problem = Discretisation::new(scene, &session).expect("a discretisation");
             measure(&session, &problem, Form::Augmented, &format!("{order:?}, all levels, strips"));
             measure(&session, &problem, Form::Plain, &format!("{order:?}, finest level, stored"));
         }

@@ -30,7 +30,7 @@ fn main() -> std::process::ExitCode {
             gather_fetches_any_entry,
             matrix_of_exact_counts,
             matrix_in_blocks,
-            matrix_is_shared_by_clones,
+            a_nest_sees_what_becomes_of_its_blocks,
             wrong_calls_give_words,
             nest_is_its_blocks,
             operator_acts,
@@ -174,7 +174,7 @@ fn vector_adds_across_ranks(session: &Session) {
 fn gather_fetches_any_entry(session: &Session) {
     let x = ramp(session, 7);
     let backwards: Vec<i32> = (0..7).rev().chain([3, 3]).collect();
-    let gather = Gather::new(&x, &backwards).unwrap();
+    let mut gather = Gather::new(&x, &backwards).unwrap();
     assert_eq!(gather.fetch(&x).unwrap(), [6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0, 3.0, 3.0]);
     let mut y = x.duplicate().unwrap();
     y.axpy(10.0, &x).unwrap();
@@ -234,13 +234,18 @@ fn matrix_in_blocks(session: &Session) {
     assert_eq!(y.values()[0], if rank == 0 { 20.0 } else { 85.0 });
 }
 
-fn matrix_is_shared_by_clones(session: &Session) {
-    let a = laplacian(session, 4, |_| 0.0);
-    let mut b = a.clone();
-    b.zero_entries().unwrap();
-    b.assemble().unwrap();
-    drop(b);
-    assert_eq!(a.norm_infinity().unwrap(), 0.0);
+fn a_nest_sees_what_becomes_of_its_blocks(session: &Session) {
+    let zero = || sparse(session, 2, 2, |i| vec![(i, 0.0)]);
+    let (mut a, one) = (laplacian(session, 2, |_| 0.0), laplacian(session, 2, |_| 0.0));
+    let nest = Matrix::nest(session, [[&a, &zero()], [&zero(), &one]]).unwrap();
+    a.zero_entries().unwrap();
+    a.assemble().unwrap();
+    drop((a, one));
+    let (mut x, mut y) = nest.create_vectors().unwrap();
+    x.set(1.0).unwrap();
+    nest.multiply(&x, &mut y).unwrap();
+    // The upper half is zero now, the lower one (2 - 1, 2 - 1).
+    assert_eq!(y.norm().unwrap().powi(2).round(), 2.0);
 }
 
 fn wrong_calls_give_words(session: &Session) {

@@ -8,7 +8,7 @@ use launch::{Suite, named};
 use mezha::element::Order;
 use mezha::mesh::lattice;
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
-use mezha::system::{Discretisation, Elastic, Form, Space, interpolations, spaces};
+use mezha::system::{Discretisation, Elastic, Form, Space, interpolations};
 
 fn main() -> std::process::ExitCode {
     Suite {
@@ -31,9 +31,7 @@ fn main() -> std::process::ExitCode {
 fn problems(session: &Session) -> Vec<Discretisation> {
     let cases = [(Order::P1, 5, false), (Order::P2, 4, false), (Order::P1, 6, true), (Order::P2, 5, true)];
     let problem = |(order, refine, graded)| {
-        let scene = bars::scene(session, order, refine, graded);
-        let spaces = spaces(&scene, session.rank()).expect("supports agree");
-        Discretisation::new(scene, spaces, session).expect("a discretisation")
+        Discretisation::new(bars::scene(session, order, refine, graded), session).expect("a discretisation")
     };
     cases.into_iter().map(problem).collect()
 }

@@ -3,7 +3,7 @@
 use mezha::body::{Body, Material, Support};
 use mezha::element::Order;
 use mezha::geometry::Formula;
-use mezha::mesh::{Graph, Partition, read_gmsh};
+use mezha::mesh::{Graph, MacroMesh, Partition, read_gmsh};
 use mezha::petsc::{Session, partition};
 use mezha::system::Scene;
 use std::path::Path;
@@ -16,6 +16,11 @@ pub fn scene(session: &Session, order: Order, refine: usize, graded: bool) -> Sc
     if graded {
         mesh.grade([0.0, 3.0].into(), 0.3).expect("a vertex");
     }
+    on(mesh, session, order, refine)
+}
+
+/// The same scene on a mesh of its own.
+pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Scene {
     let graph = Graph::new(&mesh, &[]);
     let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.weights, None).expect("a partition");
     let body = |name: &String| Body {
@@ -33,6 +38,6 @@ pub fn scene(session: &Session, order: Order, refine: usize, graded: bool) -> Sc
         supports: vec![wall],
         loads: Vec::new(),
         pairs: Vec::new(),
-        mesh,
+        mesh: Rc::new(mesh),
     }
 }

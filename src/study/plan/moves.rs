@@ -2,11 +2,14 @@
 
 use toml::Value;
 
+use super::planned::{PlannedRun, Scene};
 use super::settings::{Axis, Curve, Setting};
-use super::{MOST_RUNS, PlannedRun, Scene};
 use crate::case::Case;
 use crate::case::error::dotted;
 use crate::case::section::Section;
+
+/// More runs than anybody wants to wait for.
+const MOST_RUNS: usize = 10_000;
 
 /// Keys of the cases that the study sets.
 pub struct Moves {

@@ -3,7 +3,7 @@
 mod halved_rows;
 
 use super::auxiliary::auxiliary_interpolations;
-use super::solver::want_entries;
+use super::user_options::want_entries;
 use super::{Discretisation, Scene, Space, SystemError};
 use crate::geometry::Point;
 use crate::mesh::lattice::{self, Place};

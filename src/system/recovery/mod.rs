@@ -3,21 +3,19 @@
 mod balance;
 mod deformation;
 mod error_norm;
-mod exact_pressure;
+mod evaluation;
 mod motion_error;
 mod probe;
 mod stress;
 mod traces;
 mod zone_errors;
 
-pub use balance::{Balance, ContactForce, balance, strain_energy};
-pub use deformation::{Deformation, deformations};
-pub use error_norm::energy_error;
-pub use exact_pressure::{pressure_at, pressure_error};
-pub use motion_error::{MotionError, motion_errors};
-pub use probe::{Probed, probe};
-pub use stress::nodal_stress;
-pub use traces::{TracePoint, trace_points};
+pub use balance::{Balance, ContactForce, strain_energy};
+pub use deformation::Deformation;
+pub use evaluation::Evaluation;
+pub use motion_error::MotionError;
+pub use probe::Probed;
+pub use traces::TracePoint;
 pub use zone_errors::{ZoneErrors, zone_errors};
 
 use super::{Discretisation, Field, SystemError};

@@ -35,7 +35,7 @@ pub fn motion_errors(
         return problem.contacts.iter().map(|contact| one(problem, solution, contact, energy, bodies, None)).collect();
     }
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
-    let motion = BoundaryMotion::new(problem, &solution.displacement, session);
+    let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
     let displacement = |node: EdgeNode| motion.at(node, mesh, space);
     let with_sides = |contact: &Contact| {
         let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact));

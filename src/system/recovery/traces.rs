@@ -7,7 +7,7 @@ use crate::element::{Order, PlaneStrain, stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
-use crate::system::{Contact, Discretisation, Field, SystemError};
+use crate::system::{Contact, ContactPressure, Discretisation, Field, SystemError};
 
 /// Gauss points of each part of Γ_C that results are given at.
 const POINTS: usize = 2;
@@ -31,6 +31,8 @@ pub struct TracePoint {
     pub stress: [f64; 2],
     /// Undeformed distance along the normal from Γ_C to each corresponding point.
     pub distance: [f64; 2],
+    /// Distance of the deformed bodies, as the contact conditions mean it.
+    pub gap: f64,
 }
 
 impl TracePoint {
@@ -47,11 +49,11 @@ impl TracePoint {
 /// [`SystemError`] where a triangle is inverted.
 pub fn trace_points(
     problem: &Discretisation,
-    contact: &Contact,
-    lambda: &[f64],
+    pressure: &ContactPressure,
     u: &Field<2>,
     session: &Session,
 ) -> Result<Vec<TracePoint>, SystemError> {
+    let contact = pressure.contact;
     let own = [0, 1].map(|k| pieces(&contact.boundary, &contact.edges[k]));
     let (parameters, segments) =
         parameters(contact, &own.iter().flatten().flat_map(|piece| piece.range).collect::<Vec<_>>(), session);
@@ -80,15 +82,18 @@ pub fn trace_points(
         let k = segments[at];
         let mean = |side: usize, i: usize| sums[at][4 * side + 1 + i] / sums[at][4 * side];
         let z = ((t - knots[k]) / (knots[k + 1] - knots[k])).clamp(0.0, 1.0);
+        let (x, distance) = (contact.boundary.point(t), [mean(0, 2), mean(1, 2)]);
+        let displacement = [mean(0, 0), mean(1, 0)];
         TracePoint {
             parameter: t,
             arc: contact.boundary.arc(t),
-            x: contact.boundary.point(t),
+            x,
             normal: contact.boundary.normal(t),
-            lambda: contact.multipliers.value(lambda, k, z),
-            displacement: [mean(0, 0), mean(1, 0)],
+            lambda: pressure.value(k, z),
+            displacement,
             stress: [mean(0, 1), mean(1, 1)],
-            distance: [mean(0, 2), mean(1, 2)],
+            distance,
+            gap: contact.pair.gap.at_rest(x, distance) + displacement[1] - displacement[0],
         }
     };
     Ok(parameters.iter().enumerate().map(point).collect())

@@ -17,7 +17,7 @@ pub struct ZoneErrors {
     pub roughness: Option<Roughness>,
 }
 
-/// One for each zone; `points` are those of [`super::trace_points`].
+/// One for each zone; `points` are those of [`super::Evaluation::traces`].
 pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[TracePoint]) -> Vec<ZoneErrors> {
     let one = |zone: &Zone| {
         let arcs = contact.boundary.arcs();

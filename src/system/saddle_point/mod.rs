@@ -11,28 +11,22 @@
 //! the set. Multipliers are scaled by `s_i = E_c / H_i`: `λ = s λ̂`, `B̂ = s B`, `ĉ = s c`, `D̂ = D / s²`; then the
 //! residuals of this and of the plain system agree in size.
 
+mod augmentation;
 mod coupling_rows;
 mod multiplier_blocks;
 
-pub use coupling_rows::CouplingRows;
-pub use multiplier_blocks::{MultiplierBlocks, SchurPattern};
+pub use multiplier_blocks::SchurPattern;
 
-use super::contact::weights;
 use super::stiffness::{ContactNeighbours, Elastic, Stiffness};
-use super::{Discretisation, Space, SystemError};
-use crate::contact::{DiagonalBlock, SparseRows, jump_matrix};
+use super::{Coupled, Discretisation, Form, Space, SystemError};
+use crate::contact::DiagonalBlock;
+use crate::mesh::EdgeNode;
 use crate::petsc::{Matrix, Session, Vector};
+use augmentation::Augmentation;
+use coupling_rows::CouplingRows;
+use multiplier_blocks::MultiplierBlocks;
 
-/// Whether the system is augmented.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// With the augmentation, for the iterative solver.
-    Augmented,
-    /// Without, for the direct solver.
-    Plain,
-}
-
-/// The blocks, their levels, and the right-hand side.
+/// The blocks and their levels for one active set at a time.
 pub struct SaddlePoint {
     /// `K + Bᵀ D B` on every level, coarsest first; only the finest in the plain form.
     pub stiffness: Vec<Stiffness>,
@@ -41,11 +35,11 @@ pub struct SaddlePoint {
     /// All four blocks.
     pub nest: Matrix,
     /// `c - B u_D` (length squared).
-    pub gap: Vec<f64>,
-    /// `D` of the active multipliers, unscaled, all contacts numbered through.
-    weights: Vec<DiagonalBlock>,
-    /// `C` of the active multipliers, unscaled.
-    jumps: SparseRows,
+    gap: Vec<f64>,
+    /// The set that all blocks are those of.
+    active: Vec<bool>,
+    /// `D` of the active multipliers, unscaled; nothing in the plain form.
+    augmentation: Augmentation,
     rows: Vec<CouplingRows>,
     form: Form,
     load: Vec<f64>,
@@ -65,7 +59,7 @@ impl SaddlePoint {
     pub fn around(problem: &Discretisation, elastic: &Elastic, form: Form, session: &Session) -> Result<Self, SystemError> {
         let rows = CouplingRows::of_levels(&problem.scene.mesh, &problem.coupling, &problem.spaces);
         let neighbours = neighbours(problem, &rows, form);
-        let stiffness = elastic.with_room(problem, form, &neighbours, session)?;
+        let stiffness = elastic.with_places(problem, form, &neighbours, session)?;
         Self::with(problem, rows, stiffness, elastic.load.clone(), form, session)
     }
 
@@ -77,39 +71,50 @@ impl SaddlePoint {
         form: Form,
         session: &Session,
     ) -> Result<Self, SystemError> {
-        let blocks = MultiplierBlocks::new(problem, &rows[rows.len() - 1], session)?;
+        let all: Vec<usize> = (0..problem.multiplier_count()).collect();
+        let active = vec![true; all.len()];
+        let mut augmentation = Augmentation::new(&problem.contacts);
+        let groups = if form == Form::Augmented { augmentation.groups_of(all.iter().copied()) } else { Default::default() };
+        let change = augmentation.change(&groups, &problem.contacts, &active);
+        let multipliers = MultiplierBlocks::new(problem, &rows[rows.len() - 1], &augmentation, session)?;
         let finest = &stiffness[stiffness.len() - 1];
-        let nest = Matrix::nest(session, [[finest.operator(), &blocks.transpose], [&blocks.coupling, &blocks.corner]])?;
+        let nest =
+            Matrix::nest(session, [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]])?;
         let gap = moved_gap(problem);
-        let mut system =
-            Self { stiffness, multipliers: blocks, nest, gap, weights: Vec::new(), jumps: Vec::new(), rows, form, load };
-        system.activate(problem, &vec![true; problem.multiplier_count()])?;
+        let mut system = Self { stiffness, multipliers, nest, gap, active, augmentation, rows, form, load };
+        system.augment(problem, &change)?;
+        system.fill(problem, &all)?;
         Ok(system)
     }
 
-    /// Changes all blocks to another active set; on every level only those of changed multipliers. **Collective**
-    pub fn activate(&mut self, problem: &Discretisation, active: &[bool]) -> Result<(), SystemError> {
-        let next = weights(&problem.contacts, active);
-        if self.form == Form::Augmented {
-            self.augment(problem, &next)?;
-        }
-        let jumps = jump_matrix(problem.jumps(), active.len());
-        let in_transpose = if self.form == Form::Augmented { next.as_slice() } else { &[] };
-        self.multipliers.fill(problem, &self.rows[self.rows.len() - 1], active, in_transpose, &jumps)?;
-        self.jumps = jumps;
-        self.weights = next;
-        self.nest.refresh()?;
-        Ok(())
+    /// The set that the blocks are those of.
+    pub fn active(&self) -> &[bool] {
+        &self.active
     }
 
-    /// Adds `Bᵀ D B` of the weights that come, and takes off that of the weights that go.
-    fn augment(&mut self, problem: &Discretisation, next: &[DiagonalBlock]) -> Result<(), SystemError> {
-        let gone = self.weights.iter().filter(|block| !next.contains(block)).map(DiagonalBlock::negative);
-        let come = next.iter().filter(|block| !self.weights.contains(block)).cloned();
-        let change: Vec<DiagonalBlock> = gone.chain(come).collect();
+    /// Goes to another active set. The work is that of the multipliers that change, on every level. **Collective**
+    pub fn set_active(&mut self, problem: &Discretisation, active: &[bool]) -> Result<(), SystemError> {
+        let changed: Vec<usize> = (0..active.len()).filter(|&i| active[i] != self.active[i]).collect();
+        if changed.is_empty() {
+            return Ok(());
+        }
+        self.active.copy_from_slice(active);
+        if self.form == Form::Augmented {
+            let groups = self.augmentation.groups_of(changed.iter().copied());
+            let change = self.augmentation.change(&groups, &problem.contacts, active);
+            self.augment(problem, &change)?;
+        }
+        self.fill(problem, &changed)
+    }
+
+    /// Adds `Bᵀ D B` of a change of the weights to every level. **Collective**
+    fn augment(&mut self, problem: &Discretisation, change: &[DiagonalBlock]) -> Result<(), SystemError> {
+        if change.is_empty() {
+            return Ok(());
+        }
         for ((matrix, rows), space) in self.stiffness.iter_mut().zip(&self.rows).zip(&problem.spaces) {
             let mut result = Ok(());
-            rows.weighted_square(&change, |a, b, values| {
+            rows.weighted_square(change, |a, b, values| {
                 if space.own.contains(&a) && result.is_ok() {
                     result = matrix.add_block(a, b, &values);
                 }
@@ -120,15 +125,22 @@ impl SaddlePoint {
         Ok(())
     }
 
-    /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it. **Collective**
-    pub fn stored_nest(&self, session: &Session) -> Result<Matrix, SystemError> {
+    /// Brings the blocks with a multiplier side to the present set. **Collective**
+    fn fill(&mut self, problem: &Discretisation, changed: &[usize]) -> Result<(), SystemError> {
+        self.multipliers.set(problem, &self.rows[self.rows.len() - 1], &self.active, &self.augmentation, changed)?;
+        Ok(self.nest.refresh()?)
+    }
+
+    /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it; `None` if they are.
+    /// **Collective**
+    pub fn stored_nest(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
         if self.multipliers.scale.is_empty() {
             // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
-            return Ok(self.nest.convert_aij()?);
+            return Ok(Some(self.nest.convert_aij()?));
         }
-        let Some(stiffness) = self.finest_stiffness().expanded(session)? else { return Ok(self.nest.clone()) };
+        let Some(stiffness) = self.finest_stiffness().expanded(session)? else { return Ok(None) };
         let blocks = &self.multipliers;
-        Ok(Matrix::nest(session, [[&stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?)
+        Ok(Some(Matrix::nest(session, [[&stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?))
     }
 
     /// `K + Bᵀ D B` on the finest level.
@@ -136,18 +148,27 @@ impl SaddlePoint {
         &self.stiffness[self.stiffness.len() - 1]
     }
 
-    /// `C λ` (length squared).
-    pub fn jump_term(&self, lambda: &[f64]) -> Vec<f64> {
-        self.jumps.iter().map(|row| row.iter().map(|(&j, value)| value * lambda[j]).sum()).collect()
-    }
-
     /// Rows of `B` on the finest level, unscaled, whatever the active set.
-    pub fn finest_rows(&self) -> &CouplingRows {
+    fn finest_rows(&self) -> &CouplingRows {
         &self.rows[self.rows.len() - 1]
     }
 
+    /// `(B u - c)_i` of all multipliers, for this rank's displacements (length squared). **Collective**
+    pub fn penetration(&self, u: &[f64], space: &Space, session: &Session) -> Vec<f64> {
+        let mut all = vec![0.0; self.gap.len()];
+        for (i, sum) in all.iter_mut().enumerate() {
+            for &(node, entry) in self.finest_rows().row(i).iter().filter(|(node, _)| space.own.contains(node)) {
+                let at = 2 * (node - space.own.start);
+                *sum += entry.x * u[at] + entry.y * u[at + 1];
+            }
+        }
+        session.sum(&mut all);
+        all.iter_mut().zip(&self.gap).for_each(|(sum, gap)| *sum -= gap);
+        all
+    }
+
     /// Right-hand side: `f + Bᵀ D c`, and `ĉ` on active multipliers. **Collective**
-    pub fn right_hand_side(&self, active: &[bool], space: &Space) -> Result<Vector, SystemError> {
+    pub fn right_hand_side(&self, space: &Space) -> Result<Vector, SystemError> {
         let (_, mut b) = self.nest.create_vectors()?;
         let mut values = b.values_mut();
         let unknowns = space.local_unknowns();
@@ -156,7 +177,7 @@ impl SaddlePoint {
             self.add_weighted(&self.gap, 1.0, &mut values[..unknowns], space);
         }
         for (at, &i) in self.multipliers.own.iter().enumerate() {
-            values[unknowns + at] = if active[i] { self.multipliers.scale[i] * self.gap[i] } else { 0.0 };
+            values[unknowns + at] = if self.active[i] { self.multipliers.scale[i] * self.gap[i] } else { 0.0 };
         }
         drop(values);
         Ok(b)
@@ -180,7 +201,7 @@ impl SaddlePoint {
 
     /// Adds `factor Bᵀ D r` to this rank's displacement entries.
     fn add_weighted(&self, r: &[f64], factor: f64, sums: &mut [f64], space: &Space) {
-        for block in &self.weights {
+        for block in self.augmentation.iter() {
             for (p, &i) in block.rows.iter().enumerate() {
                 let weighted: f64 = block.rows.iter().enumerate().map(|(q, &j)| block.values[p][q] * r[j]).sum();
                 for &(node, value) in self.finest_rows().row(i).iter().filter(|(node, _)| space.own.contains(node)) {
@@ -195,18 +216,15 @@ impl SaddlePoint {
 
 /// Nodes that contact couples, on every level.
 fn neighbours(problem: &Discretisation, rows: &[CouplingRows], form: Form) -> Vec<ContactNeighbours> {
-    let groups = match form {
-        Form::Augmented => weights(&problem.contacts, &vec![true; problem.multiplier_count()]),
-        Form::Plain => Vec::new(),
-    };
-    let groups: Vec<Vec<usize>> = groups.into_iter().map(|block| block.rows).collect();
-    rows.iter().map(|rows| rows.neighbours(&groups)).collect()
+    let augmentation = Augmentation::new(&problem.contacts);
+    let groups = if form == Form::Augmented { augmentation.members() } else { &[] };
+    rows.iter().map(|rows| rows.neighbours(groups)).collect()
 }
 
 /// `c - B u_D`.
 fn moved_gap(problem: &Discretisation) -> Vec<f64> {
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
-    let prescribed = |node: crate::mesh::EdgeNode| space.prescribed(node.number(mesh, &space.numbering));
-    let moved = |row: &Vec<super::Coupled>| row.iter().map(|coupled| coupled.value.dot(&prescribed(coupled.node))).sum::<f64>();
+    let prescribed = |node: EdgeNode| space.prescribed(node.number(mesh, &space.numbering));
+    let moved = |row: &Vec<Coupled>| row.iter().map(|coupled| coupled.value.dot(&prescribed(coupled.node))).sum::<f64>();
     problem.coupling.gap.iter().zip(&problem.coupling.rows).map(|(c, row)| c - moved(row)).collect()
 }

@@ -1,10 +1,11 @@
 //! The blocks of the saddle point that have a multiplier side: `B̂`, `B̂ᵀ`, `-Ĉ` and the approximate Schur complement.
 
+use super::augmentation::Augmentation;
+use super::coupling_rows::CouplingRows;
 use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::geometry::Point;
 use crate::petsc::{Matrix, Session};
-use crate::system::contact::weights;
-use crate::system::{Contact, CouplingRows, Discretisation, Space, SystemError};
+use crate::system::{Contact, Discretisation, Space, SystemError};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the approximate Schur complement couples.
@@ -61,11 +62,19 @@ pub struct MultiplierBlocks {
     number: Vec<usize>,
     /// Nodes in each column of the transpose, whatever the active set.
     columns: Vec<BTreeSet<usize>>,
+    /// `C`, unscaled.
+    jumps: SparseRows,
 }
 
 impl MultiplierBlocks {
-    /// Empty blocks with exact room; `rows` are those of `B` on the finest level. **Collective**
-    pub fn new(problem: &Discretisation, rows: &CouplingRows, session: &Session) -> Result<Self, SystemError> {
+    /// Empty blocks with exact preallocation; `rows` are those of `B` on the finest level, `all` are the weights of all
+    /// multipliers. **Collective**
+    pub fn new(
+        problem: &Discretisation,
+        rows: &CouplingRows,
+        all: &Augmentation,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
         let owners = &problem.coupling.owners;
         let mut order: Vec<usize> = (0..owners.len()).collect();
         order.sort_by_key(|&i| (owners[i], i));
@@ -78,12 +87,9 @@ impl MultiplierBlocks {
             lengths.into_iter().map(move |length| modulus / length)
         };
         let pattern = SchurPattern::of(&problem.contacts);
-        let all = vec![true; owners.len()];
         let jumps = jump_matrix(problem.jumps(), owners.len());
-        let columns: Vec<BTreeSet<usize>> = corrected(rows, &weights(&problem.contacts, &all), &jumps)
-            .into_iter()
-            .map(|column| column.into_keys().collect())
-            .collect();
+        let columns: Vec<BTreeSet<usize>> =
+            (0..owners.len()).map(|j| corrected(rows, all, &jumps, j).into_keys().collect()).collect();
         let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
         Ok(Self {
             coupling: coupling_matrix(rows, &own, problem.finest(), session)?,
@@ -95,24 +101,22 @@ impl MultiplierBlocks {
             own,
             number,
             columns,
+            jumps,
         })
     }
 
-    /// Values for an active set with its weights `D` and its jump term `C`: on active multipliers `-C` and
+    /// Values for another active set: those of all `changed` multipliers and of what these touch. On active multipliers `-C` and
     /// `S = -(D⁻¹ + C)`; an inactive one has a zero row of `B` and `-1/D_ii` in both. **Collective**
-    pub fn fill(
+    pub fn set(
         &mut self,
         problem: &Discretisation,
         rows: &CouplingRows,
         active: &[bool],
-        weights: &[DiagonalBlock],
-        jumps: &SparseRows,
+        augmentation: &Augmentation,
+        changed: &[usize],
     ) -> Result<(), SystemError> {
-        let transposed = corrected(rows, weights, jumps);
         let (own_rows, own_nodes) = (self.coupling.row_range(), &problem.finest().own);
-        self.corner.zero_entries()?;
-        self.schur.zero_entries()?;
-        for i in 0..active.len() {
+        for i in self.touched(augmentation, changed) {
             let at = [self.number[i] as i32];
             let here = own_rows.contains(&self.number[i]);
             let scale = if active[i] { self.scale[i] } else { 0.0 };
@@ -120,45 +124,68 @@ impl MultiplierBlocks {
                 let columns = [2 * node as i32, 2 * node as i32 + 1];
                 self.coupling.insert(&at, &columns, &[value.x * scale, value.y * scale])?;
             }
-            for node in self.columns[i].iter().filter(|node| own_nodes.contains(node)) {
-                let value = transposed[i].get(node).copied().unwrap_or_default() * scale;
+            let column = corrected(rows, augmentation, &self.jumps, i);
+            for node in self.columns[i].range(own_nodes.clone()) {
+                let value = column.get(node).copied().unwrap_or_default() * scale;
                 self.transpose.insert(&[2 * *node as i32, 2 * *node as i32 + 1], &at, &[value.x, value.y])?;
             }
             if here {
-                let contact = problem.contact_of(i);
-                let alone = contact.multipliers.single_weight(i - contact.first, contact.modulus) / self.scale[i].powi(2);
-                let value = if active[i] { 0.0 } else { -1.0 / alone };
-                self.corner.add(&at, &at, &[value])?;
-                self.schur.add(&at, &at, &[value])?;
+                self.set_corner(problem, active, augmentation, i)?;
             }
         }
-        self.fill_bands(active, weights, jumps)?;
         for matrix in [&mut self.coupling, &mut self.transpose, &mut self.corner, &mut self.schur] {
             matrix.assemble()?;
         }
         Ok(())
     }
 
-    /// Adds `-D⁻¹` to the Schur complement and `-C` to both, on active multipliers.
-    fn fill_bands(&mut self, active: &[bool], weights: &[DiagonalBlock], jumps: &SparseRows) -> Result<(), SystemError> {
-        let own = self.coupling.row_range();
-        let place = |i: usize, j: usize| ([self.number[i] as i32], [self.number[j] as i32], self.scale[i] * self.scale[j]);
-        for block in weights.iter().map(DiagonalBlock::inverse) {
-            for (p, &i) in block.rows.iter().enumerate().filter(|(_, i)| own.contains(&self.number[**i])) {
-                for (q, &j) in block.rows.iter().enumerate() {
-                    let (row, column, scale) = place(i, j);
-                    self.schur.add(&row, &column, &[-scale * block.values[p][q]])?;
-                }
+    /// Multipliers whose rows and columns are others after a change: those of the groups that have changed, and those that a
+    /// jump term couples to them.
+    fn touched(&self, augmentation: &Augmentation, changed: &[usize]) -> BTreeSet<usize> {
+        let groups = augmentation.groups_of(changed.iter().copied());
+        let members = groups.into_iter().flat_map(|group| augmentation.members()[group].iter().copied());
+        members.flat_map(|i| self.jumps[i].keys().copied().chain([i])).collect()
+    }
+
+    /// Row `i` of `-C` and of `S`, whole: what is no longer there is zero.
+    fn set_corner(
+        &mut self,
+        problem: &Discretisation,
+        active: &[bool],
+        augmentation: &Augmentation,
+        i: usize,
+    ) -> Result<(), SystemError> {
+        let contact = problem.contact_of(i);
+        let alone = contact.multipliers.single_weight(i - contact.first, contact.modulus) / self.scale[i].powi(2);
+        let diagonal = if active[i] { 0.0 } else { -1.0 / alone };
+        let mut corner = BTreeMap::from([(i, diagonal)]);
+        corner.extend(self.jumps[i].keys().filter(|j| **j != i).map(|&j| (j, 0.0)));
+        let mut schur = corner.clone();
+        for group in augmentation.groups_of([i]) {
+            augmentation.members()[group].iter().for_each(|&j| _ = schur.entry(j).or_insert(0.0));
+            let Some(inverse) = augmentation.of(group).map(DiagonalBlock::inverse) else { continue };
+            let Some(p) = inverse.rows.iter().position(|&row| row == i) else { continue };
+            for (q, &j) in inverse.rows.iter().enumerate() {
+                *schur.entry(j).or_insert(0.0) += -(self.scale[i] * self.scale[j]) * inverse.values[p][q];
             }
         }
-        for (i, row) in jumps.iter().enumerate().filter(|(i, _)| active[*i] && own.contains(&self.number[*i])) {
-            for (&j, value) in row.iter().filter(|(j, _)| active[**j]) {
-                let (row, column, scale) = place(i, j);
-                self.corner.add(&row, &column, &[-scale * value])?;
-                self.schur.add(&row, &column, &[-scale * value])?;
+        if active[i] {
+            for (&j, value) in self.jumps[i].iter().filter(|(j, _)| active[**j]) {
+                let value = -(self.scale[i] * self.scale[j]) * value;
+                *corner.entry(j).or_insert(0.0) += value;
+                *schur.entry(j).or_insert(0.0) += value;
             }
+        }
+        for (matrix, row) in [(&mut self.corner, corner), (&mut self.schur, schur)] {
+            let columns: Vec<i32> = row.keys().map(|&j| self.number[j] as i32).collect();
+            matrix.insert(&[self.number[i] as i32], &columns, &row.into_values().collect::<Vec<_>>())?;
         }
         Ok(())
+    }
+
+    /// `C λ` (length squared).
+    pub fn jump_term(&self, lambda: &[f64]) -> Vec<f64> {
+        self.jumps.iter().map(|row| row.iter().map(|(&j, value)| value * lambda[j]).sum()).collect()
     }
 
     /// This rank's multiplier entries brought together on every rank, in the order along the boundaries. **Collective**
@@ -170,24 +197,23 @@ impl MultiplierBlocks {
     }
 }
 
-/// Columns of `Bᵀ (I - D C)`: for each multiplier its nodes with their entries.
-fn corrected(rows: &CouplingRows, weights: &[DiagonalBlock], jumps: &SparseRows) -> Vec<BTreeMap<usize, Point>> {
-    let mut columns: Vec<BTreeMap<usize, Point>> = (0..rows.count()).map(|i| rows.row(i).iter().copied().collect()).collect();
-    for block in weights {
+/// Column `j` of `Bᵀ (I - D C)`: nodes with their entries.
+fn corrected(rows: &CouplingRows, augmentation: &Augmentation, jumps: &SparseRows, j: usize) -> BTreeMap<usize, Point> {
+    let mut column: BTreeMap<usize, Point> = rows.row(j).iter().copied().collect();
+    for block in augmentation.groups_of(jumps[j].keys().copied()).into_iter().filter_map(|group| augmentation.of(group)) {
         for (p, &i) in block.rows.iter().enumerate() {
-            for (q, &k) in block.rows.iter().enumerate() {
-                for (&j, c) in &jumps[k] {
-                    for &(node, value) in rows.row(i) {
-                        *columns[j].entry(node).or_default() -= block.values[p][q] * c * value;
-                    }
+            for (q, k) in block.rows.iter().enumerate() {
+                let Some(c) = jumps[j].get(k) else { continue };
+                for &(node, value) in rows.row(i) {
+                    *column.entry(node).or_default() -= block.values[p][q] * c * value;
                 }
             }
         }
     }
-    columns
+    column
 }
 
-/// Empty `B̂` with exact room.
+/// Empty `B̂` with exact preallocation.
 fn coupling_matrix(rows: &CouplingRows, own: &[usize], space: &Space, session: &Session) -> Result<Matrix, SystemError> {
     let count =
         |i: &usize, here: bool| 2 * rows.row(*i).iter().filter(|(node, _)| space.own.contains(node) == here).count() as i32;
@@ -195,7 +221,7 @@ fn coupling_matrix(rows: &CouplingRows, own: &[usize], space: &Space, session: &
     Ok(Matrix::aij(session, own.len(), space.local_unknowns(), 1, &diagonal, &off_diagonal)?)
 }
 
-/// Empty `B̂ᵀ (I - D̂ Ĉ)` with exact room for the given columns.
+/// Empty `B̂ᵀ (I - D̂ Ĉ)` with exact preallocation for the given columns.
 fn transpose_matrix(columns: &[BTreeSet<usize>], own: &[usize], space: &Space, session: &Session) -> Result<Matrix, SystemError> {
     let unknowns = space.local_unknowns();
     let mut counts = [vec![0; unknowns], vec![0; unknowns]];

@@ -30,27 +30,24 @@ const OPTIONS: [(&str, &str); 9] = [
 ///
 /// # Errors
 /// PETSc's own.
-pub fn inf_sup(
-    system: &SaddlePoint,
-    contacts: &[Contact],
-    active: &[bool],
-    session: &Session,
-) -> Result<Vec<Option<f64>>, SystemError> {
+pub fn inf_sup(system: &SaddlePoint, contacts: &[Contact], session: &Session) -> Result<Vec<Option<f64>>, SystemError> {
     for (name, value) in OPTIONS {
         options::set_default(session, name, value)?;
     }
     let krylov = Krylov::new(session, "inf_sup_")?;
     krylov.keep_eigenvalues()?;
-    let nest = system.stored_nest(session)?;
-    krylov.set_operators(&nest, &nest)?;
+    let stored = system.stored_nest(session)?;
+    let nest = stored.as_ref().unwrap_or(&system.nest);
+    krylov.set_operators(nest, nest)?;
     let [u, lambda] = system.nest.nest_index_sets()?;
     krylov.preconditioner().field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
     krylov.set_from_options()?;
     krylov.set_tolerance(TOLERANCE, MOST_ITERATIONS)?;
-    contacts.iter().map(|contact| of_contact(&krylov, system, contact, active)).collect()
+    contacts.iter().map(|contact| of_contact(&krylov, system, contact)).collect()
 }
 
-fn of_contact(krylov: &Krylov, system: &SaddlePoint, contact: &Contact, active: &[bool]) -> Result<Option<f64>, SystemError> {
+fn of_contact(krylov: &Krylov, system: &SaddlePoint, contact: &Contact) -> Result<Option<f64>, SystemError> {
+    let active = system.active();
     if !contact.jumps.is_empty() || !contact.range().any(|i| active[i]) {
         return Ok(None);
     }

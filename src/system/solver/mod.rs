@@ -10,7 +10,6 @@ mod inf_sup;
 mod ladder;
 mod options;
 
-pub(super) use self::options::want_entries;
 pub use inf_sup::inf_sup;
 pub use ladder::Rung;
 
@@ -20,6 +19,7 @@ use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
 use crate::petsc::{self, Krylov, Level, Matrix, Session, Solved, Vector};
 use ladder::needed;
+use std::rc::Rc;
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
@@ -34,7 +34,7 @@ pub struct LinearSolver {
     form: Form,
     /// The converted system of the direct solver.
     converted: Option<Matrix>,
-    interpolations: Vec<Matrix>,
+    interpolations: Rc<[Matrix]>,
     auxiliary: GalerkinLevels,
     /// What preconditions the displacement block.
     pub rung: Rung,
@@ -44,20 +44,32 @@ pub struct LinearSolver {
 
 /// How a linear solve ended.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Ending {
+pub enum LinearEnding {
     /// The tolerance is reached.
     Converged,
-    /// Rounding allows no smaller residual; in words.
-    Rounding(String),
-    /// The residual stays too large; in words.
-    Failed(String),
+    /// Rounding allows no smaller residual.
+    Rounding {
+        /// The relative residual.
+        residual: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+    /// The residual stays too large.
+    Failed {
+        /// Why the solver gave up.
+        reason: String,
+        /// Krylov iterations.
+        iterations: usize,
+        /// The relative residual.
+        residual: f64,
+    },
 }
 
 /// A linear solve in figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearSolve {
     /// How it ended.
-    pub ending: Ending,
+    pub ending: LinearEnding,
     /// Krylov iterations.
     pub iterations: usize,
     /// True residual of the augmented system, relative to the right-hand side.
@@ -66,36 +78,26 @@ pub struct LinearSolve {
     pub climbed: Option<String>,
 }
 
-impl SolverChoice {
-    /// Whether the system is augmented for this solver.
-    pub fn form(self) -> Form {
-        match self {
-            Self::Auto | Self::FieldSplit => Form::Augmented,
-            Self::Direct => Form::Plain,
-        }
-    }
-}
-
 impl LinearSolver {
     /// Sets a solver up, on a rung of the ladder; `interpolations[l]` leads from level `l` to level `l + 1`, where auxiliary
     /// levels come before those of the system (the direct solver wants none). A system of one level is factorised.
     /// **Collective**
     pub fn new(
         system: &SaddlePoint,
-        interpolations: &[Matrix],
+        interpolations: &Rc<[Matrix]>,
         choice: SolverChoice,
         rung: Rung,
         session: &Session,
     ) -> Result<Self, SystemError> {
         match choice.form() {
-            Form::Augmented => Self::field_split(system, interpolations.to_vec(), rung, session),
+            Form::Augmented => Self::field_split(system, interpolations.clone(), rung, session),
             Form::Plain => Self::direct(system, session),
         }
     }
 
     fn field_split(
         system: &SaddlePoint,
-        interpolations: Vec<Matrix>,
+        interpolations: Rc<[Matrix]>,
         rung: Rung,
         session: &Session,
     ) -> Result<Self, SystemError> {
@@ -107,8 +109,7 @@ impl LinearSolver {
             petsc::options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
-        let nest = if rung == Rung::Factor { system.stored_nest(session)? } else { system.nest.clone() };
-        krylov.set_operators(&nest, &nest)?;
+        set_operators(&krylov, system, rung, session)?;
         let [u, lambda] = system.nest.nest_index_sets()?;
         let preconditioner = krylov.preconditioner();
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
@@ -154,7 +155,7 @@ impl LinearSolver {
             session: session.clone(),
             form: Form::Plain,
             converted: None,
-            interpolations: Vec::new(),
+            interpolations: Rc::new([]),
             auxiliary: GalerkinLevels::default(),
             rung: Rung::Factor,
             name,
@@ -174,10 +175,14 @@ impl LinearSolver {
             self.converted = Some(converted);
         } else {
             self.auxiliary.refresh(system.stiffness[0].operator(), below(&self.interpolations, system))?;
-            let nest = if self.rung == Rung::Factor { system.stored_nest(&self.session)? } else { system.nest.clone() };
-            self.krylov.set_operators(&nest, &nest)?;
+            set_operators(&self.krylov, system, self.rung, &self.session)?;
         }
         Ok(())
+    }
+
+    /// Operators of the auxiliary levels, coarsest first.
+    pub fn auxiliary_operators(&self) -> impl Iterator<Item = &Matrix> {
+        self.auxiliary.iter()
     }
 
     /// Options that the user gave and no object of this solver has asked for.
@@ -194,7 +199,7 @@ impl LinearSolver {
         x: &mut Vector,
         tolerance: f64,
     ) -> Result<LinearSolve, SystemError> {
-        let mut solve = LinearSolve { ending: Ending::Converged, iterations: 0, residual: 0.0, climbed: None };
+        let mut solve = LinearSolve { ending: LinearEnding::Converged, iterations: 0, residual: 0.0, climbed: None };
         let norm = b.norm()?;
         if norm == 0.0 {
             x.set(0.0)?;
@@ -254,7 +259,7 @@ impl LinearSolver {
         }
         let unknowns = system.finest_stiffness().operator().size().0;
         let Some(rung) = self.rung.above(needed, unknowns) else { return Ok(false) };
-        *self = Self::field_split(system, std::mem::take(&mut self.interpolations), rung, &self.session)?;
+        *self = Self::field_split(system, self.interpolations.clone(), rung, &self.session)?;
         solve.climbed = Some(self.name.clone());
         Ok(true)
     }
@@ -268,15 +273,13 @@ impl LinearSolver {
         tolerance: f64,
         &LinearSolve { residual, iterations, .. }: &LinearSolve,
         solved: Solved,
-    ) -> Result<Ending, SystemError> {
+    ) -> Result<LinearEnding, SystemError> {
         let floor = self.rounding(system, x, norm)?;
         Ok(if residual <= floor.min(MOST_ROUNDING) {
-            Ending::Rounding(format!(
-                "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
-            ))
+            LinearEnding::Rounding { residual, tolerance }
         } else {
             let reason = if solved.converged { "the residual no longer falls".to_string() } else { solved.reason };
-            Ending::Failed(format!("linear solver: {reason} after {iterations} iterations, residual {residual:.1e}"))
+            LinearEnding::Failed { reason, iterations, residual }
         })
     }
 
@@ -285,6 +288,13 @@ impl LinearSolver {
         let stiffness = system.finest_stiffness().operator().norm_infinity()?;
         Ok(10.0 * f64::EPSILON * stiffness * x.norm()? / norm)
     }
+}
+
+/// The nest, or for a factor the one with all rows stored. **Collective**
+fn set_operators(krylov: &Krylov, system: &SaddlePoint, rung: Rung, session: &Session) -> Result<(), SystemError> {
+    let stored = if rung == Rung::Factor { system.stored_nest(session)? } else { None };
+    let nest = stored.as_ref().unwrap_or(&system.nest);
+    Ok(krylov.set_operators(nest, nest)?)
 }
 
 /// Those interpolations that lead to auxiliary levels, or up from them.

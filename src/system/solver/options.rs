@@ -16,19 +16,12 @@ pub(super) const FIELD_SPLIT: Options = &[
     ("-ksp_divtol", "1e30"),
     ("-pc_type", "fieldsplit"),
     ("-fieldsplit_u_ksp_type", "preonly"),
+    // Multigrid takes the place of `none` once the block solvers exist.
+    ("-fieldsplit_u_pc_type", "none"),
     ("-fieldsplit_lambda_ksp_type", "preonly"),
     ("-fieldsplit_u_mg_levels_pc_type", "sor"),
     ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
 ];
-
-/// Whether options of the user's may ask more of the stiffness than its products and symmetric Gauss-Seidel sweeps: another
-/// preconditioner on the displacements or on the levels, settings of the sweep, Galerkin products. Then all rows are stored.
-pub fn want_entries(session: &Session) -> bool {
-    options::any_of_user(session, |name| {
-        let own = name.strip_prefix("-fieldsplit_u_").filter(|rest| !rest.starts_with("mg_coarse"));
-        own.is_some_and(|rest| rest.contains("pc_") && (!rest.contains("pc_mg_") || rest.contains("galerkin")))
-    })
-}
 
 /// Whether the user has chosen what preconditions the displacements.
 pub(super) fn is_chosen(session: &Session) -> bool {
@@ -87,24 +80,18 @@ impl CoarseSolver {
 
     pub(super) fn options(self) -> Options {
         match self {
-            // Multigrid takes the place of `none` once the block solvers exist. The functions of auxiliary levels may be as
-            // small as one likes: so may be pivots.
-            Self::Alone => &[
-                ("-fieldsplit_u_pc_type", "none"),
-                ("-fieldsplit_u_mg_coarse_pc_type", "lu"),
-                ("-fieldsplit_u_mg_coarse_pc_factor_zeropivot", "1e-300"),
-            ],
+            // The functions of auxiliary levels may be as small as one likes: so may be pivots.
+            Self::Alone => {
+                &[("-fieldsplit_u_mg_coarse_pc_type", "lu"), ("-fieldsplit_u_mg_coarse_pc_factor_zeropivot", "1e-300")]
+            }
             Self::Redundant => &[
-                ("-fieldsplit_u_pc_type", "none"),
                 ("-fieldsplit_u_mg_coarse_pc_type", "redundant"),
                 ("-fieldsplit_u_mg_coarse_redundant_pc_type", "lu"),
                 ("-fieldsplit_u_mg_coarse_redundant_pc_factor_zeropivot", "1e-300"),
             ],
-            Self::Shared => &[
-                ("-fieldsplit_u_pc_type", "none"),
-                ("-fieldsplit_u_mg_coarse_pc_type", "cholesky"),
-                ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps"),
-            ],
+            Self::Shared => {
+                &[("-fieldsplit_u_mg_coarse_pc_type", "cholesky"), ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps")]
+            }
         }
     }
 }

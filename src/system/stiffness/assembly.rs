@@ -1,51 +1,56 @@
-//! Assembly of the stiffness of one level, with room for the contact couplings.
+//! Assembly of the stiffness of one level: counts and entries, for whoever makes a matrix of them.
 
 use super::lattice_operator::Strips;
-use super::room::{ContactNeighbours, Counts, fill_room};
+use super::preallocation::{ContactNeighbours, Counts};
 use super::strips::{Place, Stencil};
 use crate::body::{Constraint, MacroStiffness, neighbours};
-use crate::element::Block;
+use crate::element::{BadJacobian, Block};
 use crate::geometry::Point;
 use crate::mesh::{Strip, TriangleNumbers, lattice};
-use crate::petsc::{Matrix, Session};
-use crate::system::solver::want_entries;
-use crate::system::{Scene, Space, SystemError};
+use crate::system::{Scene, Space};
 use std::collections::BTreeMap;
 
 /// A level to assemble, and what need not be: the strips of each macro triangle of this rank.
 pub struct Assembly<'a> {
     scene: &'a Scene,
     space: &'a Space,
+    rank: usize,
     strips: BTreeMap<usize, Vec<Strip>>,
     has_strips: bool,
 }
 
 impl<'a> Assembly<'a> {
     /// With all rows stored.
-    pub fn stored(scene: &'a Scene, space: &'a Space) -> Self {
-        Self { scene, space, strips: BTreeMap::new(), has_strips: false }
+    pub fn stored(scene: &'a Scene, space: &'a Space, rank: usize) -> Self {
+        Self { scene, space, rank, strips: BTreeMap::new(), has_strips: false }
     }
 
-    /// With strips, if they hold most nodes of some rank and no option of the user's wants entries. **Collective**
-    pub fn with_strips(scene: &'a Scene, space: &'a Space, session: &Session) -> Self {
-        let own = scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
+    /// With strips.
+    pub fn with_strips(scene: &'a Scene, space: &'a Space, rank: usize) -> Self {
+        let own = scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize);
         let level = space.numbering.level;
-        let strips: BTreeMap<usize, Vec<Strip>> = own.map(|triangle| (triangle, scene.mesh.strips(triangle, level))).collect();
-        let count: usize = strips.values().flatten().map(|strip| strip.i.len()).sum();
-        if session.any(2 * count > space.own.len()) && !want_entries(session) {
-            Self { scene, space, strips, has_strips: true }
-        } else {
-            Self::stored(scene, space)
-        }
+        let strips = own.map(|triangle| (triangle, scene.mesh.strips(triangle, level))).collect();
+        Self { scene, space, rank, strips, has_strips: true }
     }
 
-    /// Whether some rank has strips.
+    /// Whether rows are left to strips, on this rank or another.
     pub fn has_strips(&self) -> bool {
         self.has_strips
     }
 
-    /// An empty matrix with exact room for the rows that are stored, and their contact couplings. **Collective**
-    pub fn prepare(&self, contact: &ContactNeighbours, session: &Session) -> Result<Matrix, SystemError> {
+    /// Whether strips hold most nodes of this rank.
+    pub fn is_mostly_strips(&self) -> bool {
+        2 * self.strips.values().flatten().map(|strip| strip.i.len()).sum::<usize>() > self.space.own.len()
+    }
+
+    /// The space of the level.
+    pub fn space(&self) -> &Space {
+        self.space
+    }
+
+    /// Exact numbers of blocks in the rows that are stored, the couplings of contact among them: those in this rank's own
+    /// columns, and those in others'.
+    pub fn counts(&self, contact: &ContactNeighbours) -> (Vec<i32>, Vec<i32>) {
         let (scene, space) = (self.scene, self.space);
         let mut counts = Counts::new(space, contact);
         for (&triangle, strips) in &self.strips {
@@ -56,60 +61,46 @@ impl<'a> Assembly<'a> {
         let n = space.numbering.level.intervals;
         for triangle in 0..scene.mesh.triangles.len() {
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
-            if scene.partition.owner(triangle as u32) == session.rank() {
+            if scene.partition.owner(triangle as u32) == self.rank {
                 let rows = outside(n, self.strips_of(triangle));
                 rows.for_each(|node| count_row(scene, space, triangle, node, &mut counts));
             } else if touches(n, space, &numbers) {
                 sides(n).for_each(|node| count_row(scene, space, triangle, node, &mut counts));
             }
         }
-        let (diagonal, off_diagonal) = counts.finish();
-        let mut matrix = Matrix::aij(session, space.local_unknowns(), space.local_unknowns(), 2, &diagonal, &off_diagonal)?;
-        matrix.set_positive_definite(true)?;
-        if self.has_strips {
-            matrix.expect_empty_rows()?;
-        }
-        Ok(matrix)
+        counts.finish()
     }
 
-    /// Adds the stiffness of the macro triangles that this rank owns, keeps room for contact by explicit zeros, and assembles.
-    /// Rows and columns of prescribed components are zero but for the diagonal; what their displacement does to free rows goes
-    /// to `lift(node, force in the node's frame)`. Gives the rows that are not stored. **Collective**
-    pub fn fill(
+    /// Hands the stiffness of the macro triangles that this rank owns to `add(row node, column nodes, their blocks row by row)`,
+    /// to be summed. Rows and columns of prescribed components are zero but for the diagonal; what their displacement does to
+    /// free rows goes to `lift(node, force in the node's frame)`. Gives the rows that are not stored.
+    ///
+    /// # Errors
+    /// That of a triangle that is turned inside out, and those of `add`.
+    pub fn entries<E: From<BadJacobian>>(
         &self,
-        matrix: &mut Matrix,
-        contact: &ContactNeighbours,
-        session: &Session,
+        mut add: impl FnMut(usize, &[usize], &[f64]) -> Result<(), E>,
         mut lift: impl FnMut(usize, Point),
-    ) -> Result<Strips, SystemError> {
+    ) -> Result<Strips, E> {
         let laws = self.scene.laws();
         let mut strips = Strips::default();
-        let mut fill = || -> Result<(), SystemError> {
-            for &triangle in self.scene.partition.triangles_of(session.rank()) {
-                let law = &laws[self.scene.mesh.triangles[triangle as usize].body as usize];
-                let level = self.space.numbering.level;
-                let stiffness = MacroStiffness::new(&self.scene.mesh, triangle as usize, level, law)?;
-                self.add_triangle(matrix, triangle as usize, &stiffness, &mut lift)?;
-                self.add_strips(triangle as usize, &stiffness, &mut strips);
-            }
-            Ok(())
-        };
-        match fill() {
-            Err(SystemError::Petsc(error)) => return Err(error.into()),
-            filled => session.agree(filled).map_err(SystemError::Case)?,
+        for &triangle in self.scene.partition.triangles_of(self.rank) {
+            let law = &laws[self.scene.mesh.triangles[triangle as usize].body as usize];
+            let level = self.space.numbering.level;
+            let stiffness = MacroStiffness::new(&self.scene.mesh, triangle as usize, level, law)?;
+            self.add_triangle(triangle as usize, &stiffness, &mut add, &mut lift)?;
+            self.add_strips(triangle as usize, &stiffness, &mut strips);
         }
-        fill_room(matrix, self.space, contact)?;
-        matrix.assemble()?;
         Ok(strips)
     }
 
-    fn add_triangle(
+    fn add_triangle<E>(
         &self,
-        matrix: &mut Matrix,
         triangle: usize,
         stiffness: &MacroStiffness,
+        add: &mut impl FnMut(usize, &[usize], &[f64]) -> Result<(), E>,
         lift: &mut impl FnMut(usize, Point),
-    ) -> Result<(), SystemError> {
+    ) -> Result<(), E> {
         let n = self.space.numbering.level.intervals;
         let numbers = self.space.numbering.triangle(&self.scene.mesh, triangle);
         let constraint = |i: usize, j: usize, node: usize| match lattice::place(n, i, j) {
@@ -117,7 +108,7 @@ impl<'a> Assembly<'a> {
             _ => self.space.constraints.get(node),
         };
         let supported = sides(n).any(|(i, j)| constraint(i, j, numbers.node(i, j)).is_some());
-        let mut columns: Vec<i32> = Vec::with_capacity(19);
+        let mut columns: Vec<usize> = Vec::with_capacity(19);
         let mut values: Vec<f64> = vec![0.0; 4 * 19];
         for (i, j) in outside(n, self.strips_of(triangle)) {
             let row = numbers.node(i, j);
@@ -130,13 +121,13 @@ impl<'a> Assembly<'a> {
                     (None, None) => *block,
                     (left, right) => constrained(block, left, right, row == column, |force| lift(row, force)),
                 };
-                columns.push(column as i32);
+                columns.push(column);
                 for (a, parts) in block.iter().enumerate() {
                     values[2 * (a * count + slot)] = parts[0];
                     values[2 * (a * count + slot) + 1] = parts[1];
                 }
             }
-            matrix.add_blocks(&[row as i32], &columns, &values[..4 * count])?;
+            add(row, &columns, &values[..4 * count])?;
         }
         Ok(())
     }

@@ -1,9 +1,11 @@
 //! The bodies without contact: what no contact boundary and no active set changes.
 
 use super::assembly::Assembly;
+use super::matrices::assembled;
 use super::{ContactNeighbours, Stiffness};
 use crate::geometry::Point;
 use crate::petsc::{Session, Vector};
+use crate::system::user_options::want_entries;
 use crate::system::{Discretisation, Form, Space, SystemError};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -17,7 +19,7 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    /// Assembles `K` of every level that the form needs, with room for the couplings of contact on each level. `load` are
+    /// Assembles `K` of every level that the form needs, with places for the couplings of contact on each level. `load` are
     /// nodal forces, zero where displacement is prescribed; what prescribed displacements add is put in here.
     /// **Collective**
     pub fn new(
@@ -30,17 +32,14 @@ impl Elastic {
         let mut lifted = HashMap::new();
         let mut stiffness = Vec::new();
         for (l, space) in problem.spaces.iter().enumerate().skip(first_level(problem, form)) {
-            let assembly = match form {
-                Form::Augmented => Assembly::with_strips(&problem.scene, space, session),
-                Form::Plain => Assembly::stored(&problem.scene, space),
-            };
-            let mut stored = assembly.prepare(&neighbours[l], session)?;
+            let assembly = assembly(problem, space, form, session);
             let last = l + 1 == problem.spaces.len();
-            let strips = assembly.fill(&mut stored, &neighbours[l], session, |node, force| {
+            let lift = |node, force| {
                 if last {
                     *lifted.entry(node).or_insert(Point::zeros()) += force;
                 }
-            })?;
+            };
+            let (stored, strips) = assembled(&assembly, &neighbours[l], lift, session)?;
             let strips = assembly.has_strips().then(|| Rc::new(strips));
             stiffness.push(Stiffness::new(stored, strips.as_ref(), space, session)?);
         }
@@ -48,13 +47,13 @@ impl Elastic {
         Ok(Self { stiffness, load })
     }
 
-    /// The same without room for contact: for boundaries that move, each of which has its own. **Collective**
+    /// The same without places for contact: for boundaries that move, each of which has its own. **Collective**
     pub fn alone(problem: &Discretisation, load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
         Self::new(problem, load, form, &vec![ContactNeighbours::new(); problem.spaces.len()], session)
     }
 
-    /// Copies of the stiffness with room for the couplings of a contact boundary. **Collective**
-    pub fn with_room(
+    /// Copies of the stiffness with places for the couplings of a contact boundary. **Collective**
+    pub fn with_places(
         &self,
         problem: &Discretisation,
         form: Form,
@@ -62,8 +61,21 @@ impl Elastic {
         session: &Session,
     ) -> Result<Vec<Stiffness>, SystemError> {
         let levels = problem.spaces.iter().zip(neighbours).skip(first_level(problem, form)).zip(&self.stiffness);
-        levels.map(|((space, neighbours), stiffness)| stiffness.with_room(space, neighbours, session)).collect()
+        levels.map(|((space, neighbours), stiffness)| stiffness.with_places(space, neighbours, session)).collect()
     }
+}
+
+/// What is to be assembled of a level: with strips, if they hold most nodes of some rank and no option of the user's wants
+/// entries. **Collective**
+fn assembly<'a>(problem: &'a Discretisation, space: &'a Space, form: Form, session: &Session) -> Assembly<'a> {
+    let (scene, rank) = (&problem.scene, session.rank());
+    if form == Form::Augmented {
+        let strips = Assembly::with_strips(scene, space, rank);
+        if session.any(strips.is_mostly_strips()) && !want_entries(session) {
+            return strips;
+        }
+    }
+    Assembly::stored(scene, space, rank)
 }
 
 fn first_level(problem: &Discretisation, form: Form) -> usize {

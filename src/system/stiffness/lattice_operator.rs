@@ -4,7 +4,7 @@ use super::stored_rows::{StoredRows, far_columns};
 use super::strips::{Pair, Place, Stencil};
 use crate::element::Block;
 use crate::petsc::{Gather, Matrix, Operator, Result, Session, Vector};
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, Ref, RefCell};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -21,43 +21,55 @@ pub struct Strips {
 pub struct LatticeOperator {
     own: Range<usize>,
     strips: Rc<Strips>,
-    stored: Matrix,
+    stored: RefCell<Matrix>,
     rows: RefCell<StoredRows>,
     /// Couplings of all nodes in strips.
     in_strips: f64,
     /// Columns of other ranks, and what fetches their values.
     far: Vec<usize>,
-    gather: Option<Gather>,
+    gather: Option<RefCell<Gather>>,
 }
 
 impl LatticeOperator {
     /// From the stored rows, assembled: those of nodes in strips are empty. **Collective**
-    pub fn new(stored: &Matrix, own: &Range<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
+    pub fn new(stored: Matrix, own: &Range<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
         let mut in_strip = vec![false; own.len()];
         strips.places.iter().for_each(|(place, _)| in_strip[place.first..][..place.count].fill(true));
         let nodes: Vec<u32> = (0..own.len()).filter(|&node| !in_strip[node]).map(|node| node as u32).collect();
-        let far = far_columns(stored, own, &nodes)?;
+        let far = far_columns(&stored, own, &nodes)?;
         let gather = match session.size() {
             1 => None,
             _ => {
                 let wanted: Vec<i32> = far.iter().flat_map(|&node| [2 * node as i32, 2 * node as i32 + 1]).collect();
-                Some(Gather::new(&stored.create_vectors()?.0, &wanted)?)
+                Some(RefCell::new(Gather::new(&stored.create_vectors()?.0, &wanted)?))
             }
         };
-        let rows = RefCell::new(StoredRows::read(stored, own, &nodes, &far)?);
+        let rows = RefCell::new(StoredRows::read(&stored, own, &nodes, &far)?);
         let couplings = |&(place, stencil): &(Place, usize)| {
             let [even, odd] = strips.stencils[stencil].couplings(place).map(|kind| kind.len());
             0.5 * (place.count * (even + odd)) as f64
         };
         let in_strips = strips.places.iter().map(couplings).sum();
-        Ok(Self { in_strips, own: own.clone(), strips: strips.clone(), stored: stored.clone(), rows, far, gather })
+        Ok(Self { in_strips, own: own.clone(), strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
     }
 
-    /// Reads the stored rows again, after their values have changed.
-    pub fn refresh(&self) -> Result<()> {
-        let nodes = self.rows.borrow().nodes().to_vec();
-        *self.rows.borrow_mut() = StoredRows::read(&self.stored, &self.own, &nodes, &self.far)?;
-        Ok(())
+    /// Adds a block to the couplings of two nodes. Holds after [`LatticeOperator::assemble`].
+    pub fn add_block(&self, row: usize, column: usize, block: &[f64; 4]) -> Result<()> {
+        self.stored.borrow_mut().add_blocks(&[row as i32], &[column as i32], block)
+    }
+
+    /// Brings added blocks to their ranks, and reads the rows of these nodes again (ascending): the others have not changed.
+    /// **Collective**
+    pub fn assemble(&self, changed: impl Iterator<Item = usize>) -> Result<()> {
+        let mut stored = self.stored.borrow_mut();
+        stored.assemble()?;
+        let mut rows = self.rows.borrow_mut();
+        changed.into_iter().try_for_each(|node| rows.read_again(&stored, &self.own, node, &self.far))
+    }
+
+    /// The matrix of the stored rows; those of nodes in strips are empty.
+    pub fn stored(&self) -> Ref<'_, Matrix> {
+        self.stored.borrow()
     }
 
     /// The nodes whose rows are stored.
@@ -85,7 +97,7 @@ impl LatticeOperator {
     /// Calls `with` with the values of other ranks' nodes that the stored rows want. **Collective**
     fn with_far<T>(&self, x: &Vector, with: impl FnOnce(&[Pair]) -> T) -> Result<T> {
         Ok(match &self.gather {
-            Some(gather) => with(gather.read(x)?.as_chunks().0),
+            Some(gather) => with(gather.borrow_mut().read(x)?.as_chunks().0),
             None => with(&[]),
         })
     }
@@ -126,14 +138,14 @@ impl Operator for Rc<LatticeOperator> {
             return Ok(());
         }
         match &self.gather {
-            Some(gather) => sweep(gather.read(x)?.as_chunks().0, b, x),
+            Some(gather) => sweep(gather.borrow_mut().read(x)?.as_chunks().0, b, x),
             None => sweep(&[], b, x),
         }
         Ok(())
     }
 
     fn diagonal(&self, diagonal: &mut Vector) -> Result<()> {
-        self.stored.diagonal(diagonal)?;
+        self.stored.borrow().diagonal(diagonal)?;
         let mut values = diagonal.values_mut();
         let pairs = values.as_chunks_mut::<2>().0;
         self.each_row(|node, couplings| pairs[node] = [couplings[0].1[0][0], couplings[0].1[1][1]]);
@@ -141,7 +153,7 @@ impl Operator for Rc<LatticeOperator> {
     }
 
     fn norm_infinity(&self) -> Result<f64> {
-        let stored = self.stored.norm_infinity()?;
+        let stored = self.stored.borrow().norm_infinity()?;
         Ok(self.strips.stencils.iter().map(Stencil::norm_infinity).fold(stored, f64::max))
     }
 

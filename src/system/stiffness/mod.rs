@@ -2,104 +2,115 @@
 
 mod assembly;
 mod elastic;
+mod expanded;
 mod lattice_operator;
-mod room;
+mod matrices;
+mod preallocation;
 mod stored_rows;
 mod strips;
 
-pub use assembly::Assembly;
 pub use elastic::Elastic;
-pub use room::ContactNeighbours;
+pub use preallocation::ContactNeighbours;
 
 use super::{Space, SystemError};
 use crate::petsc::{Matrix, Session};
 use lattice_operator::{LatticeOperator, Strips};
-use room::contact_room;
+use matrices::contact_places;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// `K`, or `K + Bᵀ D B`, of one level.
 pub struct Stiffness {
-    /// The rows that are stored: all, or those outside of strips.
-    stored: Matrix,
-    lattice: Option<Rc<LatticeOperator>>,
-    operator: Matrix,
+    rows: Rows,
+    /// Nodes of this rank whose rows have been added to since they were assembled.
+    changed: BTreeSet<usize>,
+}
+
+/// The rows of a level.
+enum Rows {
+    /// All are stored.
+    Stored(Matrix),
+    /// Some are, the others lie in strips; solvers see a shell around both.
+    Lattice { lattice: Rc<LatticeOperator>, shell: Matrix },
 }
 
 impl Stiffness {
     /// From its stored rows, assembled, and the others, if there are any. **Collective**
     fn new(stored: Matrix, strips: Option<&Rc<Strips>>, space: &Space, session: &Session) -> Result<Self, SystemError> {
-        let Some(strips) = strips else { return Ok(Self { operator: stored.clone(), stored, lattice: None }) };
-        let lattice = Rc::new(LatticeOperator::new(&stored, &space.own, strips, session)?);
-        let mut operator = Matrix::operator(session, space.local_unknowns(), Box::new(lattice.clone()))?;
-        operator.set_positive_definite(true)?;
-        Ok(Self { stored, lattice: Some(lattice), operator })
+        let rows = match strips {
+            None => Rows::Stored(stored),
+            Some(strips) => {
+                let lattice = Rc::new(LatticeOperator::new(stored, &space.own, strips, session)?);
+                let mut shell = Matrix::operator(session, space.local_unknowns(), Box::new(lattice.clone()))?;
+                shell.set_positive_definite(true)?;
+                Rows::Lattice { lattice, shell }
+            }
+        };
+        Ok(Self { rows, changed: BTreeSet::new() })
     }
 
     /// What solvers see.
     pub fn operator(&self) -> &Matrix {
-        &self.operator
+        match &self.rows {
+            Rows::Stored(matrix) => matrix,
+            Rows::Lattice { shell, .. } => shell,
+        }
+    }
+
+    /// The matrix of all rows, if all are stored.
+    pub fn into_stored(self) -> Option<Matrix> {
+        match self.rows {
+            Rows::Stored(matrix) => Some(matrix),
+            Rows::Lattice { .. } => None,
+        }
     }
 
     /// Whether some rows are not stored.
     pub fn has_strips(&self) -> bool {
-        self.lattice.is_some()
+        matches!(self.rows, Rows::Lattice { .. })
     }
 
-    /// Adds a block to the couplings of two nodes of contact. Holds after [`Stiffness::assemble`].
+    /// Adds a block to the couplings of two nodes of contact, the row being one of this rank's. Holds after
+    /// [`Stiffness::assemble`].
     pub fn add_block(&mut self, row: usize, column: usize, block: &[f64; 4]) -> Result<(), SystemError> {
-        Ok(self.stored.add_blocks(&[row as i32], &[column as i32], block)?)
+        self.changed.insert(row);
+        match &mut self.rows {
+            Rows::Stored(matrix) => Ok(matrix.add_blocks(&[row as i32], &[column as i32], block)?),
+            Rows::Lattice { lattice, .. } => Ok(lattice.add_block(row, column, block)?),
+        }
     }
 
-    /// Brings added blocks to their ranks. **Collective**
+    /// Makes added blocks hold; the work is that of the rows that they are in. **Collective**
     pub fn assemble(&mut self) -> Result<(), SystemError> {
-        self.stored.assemble()?;
-        if let Some(lattice) = &self.lattice {
-            lattice.refresh()?;
-            // PETSc is told that values have changed; it forgets what else it knew.
-            self.operator.assemble()?;
-            self.operator.set_positive_definite(true)?;
+        let changed = std::mem::take(&mut self.changed);
+        match &mut self.rows {
+            Rows::Stored(matrix) => matrix.assemble()?,
+            Rows::Lattice { lattice, shell } => {
+                lattice.assemble(changed.into_iter())?;
+                // PETSc is told that values have changed; it forgets what else it knew.
+                shell.assemble()?;
+                shell.set_positive_definite(true)?;
+            }
         }
         Ok(())
     }
 
-    /// A copy with room for the couplings of a contact boundary. **Collective**
-    fn with_room(&self, space: &Space, neighbours: &ContactNeighbours, session: &Session) -> Result<Self, SystemError> {
-        let mut stored = self.stored.sum(&contact_room(space, neighbours, session)?)?;
+    /// A copy with places for the couplings of a contact boundary. **Collective**
+    fn with_places(&self, space: &Space, neighbours: &ContactNeighbours, session: &Session) -> Result<Self, SystemError> {
+        let places = contact_places(space, neighbours, session)?;
+        let (mut stored, strips) = match &self.rows {
+            Rows::Stored(matrix) => (matrix.sum(&places)?, None),
+            Rows::Lattice { lattice, .. } => (lattice.stored().sum(&places)?, Some(lattice.strips())),
+        };
         stored.set_positive_definite(true)?;
-        Self::new(stored, self.lattice.as_ref().map(|lattice| lattice.strips()), space, session)
+        Self::new(stored, strips, space, session)
     }
 
     /// With all its rows stored, as factorisations want it; `None` if they are. **Collective**
     pub fn expanded(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
-        let Some(lattice) = &self.lattice else { return Ok(None) };
-        let range = self.stored.row_range();
-        let first = range.start / 2;
-        let (mut near, mut far) = (vec![0; range.len() / 2], vec![0; range.len() / 2]);
-        for node in lattice.stored_nodes().into_iter().map(|node| node as usize) {
-            self.stored.row(2 * (first + node), |columns, _| {
-                let own = columns.iter().filter(|&&column| range.contains(&(column as usize))).count();
-                (near[node], far[node]) = (own as i32 / 2, (columns.len() - own) as i32 / 2);
-            })?;
+        match &self.rows {
+            Rows::Stored(_) => Ok(None),
+            Rows::Lattice { lattice, .. } => Ok(Some(lattice.expanded(session)?)),
         }
-        lattice.each_row(|node, couplings| near[node] = couplings.len() as i32);
-        let mut matrix = Matrix::aij(session, range.len(), range.len(), 2, &near, &far)?;
-        for row in lattice.stored_nodes().into_iter().flat_map(|node| [0, 1].map(|a| range.start + 2 * node as usize + a)) {
-            let mut inserted = Ok(());
-            self.stored.row(row, |columns, values| inserted = matrix.insert(&[row as i32], columns, values))?;
-            inserted?;
-        }
-        let mut inserted = Ok(());
-        lattice.each_row(|node, couplings| {
-            let row = (range.start + 2 * node) as i32;
-            for &(distance, block) in couplings {
-                let column = (range.start + 2 * node.wrapping_add_signed(distance)) as i32;
-                let outcome = matrix.insert(&[row, row + 1], &[column, column + 1], block.as_flattened());
-                inserted = inserted.clone().and(outcome);
-            }
-        });
-        inserted?;
-        matrix.assemble()?;
-        matrix.set_positive_definite(true)?;
-        Ok(Some(matrix))
     }
 }

@@ -70,6 +70,19 @@ pub fn far_columns(matrix: &Matrix, own: &Range<usize>, nodes: &[u32]) -> Result
     Ok(found)
 }
 
+/// Blocks of a node's two rows, with their column nodes.
+fn blocks_of(matrix: &Matrix, node: usize) -> Result<Vec<(usize, Block)>> {
+    let mut blocks: Vec<(usize, Block)> = Vec::new();
+    matrix.row(2 * node, |columns, values| {
+        let columns = columns.iter().step_by(2).map(|&c| c as usize / 2);
+        blocks.extend(columns.zip(values.as_chunks().0).map(|(column, &upper)| (column, [upper, [0.0; 2]])));
+    })?;
+    matrix.row(2 * node + 1, |_, values| {
+        blocks.iter_mut().zip(values.as_chunks().0).for_each(|((_, block), &lower)| block[1] = lower);
+    })?;
+    Ok(blocks)
+}
+
 impl StoredRows {
     /// Reads the rows of `nodes`, which hold whole blocks, from an assembled matrix; `far` are the columns of other ranks.
     ///
@@ -79,16 +92,7 @@ impl StoredRows {
         let mut rows = Self { nodes: nodes.to_vec(), ..Self::default() };
         for &node in nodes {
             let row = own.start + node as usize;
-            let mut blocks: Vec<(usize, Block)> = Vec::new();
-            let pairs = |values: &[f64]| values.chunks_exact(2).map(|v| [v[0], v[1]]).collect::<Vec<Pair>>();
-            matrix.row(2 * row, |columns, values| {
-                let columns = columns.iter().step_by(2).map(|&c| c as usize / 2);
-                blocks.extend(columns.zip(pairs(values)).map(|(column, upper)| (column, [upper, [0.0; 2]])));
-            })?;
-            matrix.row(2 * row + 1, |_, values| {
-                blocks.iter_mut().zip(pairs(values)).for_each(|((_, block), lower)| block[1] = lower);
-            })?;
-            for (column, block) in blocks {
+            for (column, block) in blocks_of(matrix, row)? {
                 if column == row {
                     rows.inverses.push(inverse(&block).expect("a stiffness has a diagonal"));
                 }
@@ -101,6 +105,28 @@ impl StoredRows {
             rows.far.end_row();
         }
         Ok(rows)
+    }
+
+    /// Reads the row of one node again, after its values have changed; nothing happens if it is not among these.
+    ///
+    /// # Panics
+    /// As [`StoredRows::read`].
+    pub fn read_again(&mut self, matrix: &Matrix, own: &Range<usize>, row: usize, far: &[usize]) -> Result<()> {
+        let Ok(k) = self.nodes.binary_search(&((row - own.start) as u32)) else { return Ok(()) };
+        let [mut near, mut other] = [&self.near, &self.far].map(|part| part.starts[k] as usize);
+        for (column, block) in blocks_of(matrix, row)? {
+            if column == row {
+                self.inverses[k] = inverse(&block).expect("a stiffness has a diagonal");
+            }
+            let (part, at, place) = match own.contains(&column) {
+                true => (&mut self.near, &mut near, column - own.start),
+                false => (&mut self.far, &mut other, far.binary_search(&column).expect("a known column")),
+            };
+            assert_eq!(part.columns[*at] as usize, place, "the pattern of a stiffness stays");
+            part.blocks[*at] = block;
+            *at += 1;
+        }
+        Ok(())
     }
 
     /// Blocks in all rows.

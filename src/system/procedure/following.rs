@@ -1,9 +1,10 @@
 //! Contact boundaries that follow the solution: fit, solve, move, and fit again, until everything stands.
 
+use super::ending::{Failure, HeldEnds, Standing};
 use crate::contact::{Configuration, CurveChoice, End, Known, Meeting, SmoothSide, true_end};
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
-use crate::system::{BoundaryMotion, Contact, Discretisation, Solution, SystemError};
+use crate::system::{BoundaryMotion, Contact, ContactPressure, Discretisation, Solution, Start, SystemError};
 
 /// Boundaries placed at most.
 const MOST_BOUNDARIES: usize = 30;
@@ -21,7 +22,7 @@ const STILL_DISPLACEMENT: f64 = 1e2;
 const STILL_BOUNDARY: f64 = 1e3;
 
 /// However loose the solves are.
-const LEAST_STILL: f64 = 1e-4;
+const MOST_STILL: f64 = 1e-4;
 
 /// Ends that moved by more than this share of the length just before are held where they have reached farthest, others
 /// where they are.
@@ -52,11 +53,11 @@ pub struct BoundaryStep {
 }
 
 /// What follows from a solution.
-pub enum Onward {
+pub enum NextBoundary {
     /// Everything stands: the solution is the one.
     Stands,
-    /// It does not, after so many boundaries; in words.
-    GivenUp(String),
+    /// It does not, and will not.
+    GivenUp(Failure),
     /// The bodies have moved, and these are the boundaries now.
     Again(Vec<Contact>, BoundaryMotion),
 }
@@ -95,7 +96,7 @@ impl Following {
 
     /// Changes of the boundary and of the displacement at which they stand.
     pub fn tolerances(&self) -> [f64; 2] {
-        [STILL_BOUNDARY, STILL_DISPLACEMENT].map(|factor| (factor * self.tolerance).min(LEAST_STILL))
+        [STILL_BOUNDARY, STILL_DISPLACEMENT].map(|factor| (factor * self.tolerance).min(MOST_STILL))
     }
 
     /// Looks at the solution on boundary `number` (from 1) and places the boundaries again. **Collective**
@@ -108,12 +109,12 @@ impl Following {
         solution: &Solution,
         number: usize,
         session: &Session,
-    ) -> Result<(BoundaryStep, Onward), SystemError> {
+    ) -> Result<(BoundaryStep, NextBoundary), SystemError> {
         let du = self.change(&solution.displacement, session);
         let flipped = (self.active.len() == solution.active.len())
             .then(|| self.active.iter().zip(&solution.active).filter(|(a, b)| a != b).count());
         (self.displacement, self.active) = (solution.displacement.clone(), solution.active.clone());
-        let motion = BoundaryMotion::new(problem, &solution.displacement, session);
+        let motion = BoundaryMotion::new(&problem.scene, problem.finest(), &solution.displacement, session);
         let known = self.proposals(problem, solution, number, &motion)?;
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
@@ -126,18 +127,18 @@ impl Following {
         if let (true, Some(way)) = (number + 1 == HELD, moved) {
             self.last_way = way;
         }
-        let onward = match moved {
+        let next_boundary = match moved {
             // The same boundary has the same solution.
             Some(0.0) => self.beyond(problem, &motion),
             Some(way) if way <= still_boundary && still => self.beyond(problem, &motion),
-            _ if number >= MOST_BOUNDARIES => Onward::GivenUp(given_up(&step)),
-            _ => Onward::Again(next, motion),
+            _ if number >= MOST_BOUNDARIES => NextBoundary::GivenUp(moves(&step)),
+            _ => NextBoundary::Again(next, motion),
         };
-        Ok((step, onward))
+        Ok((step, next_boundary))
     }
 
     /// What stands must not leave contact out: bodies that penetrate each other beyond the ends of Γ_C.
-    fn beyond(&self, problem: &Discretisation, motion: &BoundaryMotion) -> Onward {
+    fn beyond(&self, problem: &Discretisation, motion: &BoundaryMotion) -> NextBoundary {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let fitted =
@@ -146,13 +147,10 @@ impl Following {
             let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
             let depth = meeting.depth_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
             if depth > MOST_BEYOND * contact.boundary.length() {
-                return Onward::GivenUp(format!(
-                    "contact {}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh there, or take more segments",
-                    contact.pair.name
-                ));
+                return NextBoundary::GivenUp(Failure::Beyond { contact: contact.pair.name.clone(), depth });
             }
         }
-        Onward::Stands
+        NextBoundary::Stands
     }
 
     /// Change of the displacement since the boundary before, relative to its norm. **Collective**
@@ -197,7 +195,7 @@ impl Following {
                 }
             }
             if contact.pair.has_free_ends() && number < HELD {
-                known.ends = Some(free_ends(contact, solution, ends));
+                known.ends = Some(free_ends(&solution.pressure(contact), ends));
                 if !settled {
                     known.segments = None;
                 }
@@ -217,11 +215,11 @@ fn differs(contact: &Contact, meeting: &Meeting) -> bool {
 
 /// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not
 /// beyond the bodies' boundaries.
-fn free_ends(contact: &Contact, solution: &Solution, history: &mut [Found; 2]) -> [f64; 2] {
+fn free_ends(pressure: &ContactPressure, history: &mut [Found; 2]) -> [f64; 2] {
+    let ContactPressure { contact, values: lambda, active } = *pressure;
     let boundary = &contact.boundary;
     let knots = boundary.knots();
     let now = [knots[0], knots[knots.len() - 1]];
-    let (lambda, active) = (&solution.multipliers[contact.range()], &solution.active[contact.range()]);
     let mut next = now;
     let edge = contact.edge_length() / boundary.speed(now[0]);
     for (k, end) in [End::First, End::Last].into_iter().enumerate() {
@@ -273,37 +271,27 @@ fn way(before: &[Contact], after: &[Contact]) -> Option<f64> {
     Some(most)
 }
 
-fn given_up(step: &BoundaryStep) -> String {
-    let figure = |value: Option<f64>| value.map_or("others".to_string(), |value| format!("{value:.1e}"));
-    format!(
-        "the contact boundary still moves after {MOST_BOUNDARIES} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; refine the mesh where contact is, or take another number of segments",
-        figure(step.moved),
-        figure(step.du),
-        step.flipped.map_or("all".to_string(), |count| count.to_string())
-    )
+fn moves(&BoundaryStep { moved, du, flipped, .. }: &BoundaryStep) -> Failure {
+    Failure::BoundaryMoves { fits: MOST_BOUNDARIES, moved, du, flipped }
 }
 
-/// Words for a boundary that stands.
-pub fn stands(steps: &[BoundaryStep]) -> String {
-    let place = match steps.len() {
-        1 => "the contact boundary fits what touches".to_string(),
-        count if count < HELD => format!("the contact boundary stands after {count} fits, and so does the displacement"),
-        count => {
-            let way = steps[HELD - 2].moved;
-            let last = way.map_or("others".into(), |way| format!("{way:.0e} of its length"));
-            let held = if way.is_some_and(|way| way > MOST_HELD) { "held where they reached farthest" } else { "held" };
-            format!(
-                "the ends of the contact boundary still moved by {last} at fit {} and are {held}; it stands after {count}",
-                HELD - 1
-            )
-        }
-    };
-    format!("{place}; the active set stands and the residual is below its tolerance")
+/// What stands after these boundaries.
+pub fn standing(steps: &[BoundaryStep]) -> Standing {
+    let held = steps.get(HELD - 1).map(|_| {
+        let way = steps[HELD - 2].moved;
+        HeldEnds { fit: HELD - 1, way, farthest: way.is_some_and(|way| way > MOST_HELD) }
+    });
+    Standing::Boundary { fits: steps.len(), held }
 }
 
-/// The multipliers' values and states to start the next solve from, where the segments are as many as before; otherwise
-/// all are active and zero.
-pub fn carried(before: &[Contact], after: &[Contact], solution: &Solution) -> Option<(Vec<f64>, Vec<bool>)> {
+/// A start from a solution, on the boundary it was found on.
+pub fn start_from(solution: &Solution) -> Start {
+    let Solution { displacement, multipliers, active, .. } = solution;
+    Start { displacement: displacement.clone(), pressures: multipliers.clone(), active: active.clone() }
+}
+
+/// The same on the next boundary, where the segments are as many as before.
+pub fn carried(before: &[Contact], after: &[Contact], solution: &Solution) -> Option<Start> {
     let alike = before.iter().zip(after).all(|(a, b)| a.multipliers.count() == b.multipliers.count());
-    alike.then(|| (solution.multipliers.clone(), solution.active.clone()))
+    alike.then(|| start_from(solution))
 }

@@ -1,9 +1,7 @@
 //! The set that a solve begins with when no solution is known.
 
-use super::contact_state::penetration;
 use crate::contact::Law;
-use crate::petsc::Session;
-use crate::system::{Discretisation, SaddlePoint, few_that_hold, not_held, rigid_start};
+use crate::system::{Discretisation, System, few_that_hold, not_held, rigid_start};
 
 /// Gap, as a share of the length of Γ_C, that counts as closed: less than bodies are usually strained by.
 const CLOSED: f64 = 1e-6;
@@ -13,9 +11,10 @@ const CLOSED: f64 = 1e-6;
 ///
 /// All closed at the start would draw bodies together along the whole of an open contact, and the forces of that are orders
 /// above those of the loads: what they say of the next set is nothing.
-pub(super) fn first_set(problem: &Discretisation, system: &SaddlePoint, session: &Session) -> Option<Vec<bool>> {
-    let start = rigid_start(problem, session.rank()).unwrap_or_else(|| vec![0.0; problem.finest().local_unknowns()]);
-    let gap = gaps(problem, system, &start, session);
+pub(super) fn first_set(system: &System) -> Option<Vec<bool>> {
+    let problem = system.problem();
+    let start = rigid_start(problem, system.session().rank()).unwrap_or_else(|| vec![0.0; problem.finest().local_unknowns()]);
+    let gap = gaps(system, &start);
     let mut active = vec![true; gap.len()];
     for contact in &problem.contacts {
         for i in contact.range() {
@@ -31,23 +30,17 @@ pub(super) fn first_set(problem: &Discretisation, system: &SaddlePoint, session:
 
 /// A set that a coarser mesh or another boundary has left, and what it takes to hold all bodies here: where the gap is
 /// smallest, with the displacements carried over. **Collective**
-pub(super) fn carried_set(
-    problem: &Discretisation,
-    system: &SaddlePoint,
-    carried: &[bool],
-    displacement: &[f64],
-    session: &Session,
-) -> Vec<bool> {
-    let gap = gaps(problem, system, displacement, session);
+pub(super) fn carried_set(system: &System, carried: &[bool], displacement: &[f64]) -> Vec<bool> {
+    let gap = gaps(system, displacement);
     let mut active = carried.to_vec();
-    hold(problem, &gap, &mut active);
+    hold(system.problem(), &gap, &mut active);
     active
 }
 
 /// Mean gap over each multiplier (length). **Collective**
-fn gaps(problem: &Discretisation, system: &SaddlePoint, displacement: &[f64], session: &Session) -> Vec<f64> {
-    let mut gap = penetration(problem, system, displacement, session);
-    for contact in &problem.contacts {
+fn gaps(system: &System, displacement: &[f64]) -> Vec<f64> {
+    let mut gap = system.penetration(displacement);
+    for contact in &system.problem().contacts {
         contact.range().for_each(|i| gap[i] /= -contact.multipliers.weight(i - contact.first));
     }
     gap

@@ -1,16 +1,18 @@
 //! Discretisation errors, estimated from the solutions on successive refinements.
 //!
-//! On nested meshes Galerkin's orthogonality gives `e_(l-1)² = e_l² + D_l²` for the errors `e_l = |u - u_l|` and the
+//! Where the spaces are nested, Galerkin's orthogonality gives `e_(l-1)² = e_l² + D_l²` for the errors `e_l = |u - u_l|` and the
 //! difference `D_l = |u_l - u_(l-1)|` in the energy norm. If errors fall by the factor `√q` with each refinement, `q = (D_l/D_(l-1))²` and
 //! `e_l² = D_l² q/(1 - q)`: no order has to be known, so that corners are seen. Where active sets or contact boundaries change
-//! from mesh to mesh the spaces are not nested, and this is an analogy.
+//! from mesh to mesh the spaces are not nested, and this is heuristic.
 
-use super::ZoneDifference;
+use super::coarse_solution::CoarseSolution;
+use super::zone_estimate::ZoneDifference;
+use super::zone_estimate::ZoneEstimate;
 use crate::contact::Zone;
 use crate::element::Order;
 use crate::petsc::Session;
-use crate::system::recovery::strain_energy;
-use crate::system::{CoarseSolution, Discretisation, Field, Solution, SystemError};
+use crate::system::recovery::{TracePoint, ZoneErrors, strain_energy, zone_errors};
+use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
 
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
 const FACTORS: [f64; 2] = [1.0 / 80.0, 0.75];
@@ -57,17 +59,17 @@ impl Difference {
         coarse: &CoarseSolution,
         session: &Session,
     ) -> Result<Self, SystemError> {
-        let mut apart = coarse.displacement(problem, session.rank());
+        let mut apart = coarse.displacement(&problem.scene, problem.finest(), session.rank());
         apart.iter_mut().zip(&solution.displacement).for_each(|(before, now)| *before = now - *before);
         let whole = strain_energy(problem, &Field::displacement(problem, &solution.displacement, session)?, session)?;
         let apart = strain_energy(problem, &Field::displacement(problem, &apart, session)?, session)?;
         let (mut force, mut zones) = (Vec::new(), Vec::new());
         for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
-            let lambda = &solution.multipliers[contact.range()];
-            let now: f64 = lambda.iter().enumerate().map(|(i, value)| value * contact.multipliers.weight(i)).sum();
+            let pressure = solution.pressure(contact);
+            let now = pressure.force();
             force.push(((now - before) / now).abs());
-            let own = Zone::all(&contact.boundary, &contact.multipliers, lambda, &solution.active[contact.range()]);
-            zones.push(own.iter().map(|zone| ZoneDifference::new(contact, lambda, zone, |x| coarse.pressure(at, x))).collect());
+            let before = |x| coarse.pressure(at).at_foot(x);
+            zones.push(pressure.zones().iter().map(|zone| ZoneDifference::new(contact, pressure.values, zone, before)).collect());
         }
         Ok(Self { energy: apart.iter().sum::<f64>() / whole.iter().sum::<f64>(), force, zones })
     }
@@ -94,6 +96,25 @@ impl Estimate {
             force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
             zones: contacts.map(zones).collect(),
         }
+    }
+
+    /// The estimate of each zone of contact `at`, with what λ was at its ends on the mesh before and the one before that;
+    /// `points` are the traces of the contact.
+    pub fn of_zones(
+        &self,
+        at: usize,
+        pressure: &ContactPressure,
+        zones: &[Zone],
+        points: &[TracePoint],
+    ) -> Vec<(ZoneEstimate, [Option<[f64; 2]>; 2])> {
+        let errors = zone_errors(pressure.contact, pressure.values, zones, points);
+        let one = |(k, errors): (usize, &ZoneErrors)| {
+            let differences = self.zones.get(at).and_then(|of_contact| of_contact.get(k));
+            let differences = differences.map_or([None, None], |pair| pair.each_ref().map(Option::as_ref));
+            let estimate = ZoneEstimate::new(pressure.contact.pair.space, errors, differences);
+            (estimate, differences.map(|difference| difference.map(|found| found.at_ends)))
+        };
+        errors.iter().enumerate().map(one).collect()
     }
 }
 

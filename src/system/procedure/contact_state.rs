@@ -1,8 +1,7 @@
 //! Pressures and penetrations of a solve, for every multiplier, and whether they are a solution of the contact conditions.
 
 use crate::contact::{Law, SetSolution};
-use crate::petsc::{Session, Vector};
-use crate::system::{Contact, Discretisation, SaddlePoint};
+use crate::system::{Contact, Discretisation, System};
 
 /// What is left of the contact conditions at most, as a share of the largest pressure,
 const MOST_VIOLATED: f64 = 1e-3;
@@ -24,14 +23,14 @@ pub(super) struct ContactState {
 }
 
 impl ContactState {
-    /// Reads it off the unknowns `x`. **Collective**
-    pub(super) fn new(problem: &Discretisation, system: &SaddlePoint, x: &Vector, active: &[bool], session: &Session) -> Self {
-        let mut lambda = pressures(problem, system, x, session);
-        lambda.iter_mut().zip(active).filter(|(_, active)| !**active).for_each(|(value, _)| *value = 0.0);
+    /// Reads it off the unknowns of a system. **Collective**
+    pub(super) fn new(system: &System) -> Self {
+        let mut lambda = system.pressures();
+        lambda.iter_mut().zip(system.active()).filter(|(_, active)| !**active).for_each(|(value, _)| *value = 0.0);
         let jumps = system.jump_term(&lambda);
-        let mut penetration = penetration(problem, system, &x.values()[..problem.finest().local_unknowns()], session);
+        let mut penetration = system.penetration(&system.free_displacement());
         penetration.iter_mut().zip(&jumps).for_each(|(sum, jump)| *sum -= jump);
-        Self { lambda, penetration, penalty: penalties(problem) }
+        Self { lambda, penetration, penalty: penalties(system.problem()) }
     }
 
     /// `λ_i + κ_i (B u - C λ - c)_i`: positive where the next set of the plain rule is active.
@@ -83,28 +82,6 @@ impl ContactState {
         }
         worst.map(|(_, words)| words)
     }
-}
-
-/// `λ_i = s_i λ̂_i` of all multipliers. **Collective**
-pub(super) fn pressures(problem: &Discretisation, system: &SaddlePoint, x: &Vector, session: &Session) -> Vec<f64> {
-    let all = system.multipliers.collect(&x.values()[problem.finest().local_unknowns()..], session);
-    all.iter().zip(&system.multipliers.scale).map(|(value, scale)| value * scale).collect()
-}
-
-/// `(B u - c)_i` of all multipliers, for this rank's displacements without prescribed components (length squared).
-/// **Collective**
-pub(super) fn penetration(problem: &Discretisation, system: &SaddlePoint, u: &[f64], session: &Session) -> Vec<f64> {
-    let own = &problem.finest().own;
-    let mut all = vec![0.0; system.gap.len()];
-    for (i, sum) in all.iter_mut().enumerate() {
-        for &(node, entry) in system.finest_rows().row(i).iter().filter(|(node, _)| own.contains(node)) {
-            let at = 2 * (node - own.start);
-            *sum += entry.x * u[at] + entry.y * u[at + 1];
-        }
-    }
-    session.sum(&mut all);
-    all.iter_mut().zip(&system.gap).for_each(|(sum, gap)| *sum -= gap);
-    all
 }
 
 /// `κ_i` of all multipliers.

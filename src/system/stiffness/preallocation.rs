@@ -1,34 +1,11 @@
-//! Room in a matrix for what is added to it later: exact counts of blocks.
+//! Exact counts of the blocks in the rows of a stiffness, those that contact adds later among them.
 
-use crate::petsc::{Matrix, Session};
-use crate::system::{Space, SystemError};
+use crate::system::Space;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Nodes that contact couples to each node.
 pub type ContactNeighbours = BTreeMap<usize, BTreeSet<usize>>;
-
-/// A matrix of zeros at the couplings of contact alone. **Collective**
-pub fn contact_room(space: &Space, contact: &ContactNeighbours, session: &Session) -> Result<Matrix, SystemError> {
-    let counts = Counts::new(space, contact);
-    let (mut diagonal, off_diagonal) = counts.finish();
-    let untouched = |at: usize| !contact.contains_key(&(space.own.start + at));
-    diagonal.iter_mut().enumerate().filter(|(at, _)| untouched(*at)).for_each(|(_, count)| *count = 0);
-    let mut matrix = Matrix::aij(session, space.local_unknowns(), space.local_unknowns(), 2, &diagonal, &off_diagonal)?;
-    fill_room(&mut matrix, space, contact)?;
-    matrix.assemble()?;
-    Ok(matrix)
-}
-
-/// Explicit zeros, which keep the room.
-pub(super) fn fill_room(matrix: &mut Matrix, space: &Space, contact: &ContactNeighbours) -> Result<(), SystemError> {
-    for (&row, columns) in contact.range(space.own.clone()) {
-        for &column in columns {
-            matrix.add_blocks(&[row as i32], &[column as i32], &[0.0; 4])?;
-        }
-    }
-    Ok(())
-}
 
 /// Numbers of stored blocks per owned node.
 pub(super) struct Counts<'a> {

@@ -6,7 +6,9 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
 use crate::petsc::Session;
-use crate::system::{BoundaryMotion, Contact, Discretisation, Field, Rung, Solution, SystemError};
+use crate::system::{
+    BoundaryMotion, Contact, ContactPressure, Discretisation, Field, Rung, Scene, Solution, Space, Start, SystemError, spaces,
+};
 
 /// A solution on one refinement less.
 pub struct CoarseSolution {
@@ -21,23 +23,37 @@ pub struct CoarseSolution {
 
 impl CoarseSolution {
     /// Takes a solution and its contacts over from the mesh they were found on. **Collective**
-    pub fn new(problem: &mut Discretisation, solution: Solution, rung: Rung, session: &Session) -> Result<Self, SystemError> {
+    pub fn new(problem: Discretisation, solution: Solution, rung: Rung, session: &Session) -> Result<Self, SystemError> {
         Ok(Self {
-            displacement: Field::displacement(problem, &solution.displacement, session)?,
+            displacement: Field::displacement(&problem, &solution.displacement, session)?,
             numbering: problem.finest().numbering.clone(),
-            contacts: std::mem::take(&mut problem.contacts),
+            contacts: problem.contacts,
             multipliers: solution.multipliers,
             active: solution.active,
             rung,
         })
     }
 
+    /// The next refinement with the contacts where this solution says, and where to start on it. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on that mesh.
+    pub fn refined(&self, scene: Scene, session: &Session) -> Result<(Discretisation, Start), SystemError> {
+        let spaces = spaces(&scene, session.rank())?;
+        let finest = &spaces[spaces.len() - 1];
+        let displacement = self.displacement(&scene, finest, session.rank());
+        let (contacts, motion) = self.contacts(&scene, finest, &displacement, session)?;
+        let problem = Discretisation::with(scene, spaces, contacts, motion, session)?;
+        let (pressures, active) = self.multipliers(&problem.contacts);
+        Ok((problem, Start { displacement, pressures, active }))
+    }
+
     /// The same displacement on the next refinement: this rank's unknowns in the nodes' frames.
-    pub fn displacement(&self, problem: &Discretisation, rank: usize) -> Vec<f64> {
-        let (mesh, space) = (&problem.scene.mesh, problem.finest());
+    pub fn displacement(&self, scene: &Scene, space: &Space, rank: usize) -> Vec<f64> {
+        let mesh = &scene.mesh;
         let level = space.numbering.level;
         let mut values = vec![0.0; space.local_unknowns()];
-        for &triangle in problem.scene.partition.triangles_of(rank) {
+        for &triangle in scene.partition.triangles_of(rank) {
             let coarse = self.numbering.triangle(mesh, triangle as usize);
             let fine = space.numbering.triangle(mesh, triangle as usize);
             for (i, j) in lattice::nodes(level.intervals) {
@@ -58,7 +74,7 @@ impl CoarseSolution {
     }
 
     /// Pressures and states of the multipliers of the same contacts cut anew.
-    pub fn multipliers(&self, contacts: &[Contact]) -> (Vec<f64>, Vec<bool>) {
+    fn multipliers(&self, contacts: &[Contact]) -> (Vec<f64>, Vec<bool>) {
         let (mut values, mut active) = (Vec::new(), Vec::new());
         for (old, new) in self.contacts.iter().zip(contacts) {
             let knots = new.boundary.knots();
@@ -78,7 +94,7 @@ impl CoarseSolution {
                 let nearest = old.first + if z < 0.5 { rows[0] } else { rows[1] };
                 let carries = self.active[nearest];
                 active.push(carries);
-                let pressure = old.multipliers.value(&self.multipliers[old.range()], segment, z);
+                let pressure = ContactPressure::new(old, &self.multipliers, &self.active).value(segment, z);
                 values.push(if carries { pressure } else { 0.0 });
             }
         }
@@ -89,14 +105,14 @@ impl CoarseSolution {
     ///
     /// # Errors
     /// [`SystemError::Case`] if a boundary cannot be placed.
-    pub fn contacts(
+    fn contacts(
         &self,
-        problem: &Discretisation,
+        scene: &Scene,
+        space: &Space,
         unknowns: &[f64],
         session: &Session,
     ) -> Result<(Vec<Contact>, BoundaryMotion), SystemError> {
-        let (scene, space) = (&problem.scene, problem.finest());
-        let motion = BoundaryMotion::new(problem, unknowns, session);
+        let motion = BoundaryMotion::new(scene, space, unknowns, session);
         let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
         let mut known = Vec::new();
         for old in &self.contacts {
@@ -109,7 +125,7 @@ impl CoarseSolution {
             known.push(Known { meeting, ..Known::default() });
         }
         let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
-        if problem.scene.pairs.iter().any(|pair| pair.follows()) {
+        if scene.pairs.iter().any(|pair| pair.follows()) {
             for ((known, new), old) in
                 known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.pair.has_free_ends())
             {
@@ -130,18 +146,12 @@ impl CoarseSolution {
 
     /// `∫λ ds` of each contact.
     pub fn forces(&self) -> Vec<f64> {
-        let force = |contact: &Contact| {
-            let weighted = |i: usize| self.multipliers[i] * contact.multipliers.weight(i - contact.first);
-            contact.range().map(weighted).sum()
-        };
-        self.contacts.iter().map(force).collect()
+        (0..self.contacts.len()).map(|at| self.pressure(at).force()).collect()
     }
 
-    /// Pressure of a contact at the foot of a point.
-    pub fn pressure(&self, contact: usize, x: Point) -> f64 {
-        let old = &self.contacts[contact];
-        let (segment, z) = old.boundary.locate(old.boundary.foot(x));
-        old.multipliers.value(&self.multipliers[old.range()], segment, z.clamp(0.0, 1.0))
+    /// The pressure on a contact.
+    pub fn pressure(&self, contact: usize) -> ContactPressure<'_> {
+        ContactPressure::new(&self.contacts[contact], &self.multipliers, &self.active)
     }
 }
 

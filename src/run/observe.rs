@@ -1,0 +1,32 @@
+//! What a run hears of the solution procedure: it is printed, and timed.
+
+use super::{Run, RunError, Stages};
+use crate::petsc::StageGuard;
+use crate::system::{Event, Observer, Procedure, Scene, Solved, Work};
+
+impl Run<'_> {
+    /// Solves a scene as the case wants it. **Collective**
+    pub(super) fn solve(&self, scene: Scene) -> Result<Solved, RunError> {
+        let solver = &self.case.solver;
+        let (choice, tolerance, inf_sup) = (solver.choice, solver.tolerance, solver.inf_sup);
+        Ok(Procedure { choice, tolerance, inf_sup, session: self.session, observer: self }.solve(scene)?)
+    }
+}
+
+impl Observer for Run<'_> {
+    fn hear(&self, event: Event) {
+        self.report.hear(&event);
+    }
+
+    fn enter(&self, work: Work) -> Option<StageGuard<'_>> {
+        let Stages { assemble, contact, setup, solve, output, .. } = &self.stages;
+        let stage = match work {
+            Work::Contact => contact,
+            Work::Assembly => assemble,
+            Work::SetUp => setup,
+            Work::Solve => solve,
+            Work::Recovery => output,
+        };
+        Some(stage.enter())
+    }
+}

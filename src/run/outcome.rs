@@ -1,0 +1,75 @@
+//! How a run ends.
+
+use crate::case::Case;
+use crate::output::OutputError;
+use crate::petsc;
+use crate::system::SystemError;
+
+/// How a run ended; becomes the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Converged: 0.
+    Converged,
+    /// Not converged, a mechanism, or an expected value missed that must hold: 3.
+    NotConverged,
+}
+
+/// Why there is no result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// The input cannot be used, on every rank alike: 2.
+    #[error("{0}")]
+    Input(String),
+    /// The same, in words that begin with a key; the caller puts the case file before them.
+    #[error("{0}")]
+    Key(String),
+    /// Somebody has changed the input, or has put another result where this one belongs; on every rank alike: 1.
+    #[error("{0}")]
+    Overtaken(String),
+    /// PETSc, MPI or the disk failed, perhaps on this rank alone: 1.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl RunError {
+    /// The exit code.
+    pub fn code(&self) -> i32 {
+        match self {
+            Self::Input(_) | Self::Key(_) => 2,
+            Self::Overtaken(_) | Self::Failed(_) => 1,
+        }
+    }
+
+    /// With the case file before words that begin with a key.
+    pub(super) fn in_case(self, case: &Case) -> Self {
+        match self {
+            Self::Key(words) => Self::Input(format!("{}: {words}", case.file.display())),
+            error => error,
+        }
+    }
+}
+
+impl From<SystemError> for RunError {
+    fn from(error: SystemError) -> Self {
+        match error {
+            SystemError::Case(words) => Self::Key(words),
+            error @ SystemError::UnusedOptions(_) => Self::Input(error.to_string()),
+            SystemError::Petsc(error) => Self::Failed(error.to_string()),
+        }
+    }
+}
+
+impl From<petsc::Error> for RunError {
+    fn from(error: petsc::Error) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+impl From<OutputError> for RunError {
+    fn from(error: OutputError) -> Self {
+        match error {
+            OutputError::Io { .. } | OutputError::Length { .. } | OutputError::Figure { .. } => Self::Failed(error.to_string()),
+            refused => Self::Input(refused.to_string()),
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The pressure on one contact boundary.
+
+use super::{Contact, Solution};
+use crate::contact::{Zone, oscillation};
+use crate::geometry::{Formula, Point, gauss_points};
+
+/// λ of one contact, with the set that it was solved for.
+#[derive(Clone, Copy)]
+pub struct ContactPressure<'a> {
+    /// The contact.
+    pub contact: &'a Contact,
+    /// Values of its multipliers (stress).
+    pub values: &'a [f64],
+    /// Which of them are active.
+    pub active: &'a [bool],
+}
+
+impl<'a> ContactPressure<'a> {
+    /// Out of the multipliers of all contacts.
+    pub fn new(contact: &'a Contact, multipliers: &'a [f64], active: &'a [bool]) -> Self {
+        Self { contact, values: &multipliers[contact.range()], active: &active[contact.range()] }
+    }
+
+    /// λ at the fraction `z` of segment `k`.
+    pub fn value(&self, k: usize, z: f64) -> f64 {
+        self.contact.multipliers.value(self.values, k, z)
+    }
+
+    /// λ at the foot of a point, on the segment that holds it.
+    pub fn at_foot(&self, x: Point) -> f64 {
+        let boundary = &self.contact.boundary;
+        let (segment, z) = boundary.locate(boundary.foot(x));
+        self.value(segment, z.clamp(0.0, 1.0))
+    }
+
+    /// λ at the foot of a point; at a segment end the mean of both values.
+    pub fn mean_at_foot(&self, x: Point) -> f64 {
+        let boundary = &self.contact.boundary;
+        let knots = boundary.knots();
+        let (k, z) = boundary.locate(boundary.foot(x).clamp(knots[0], knots[knots.len() - 1]));
+        let near = 1e-9;
+        let here = self.value(k, z.clamp(0.0, 1.0));
+        if z < near && k > 0 {
+            0.5 * (here + self.value(k - 1, 1.0))
+        } else if z > 1.0 - near && k + 1 < boundary.segments() {
+            0.5 * (here + self.value(k + 1, 0.0))
+        } else {
+            here
+        }
+    }
+
+    /// `∫λ ds` (force per thickness).
+    pub fn force(&self) -> f64 {
+        self.values.iter().enumerate().map(|(i, value)| value * self.contact.multipliers.weight(i)).sum()
+    }
+
+    /// The largest value of a multiplier.
+    pub fn largest(&self) -> f64 {
+        self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The zones that press, in order of arc length.
+    pub fn zones(&self) -> Vec<Zone> {
+        Zone::all(&self.contact.boundary, &self.contact.multipliers, self.values, self.active)
+    }
+
+    /// `∫λ ds` of one zone.
+    pub fn force_of(&self, zone: &Zone) -> f64 {
+        zone.force(&self.contact.multipliers, self.values)
+    }
+
+    /// The largest λ of one zone.
+    pub fn peak_of(&self, zone: &Zone) -> f64 {
+        zone.peak(&self.contact.multipliers, self.values)
+    }
+
+    /// How much of it is checkerboard; nothing if there is not enough to tell.
+    pub fn oscillation(&self) -> Option<f64> {
+        oscillation(&self.contact.boundary, &self.contact.multipliers, self.values, self.active)
+    }
+
+    /// Relative L2 error on Γ_C against a formula of `x, y`.
+    pub fn error(&self, exact: &Formula) -> f64 {
+        let boundary = &self.contact.boundary;
+        let mut sums = [0.0; 2];
+        for (k, ends) in boundary.knots().windows(2).enumerate() {
+            for (z, weight) in gauss_points(8) {
+                let t = ends[0] + z * (ends[1] - ends[0]);
+                let x = boundary.point(t);
+                let wanted = exact.value(&[x.x, x.y]);
+                let ds = weight * (ends[1] - ends[0]) * boundary.speed(t);
+                sums[0] += ds * (self.value(k, *z) - wanted).powi(2);
+                sums[1] += ds * wanted * wanted;
+            }
+        }
+        (sums[0] / sums[1]).sqrt()
+    }
+}
+
+impl Solution {
+    /// The pressure on one of the contacts that were solved for.
+    pub fn pressure<'a>(&'a self, contact: &'a Contact) -> ContactPressure<'a> {
+        ContactPressure::new(contact, &self.multipliers, &self.active)
+    }
+}

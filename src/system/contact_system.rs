@@ -1,0 +1,241 @@
+//! The system of one contact boundary with its state: the active set, the unknowns, and what solves it.
+
+use super::stiffness::Stiffness;
+use super::{Discretisation, LinearSolve, LinearSolver, Rung, SaddlePoint, SolverChoice, Space, SystemError, inf_sup};
+use crate::petsc::{Matrix, Session, Vector};
+use std::cell::OnceCell;
+use std::rc::Rc;
+
+/// What a solve begins with.
+pub struct Start {
+    /// This rank's displacements, in the nodes' frames.
+    pub displacement: Vec<f64>,
+    /// Pressures of all multipliers (stress).
+    pub pressures: Vec<f64>,
+    /// States of all multipliers.
+    pub active: Vec<bool>,
+}
+
+/// A system that is solved for one active set after the other. Blocks, levels, solver and right-hand side always belong to
+/// the same set, that of the last [`System::set_active`].
+pub struct System<'a> {
+    problem: &'a Discretisation,
+    session: Session,
+    blocks: SaddlePoint,
+    solver: LinearSolver,
+    /// Whether the solver has seen the blocks as they are.
+    is_solver_current: bool,
+    /// Displacements in the nodes' frames, zero where they are prescribed, and scaled multipliers.
+    unknowns: Vector,
+    /// The right-hand side of the set, once somebody has asked for it.
+    right_hand_side: OnceCell<Vector>,
+}
+
+/// Norm of a residual, and that of the right-hand side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// `|b - A x|`.
+    pub norm: f64,
+    /// `|b|`.
+    pub whole: f64,
+}
+
+impl Residual {
+    /// One relative to the other; not a number if both are zero.
+    pub fn relative(self) -> f64 {
+        self.norm / self.whole
+    }
+}
+
+impl<'a> System<'a> {
+    /// Sets up the solver of assembled blocks, on a rung of the ladder; the unknowns are zero. `interpolations[l]` leads from
+    /// level `l` to level `l + 1`, where auxiliary levels come before those of the blocks. **Collective**
+    pub fn new(
+        problem: &'a Discretisation,
+        blocks: SaddlePoint,
+        interpolations: &Rc<[Matrix]>,
+        choice: SolverChoice,
+        rung: Rung,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
+        let solver = LinearSolver::new(&blocks, interpolations, choice, rung, session)?;
+        let unknowns = blocks.nest.create_vectors()?.0;
+        let (session, right_hand_side) = (session.clone(), OnceCell::new());
+        Ok(Self { problem, session, blocks, solver, is_solver_current: true, unknowns, right_hand_side })
+    }
+
+    /// What it was assembled from.
+    pub fn problem(&self) -> &'a Discretisation {
+        self.problem
+    }
+
+    /// All ranks.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    fn space(&self) -> &'a Space {
+        self.problem.finest()
+    }
+
+    /// The active set.
+    pub fn active(&self) -> &[bool] {
+        self.blocks.active()
+    }
+
+    /// Goes to another active set: the blocks of multipliers that change do, on every level, and open ones begin from zero.
+    /// **Collective**
+    pub fn set_active(&mut self, active: &[bool]) -> Result<(), SystemError> {
+        if self.blocks.active() == active {
+            return Ok(());
+        }
+        self.blocks.set_active(self.problem, active)?;
+        self.is_solver_current = false;
+        self.right_hand_side.take();
+        let unknowns = self.space().local_unknowns();
+        let mut values = self.unknowns.values_mut();
+        for (at, _) in self.blocks.multipliers.own.iter().enumerate().filter(|(_, i)| !active[**i]) {
+            values[unknowns + at] = 0.0;
+        }
+        Ok(())
+    }
+
+    /// Takes over the unknowns of a start, and its active set. **Collective**
+    pub fn begin(&mut self, start: &Start) -> Result<(), SystemError> {
+        put(&self.blocks, self.space(), start, &mut self.unknowns);
+        self.set_active(&start.active)
+    }
+
+    /// Solves for the active set, from the unknowns as they are, until the residual is below `tolerance |b|` or rounding stops
+    /// it. **Collective**
+    pub fn solve(&mut self, tolerance: f64) -> Result<LinearSolve, SystemError> {
+        self.bring_solver_up_to_date()?;
+        self.right_hand_side()?;
+        let b = self.right_hand_side.get().expect("just made");
+        self.solver.solve(&self.blocks, b, &mut self.unknowns, tolerance)
+    }
+
+    fn bring_solver_up_to_date(&mut self) -> Result<(), SystemError> {
+        if !self.is_solver_current {
+            self.solver.refresh(&self.blocks)?;
+            self.is_solver_current = true;
+        }
+        Ok(())
+    }
+
+    /// The right-hand side of the active set, in the order of [`System::matrix`]. **Collective**
+    pub fn right_hand_side(&self) -> Result<&Vector, SystemError> {
+        if self.right_hand_side.get().is_none() {
+            let b = self.blocks.right_hand_side(self.space())?;
+            _ = self.right_hand_side.set(b);
+        }
+        Ok(self.right_hand_side.get().expect("just made"))
+    }
+
+    /// Residual of the unknowns. **Collective**
+    pub fn residual(&self) -> Result<Residual, SystemError> {
+        Ok(self.residual_of(&self.unknowns)?.1)
+    }
+
+    /// Residual that displacements alone would leave. **Collective**
+    pub fn residual_of_displacement(&self, displacement: Vec<f64>) -> Result<Residual, SystemError> {
+        let mut x = self.unknowns.duplicate()?;
+        let (pressures, active) = (vec![0.0; self.active().len()], self.active().to_vec());
+        put(&self.blocks, self.space(), &Start { displacement, pressures, active }, &mut x);
+        Ok(self.residual_of(&x)?.1)
+    }
+
+    fn residual_of(&self, x: &Vector) -> Result<(Vector, Residual), SystemError> {
+        let b = self.right_hand_side()?;
+        let mut r = b.duplicate()?;
+        self.blocks.nest.residual(b, x, &mut r)?;
+        let norms = Residual { norm: r.norm()?, whole: b.norm()? };
+        Ok((r, norms))
+    }
+
+    /// Relative residual of the plain system, without augmentation. **Collective**
+    pub fn plain_residual(&self) -> Result<f64, SystemError> {
+        let (r, _) = self.residual_of(&self.unknowns)?;
+        self.blocks.plain_residual(&r, self.right_hand_side()?, self.space(), &self.session)
+    }
+
+    /// This rank's displacements in the nodes' frames, zero where they are prescribed.
+    pub fn free_displacement(&self) -> Vec<f64> {
+        self.unknowns.values()[..self.space().local_unknowns()].to_vec()
+    }
+
+    /// The same with those that are prescribed.
+    pub fn displacement(&self) -> Vec<f64> {
+        let space = self.space();
+        let mut displacement = self.free_displacement();
+        for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
+            for k in (0..2).filter(|&k| constraint.fixed[k]) {
+                displacement[2 * (node - space.own.start) + k] = constraint.value[k];
+            }
+        }
+        displacement
+    }
+
+    /// `λ_i = s_i λ̂_i` of all multipliers (stress). **Collective**
+    pub fn pressures(&self) -> Vec<f64> {
+        let own = &self.unknowns.values()[self.space().local_unknowns()..];
+        let all = self.blocks.multipliers.collect(own, &self.session);
+        all.iter().zip(&self.blocks.multipliers.scale).map(|(value, scale)| value * scale).collect()
+    }
+
+    /// `(B u - c)_i` of all multipliers, active or not, for this rank's displacements (length squared). **Collective**
+    pub fn penetration(&self, displacement: &[f64]) -> Vec<f64> {
+        self.blocks.penetration(displacement, self.space(), &self.session)
+    }
+
+    /// `C λ` of the jump term (length squared).
+    pub fn jump_term(&self, pressures: &[f64]) -> Vec<f64> {
+        self.blocks.multipliers.jump_term(pressures)
+    }
+
+    /// Discrete inf-sup constant of each contact, where it can be had. **Collective**
+    pub fn inf_sup(&self) -> Result<Vec<Option<f64>>, SystemError> {
+        inf_sup(&self.blocks, &self.problem.contacts, &self.session)
+    }
+
+    /// All blocks of the finest level: rows of this rank's displacements, then of its multipliers.
+    pub fn matrix(&self) -> &Matrix {
+        &self.blocks.nest
+    }
+
+    /// `K + Bᵀ D B` on the levels that the solver uses, coarsest first, auxiliary ones among them. **Collective**
+    pub fn levels(&mut self) -> Result<Vec<&Matrix>, SystemError> {
+        self.bring_solver_up_to_date()?;
+        Ok(self.solver.auxiliary_operators().chain(self.blocks.stiffness.iter().map(Stiffness::operator)).collect())
+    }
+
+    /// What preconditions the displacements.
+    pub fn rung(&self) -> Rung {
+        self.solver.rung
+    }
+
+    /// What solves it, in words.
+    pub fn solver_name(&self) -> &str {
+        &self.solver.name
+    }
+
+    /// Options that the user gave and nothing has asked for.
+    pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
+        self.solver.unused_options()
+    }
+}
+
+/// Puts a start into unknowns; prescribed components are no unknowns, and open multipliers begin from zero.
+fn put(blocks: &SaddlePoint, space: &Space, start: &Start, x: &mut Vector) {
+    let unknowns = space.local_unknowns();
+    let mut values = x.values_mut();
+    values[..unknowns].copy_from_slice(&start.displacement);
+    for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
+        for k in (0..2).filter(|&k| constraint.fixed[k]) {
+            values[2 * (node - space.own.start) + k] = 0.0;
+        }
+    }
+    for (at, &i) in blocks.multipliers.own.iter().enumerate() {
+        values[unknowns + at] = if start.active[i] { start.pressures[i] / blocks.multipliers.scale[i] } else { 0.0 };
+    }
+}

@@ -1,0 +1,38 @@
+//! Why there is no system.
+
+use crate::body::SupportError;
+use crate::contact::PlacingError;
+use crate::element::BadJacobian;
+use crate::petsc;
+
+/// Why a system cannot be set up or solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SystemError {
+    /// The case asks for something that cannot be; in words.
+    #[error("{0}")]
+    Case(String),
+    /// PETSc options of the user's that nothing has asked for, each as `-name value`.
+    #[error("PETSc options that nothing has used: {}; check their spelling", .0.join(", "))]
+    UnusedOptions(Vec<String>),
+    /// PETSc or MPI failed.
+    #[error(transparent)]
+    Petsc(#[from] petsc::Error),
+}
+
+impl From<BadJacobian> for SystemError {
+    fn from(error: BadJacobian) -> Self {
+        Self::Case(format!("mesh: {error}; refine the mesh along the curved boundary, or correct its [geometry]"))
+    }
+}
+
+impl From<PlacingError> for SystemError {
+    fn from(error: PlacingError) -> Self {
+        Self::Case(error.to_string())
+    }
+}
+
+impl From<SupportError> for SystemError {
+    fn from(error: SupportError) -> Self {
+        Self::Case(error.0)
+    }
+}

@@ -1,0 +1,34 @@
+//! A scene as it lies before anything is solved.
+
+use crate::mesh::Numbering;
+use crate::system::{Contact, Scene, Space, SystemError, finest_numbering, not_held_if_closed};
+
+/// The mesh of the case with its contacts on bodies at rest.
+pub struct AtRest {
+    /// Nodes of the level that is solved in.
+    pub numbering: Numbering,
+    /// The contacts.
+    pub contacts: Vec<Contact>,
+}
+
+impl AtRest {
+    /// Places the contacts and looks at the supports: a scene that is not sound is refused here.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if the mesh is too fine, supports contradict each other, a boundary cannot be placed, the boundaries of a contact do not face each
+    /// other, or two contacts claim the same place.
+    pub fn new(scene: &Scene, rank: usize) -> Result<Self, SystemError> {
+        // The space shows whether supports contradict each other.
+        let Space { numbering, .. } = Space::new(scene, finest_numbering(scene)?.level, rank)?;
+        let contacts = Contact::all(scene, &numbering, rank)?;
+        Ok(Self { numbering, contacts })
+    }
+
+    /// Words for a body that can move though contact is closed everywhere, of a scene that is on one rank.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact cannot be integrated.
+    pub fn not_held(&self, scene: &Scene) -> Result<Option<String>, SystemError> {
+        not_held_if_closed(scene, &self.numbering, &self.contacts)
+    }
+}

@@ -1,0 +1,262 @@
+//! One mesh: one contact boundary after the other, until everything stands.
+
+use super::contact_loop::{ContactLoop, Found, Pass, Place};
+use super::ending::{Ending, Failure};
+use super::following::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
+use super::observer::{Event, Work};
+use super::settings::Procedure;
+use crate::petsc::Matrix;
+use crate::system::{
+    BoundaryMotion, Contact, Discretisation, Elastic, Form, Rung, SaddlePoint, Solution, Start, System, SystemError, Tolerance,
+    interpolations, load, nodal_forces,
+};
+use std::rc::Rc;
+
+/// Relative residual of solves on boundaries that are still on their way.
+const ON_THE_WAY: f64 = 1e-5;
+
+/// Share of its length by which a boundary moves when it is nearly there.
+const NEARLY: f64 = 1e-2;
+
+/// How one mesh is solved.
+pub struct OneMesh<'p> {
+    pub procedure: &'p Procedure<'p>,
+    /// How far its last solve goes.
+    pub tolerance: Tolerance,
+    /// Whether it is the mesh of the case: the others are heard of when they are solved.
+    pub is_last: bool,
+}
+
+/// What was found on one mesh.
+pub struct OnMesh {
+    pub solution: Solution,
+    pub ending: Ending,
+    pub passes: Vec<Pass>,
+    pub boundaries: Vec<BoundaryStep>,
+    /// The preconditioner that it needed.
+    pub rung: Rung,
+    /// What solved it, in words.
+    pub solver: String,
+}
+
+/// What no contact boundary changes.
+struct Bodies {
+    /// The bodies without contact; only where boundaries follow the solution, otherwise the system holds them.
+    elastic: Option<Elastic>,
+    interpolations: Rc<[Matrix]>,
+}
+
+/// What was done on a mesh so far.
+#[derive(Default)]
+struct Record {
+    passes: Vec<Pass>,
+    boundaries: Vec<BoundaryStep>,
+}
+
+/// What follows from the solves on one boundary.
+enum After {
+    /// Everything is done.
+    Ended(Ending),
+    /// The bodies have moved, and so must the boundary.
+    Moved {
+        contacts: Vec<Contact>,
+        motion: BoundaryMotion,
+        start: Option<Start>,
+        /// Whether it is nearly where it was.
+        is_near: bool,
+    },
+}
+
+/// What was found on one boundary.
+struct OnBoundary {
+    solution: Solution,
+    after: After,
+    rung: Rung,
+    solver: String,
+}
+
+impl OneMesh<'_> {
+    /// Solves, once or for one contact boundary after the other. A start comes from a coarser mesh, whose boundaries are
+    /// settled. **Collective**
+    pub fn solve(&self, problem: &mut Discretisation, start: Option<Start>, rung: Rung) -> Result<OnMesh, SystemError> {
+        let bodies = self.bodies(problem)?;
+        if problem.follows() {
+            return self.follow(problem, &bodies, start, rung);
+        }
+        self.begin(None);
+        let mut system = self.system(problem, &bodies, rung)?;
+        let found = self.sets(&mut system, start, self.tolerance, Place { boundary: 1, passes: 0 })?;
+        let Found { solution, ending, passes, ascended } = found;
+        let solution = self.with_inf_sup(&system, solution, ascended || !ending.is_converged())?;
+        let (rung, solver) = (system.rung(), system.solver_name().to_string());
+        Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), rung, solver })
+    }
+
+    /// Solves, lets the boundaries follow, and solves again, until everything stands. **Collective**
+    fn follow(
+        &self,
+        problem: &mut Discretisation,
+        bodies: &Bodies,
+        mut start: Option<Start>,
+        mut rung: Rung,
+    ) -> Result<OnMesh, SystemError> {
+        let exact = self.tolerance.residual().min(ON_THE_WAY);
+        let mut following = Following::new(problem, exact, start.is_some());
+        self.begin(Some(following.tolerances()));
+        let mut record = Record::default();
+        let mut is_last = false;
+        for number in 1.. {
+            let on_boundary = BoundaryLoop { mesh: self, following: &mut following, record: &mut record, number, exact };
+            let found = on_boundary.solve(self.system(problem, bodies, rung)?, start.take(), is_last)?;
+            rung = found.rung;
+            match found.after {
+                After::Ended(ending) => {
+                    let Record { passes, boundaries } = record;
+                    return Ok(OnMesh { solution: found.solution, ending, passes, boundaries, rung, solver: found.solver });
+                }
+                After::Moved { contacts, motion, start: next, is_near } => {
+                    let _stage = self.procedure.observer.enter(Work::Contact);
+                    problem.replace(contacts, motion, self.procedure.session)?;
+                    (start, is_last) = (next, is_near);
+                }
+            }
+        }
+        unreachable!("boundaries are given up after a while")
+    }
+
+    fn begin(&self, follows: Option<[f64; 2]>) {
+        if self.is_last {
+            self.procedure.observer.hear(Event::Begin(follows));
+        }
+    }
+
+    /// Assembles and sets up what all contact boundaries share. **Collective**
+    fn bodies(&self, problem: &Discretisation) -> Result<Bodies, SystemError> {
+        let Procedure { choice, session, observer, .. } = self.procedure;
+        let mut bodies = Bodies { elastic: None, interpolations: Rc::new([]) };
+        if problem.follows() {
+            let _stage = observer.enter(Work::Assembly);
+            let load = load(problem, &nodal_forces(problem, session)?);
+            bodies.elastic = Some(Elastic::alone(problem, load, choice.form(), session)?);
+        }
+        if choice.form() == Form::Augmented {
+            let _stage = observer.enter(Work::SetUp);
+            bodies.interpolations = interpolations(problem, session)?.into();
+        }
+        Ok(bodies)
+    }
+
+    /// Assembles and sets up the system of the contact boundaries as they are. **Collective**
+    fn system<'a>(&self, problem: &'a Discretisation, bodies: &Bodies, rung: Rung) -> Result<System<'a>, SystemError> {
+        let Procedure { choice, session, observer, .. } = self.procedure;
+        let blocks = {
+            let _stage = observer.enter(Work::Assembly);
+            match &bodies.elastic {
+                Some(elastic) => SaddlePoint::around(problem, elastic, choice.form(), session)?,
+                None => {
+                    let load = load(problem, &nodal_forces(problem, session)?);
+                    SaddlePoint::new(problem, load, choice.form(), session)?
+                }
+            }
+        };
+        let _stage = observer.enter(Work::SetUp);
+        let system = System::new(problem, blocks, &bodies.interpolations, *choice, rung, session)?;
+        match system.unused_options()? {
+            unused if unused.is_empty() => Ok(system),
+            unused => Err(SystemError::UnusedOptions(unused)),
+        }
+    }
+
+    /// Solves for one active set after the other. **Collective**
+    fn sets(&self, system: &mut System, start: Option<Start>, tolerance: Tolerance, place: Place) -> Result<Found, SystemError> {
+        let observer = self.procedure.observer;
+        let _stage = observer.enter(Work::Solve);
+        let all = system.active().len();
+        ContactLoop::begin(system, start, tolerance, place)?.solve(|pass| {
+            if self.is_last {
+                observer.hear(Event::Passed(pass, all));
+            }
+        })
+    }
+
+    /// A solution with the inf-sup constants of its contacts, if they are wanted. **Collective**
+    fn with_inf_sup(&self, system: &System, solution: Solution, is_hard: bool) -> Result<Solution, SystemError> {
+        if !self.is_last || !self.procedure.wants_inf_sup(system.problem(), is_hard) {
+            return Ok(solution);
+        }
+        let _stage = self.procedure.observer.enter(Work::Solve);
+        Ok(Solution { inf_sup: system.inf_sup()?, ..solution })
+    }
+}
+
+/// The solves on one boundary of those that follow.
+struct BoundaryLoop<'l, 'p> {
+    mesh: &'l OneMesh<'p>,
+    following: &'l mut Following,
+    record: &'l mut Record,
+    /// Number of the boundary, from 1.
+    number: usize,
+    /// Residual that the last solve goes to.
+    exact: f64,
+}
+
+impl BoundaryLoop<'_, '_> {
+    /// Solves on the way, unless the solve is the last one, and again as the last one if everything stands. **Collective**
+    fn solve(mut self, mut system: System, start: Option<Start>, is_last: bool) -> Result<OnBoundary, SystemError> {
+        let (mut start, mut is_last) = (start, is_last || self.exact >= ON_THE_WAY);
+        loop {
+            let tolerance = Tolerance::Residual(if is_last { self.exact } else { ON_THE_WAY });
+            let place = Place { boundary: self.number, passes: self.record.passes.len() };
+            let Found { solution, ending, passes, ascended } = self.mesh.sets(&mut system, start.take(), tolerance, place)?;
+            self.record.passes.extend(passes);
+            let after = match ending {
+                Ending::NotConverged(_) => After::Ended(ending),
+                Ending::Converged(_) => match self.next(system.problem(), &solution, is_last)? {
+                    Some(after) => after,
+                    None => {
+                        // The place is right, but it was found with a solve on the way.
+                        (start, is_last) = (Some(start_from(&solution)), true);
+                        continue;
+                    }
+                },
+            };
+            let solution = match &after {
+                After::Ended(ending) => self.mesh.with_inf_sup(&system, solution, ascended || !ending.is_converged())?,
+                After::Moved { .. } => solution,
+            };
+            return Ok(OnBoundary { solution, after, rung: system.rung(), solver: system.solver_name().to_string() });
+        }
+    }
+
+    /// What follows from a solution; nothing if it is to be solved once more, as the last one. **Collective**
+    fn next(&mut self, problem: &Discretisation, solution: &Solution, is_last: bool) -> Result<Option<After>, SystemError> {
+        let Procedure { session, observer, .. } = self.mesh.procedure;
+        let followed = {
+            let _stage = observer.enter(Work::Contact);
+            self.following.next(problem, solution, self.number, session)
+        };
+        let (step, next) = match followed {
+            Ok(followed) => followed,
+            Err(SystemError::Case(words)) => {
+                return Ok(Some(After::Ended(Ending::NotConverged(Failure::BoundaryLost(words)))));
+            }
+            Err(error) => return Err(error),
+        };
+        if matches!(next, NextBoundary::Stands) && !is_last {
+            return Ok(None);
+        }
+        if self.mesh.is_last {
+            observer.hear(Event::Placed(&step));
+        }
+        let is_near = step.moved.is_some_and(|way| way < NEARLY);
+        self.record.boundaries.push(step);
+        Ok(Some(match next {
+            NextBoundary::Stands => After::Ended(Ending::Converged(standing(&self.record.boundaries))),
+            NextBoundary::GivenUp(failure) => After::Ended(Ending::NotConverged(failure)),
+            NextBoundary::Again(contacts, motion) => {
+                let start = carried(&problem.contacts, &contacts, solution);
+                After::Moved { contacts, motion, start, is_near }
+            }
+        }))
+    }
+}

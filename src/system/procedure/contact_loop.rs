@@ -1,0 +1,373 @@
+//! The loop over active sets.
+
+use super::contact_state::ContactState;
+use super::ending::{Ending, Failure, Standing};
+use super::first_set::{carried_set, first_set};
+use super::unsettled::going_on;
+use crate::contact::{ActiveSet, Step};
+use crate::system::{
+    LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held, rigid_start,
+};
+
+/// Relative residual of the solves inside the loop: enough to find the right set.
+const LOOSE: f64 = 1e-4;
+
+/// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
+const FROM_START: f64 = 2e-4;
+
+/// Relative residual that is small enough for any discretisation error.
+const SMALL: f64 = 1e-10;
+
+/// Relative residual that no solve goes below.
+const LEAST: f64 = 1e-13;
+
+/// How much smaller a residual is asked for if the contact conditions are not met.
+const FURTHER: f64 = 1e-2;
+
+/// Active sets tried by the plain rule at most; from then on they are those of rising energy.
+const MOST_PLAIN: usize = 12;
+
+/// Active sets tried at most.
+const MOST_SETS: usize = 120;
+
+/// Relative residual of the solves by which sets of rising energy are told, if the tolerance asks for no less.
+const TELLING: f64 = 1e-8;
+
+/// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
+const LEAST_SHARE: f64 = 1e-8;
+
+/// How often contact that a body needs is kept against its forces.
+const MOST_KEPT: usize = 3;
+
+/// One pass of the loop, in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// Number of the pass, from 1.
+    pub iteration: usize,
+    /// Number of the contact boundary it was made on, from 1.
+    pub boundary: usize,
+    /// Active multipliers of the solve.
+    pub active: usize,
+    /// Multipliers that became active after it.
+    pub added: usize,
+    /// Multipliers that were released after it.
+    pub released: usize,
+    /// Krylov iterations of its linear solve.
+    pub krylov_iterations: usize,
+    /// Its relative residual.
+    pub residual: f64,
+    /// Largest mean penetration over a multiplier (length).
+    pub max_penetration: f64,
+    /// Change of the displacement, relative to its norm.
+    pub du: f64,
+    /// The stronger preconditioner that the linear solver went over to, in words.
+    pub climbed: Option<String>,
+}
+
+/// What the loop does next.
+enum Next {
+    /// It ends.
+    End(Ending),
+    /// It solves again to the final tolerance.
+    Tighten,
+    /// It solves to a smaller residual than the tolerance: the contact conditions ask for it.
+    Further,
+    /// It solves again, and goes over to sets of rising energy.
+    Ascend,
+    /// It solves again.
+    Go,
+}
+
+/// The set that follows from a solve.
+struct NextSet {
+    step: Step,
+    /// The body that it lets go, in words.
+    lost: Option<String>,
+}
+
+/// Where a loop stands among all of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Number of the contact boundary, from 1.
+    pub boundary: usize,
+    /// Passes made on boundaries before.
+    pub passes: usize,
+}
+
+/// What a loop has found.
+pub struct Found {
+    /// The solution of the last pass, with the set it was solved for.
+    pub solution: Solution,
+    /// How it ended.
+    pub ending: Ending,
+    /// Every pass.
+    pub passes: Vec<Pass>,
+    /// Whether the active set was found by rising energy, because the plain rule did not.
+    pub ascended: bool,
+}
+
+/// Solves for one active set after the other, until one stands.
+pub struct ContactLoop<'s, 'a> {
+    system: &'s mut System<'a>,
+    /// The set to solve for next; runs ahead of that of the system after a solve.
+    set: ActiveSet,
+    place: Place,
+    /// How far the last solve was asked to go.
+    wanted: f64,
+    /// Share of the right-hand side that residuals are measured by.
+    share: f64,
+    /// Residual that the last solve goes to, and that of the present one, relative to the whole right-hand side.
+    tolerance: f64,
+    goal: f64,
+    /// How often contact was kept that a body needs.
+    kept: usize,
+    /// Displacements of the pass before.
+    before: Vec<f64>,
+    passes: Vec<Pass>,
+}
+
+impl<'s, 'a> ContactLoop<'s, 'a> {
+    /// Begins with a start, or where bodies touch before they are strained. **Collective**
+    pub fn begin(
+        system: &'s mut System<'a>,
+        start: Option<Start>,
+        tolerance: Tolerance,
+        place: Place,
+    ) -> Result<Self, SystemError> {
+        let problem = system.problem();
+        let mut set = ActiveSet::new(bilateral(&problem.contacts));
+        if let Some(start) = start {
+            set = set.starting_from(&start.active);
+            let carried = carried_set(system, set.active(), &start.displacement);
+            if carried != set.active() {
+                set.start_from(&carried);
+            }
+            system.begin(&Start { active: set.active().to_vec(), ..start })?;
+        } else if let Some(first) = first_set(system) {
+            set.start_from(&first);
+            system.set_active(set.active())?;
+        }
+        let share = share(system)?;
+        let last = share * last_residual(system, tolerance)?;
+        let goal = if set.may_change() { last.max(share * LOOSE) } else { last };
+        let (before, wanted) = (system.free_displacement(), tolerance.residual());
+        Ok(Self { system, set, place, wanted, share, tolerance: last, goal, kept: 0, before, passes: Vec::new() })
+    }
+
+    /// Solves until the active set stands and the last residual is below the tolerance; `report` hears every pass.
+    /// **Collective**
+    pub fn solve(mut self, mut report: impl FnMut(&Pass)) -> Result<Found, SystemError> {
+        loop {
+            let next = self.pass()?;
+            report(&self.passes[self.passes.len() - 1]);
+            match next {
+                Next::End(ending) => return self.finish(ending),
+                Next::Tighten => {
+                    // A set may have come up twice because a solve was not exact: from here on that counts anew.
+                    self.goal = self.tolerance;
+                    self.set.forget();
+                }
+                Next::Further => {
+                    self.tolerance = (FURTHER * self.tolerance).max(self.share * LEAST);
+                    self.goal = self.tolerance;
+                }
+                Next::Ascend => {
+                    self.goal = self.tolerance.min(self.share * TELLING);
+                    self.set.begin_ascent();
+                }
+                Next::Go => {}
+            }
+            self.system.set_active(self.set.active())?;
+        }
+    }
+
+    /// One solve, and what follows from it. **Collective**
+    fn pass(&mut self) -> Result<Next, SystemError> {
+        let residual = self.residual_to_reach()?;
+        let solve = self.system.solve(residual)?;
+        let state = ContactState::new(self.system);
+        let failed = matches!(solve.ending, LinearEnding::Failed { .. });
+        let next_set = if failed { None } else { Some(self.next_set(&state)) };
+        self.record(&solve, &state, next_set.as_ref());
+        Ok(match next_set {
+            None => Next::End(self.after_failure(solve.ending, &state)),
+            Some(NextSet { step: Step::Settled, lost }) => self.after_settled(solve.ending, lost, &state),
+            Some(NextSet { step, lost }) => self.after_change(&step, lost),
+        })
+    }
+
+    /// Keeps the figures of a pass. **Collective**
+    fn record(&mut self, solve: &LinearSolve, state: &ContactState, next: Option<&NextSet>) {
+        let (added, released) = match next {
+            Some(NextSet { step: Step::Changed { added, released }, .. }) => (*added, *released),
+            _ => (0, 0),
+        };
+        let pass = Pass {
+            iteration: self.place.passes + self.passes.len() + 1,
+            boundary: self.place.boundary,
+            active: self.system.active().iter().filter(|active| **active).count(),
+            added,
+            released,
+            krylov_iterations: solve.iterations,
+            residual: solve.residual / self.share,
+            max_penetration: state.largest_penetration(self.system.problem()),
+            du: self.change(),
+            climbed: solve.climbed.clone(),
+        };
+        self.passes.push(pass);
+    }
+
+    /// Relative residual to reach: the goal, but in the loop at least a tenth of the present one, so that a good start
+    /// does not hide a changed set; never less than the final tolerance. **Collective**
+    fn residual_to_reach(&self) -> Result<f64, SystemError> {
+        if self.goal <= self.tolerance {
+            return Ok(self.goal);
+        }
+        let residual = self.system.residual()?;
+        if residual.whole == 0.0 {
+            return Ok(self.goal);
+        }
+        Ok(self.goal.min((0.1 * residual.norm / residual.whole).max(self.tolerance)))
+    }
+
+    /// The set that follows from the forces. One that lets a body go may do so only because contact was closed where it is
+    /// to open, and pulled: the few multipliers that are pulled least, and hold all, stay closed then, so that the rest
+    /// comes to rest on them. If that has been tried, the words for the body.
+    fn next_set(&mut self, state: &ContactState) -> NextSet {
+        let problem = self.system.problem();
+        let force = |i: usize| state.force(i);
+        let step = if self.set.ascends() { self.set.ascend(&state.found()) } else { self.set.update(force) };
+        let lost = not_held(problem, self.set.active());
+        if lost.is_none() || self.kept == MOST_KEPT || !matches!(step, Step::Changed { .. }) {
+            return NextSet { step, lost };
+        }
+        if !self.set.keep(&few_that_hold(problem, self.set.active(), force)) {
+            return NextSet { step, lost };
+        }
+        self.kept += 1;
+        let states = || self.system.active().iter().zip(self.set.active());
+        let changed = |now: bool| states().filter(|&(&was, &is)| was != is && is == now).count();
+        NextSet { step: Step::Changed { added: changed(true), released: changed(false) }, lost: None }
+    }
+
+    /// Relative residual that the last solve is to reach, of what strains.
+    fn last(&self) -> f64 {
+        self.tolerance / self.share
+    }
+
+    /// What violates the contact conditions most, in words.
+    fn violated(&self, state: &ContactState) -> Option<String> {
+        state.violated(self.system.problem(), self.system.active(), self.last())
+    }
+
+    fn after_failure(&self, ending: LinearEnding, state: &ContactState) -> Ending {
+        if self.last() > self.wanted {
+            return self.ending(ending);
+        }
+        // What went on below the tolerance and could not is as good as rounding allows.
+        match self.violated(state) {
+            Some(words) => Ending::NotConverged(Failure::ConditionsViolated(words)),
+            None => Ending::Converged(self.standing()),
+        }
+    }
+
+    fn after_settled(&self, ending: LinearEnding, lost: Option<String>, state: &ContactState) -> Next {
+        // A set that a coarser mesh or another boundary has left may hold less here.
+        if let Some(words) = lost {
+            return Next::End(Ending::NotConverged(Failure::NotHeld(words)));
+        }
+        if self.is_loose() {
+            return Next::Tighten;
+        }
+        match (self.violated(state), ending) {
+            (Some(_), LinearEnding::Converged) if self.last() > LEAST => Next::Further,
+            (Some(words), _) => Next::End(Ending::NotConverged(Failure::ConditionsViolated(words))),
+            (None, ending) => Next::End(self.ending(ending)),
+        }
+    }
+
+    fn after_change(&self, step: &Step, lost: Option<String>) -> Next {
+        if let Some(words) = lost {
+            return Next::End(Ending::NotConverged(Failure::NotHeld(words)));
+        }
+        let (solves, repeated) = (self.passes.len(), *step == Step::Repeated);
+        if solves >= MOST_SETS {
+            let (was, is) = (self.system.active(), self.set.active());
+            let changed: Vec<usize> = (0..was.len()).filter(|&i| was[i] != is[i]).collect();
+            return Next::End(Ending::NotConverged(Failure::SetChanges(going_on(self.system.problem(), solves, &changed))));
+        }
+        match repeated {
+            _ if !self.set.ascends() && (solves >= MOST_PLAIN || repeated && !self.is_loose()) => Next::Ascend,
+            true => Next::Tighten,
+            false => Next::Go,
+        }
+    }
+
+    /// Whether the present solve is less exact than the last one is to be.
+    fn is_loose(&self) -> bool {
+        self.goal > self.tolerance
+    }
+
+    /// How the loop ends with a linear solve whose set stands.
+    fn ending(&self, linear: LinearEnding) -> Ending {
+        match linear {
+            LinearEnding::Converged => Ending::Converged(self.standing()),
+            LinearEnding::Rounding { residual, tolerance } => Ending::Converged(Standing::Rounding { residual, tolerance }),
+            LinearEnding::Failed { reason, iterations, residual } => {
+                Ending::NotConverged(Failure::LinearSolver { reason, iterations, residual })
+            }
+        }
+    }
+
+    fn standing(&self) -> Standing {
+        if self.set.may_change() { Standing::ActiveSet } else { Standing::Residual }
+    }
+
+    /// The solution of the last pass. **Collective**
+    fn finish(self, ending: Ending) -> Result<Found, SystemError> {
+        let Self { system, share, .. } = self;
+        let residual = system.residual()?;
+        let whole = share * residual.whole;
+        let solution = Solution {
+            displacement: system.displacement(),
+            multipliers: system.pressures(),
+            active: system.active().to_vec(),
+            residual: if whole == 0.0 { 0.0 } else { residual.norm / whole },
+            plain_residual: system.plain_residual()? / share,
+            inf_sup: Vec::new(),
+        };
+        Ok(Found { solution, ending, passes: self.passes, ascended: self.set.ascends() })
+    }
+
+    /// Change of the displacement since the last call, relative to its norm. **Collective**
+    fn change(&mut self) -> f64 {
+        let now = self.system.free_displacement();
+        let then = std::mem::replace(&mut self.before, now);
+        let mut squares = [0.0; 2];
+        for (now, then) in self.before.iter().zip(then) {
+            squares[0] += (now - then).powi(2);
+            squares[1] += now * now;
+        }
+        self.system.session().sum(&mut squares);
+        if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 }
+    }
+}
+
+/// Share of the right-hand side that asks for strain. Displacements prescribed to a stiff body are forces of its own
+/// modulus there, however little they strain it: beside them the forces of contact with a soft one are small, and a
+/// residual relative to all of it says nothing of these. So the part that moves the bodies rigidly does not count.
+/// **Collective**
+fn share(system: &System) -> Result<f64, SystemError> {
+    let Some(displacement) = rigid_start(system.problem(), system.session().rank()) else { return Ok(1.0) };
+    let share = system.residual_of_displacement(displacement)?.relative();
+    Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
+}
+
+/// Relative residual that the last solve is to reach. A start from a coarser mesh is off by the discretisation error of
+/// that mesh; this share of its residual leaves less than a tenth of this mesh's, in λ too. **Collective**
+fn last_residual(system: &System, tolerance: Tolerance) -> Result<f64, SystemError> {
+    match tolerance {
+        Tolerance::Residual(residual) => Ok(residual),
+        Tolerance::Discretisation => Ok((FROM_START * system.residual()?.relative()).clamp(SMALL, LOOSE)),
+    }
+}

@@ -1,0 +1,150 @@
+//! How the procedure ends, and why.
+
+use std::fmt::{self, Display, Formatter};
+
+/// How the procedure ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// Everything stands still within its tolerance.
+    Converged(Standing),
+    /// It does not, or a body is not held.
+    NotConverged(Failure),
+}
+
+impl Ending {
+    /// Whether everything stands.
+    pub fn is_converged(&self) -> bool {
+        matches!(self, Self::Converged(_))
+    }
+}
+
+impl Display for Ending {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Converged(standing) => standing.fmt(f),
+            Self::NotConverged(failure) => failure.fmt(f),
+        }
+    }
+}
+
+/// What stands.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Standing {
+    /// The residual is below its tolerance, and no multiplier may be released.
+    Residual,
+    /// The active set, and the residual is below its tolerance.
+    ActiveSet,
+    /// The active set, but rounding allows no residual as small as asked for.
+    Rounding {
+        /// The relative residual.
+        residual: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+    /// The contact boundary.
+    Boundary {
+        /// Boundaries that were solved for.
+        fits: usize,
+        /// Where its ends had to be held.
+        held: Option<HeldEnds>,
+    },
+}
+
+/// Ends of a contact boundary that did not come to rest by themselves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldEnds {
+    /// Number of the boundary after which they were held.
+    pub fit: usize,
+    /// How far they had moved last, as a share of the length; nothing if the segments were others.
+    pub way: Option<f64>,
+    /// Whether they are held where they have reached farthest.
+    pub farthest: bool,
+}
+
+impl Display for Standing {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Residual => write!(f, "the residual is below its tolerance"),
+            Self::ActiveSet => write!(f, "the active set stands and the residual is below its tolerance"),
+            Self::Rounding { residual, tolerance } => write!(
+                f,
+                "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
+            ),
+            Self::Boundary { fits, held } => {
+                match held {
+                    None if *fits == 1 => write!(f, "the contact boundary fits what touches")?,
+                    None => write!(f, "the contact boundary stands after {fits} fits, and so does the displacement")?,
+                    Some(HeldEnds { fit, way, farthest }) => {
+                        let last = way.map_or("others".into(), |way| format!("{way:.0e} of its length"));
+                        let held = if *farthest { "held where they reached farthest" } else { "held" };
+                        write!(
+                            f,
+                            "the ends of the contact boundary still moved by {last} at fit {fit} and are {held}; it stands after {fits}"
+                        )?;
+                    }
+                }
+                write!(f, "; {}", Self::ActiveSet)
+            }
+        }
+    }
+}
+
+/// What helps where the contact conditions cannot be met.
+const NOT_MET: &str =
+    "rounding allows no better; take fewer segments, or a mesh whose bodies are less slender or less unlike in stiffness";
+
+/// What does not stand.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Failure {
+    /// A body that supports and contact do not hold, with what would.
+    #[error("{0}")]
+    NotHeld(String),
+    /// The linear solver.
+    #[error("linear solver: {reason} after {iterations} iterations, residual {residual:.1e}")]
+    LinearSolver {
+        /// Why it gave up.
+        reason: String,
+        /// Krylov iterations.
+        iterations: usize,
+        /// The relative residual.
+        residual: f64,
+    },
+    /// The contact conditions, at the place where they are violated most.
+    #[error("{0}; {NOT_MET}")]
+    ConditionsViolated(String),
+    /// The active set, with the multipliers that changed last and what helps.
+    #[error("{0}")]
+    SetChanges(String),
+    /// The contact boundary.
+    #[error(
+        "the contact boundary still moves after {fits} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; refine the mesh where contact is, or take another number of segments",
+        figure(.moved), figure(.du), .flipped.map_or("all".to_string(), |count| count.to_string())
+    )]
+    BoundaryMoves {
+        /// Boundaries that were solved for.
+        fits: usize,
+        /// Largest way of a segment end, relative to the length; nothing if the segments are others.
+        moved: Option<f64>,
+        /// Change of the displacement, relative to its norm.
+        du: Option<f64>,
+        /// Multipliers that changed.
+        flipped: Option<usize>,
+    },
+    /// Bodies penetrate each other where the contact boundary has ended.
+    #[error(
+        "contact {contact}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh there, or take more segments"
+    )]
+    Beyond {
+        /// Name of the contact.
+        contact: String,
+        /// How deep (length).
+        depth: f64,
+    },
+    /// A boundary that can no longer be placed.
+    #[error("{0}")]
+    BoundaryLost(String),
+}
+
+fn figure(value: &Option<f64>) -> String {
+    value.map_or("others".to_string(), |value| format!("{value:.1e}"))
+}

@@ -1,0 +1,168 @@
+//! The loop over meshes: coarser ones first, so that active sets, boundaries and errors are known; then that of the case.
+
+use super::at_rest::AtRest;
+use super::boundaries::{OnMesh, OneMesh};
+use super::coarse_solution::CoarseSolution;
+use super::ending::{Ending, Failure};
+use super::estimate::{Difference, Estimate};
+use super::observer::{Event, Work};
+use super::settings::Procedure;
+use super::solved::{CoarseSolve, Solved};
+use crate::system::{
+    BoundaryMotion, Contact, Discretisation, Rung, Scene, Solution, SolverChoice, Start, SystemError, Tolerance, not_held, spaces,
+};
+
+/// Refinements that are solved before the case's own.
+const COARSER: usize = 2;
+
+/// Relative residual of the solves on coarser meshes: below any discretisation error there.
+const COARSE: f64 = 1e-6;
+
+/// What is known before the mesh of the case is solved.
+#[derive(Default)]
+struct Coarser {
+    /// The solution on the last mesh, if there is any.
+    found: Option<CoarseSolution>,
+    differences: Vec<Difference>,
+    solves: Vec<CoarseSolve>,
+}
+
+/// The linear solver to begin with.
+struct First {
+    rung: Rung,
+    /// What is to be said of it, before the first solve.
+    words: Option<String>,
+}
+
+impl Procedure<'_> {
+    /// Solves a scene. A body that nothing holds is found before anything is assembled. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] if the scene cannot be solved at all; everything else is an [`Ending`].
+    pub fn solve(&self, scene: Scene) -> Result<Solved, SystemError> {
+        let at_rest = {
+            let _stage = self.observer.enter(Work::Contact);
+            Self::look(&scene, self.session.rank())?
+        };
+        self.observer.hear(Event::AtRest { scene: &scene, at_rest: &at_rest });
+        let mut first = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
+        let mut coarser = Coarser::default();
+        for times in (1..=COARSER.min(scene.refine)).rev() {
+            match self.coarse_mesh(scene.coarser(times), &mut first, &mut coarser) {
+                // The mesh is too coarse for the scene; the case's own may do.
+                Err(SystemError::Case(_)) => coarser.differences.clear(),
+                outcome => outcome?,
+            }
+        }
+        let (problem, start) = self.refine(scene, at_rest.contacts, coarser.found.as_ref())?;
+        if let (None, Some(words)) = (&start, not_held_at_all(&problem)) {
+            return Ok(nothing(problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
+        }
+        self.solve_last(problem, start, first, coarser)
+    }
+
+    /// Looks at a scene: one that is not sound is refused before anything is solved.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] in words.
+    pub fn look(scene: &Scene, rank: usize) -> Result<AtRest, SystemError> {
+        AtRest::new(scene, rank)
+    }
+
+    /// What the choice of the case comes to; what "auto" does is said with its reason.
+    fn first_solver(&self, scene: &Scene, unknowns: usize) -> First {
+        let (levels, ratios) = (scene.refine + 1, &scene.mesh.ratios);
+        if self.choice != SolverChoice::Auto {
+            return First { rung: Rung::of(levels, ratios), words: None };
+        }
+        let (rung, words) = Rung::first(levels, ratios, unknowns);
+        First { rung, words: Some(words) }
+    }
+
+    /// Solves a coarser mesh, if it holds the bodies, and keeps what it tells. **Collective**
+    fn coarse_mesh(&self, scene: Scene, first: &mut First, coarser: &mut Coarser) -> Result<(), SystemError> {
+        let (refine, before) = (scene.refine, coarser.found.take());
+        let (mut problem, start) = {
+            let _stage = self.observer.enter(Work::Contact);
+            match &before {
+                Some(before) => before.refined(scene, self.session).map(|(problem, start)| (problem, Some(start)))?,
+                None => (Discretisation::new(scene, self.session)?, None),
+            }
+        };
+        if start.is_none() && not_held_at_all(&problem).is_some() {
+            return Ok(());
+        }
+        self.say(first);
+        let least = Rung::of(refine + 1, &problem.scene.mesh.ratios);
+        let rung = before.as_ref().map_or(least, |before| before.rung.max(least));
+        let tolerance = Tolerance::Residual(self.tolerance.residual().max(COARSE));
+        let found = OneMesh { procedure: self, tolerance, is_last: false }.solve(&mut problem, start, rung)?;
+        let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
+        let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
+        coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
+        let (active, passes) = (&found.solution.active, &found.passes);
+        self.observer.hear(Event::Coarse { refine, unknowns, active, passes, converged });
+        if converged {
+            if let Some(before) = &before {
+                coarser.differences.push(Difference::new(&problem, &found.solution, before, self.session)?);
+            }
+            coarser.found = Some(CoarseSolution::new(problem, found.solution, found.rung, self.session)?);
+        }
+        Ok(())
+    }
+
+    /// Goes to the mesh of the case. **Collective**
+    fn refine(
+        &self,
+        scene: Scene,
+        contacts: Vec<Contact>,
+        coarse: Option<&CoarseSolution>,
+    ) -> Result<(Discretisation, Option<Start>), SystemError> {
+        let _stage = self.observer.enter(Work::Contact);
+        if let Some(coarse) = coarse {
+            let (problem, start) = coarse.refined(scene, self.session)?;
+            return Ok((problem, Some(start)));
+        }
+        let spaces = spaces(&scene, self.session.rank())?;
+        Ok((Discretisation::with(scene, spaces, contacts, BoundaryMotion::default(), self.session)?, None))
+    }
+
+    /// Solves the mesh of the case. **Collective**
+    fn solve_last(
+        &self,
+        mut problem: Discretisation,
+        start: Option<Start>,
+        mut first: First,
+        Coarser { found: coarse, mut differences, solves }: Coarser,
+    ) -> Result<Solved, SystemError> {
+        self.say(&mut first);
+        let rung = coarse.as_ref().map_or(first.rung, |coarse| coarse.rung.max(first.rung));
+        let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
+        let found = OneMesh { procedure: self, tolerance, is_last: true }.solve(&mut problem, start, rung)?;
+        if let Some(coarse) = &coarse {
+            let _stage = self.observer.enter(Work::Recovery);
+            differences.push(Difference::new(&problem, &found.solution, coarse, self.session)?);
+        }
+        let estimate = Estimate::new(&differences, problem.scene.order, found.solution.residual);
+        let OnMesh { solution, ending, passes, boundaries, solver, .. } = found;
+        Ok(Solved { problem, solution, ending, passes, boundaries, solver, estimate, coarse: solves })
+    }
+
+    fn say(&self, first: &mut First) {
+        if let Some(words) = first.words.take() {
+            self.observer.hear(Event::Solver(&words));
+        }
+    }
+}
+
+/// Words for a body that can move though all contact is closed.
+fn not_held_at_all(problem: &Discretisation) -> Option<String> {
+    not_held(problem, &vec![true; problem.multiplier_count()])
+}
+
+/// A scene that cannot be solved.
+fn nothing(problem: Discretisation, ending: Ending, coarse: Vec<CoarseSolve>) -> Solved {
+    let solution = Solution::nothing(problem.finest(), &vec![true; problem.multiplier_count()]);
+    let (estimate, solver) = (Estimate::default(), "none".into());
+    Solved { problem, solution, ending, passes: Vec::new(), boundaries: Vec::new(), solver, estimate, coarse }
+}

@@ -1,0 +1,34 @@
+//! The solution procedure: on coarser meshes first, on each of them one contact boundary after the other, on each of these
+//! one active set after the other.
+//!
+//! | loop | file | ends when |
+//! |---|---|---|
+//! | meshes | `meshes.rs` | the mesh of the case is solved |
+//! | boundaries | `boundaries.rs` with `following.rs` | boundary, displacement and set stand |
+//! | active sets | `contact_loop.rs` | the set stands, and the residual is below its tolerance |
+
+mod at_rest;
+mod boundaries;
+mod coarse_solution;
+mod contact_loop;
+mod contact_state;
+mod ending;
+mod estimate;
+mod first_set;
+mod following;
+mod meshes;
+mod observer;
+mod settings;
+mod solved;
+mod unsettled;
+mod zone_estimate;
+
+pub use at_rest::AtRest;
+pub use contact_loop::Pass;
+pub use ending::{Ending, Failure, Standing};
+pub use estimate::Estimate;
+pub use following::BoundaryStep;
+pub use observer::{Event, Observer, Work};
+pub use settings::Procedure;
+pub use solved::{CoarseSolve, Solved};
+pub use zone_estimate::{ZoneDifference, ZoneEstimate};

@@ -1,0 +1,73 @@
+//! What a run hears of the procedure while it works.
+
+use super::at_rest::AtRest;
+use super::contact_loop::Pass;
+use super::following::BoundaryStep;
+use crate::petsc::StageGuard;
+use crate::system::Scene;
+
+/// Parts of the work whose times are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Work {
+    /// Contacts are placed and coupled.
+    Contact,
+    /// Matrices are assembled.
+    Assembly,
+    /// Solvers are set up.
+    SetUp,
+    /// Systems are solved.
+    Solve,
+    /// Solutions are looked at.
+    Recovery,
+}
+
+/// What has happened.
+pub enum Event<'a> {
+    /// The scene is sound, as far as that can be seen at rest; nothing is solved yet.
+    AtRest {
+        /// The scene.
+        scene: &'a Scene,
+        /// The mesh of the case with its contacts.
+        at_rest: &'a AtRest,
+    },
+    /// The solver is chosen; in words.
+    Solver(&'a str),
+    /// A coarser mesh was solved first.
+    Coarse {
+        /// Its refinement.
+        refine: usize,
+        /// Its displacement unknowns.
+        unknowns: usize,
+        /// Which multipliers are active.
+        active: &'a [bool],
+        /// The passes of its loops.
+        passes: &'a [Pass],
+        /// Whether it converged.
+        converged: bool,
+    },
+    /// The mesh of the case is solved next; if boundaries follow the bodies, with the changes of boundary and displacement at
+    /// which they stand.
+    Begin(Option<[f64; 2]>),
+    /// A pass of the loop over active sets on that mesh, with the number of all multipliers.
+    Passed(&'a Pass, usize),
+    /// A contact boundary that was solved for.
+    Placed(&'a BoundaryStep),
+}
+
+/// Who watches.
+pub trait Observer {
+    /// Hears of an event, on every rank.
+    fn hear(&self, event: Event);
+
+    /// Times a part of the work until the guard is dropped.
+    fn enter(&self, work: Work) -> Option<StageGuard<'_>>;
+}
+
+/// Nobody.
+impl Observer for () {
+    fn hear(&self, _: Event) {}
+
+    fn enter(&self, _: Work) -> Option<StageGuard<'_>> {
+        None
+    }
+}

@@ -1,0 +1,37 @@
+//! How a scene is solved.
+
+use super::observer::Observer;
+use crate::petsc::Session;
+use crate::system::{Discretisation, Form, SolverChoice, Tolerance};
+
+/// Displacement unknowns up to which a solve that failed, or whose active set was hard to find, is looked into.
+const LARGE_INF_SUP: usize = 200_000;
+
+/// Displacement unknowns up to which the inf-sup constants take less than a tenth of a run.
+const CHEAP_INF_SUP: usize = 10_000;
+
+/// How a scene is solved.
+pub struct Procedure<'a> {
+    /// The linear solver.
+    pub choice: SolverChoice,
+    /// How far it solves.
+    pub tolerance: Tolerance,
+    /// Whether the inf-sup constants are wanted; nothing leaves it to their cost.
+    pub inf_sup: Option<bool>,
+    /// All ranks.
+    pub session: &'a Session,
+    /// Who hears of it.
+    pub observer: &'a dyn Observer,
+}
+
+impl Procedure<'_> {
+    /// Whether the inf-sup constants are to be measured: they are cheap, asked for, or may tell why a solve has failed or an
+    /// active set was hard to find.
+    pub(super) fn wants_inf_sup(&self, problem: &Discretisation, is_hard: bool) -> bool {
+        // Too many multipliers are one reason why a set is hard to find.
+        let hard = is_hard && problem.unknown_count() <= LARGE_INF_SUP;
+        let cheap = problem.unknown_count() <= CHEAP_INF_SUP;
+        let possible = self.choice.form() == Form::Augmented && !problem.contacts.is_empty();
+        possible && self.inf_sup.unwrap_or(cheap || hard)
+    }
+}

@@ -1,0 +1,45 @@
+//! A scene solved.
+
+use super::contact_loop::Pass;
+use super::ending::Ending;
+use super::estimate::Estimate;
+use super::following::BoundaryStep;
+use crate::system::{Discretisation, Solution};
+
+/// A coarser mesh that was solved first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoarseSolve {
+    /// Its refinement.
+    pub refine: usize,
+    /// Its displacement unknowns.
+    pub unknowns: usize,
+    /// Krylov iterations of each solve.
+    pub iterations: Vec<usize>,
+}
+
+/// A scene solved.
+pub struct Solved {
+    /// The mesh of the case with its contacts as they lie in the end.
+    pub problem: Discretisation,
+    /// What was found on it.
+    pub solution: Solution,
+    /// How the procedure ended.
+    pub ending: Ending,
+    /// Every pass of the loop over active sets on it.
+    pub passes: Vec<Pass>,
+    /// Every contact boundary, where some follow the solution.
+    pub boundaries: Vec<BoundaryStep>,
+    /// What solved it, in words.
+    pub solver: String,
+    /// Estimated errors of discretisation.
+    pub estimate: Estimate,
+    /// Coarser meshes that were solved first.
+    pub coarse: Vec<CoarseSolve>,
+}
+
+impl Solved {
+    /// Whether there are displacements to look at.
+    pub fn is_solved(&self) -> bool {
+        !self.passes.is_empty() && self.solution.residual.is_finite()
+    }
+}

@@ -1,0 +1,81 @@
+//! A solution looked at: what is computed of it once, and what can be asked of it.
+
+use super::balance::{Balance, balance};
+use super::deformation::{Deformation, deformations};
+use super::error_norm::energy_error;
+use super::motion_error::{MotionError, motion_errors};
+use super::probe::{Probed, probe};
+use super::stress::nodal_stress;
+use super::traces::{TracePoint, trace_points};
+use crate::geometry::{Formula, Point};
+use crate::petsc::Session;
+use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
+
+/// A solution with its displacements at all nodes that this rank sees, its energies and its balances.
+pub struct Evaluation<'a> {
+    /// What was solved.
+    pub problem: &'a Discretisation,
+    /// What was found.
+    pub solution: &'a Solution,
+    /// All ranks.
+    pub session: &'a Session,
+    /// Displacements.
+    pub u: Field<2>,
+    /// Energies, reactions and balances.
+    pub balance: Balance,
+    /// Strain and rotation of each body.
+    pub deformations: Vec<Deformation>,
+    /// What finite motions spoil, for each contact.
+    pub motions: Vec<Option<MotionError>>,
+}
+
+impl<'a> Evaluation<'a> {
+    /// Computes what is asked of every solution. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] from PETSc or an inverted triangle.
+    pub fn new(problem: &'a Discretisation, solution: &'a Solution, session: &'a Session) -> Result<Self, SystemError> {
+        let u = Field::displacement(problem, &solution.displacement, session)?;
+        let balance = balance(problem, solution, &u, session)?;
+        let deformations = deformations(problem, &u, session)?;
+        let motions = motion_errors(problem, solution, &balance.strain, &deformations, session);
+        Ok(Self { problem, solution, session, u, balance, deformations, motions })
+    }
+
+    /// The pressure on one of the contacts.
+    pub fn pressure(&self, contact: usize) -> ContactPressure<'a> {
+        self.solution.pressure(&self.problem.contacts[contact])
+    }
+
+    /// Both bodies' traces along a contact boundary. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn traces(&self, pressure: &ContactPressure) -> Result<Vec<TracePoint>, SystemError> {
+        trace_points(self.problem, pressure, &self.u, self.session)
+    }
+
+    /// Values at a point of a body; nothing if it does not hold the point. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn probe(&self, body: usize, x: Point) -> Result<Option<Probed>, SystemError> {
+        probe(self.problem, &self.u, body, x, self.session)
+    }
+
+    /// Stress (xx, yy, xy, zz) at the nodes. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn stress(&self) -> Result<Field<5>, SystemError> {
+        nodal_stress(self.problem, &self.u, self.session)
+    }
+
+    /// Error of the stress in a body, and its size, both squared in the energy norm, against formulas. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn energy_error(&self, body: usize, exact: &[Formula; 3]) -> Result<[f64; 2], SystemError> {
+        energy_error(self.problem, &self.u, body, exact, self.session)
+    }
+}

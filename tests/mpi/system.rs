@@ -1,0 +1,318 @@
+//! A system whose active set changes, on 1, 2 and 3 ranks: against its own definition, block by block, and against a system that
+//! has never had another set.
+
+#[path = "../support/bars.rs"]
+mod bars;
+#[path = "../support/contact.rs"]
+mod contact;
+mod launch;
+#[path = "../support/mesh.rs"]
+#[allow(dead_code)] // Other programs use the rest.
+mod meshes;
+
+use contact::with_contact;
+use launch::{Suite, named};
+use mezha::contact::{MultiplierSpace, Stabilise, jump_matrix};
+use mezha::element::Order;
+use mezha::geometry::Point;
+use mezha::mesh::parse_gmsh;
+use mezha::petsc::{Matrix, Session, Vector};
+use mezha::system::{
+    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Rung, SaddlePoint, SolverChoice, System, interpolations, load,
+    nodal_forces,
+};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+fn main() -> std::process::ExitCode {
+    Suite {
+        options: (&[], &[]),
+        checks: named![
+            blocks_and_right_hand_side_are_those_of_the_set,
+            every_level_is_the_galerkin_product_of_the_next,
+            the_solution_does_not_know_the_sets_before,
+            a_plain_system_has_the_solution_of_the_augmented_one,
+        ],
+        outside: &[],
+        scenarios: &[],
+    }
+    .run()
+}
+
+/// All pairs of spaces, with and without a jump term; on many levels, and on auxiliary ones below a large macro mesh.
+fn problems(session: &Session) -> Vec<Discretisation> {
+    use MultiplierSpace::*;
+    let bars = |order, refine, space, segments, stabilise| {
+        with_contact(bars::scene(session, order, refine, false), space, segments, stabilise)
+    };
+    let text = meshes::Mesh::inclined_bars(6).text();
+    let large = parse_gmsh(text.as_bytes(), "large.msh".as_ref()).expect("a mesh");
+    let scenes = [
+        bars(Order::P1, 4, P0, 24, Stabilise::Off),
+        bars(Order::P1, 2, P0, 30, Stabilise::On),
+        with_contact(bars::on(large, session, Order::P1, 0), P1Discontinuous, 16, Stabilise::Off),
+        bars(Order::P2, 1, P1Continuous, 10, Stabilise::Off),
+        bars(Order::P1, 2, P1Discontinuous, 20, Stabilise::On),
+        bars(Order::P2, 2, P1Discontinuous, 12, Stabilise::Off),
+    ];
+    scenes.into_iter().map(|scene| Discretisation::new(scene, session).expect("a discretisation")).collect()
+}
+
+fn system<'a>(problem: &'a Discretisation, choice: SolverChoice, session: &Session) -> (System<'a>, Rc<[Matrix]>) {
+    let load = load(problem, &nodal_forces(problem, session).expect("loads"));
+    let blocks = SaddlePoint::new(problem, load, choice.form(), session).expect("blocks");
+    let interpolations: Rc<[Matrix]> = match choice.form() {
+        Form::Augmented => interpolations(problem, session).expect("interpolations").into(),
+        Form::Plain => Rc::new([]),
+    };
+    let system = System::new(problem, blocks, &interpolations, choice, Rung::Sweep, session).expect("a system");
+    (system, interpolations)
+}
+
+/// Erratic numbers in [-1, 1], the same on any number of ranks.
+fn erratic(i: usize, seed: f64) -> f64 {
+    (12.9898 * (i + 1) as f64 + seed).sin()
+}
+
+/// Active sets one after the other: some, others, single changes, none, all but one, a last one.
+fn sets(count: usize) -> Vec<Vec<bool>> {
+    let by = |seed: f64| -> Vec<bool> { (0..count).map(|i| erratic(i, seed) > -0.3).collect() };
+    let mut near = by(1.0);
+    near[count / 2] ^= true;
+    let mut all = vec![true; count];
+    all[3] = false;
+    vec![by(0.0), by(1.0), near, vec![false; count], all, by(2.0)]
+}
+
+/// What is known of a system from its definition, without any of its matrices but `K`.
+struct Definition<'a> {
+    problem: &'a Discretisation,
+    session: &'a Session,
+    /// `K` with all rows stored.
+    stiffness: Matrix,
+    /// `s_i = E_c / H_i`.
+    scale: Vec<f64>,
+    /// Rows of `B` in the nodes' frames.
+    rows: Vec<BTreeMap<usize, Point>>,
+}
+
+impl<'a> Definition<'a> {
+    fn new(problem: &'a Discretisation, session: &'a Session) -> Self {
+        let load = vec![0.0; problem.finest().local_unknowns()];
+        let mut elastic = Elastic::alone(problem, load, Form::Plain, session).expect("a stiffness");
+        let stiffness = elastic.stiffness.pop().expect("a level").into_stored().expect("all rows");
+        let scale = |contact: &Contact| -> Vec<f64> {
+            (0..contact.multipliers.count()).map(|i| contact.modulus / contact.multipliers.length(i)).collect()
+        };
+        let space = problem.finest();
+        let row = |coupled: &Vec<Coupled>| {
+            let mut sums = BTreeMap::new();
+            for entry in coupled {
+                let node = entry.node.number(&problem.scene.mesh, &space.numbering);
+                *sums.entry(node).or_insert(Point::zeros()) += space.free_part(node, entry.value);
+            }
+            sums
+        };
+        let rows = problem.coupling.rows.iter().map(row).collect();
+        Self { problem, session, stiffness, scale: problem.contacts.iter().flat_map(scale).collect(), rows }
+    }
+
+    /// `D v` over the active multipliers, the blocks of the mass matrix inverted.
+    fn weigh(&self, active: &[bool], v: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; v.len()];
+        for contact in &self.problem.contacts {
+            for group in 0..contact.multipliers.groups() {
+                let block = contact.multipliers.augmentation(group, contact.modulus, &active[contact.range()]);
+                for (p, q, block) in block.iter().flat_map(|b| [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(p, q)| (p, q, b))) {
+                    if let (Some(i), Some(j)) = (block.rows.get(p), block.rows.get(q)) {
+                        product[contact.first + i] += block.values[p][q] * v[contact.first + j];
+                    }
+                }
+            }
+        }
+        product
+    }
+
+    /// `B u` of all multipliers, the same on every rank.
+    fn couple(&self, u: &[f64]) -> Vec<f64> {
+        let own = &self.problem.finest().own;
+        let on_row = |row: &BTreeMap<usize, Point>| -> f64 {
+            row.range(own.clone()).map(|(node, b)| b.dot(&Point::from_column_slice(&u[2 * (node - own.start)..][..2]))).sum()
+        };
+        let mut sums: Vec<f64> = self.rows.iter().map(on_row).collect();
+        self.session.sum(&mut sums);
+        sums
+    }
+
+    /// Adds `Bᵀ v` over the active multipliers.
+    fn add_transposed(&self, active: &[bool], v: &[f64], sum: &mut [f64]) {
+        let own = &self.problem.finest().own;
+        for (row, v) in self.rows.iter().zip(v).zip(active).filter(|(_, active)| **active).map(|(pair, _)| pair) {
+            for (node, b) in row.range(own.clone()) {
+                let at = 2 * (node - own.start);
+                sum[at] += v * b.x;
+                sum[at + 1] += v * b.y;
+            }
+        }
+    }
+
+    /// Multipliers of this rank.
+    fn own(&self) -> Vec<usize> {
+        let owners = &self.problem.coupling.owners;
+        (0..owners.len()).filter(|&i| owners[i] == self.session.rank()).collect()
+    }
+
+    /// The augmented system of a set times unknowns of displacement and all scaled multipliers: row by row as the module of
+    /// the saddle point says it.
+    fn product(&self, active: &[bool], u: &Vector, multipliers: &[f64]) -> Vec<f64> {
+        let jumps = jump_matrix(self.problem.jumps(), active.len());
+        let lambda: Vec<f64> = (0..active.len()).map(|i| if active[i] { self.scale[i] * multipliers[i] } else { 0.0 }).collect();
+        let jumped: Vec<f64> = jumps.iter().map(|row| row.iter().map(|(&j, c)| c * lambda[j]).sum()).collect();
+        let coupled = self.couple(&u.values());
+        let active_only = |v: Vec<f64>| -> Vec<f64> { v.iter().zip(active).map(|(v, a)| if *a { *v } else { 0.0 }).collect() };
+        let difference = active_only(coupled.iter().zip(&jumped).map(|(b, c)| b - c).collect());
+        let weighted = self.weigh(active, &difference);
+        let mut upper = u.duplicate().expect("a vector");
+        self.stiffness.multiply(u, &mut upper).expect("a product");
+        let mut rows = upper.values().to_vec();
+        let transposed: Vec<f64> = weighted.iter().zip(&lambda).map(|(d, l)| d + l).collect();
+        self.add_transposed(active, &transposed, &mut rows);
+        for i in self.own() {
+            let contact = self.problem.contact_of(i);
+            let alone = contact.multipliers.single_weight(i - contact.first, contact.modulus) / self.scale[i].powi(2);
+            rows.push(if active[i] { self.scale[i] * difference[i] } else { -multipliers[i] / alone });
+        }
+        rows
+    }
+}
+
+/// Largest difference of two lists of numbers on any rank, by the largest of the second.
+fn apart(session: &Session, a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let largest = |values: &mut dyn Iterator<Item = f64>| {
+        let mut most = [values.map(f64::abs).fold(0.0, f64::max)];
+        session.max(&mut most);
+        most[0]
+    };
+    let whole = largest(&mut b.iter().copied());
+    largest(&mut a.iter().zip(b).map(|(a, b)| a - b)) / whole
+}
+
+fn blocks_and_right_hand_side_are_those_of_the_set(session: &Session) {
+    for problem in problems(session) {
+        let definition = Definition::new(&problem, session);
+        let (mut system, _) = system(&problem, SolverChoice::FieldSplit, session);
+        let space = problem.finest();
+        let mut u = Vector::new(session, space.local_unknowns()).expect("a vector");
+        let first = 2 * space.own.start;
+        u.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = 1e-3 * erratic(first + at, 0.3));
+        for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
+            (0..2).filter(|&k| constraint.fixed[k]).for_each(|k| u.values_mut()[2 * node - first + k] = 0.0);
+        }
+        let multipliers: Vec<f64> = (0..problem.multiplier_count()).map(|i| erratic(i, 0.7)).collect();
+        for active in sets(problem.multiplier_count()) {
+            system.set_active(&active).expect("a set");
+            assert_eq!(system.active(), active);
+            let (mut x, mut y) = system.matrix().create_vectors().expect("vectors");
+            let own = definition.own();
+            x.values_mut()[..u.local_len()].copy_from_slice(&u.values());
+            own.iter().enumerate().for_each(|(at, &i)| x.values_mut()[u.local_len() + at] = multipliers[i]);
+            system.matrix().multiply(&x, &mut y).expect("a product");
+            let expected = definition.product(&active, &u, &multipliers);
+            let (upper, lower) = expected.split_at(u.local_len());
+            assert!(apart(session, &y.values()[..u.local_len()], upper) < 1e-12);
+            assert!(apart(session, &y.values()[u.local_len()..], lower) < 1e-12);
+            check_right_hand_side(&definition, &system, &active);
+        }
+    }
+}
+
+/// `f + Bᵀ D c`, and `s c` on active multipliers; what prescribed displacements add is that of the first set, without contact.
+fn check_right_hand_side(definition: &Definition, system: &System, active: &[bool]) {
+    let (problem, session) = (definition.problem, definition.session);
+    let space = problem.finest();
+    let moved = |row: &Vec<Coupled>| -> f64 {
+        let number = |entry: &Coupled| entry.node.number(&problem.scene.mesh, &space.numbering);
+        row.iter().map(|entry| entry.value.dot(&space.prescribed(number(entry)))).sum()
+    };
+    let gap: Vec<f64> = problem.coupling.gap.iter().zip(&problem.coupling.rows).map(|(c, row)| c - moved(row)).collect();
+    let closed: Vec<f64> = gap.iter().zip(active).map(|(c, active)| if *active { *c } else { 0.0 }).collect();
+    let load = load(problem, &nodal_forces(problem, session).expect("loads"));
+    let mut expected = Elastic::alone(problem, load, Form::Plain, session).expect("a stiffness").load;
+    definition.add_transposed(active, &definition.weigh(active, &closed), &mut expected);
+    let b = system.right_hand_side().expect("a right-hand side").values().to_vec();
+    let unknowns = expected.len();
+    assert!(apart(session, &b[..unknowns], &expected) < 1e-12);
+    let own: Vec<f64> = definition.own().into_iter().map(|i| definition.scale[i] * closed[i]).collect();
+    let none = !active.contains(&true);
+    assert!(none || apart(session, &b[unknowns..], &own) < 1e-12);
+}
+
+fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
+    let mut most = 0;
+    for problem in problems(session) {
+        let (mut system, interpolations) = system(&problem, SolverChoice::FieldSplit, session);
+        for active in sets(problem.multiplier_count()).into_iter().skip(1).step_by(2) {
+            system.set_active(&active).expect("a set");
+            let levels = system.levels().expect("levels");
+            assert_eq!(levels.len(), interpolations.len() + 1);
+            most = most.max(levels.len());
+            for (l, interpolation) in interpolations.iter().enumerate() {
+                let (mut x, mut fine) = interpolation.create_vectors().expect("vectors");
+                let first = x.range().start;
+                x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = erratic(first + at, 0.3));
+                // What is prescribed on the coarse level moves nothing on the fine one.
+                interpolation.multiply(&x, &mut fine).expect("a product");
+                let mut felt = x.duplicate().expect("a vector");
+                interpolation.multiply_transpose(&fine, &mut felt).expect("a product");
+                x.values_mut().iter_mut().zip(felt.values().iter()).filter(|(_, felt)| **felt == 0.0).for_each(|(v, _)| *v = 0.0);
+                let (mut product, mut coarse, mut found) =
+                    (fine.duplicate().expect("a vector"), x.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
+                levels[l + 1].multiply(&fine, &mut product).expect("a product");
+                interpolation.multiply_transpose(&product, &mut coarse).expect("a product");
+                levels[l].multiply(&x, &mut found).expect("a product");
+                assert!(apart(session, &found.values(), &coarse.values()) < 1e-8, "level {l} of {}", levels.len());
+            }
+        }
+    }
+    assert!(most > 4, "some problem has many levels");
+}
+
+fn the_solution_does_not_know_the_sets_before(session: &Session) {
+    for problem in problems(session).into_iter().step_by(2) {
+        let all = sets(problem.multiplier_count());
+        let last = &all[all.len() - 1];
+        let [mut travelled, mut fresh] = [0; 2].map(|_| system(&problem, SolverChoice::FieldSplit, session).0);
+        for (k, set) in all.iter().enumerate() {
+            travelled.set_active(set).expect("a set");
+            // The solver has seen two of the sets.
+            if k == 0 || k == 2 {
+                travelled.solve(1e-3).expect("a solve");
+            }
+        }
+        fresh.set_active(last).expect("a set");
+        let [a, b] = [&mut travelled, &mut fresh].map(|system| {
+            assert_eq!(system.solve(1e-11).expect("a solve").ending, LinearEnding::Converged);
+            assert!(system.residual().expect("a residual").relative() <= 1e-11);
+            (system.pressures(), system.displacement())
+        });
+        assert!(apart(session, &a.0, &b.0) < 1e-7, "pressures");
+        assert!(apart(session, &a.1, &b.1) < 1e-8, "displacements");
+        assert!(a.0.iter().zip(last).all(|(pressure, active)| *active || pressure.abs() < 1e-12));
+    }
+}
+
+fn a_plain_system_has_the_solution_of_the_augmented_one(session: &Session) {
+    let all = problems(session);
+    for problem in &all[1..3] {
+        let sets = sets(problem.multiplier_count());
+        let [a, b] = [SolverChoice::FieldSplit, SolverChoice::Direct].map(|choice| {
+            let (mut system, _) = system(problem, choice, session);
+            sets[..3].iter().for_each(|set| system.set_active(set).expect("a set"));
+            assert_eq!(system.solve(1e-11).expect("a solve").ending, LinearEnding::Converged);
+            assert!(system.plain_residual().expect("a residual") < 1e-9);
+            (system.pressures(), system.displacement())
+        });
+        assert!(apart(session, &a.0, &b.0) < 1e-7 && apart(session, &a.1, &b.1) < 1e-8);
+    }
+}
