@@ -13,9 +13,9 @@ const MORE_WORK: f64 = 1.12;
 const MORE_REDUCTIONS: f64 = 110.0;
 
 /// A displacement order, a multiplier space, refinements, and the most floating-point operations for each unknown.
-type Ladder = (usize, &'static str, [usize; 4], f64);
+type Meshes = (usize, &'static str, [usize; 4], f64);
 
-const LADDERS: [Ladder; 2] = [(1, "p0", [3, 4, 5, 6], 4800.0), (2, "p1-discontinuous", [2, 3, 4, 5], 7500.0)];
+const MESHES: [Meshes; 2] = [(1, "p0", [3, 4, 5, 6], 4800.0), (2, "p1-discontinuous", [2, 3, 4, 5], 7500.0)];
 
 /// Counts of one run.
 #[derive(Debug)]
@@ -70,15 +70,15 @@ fn sum_after(ended: &Ended, words: &str) -> u64 {
 
 #[test]
 fn work_grows_with_the_unknowns_and_nothing_faster() {
-    for (order, space, refinements, most_work) in LADDERS {
-        let ladder = refinements.map(|refine| Counts::new(order, space, refine));
-        for counts in &ladder {
+    for (order, space, refinements, most_work) in MESHES {
+        let meshes = refinements.map(|refine| Counts::new(order, space, refine));
+        for counts in &meshes {
             println!("P{order}, {space}: {counts:?}");
             assert!(counts.iterations <= ITERATIONS && counts.outer == 2, "{counts:?}");
             assert!(counts.work <= most_work, "{counts:?}");
             assert_eq!((counts.mallocs, counts.unneeded), (0, 0), "matrices have the room that they need: {counts:?}");
         }
-        for pair in ladder.windows(2) {
+        for pair in meshes.windows(2) {
             let [coarse, fine] = pair else { unreachable!("pairs") };
             assert!((3.7..4.0).contains(&(fine.unknowns / coarse.unknowns)), "{pair:?}");
             assert_eq!(fine.multipliers, 2.0 * coarse.multipliers, "twice the edges on the seam, twice the multipliers");

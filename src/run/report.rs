@@ -70,7 +70,7 @@ impl Report {
                     iterations.join(" "),
                     if *converged { "" } else { ", not converged: goes on without" }
                 ));
-                passes.iter().for_each(|pass| self.climbed(pass.climbed.as_deref()));
+                passes.iter().for_each(|pass| self.fallback(pass.fallback.as_deref()));
             }
             Event::Begin(follows) => {
                 if let Some([boundary, displacement]) = follows {
@@ -92,7 +92,7 @@ impl Report {
                     pass.max_penetration,
                     pass.du
                 ));
-                self.climbed(pass.climbed.as_deref());
+                self.fallback(pass.fallback.as_deref());
             }
             Event::Placed(step) => {
                 let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
@@ -141,7 +141,7 @@ impl Report {
     }
 
     /// A stronger preconditioner, which all solves after it keep.
-    fn climbed(&self, words: Option<&str>) {
+    fn fallback(&self, words: Option<&str>) {
         if let Some(words) = words {
             self.say(&format!("       slow; went over to {words}"));
         }

@@ -1,7 +1,7 @@
 //! The system of one contact boundary with its state: the active set, the unknowns, and what solves it.
 
 use super::stiffness::Stiffness;
-use super::{Discretisation, LinearSolve, LinearSolver, Rung, SaddlePoint, SolverChoice, Space, SystemError, inf_sup};
+use super::{Discretisation, LinearSolve, LinearSolver, Preconditioning, SaddlePoint, SolverChoice, Space, SystemError, inf_sup};
 use crate::petsc::{Matrix, Session, Vector};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -48,17 +48,17 @@ impl Residual {
 }
 
 impl<'a> System<'a> {
-    /// Sets up the solver of assembled blocks, on a rung of the ladder; the unknowns are zero. `interpolations[l]` leads from
+    /// Sets up the solver of assembled blocks, with a preconditioning to begin with; the unknowns are zero. `interpolations[l]` leads from
     /// level `l` to level `l + 1`, where auxiliary levels come before those of the blocks. **Collective**
     pub fn new(
         problem: &'a Discretisation,
         blocks: SaddlePoint,
         interpolations: &Rc<[Matrix]>,
         choice: SolverChoice,
-        rung: Rung,
+        preconditioning: Preconditioning,
         session: &Session,
     ) -> Result<Self, SystemError> {
-        let solver = LinearSolver::new(&blocks, interpolations, choice, rung, session)?;
+        let solver = LinearSolver::new(&blocks, interpolations, choice, preconditioning, session)?;
         let unknowns = blocks.nest.create_vectors()?.0;
         let (session, right_hand_side) = (session.clone(), OnceCell::new());
         Ok(Self { problem, session, blocks, solver, is_solver_current: true, unknowns, right_hand_side })
@@ -210,8 +210,8 @@ impl<'a> System<'a> {
     }
 
     /// What preconditions the displacements.
-    pub fn rung(&self) -> Rung {
-        self.solver.rung
+    pub fn preconditioning(&self) -> Preconditioning {
+        self.solver.preconditioning
     }
 
     /// What solves it, in words.

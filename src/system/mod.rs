@@ -49,6 +49,6 @@ pub use rigid_start::rigid_start;
 pub use saddle_point::{SaddlePoint, SchurPattern};
 pub use scene::Scene;
 pub use solution::Solution;
-pub use solver::{LinearEnding, LinearSolve, LinearSolver, Rung, inf_sup};
+pub use solver::{LinearEnding, LinearSolve, LinearSolver, Preconditioning, inf_sup};
 pub use space::Space;
 pub use stiffness::Elastic;

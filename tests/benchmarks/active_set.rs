@@ -11,7 +11,7 @@ mod contact;
 use mezha::contact::{MultiplierSpace, Stabilise};
 use mezha::element::Order;
 use mezha::petsc::Session;
-use mezha::system::{Discretisation, Rung, SaddlePoint, SolverChoice, System, interpolations, load, nodal_forces};
+use mezha::system::{Discretisation, Preconditioning, SaddlePoint, SolverChoice, System, interpolations, load, nodal_forces};
 use std::time::Instant;
 
 fn main() {
@@ -23,7 +23,8 @@ fn main() {
         let choice = SolverChoice::FieldSplit;
         let blocks = SaddlePoint::new(&problem, load, choice.form(), &session).expect("blocks");
         let interpolations = interpolations(&problem, &session).expect("interpolations").into();
-        let mut system = System::new(&problem, blocks, &interpolations, choice, Rung::Sweep, &session).expect("a system");
+        let mut system =
+            System::new(&problem, blocks, &interpolations, choice, Preconditioning::Sweep, &session).expect("a system");
         for count in [1, 10, 100, problem.multiplier_count()] {
             let mut active = system.active().to_vec();
             let mut times: Vec<f64> = (0..9)

@@ -18,8 +18,8 @@ use mezha::geometry::Point;
 use mezha::mesh::parse_gmsh;
 use mezha::petsc::{Matrix, Session, Vector};
 use mezha::system::{
-    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Rung, SaddlePoint, SolverChoice, System, interpolations, load,
-    nodal_forces,
+    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Preconditioning, SaddlePoint, SolverChoice, System,
+    interpolations, load, nodal_forces,
 };
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -65,7 +65,7 @@ fn system<'a>(problem: &'a Discretisation, choice: SolverChoice, session: &Sessi
         Form::Augmented => interpolations(problem, session).expect("interpolations").into(),
         Form::Plain => Rc::new([]),
     };
-    let system = System::new(problem, blocks, &interpolations, choice, Rung::Sweep, session).expect("a system");
+    let system = System::new(problem, blocks, &interpolations, choice, Preconditioning::Sweep, session).expect("a system");
     (system, interpolations)
 }
 
@@ -263,9 +263,13 @@ fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
                 x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = erratic(first + at, 0.3));
                 // What is prescribed on the coarse level moves nothing on the fine one.
                 interpolation.multiply(&x, &mut fine).expect("a product");
-                let mut felt = x.duplicate().expect("a vector");
-                interpolation.multiply_transpose(&fine, &mut felt).expect("a product");
-                x.values_mut().iter_mut().zip(felt.values().iter()).filter(|(_, felt)| **felt == 0.0).for_each(|(v, _)| *v = 0.0);
+                let mut restricted = x.duplicate().expect("a vector");
+                interpolation.multiply_transpose(&fine, &mut restricted).expect("a product");
+                x.values_mut()
+                    .iter_mut()
+                    .zip(restricted.values().iter())
+                    .filter(|(_, restricted)| **restricted == 0.0)
+                    .for_each(|(v, _)| *v = 0.0);
                 let (mut product, mut coarse, mut found) =
                     (fine.duplicate().expect("a vector"), x.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
                 levels[l + 1].multiply(&fine, &mut product).expect("a product");

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 /// Sum of the squares of a component's values at finer nodes up to which none of these feels it.
-const UNFELT: f64 = 1e-8;
+const NOTHING: f64 = 1e-8;
 
 /// The axes of most nodes.
 pub const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
@@ -106,11 +106,11 @@ impl Step {
     /// Numbers the components that something moves with. All are kept that do, however little of a function lies in its
     /// body: without them linear functions would fail at the boundary.
     fn number(&mut self, fine: &Nodes) {
-        let mut felt = vec![[0.0; 2]; self.coarse.all.len()];
+        let mut moved = vec![[0.0; 2]; self.coarse.all.len()];
         for (at, node) in fine.all.iter().enumerate() {
             for (_, axis) in node.components() {
                 for &(number, value) in self.values(at) {
-                    let [x, y] = &mut felt[number as usize];
+                    let [x, y] = &mut moved[number as usize];
                     (*x, *y) = (*x + (value * axis.x).powi(2), *y + (value * axis.y).powi(2));
                 }
             }
@@ -118,8 +118,8 @@ impl Step {
         let mut next = 0;
         let Nodes { all, first, unknowns } = &mut self.coarse;
         for ends in first.windows(2) {
-            for (node, felt) in all[ends[0]..ends[1]].iter_mut().zip(&felt[ends[0]..ends[1]]) {
-                for k in (0..2).filter(|&k| felt[k] > UNFELT) {
+            for (node, moved) in all[ends[0]..ends[1]].iter_mut().zip(&moved[ends[0]..ends[1]]) {
+                for k in (0..2).filter(|&k| moved[k] > NOTHING) {
                     node.unknowns[k] = Some(next);
                     next += 1;
                 }

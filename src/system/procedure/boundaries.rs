@@ -7,8 +7,8 @@ use super::observer::{Event, Work};
 use super::settings::Procedure;
 use crate::petsc::Matrix;
 use crate::system::{
-    BoundaryMotion, Contact, Discretisation, Elastic, Form, Rung, SaddlePoint, Solution, Start, System, SystemError, Tolerance,
-    interpolations, load, nodal_forces,
+    BoundaryMotion, Contact, Discretisation, Elastic, Form, Preconditioning, SaddlePoint, Solution, Start, System, SystemError,
+    Tolerance, interpolations, load, nodal_forces,
 };
 use std::rc::Rc;
 
@@ -34,7 +34,7 @@ pub struct OnMesh {
     pub passes: Vec<Pass>,
     pub boundaries: Vec<BoundaryStep>,
     /// The preconditioner that it needed.
-    pub rung: Rung,
+    pub preconditioning: Preconditioning,
     /// What solved it, in words.
     pub solver: String,
 }
@@ -71,25 +71,30 @@ enum After {
 struct OnBoundary {
     solution: Solution,
     after: After,
-    rung: Rung,
+    preconditioning: Preconditioning,
     solver: String,
 }
 
 impl OneMesh<'_> {
     /// Solves, once or for one contact boundary after the other. A start comes from a coarser mesh, whose boundaries are
     /// settled. **Collective**
-    pub fn solve(&self, problem: &mut Discretisation, start: Option<Start>, rung: Rung) -> Result<OnMesh, SystemError> {
+    pub fn solve(
+        &self,
+        problem: &mut Discretisation,
+        start: Option<Start>,
+        preconditioning: Preconditioning,
+    ) -> Result<OnMesh, SystemError> {
         let bodies = self.bodies(problem)?;
         if problem.follows() {
-            return self.follow(problem, &bodies, start, rung);
+            return self.follow(problem, &bodies, start, preconditioning);
         }
         self.begin(None);
-        let mut system = self.system(problem, &bodies, rung)?;
+        let mut system = self.system(problem, &bodies, preconditioning)?;
         let found = self.sets(&mut system, start, self.tolerance, Place { boundary: 1, passes: 0 })?;
         let Found { solution, ending, passes, ascended } = found;
         let solution = self.with_inf_sup(&system, solution, ascended || !ending.is_converged())?;
-        let (rung, solver) = (system.rung(), system.solver_name().to_string());
-        Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), rung, solver })
+        let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
+        Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), preconditioning, solver })
     }
 
     /// Solves, lets the boundaries follow, and solves again, until everything stands. **Collective**
@@ -98,7 +103,7 @@ impl OneMesh<'_> {
         problem: &mut Discretisation,
         bodies: &Bodies,
         mut start: Option<Start>,
-        mut rung: Rung,
+        mut preconditioning: Preconditioning,
     ) -> Result<OnMesh, SystemError> {
         let exact = self.tolerance.residual().min(ON_THE_WAY);
         let mut following = Following::new(problem, exact, start.is_some());
@@ -107,12 +112,19 @@ impl OneMesh<'_> {
         let mut is_last = false;
         for number in 1.. {
             let on_boundary = BoundaryLoop { mesh: self, following: &mut following, record: &mut record, number, exact };
-            let found = on_boundary.solve(self.system(problem, bodies, rung)?, start.take(), is_last)?;
-            rung = found.rung;
+            let found = on_boundary.solve(self.system(problem, bodies, preconditioning)?, start.take(), is_last)?;
+            preconditioning = found.preconditioning;
             match found.after {
                 After::Ended(ending) => {
                     let Record { passes, boundaries } = record;
-                    return Ok(OnMesh { solution: found.solution, ending, passes, boundaries, rung, solver: found.solver });
+                    return Ok(OnMesh {
+                        solution: found.solution,
+                        ending,
+                        passes,
+                        boundaries,
+                        preconditioning,
+                        solver: found.solver,
+                    });
                 }
                 After::Moved { contacts, motion, start: next, is_near } => {
                     let _stage = self.procedure.observer.enter(Work::Contact);
@@ -147,7 +159,12 @@ impl OneMesh<'_> {
     }
 
     /// Assembles and sets up the system of the contact boundaries as they are. **Collective**
-    fn system<'a>(&self, problem: &'a Discretisation, bodies: &Bodies, rung: Rung) -> Result<System<'a>, SystemError> {
+    fn system<'a>(
+        &self,
+        problem: &'a Discretisation,
+        bodies: &Bodies,
+        preconditioning: Preconditioning,
+    ) -> Result<System<'a>, SystemError> {
         let Procedure { choice, session, observer, .. } = self.procedure;
         let blocks = {
             let _stage = observer.enter(Work::Assembly);
@@ -160,7 +177,7 @@ impl OneMesh<'_> {
             }
         };
         let _stage = observer.enter(Work::SetUp);
-        let system = System::new(problem, blocks, &bodies.interpolations, *choice, rung, session)?;
+        let system = System::new(problem, blocks, &bodies.interpolations, *choice, preconditioning, session)?;
         match system.unused_options()? {
             unused if unused.is_empty() => Ok(system),
             unused => Err(SystemError::UnusedOptions(unused)),
@@ -224,7 +241,12 @@ impl BoundaryLoop<'_, '_> {
                 After::Ended(ending) => self.mesh.with_inf_sup(&system, solution, ascended || !ending.is_converged())?,
                 After::Moved { .. } => solution,
             };
-            return Ok(OnBoundary { solution, after, rung: system.rung(), solver: system.solver_name().to_string() });
+            return Ok(OnBoundary {
+                solution,
+                after,
+                preconditioning: system.preconditioning(),
+                solver: system.solver_name().to_string(),
+            });
         }
     }
 

@@ -7,7 +7,8 @@ use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
 use crate::petsc::Session;
 use crate::system::{
-    BoundaryMotion, Contact, ContactPressure, Discretisation, Field, Rung, Scene, Solution, Space, Start, SystemError, spaces,
+    BoundaryMotion, Contact, ContactPressure, Discretisation, Field, Preconditioning, Scene, Solution, Space, Start, SystemError,
+    spaces,
 };
 
 /// A solution on one refinement less.
@@ -18,19 +19,24 @@ pub struct CoarseSolution {
     multipliers: Vec<f64>,
     active: Vec<bool>,
     /// The preconditioner it needed.
-    pub rung: Rung,
+    pub preconditioning: Preconditioning,
 }
 
 impl CoarseSolution {
     /// Takes a solution and its contacts over from the mesh they were found on. **Collective**
-    pub fn new(problem: Discretisation, solution: Solution, rung: Rung, session: &Session) -> Result<Self, SystemError> {
+    pub fn new(
+        problem: Discretisation,
+        solution: Solution,
+        preconditioning: Preconditioning,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
         Ok(Self {
             displacement: Field::displacement(&problem, &solution.displacement, session)?,
             numbering: problem.finest().numbering.clone(),
             contacts: problem.contacts,
             multipliers: solution.multipliers,
             active: solution.active,
-            rung,
+            preconditioning,
         })
     }
 

@@ -61,7 +61,7 @@ pub struct Pass {
     /// Change of the displacement, relative to its norm.
     pub du: f64,
     /// The stronger preconditioner that the linear solver went over to, in words.
-    pub climbed: Option<String>,
+    pub fallback: Option<String>,
 }
 
 /// What the loop does next.
@@ -212,7 +212,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             residual: solve.residual / self.share,
             max_penetration: state.largest_penetration(self.system.problem()),
             du: self.change(),
-            climbed: solve.climbed.clone(),
+            fallback: solve.fallback.clone(),
         };
         self.passes.push(pass);
     }

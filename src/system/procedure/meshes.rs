@@ -9,7 +9,8 @@ use super::observer::{Event, Work};
 use super::settings::Procedure;
 use super::solved::{CoarseSolve, Solved};
 use crate::system::{
-    BoundaryMotion, Contact, Discretisation, Rung, Scene, Solution, SolverChoice, Start, SystemError, Tolerance, not_held, spaces,
+    BoundaryMotion, Contact, Discretisation, Preconditioning, Scene, Solution, SolverChoice, Start, SystemError, Tolerance,
+    not_held, spaces,
 };
 
 /// Refinements that are solved before the case's own.
@@ -29,7 +30,7 @@ struct Coarser {
 
 /// The linear solver to begin with.
 struct First {
-    rung: Rung,
+    preconditioning: Preconditioning,
     /// What is to be said of it, before the first solve.
     words: Option<String>,
 }
@@ -73,10 +74,10 @@ impl Procedure<'_> {
     fn first_solver(&self, scene: &Scene, unknowns: usize) -> First {
         let (levels, ratios) = (scene.refine + 1, &scene.mesh.ratios);
         if self.choice != SolverChoice::Auto {
-            return First { rung: Rung::of(levels, ratios), words: None };
+            return First { preconditioning: Preconditioning::of(levels, ratios), words: None };
         }
-        let (rung, words) = Rung::first(levels, ratios, unknowns);
-        First { rung, words: Some(words) }
+        let (preconditioning, words) = Preconditioning::first(levels, ratios, unknowns);
+        First { preconditioning, words: Some(words) }
     }
 
     /// Solves a coarser mesh, if it holds the bodies, and keeps what it tells. **Collective**
@@ -93,10 +94,10 @@ impl Procedure<'_> {
             return Ok(());
         }
         self.say(first);
-        let least = Rung::of(refine + 1, &problem.scene.mesh.ratios);
-        let rung = before.as_ref().map_or(least, |before| before.rung.max(least));
+        let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
+        let preconditioning = before.as_ref().map_or(least, |before| before.preconditioning.max(least));
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(COARSE));
-        let found = OneMesh { procedure: self, tolerance, is_last: false }.solve(&mut problem, start, rung)?;
+        let found = OneMesh { procedure: self, tolerance, is_last: false }.solve(&mut problem, start, preconditioning)?;
         let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
         let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
         coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
@@ -106,7 +107,7 @@ impl Procedure<'_> {
             if let Some(before) = &before {
                 coarser.differences.push(Difference::new(&problem, &found.solution, before, self.session)?);
             }
-            coarser.found = Some(CoarseSolution::new(problem, found.solution, found.rung, self.session)?);
+            coarser.found = Some(CoarseSolution::new(problem, found.solution, found.preconditioning, self.session)?);
         }
         Ok(())
     }
@@ -136,9 +137,10 @@ impl Procedure<'_> {
         Coarser { found: coarse, mut differences, solves }: Coarser,
     ) -> Result<Solved, SystemError> {
         self.say(&mut first);
-        let rung = coarse.as_ref().map_or(first.rung, |coarse| coarse.rung.max(first.rung));
+        let preconditioning =
+            coarse.as_ref().map_or(first.preconditioning, |coarse| coarse.preconditioning.max(first.preconditioning));
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
-        let found = OneMesh { procedure: self, tolerance, is_last: true }.solve(&mut problem, start, rung)?;
+        let found = OneMesh { procedure: self, tolerance, is_last: true }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, self.session)?);

@@ -2,23 +2,23 @@
 //!
 //! `fieldsplit`: GMRES, preconditioned from the right by the block upper triangle of `K + BᵀDB` and `S = -D⁻¹`; one
 //! multigrid F-cycle stands for the inverse of the first, on the levels of the mesh and auxiliary ones below
-//! ([`super::auxiliary`]). Where that is too weak, a ladder leads up to a Cholesky factor ([`Rung`]).
+//! ([`super::auxiliary`]). Where that is too weak, solves fall back on stronger ones, in the end on a Cholesky factor ([`Preconditioning`]).
 //! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override; only the
 //! tolerance is the case's.
 
+mod fallback;
 mod inf_sup;
-mod ladder;
 mod options;
 
+pub use fallback::Preconditioning;
 pub use inf_sup::inf_sup;
-pub use ladder::Rung;
 
-use self::options::{CoarseSolver, FIELD_SPLIT, is_chosen, lambda_options, rung_options};
+use self::options::{CoarseSolver, FIELD_SPLIT, is_chosen, lambda_options, preconditioning_options};
 use super::auxiliary::GalerkinLevels;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
 use crate::petsc::{self, Krylov, Level, Matrix, Session, Solved, Vector};
-use ladder::needed;
+use fallback::needed;
 use std::rc::Rc;
 
 /// Iterations after which a solve has failed.
@@ -37,7 +37,7 @@ pub struct LinearSolver {
     interpolations: Rc<[Matrix]>,
     auxiliary: GalerkinLevels,
     /// What preconditions the displacement block.
-    pub rung: Rung,
+    pub preconditioning: Preconditioning,
     /// The same in words.
     pub name: String,
 }
@@ -75,22 +75,22 @@ pub struct LinearSolve {
     /// True residual of the augmented system, relative to the right-hand side.
     pub residual: f64,
     /// The stronger preconditioner that it, or the next one, went over to; in words.
-    pub climbed: Option<String>,
+    pub fallback: Option<String>,
 }
 
 impl LinearSolver {
-    /// Sets a solver up, on a rung of the ladder; `interpolations[l]` leads from level `l` to level `l + 1`, where auxiliary
+    /// Sets a solver up, with a preconditioning to begin with; `interpolations[l]` leads from level `l` to level `l + 1`, where auxiliary
     /// levels come before those of the system (the direct solver wants none). A system of one level is factorised.
     /// **Collective**
     pub fn new(
         system: &SaddlePoint,
         interpolations: &Rc<[Matrix]>,
         choice: SolverChoice,
-        rung: Rung,
+        preconditioning: Preconditioning,
         session: &Session,
     ) -> Result<Self, SystemError> {
         match choice.form() {
-            Form::Augmented => Self::field_split(system, interpolations.clone(), rung, session),
+            Form::Augmented => Self::field_split(system, interpolations.clone(), preconditioning, session),
             Form::Plain => Self::direct(system, session),
         }
     }
@@ -98,25 +98,27 @@ impl LinearSolver {
     fn field_split(
         system: &SaddlePoint,
         interpolations: Rc<[Matrix]>,
-        rung: Rung,
+        preconditioning: Preconditioning,
         session: &Session,
     ) -> Result<Self, SystemError> {
-        let rung = if interpolations.is_empty() { Rung::Factor } else { rung };
+        let preconditioning = if interpolations.is_empty() { Preconditioning::Factor } else { preconditioning };
         let coarsest = interpolations.first().map_or(0, |interpolation| interpolation.size().1);
         let coarse = CoarseSolver::of(coarsest, session.size());
         let lambda = lambda_options(system.multipliers.pattern, session.size());
-        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(rung_options(rung)) {
+        for (name, value) in
+            FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(preconditioning_options(preconditioning))
+        {
             petsc::options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
-        set_operators(&krylov, system, rung, session)?;
+        set_operators(&krylov, system, preconditioning, session)?;
         let [u, lambda] = system.nest.nest_index_sets()?;
         let preconditioner = krylov.preconditioner();
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
         krylov.set_from_options()?;
         krylov.set_up()?;
         let mut auxiliary = GalerkinLevels::default();
-        if rung != Rung::Factor {
+        if preconditioning != Preconditioning::Factor {
             auxiliary = GalerkinLevels::new(system.stiffness[0].operator(), below(&interpolations, system))?;
             let solvers = preconditioner.field_split_solvers()?;
             let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
@@ -128,10 +130,10 @@ impl LinearSolver {
             solvers[0].set_up()?;
         }
         let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
-        let own = kind == "mg" || kind == "cholesky" && rung == Rung::Factor;
-        let name = format!("fieldsplit ({})", if own { rung.words("multigrid F-cycle") } else { kind });
+        let own = kind == "mg" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
+        let name = format!("fieldsplit ({})", if own { preconditioning.words("multigrid F-cycle") } else { kind });
         let (session, form) = (session.clone(), Form::Augmented);
-        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, rung, name })
+        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, preconditioning, name })
     }
 
     fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {
@@ -157,7 +159,7 @@ impl LinearSolver {
             converted: None,
             interpolations: Rc::new([]),
             auxiliary: GalerkinLevels::default(),
-            rung: Rung::Factor,
+            preconditioning: Preconditioning::Factor,
             name,
         };
         solver.refresh(system)?;
@@ -175,7 +177,7 @@ impl LinearSolver {
             self.converted = Some(converted);
         } else {
             self.auxiliary.refresh(system.stiffness[0].operator(), below(&self.interpolations, system))?;
-            set_operators(&self.krylov, system, self.rung, &self.session)?;
+            set_operators(&self.krylov, system, self.preconditioning, &self.session)?;
         }
         Ok(())
     }
@@ -199,7 +201,7 @@ impl LinearSolver {
         x: &mut Vector,
         tolerance: f64,
     ) -> Result<LinearSolve, SystemError> {
-        let mut solve = LinearSolve { ending: LinearEnding::Converged, iterations: 0, residual: 0.0, climbed: None };
+        let mut solve = LinearSolve { ending: LinearEnding::Converged, iterations: 0, residual: 0.0, fallback: None };
         let norm = b.norm()?;
         if norm == 0.0 {
             x.set(0.0)?;
@@ -212,23 +214,23 @@ impl LinearSolver {
         }
         let mut before = f64::INFINITY;
         loop {
-            let patience = self.patience().min(MOST_ITERATIONS - solve.iterations);
+            let trial_iterations = self.trial_iterations().min(MOST_ITERATIONS - solve.iterations);
             self.krylov.set_initial_guess_nonzero(true)?;
-            self.krylov.set_tolerance(tolerance, patience)?;
+            self.krylov.set_tolerance(tolerance, trial_iterations)?;
             let solved = self.krylov.solve_allowing(b, x)?;
             let needed = needed(&self.krylov.residual_history());
             solve.iterations += solved.iterations;
             system.nest.residual(b, x, &mut r)?;
             solve.residual = r.norm()? / norm;
             if solve.residual <= tolerance {
-                if self.form == Form::Augmented && self.rung.is_tired(needed) {
-                    self.climb(system, needed, &mut solve)?;
+                if self.form == Form::Augmented && self.preconditioning.is_too_weak(needed) {
+                    self.fall_back(system, needed, &mut solve)?;
                 }
                 return Ok(solve);
             }
             let falls = solve.residual < 0.5 * before;
-            let slow = solved.iterations >= patience && needed > 1.0;
-            if slow && solve.iterations < MOST_ITERATIONS && self.climb(system, needed, &mut solve)? {
+            let slow = solved.iterations >= trial_iterations && needed > 1.0;
+            if slow && solve.iterations < MOST_ITERATIONS && self.fall_back(system, needed, &mut solve)? {
                 before = f64::INFINITY;
             } else if !falls || solve.iterations >= MOST_ITERATIONS || self.is_exact(&solve) {
                 solve.ending = self.ending(system, x, norm, tolerance, &solve, solved)?;
@@ -239,28 +241,30 @@ impl LinearSolver {
         }
     }
 
-    /// Iterations before it is asked whether to climb.
-    fn patience(&self) -> usize {
+    /// Iterations before it is asked whether to fall back.
+    fn trial_iterations(&self) -> usize {
         match self.form {
-            Form::Augmented => self.rung.patience(),
+            Form::Augmented => self.preconditioning.trial_iterations(),
             Form::Plain => MOST_ITERATIONS,
         }
     }
 
     /// Whether a factor has had its iterations: a system that still resists has lost its inf-sup constant.
     fn is_exact(&self, solve: &LinearSolve) -> bool {
-        self.form == Form::Augmented && self.rung == Rung::Factor && solve.iterations >= 2 * self.patience()
+        self.form == Form::Augmented
+            && self.preconditioning == Preconditioning::Factor
+            && solve.iterations >= 2 * self.trial_iterations()
     }
 
-    /// Takes the next rung that promises enough, if there is one. **Collective**
-    fn climb(&mut self, system: &SaddlePoint, needed: f64, solve: &mut LinearSolve) -> Result<bool, SystemError> {
+    /// Takes the next preconditioning that promises enough, if there is one. **Collective**
+    fn fall_back(&mut self, system: &SaddlePoint, needed: f64, solve: &mut LinearSolve) -> Result<bool, SystemError> {
         if self.form == Form::Plain || is_chosen(&self.session) {
             return Ok(false);
         }
         let unknowns = system.finest_stiffness().operator().size().0;
-        let Some(rung) = self.rung.above(needed, unknowns) else { return Ok(false) };
-        *self = Self::field_split(system, self.interpolations.clone(), rung, &self.session)?;
-        solve.climbed = Some(self.name.clone());
+        let Some(preconditioning) = self.preconditioning.fallback(needed, unknowns) else { return Ok(false) };
+        *self = Self::field_split(system, self.interpolations.clone(), preconditioning, &self.session)?;
+        solve.fallback = Some(self.name.clone());
         Ok(true)
     }
 
@@ -291,8 +295,13 @@ impl LinearSolver {
 }
 
 /// The nest, or for a factor the one with all rows stored. **Collective**
-fn set_operators(krylov: &Krylov, system: &SaddlePoint, rung: Rung, session: &Session) -> Result<(), SystemError> {
-    let stored = if rung == Rung::Factor { system.stored_nest(session)? } else { None };
+fn set_operators(
+    krylov: &Krylov,
+    system: &SaddlePoint,
+    preconditioning: Preconditioning,
+    session: &Session,
+) -> Result<(), SystemError> {
+    let stored = if preconditioning == Preconditioning::Factor { system.stored_nest(session)? } else { None };
     let nest = stored.as_ref().unwrap_or(&system.nest);
     Ok(krylov.set_operators(nest, nest)?)
 }

@@ -2,7 +2,7 @@
 
 use crate::petsc::{Session, options};
 use crate::system::auxiliary::SMALL;
-use crate::system::{Rung, SchurPattern};
+use crate::system::{Preconditioning, SchurPattern};
 
 /// Names and values of PETSc options.
 pub(super) type Options = &'static [(&'static str, &'static str)];
@@ -28,21 +28,21 @@ pub(super) fn is_chosen(session: &Session) -> bool {
     options::any_of_user(session, |name| name == "-fieldsplit_u_pc_type")
 }
 
-/// The outer method and the smoother of each rung of the ladder.
-pub(super) fn rung_options(rung: Rung) -> Options {
-    match rung {
-        Rung::Sweep => &[
+/// The outer method and the smoother of each preconditioning.
+pub(super) fn preconditioning_options(preconditioning: Preconditioning) -> Options {
+    match preconditioning {
+        Preconditioning::Sweep => &[
             ("-ksp_type", "gmres"),
             ("-fieldsplit_u_mg_levels_ksp_type", "richardson"),
             ("-fieldsplit_u_mg_levels_ksp_max_it", "1"),
         ],
-        Rung::TwoSteps => {
+        Preconditioning::TwoSteps => {
             &[("-ksp_type", "fgmres"), ("-fieldsplit_u_mg_levels_ksp_type", "cg"), ("-fieldsplit_u_mg_levels_ksp_max_it", "2")]
         }
-        Rung::FourSteps => {
+        Preconditioning::FourSteps => {
             &[("-ksp_type", "fgmres"), ("-fieldsplit_u_mg_levels_ksp_type", "cg"), ("-fieldsplit_u_mg_levels_ksp_max_it", "4")]
         }
-        Rung::Factor => {
+        Preconditioning::Factor => {
             &[("-ksp_type", "gmres"), ("-fieldsplit_u_pc_type", "cholesky"), ("-fieldsplit_u_pc_factor_mat_solver_type", "mumps")]
         }
     }

@@ -1,4 +1,4 @@
-//! The ladder of preconditioners: the cheapest one that does.
+//! Preconditioners of the displacements, and which one a slow solve falls back on.
 //!
 //! A symmetric Gauss-Seidel sweep smooths well on good triangles and for ν up to about 0.45. Flat triangles and ν towards
 //! 0.5 wear it out; two or four steps of CG with the same sweep are stronger and cost two and four times as much; a
@@ -6,15 +6,16 @@
 
 use crate::system::auxiliary::SMALL;
 
-/// Iterations that a solve to 1e-8 may need before the next rung pays.
-const MOST: [(Rung, f64); 3] = [(Rung::Sweep, 26.0), (Rung::TwoSteps, 100.0), (Rung::FourSteps, 180.0)];
+/// Iterations that a solve to 1e-8 may need before the next one pays.
+const MOST: [(Preconditioning, f64); 3] =
+    [(Preconditioning::Sweep, 26.0), (Preconditioning::TwoSteps, 100.0), (Preconditioning::FourSteps, 180.0)];
 
 /// Unknowns up to which a factor fits into memory.
 const LARGEST_FACTOR: usize = 3_000_000;
 
 /// What preconditions the displacements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rung {
+pub enum Preconditioning {
     /// Multigrid with one symmetric Gauss-Seidel sweep.
     Sweep,
     /// Multigrid with two steps of CG, preconditioned by the sweep.
@@ -28,8 +29,8 @@ pub enum Rung {
 /// Ratio of graded refinement below which triangles are too flat for a sweep: it needs more iterations on each level.
 const FLAT: f64 = 0.25;
 
-impl Rung {
-    /// The cheapest rung that does on a mesh of so many levels, the macro mesh among them, refined by these ratios.
+impl Preconditioning {
+    /// The cheapest one that does on a mesh of so many levels, the macro mesh among them, refined by these ratios.
     pub fn of(levels: usize, ratios: &[Option<f64>]) -> Self {
         let flat = levels > 1 && ratios.iter().flatten().any(|&ratio| ratio < FLAT);
         if flat { Self::TwoSteps } else { Self::Sweep }
@@ -37,12 +38,12 @@ impl Rung {
 
     /// Where to begin if the choice is free, and why, in words; levels and ratios as in [`Self::of`].
     pub fn first(levels: usize, ratios: &[Option<f64>], unknowns: usize) -> (Self, String) {
-        let rung = Self::of(levels, ratios);
+        let preconditioning = Self::of(levels, ratios);
         if levels > 1 {
             let flat = format!(" and some mesh.grade.ratio is below {FLAT}");
-            let flat = if rung == Self::Sweep { "" } else { &flat };
-            let words = rung.words("multigrid");
-            return (rung, format!("fieldsplit with {words}, because the mesh has {levels} levels{flat}"));
+            let flat = if preconditioning == Self::Sweep { "" } else { &flat };
+            let words = preconditioning.words("multigrid");
+            return (preconditioning, format!("fieldsplit with {words}, because the mesh has {levels} levels{flat}"));
         }
         let begin = format!("because the mesh has no levels (refine = 0), and {unknowns} unknowns are");
         if unknowns <= SMALL {
@@ -52,8 +53,8 @@ impl Rung {
         }
     }
 
-    /// Iterations after which it is asked whether to climb.
-    pub fn patience(self) -> usize {
+    /// Iterations after which it is asked whether to fall back on a stronger one.
+    pub fn trial_iterations(self) -> usize {
         match self {
             Self::Sweep => 20,
             Self::TwoSteps => 40,
@@ -61,21 +62,21 @@ impl Rung {
         }
     }
 
-    /// The rung for a system of `unknowns` that this one would need so many iterations for, from here to 1e-8; at least
-    /// the next one, if there is any.
-    pub fn above(self, needed: f64, unknowns: usize) -> Option<Self> {
-        let rungs = [Self::TwoSteps, Self::FourSteps, Self::Factor];
-        let fit = |rung: &Self| *rung > self && (*rung != Self::Factor || unknowns <= LARGEST_FACTOR);
-        let above: Vec<Self> = rungs.into_iter().filter(fit).collect();
-        let strong = |rung: &&Self| match self {
-            Self::Sweep => MOST.iter().all(|(other, most)| other != *rung || needed <= *most),
+    /// The one to fall back on for a system of `unknowns` that this one would need so many iterations for, from here to 1e-8:
+    /// at least the next one, if there is any.
+    pub fn fallback(self, needed: f64, unknowns: usize) -> Option<Self> {
+        let stronger = [Self::TwoSteps, Self::FourSteps, Self::Factor];
+        let fits = |other: &Self| *other > self && (*other != Self::Factor || unknowns <= LARGEST_FACTOR);
+        let stronger: Vec<Self> = stronger.into_iter().filter(fits).collect();
+        let is_enough = |other: &&Self| match self {
+            Self::Sweep => MOST.iter().all(|(bounded, most)| bounded != *other || needed <= *most),
             _ => true,
         };
-        above.iter().find(strong).or(above.last()).copied()
+        stronger.iter().find(is_enough).or(stronger.last()).copied()
     }
 
-    /// Whether a solve at this rate leaves the next one to a higher rung.
-    pub fn is_tired(self, needed: f64) -> bool {
+    /// Whether a solve at this rate leaves the next one to a stronger preconditioning.
+    pub fn is_too_weak(self, needed: f64) -> bool {
         self == Self::Sweep && needed > MOST[0].1
     }
 
@@ -114,26 +115,26 @@ mod tests {
 
     #[test]
     fn a_small_mesh_without_levels_begins_with_a_factor() {
-        assert_eq!(Rung::first(1, &[None], 2000).0, Rung::Factor);
-        assert_eq!(Rung::first(1, &[None], 10_000).0, Rung::Sweep);
-        assert_eq!(Rung::first(3, &[None], 10_000).0, Rung::Sweep);
+        assert_eq!(Preconditioning::first(1, &[None], 2000).0, Preconditioning::Factor);
+        assert_eq!(Preconditioning::first(1, &[None], 10_000).0, Preconditioning::Sweep);
+        assert_eq!(Preconditioning::first(3, &[None], 10_000).0, Preconditioning::Sweep);
     }
 
     #[test]
     fn flat_triangles_begin_with_the_stronger_smoother() {
-        let (rung, words) = Rung::first(3, &[None, Some(0.4), Some(0.2)], 10_000);
-        assert_eq!((rung, Rung::of(3, &[Some(0.3)])), (Rung::TwoSteps, Rung::Sweep));
+        let (preconditioning, words) = Preconditioning::first(3, &[None, Some(0.4), Some(0.2)], 10_000);
+        assert_eq!((preconditioning, Preconditioning::of(3, &[Some(0.3)])), (Preconditioning::TwoSteps, Preconditioning::Sweep));
         assert!(words.contains("smoothed by 2 CG steps, because the mesh has 3 levels and some mesh.grade.ratio"), "{words}");
-        assert_eq!(Rung::of(1, &[Some(0.2)]), Rung::Sweep, "not refined at all");
+        assert_eq!(Preconditioning::of(1, &[Some(0.2)]), Preconditioning::Sweep, "not refined at all");
     }
 
     #[test]
-    fn a_slow_solve_climbs_as_far_as_it_must() {
-        assert_eq!(Rung::Sweep.above(50.0, 1000), Some(Rung::TwoSteps));
-        assert_eq!(Rung::Sweep.above(150.0, 1000), Some(Rung::FourSteps));
-        assert_eq!(Rung::Sweep.above(1e9, 1000), Some(Rung::Factor));
-        assert_eq!(Rung::Sweep.above(1e9, 10_000_000), Some(Rung::FourSteps), "no memory for a factor");
-        assert_eq!(Rung::Factor.above(1e9, 1000), None);
-        assert!(Rung::Sweep.is_tired(27.0) && !Rung::TwoSteps.is_tired(27.0));
+    fn a_slow_solve_falls_back_on_what_is_strong_enough() {
+        assert_eq!(Preconditioning::Sweep.fallback(50.0, 1000), Some(Preconditioning::TwoSteps));
+        assert_eq!(Preconditioning::Sweep.fallback(150.0, 1000), Some(Preconditioning::FourSteps));
+        assert_eq!(Preconditioning::Sweep.fallback(1e9, 1000), Some(Preconditioning::Factor));
+        assert_eq!(Preconditioning::Sweep.fallback(1e9, 10_000_000), Some(Preconditioning::FourSteps), "no memory for a factor");
+        assert_eq!(Preconditioning::Factor.fallback(1e9, 1000), None);
+        assert!(Preconditioning::Sweep.is_too_weak(27.0) && !Preconditioning::TwoSteps.is_too_weak(27.0));
     }
 }
