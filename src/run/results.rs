@@ -164,10 +164,7 @@ impl Run<'_> {
             return Ok(());
         }
         let stress = found.stress()?;
-        let at = |node: usize| {
-            let [xx, yy, xy, zz, _] = stress.at(node);
-            [xx, yy, xy, zz]
-        };
+        let at = |node: usize| stress.at(node);
         session.agree(fields::write(folder, found, at)).map_err(RunError::Failed)?;
         let facets = fields::facets(found, at);
         if session.rank() != 0 {

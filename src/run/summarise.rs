@@ -182,3 +182,22 @@ fn closed_edges(contact: &Contact, closed: &[[f64; 2]]) -> Option<f64> {
         |&[from, to]: &[f64; 2]| (0..contact.edge_lengths.len()).filter(|&k| arcs[k] >= from && arcs[k] < to).map(edges).sum();
     closed.iter().map(on).reduce(f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_that_turn_grow_by_half_the_square_of_the_angle() {
+        let turned = |rotation: f64| {
+            let (place, middle) = (Point::zeros(), Point::zeros());
+            Deformation { strain: 0.0, place, rotation, growth: 0.0, middle, radius: 3.0 }
+        };
+        let point = |gap: f64| ContactPoint { gap, un_1: 1e-4, un_2: -2e-4, ..ContactPoint::default() };
+        let points = [point(0.02), point(0.01), point(f64::NAN)];
+        let found = growth_by_gap([&turned(0.01), &turned(-0.02)], &points).expect("growth");
+        assert!((found / (1.5 * (0.01f64.powi(2) + 0.02f64.powi(2)) / 0.01) - 1.0).abs() < 1e-12, "{found}");
+        assert_eq!(growth_by_gap([&turned(1e-6), &turned(0.0)], &points), None, "rounding beside the displacements");
+        assert_eq!(growth_by_gap([&turned(0.1), &turned(0.0)], &[]), None, "no gap");
+    }
+}

@@ -35,7 +35,7 @@ fn main() -> std::process::ExitCode {
             nest_is_its_blocks,
             operator_acts,
             sweeps_of_an_operator_go_on_from_each_other,
-            operator_errors_are_heard,
+            operator_errors_are_reported,
             krylov_converges,
             krylov_names_its_failure,
             schur_complement_with_multigrid,
@@ -393,7 +393,7 @@ fn sweeps_of_an_operator_go_on_from_each_other(session: &Session) {
     }
 }
 
-fn operator_errors_are_heard(session: &Session) {
+fn operator_errors_are_reported(session: &Session) {
     let a = Matrix::operator(session, 1, Box::new(Diagonal { value: 1.0, left: 0.0, broken: true })).unwrap();
     let x = Vector::new(session, 1).unwrap();
     let mut y = x.duplicate().unwrap();

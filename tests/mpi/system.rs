@@ -275,9 +275,13 @@ fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
                 x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = erratic(first + at, 0.3));
                 // What is prescribed on the coarse level moves nothing on the fine one.
                 interpolation.multiply(&x, &mut fine).expect("a product");
-                let mut felt = x.duplicate().expect("a vector");
-                interpolation.multiply_transpose(&fine, &mut felt).expect("a product");
-                x.values_mut().iter_mut().zip(felt.values().iter()).filter(|(_, felt)| **felt == 0.0).for_each(|(v, _)| *v = 0.0);
+                let mut reached = x.duplicate().expect("a vector");
+                interpolation.multiply_transpose(&fine, &mut reached).expect("a product");
+                x.values_mut()
+                    .iter_mut()
+                    .zip(reached.values().iter())
+                    .filter(|(_, reached)| **reached == 0.0)
+                    .for_each(|(v, _)| *v = 0.0);
                 let (mut product, mut coarse, mut found) =
                     (fine.duplicate().expect("a vector"), x.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
                 levels[l + 1].multiply(&fine, &mut product).expect("a product");
