@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::output::ContactPoint;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Evaluation, TracePoint};
+use crate::system::recovery::{Deformation, Evaluation, TracePoint};
 use crate::system::{Contact, Solved};
 
 /// Growth by less than this share of the displacements is rounding.
@@ -152,13 +152,12 @@ pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usiz
     contact.slip_error = found.and_then(|found| found.slip_error);
     contact.rotation_error = match found {
         Some(found) => Some(found.rotation_error),
-        None => growth_by_gap(evaluation, at, points),
+        None => growth_by_gap(evaluation.problem.contacts[at].bodies.map(|body| &evaluation.deformations[body]), points),
     };
 }
 
 /// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.
-fn growth_by_gap(Evaluation { problem, deformations, .. }: &Evaluation, at: usize, points: &[ContactPoint]) -> Option<f64> {
-    let bodies = problem.contacts[at].bodies.map(|body| &deformations[body]);
+fn growth_by_gap(bodies: [&Deformation; 2], points: &[ContactPoint]) -> Option<f64> {
     let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
     let moved = points.iter().map(|point| point.un_1.abs().max(point.un_2.abs())).fold(0.0, f64::max);
     let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
