@@ -41,10 +41,27 @@ fn corners_are_seen() {
 fn the_verdict_tells_the_estimate_and_a_mesh_without_levels_has_one_of_its_pressure_alone() {
     let ended = Run::case("rings").set("exact.must_hold", false).converged();
     assert!(ended.value("/reason").as_str().expect("words").contains("estimated error"));
-    assert!(ended.number("/estimate/seam/lambda") > 0.0 && ended.number("/estimate/seam/force") > 0.0);
     let coarsest = Run::case("rings").set("exact.must_hold", false).set("mesh.refine", 0).converged();
     assert!(coarsest.value("/estimate/energy").is_null() && coarsest.value("/estimate/seam/force").is_null());
     assert!(coarsest.number("/estimate/seam/lambda") > ended.number("/estimate/seam/lambda"));
+}
+
+/// One difference between meshes tells what is left of an error by a share of itself, two by how they fall.
+#[test]
+fn the_error_of_the_force_follows_from_the_forces_on_coarser_meshes() {
+    let runs = [0, 1, 2].map(|refine| {
+        let run = Run::case("rings").set("mesh.order", 1).set("contact.seam.multiplier", "p0").set("mesh.refine", refine);
+        run.set("exact.must_hold", false).set("output.fields", false).converged()
+    });
+    let force = runs.each_ref().map(|ended| ended.number("/contact/seam/force"));
+    let [first, second] = [1, 2].map(|k| (1.0 - force[k - 1] / force[k]).abs());
+    let falls = second / first;
+    assert!((0.25..0.6).contains(&falls), "neither small by luck nor hardly falling: {falls}");
+    let expected = [0.6 * first, second * falls / (1.0 - falls)];
+    for (ended, expected) in runs[1..].iter().zip(expected) {
+        let found = ended.number("/estimate/seam/force");
+        assert!((found / expected - 1.0).abs() < 0.02, "{found} instead of {expected}");
+    }
 }
 
 /// `tolerance = "discretisation"`: fewer iterations, and the same errors but for a tenth.

@@ -26,6 +26,18 @@ fn a_fit_through_bent_edges_is_as_good_as_the_declared_circle() {
     assert!(fitted < 1.05 * declared, "{fitted} against {declared}");
 }
 
+/// Splines of so many spans as are asked for: a cubic is off a circle by the fourth power of its span.
+#[test]
+fn a_fit_has_the_spans_that_are_asked_for() {
+    let run =
+        |spans: &str| Run::case("rings").set("mesh.refine", 2).set("contact.seam.curve", "fit").set("contact.seam.spans", spans);
+    let errors = ["1", "2", "4", "auto"].map(|spans| {
+        let ended = run(spans).set("exact.must_hold", false).set("output.fields", false).converged();
+        ended.number("/errors/force_seam")
+    });
+    assert!(errors[1] < 0.3 * errors[0] && errors[2] < 0.3 * errors[1] && errors[3] < 1.05 * errors[2], "{errors:?}");
+}
+
 /// Two quarter rings of straight edges that overlap by 1e-3, `n` and `5/4 n` edges along the seam.
 fn polygons(n: usize) -> Mesh {
     let ring = |nx: usize, ny: usize, seed: u64, inner: f64, outer: f64| {
@@ -63,7 +75,7 @@ fn polygons_get_their_gap_from_splines() {
             Run::file(&file).ranks(ranks).converged().number("/errors/lambda_seam")
         });
         println!("{errors:?}");
-        assert!(errors[2] <= 0.02, "{errors:?}");
+        assert!(errors[2] <= 0.02 && (1..3).all(|k| errors[k] < 0.6 * errors[k - 1]), "{errors:?}");
     }
 }
 

@@ -159,18 +159,20 @@ fn a_contact_narrower_than_an_edge_is_told_by_its_estimate() {
         let row = rows.iter().find(|row| row.name == name).expect("a row of the study");
         let ended = row.coarser(0, ranks);
         row.check(&ended, ranks);
-        // Differences of λ that do not fall from mesh to mesh tell nothing: null.
         (
             ended.number("/estimate/energy"),
             ended.value("/estimate/seam/lambda").as_f64(),
+            ended.number("/contact/seam/zones/0/worst"),
             ended.value("/contact/seam/trust") == true,
         )
     };
     for ranks in RANKS {
-        let (energy, lambda, trust) = estimates("contact 0.8 edges wide", ranks);
-        assert!(energy > 0.3 && lambda.is_none_or(|lambda| lambda > 0.5) && !trust, "{ranks} ranks: {energy}, {lambda:?}");
-        let (energy, lambda, trust) = estimates("as it stands", ranks);
-        assert!(energy < 0.02 && lambda.is_some_and(|lambda| lambda < 0.01) && trust, "{ranks} ranks: {energy}, {lambda:?}");
+        // All signs of a zone that narrow may be small beside its error: none of them is an estimate.
+        let (energy, lambda, worst, trust) = estimates("contact 0.8 edges wide", ranks);
+        assert!(energy > 0.3 && lambda.is_none() && worst > 0.1 && !trust, "{ranks} ranks: {energy}, {lambda:?}, {worst}");
+        let (energy, lambda, worst, trust) = estimates("as it stands", ranks);
+        let good = energy < 0.02 && lambda.is_some_and(|lambda| lambda < 0.01) && trust;
+        assert!(good, "{ranks} ranks: {energy}, {lambda:?}, {worst}");
     }
 }
 

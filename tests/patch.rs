@@ -2,6 +2,8 @@
 
 mod support;
 
+use mezha::mesh::read_gmsh;
+use std::path::Path;
 use support::{Ended, PAIRS, RANKS, Run, difference};
 
 const EXACT: f64 = 1e-9;
@@ -87,6 +89,69 @@ fn flat_line_on_graded_meshes() {
 fn inclined_line_on_graded_meshes() {
     let points = "[[0, 3], [6, 4]]";
     holds_on("patch_inclined", &["seam"], 3, |run| run.set("mesh.grade.points", points).set("mesh.grade.exponent", "[0.8, 1.1]"));
+}
+
+/// What the summary says of a scene whose solution is known: λ = 1 from (0, 3) to (6, 4), the normal (-1, 6)/√37, all that is
+/// prescribed zero, no gap. Counts and lengths are those of the mesh file, each triangle divided by 16.
+#[test]
+fn figures_of_an_even_pressure() {
+    let mesh = read_gmsh(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/patch_inclined/bars.msh")).expect("a mesh");
+    let place = |vertex: u32| mesh.vertices[vertex as usize];
+    let edges = mesh.edges.iter().map(|edge| (place(edge.vertices[0]) - place(edge.vertices[1])).norm() / 4.0);
+    let [shortest, longest] = edges.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], h| [low.min(h), high.max(h)]);
+    let triangles = 16 * mesh.triangles.len();
+    let at_the_boundary = 4 * mesh.edges.iter().filter(|edge| edge.triangles.contains(&None)).count();
+    let edges = (3 * triangles + at_the_boundary) / 2;
+    // Euler: two bodies without holes.
+    let vertices = 2 + edges - triangles;
+    let (length, energy) = (37f64.sqrt(), 0.0023812545714286);
+    for ranks in RANKS {
+        let ended = Run::case("patch_inclined").ranks(ranks).converged();
+        for (path, expected) in [
+            ("/mesh/triangles", triangles as f64),
+            ("/mesh/vertices", vertices as f64),
+            ("/mesh/order", 2.0),
+            ("/mesh/h_min", shortest),
+            ("/mesh/h_max", longest),
+            ("/unknowns/displacement", 2.0 * (vertices + edges) as f64),
+            ("/unknowns/multiplier", 2.0 * ended.number("/contact/seam/segments")),
+            ("/contact/seam/length", length),
+            ("/contact/seam/force", length),
+            ("/contact/seam/resultant/0", -1.0),
+            ("/contact/seam/resultant/1", 6.0),
+            // (3, 3.5) × (-1, 6).
+            ("/contact/seam/moment", 21.5),
+            ("/contact/seam/pressure_max", 1.0),
+            ("/contact/seam/zones/0/pressure_max", 1.0),
+            ("/contact/seam/zones/0/share", 1.0),
+            ("/contact/seam/closed/0/1", length),
+            ("/contact/seam/closed_points/0/1/0", 6.0),
+            ("/contact/seam/closed_points/0/1/1", 4.0),
+            ("/contact/seam/ends/0/1", 3.0),
+            ("/energy/total", energy),
+            ("/energy/stationary", energy),
+            ("/energy/external_work", 2.0 * energy),
+        ] {
+            let found = ended.number(path);
+            assert!((found / expected - 1.0).abs() <= EXACT, "{path} on {ranks} ranks: {found} instead of {expected}");
+        }
+        for path in ["/contact/seam/closed/0/0", "/contact/seam/ends/0/0", "/contact/seam/oscillation"] {
+            assert!(ended.number(path).abs() <= EXACT, "{path} on {ranks} ranks: {}", ended.number(path));
+        }
+    }
+}
+
+/// The largest pressure is that of the table, where it varies.
+#[test]
+fn the_largest_pressure_is_that_of_the_table() {
+    for (case, space) in [("open_zone", "p0"), ("beam", "p0"), ("beam", "p1-discontinuous"), ("beam", "p1-continuous")] {
+        let run = Run::case(case).set("contact.seam.multiplier", space).set("mesh.refine", 1);
+        let ended = run.set("exact.must_hold", false).set("output.fields", false).ranks(2).converged();
+        let highest = ended.trace("seam").iter().map(|point| point.lambda).fold(0.0, f64::max);
+        for path in ["/contact/seam/pressure_max", "/contact/seam/zones/0/pressure_max"] {
+            assert!((ended.number(path) / highest - 1.0).abs() <= EXACT, "{case}, {space}: {path} beside {highest}");
+        }
+    }
 }
 
 /// Exact also by the direct solver, which sees no levels and no augmentation.

@@ -74,6 +74,19 @@ fn a_leaf_spring_rolls_onto_its_seat_in_any_unit_space_and_number_of_ranks() {
     }
 }
 
+/// A finer mesh begins with the active set of the coarser one, which is nearly its own: contact on two fifths of the line.
+#[test]
+fn a_finer_mesh_begins_with_the_set_of_the_coarser_one() {
+    for space in ["p0", "p1-discontinuous", "p1-continuous"] {
+        let run = Run::case("open_zone").set("contact.seam.multiplier", space).set("mesh.refine", 2);
+        let ended = run.set("exact.must_hold", false).set("output.fields", false).converged();
+        let active = |pass: usize| ended.number(&format!("/outer/{pass}/active"));
+        let (first, last) = (active(0), active(passes(&ended) - 1));
+        assert!((first - last).abs() <= 2.0, "{space}: {first} active multipliers at first, {last} at the end");
+        assert!(last < 0.5 * ended.number("/unknowns/multiplier"), "{space}: {last}");
+    }
+}
+
 /// A pin, smaller than its hole by a thousandth, lies in it under a load that strains it by a millionth.
 #[test]
 fn a_pin_under_a_light_load_stays_in_its_hole() {

@@ -68,7 +68,7 @@ impl Scene {
         }
         for (name, ..) in &self.lines {
             let beta = ended.value(&format!("/contact/{name}/inf_sup"));
-            assert!(beta.as_f64().is_none_or(|beta| beta > 0.2), "{words}: inf-sup constant of {name} {beta}");
+            assert!(beta.as_f64().is_some_and(|beta| beta > 0.2), "{words}: inf-sup constant of {name} {beta}");
             for point in ended.trace(name) {
                 assert!((point.lambda - 1.0).abs() <= EXACT, "{words}: {name}: {point:?}");
             }

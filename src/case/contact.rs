@@ -15,20 +15,20 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
     let curve = section.or(
         "curve",
         "fit",
-        choice(&[("line", Ok(CurveChoice::Line)), ("geometry", Ok(CurveChoice::Geometry)), ("fit", Ok(CurveChoice::Fit))]),
+        choice(&[("line", CurveChoice::Line), ("geometry", CurveChoice::Geometry), ("fit", CurveChoice::Fit)]),
     );
     let gap = section.or("gap", "geometry", read_gap);
     let space = section.or(
         "multiplier",
         "p1-discontinuous",
         choice(&[
-            ("p0", Ok(MultiplierSpace::P0)),
-            ("p1-discontinuous", Ok(MultiplierSpace::P1Discontinuous)),
-            ("p1-continuous", Ok(MultiplierSpace::P1Continuous)),
+            ("p0", MultiplierSpace::P0),
+            ("p1-discontinuous", MultiplierSpace::P1Discontinuous),
+            ("p1-continuous", MultiplierSpace::P1Continuous),
         ]),
     );
     let segments = section.or("segments", "auto", read_segments);
-    let law = section.or("law", "unilateral", choice(&[("unilateral", Ok(Law::Unilateral)), ("bilateral", Ok(Law::Bilateral))]));
+    let law = section.or("law", "unilateral", choice(&[("unilateral", Law::Unilateral), ("bilateral", Law::Bilateral)]));
     let quadrature = read_quadrature(section, space);
     let stabilise = section.or("stabilise", "auto", |value| match value {
         Value::Boolean(true) => Ok(Stabilise::On),
@@ -39,7 +39,7 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
     let configuration = section.or(
         "configuration",
         "reference",
-        choice(&[("reference", Ok(Configuration::Reference)), ("deformed", Ok(Configuration::Deformed))]),
+        choice(&[("reference", Configuration::Reference), ("deformed", Configuration::Deformed)]),
     );
     let spans = section.or("spans", "auto", |value| match value {
         Value::String(word) if word == "auto" => Ok(None),
@@ -49,7 +49,7 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
     let ends = section.or(
         "ends",
         if curve == Some(CurveChoice::Fit) { "free" } else { "fixed" },
-        choice(&[("free", Ok(EndRule::Free)), ("fixed", Ok(EndRule::Fixed))]),
+        choice(&[("free", EndRule::Free), ("fixed", EndRule::Fixed)]),
     );
     if curve.is_some_and(|curve| curve != CurveChoice::Fit) {
         if configuration == Some(Configuration::Deformed) {
@@ -99,7 +99,7 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
 fn read_quadrature(section: &Section, space: Option<MultiplierSpace>) -> Option<Quadrature> {
     let given = section.has("points");
     let problem = |words: &str| section.problem(&["points"], words.into());
-    let fixed = section.or("quadrature", "cut", choice(&[("cut", Ok(false)), ("segment", Ok(true))]))?;
+    let fixed = section.or("quadrature", "cut", choice(&[("cut", false), ("segment", true)]))?;
     if !fixed {
         if given {
             problem(

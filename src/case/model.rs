@@ -127,9 +127,9 @@ pub fn read_solver(root: &Section) -> Option<Solver> {
         "name",
         "auto",
         values::choice(&[
-            ("auto", Ok(SolverChoice::Auto)),
-            ("fieldsplit", Ok(SolverChoice::FieldSplit)),
-            ("direct", Ok(SolverChoice::Direct)),
+            ("auto", SolverChoice::Auto),
+            ("fieldsplit", SolverChoice::FieldSplit),
+            ("direct", SolverChoice::Direct),
         ]),
     );
     let tolerance = section.or("tolerance", 1e-8, |value| match value {

@@ -8,8 +8,8 @@ use crate::geometry::Formula;
 /// Variables of formulas in the plane.
 pub const PLANE: [&str; 2] = ["x", "y"];
 
-/// What a choice stands for; an error is the remedy for a choice that is known but not built yet.
-pub type Choice<T> = (&'static str, Result<T, &'static str>);
+/// A word, and what it stands for.
+pub type Choice<T> = (&'static str, T);
 
 /// A string.
 pub fn text(value: &Value) -> Result<String, String> {
@@ -98,12 +98,11 @@ pub fn formulas<const N: usize>(value: &Value) -> Result<[Formula; N], String> {
 /// One of some words.
 pub fn choice<T: Copy>(options: &'static [Choice<T>]) -> impl Fn(&Value) -> Result<T, String> {
     move |value| {
-        let available: Vec<&str> = options.iter().filter(|option| option.1.is_ok()).map(|option| option.0).collect();
+        let available: Vec<&str> = options.iter().map(|option| option.0).collect();
         let all = || format!("\"{}\"", available.join("\" or \""));
         let found = value.as_str().ok_or_else(|| must_be(&all(), value))?;
         match options.iter().find(|option| option.0 == found) {
-            Some((_, Ok(choice))) => Ok(*choice),
-            Some((_, Err(remedy))) => Err(format!("not available yet; {remedy}")),
+            Some((_, choice)) => Ok(*choice),
             None => Err(format!("must be {}; {}", all(), suggest(found, available.iter().copied()))),
         }
     }

@@ -151,8 +151,15 @@ mod tests {
 
     #[test]
     fn bilateral_multipliers_are_never_released() {
-        let mut set = ActiveSet::new(vec![true, false]);
-        set.update(|_| -1.0);
+        let mut set = ActiveSet::new(vec![true, false]).starting_from(&[false, false]);
+        assert_eq!(set.active(), [true, false]);
+        assert_eq!(set.update(|_| -1.0), Step::Settled);
+    }
+
+    #[test]
+    fn without_a_force_nothing_changes() {
+        let mut set = ActiveSet::new(vec![false; 2]).starting_from(&[true, false]);
+        assert_eq!(set.update(|_| 0.0), Step::Settled);
         assert_eq!(set.active(), [true, false]);
     }
 }

@@ -79,7 +79,7 @@ pub fn integrate(
         }
         for point in together {
             let normal = boundary.normal(point.parameter);
-            let here = trace(boundary, point.edge, small, point.parameter);
+            let here = trace(boundary, small, point.parameter);
             let (rows, values) = multipliers.on_segment(segment, point.fraction);
             let d = distance.at(boundary.point(point.parameter), normal, here.place)?;
             for k in 0..multipliers.per_segment() {

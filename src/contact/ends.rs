@@ -107,6 +107,20 @@ mod tests {
         assert!(!fades([2.0, 0.83, 0.64], [1.0; 3]), "a punch");
     }
 
+    /// λ goes like 1/√r, so that contact ends far outside: at most half a segment into one that carries nothing.
+    #[test]
+    fn an_end_moves_by_half_a_segment_at_most() {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [1.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&(0..=10).map(|k| k as f64 / 10.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
+        let active: Vec<bool> = (0..10).map(|k| (3..7).contains(&k)).collect();
+        let lambda = [0.0, 0.0, 0.0, 2.0, 0.83, 0.83, 2.0, 0.0, 0.0, 0.0];
+        for (end, expected) in [(End::First, 0.25), (End::Last, 0.75)] {
+            let found = true_end(&boundary, &multipliers, &lambda, &active, end).expect("four segments");
+            assert!((found - expected).abs() < 1e-12, "{end:?}: {found}");
+        }
+    }
+
     #[test]
     fn one_segment_says_nothing() {
         let boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [1.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));

@@ -208,6 +208,18 @@ mod tests {
         }
     }
 
+    /// `α E_c / (H m)` with the mass `m` of the multiplier alone: `∫ψ² ds`, or that of a whole row.
+    #[test]
+    fn a_multiplier_alone_has_the_inverse_of_its_own_mass() {
+        for (space, mass) in [(MultiplierSpace::P0, 1.0), (MultiplierSpace::P1Discontinuous, 1.0 / 3.0)] {
+            let m = multipliers(space);
+            // The last segment has the length 1, the one before 0.5.
+            let (last, before) = (m.count() - 1, m.count() - 1 - m.per_segment());
+            assert!((m.single_weight(last, 7.0) / (7.0 * ALPHA / mass) - 1.0).abs() < 1e-14, "{space:?}");
+            assert!((m.single_weight(before, 7.0) / (7.0 * ALPHA / (0.25 * mass)) - 1.0).abs() < 1e-14, "{space:?}");
+        }
+    }
+
     #[test]
     fn augmentation_inverts_the_mass_matrix() {
         let m = multipliers(MultiplierSpace::P1Discontinuous);

@@ -97,6 +97,18 @@ mod tests {
         points.iter().map(|point| point.weight).sum()
     }
 
+    /// A shape function of an edge times one of a segment is quadratic on a piece, times a gap that is linear cubic.
+    #[test]
+    fn cut_quadrature_is_exact_for_cubics() {
+        let (boundary, edges) = setting(5);
+        for edges in &edges {
+            let points = quadrature_points(&boundary, edges, Quadrature::Cut);
+            let found: f64 = points.iter().map(|point| point.weight * point.parameter.powi(3)).sum();
+            assert!((found - 0.5).abs() < 1e-14, "{found}");
+            assert!(points.iter().all(|point| point.fraction > 0.0 && point.fraction < 1.0));
+        }
+    }
+
     #[test]
     fn the_weights_of_both_rules_sum_to_the_length() {
         let (boundary, edges) = setting(5);

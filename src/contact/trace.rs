@@ -21,8 +21,6 @@ pub struct Piece {
 /// A body's trace at one point of Γ_C.
 #[derive(Clone, Copy, Debug)]
 pub struct Trace {
-    /// Index of the boundary edge.
-    pub edge: usize,
     /// Fraction of the edge where the corresponding point lies.
     pub fraction: f64,
     /// Values of the edge's shape functions there.
@@ -56,7 +54,7 @@ pub fn pieces(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<Piece> 
 }
 
 /// Trace on an edge at parameter `t` of Γ_C: where the normal line meets the edge.
-pub fn trace(boundary: &ContactBoundary, edge: usize, small: &BoundaryEdge, t: f64) -> Trace {
+pub fn trace(boundary: &ContactBoundary, small: &BoundaryEdge, t: f64) -> Trace {
     let (x, normal) = (boundary.point(t), boundary.normal(t));
     let tangent = crate::geometry::turn_right(normal);
     let along: Vec<f64> = small.points.iter().map(|point| (point - x).dot(&tangent)).collect();
@@ -79,5 +77,5 @@ pub fn trace(boundary: &ContactBoundary, edge: usize, small: &BoundaryEdge, t: f
     let fraction = fraction.clamp(0.0, 1.0);
     let values = edge_shape(small.points.len(), fraction);
     let place = small.places.iter().zip(values).fold(Point::zeros(), |sum, (place, value)| sum + value * place);
-    Trace { edge, fraction, values, place }
+    Trace { fraction, values, place }
 }

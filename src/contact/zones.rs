@@ -81,3 +81,60 @@ impl Zone {
         ends.fold(f64::NEG_INFINITY, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::MultiplierSpace;
+    use crate::geometry::{Curve, Point};
+
+    /// A line of length 10 in ten segments, with the pressures 1, 2, ... on some of its multipliers.
+    fn zones(space: MultiplierSpace, active: impl Fn(usize) -> bool) -> (Vec<Zone>, Multipliers, Vec<f64>) {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [10.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&(0..=10).map(|k| k as f64 / 10.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(space, &boundary);
+        let active: Vec<bool> = (0..multipliers.count()).map(active).collect();
+        let lambda: Vec<f64> = (0..active.len()).map(|i| if active[i] { (i + 1) as f64 } else { 0.0 }).collect();
+        (Zone::all(&boundary, &multipliers, &lambda, &active), multipliers, lambda)
+    }
+
+    #[test]
+    fn zones_reach_half_way_to_each_other_and_to_the_ends() {
+        let (zones, multipliers, lambda) = zones(MultiplierSpace::P0, |k| (0..3).contains(&k) || (7..9).contains(&k));
+        let [first, second] = &zones[..] else { panic!("{zones:?}") };
+        assert_eq!((&first.segments, &second.segments), (&(0..3), &(7..9)));
+        assert_eq!([first.is_at_end, second.is_at_end], [[true, false], [false, false]]);
+        for (found, expected) in
+            [(first.arcs, [0.0, 3.0]), (first.reach, [0.0, 5.0]), (second.arcs, [7.0, 9.0]), (second.reach, [5.0, 10.0])]
+        {
+            assert!((0..2).all(|k| (found[k] - expected[k]).abs() < 1e-12), "{found:?} instead of {expected:?}");
+        }
+        let forces = [first, second].map(|zone| zone.force(&multipliers, &lambda));
+        assert!((forces[0] - 6.0).abs() < 1e-12 && (forces[1] - 17.0).abs() < 1e-12, "{forces:?}");
+        assert_eq!([first, second].map(|zone| zone.peak(&multipliers, &lambda)), [3.0, 9.0]);
+    }
+
+    #[test]
+    fn forces_and_peaks_are_those_of_all_multipliers_that_press() {
+        for (space, force, peak) in [
+            (MultiplierSpace::P1Discontinuous, 0.5 * (5.0 + 6.0 + 7.0 + 8.0), 8.0),
+            (MultiplierSpace::P1Continuous, 3.0 + 4.0, 4.0),
+        ] {
+            // Both ends of the segments from 2 to 4; nodes 2 and 3.
+            let pressed = if space == MultiplierSpace::P1Continuous { 2..4 } else { 4..8 };
+            let (zones, multipliers, lambda) = zones(space, |i| pressed.contains(&i));
+            assert_eq!(zones.len(), 1);
+            assert!((zones[0].force(&multipliers, &lambda) - force).abs() < 1e-12, "{space:?}");
+            assert_eq!(zones[0].peak(&multipliers, &lambda), peak);
+        }
+    }
+
+    #[test]
+    fn the_tenth_beside_an_end_of_the_boundary_is_left_out() {
+        let (zones, ..) = zones(MultiplierSpace::P0, |k| k < 5);
+        let inside = |arc: f64| zones[0].has_inside(arc);
+        assert_eq!([0.4, 0.6, 4.9, 5.1].map(inside), [false, true, true, false]);
+        let middle = |arc: f64| zones[0].has_in_its_middle(arc);
+        assert_eq!([0.9, 1.1, 3.9, 4.1].map(middle), [false, true, true, false]);
+    }
+}

@@ -1,7 +1,7 @@
 //! Consistent nodal forces.
 
 use super::shape::{edge_shape, edge_slope, shape};
-use super::stiffness::{BadJacobian, jacobian, quadrature};
+use super::stiffness::{BadJacobian, SIX_POINTS, jacobian};
 use crate::geometry::{Point, gauss_points, turn_right};
 
 /// Nodal forces of a traction on an element edge, `∫ N_a t ds` per unit thickness.
@@ -31,7 +31,7 @@ pub fn edge_load(points: &[Point], traction: impl Fn(Point, Point) -> Point) -> 
 /// [`BadJacobian`] where the map folds over.
 pub fn triangle_load<const N: usize>(nodes: &[Point; N], force: impl Fn(Point) -> Point) -> Result<[Point; N], BadJacobian> {
     let mut forces = [Point::zeros(); N];
-    for &(l, weight) in quadrature::<6>(false) {
+    for &(l, weight) in SIX_POINTS {
         let (_, determinant) = jacobian(nodes, l)?;
         let values = shape::<N>(l);
         let x = nodes.iter().zip(values).fold(Point::zeros(), |sum, (node, value)| sum + value * node);

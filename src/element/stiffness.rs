@@ -19,7 +19,7 @@ pub struct BadJacobian {
 }
 
 /// A quadrature rule: barycentric coordinates and weights of sum 1.
-type Rule = &'static [([f64; 3], f64)];
+pub type Rule = &'static [([f64; 3], f64)];
 
 const CENTRE: Rule = &[([1.0 / 3.0; 3], 1.0)];
 
@@ -36,7 +36,7 @@ const WA: f64 = 0.109_951_743_655_321_87;
 const WB: f64 = 0.223_381_589_678_011_47;
 
 /// Degree 4. Dunavant, International Journal for Numerical Methods in Engineering 21 (1985), 1129-1148.
-const SIX: Rule = &[
+pub const SIX_POINTS: Rule = &[
     ([1.0 - 2.0 * A, A, A], WA),
     ([A, 1.0 - 2.0 * A, A], WA),
     ([A, A, 1.0 - 2.0 * A], WA),
@@ -45,12 +45,13 @@ const SIX: Rule = &[
     ([B, B, 1.0 - 2.0 * B], WB),
 ];
 
-/// Rule for stiffness integrals of an `N`-node triangle: exact where it is straight, of degree 4 where a P2 triangle is curved.
-pub fn quadrature<const N: usize>(straight: bool) -> Rule {
+/// Rule for stiffness integrals of an `N`-node triangle: exact where it is straight, as P1 triangles always are, of degree 4
+/// where a P2 triangle is curved.
+fn stiffness_rule<const N: usize>(straight: bool) -> Rule {
     match (N, straight) {
         (3, _) => CENTRE,
         (_, true) => THREE,
-        (_, false) => SIX,
+        (_, false) => SIX_POINTS,
     }
 }
 
@@ -92,7 +93,7 @@ pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneStrain, straight
             jacobian(nodes, corner)?;
         }
     }
-    for &(l, weight) in quadrature::<N>(straight) {
+    for &(l, weight) in stiffness_rule::<N>(straight) {
         let (gradients, determinant) = jacobian(nodes, l)?;
         let (lambda, mu) = (0.5 * weight * determinant * law.lambda, 0.5 * weight * determinant * law.mu);
         for (row, a) in k.iter_mut().zip(&gradients) {
@@ -164,7 +165,7 @@ mod tests {
         let nodes = curved();
         let u = nodes.map(|x| Point::new(0.3 * x.x - 0.1 * x.y, 0.2 * x.x + 0.5 * x.y));
         let exact = LAW.stress(&Matrix2::new(0.3, -0.1, 0.2, 0.5));
-        for &(l, _) in quadrature::<6>(false) {
+        for &(l, _) in SIX_POINTS {
             let found = stress(&nodes, &u, l, &LAW).expect("a good triangle");
             assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-13));
         }
@@ -185,7 +186,7 @@ mod tests {
             let f = |n: i32| (1..=n).product::<i32>() as f64;
             2.0 * f(p) * f(q) / f(p + q + 2)
         };
-        for (rule, degree) in [(CENTRE, 1), (THREE, 2), (SIX, 4)] {
+        for (rule, degree) in [(CENTRE, 1), (THREE, 2), (SIX_POINTS, 4)] {
             for p in 0..=degree {
                 for q in 0..=degree - p {
                     let sum: f64 = rule.iter().map(|(l, w)| w * l[1].powi(p) * l[2].powi(q)).sum();

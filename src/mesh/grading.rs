@@ -166,6 +166,33 @@ mod tests {
         }
     }
 
+    /// The sides of all triangles of a level, shortest and longest.
+    fn all_sides(mesh: &MacroMesh, level: Level) -> [f64; 2] {
+        let n = level.intervals;
+        let mut found = [f64::INFINITY, 0.0];
+        for (triangle, small) in
+            (0..mesh.triangles.len()).flat_map(|triangle| lattice::triangles(n, level.order).map(move |small| (triangle, small)))
+        {
+            let [a, b, c] = small.nodes::<3>().map(|node| mesh.node_position(triangle, level, node));
+            for side in [b - a, c - b, a - c] {
+                found = [found[0].min(side.norm()), found[1].max(side.norm())];
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn the_shortest_and_the_longest_edge_are_those_of_all_triangles() {
+        for mesh in [two_blocks(), graded()] {
+            for (order, n) in [(Order::P1, 1), (Order::P1, 4), (Order::P2, 2), (Order::P2, 8)] {
+                let level = Level { intervals: n, order };
+                let found = mesh.shortest_and_longest_edge(level);
+                let all = all_sides(&mesh, level);
+                assert!((0..2).all(|k| (found[k] / all[k] - 1.0).abs() < 1e-12), "{order:?} {n}: {found:?} instead of {all:?}");
+            }
+        }
+    }
+
     #[test]
     fn a_node_is_the_weighted_mean_of_its_parents() {
         let mesh = graded();

@@ -163,3 +163,139 @@ fn morton_keys(mesh: &MacroMesh) -> Vec<u64> {
     };
     mesh.triangles.iter().map(key).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::macro_mesh::RawMesh;
+    use super::super::samples::two_blocks;
+    use super::*;
+    use std::collections::HashSet;
+    use std::path::Path;
+
+    const CELLS: usize = 8;
+
+    /// Two squares beside each other, of 8 x 8 cells each of two triangles, which stand in the file in no order.
+    fn squares() -> MacroMesh {
+        let mut raw = RawMesh::default();
+        for (body, left) in [("first", 0.0), ("second", 10.0)] {
+            let first = raw.vertices.len();
+            let at = |i: usize, j: usize| first + j * (CELLS + 1) + i;
+            for j in 0..=CELLS {
+                raw.vertices.extend((0..=CELLS).map(|i| Point::new(left + i as f64, j as f64)));
+            }
+            for cell in (0..CELLS * CELLS).map(|k| (k * 37 + 11) % (CELLS * CELLS)) {
+                let (i, j) = (cell % CELLS, cell / CELLS);
+                let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                let halves = [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]];
+                raw.triangles.extend(halves.map(|half| (half, vec![body.to_string()], 0)));
+            }
+        }
+        MacroMesh::build(raw, Path::new("squares.msh")).expect("a good mesh")
+    }
+
+    /// Neighbours of a macro triangle with their weights.
+    fn beside(graph: &Graph, triangle: u32) -> Vec<(i32, i32)> {
+        let row = graph.offsets[triangle as usize] as usize..graph.offsets[triangle as usize + 1] as usize;
+        graph.neighbours[row.clone()].iter().copied().zip(graph.weights[row].iter().copied()).collect()
+    }
+
+    fn edges<'a>(mesh: &'a MacroMesh, name: &str) -> &'a [u32] {
+        &mesh.boundary(name).expect("a boundary").edges
+    }
+
+    #[test]
+    fn triangles_that_share_an_edge_or_face_each_other_are_connected() {
+        let mesh = two_blocks();
+        let alone = Graph::new(&mesh, &[]);
+        let [lower, upper] = ["lower.seam", "upper.seam"].map(|name| edges(&mesh, name));
+        let facing = Graph::new(&mesh, &[[lower, upper]]);
+        let [below] = lower.iter().map(|&edge| mesh.beside(edge).0).collect::<Vec<_>>()[..] else { panic!("one edge below") };
+        let above: Vec<i32> = upper.iter().map(|&edge| mesh.beside(edge).0 as i32).collect();
+        assert_eq!(above.len(), 2);
+        for triangle in 0..mesh.triangles.len() as u32 {
+            let body = mesh.triangles[triangle as usize].body;
+            assert!(beside(&alone, triangle).iter().all(|(other, _)| mesh.triangles[*other as usize].body == body));
+            let mut expected = beside(&alone, triangle);
+            if triangle == below {
+                expected.extend(above.iter().map(|&other| (other, 1)));
+            }
+            if above.contains(&(triangle as i32)) {
+                expected.push((below as i32, 1));
+            }
+            expected.sort_unstable();
+            assert_eq!(beside(&facing, triangle), expected);
+        }
+        assert_eq!(alone.neighbours.len(), 2 * (1 + 3), "inner edges of both blocks, from both sides");
+        // Connected twice, they weigh twice.
+        let twice = Graph::new(&mesh, &[[lower, upper], [lower, upper]]);
+        assert!(beside(&twice, below).iter().all(|(other, weight)| *weight == if above.contains(other) { 2 } else { 1 }));
+    }
+
+    #[test]
+    fn edges_face_each_other_that_overlap_and_are_near() {
+        let mesh = two_blocks();
+        let at = |name: &str, x: f64| -> u32 {
+            let middle = |edge: u32| {
+                let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+                0.5 * (a.x + b.x)
+            };
+            *edges(&mesh, name).iter().find(|&&edge| (middle(edge) - x).abs() < 1e-12).expect("an edge")
+        };
+        let [seam, other, top] = [at("upper.seam", 0.45), at("upper.seam", 1.45), at("top", 0.45)];
+        assert!(face(&mesh, at("lower.seam", 1.0), seam) && face(&mesh, at("lower.seam", 1.0), other));
+        assert!(!face(&mesh, seam, other) && !face(&mesh, other, seam), "they touch at their ends alone");
+        assert!(!face(&mesh, seam, top), "0.9 long, and 1 apart");
+        assert!(face(&mesh, at("bottom", 1.0), seam), "1 apart, and one of them is 2 long");
+    }
+
+    /// A space-filling curve: what follows each other lies together, in quarters of quarters.
+    #[test]
+    fn triangles_of_a_rank_follow_a_curve_that_fills_one_body_after_the_other() {
+        let mesh = squares();
+        let count = mesh.triangles.len();
+        let partition = Partition::new(&mesh, &vec![0; count], 1);
+        let order = partition.triangles_of(0);
+        assert_eq!(order.iter().collect::<HashSet<_>>().len(), count);
+        let middle = |triangle: u32| {
+            let [a, b, c] = mesh.triangles[triangle as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+            (a + b + c) / 3.0
+        };
+        for (body, triangles) in order.chunks(count / 2).enumerate() {
+            assert!(triangles.iter().all(|&triangle| mesh.triangles[triangle as usize].body as usize == body));
+        }
+        // Cells of the curve are squares of the size of the whole, 18, by powers of two: fewer cells than triangles.
+        for level in 1..4 {
+            let size = 18.0 / f64::from(1 << level);
+            for body in 0..2 {
+                let mut squares: Vec<[i32; 2]> = order
+                    .iter()
+                    .filter(|&&triangle| mesh.triangles[triangle as usize].body as usize == body)
+                    .map(|&triangle| [middle(triangle).x, middle(triangle).y].map(|x| (x / size) as i32))
+                    .collect();
+                squares.dedup();
+                let different: HashSet<_> = squares.iter().collect();
+                assert_eq!(squares.len(), different.len(), "level {level}: no square is come back to");
+            }
+        }
+    }
+
+    #[test]
+    fn every_entity_belongs_to_the_rank_of_a_triangle_that_has_it() {
+        let mesh = squares();
+        let ranks: Vec<i32> = (0..mesh.triangles.len() as i32).map(|k| k / 7 % 3).collect();
+        let partition = Partition::new(&mesh, &ranks, 3);
+        let mut counts = [[0; 3]; 3];
+        for (triangle, home) in mesh.triangles.iter().zip(&partition.triangles) {
+            assert!(triangle.vertices.iter().all(|&v| partition.vertices[v as usize].rank <= home.rank), "the first that has it");
+            assert!(triangle.edges.iter().all(|&e| partition.edges[e as usize].rank <= home.rank));
+        }
+        for (kind, homes) in [&partition.vertices, &partition.edges, &partition.triangles].into_iter().enumerate() {
+            homes.iter().for_each(|home| counts[home.rank as usize][kind] += 1);
+        }
+        assert_eq!(partition.counts, counts);
+        for (triangle, &rank) in ranks.iter().enumerate() {
+            assert_eq!(partition.owner(triangle as u32), rank as usize);
+            assert!(partition.triangles_of(rank as usize).contains(&(triangle as u32)));
+        }
+    }
+}

@@ -35,20 +35,18 @@ pub struct ContactPoint {
     pub sigma_2: f64,
 }
 
-/// Writes `contact_NAME.csv`: [`SIGNS`] and `comments` as lines that start with `# `, the names of the columns, one line per point.
+/// Writes `contact_NAME.csv`: [`SIGNS`] as lines that start with `# `, the names of the columns, one line per point.
 ///
 /// Numbers are the shortest that read back as the same double.
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn write_contact(path: &Path, comments: &[&str], points: &[ContactPoint]) -> Result<(), OutputError> {
-    File::create(path)
-        .and_then(|file| write_table(BufWriter::new(file), comments, points))
-        .map_err(OutputError::io("write", path))
+pub fn write_contact(path: &Path, points: &[ContactPoint]) -> Result<(), OutputError> {
+    File::create(path).and_then(|file| write_table(BufWriter::new(file), points)).map_err(OutputError::io("write", path))
 }
 
-fn write_table(mut out: impl Write, comments: &[&str], points: &[ContactPoint]) -> std::io::Result<()> {
-    for line in SIGNS.iter().chain(comments) {
+fn write_table(mut out: impl Write, points: &[ContactPoint]) -> std::io::Result<()> {
+    for line in SIGNS.iter() {
         writeln!(out, "# {line}")?;
     }
     writeln!(out, "s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2")?;
@@ -79,7 +77,7 @@ mod tests {
             sigma_2: -1.5e-9,
         };
         let mut text = Vec::new();
-        write_table(&mut text, &["case: bars"], &[point, point]).unwrap();
+        write_table(&mut text, &[point, point]).unwrap();
         let text = String::from_utf8(text).unwrap();
         let mut lines = text.lines().skip_while(|line| line.starts_with("# "));
         assert_eq!(lines.next(), Some("s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2"));
@@ -87,13 +85,13 @@ mod tests {
         let p = point;
         assert_eq!(row, [p.s, p.x, p.y, p.nx, p.ny, p.lambda, p.gap, p.un_1, p.un_2, p.sigma_1, p.sigma_2]);
         assert_eq!(lines.count(), 1);
-        assert!(text.contains("\n# case: bars\n") && text.lines().all(|line| line.len() < 260));
+        assert!(text.lines().all(|line| line.len() < 260));
     }
 
     #[test]
     fn signs_are_stated_before_the_table() {
         let mut text = Vec::new();
-        write_table(&mut text, &[], &[]).unwrap();
+        write_table(&mut text, &[]).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert!(SIGNS.iter().all(|sign| text.contains(&format!("# {sign}\n"))));
         assert_eq!(text.lines().count(), SIGNS.len() + 1);

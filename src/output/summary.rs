@@ -54,7 +54,8 @@ pub struct Summary {
     pub time_s: Time,
     /// Memory in MiB.
     pub memory_mib: Memory,
-    /// Relative errors against exact or reference values: `energy`, `force_CONTACT`, `lambda_CONTACT`, `displacement_BODY`, `energy_norm_BODY`.
+    /// Relative errors against exact or reference values: `energy`, `force_CONTACT`, `lambda_CONTACT`, `displacement_BODY`, `energy_norm_BODY`,
+    /// `u_BODY`.
     pub errors: BTreeMap<String, Option<f64>>,
 }
 
@@ -159,9 +160,9 @@ pub struct Contact {
     pub ends: Option<[[f64; 2]; 2]>,
     /// Intervals of arc length in contact.
     pub closed: Option<Vec<[f64; 2]>>,
-    /// Edges of the softer body on the one that holds most.
+    /// Number of edges of the softer body on that interval of `closed` that has most of them.
     pub closed_edges: Option<f64>,
-    /// Their ends in the plane.
+    /// The ends of the intervals of `closed` as points in the plane.
     pub closed_points: Option<Vec<[[f64; 2]; 2]>>,
     /// ∫ λ ds (force per thickness).
     pub force: Option<f64>,

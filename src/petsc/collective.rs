@@ -56,12 +56,6 @@ impl Session {
         self.world().all_reduce_into(&own[..], values, SystemOperation::max());
     }
 
-    /// Replaces each value by its minimum over the ranks. **Collective**
-    pub fn min(&self, values: &mut [f64]) {
-        let own = values.to_vec();
-        self.world().all_reduce_into(&own[..], values, SystemOperation::min());
-    }
-
     /// Whether any rank says so. **Collective**
     pub fn any(&self, here: bool) -> bool {
         let mut anywhere = 0_i32;

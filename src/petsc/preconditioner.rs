@@ -50,12 +50,6 @@ impl Preconditioner {
         petsc!(PCSetUp(self.raw))
     }
 
-    /// Keeps what has been prepared although the operators have changed, or not. **Collective**
-    pub fn set_reuse(&self, reuse: bool) -> Result<()> {
-        let flag = if reuse { ffi::PetscBool::PETSC_TRUE } else { ffi::PetscBool::PETSC_FALSE };
-        petsc!(PCSetReusePreconditioner(self.raw, flag))
-    }
-
     /// What its options begin with after the minus; may be empty.
     pub fn prefix(&self) -> String {
         let mut prefix = ptr::null();

@@ -90,14 +90,9 @@ pub fn facets(found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Vec<Fac
     let Evaluation { problem, session, u, .. } = found;
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
-    let mut shown = n;
-    while shown > 1 && mesh.triangles.len() * shown * shown > MOST_FACETS {
-        shown /= 2;
-    }
+    let (shown, skip) = shown(mesh.triangles.len(), n);
     let step = n / shown;
     let mut values: Vec<f64> = Vec::new();
-    // A mesh that is fine before refinement is shown in part.
-    let skip = mesh.triangles.len().div_ceil(MOST_FACETS).max(1);
     for &triangle in
         problem.scene.partition.triangles_of(session.rank()).iter().filter(|&&triangle| (triangle as usize).is_multiple_of(skip))
     {
@@ -119,4 +114,34 @@ pub fn facets(found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Vec<Fac
         von_mises: [v[4], v[9], v[14]],
     };
     session.gather_all(&values).chunks_exact(15).map(facet).collect()
+}
+
+/// Intervals of a macro edge that the figure shows, of `n`, and of how many macro triangles it shows one: a mesh that is fine
+/// before refinement is shown in part.
+fn shown(macro_triangles: usize, n: usize) -> (usize, usize) {
+    let mut shown = n;
+    while shown > 1 && macro_triangles * shown * shown > MOST_FACETS {
+        shown /= 2;
+    }
+    (shown, macro_triangles.div_ceil(MOST_FACETS).max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_figure_has_as_many_facets_as_it_may() {
+        assert_eq!(shown(50, 8), (8, 1), "all of a small mesh");
+        for macro_triangles in [1, 50, 83, 5_000, 19_999, 20_000, 20_001, 40_000, 40_001, 1_000_000] {
+            for n in [1, 2, 16, 64] {
+                let (shown, skip) = shown(macro_triangles, n);
+                let facets = |shown: usize, skip: usize| macro_triangles.div_ceil(skip) * shown * shown;
+                let words = format!("{macro_triangles} macro triangles, {n} intervals: {shown} shown of every {skip}th");
+                assert!(n.is_multiple_of(shown) && facets(shown, skip) <= MOST_FACETS, "{words}");
+                assert!(shown == n || facets(2 * shown, skip) > MOST_FACETS, "{words}: more would do");
+                assert!(skip == 1 || facets(shown, skip - 1) > MOST_FACETS, "{words}: more would do");
+            }
+        }
+    }
 }

@@ -164,10 +164,7 @@ impl Run<'_> {
             return Ok(());
         }
         let stress = found.stress()?;
-        let at = |node: usize| {
-            let [xx, yy, xy, zz, _] = stress.at(node);
-            [xx, yy, xy, zz]
-        };
+        let at = |node: usize| stress.at(node);
         session.agree(fields::write(folder, found, at)).map_err(RunError::Failed)?;
         let facets = fields::facets(found, at);
         if session.rank() != 0 {
@@ -181,7 +178,7 @@ impl Run<'_> {
             plot::write_displacement(&folder.join(format!("displacement_{name}.svg")), title, points)?;
         }
         let lines: Vec<&[ContactPoint]> = traces.iter().map(Vec::as_slice).collect();
-        plot::write_deformed(&folder.join("deformed.svg"), title, None, &facets, &lines)?;
+        plot::write_deformed(&folder.join("deformed.svg"), title, &facets, &lines)?;
         Ok(())
     }
 }
@@ -189,7 +186,7 @@ impl Run<'_> {
 /// Writes the table along each contact boundary.
 fn write_tables(folder: &Path, contacts: &[Contact], traces: &[Vec<ContactPoint>]) -> Result<(), OutputError> {
     let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
-    contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), &[], points))
+    contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), points))
 }
 
 /// Writes what tells a whole result, and puts the folder in its place.

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::output::ContactPoint;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Evaluation, TracePoint};
+use crate::system::recovery::{Deformation, Evaluation, TracePoint};
 use crate::system::{Contact, Solved};
 
 /// Growth by less than this share of the displacements is rounding.
@@ -152,13 +152,12 @@ pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usiz
     contact.slip_error = found.and_then(|found| found.slip_error);
     contact.rotation_error = match found {
         Some(found) => Some(found.rotation_error),
-        None => growth_by_gap(evaluation, at, points),
+        None => growth_by_gap(evaluation.problem.contacts[at].bodies.map(|body| &evaluation.deformations[body]), points),
     };
 }
 
 /// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.
-fn growth_by_gap(Evaluation { problem, deformations, .. }: &Evaluation, at: usize, points: &[ContactPoint]) -> Option<f64> {
-    let bodies = problem.contacts[at].bodies.map(|body| &deformations[body]);
+fn growth_by_gap(bodies: [&Deformation; 2], points: &[ContactPoint]) -> Option<f64> {
     let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
     let moved = points.iter().map(|point| point.un_1.abs().max(point.un_2.abs())).fold(0.0, f64::max);
     let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
@@ -181,4 +180,23 @@ fn closed_edges(contact: &Contact, closed: &[[f64; 2]]) -> Option<f64> {
     let on =
         |&[from, to]: &[f64; 2]| (0..contact.edge_lengths.len()).filter(|&k| arcs[k] >= from && arcs[k] < to).map(edges).sum();
     closed.iter().map(on).reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_that_turn_grow_by_half_the_square_of_the_angle() {
+        let turned = |rotation: f64| {
+            let (place, middle) = (Point::zeros(), Point::zeros());
+            Deformation { strain: 0.0, place, rotation, growth: 0.0, middle, radius: 3.0 }
+        };
+        let point = |gap: f64| ContactPoint { gap, un_1: 1e-4, un_2: -2e-4, ..ContactPoint::default() };
+        let points = [point(0.02), point(0.01), point(f64::NAN)];
+        let found = growth_by_gap([&turned(0.01), &turned(-0.02)], &points).expect("growth");
+        assert!((found / (1.5 * (0.01f64.powi(2) + 0.02f64.powi(2)) / 0.01) - 1.0).abs() < 1e-12, "{found}");
+        assert_eq!(growth_by_gap([&turned(1e-6), &turned(0.0)], &points), None, "rounding beside the displacements");
+        assert_eq!(growth_by_gap([&turned(0.1), &turned(0.0)], &[]), None, "no gap");
+    }
 }

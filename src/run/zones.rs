@@ -134,3 +134,26 @@ pub fn contact_estimate(force: Option<f64>, zones: &[summary::Zone]) -> summary:
         peak: highest.and_then(|zone| zone.peak),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_contact_has_the_error_of_its_worst_zone_and_the_peak_of_its_highest() {
+        let zone = |pressure_max, share, lambda, peak| summary::Zone {
+            pressure_max: Some(pressure_max),
+            share: Some(share),
+            lambda,
+            peak: Some(peak),
+            ..summary::Zone::default()
+        };
+        let all = [zone(1.0, 0.3, Some(0.02), 0.1), zone(3.0, 0.4, Some(0.05), 0.2), zone(2.0, 0.3, Some(0.03), 0.3)];
+        let found = contact_estimate(Some(0.01), &all);
+        assert_eq!((found.force, found.lambda, found.peak), (Some(0.01), Some(0.05), Some(0.2)));
+        // What nobody would look at says nothing; what cannot be told of one zone is not of the contact.
+        let faint = zone(0.01, 1e-3, Some(0.9), 0.9);
+        assert_eq!(contact_estimate(None, &[all[0].clone(), faint]).lambda, Some(0.02));
+        assert_eq!(contact_estimate(None, &[all[0].clone(), zone(1.0, 0.5, None, 0.1)]).lambda, None);
+    }
+}

@@ -152,11 +152,6 @@ impl Contact {
         shortest / self.segment_ratio
     }
 
-    /// Whether the whole of it is shorter than an edge: no figure of its pressure means anything then.
-    pub fn is_smaller_than_an_edge(&self) -> bool {
-        self.boundary.length() < self.edge_length()
-    }
-
     /// Numbers of its multipliers.
     pub fn range(&self) -> std::ops::Range<usize> {
         self.first..self.first + self.multipliers.count()

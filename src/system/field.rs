@@ -47,6 +47,12 @@ impl<const K: usize> Field<K> {
         &self.own
     }
 
+    /// Other values, each of those at the same node.
+    pub fn map<const M: usize>(&self, f: impl Fn([f64; K]) -> [f64; M]) -> Field<M> {
+        let others = self.others.iter().map(|(&node, &values)| (node, f(values))).collect();
+        Field { first: self.first, own: self.own.iter().map(|&values| f(values)).collect(), others }
+    }
+
     /// Adds up what all ranks have gathered at each node, and shares the sums. **Collective**
     pub fn sum(mut self, session: &Session) -> Result<Self, SystemError> {
         let mut sums = Vector::new(session, K * self.own.len())?;

@@ -18,7 +18,7 @@ use mezha::geometry::Point;
 use mezha::mesh::parse_gmsh;
 use mezha::petsc::{Matrix, Session, Vector};
 use mezha::system::{
-    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Preconditioning, SaddlePoint, SolverChoice, System,
+    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Preconditioning, SaddlePoint, SolverChoice, Start, System,
     interpolations, load, nodal_forces,
 };
 use std::collections::BTreeMap;
@@ -32,6 +32,8 @@ fn main() -> std::process::ExitCode {
             every_level_is_the_galerkin_product_of_the_next,
             the_solution_does_not_know_the_sets_before,
             a_plain_system_has_the_solution_of_the_augmented_one,
+            the_plain_residual_is_that_of_the_system_without_augmentation,
+            multipliers_live_where_body_one_does,
         ],
         outside: &[],
         scenarios: &[],
@@ -156,6 +158,22 @@ impl<'a> Definition<'a> {
         }
     }
 
+    /// `c - B u_D` of all multipliers.
+    fn gap(&self) -> Vec<f64> {
+        let (problem, space) = (self.problem, self.problem.finest());
+        let moved = |row: &Vec<Coupled>| -> f64 {
+            let number = |entry: &Coupled| entry.node.number(&problem.scene.mesh, &space.numbering);
+            row.iter().map(|entry| entry.value.dot(&space.prescribed(number(entry)))).sum()
+        };
+        problem.coupling.gap.iter().zip(&problem.coupling.rows).map(|(c, row)| c - moved(row)).collect()
+    }
+
+    /// `f`, with what prescribed displacements add.
+    fn load(&self) -> Vec<f64> {
+        let load = load(self.problem, &nodal_forces(self.problem, self.session).expect("loads"));
+        Elastic::alone(self.problem, load, Form::Plain, self.session).expect("a stiffness").load
+    }
+
     /// Multipliers of this rank.
     fn own(&self) -> Vec<usize> {
         let owners = &self.problem.coupling.owners;
@@ -229,16 +247,10 @@ fn blocks_and_right_hand_side_are_those_of_the_set(session: &Session) {
 
 /// `f + Bᵀ D c`, and `s c` on active multipliers; what prescribed displacements add is that of the first set, without contact.
 fn check_right_hand_side(definition: &Definition, system: &System, active: &[bool]) {
-    let (problem, session) = (definition.problem, definition.session);
-    let space = problem.finest();
-    let moved = |row: &Vec<Coupled>| -> f64 {
-        let number = |entry: &Coupled| entry.node.number(&problem.scene.mesh, &space.numbering);
-        row.iter().map(|entry| entry.value.dot(&space.prescribed(number(entry)))).sum()
-    };
-    let gap: Vec<f64> = problem.coupling.gap.iter().zip(&problem.coupling.rows).map(|(c, row)| c - moved(row)).collect();
+    let session = definition.session;
+    let gap = definition.gap();
     let closed: Vec<f64> = gap.iter().zip(active).map(|(c, active)| if *active { *c } else { 0.0 }).collect();
-    let load = load(problem, &nodal_forces(problem, session).expect("loads"));
-    let mut expected = Elastic::alone(problem, load, Form::Plain, session).expect("a stiffness").load;
+    let mut expected = definition.load();
     definition.add_transposed(active, &definition.weigh(active, &closed), &mut expected);
     let b = system.right_hand_side().expect("a right-hand side").values().to_vec();
     let unknowns = expected.len();
@@ -263,12 +275,12 @@ fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
                 x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = erratic(first + at, 0.3));
                 // What is prescribed on the coarse level moves nothing on the fine one.
                 interpolation.multiply(&x, &mut fine).expect("a product");
-                let mut restricted = x.duplicate().expect("a vector");
-                interpolation.multiply_transpose(&fine, &mut restricted).expect("a product");
+                let mut reached = x.duplicate().expect("a vector");
+                interpolation.multiply_transpose(&fine, &mut reached).expect("a product");
                 x.values_mut()
                     .iter_mut()
-                    .zip(restricted.values().iter())
-                    .filter(|(_, restricted)| **restricted == 0.0)
+                    .zip(reached.values().iter())
+                    .filter(|(_, reached)| **reached == 0.0)
                     .for_each(|(v, _)| *v = 0.0);
                 let (mut product, mut coarse, mut found) =
                     (fine.duplicate().expect("a vector"), x.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
@@ -319,4 +331,60 @@ fn a_plain_system_has_the_solution_of_the_augmented_one(session: &Session) {
         });
         assert!(apart(session, &a.0, &b.0) < 1e-7 && apart(session, &a.1, &b.1) < 1e-8);
     }
+}
+
+/// For unknowns that solve nothing: `f - K u - Bᵀ λ`, and `s (c - B u + C λ)` on active multipliers, by `|b|` of the system.
+fn the_plain_residual_is_that_of_the_system_without_augmentation(session: &Session) {
+    for problem in &problems(session)[1..4] {
+        let definition = Definition::new(problem, session);
+        let (mut system, _) = system(problem, SolverChoice::FieldSplit, session);
+        let space = problem.finest();
+        let (count, first) = (problem.multiplier_count(), 2 * space.own.start);
+        let mut u = Vector::new(session, space.local_unknowns()).expect("a vector");
+        u.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = 1e-3 * erratic(first + at, 0.3));
+        for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
+            (0..2).filter(|&k| constraint.fixed[k]).for_each(|k| u.values_mut()[2 * node - first + k] = 0.0);
+        }
+        for active in &sets(count)[..3] {
+            let lambda: Vec<f64> = (0..count).map(|i| if active[i] { erratic(i, 0.7) } else { 0.0 }).collect();
+            let start = Start { displacement: u.values().to_vec(), pressures: lambda.clone(), active: active.clone() };
+            system.begin(&start).expect("a start");
+            let (gap, mut upper) = (definition.gap(), definition.load());
+            let mut product = u.duplicate().expect("a vector");
+            definition.stiffness.multiply(&u, &mut product).expect("a product");
+            upper.iter_mut().zip(product.values().iter()).for_each(|(f, k)| *f -= k);
+            let pulled: Vec<f64> = lambda.iter().map(|v| -v).collect();
+            definition.add_transposed(active, &pulled, &mut upper);
+            let coupled = definition.couple(&u.values());
+            let jumps = jump_matrix(problem.jumps(), count);
+            let jumped = |i: usize| -> f64 { jumps[i].iter().map(|(&j, c)| c * lambda[j]).sum() };
+            let lower = definition.own().into_iter().filter(|&i| active[i]);
+            let lower = lower.map(|i| definition.scale[i] * (gap[i] - coupled[i] + jumped(i)));
+            let mut square = [upper.into_iter().chain(lower).map(|v| v * v).sum::<f64>()];
+            session.sum(&mut square);
+            let expected = square[0].sqrt() / system.right_hand_side().expect("a right-hand side").norm().expect("a norm");
+            let found = system.plain_residual().expect("a residual");
+            assert!((found / expected - 1.0).abs() < 1e-10, "{found} instead of {expected}");
+        }
+    }
+}
+
+/// The rank that owns a multiplier owns a macro triangle of body 1 that holds the middle of its segment.
+fn multipliers_live_where_body_one_does(session: &Session) {
+    let mut elsewhere = 0;
+    for problem in problems(session) {
+        let (mesh, partition) = (&problem.scene.mesh, &problem.scene.partition);
+        let contact = &problem.contacts[0];
+        let knots = contact.boundary.knots();
+        assert_eq!(problem.coupling.owners.len(), contact.multipliers.count());
+        for (i, &owner) in problem.coupling.owners.iter().enumerate() {
+            let k = contact.multipliers.segment_of(i);
+            let middle = contact.boundary.point(0.5 * (knots[k] + knots[k + 1]));
+            let holds = |t: &usize| mesh.triangles[*t].body as usize == contact.bodies[0] && mesh.locate(*t, middle).is_some();
+            let mut ranks = (0..mesh.triangles.len()).filter(holds).map(|t| partition.owner(t as u32));
+            assert!(ranks.any(|rank| rank == owner), "multiplier {i} belongs to rank {owner}");
+            elsewhere += usize::from(owner > 0);
+        }
+    }
+    assert!(session.size() == 1 || elsewhere > 0, "all multipliers belong to the first rank");
 }

@@ -36,21 +36,14 @@ const BAR_ROOM: i32 = 120;
 
 /// Draws `deformed.svg`: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact boundaries.
 ///
-/// Displacements are multiplied by `scale`; without one, by a round number that makes the largest about 5 % of the size of the bodies.
-/// The title states the factor. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements,
+/// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements,
 /// along themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small.
 ///
 /// # Errors
 /// There is no facet, or a number is not finite; the operating system refuses.
-pub fn write_deformed(
-    path: &Path,
-    title: &str,
-    scale: Option<f64>,
-    facets: &[Facet],
-    contacts: &[&[ContactPoint]],
-) -> Result<(), OutputError> {
+pub fn write_deformed(path: &Path, title: &str, facets: &[Facet], contacts: &[&[ContactPoint]]) -> Result<(), OutputError> {
     check_facets(path, facets)?;
-    let scale = scale.unwrap_or_else(|| automatic_scale(facets));
+    let scale = automatic_scale(facets);
     let view = View::around(facets, scale);
     let colours = Colours::of(facets);
     let boundary = boundary_edges(facets);
@@ -320,26 +313,25 @@ mod tests {
         facets
     }
 
-    fn draw(scale: Option<f64>, facets: &[Facet]) -> Result<String, OutputError> {
+    fn draw(facets: &[Facet]) -> Result<String, OutputError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deformed.svg");
         let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
-        write_deformed(&path, "blocks", scale, facets, &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
+        write_deformed(&path, "blocks", facets, &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
     }
 
     #[test]
     fn scale_is_round_and_stated() {
         let facets = block(0.0, 4, |x, _| [3e-5 * x, 0.0], |x, _| x);
         assert_eq!(automatic_scale(&facets), 2000.0);
-        assert!(draw(None, &facets).unwrap().contains("blocks, displacements × 2000"));
-        assert!(draw(Some(0.5), &facets).unwrap().contains("blocks, displacements × 0.5"));
+        assert!(draw(&facets).unwrap().contains("blocks, displacements × 2000"));
         assert_eq!(automatic_scale(&block(0.0, 1, |_, _| [0.0, 0.0], |_, _| 0.0)), 1.0);
     }
 
     #[test]
     fn twenty_thousand_facets_make_a_small_file() {
         let facets = block(0.0, 100, |x, y| [1e-4 * y, 2e-4 * x * y], |x, y| 1.0 + (7.0 * x).sin() * (9.0 * y).cos());
-        let figure = draw(None, &facets).unwrap();
+        let figure = draw(&facets).unwrap();
         assert!(figure.len() < 300_000, "{} bytes", figure.len());
     }
 
@@ -378,9 +370,9 @@ mod tests {
     fn peaks_of_stress_take_the_last_colour() {
         let mut facets = block(0.0, 20, |_, _| [0.0, 0.0], |_, _| 2.0);
         facets[0].von_mises = [100.0; 3];
-        assert!(draw(None, &facets).unwrap().contains("stress up to 100"));
+        assert!(draw(&facets).unwrap().contains("stress up to 100"));
         facets[0].von_mises[1] = f64::NAN;
-        assert!(matches!(draw(None, &facets), Err(OutputError::Figure { .. })));
-        assert!(matches!(draw(None, &[]), Err(OutputError::Figure { .. })));
+        assert!(matches!(draw(&facets), Err(OutputError::Figure { .. })));
+        assert!(matches!(draw(&[]), Err(OutputError::Figure { .. })));
     }
 }

@@ -78,6 +78,23 @@ fn corners_are_doubted_by_what_they_do() {
 }
 
 #[test]
+fn bodies_are_doubted_that_are_strained_by_more_than_a_fifth() {
+    let told = |strain| {
+        let strain_max = [("block".to_string(), Some(strain))].into();
+        strain_doubts(&Summary { strain_max, ..Summary::default() }).into_iter().map(|doubt| doubt.figure).collect::<String>()
+    };
+    assert_eq!(told(0.19), "");
+    assert!(told(0.21).starts_with("body block strained by 21 %"), "{}", told(0.21));
+}
+
+#[test]
+fn the_force_of_a_zone_is_doubted_unless_the_zone_is_small_beside_the_others() {
+    let with = |share| words(|zone| (zone.force, zone.share) = (Some(0.2), Some(share)));
+    assert!(with(0.06).contains("of the force 0.20"), "{}", with(0.06));
+    assert_eq!(with(0.04), "");
+}
+
+#[test]
 fn every_zone_that_counts_is_judged() {
     let narrow = Zone { ends: Some([0.6, 0.62]), edges: Some(0.9), share: Some(0.05), ..zone() };
     assert!(words_of(vec![zone(), narrow.clone()], 0.0).contains("contact at s = 0.60 to 0.62 0.9 edges wide"));

@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// Sum of the squares of a component's values at finer nodes up to which none of these feels it.
+/// A component of a coarse node is left out if the squares of its values at all finer nodes add up to no more than this.
 const NOTHING: f64 = 1e-8;
 
 /// The axes of most nodes.
@@ -89,7 +89,8 @@ impl Step {
         step
     }
 
-    /// Coarse unknowns that a component of a finer node feels, and how much: value times cosine.
+    /// Coarse unknowns that move a component of a finer node, each with its weight: the function's value there, times the cosine
+    /// between the two directions.
     pub fn row(&self, node: usize, axis: Point) -> impl Iterator<Item = (usize, f64)> {
         self.values(node).iter().flat_map(move |&(number, value)| {
             let components = self.coarse.all[number as usize].components();
@@ -103,14 +104,14 @@ impl Step {
         &self.entries[self.offsets[node]..self.offsets[node + 1]]
     }
 
-    /// Numbers the components that something moves with. All are kept that do, however little of a function lies in its
-    /// body: without them linear functions would fail at the boundary.
+    /// Numbers the components of the coarse nodes that move some unknown of the finer level. A function of which only a small
+    /// part lies in its body is kept, too: without it the level would not contain linear motions up to the boundary.
     fn number(&mut self, fine: &Nodes) {
-        let mut moved = vec![[0.0; 2]; self.coarse.all.len()];
+        let mut squares = vec![[0.0; 2]; self.coarse.all.len()];
         for (at, node) in fine.all.iter().enumerate() {
             for (_, axis) in node.components() {
                 for &(number, value) in self.values(at) {
-                    let [x, y] = &mut moved[number as usize];
+                    let [x, y] = &mut squares[number as usize];
                     (*x, *y) = (*x + (value * axis.x).powi(2), *y + (value * axis.y).powi(2));
                 }
             }
@@ -118,8 +119,8 @@ impl Step {
         let mut next = 0;
         let Nodes { all, first, unknowns } = &mut self.coarse;
         for ends in first.windows(2) {
-            for (node, moved) in all[ends[0]..ends[1]].iter_mut().zip(&moved[ends[0]..ends[1]]) {
-                for k in (0..2).filter(|&k| moved[k] > NOTHING) {
+            for (node, squares) in all[ends[0]..ends[1]].iter_mut().zip(&squares[ends[0]..ends[1]]) {
+                for k in (0..2).filter(|&k| squares[k] > NOTHING) {
                     node.unknowns[k] = Some(next);
                     next += 1;
                 }
@@ -195,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn unknowns_are_numbered_through_by_rank_and_all_are_felt() {
+    fn unknowns_are_numbered_through_by_rank_and_all_move_something() {
         for (fine, step) in steps() {
             let numbers: Vec<usize> =
                 step.coarse.all.iter().flat_map(|node| node.components().map(|(unknown, _)| unknown)).collect();

@@ -2,8 +2,8 @@
 
 use crate::petsc::{Matrix, Result};
 
-/// Added to the diagonal, relative to it: functions that lie outside of their body but for one and the same node are
-/// multiples of each other, and would leave a factor without a pivot.
+/// Added to the diagonal, relative to it. Two functions that reach the same single node of their body, and no other, are
+/// multiples of each other: without the shift the operator would be singular, and a factor of it would meet a zero pivot.
 const SHIFT: f64 = 1e-9;
 
 /// Galerkin products `Pᵀ A P`, each of the next finer one, the finest of the coarsest operator that is assembled. So contact

@@ -227,7 +227,7 @@ impl Tree {
 
     /// Splits until every cell that is split touches cells of its own size, at least.
     fn balance(&mut self) {
-        // The children of cells that are split on the way come last, and tell of them then.
+        // A cell that is split on the way gets its children at the end of the list, where this loop comes to them later.
         let mut first = (self.roots.count[0] * self.roots.count[1]) as usize;
         while first < self.cells.len() {
             let split = self.cells[first].parent();

@@ -103,9 +103,12 @@ struct Work {
 }
 
 impl Work {
-    /// `U + z·(f - Ku - Bᵀλ) + μ·(c - Bu)`, whose first variation vanishes if `Kz + Bᵀμ = Ku` on free components, `Bz = 0`, and
-    /// `z = 0` at supports: `z = u`, `μ = 0` where loads alone do work, `z = 0`, `μ = -λ` where there are none. The values are
-    /// minus the Lagrangian, and the Lagrangian. With both, `z` would be the answer to the loads alone: another solve.
+    /// The strain energy with an error that is quadratic in that of the solution: `U + z·(f - Ku - Bᵀλ) + μ·(c - Bu)`. Its first
+    /// variation vanishes if `Kz + Bᵀμ = Ku` on free components, `Bz = 0`, and `z = 0` at supports.
+    ///
+    /// - Where loads alone do work, that is `z = u`, `μ = 0`, and the value is minus the Lagrangian.
+    /// - Where prescribed displacements and gaps alone do work, it is `z = 0`, `μ = -λ`, and the value is the Lagrangian.
+    /// - Where both do, `z` is the solution under the loads alone. It would take another solve: nothing.
     fn stationary(&self, strain: f64, lambda_gap: f64, gaps: bool) -> Option<f64> {
         let [loaded, moved] = self.given.map(|sum| sum > 0.0);
         match (loaded, moved || gaps) {
@@ -119,8 +122,31 @@ impl Work {
 /// Sums over all nodes.
 struct Sums {
     work: Work,
-    /// For each body: load, reaction, sums of their magnitudes.
-    bodies: Vec<[f64; 6]>,
+    /// Loads and reactions of each body.
+    bodies: Vec<ForceSum>,
+}
+
+/// Forces added up.
+#[derive(Clone, Copy, Default)]
+struct ForceSum {
+    /// Their sum.
+    force: Point,
+    /// The sum of their magnitudes.
+    magnitudes: f64,
+}
+
+impl ForceSum {
+    fn add(&mut self, force: Point) {
+        self.force += force;
+        self.magnitudes += force.norm();
+    }
+
+    /// Adds up those of all ranks. **Collective**
+    fn of_all_ranks(own: &[Self], session: &Session) -> Vec<Self> {
+        let mut sums: Vec<f64> = own.iter().flat_map(|sum| [sum.force.x, sum.force.y, sum.magnitudes]).collect();
+        session.sum(&mut sums);
+        sums.chunks_exact(3).map(|sum| Self { force: Point::new(sum[0], sum[1]), magnitudes: sum[2] }).collect()
+    }
 }
 
 /// Work and resultants of loads, supports and contact, of the forces `internal` `= Ku`. **Collective**
@@ -135,7 +161,7 @@ fn sum_over_nodes(
     let applied = nodal_forces(problem, session)?;
     let pressed = contact_forces(problem, solution);
     let body_of = body_of_nodes(problem, session.rank());
-    let mut bodies = vec![[0.0; 6]; problem.scene.bodies.len()];
+    let mut bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
     let mut work = Work::default();
     for (at, node) in space.own.clone().enumerate() {
         let [f, k] = [applied.own()[at], internal.own()[at]].map(|[x, y]| Point::new(x, y));
@@ -147,7 +173,7 @@ fn sum_over_nodes(
         let residual = f - k - push;
         let Some(constraint) = space.constraints.get(node) else {
             work.unbalanced += residual.dot(&u);
-            add_total(&mut bodies[body_of[at]], f, Point::zeros());
+            bodies[body_of[at]].add(f);
             continue;
         };
         let [residual, u] = [residual, u].map(|v| constraint.to_frame(v));
@@ -157,37 +183,28 @@ fn sum_over_nodes(
         work.supports += reaction.dot(&prescribed);
         work.missed += reaction.dot(&(u - prescribed));
         work.given[1] += prescribed.norm();
-        add_total(&mut bodies[body_of[at]], f, constraint.to_global(reaction));
+        bodies[body_of[at]].add(f);
+        bodies[body_of[at]].add(constraint.to_global(reaction));
     }
     let mut sums = [work.loads, work.supports, work.contact, work.unbalanced, work.missed, work.given[0], work.given[1]];
     session.sum(&mut sums);
     let [loads, supports, contact, unbalanced, missed, ref given @ ..] = sums;
-    session.sum(bodies.as_flattened_mut());
+    let bodies = ForceSum::of_all_ranks(&bodies, session);
     Ok(Sums { work: Work { loads, supports, contact, unbalanced, missed, given: *given }, bodies })
 }
 
-fn add_total(total: &mut [f64; 6], load: Point, reaction: Point) {
-    for (k, v) in [load.x, load.y, reaction.x, reaction.y].into_iter().enumerate() {
-        total[k] += v;
-    }
-    total[4] += load.norm();
-    total[5] += reaction.norm();
-}
-
 /// Largest sum of loads, reactions and contact forces on a body, over the sum of their magnitudes.
-fn body_balance(contacts: &[Contact], forces: &[ContactForce], totals: &[[f64; 6]]) -> Option<f64> {
-    let ratio = |(body, total): (usize, &[f64; 6])| {
-        let mut sum = Point::new(total[0] + total[2], total[1] + total[3]);
-        let mut size = total[4] + total[5];
+fn body_balance(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum]) -> Option<f64> {
+    let ratio = |(body, &outer): (usize, &ForceSum)| {
+        let mut all = outer;
         for (contact, force) in contacts.iter().zip(forces) {
             for k in (0..2).filter(|&k| contact.bodies[k] == body) {
-                sum += force.resultants[k];
-                size += force.resultants[k].norm();
+                all.add(force.resultants[k]);
             }
         }
-        sum.norm() / size
+        all.force.norm() / all.magnitudes
     };
-    totals.iter().enumerate().map(ratio).filter(|v| v.is_finite()).reduce(f64::max)
+    outer.iter().enumerate().map(ratio).filter(|v| v.is_finite()).reduce(f64::max)
 }
 
 /// Strain energy of each body. **Collective**

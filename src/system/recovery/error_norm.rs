@@ -2,14 +2,11 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::element::{Order, PlaneStrain, jacobian, shape, stress};
+use crate::element::{Order, PlaneStrain, SIX_POINTS, jacobian, shape, stress};
 use crate::geometry::{Formula, Point};
 use crate::mesh::lattice;
 use crate::petsc::Session;
 use crate::system::{Discretisation, Field, SystemError};
-
-/// Quadrature of degree 4 on the triangle, also for P1: the exact stress is no polynomial.
-const STRAIGHT: bool = false;
 
 /// Integrals over one body (`∫(σ_h - σ):C⁻¹(σ_h - σ)`, `∫σ:C⁻¹σ`) of the computed stress against formulas
 /// `xx, yy, xy` of `x, y`. Summed over bodies, the root of their ratio is the relative energy-norm error. **Collective**
@@ -50,7 +47,8 @@ fn add<const N: usize>(
     for small in lattice::triangles(level.intervals, level.order) {
         let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
         let u = nodal::<N>(problem, u, triangle, &small);
-        for &(l, weight) in crate::element::quadrature::<6>(STRAIGHT) {
+        // Also for P1: the exact stress is no polynomial.
+        for &(l, weight) in SIX_POINTS {
             let (_, determinant) = jacobian(&x, l)?;
             let here = x.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (x, value)| sum + value * x);
             let found = stress(&x, &u, l, law)?;

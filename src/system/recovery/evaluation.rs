@@ -67,7 +67,7 @@ impl<'a> Evaluation<'a> {
     ///
     /// # Errors
     /// As [`Evaluation::new`].
-    pub fn stress(&self) -> Result<Field<5>, SystemError> {
+    pub fn stress(&self) -> Result<Field<4>, SystemError> {
         nodal_stress(self.problem, &self.u, self.session)
     }
 

@@ -11,8 +11,9 @@ use crate::system::{Discretisation, Field, SystemError};
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn nodal_stress(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Field<5>, SystemError> {
+pub fn nodal_stress(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Field<4>, SystemError> {
     let laws = problem.scene.laws();
+    // Stress times area, and area.
     let mut sums = Field::<5>::zeros(problem, session);
     let own = problem.scene.partition.triangles_of(session.rank());
     let added = own.iter().try_for_each(|&triangle| {
@@ -23,16 +24,7 @@ pub fn nodal_stress(problem: &Discretisation, u: &Field<2>, session: &Session) -
         }
     });
     agreed(session, added)?;
-    let mut sums = sums.sum(session)?;
-    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
-        let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle as usize);
-        for (i, j) in lattice::nodes(problem.finest().numbering.level.intervals) {
-            let values = sums.at_mut(numbers.node(i, j));
-            let area = std::mem::replace(&mut values[4], 1.0);
-            values[..4].iter_mut().for_each(|value| *value /= area);
-        }
-    }
-    Ok(sums)
+    Ok(sums.sum(session)?.map(|[xx, yy, xy, zz, area]| [xx, yy, xy, zz].map(|sum| sum / area)))
 }
 
 fn add<const N: usize>(

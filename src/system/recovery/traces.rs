@@ -15,8 +15,6 @@ const POINTS: usize = 2;
 /// Values at one point of Γ_C.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TracePoint {
-    /// Parameter of Γ_C.
-    pub parameter: f64,
     /// Arc length from the start.
     pub arc: f64,
     /// The point.
@@ -85,7 +83,6 @@ pub fn trace_points(
         let (x, distance) = (contact.boundary.point(t), [mean(0, 2), mean(1, 2)]);
         let displacement = [mean(0, 0), mean(1, 0)];
         TracePoint {
-            parameter: t,
             arc: contact.boundary.arc(t),
             x,
             normal: contact.boundary.normal(t),
@@ -134,7 +131,7 @@ fn on_edge(
     t: f64,
     u: &Field<2>,
 ) -> Result<[f64; 3], SystemError> {
-    let here = trace(&contact.boundary, 0, small, t);
+    let here = trace(&contact.boundary, small, t);
     let normal = contact.boundary.normal(t);
     let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
         sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))

@@ -23,7 +23,7 @@ impl<'a> Counts<'a> {
         Self { space, diagonal: vec![1; space.own.len()], off_diagonal: vec![0; space.own.len()], contact }
     }
 
-    /// No room for the rows of these nodes, counted from this rank's first.
+    /// Preallocates nothing for the rows of these nodes, counted from this rank's first.
     pub(super) fn leave_out(&mut self, nodes: Range<usize>) {
         self.diagonal[nodes].fill(0);
     }

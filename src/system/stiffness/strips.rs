@@ -48,7 +48,8 @@ impl<const N: usize> Kind<N> {
     /// From the couplings of one node; `None` if it has not `N` of them.
     pub fn new(couplings: &[((i32, i32), Block)]) -> Option<Self> {
         let mut couplings = couplings.to_vec();
-        // Behind come those that a forward sweep has just changed: the wait for them is hidden.
+        // Couplings to nodes that a forward sweep has just changed come last: while those values are still being written, the
+        // processor works on the others.
         couplings.sort_by_key(|&((di, dj), _)| ((di, dj) != (0, 0), dj == 0 && di < 0, di));
         let steps: [(i32, i32); N] = couplings.iter().map(|c| c.0).collect::<Vec<_>>().try_into().ok()?;
         let blocks: [Block; N] = couplings.iter().map(|c| c.1).collect::<Vec<_>>().try_into().ok()?;
