@@ -10,6 +10,9 @@ use crate::petsc::versions;
 use crate::system::recovery::{Deformation, Evaluation, TracePoint};
 use crate::system::{Contact, Solved};
 
+/// A gap smaller than this share of the growth counts as large as that.
+const NO_GAP: f64 = 1e-3;
+
 /// Growth by less than this share of the displacements is rounding.
 const ROUNDING: f64 = 1e-5;
 
@@ -161,7 +164,7 @@ fn growth_by_gap(bodies: [&Deformation; 2], points: &[ContactPoint]) -> Option<f
     let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
     let moved = points.iter().map(|point| point.un_1.abs().max(point.un_2.abs())).fold(0.0, f64::max);
     let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
-    (growth > ROUNDING * moved).then(|| growth / smallest.max(growth * f64::EPSILON))
+    (growth > ROUNDING * moved).then(|| growth / smallest.max(NO_GAP * growth))
 }
 
 /// Name of a multiplier space in the case file.

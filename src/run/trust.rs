@@ -93,33 +93,21 @@ pub struct Judgement {
     pub unknown: Vec<String>,
 }
 
-/// Sets `trust` of every contact: false if a figure speaks against its pressure, or if the solve it comes from has not
-/// `converged`; null if nothing tells, or if the corner of a body presses on too few
-/// edges. Sets `trust_force`, too.
+/// What is said of one contact.
+struct Verdict {
+    doubts: Vec<Doubt>,
+    unknown: Option<String>,
+    trust: Option<bool>,
+    trust_force: Option<bool>,
+}
+
+/// Sets `trust` and `trust_force` of every contact.
 pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     let (mut told, mut remedies) = (Vec::new(), Vec::new());
     let mut judgement = Judgement::default();
     for pair in &case.contacts {
         let Some(contact) = summary.contact.get(&pair.name) else { continue };
-        let force = summary.estimate.contact.get(&pair.name).and_then(|own| own.force);
-        let mut trust_force =
-            if converged { force.map(|error| error <= MOST_FORCE_ERROR && is_balanced(summary)) } else { Some(false) };
-        let mut doubts = stability_doubts(contact, pair, case);
-        let mut unknown = None;
-        if converged {
-            doubts.extend(zone_doubts(contact, trust_force, more_segments(pair)));
-            doubts.extend(size_doubts(summary));
-            doubts.extend(force_doubt(force));
-            let motions = slip_doubt(contact).into_iter().chain(turning_doubt(contact));
-            let bodies = strain_doubts(summary).into_iter().chain(rotation_doubts(summary)).chain(locking_doubt(case));
-            let beyond_the_model: Vec<Doubt> = motions.chain(bodies).collect();
-            trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
-            doubts.extend(beyond_the_model);
-            doubts.extend(unresolved_doubt(contact, more_segments(pair)));
-            doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
-            unknown = unknown_words(contact, &pair.name, trust_force);
-        }
-        let trust = if doubts.is_empty() && converged { unknown.is_none().then_some(true) } else { Some(false) };
+        let Verdict { doubts, unknown, trust, trust_force } = judge_contact(summary, contact, pair, case, converged);
         if trust.is_none() {
             judgement.unknown.extend(unknown);
         }
@@ -128,19 +116,41 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             let force = if trust_force == Some(true) { ", whose force is to be trusted" } else { "" };
             told.push(format!("contact {} ({}){force}", pair.name, figures.join("; ")));
         }
-        let new = doubts.into_iter().map(|doubt| doubt.remedy);
-        new.for_each(|remedy| {
-            if !remedies.contains(&remedy) {
-                remedies.push(remedy)
+        for doubt in doubts {
+            if !remedies.contains(&doubt.remedy) {
+                remedies.push(doubt.remedy)
             }
-        });
+        }
         if let Some(contact) = summary.contact.get_mut(&pair.name) {
-            contact.trust = trust;
-            contact.trust_force = trust_force;
+            (contact.trust, contact.trust_force) = (trust, trust_force);
         }
     }
     judgement.unreliable = (!told.is_empty()).then(|| format!("{}; {}", told.join(", "), remedies.join("; ")));
     judgement
+}
+
+/// Trust is false if a figure speaks against the pressure, or if the solve that it comes from has not `converged`; it is null
+/// if nothing tells, or if the corner of a body presses on too few edges.
+fn judge_contact(summary: &Summary, contact: &summary::Contact, pair: &Pair, case: &Case, converged: bool) -> Verdict {
+    let mut doubts = stability_doubts(contact, pair, case);
+    if !converged {
+        return Verdict { doubts, unknown: None, trust: Some(false), trust_force: Some(false) };
+    }
+    let force = summary.estimate.contact.get(&pair.name).and_then(|own| own.force);
+    let trust_force = force.map(|error| error <= MOST_FORCE_ERROR && is_balanced(summary));
+    doubts.extend(zone_doubts(contact, trust_force, more_segments(pair)));
+    doubts.extend(size_doubts(summary));
+    doubts.extend(force_doubt(force));
+    let motions = slip_doubt(contact).into_iter().chain(turning_doubt(contact));
+    let bodies = strain_doubts(summary).into_iter().chain(rotation_doubts(summary)).chain(locking_doubt(case));
+    let beyond_the_model: Vec<Doubt> = motions.chain(bodies).collect();
+    let trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
+    doubts.extend(beyond_the_model);
+    doubts.extend(unresolved_doubt(contact, more_segments(pair)));
+    doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
+    let unknown = unknown_words(contact, &pair.name, trust_force);
+    let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
+    Verdict { doubts, unknown, trust, trust_force }
 }
 
 /// What tells that the displacements do not control the pressure; it may be why a solve has failed.

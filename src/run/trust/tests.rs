@@ -130,3 +130,43 @@ fn what_nothing_estimates_is_told() {
     assert_eq!(told(Some(0.01)), None);
     assert!(told(None).is_some_and(|words| words.contains("nothing estimates")));
 }
+
+const CASE: &str = r#"
+mesh = { file = "mesh.msh" }
+body.lower = { young = 7000.0, poisson = 0.227 }
+body.upper = { young = 3000.0, poisson = 0.3 }
+support.table = { on = "bottom", ux = 0.0, uy = 0.0 }
+contact.seam = { between = ["lower.seam", "upper.seam"] }
+"#;
+
+/// `trust`, `trust_force` and the words of a contact with one good zone.
+fn judged(converged: bool, change: impl Fn(&mut Summary), settings: &[&str]) -> (Option<bool>, Option<bool>, String) {
+    let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+    let case = Case::parse(CASE, std::path::Path::new("case.toml"), &settings).expect("a case");
+    let mut summary = Summary::default();
+    summary.contact.insert("seam".into(), Contact { zones: vec![zone()], force: Some(5.0), ..Contact::default() });
+    let estimate = crate::output::summary::ContactEstimate { force: Some(1e-3), lambda: Some(0.01), peak: Some(0.02) };
+    summary.estimate.contact.insert("seam".into(), estimate);
+    change(&mut summary);
+    let words = judge(&mut summary, &case, converged).unreliable.unwrap_or_default();
+    (summary.contact["seam"].trust, summary.contact["seam"].trust_force, words)
+}
+
+#[test]
+fn a_solve_that_failed_has_nothing_to_trust() {
+    assert_eq!(judged(true, |_| (), &[]), (Some(true), Some(true), String::new()));
+    assert_eq!(judged(false, |_| (), &[]), (Some(false), Some(false), String::new()));
+}
+
+#[test]
+fn what_is_beyond_the_model_spoils_the_force_too() {
+    let turned = judged(true, |summary| _ = summary.rotation.insert("upper".into(), Some(0.5)), &[]);
+    assert!(turned.0 == Some(false) && turned.1 == Some(false) && turned.2.contains("body upper turns"), "{turned:?}");
+    let (locked, words) = (["mesh.order=1", "body.upper.poisson=0.499"], "P1 triangles with ν = 0.499 of body upper");
+    let found = judged(true, |_| (), &locked);
+    assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains(words), "{found:?}");
+    assert_eq!(judged(true, |_| (), &["mesh.order=2", "body.upper.poisson=0.499"]).0, Some(true));
+    let coarse = |summary: &mut Summary| summary.contact.get_mut("seam").expect("it is there").zones[0].lambda = Some(0.2);
+    let found = judged(true, coarse, &[]);
+    assert!(found.0 == Some(false) && found.1 == Some(true) && found.2.contains("whose force is to be trusted"), "{found:?}");
+}
