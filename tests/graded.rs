@@ -62,7 +62,8 @@ fn iterations_stay_few_at_every_level() {
     }
 }
 
-/// Needles of 5 degrees, lying and standing, refined towards both corners: the solver finds a stronger preconditioner, and says so.
+/// Needles of 5 degrees, lying and standing, refined towards both corners: the solver finds a stronger preconditioner, and
+/// says so.
 #[test]
 fn slivers_are_solved_within_sixty_iterations() {
     for (file, order, space) in [("flat.msh", 1, "p0"), ("flat.msh", 2, "p1-discontinuous"), ("upright.msh", 1, "p0")] {

@@ -1,5 +1,5 @@
-//! What a larger mesh costs, in counts that no machine changes: iterations, work, multipliers, messages, room for matrices.
-//! Times and memory of large meshes: `ci/scaling`.
+//! What a larger mesh costs, in counts that no machine changes: iterations, work, multipliers, messages, preallocation of
+//! matrices. Times and memory of large meshes: `ci/scaling`.
 
 mod support;
 

@@ -1,6 +1,7 @@
 //! The case file: TOML text to checked values.
 //!
-//! Everything that needs no mesh is checked here, and all that is wrong is reported at once, each with file, key, value and remedy.
+//! Everything that needs no mesh is checked here, and all that is wrong is reported at once, each with file, key, value and
+//! remedy.
 
 mod contact;
 pub(crate) mod error;
@@ -156,7 +157,8 @@ impl Case {
         Ok(case)
     }
 
-    /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its absolute path.
+    /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its
+    /// absolute path.
     pub fn resolved(&self) -> String {
         let mut table = self.table.clone();
         let mesh_file = std::path::absolute(&self.mesh.file).unwrap_or_else(|_| self.mesh.file.clone());

@@ -1,5 +1,5 @@
 //! What a linear contact model leaves out where bodies move far: its normals and corresponding points stay, while curved
-//! bodies that slide along each other, or turn, show each other another part of their boundaries; and bodies that turn grow.
+//! bodies that slide along each other, or turn, face each other with other parts of their boundaries; and bodies that turn grow.
 
 use super::smooth_side::SmoothSide;
 use super::{Configuration, ContactBoundary, Multipliers};

@@ -68,7 +68,8 @@ impl MacroMesh {
     /// Position of the point with barycentric coordinates `(1 - xi - eta, xi, eta)` of a macro triangle.
     ///
     /// The displacement of each bent edge is carried into the triangle by the blending of Szabó and Babuška,
-    /// Finite Element Analysis (1991), section 6.2: smooth, exact on the edges, so that nodes of every level are points of one map.
+    /// Finite Element Analysis (1991), section 6.2: smooth, exact on the edges, so that nodes of every level are points of
+    /// one map.
     pub fn position(&self, triangle: usize, xi: f64, eta: f64) -> Point {
         let macro_triangle = &self.triangles[triangle];
         let weights = [1.0 - xi - eta, xi, eta];

@@ -1,7 +1,7 @@
 //! Boundaries of which nobody has declared the shape, bent onto the splines through the nodes of the mesh file.
 //!
 //! Contact takes such a boundary for smooth: its normals and gaps are those of the spline. Chords that are only refined would
-//! keep the corners between them, and these would press.
+//! keep the corners between them, and the pressure would jump at each of them.
 
 use super::edge_shape::EdgeShape;
 use super::{MacroMesh, Stretch};

@@ -54,8 +54,8 @@ pub struct Summary {
     pub time_s: Time,
     /// Memory in MiB.
     pub memory_mib: Memory,
-    /// Relative errors against exact or reference values: `energy`, `force_CONTACT`, `lambda_CONTACT`, `displacement_BODY`, `energy_norm_BODY`,
-    /// `u_BODY`.
+    /// Relative errors against exact or reference values: `energy`, `force_CONTACT`, `lambda_CONTACT`, `displacement_BODY`,
+    /// `energy_norm_BODY`, `u_BODY`.
     pub errors: BTreeMap<String, Option<f64>>,
 }
 
@@ -152,7 +152,7 @@ pub struct Contact {
     pub segments: Option<usize>,
     /// Multiplier space, as in the case: `p0`, `p1-discontinuous`, `p1-continuous`.
     pub multiplier: Option<String>,
-    /// Segment length by edge length of the softer body.
+    /// Length of the shortest segment, in edges of the softer body.
     pub h_ratio: Option<f64>,
     /// Inf-sup constant.
     pub inf_sup: Option<f64>,
@@ -311,7 +311,7 @@ pub struct Probe {
 pub struct Solver {
     /// `fieldsplit` or `direct`.
     pub name: Option<String>,
-    /// Krylov method.
+    /// What solved it, in words, such as `fieldsplit (multigrid F-cycle)`.
     pub krylov: Option<String>,
     /// One number per linear solve.
     pub iterations: Vec<usize>,

@@ -42,7 +42,8 @@ impl Gather {
         Ok(self.read(vector)?.to_vec())
     }
 
-    /// The same, to read until the next one, which writes to the same place: so this gather is borrowed for as long. **Collective**
+    /// The same, to read until the next one, which writes to the same place: so this gather is borrowed for as long.
+    /// **Collective**
     pub fn read(&mut self, vector: &Vector) -> Result<impl Deref<Target = [f64]> + '_> {
         let (insert, forward) = (ffi::InsertMode::INSERT_VALUES, ffi::ScatterMode::SCATTER_FORWARD);
         petsc!(VecScatterBegin(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;

@@ -68,7 +68,7 @@ impl Report {
                     active.iter().filter(|active| **active).count(),
                     active.len(),
                     iterations.join(" "),
-                    if *converged { "" } else { ", not converged: goes on without" }
+                    if *converged { "" } else { "; not converged, not used further" }
                 ));
                 passes.iter().for_each(|pass| self.fallback(pass.fallback.as_deref()));
             }

@@ -19,54 +19,16 @@ const MOST_OFF: f64 = 0.25;
 impl Run<'_> {
     /// Evaluates a solution, writes everything, prints the verdict. **Collective**
     pub(super) fn write(&self, solved: &Solved, folder: Option<ResultFolder>) -> Result<Outcome, RunError> {
-        let ending = &solved.ending;
         let mut summary = Summary::new(&self.case.name, self.session.size());
-        let mut status = if ending.is_converged() { Status::Converged } else { Status::NotConverged };
-        let mut reason = ending.to_string();
         summarise::describe(&mut summary, self.case, solved);
         summary.estimate.energy = solved.estimate.energy;
+        let (mut status, mut reason) = ended(solved);
         if solved.is_solved() {
             let _stage = self.stages.output.enter();
             let errors = self.evaluate(&mut summary, solved)?;
-            if status == Status::Converged && !errors.missed.is_empty() {
-                errors.missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
-                if self.case.exact.must_hold {
-                    status = Status::NotConverged;
-                    reason = format!("expected values are missed ({})", errors.missed.join("; "));
-                }
-            }
-            summary.errors = errors.values;
-            let judgement = trust::judge(&mut summary, self.case, ending.is_converged());
-            if let Some(words) = judgement.unreliable {
-                reason = match status {
-                    Status::Converged => format!("pressure unreliable: {words}"),
-                    Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
-                };
-                self.report.warn(&format!("pressure unreliable: {words}"));
-            }
-            for words in judgement.unknown {
-                reason = format!("{reason}; {words}");
-                self.report.warn(&words);
-            }
+            (status, reason) = self.judge(&mut summary, solved, errors);
         }
-        if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
-            reason = format!("{reason}; estimated error {error:.1e} in the energy norm");
-        }
-        let grows = |(_, contact): &(&String, &summary::Contact)| {
-            contact.zones.iter().any(|zone| zone.singular == Some(true) && zone.counts(&contact.zones))
-        };
-        let singular: Vec<&str> = summary.contact.iter().filter(grows).map(|(name, _)| name.as_str()).collect();
-        if status == Status::Converged && !singular.is_empty() {
-            reason = format!(
-                "{reason}; towards an end of contact {} λ grows without bound, as far as the meshes tell: its largest value says nothing",
-                singular.join(", ")
-            );
-        }
-        let idle = |(_, contact): &(&String, &summary::Contact)| contact.closed.as_ref().is_some_and(|closed| closed.is_empty());
-        let idle: Vec<&str> = summary.contact.iter().filter(idle).map(|(name, _)| name.as_str()).collect();
-        if !idle.is_empty() {
-            reason = format!("{reason}; nothing presses on contact {}", idle.join(", "));
-        }
+        reason += &remarks(&summary, status);
         summary.status = status;
         summary.reason = Some(reason.clone());
         summary.time_s = self.report.times(&self.stages, self.session);
@@ -81,6 +43,32 @@ impl Run<'_> {
         Ok(outcome)
     }
 
+    /// Expected values and trust: the status, and the reason so far.
+    fn judge(&self, summary: &mut Summary, solved: &Solved, errors: Errors) -> (Status, String) {
+        let (mut status, mut reason) = ended(solved);
+        if status == Status::Converged && !errors.missed.is_empty() {
+            errors.missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
+            if self.case.exact.must_hold {
+                status = Status::NotConverged;
+                reason = format!("expected values are missed ({})", errors.missed.join("; "));
+            }
+        }
+        summary.errors = errors.values;
+        let judgement = trust::judge(summary, self.case, solved.ending.is_converged());
+        if let Some(words) = judgement.unreliable {
+            reason = match status {
+                Status::Converged => format!("pressure unreliable: {words}"),
+                Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
+            };
+            self.report.warn(&format!("pressure unreliable: {words}"));
+        }
+        for words in judgement.unknown {
+            reason = format!("{reason}; {words}");
+            self.report.warn(&words);
+        }
+        (status, reason)
+    }
+
     /// Fields, traces, balances and errors; their files too. **Collective**
     fn evaluate(&self, summary: &mut Summary, solved: &Solved) -> Result<Errors, RunError> {
         let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
@@ -93,17 +81,18 @@ impl Run<'_> {
             self.warn_if_apart(contact, &points);
             let traced: Vec<ContactPoint> = points.iter().map(contact_point).collect();
             let mut zones = zones::zones(solved, at, &points);
-            let force = solved.estimate.force.get(at).copied().flatten();
-            summary.estimate.contact.insert(contact.pair.name.clone(), zones::contact_estimate(force, &zones));
             let mut described = summarise::contact(&found, at, &points);
             if contact.pair.configuration == Configuration::Reference {
                 described.missing = zones::missing_force(contact, &zones, &traced, found.balance.contacts[at].force);
             }
             described.unresolved_force = Some(unresolved_force(contact, &traced));
-            summarise::motions(&mut described, &found, at, &traced);
+            summarise::motions(&mut described, &found, at, if zones.is_empty() { Some(&traced) } else { None });
             if contact.pair.curve == CurveChoice::Fit {
                 corners::corners(&solved.problem.scene, contact, &zones).describe(&mut described, &mut zones);
             }
+            zones::without_singular_peaks(&mut zones);
+            let force = solved.estimate.force.get(at).copied().flatten();
+            summary.estimate.contact.insert(contact.pair.name.clone(), zones::contact_estimate(force, &zones));
             described.zones = zones;
             summary.contact.insert(contact.pair.name.clone(), described);
             traces.push(traced);
@@ -181,6 +170,36 @@ impl Run<'_> {
         plot::write_deformed(&folder.join("deformed.svg"), title, &facets, &lines)?;
         Ok(())
     }
+}
+
+/// How the procedure ended: the status, and its words.
+fn ended(solved: &Solved) -> (Status, String) {
+    let status = if solved.ending.is_converged() { Status::Converged } else { Status::NotConverged };
+    (status, solved.ending.to_string())
+}
+
+/// What else a reason says: the estimated error, largest values that mean nothing, contacts without pressure.
+fn remarks(summary: &Summary, status: Status) -> String {
+    let mut remarks = String::new();
+    let names = |is: &dyn Fn(&summary::Contact) -> bool| {
+        let all = summary.contact.iter().filter(|(_, contact)| is(contact)).map(|(name, _)| name.as_str());
+        all.collect::<Vec<_>>().join(", ")
+    };
+    if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
+        remarks += &format!("; estimated error {error:.1e} in the energy norm");
+    }
+    let is_singular = |zone: &summary::Zone, all: &[summary::Zone]| zone.singular == Some(true) && zone.counts(all);
+    let singular = names(&|contact| contact.zones.iter().any(|zone| is_singular(zone, &contact.zones)));
+    if status == Status::Converged && !singular.is_empty() {
+        remarks += &format!(
+            "; towards an end of contact {singular} λ grows without bound, as far as the meshes tell: its largest value says nothing"
+        );
+    }
+    let idle = names(&|contact| contact.closed.as_ref().is_some_and(Vec::is_empty));
+    if !idle.is_empty() {
+        remarks += &format!("; nothing presses on contact {idle}");
+    }
+    remarks
 }
 
 /// Writes the table along each contact boundary.

@@ -148,15 +148,15 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
     }
 }
 
-/// What sliding and turning spoil. Where nothing presses, the growth of bodies that turn is compared with the smallest gap.
-pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usize, points: &[ContactPoint]) {
+/// What sliding and turning spoil. Where nothing presses, and so there are gaps along all `points`, the growth of bodies that
+/// turn is compared with the smallest one.
+pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usize, points: Option<&[ContactPoint]>) {
     let found = evaluation.motions[at];
     contact.slip = found.and_then(|found| found.slip);
     contact.slip_error = found.and_then(|found| found.slip_error);
-    contact.rotation_error = match found {
-        Some(found) => Some(found.rotation_error),
-        None => growth_by_gap(evaluation.problem.contacts[at].bodies.map(|body| &evaluation.deformations[body]), points),
-    };
+    let bodies = evaluation.problem.contacts[at].bodies.map(|body| &evaluation.deformations[body]);
+    let idle = points.and_then(|points| growth_by_gap(bodies, points));
+    contact.rotation_error = found.map(|found| found.rotation_error).or(idle);
 }
 
 /// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.

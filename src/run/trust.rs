@@ -57,6 +57,7 @@ const MOST_SLIP_ERROR: f64 = 0.01;
 
 /// Largest growth of bodies that turn, relative to the smallest gap of a contact where nothing presses.
 const MOST_GROWTH: f64 = 0.5;
+
 /// Largest error of the pressure by corners within a contact.
 const MOST_CORNER_ERROR: f64 = 0.04;
 
@@ -170,7 +171,7 @@ fn stability_doubts(contact: &summary::Contact, pair: &Pair, case: &Case) -> Vec
 fn locking_doubt(case: &Case) -> Option<Doubt> {
     let locks = |body: &&Body| case.mesh.order == Order::P1 && body.material.poisson > MOST_POISSON;
     let body = case.bodies.iter().find(locks)?;
-    let figure = format!("P1 triangles with ν = {} of body {}, at most {MOST_POISSON} wanted", body.material.poisson, body.name);
+    let figure = format!("body {} has ν = {} with P1 triangles, at most {MOST_POISSON} wanted", body.name, body.material.poisson);
     Some(Doubt { figure, remedy: "take mesh.order = 2: P1 triangles lock" })
 }
 
@@ -244,10 +245,10 @@ fn force_doubt(error: Option<f64>) -> Option<Doubt> {
 /// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.
 fn slip_doubt(contact: &summary::Contact) -> Option<Doubt> {
     let (slip, error) = (contact.slip?, contact.slip_error?);
-    let by_turning = contact.rotation_error.unwrap_or(0.0) > 0.5 * error;
+    let by_turning = contact.rotation_error.is_some_and(|turning| turning > MOST_SLIP_ERROR && turning > 0.5 * error);
     (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR && !by_turning).then(|| Doubt {
         figure: format!(
-            "the bodies slide along each other by {} of the length in contact: force or pressure off by about {} of itself, at most {MOST_SLIP_ERROR} wanted",
+            "the bodies slide along each other by {} of the length in contact: force or pressure wrong by about {} (relative), at most {MOST_SLIP_ERROR} wanted",
             short(slip),
             short(error)
         ),
@@ -261,13 +262,13 @@ fn turning_doubt(contact: &summary::Contact) -> Option<Doubt> {
     let remedy = TURN_LESS;
     if contact.zones.is_empty() {
         let figure =
-            format!("nothing presses, but bodies that turn grow in this theory, by {} of the smallest gap", short(error));
+            format!("nothing presses, but bodies that turn grow in this theory, by {} times the smallest gap", short(error));
         return (error > MOST_GROWTH).then_some(Doubt { figure, remedy });
     }
     // Sliding and turning may undo each other, as where a round body turns about its centre.
     let wrong = error > MOST_SLIP_ERROR && contact.slip_error.is_none_or(|error| error > MOST_SLIP_ERROR);
     let figure = || {
-        format!("the bodies turn: force or pressure off by about {} of itself, at most {MOST_SLIP_ERROR} wanted", short(error))
+        format!("the bodies turn: force or pressure wrong by about {} (relative), at most {MOST_SLIP_ERROR} wanted", short(error))
     };
     wrong.then(|| Doubt { figure: figure(), remedy })
 }

@@ -49,12 +49,17 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
             whole: found.inside.filter(tells),
             worst: found.worst,
             force: found.force,
-            peak: found.peak.filter(tells).filter(|_| !singular),
+            peak: found.peak.filter(tells),
             singular: Some(singular),
             corner: Some((0..2).any(|end| ends_at_a_corner(&problem.scene.mesh, contact, zone, end))),
         }
     };
     zones.iter().enumerate().map(describe).collect()
+}
+
+/// Leaves out the errors of largest pressures that grow without bound.
+pub fn without_singular_peaks(zones: &mut [summary::Zone]) {
+    zones.iter_mut().filter(|zone| zone.singular == Some(true)).for_each(|zone| zone.peak = None);
 }
 
 /// Whether λ grows towards an end of Γ_C, ever more quickly, and without bound as meshes are refined, as far as the values

@@ -41,15 +41,16 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// One relative to the other; not a number if both are zero.
+    /// One relative to the other; zero without any right-hand side.
     pub fn relative(self) -> f64 {
-        self.norm / self.whole
+        if self.whole > 0.0 { self.norm / self.whole } else { 0.0 }
     }
 }
 
 impl<'a> System<'a> {
-    /// Sets up the solver of assembled blocks, with a preconditioning to begin with; the unknowns are zero. `interpolations[l]` leads from
-    /// level `l` to level `l + 1`, where auxiliary levels come before those of the blocks. **Collective**
+    /// Sets up the solver of assembled blocks, with a preconditioning to begin with; the unknowns are zero.
+    /// `interpolations[l]` leads from level `l` to level `l + 1`, where auxiliary levels come before those of the blocks.
+    /// **Collective**
     pub fn new(
         problem: &'a Discretisation,
         blocks: SaddlePoint,

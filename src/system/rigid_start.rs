@@ -10,8 +10,8 @@ use nalgebra::{Matrix3, Vector3};
 /// Rigid motions flatter than this share of the largest are not told by the supports.
 const FLAT: f64 = 1e-9;
 
-/// This rank's displacements, in the nodes' frames, where every piece of a body moves by the rigid motion that is nearest to what its
-/// supports prescribe at the macro vertices (least squares); nothing if they prescribe zero everywhere.
+/// This rank's displacements, in the nodes' frames, where every piece of a body moves by the rigid motion that is nearest to
+/// what its supports prescribe at the macro vertices (least squares); nothing if they prescribe zero everywhere.
 pub fn rigid_start(problem: &Discretisation, rank: usize) -> Option<Vec<f64>> {
     let (scene, space) = (&problem.scene, problem.finest());
     let motions = motions(scene)?;

@@ -36,8 +36,9 @@ const BAR_ROOM: i32 = 120;
 
 /// Draws `deformed.svg`: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact boundaries.
 ///
-/// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements,
-/// along themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small.
+/// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title
+/// states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
+/// themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small.
 ///
 /// # Errors
 /// There is no facet, or a number is not finite; the operating system refuses.
@@ -163,7 +164,8 @@ impl Colours {
     }
 }
 
-/// The triangles cut into bands of colour, merged where neighbours have the same. A line of that colour closes the hairlines between merged areas.
+/// The triangles cut into bands of colour, merged where neighbours have the same. A line of that colour closes the hairlines
+/// between merged areas.
 fn fills(facets: &[Facet], scale: f64, colours: &Colours, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
     let mut edges = vec![Vec::new(); LEVELS];
     for facet in facets {
@@ -214,7 +216,8 @@ fn outlines(boundary: &[[Node; 2]], scale: f64, colour: RGBColor, place: impl Fn
     format!("<path fill=\"none\" stroke=\"#{red:02x}{green:02x}{blue:02x}\" stroke-width=\"7\" d=\"{data}\"/>\n")
 }
 
-/// A corner of a facet in single precision, by its bits: position and displacement, so that bodies that touch keep their own corners.
+/// A corner of a facet in single precision, by its bits: position and displacement, so that bodies that touch keep their own
+/// corners.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Node([u32; 4]);
 

@@ -1,7 +1,7 @@
 //! Figures, as SVG: the contact boundary in two diagrams, the deformed bodies, and diagrams of many runs.
 //!
-//! Units are the user's own, so axes name the quantity: *unit of length*, *unit of stress*. Text is left to the fonts of the viewer;
-//! plotters is built without its font libraries, and nothing of the layout hangs on the exact width of a text.
+//! Units are the user's own, so axes name the quantity: *unit of length*, *unit of stress*. Text is left to the fonts of the
+//! viewer; plotters is built without its font libraries, and nothing of the layout hangs on the exact width of a text.
 
 mod along;
 mod deformed;

@@ -16,7 +16,8 @@ pub(super) fn unmatched<K: Ord + Copy>(edges: impl IntoIterator<Item = [K; 2]>) 
     surplus.collect()
 }
 
-/// Joins directed edges head to tail into closed loops. As many edges must leave each point as arrive at it, which holds for every boundary.
+/// Joins directed edges head to tail into closed loops. As many edges must leave each point as arrive at it, which holds for
+/// every boundary.
 pub(super) fn loops<K: Ord + Copy>(edges: &[[K; 2]]) -> Vec<Vec<K>> {
     let mut leaving: BTreeMap<K, Vec<K>> = BTreeMap::new();
     for &[from, to] in edges {

@@ -15,7 +15,8 @@ pub(super) const VERMILION: RGBColor = RGBColor(213, 94, 0);
 /// Bluish green of Okabe and Ito.
 pub(super) const GREEN: RGBColor = RGBColor(0, 158, 115);
 
-/// Colours of lines in a diagram, in their order: blue, vermilion and green, then orange, purple, sky blue and black of Okabe and Ito.
+/// Colours of lines in a diagram, in their order: blue, vermilion and green, then orange, purple, sky blue and black of Okabe
+/// and Ito.
 pub(super) const LINES: [RGBColor; 7] =
     [BLUE, VERMILION, GREEN, RGBColor(230, 159, 0), RGBColor(204, 121, 167), RGBColor(86, 180, 233), INK];
 

@@ -70,6 +70,19 @@ fn far_rotations_are_doubted_wherever_contact_is() {
 }
 
 #[test]
+fn sliding_is_doubted_unless_turning_is() {
+    let told = |slip_error, rotation_error| {
+        let [slip, slip_error, rotation_error] = [0.3, slip_error, rotation_error].map(Some);
+        let contact = Contact { slip, slip_error, rotation_error, zones: vec![zone()], ..Contact::default() };
+        [slip_doubt(&contact).is_some(), turning_doubt(&contact).is_some()]
+    };
+    assert_eq!(told(0.015, 0.0), [true, false]);
+    assert_eq!(told(0.015, 0.009), [true, false]);
+    assert_eq!(told(0.03, 0.02), [false, true]);
+    assert_eq!(told(0.005, 0.02), [false, false], "the one undoes the other");
+}
+
+#[test]
 fn corners_are_doubted_by_what_they_do() {
     let pair = |error| Contact { corner_angle: Some(11.25), corner_error: Some(error), ..Contact::default() };
     let told = |error| corner_doubt(&pair(error), ["a", "b"]).map(|doubt| doubt.figure);
@@ -162,7 +175,7 @@ fn a_solve_that_failed_has_nothing_to_trust() {
 fn what_is_beyond_the_model_spoils_the_force_too() {
     let turned = judged(true, |summary| _ = summary.rotation.insert("upper".into(), Some(0.5)), &[]);
     assert!(turned.0 == Some(false) && turned.1 == Some(false) && turned.2.contains("body upper turns"), "{turned:?}");
-    let (locked, words) = (["mesh.order=1", "body.upper.poisson=0.499"], "P1 triangles with ν = 0.499 of body upper");
+    let (locked, words) = (["mesh.order=1", "body.upper.poisson=0.499"], "body upper has ν = 0.499 with P1 triangles");
     let found = judged(true, |_| (), &locked);
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains(words), "{found:?}");
     assert_eq!(judged(true, |_| (), &["mesh.order=2", "body.upper.poisson=0.499"]).0, Some(true));

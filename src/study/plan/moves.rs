@@ -34,7 +34,8 @@ impl Moves {
         keys
     }
 
-    /// A key moves in one place: in a grid, or with a curve. Only `[set]` and `[grid]` give way to a curve, which takes their place.
+    /// A key moves in one place: in a grid, or with a curve. Only `[set]` and `[grid]` give way to a curve, which takes their
+    /// place.
     pub fn check_overlaps(&self, root: &Section) {
         let complain = |written: &[String], other: &[String]| {
             let below: Vec<&str> = written.iter().map(String::as_str).collect();

@@ -15,8 +15,8 @@ impl AtRest {
     /// Places the contacts and looks at the supports: a scene that is not sound is refused here.
     ///
     /// # Errors
-    /// [`SystemError::Case`] if the mesh is too fine, supports contradict each other, a boundary cannot be placed, the boundaries of a contact do not face each
-    /// other, or two contacts claim the same place.
+    /// [`SystemError::Case`] if the mesh is too fine, supports contradict each other, a boundary cannot be placed, the
+    /// boundaries of a contact do not face each other, or two contacts claim the same place.
     pub fn new(scene: &Scene, rank: usize) -> Result<Self, SystemError> {
         // The space shows whether supports contradict each other.
         let Space { numbering, .. } = Space::new(scene, finest_numbering(scene)?.level, rank)?;

@@ -1,7 +1,7 @@
 //! One mesh: one contact boundary after the other, until everything stands.
 
 use super::contact_loop::{ContactLoop, Found, Pass, Place};
-use super::ending::{Ending, Failure};
+use super::ending::{Ending, Failure, Standing};
 use super::following::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
 use super::observer::{Event, Work};
 use super::settings::Procedure;
@@ -178,10 +178,9 @@ impl OneMesh<'_> {
         };
         let _stage = observer.enter(Work::SetUp);
         let system = System::new(problem, blocks, &bodies.interpolations, *choice, preconditioning, session)?;
-        match system.unused_options()? {
-            unused if unused.is_empty() => Ok(system),
-            unused => Err(SystemError::UnusedOptions(unused)),
-        }
+        // Coarser meshes may have no use for what the mesh of the case asks for.
+        let unused = if self.is_last { system.unused_options()? } else { Vec::new() };
+        if unused.is_empty() { Ok(system) } else { Err(SystemError::UnusedOptions(unused)) }
     }
 
     /// Solves for one active set after the other. **Collective**
@@ -228,7 +227,7 @@ impl BoundaryLoop<'_, '_> {
             self.record.passes.extend(passes);
             let after = match ending {
                 Ending::NotConverged(_) => After::Ended(ending),
-                Ending::Converged(_) => match self.next(system.problem(), &solution, is_last)? {
+                Ending::Converged(standing) => match self.next(system.problem(), &solution, standing, is_last)? {
                     Some(after) => after,
                     None => {
                         // The place is right, but it was found with a solve on the way.
@@ -251,7 +250,13 @@ impl BoundaryLoop<'_, '_> {
     }
 
     /// What follows from a solution; nothing if it is to be solved once more, as the last one. **Collective**
-    fn next(&mut self, problem: &Discretisation, solution: &Solution, is_last: bool) -> Result<Option<After>, SystemError> {
+    fn next(
+        &mut self,
+        problem: &Discretisation,
+        solution: &Solution,
+        within: Standing,
+        is_last: bool,
+    ) -> Result<Option<After>, SystemError> {
         let Procedure { session, observer, .. } = self.mesh.procedure;
         let followed = {
             let _stage = observer.enter(Work::Contact);
@@ -273,7 +278,7 @@ impl BoundaryLoop<'_, '_> {
         let is_near = step.moved.is_some_and(|way| way < NEARLY);
         self.record.boundaries.push(step);
         Ok(Some(match next {
-            NextBoundary::Stands => After::Ended(Ending::Converged(standing(&self.record.boundaries))),
+            NextBoundary::Stands => After::Ended(Ending::Converged(standing(&problem.contacts, &self.record.boundaries, within))),
             NextBoundary::GivenUp(failure) => After::Ended(Ending::NotConverged(failure)),
             NextBoundary::Again(contacts, motion) => {
                 let start = carried(&problem.contacts, &contacts, solution);

@@ -3,10 +3,10 @@
 use crate::contact::{Law, SetSolution};
 use crate::system::{Contact, Discretisation, System};
 
-/// What is left of the contact conditions at most, as a share of the largest pressure,
+/// Largest violation of the contact conditions, as a share of the largest pressure.
 const MOST_VIOLATED: f64 = 1e-3;
 
-/// and by the relative residual of the solve.
+/// The same, by the relative residual of the solve; the larger one counts.
 const BY_RESIDUAL: f64 = 1e4;
 
 /// Length, in edges, below which a multiplier is too short for its gap to be a pressure of its own.

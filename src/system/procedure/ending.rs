@@ -47,6 +47,8 @@ pub enum Standing {
         fits: usize,
         /// Where its ends had to be held.
         held: Option<HeldEnds>,
+        /// What stands on the last of them.
+        within: Box<Standing>,
     },
 }
 
@@ -70,20 +72,20 @@ impl Display for Standing {
                 f,
                 "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
             ),
-            Self::Boundary { fits, held } => {
+            Self::Boundary { fits, held, within } => {
                 match held {
                     None if *fits == 1 => write!(f, "the contact boundary fits what touches")?,
                     None => write!(f, "the contact boundary stands after {fits} fits, and so does the displacement")?,
                     Some(HeldEnds { fit, way, farthest }) => {
-                        let last = way.map_or("others".into(), |way| format!("{way:.0e} of its length"));
+                        let last = way.map_or("an unknown part".into(), |way| format!("{way:.0e}"));
                         let held = if *farthest { "held where they reached farthest" } else { "held" };
                         write!(
                             f,
-                            "the ends of the contact boundary still moved by {last} at fit {fit} and are {held}; it stands after {fits}"
+                            "the ends of the contact boundary still moved by {last} of its length at fit {fit} and are {held}; it stands after {fits}"
                         )?;
                     }
                 }
-                write!(f, "; {}", Self::ActiveSet)
+                write!(f, "; {within}")
             }
         }
     }
@@ -146,5 +148,5 @@ pub enum Failure {
 }
 
 fn figure(value: &Option<f64>) -> String {
-    value.map_or("others".to_string(), |value| format!("{value:.1e}"))
+    value.map_or("an unknown part".to_string(), |value| format!("{value:.1e}"))
 }

@@ -1,9 +1,9 @@
 //! Discretisation errors, estimated from the solutions on successive refinements.
 //!
 //! Where the spaces are nested, Galerkin's orthogonality gives `e_(l-1)² = e_l² + D_l²` for the errors `e_l = |u - u_l|` and the
-//! difference `D_l = |u_l - u_(l-1)|` in the energy norm. If errors fall by the factor `√q` with each refinement, `q = (D_l/D_(l-1))²` and
-//! `e_l² = D_l² q/(1 - q)`: no order has to be known, so that corners are seen. Where active sets or contact boundaries change
-//! from mesh to mesh the spaces are not nested, and this is heuristic.
+//! difference `D_l = |u_l - u_(l-1)|` in the energy norm. If errors fall by the factor `√q` with each refinement,
+//! `q = (D_l/D_(l-1))²` and `e_l² = D_l² q/(1 - q)`: no order has to be known, so that corners are seen. Where active sets or
+//! contact boundaries change from mesh to mesh the spaces are not nested, and this is heuristic.
 
 use super::coarse_solution::CoarseSolution;
 use super::zone_estimate::ZoneDifference;

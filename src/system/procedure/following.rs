@@ -161,7 +161,8 @@ impl Following {
             squares[1] += now * now;
         }
         session.sum(&mut squares);
-        (!self.displacement.is_empty()).then(|| if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 })
+        // A rank may have no unknowns; all know the same active set.
+        (!self.active.is_empty()).then(|| if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 })
     }
 
     /// What the next boundary of each contact is placed by.
@@ -275,13 +276,14 @@ fn moves(&BoundaryStep { moved, du, flipped, .. }: &BoundaryStep) -> Failure {
     Failure::BoundaryMoves { fits: MOST_BOUNDARIES, moved, du, flipped }
 }
 
-/// What stands after these boundaries.
-pub fn standing(steps: &[BoundaryStep]) -> Standing {
-    let held = steps.get(HELD - 1).map(|_| {
+/// What stands after these boundaries of some contacts; `within` is what stands on the last of them.
+pub fn standing(contacts: &[Contact], steps: &[BoundaryStep], within: Standing) -> Standing {
+    let may_be_held = contacts.iter().any(|contact| contact.pair.has_free_ends());
+    let held = steps.get(HELD - 1).filter(|_| may_be_held).map(|_| {
         let way = steps[HELD - 2].moved;
         HeldEnds { fit: HELD - 1, way, farthest: way.is_some_and(|way| way > MOST_HELD) }
     });
-    Standing::Boundary { fits: steps.len(), held }
+    Standing::Boundary { fits: steps.len(), held, within: Box::new(within) }
 }
 
 /// A start from a solution, on the boundary it was found on.

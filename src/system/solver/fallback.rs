@@ -1,7 +1,7 @@
 //! Preconditioners of the displacements, and which one a slow solve falls back on.
 //!
 //! A symmetric Gauss-Seidel sweep smooths well on good triangles and for ν up to about 0.45. Flat triangles and ν towards
-//! 0.5 wear it out; two or four steps of CG with the same sweep are stronger and cost two and four times as much; a
+//! 0.5 make it slow; two or four steps of CG with the same sweep are stronger and cost two and four times as much; a
 //! Cholesky factor of `K + BᵀDB` always does, as long as there is memory for it.
 
 use crate::system::auxiliary::SMALL;

@@ -2,9 +2,9 @@
 //!
 //! `fieldsplit`: GMRES, preconditioned from the right by the block upper triangle of `K + BᵀDB` and `S = -D⁻¹`; one
 //! multigrid F-cycle stands for the inverse of the first, on the levels of the mesh and auxiliary ones below
-//! ([`super::auxiliary`]). Where that is too weak, solves fall back on stronger ones, in the end on a Cholesky factor ([`Preconditioning`]).
-//! `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override; only the
-//! tolerance is the case's.
+//! ([`super::auxiliary`]). Where that is too weak, solves fall back on stronger ones, in the end on a Cholesky factor
+//! ([`Preconditioning`]). `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override;
+//! only the tolerance is the case's.
 
 mod fallback;
 mod inf_sup;
@@ -79,8 +79,9 @@ pub struct LinearSolve {
 }
 
 impl LinearSolver {
-    /// Sets a solver up, with a preconditioning to begin with; `interpolations[l]` leads from level `l` to level `l + 1`, where auxiliary
-    /// levels come before those of the system (the direct solver wants none). A system of one level is factorised.
+    /// Sets a solver up, with a preconditioning to begin with; `interpolations[l]` leads from level `l` to level `l + 1`,
+    /// where auxiliary levels come before those of the system (the direct solver wants none). A system of one level is
+    /// factorised.
     /// **Collective**
     pub fn new(
         system: &SaddlePoint,
