@@ -66,8 +66,8 @@ struct Hold<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Constraints {
     nodes: HashMap<usize, Constraint>,
-    /// Whether nodes from 0 on are among them: most are not, and are asked for often.
-    among: Vec<bool>,
+    /// Whether nodes from 0 on are among them, a bit for each: most are not, and are asked for often.
+    among: Vec<u64>,
 }
 
 impl Constraints {
@@ -86,15 +86,16 @@ impl Constraints {
         }
         let nodes = holds.into_iter().map(|(node, (x, holds))| Ok((node, combine(x, &holds)?)));
         let nodes: HashMap<usize, Constraint> = nodes.collect::<Result<_, _>>()?;
-        let mut among = vec![false; nodes.keys().max().map_or(0, |last| last + 1)];
-        nodes.keys().for_each(|&node| among[node] = true);
+        let mut among = vec![0; nodes.keys().max().map_or(0, |last| last / 64 + 1)];
+        nodes.keys().for_each(|&node| among[node / 64] |= 1 << (node % 64));
         Ok(Self { nodes, among })
     }
 
     /// Constraint of a node.
     #[inline]
     pub fn get(&self, node: usize) -> Option<&Constraint> {
-        if self.among.get(node).is_some_and(|among| *among) { self.nodes.get(&node) } else { None }
+        let bits = *self.among.get(node / 64)?;
+        if bits >> (node % 64) & 1 == 1 { self.nodes.get(&node) } else { None }
     }
 
     /// All constrained nodes, in no order.

@@ -35,6 +35,8 @@ pub struct Placed {
     pub limits: [f64; 2],
     /// What a fitted one was fitted to.
     pub meeting: Option<Meeting>,
+    /// Edges of body 1 and of body 2 that it lies between.
+    pub edges: [Vec<BoundaryEdge>; 2],
 }
 
 /// Places Γ_C of a pair and cuts it into segments. `young` are the moduli of body 1 and body 2 (stress); `numbering`
@@ -72,22 +74,26 @@ pub fn place(
         return Err(error("the two boundaries face each other nowhere over a length".into()));
     }
     let middle = curve.point(0.5 * (range[0] + range[1]));
-    let edges = all_edges(mesh, numbering, pair, displacement);
+    let mut edges = all_edges(mesh, numbering, pair, displacement);
+    check_count(pair, &edges).map_err(error)?;
     let nearest = edges[0].iter().min_by(|a, b| {
         let away = |edge: &BoundaryEdge| (0.5 * (edge.points[0] + edge.points[1]) - middle).norm();
         away(a).total_cmp(&away(b))
     });
     let Some(nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
     let mut boundary = ContactBoundary::new(curve, range, nearest.outward());
-    if pair.curve != CurveChoice::Fit {
+    if pair.curve == CurveChoice::Fit {
+        let [of_first, of_second] = &mut edges;
+        of_first.retain(|edge| faces(&boundary, Side::First, edge));
+        of_second.retain(|edge| faces(&boundary, Side::Second, edge));
+    } else {
         check_cover(mesh, pair, sides, &boundary).map_err(error)?;
     }
-    check_count(pair, &edges).map_err(error)?;
     boundary.cut(&fractions(&edges, numbering.level.order, pair, young, &boundary, known.segments));
     if let Some((meeting, smooth)) = &fitted {
         check_stray(meeting.sides(smooth), &boundary, pair).map_err(error)?;
     }
-    Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting) })
+    Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting), edges })
 }
 
 /// Segments to an edge at most: shorter ones tell nothing, and their active set changes one by one.

@@ -1,7 +1,6 @@
 //! From a case to its result.
 
 mod check;
-mod corners;
 mod exact;
 mod fields;
 mod input;
@@ -14,7 +13,6 @@ mod scene;
 mod stages;
 mod summarise;
 mod trust;
-mod unresolved;
 mod zones;
 
 pub use check::{Checked, check, info};

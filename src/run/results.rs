@@ -2,8 +2,7 @@
 
 use super::exact::{Errors, compare};
 use super::report::{memory, short};
-use super::unresolved::unresolved_force;
-use super::{Outcome, Run, RunError, corners, fields, summarise, trust, zones};
+use super::{Outcome, Run, RunError, fields, summarise, trust, zones};
 use crate::case::Case;
 use crate::contact::{Configuration, CurveChoice, GapChoice};
 use crate::geometry::Point;
@@ -82,13 +81,16 @@ impl Run<'_> {
             let traced: Vec<ContactPoint> = points.iter().map(contact_point).collect();
             let mut zones = zones::zones(solved, at, &points);
             let mut described = summarise::contact(&found, at, &points);
+            let pressing: Vec<[f64; 2]> = zones.iter().filter_map(|zone| zone.ends).collect();
             if contact.pair.configuration == Configuration::Reference {
-                described.missing = zones::missing_force(contact, &zones, &traced, found.balance.contacts[at].force);
+                described.missing = found.missing_force(at, &pressing, &points);
             }
-            described.unresolved_force = Some(unresolved_force(contact, &traced));
-            summarise::motions(&mut described, &found, at, if zones.is_empty() { Some(&traced) } else { None });
+            described.unresolved_force = Some(found.unresolved_force(at, &points));
+            summarise::motions(&mut described, &found, at, &points);
             if contact.pair.curve == CurveChoice::Fit {
-                corners::corners(&solved.problem.scene, contact, &zones).describe(&mut described, &mut zones);
+                let counting: Vec<[f64; 2]> =
+                    zones.iter().filter(|zone| zone.counts(&zones)).filter_map(|zone| zone.ends).collect();
+                summarise::corners(&mut described, &mut zones, &found.corners(at, &counting));
             }
             zones::without_singular_peaks(&mut zones);
             let force = solved.estimate.force.get(at).copied().flatten();

@@ -4,17 +4,13 @@ use crate::case::Case;
 use crate::contact::MultiplierSpace;
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::output::ContactPoint;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Deformation, Evaluation, TracePoint};
+use crate::system::recovery::{Corners, Evaluation, TracePoint};
 use crate::system::{Contact, Solved};
 
-/// A gap smaller than this share of the growth counts as large as that.
-const NO_GAP: f64 = 1e-3;
-
-/// Growth by less than this share of the displacements is rounding.
-const ROUNDING: f64 = 1e-5;
+/// From this error on λ may grow at a corner as it does towards a singular end.
+const GROWS_AT_CORNERS: f64 = 5e-3;
 
 /// What is known without the solution's fields.
 pub fn describe(summary: &mut Summary, case: &Case, solved: &Solved) {
@@ -148,23 +144,23 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
     }
 }
 
-/// What sliding and turning spoil. Where nothing presses, and so there are gaps along all `points`, the growth of bodies that
-/// turn is compared with the smallest one.
-pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usize, points: Option<&[ContactPoint]>) {
+/// What sliding and turning spoil. Where nothing presses, the growth of bodies that turn is compared with the smallest gap.
+pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usize, points: &[TracePoint]) {
     let found = evaluation.motions[at];
     contact.slip = found.and_then(|found| found.slip);
     contact.slip_error = found.and_then(|found| found.slip_error);
-    let bodies = evaluation.problem.contacts[at].bodies.map(|body| &evaluation.deformations[body]);
-    let idle = points.and_then(|points| growth_by_gap(bodies, points));
-    contact.rotation_error = found.map(|found| found.rotation_error).or(idle);
+    let idle = contact.closed.as_ref().is_some_and(Vec::is_empty);
+    let growth = || evaluation.growth_by_gap(at, points).filter(|_| idle);
+    contact.rotation_error = found.map(|found| found.rotation_error).or_else(growth);
 }
 
-/// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.
-fn growth_by_gap(bodies: [&Deformation; 2], points: &[ContactPoint]) -> Option<f64> {
-    let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
-    let moved = points.iter().map(|point| point.un_1.abs().max(point.un_2.abs())).fold(0.0, f64::max);
-    let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
-    (growth > ROUNDING * moved).then(|| growth / smallest.max(NO_GAP * growth))
+/// What corners do, if they do anything. Beside such corners λ grows, and what looks singular at an end may be one of them.
+pub fn corners(contact: &mut summary::Contact, zones: &mut [summary::Zone], corners: &Corners) {
+    contact.corner_angle = Some(corners.angle.to_degrees());
+    contact.corner_error = Some(corners.error);
+    if corners.error > GROWS_AT_CORNERS {
+        zones.iter_mut().for_each(|zone| zone.singular = Some(false));
+    }
 }
 
 /// Name of a multiplier space in the case file.
@@ -183,23 +179,4 @@ fn closed_edges(contact: &Contact, closed: &[[f64; 2]]) -> Option<f64> {
     let on =
         |&[from, to]: &[f64; 2]| (0..contact.edge_lengths.len()).filter(|&k| arcs[k] >= from && arcs[k] < to).map(edges).sum();
     closed.iter().map(on).reduce(f64::max)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bodies_that_turn_grow_by_half_the_square_of_the_angle() {
-        let turned = |rotation: f64| {
-            let (place, middle) = (Point::zeros(), Point::zeros());
-            Deformation { strain: 0.0, place, rotation, growth: 0.0, middle, radius: 3.0 }
-        };
-        let point = |gap: f64| ContactPoint { gap, un_1: 1e-4, un_2: -2e-4, ..ContactPoint::default() };
-        let points = [point(0.02), point(0.01), point(f64::NAN)];
-        let found = growth_by_gap([&turned(0.01), &turned(-0.02)], &points).expect("growth");
-        assert!((found / (1.5 * (0.01f64.powi(2) + 0.02f64.powi(2)) / 0.01) - 1.0).abs() < 1e-12, "{found}");
-        assert_eq!(growth_by_gap([&turned(1e-6), &turned(0.0)], &points), None, "rounding beside the displacements");
-        assert_eq!(growth_by_gap([&turned(0.1), &turned(0.0)], &[]), None, "no gap");
-    }
 }

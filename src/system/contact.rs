@@ -2,8 +2,8 @@
 
 use super::{Scene, SystemError};
 use crate::contact::{
-    Configuration, ContactBoundary, CurveChoice, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace,
-    Multipliers, Pair, Side, Stabilise, all_edges, faces, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace, Multipliers, Pair,
+    Stabilise, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};
@@ -91,13 +91,7 @@ impl Contact {
         let bodies = [0, 1].map(|k: usize| scene.mesh.body_beside(sides[k][0]));
         let young = bodies.map(|body| scene.bodies[body].material.young);
         let placed = place(&scene.mesh, numbering, pair, young, known, displacement)?;
-        let boundary = placed.boundary;
-        let mut all = all_edges(&scene.mesh, numbering, pair, displacement);
-        if pair.curve == CurveChoice::Fit {
-            let [of_first, of_second] = &mut all;
-            of_first.retain(|edge| faces(&boundary, Side::First, edge));
-            of_second.retain(|edge| faces(&boundary, Side::Second, edge));
-        }
+        let (boundary, all) = (placed.boundary, placed.edges);
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
         let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
         let segment_ratio = segment_ratio(&boundary, &all, young);

@@ -1,7 +1,7 @@
 //! The set that a solve begins with when no solution is known.
 
 use crate::contact::Law;
-use crate::system::{Discretisation, System, few_that_hold, not_held, rigid_start};
+use crate::system::{System, few_that_hold, not_held, rigid_start};
 
 /// Gap, as a share of the length of Γ_C, that counts as closed: less than bodies are usually strained by.
 const CLOSED: f64 = 1e-6;
@@ -24,16 +24,15 @@ pub(super) fn first_set(system: &System) -> Option<Vec<bool>> {
     if !active.contains(&false) {
         return None;
     }
-    hold(problem, &gap, &mut active);
+    hold(system, &start, &mut active);
     Some(active)
 }
 
 /// A set that a coarser mesh or another boundary has left, and what it takes to hold all bodies here: where the gap is
 /// smallest, with the displacements carried over. **Collective**
 pub(super) fn carried_set(system: &System, carried: &[bool], displacement: &[f64]) -> Vec<bool> {
-    let gap = gaps(system, displacement);
     let mut active = carried.to_vec();
-    hold(system.problem(), &gap, &mut active);
+    hold(system, displacement, &mut active);
     active
 }
 
@@ -46,9 +45,10 @@ fn gaps(system: &System, displacement: &[f64]) -> Vec<f64> {
     gap
 }
 
-/// Closes what has the smallest gap until all bodies are held, or all is closed.
-fn hold(problem: &Discretisation, gap: &[f64], active: &mut [bool]) {
-    if not_held(problem, active).is_some() {
-        few_that_hold(problem, active, |i| -gap[i]).into_iter().for_each(|i| active[i] = true);
+/// Closes what has the smallest gap, with the bodies displaced, until all are held or all is closed. **Collective**
+fn hold(system: &System, displacement: &[f64], active: &mut [bool]) {
+    if not_held(system.problem(), active).is_some() {
+        let gap = gaps(system, displacement);
+        few_that_hold(system.problem(), active, |i| -gap[i]).into_iter().for_each(|i| active[i] = true);
     }
 }

@@ -104,6 +104,7 @@ impl Procedure<'_> {
         let (active, passes) = (&found.solution.active, &found.passes);
         self.observer.hear(Event::Coarse { refine, unknowns, active, passes, converged });
         if converged {
+            let _stage = self.observer.enter(Work::Recovery);
             if let Some(before) = &before {
                 coarser.differences.push(Difference::new(&problem, &found.solution, before, self.session)?);
             }

@@ -3,7 +3,7 @@
 use super::balance::{Balance, balance};
 use super::deformation::{Deformation, deformations};
 use super::error_norm::energy_error;
-use super::motion_error::{MotionError, motion_errors};
+use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::probe::{Probed, probe};
 use super::stress::nodal_stress;
 use super::traces::{TracePoint, trace_points};
@@ -45,6 +45,12 @@ impl<'a> Evaluation<'a> {
     /// The pressure on one of the contacts.
     pub fn pressure(&self, contact: usize) -> ContactPressure<'a> {
         self.solution.pressure(&self.problem.contacts[contact])
+    }
+
+    /// Growth of the bodies of a contact by their turning, relative to the smallest gap at `points`; nothing if it is rounding
+    /// beside their displacements.
+    pub fn growth_by_gap(&self, contact: usize, points: &[TracePoint]) -> Option<f64> {
+        growth_by_gap(self.problem.contacts[contact].bodies.map(|body| &self.deformations[body]), points)
     }
 
     /// Both bodies' traces along a contact boundary. **Collective**

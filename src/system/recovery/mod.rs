@@ -1,16 +1,20 @@
 //! What a solution means on the bodies: energies, reactions, stresses, traces on Γ_C, values at points, errors.
 
 mod balance;
+mod corners;
 mod deformation;
 mod error_norm;
 mod evaluation;
 mod motion_error;
+mod overlaps;
 mod probe;
 mod stress;
 mod traces;
+mod zone_ends;
 mod zone_errors;
 
 pub use balance::{Balance, ContactForce, strain_energy};
+pub use corners::Corners;
 pub use deformation::Deformation;
 pub use evaluation::Evaluation;
 pub use motion_error::MotionError;

@@ -1,10 +1,16 @@
 //! What finite motions do to contact pressures of the linear theory.
 
-use super::Deformation;
+use super::{Deformation, TracePoint};
 use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, finite_motion};
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
 use crate::system::{BoundaryMotion, Contact, Discretisation, Solution, is_needed};
+
+/// A gap smaller than this share of the growth counts as large as that.
+const NO_GAP: f64 = 1e-3;
+
+/// Growth by less than this share of the displacements is rounding.
+const ROUNDING: f64 = 1e-5;
 
 /// Sliding and turning of the two bodies in a contact, and what they spoil.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,4 +86,36 @@ fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f6
     let knots = contact.boundary.knots();
     let ends_inside = knots[0] > contact.limits[0] && knots[knots.len() - 1] < contact.limits[1];
     contact.modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
+}
+
+/// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.
+pub fn growth_by_gap(bodies: [&Deformation; 2], points: &[TracePoint]) -> Option<f64> {
+    let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
+    let moved = points.iter().map(|point| point.displacement[0].abs().max(point.displacement[1].abs())).fold(0.0, f64::max);
+    let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
+    (growth > ROUNDING * moved).then(|| growth / smallest.max(NO_GAP * growth))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+
+    #[test]
+    fn bodies_that_turn_grow_by_half_the_square_of_the_angle() {
+        let turned = |rotation: f64| {
+            let (place, middle) = (Point::zeros(), Point::zeros());
+            Deformation { strain: 0.0, place, rotation, growth: 0.0, middle, radius: 3.0 }
+        };
+        let point = |gap: f64| {
+            let (x, normal) = (Point::zeros(), Point::y());
+            let displacement = [1e-4, -2e-4];
+            TracePoint { arc: 0.0, x, normal, lambda: 0.0, displacement, stress: [0.0; 2], distance: [0.0, gap], gap }
+        };
+        let points = [point(0.02), point(0.01), point(f64::NAN)];
+        let found = growth_by_gap([&turned(0.01), &turned(-0.02)], &points).expect("growth");
+        assert!((found / (1.5 * (0.01f64.powi(2) + 0.02f64.powi(2)) / 0.01) - 1.0).abs() < 1e-12, "{found}");
+        assert_eq!(growth_by_gap([&turned(1e-6), &turned(0.0)], &points), None, "rounding beside the displacements");
+        assert_eq!(growth_by_gap([&turned(0.1), &turned(0.0)], &[]), None, "no gap");
+    }
 }
