@@ -22,7 +22,7 @@ use crate::body::{Body, Load, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
-use crate::system::{SolverChoice, Tolerance};
+use crate::system::{Accuracy, SolverChoice, Tolerance};
 
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
@@ -57,6 +57,8 @@ pub struct Case {
     pub contacts: Vec<Pair>,
     /// Linear solver.
     pub solver: Solver,
+    /// The accuracy that the mesh is adapted to; nothing if it stays as it is.
+    pub accuracy: Option<Accuracy>,
     /// What is written of the result.
     pub output: Output,
     /// Points to report.
@@ -199,6 +201,7 @@ impl Case {
             loads,
             contacts,
             solver: solver?,
+            accuracy: None,
             output: output?,
             probes,
             exact,

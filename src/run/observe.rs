@@ -9,7 +9,8 @@ impl Run<'_> {
     pub(super) fn solve(&self, scene: Scene) -> Result<Solved, RunError> {
         let solver = &self.case.solver;
         let (choice, tolerance, inf_sup) = (solver.choice, solver.tolerance, solver.inf_sup);
-        Ok(Procedure { choice, tolerance, inf_sup, session: self.session, observer: self }.solve(scene)?)
+        let accuracy = self.case.accuracy.as_ref();
+        Ok(Procedure { choice, tolerance, inf_sup, accuracy, session: self.session, observer: self }.solve(scene)?)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
 use crate::system::recovery::Evaluation;
-use crate::system::{Contact, Event, Scene};
+use crate::system::{Accuracy, AdaptedMesh, Contact, Event, Scene};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -94,6 +94,7 @@ impl Report {
                 ));
                 self.fallback(pass.fallback.as_deref());
             }
+            Event::Adapted { accuracy, mesh } => self.adapted(accuracy, mesh),
             Event::Placed(step) => {
                 let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
                 self.say(&format!(
@@ -106,6 +107,21 @@ impl Report {
                 ));
             }
         }
+    }
+
+    /// One mesh of a sequence.
+    fn adapted(&self, accuracy: &Accuracy, mesh: &AdaptedMesh) {
+        let goals = accuracy.goals.iter().zip(&mesh.errors);
+        let figure = |error: &Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
+        let all: Vec<String> = goals.map(|(goal, error)| format!("{} {}", goal.quantity.word(), figure(error))).collect();
+        self.say(&format!(
+            "mesh {:2}: {} macro triangles, {} unknowns, {}, {:.2} s",
+            mesh.number,
+            mesh.macro_triangles,
+            mesh.unknowns,
+            all.join(", "),
+            mesh.seconds
+        ));
     }
 
     /// Sizes of mesh and contacts.

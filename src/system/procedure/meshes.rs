@@ -148,7 +148,7 @@ impl Procedure<'_> {
         }
         let estimate = Estimate::new(&differences, problem.scene.order, found.solution.residual);
         let OnMesh { solution, ending, passes, boundaries, solver, .. } = found;
-        Ok(Solved { problem, solution, ending, passes, boundaries, solver, estimate, coarse: solves })
+        Ok(Solved { problem, solution, ending, passes, boundaries, solver, estimate, coarse: solves, adaptation: None })
     }
 
     fn say(&self, first: &mut First) {
@@ -167,5 +167,5 @@ fn not_held_at_all(problem: &Discretisation) -> Option<String> {
 fn nothing(problem: Discretisation, ending: Ending, coarse: Vec<CoarseSolve>) -> Solved {
     let solution = Solution::nothing(problem.finest(), &vec![true; problem.multiplier_count()]);
     let (estimate, solver) = (Estimate::default(), "none".into());
-    Solved { problem, solution, ending, passes: Vec::new(), boundaries: Vec::new(), solver, estimate, coarse }
+    Solved { problem, solution, ending, passes: Vec::new(), boundaries: Vec::new(), solver, estimate, coarse, adaptation: None }
 }

@@ -7,6 +7,7 @@
 //! | boundaries | `boundaries.rs` with `following.rs` | boundary, displacement and set stand |
 //! | active sets | `contact_loop.rs` | the set stands, and the residual is below its tolerance |
 
+mod accuracy;
 mod at_rest;
 mod boundaries;
 mod coarse_solution;
@@ -23,6 +24,7 @@ mod solved;
 mod unsettled;
 mod zone_estimate;
 
+pub use accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, ProbePoint, Quantity};
 pub use at_rest::AtRest;
 pub use contact_loop::Pass;
 pub use ending::{Ending, Failure, Standing};

@@ -1,5 +1,6 @@
 //! What a run hears of the procedure while it works.
 
+use super::accuracy::{Accuracy, AdaptedMesh};
 use super::at_rest::AtRest;
 use super::contact_loop::Pass;
 use super::following::BoundaryStep;
@@ -52,6 +53,13 @@ pub enum Event<'a> {
     Passed(&'a Pass, usize),
     /// A contact boundary that was solved for.
     Placed(&'a BoundaryStep),
+    /// One mesh of a sequence that is adapted to an accuracy was solved.
+    Adapted {
+        /// The accuracy.
+        accuracy: &'a Accuracy,
+        /// The mesh.
+        mesh: &'a AdaptedMesh,
+    },
 }
 
 /// Who watches.

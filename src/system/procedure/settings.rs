@@ -1,5 +1,6 @@
 //! How a scene is solved.
 
+use super::accuracy::Accuracy;
 use super::observer::Observer;
 use crate::petsc::Session;
 use crate::system::{Discretisation, Form, SolverChoice, Tolerance};
@@ -18,6 +19,8 @@ pub struct Procedure<'a> {
     pub tolerance: Tolerance,
     /// Whether the inf-sup constants are wanted; nothing leaves it to their cost.
     pub inf_sup: Option<bool>,
+    /// The accuracy that is asked for; nothing if the mesh of the case is the mesh.
+    pub accuracy: Option<&'a Accuracy>,
     /// All ranks.
     pub session: &'a Session,
     /// Who hears of it.

@@ -1,5 +1,6 @@
 //! A scene solved.
 
+use super::accuracy::Adaptation;
 use super::contact_loop::Pass;
 use super::ending::Ending;
 use super::estimate::Estimate;
@@ -35,6 +36,8 @@ pub struct Solved {
     pub estimate: Estimate,
     /// Coarser meshes that were solved first.
     pub coarse: Vec<CoarseSolve>,
+    /// How the mesh was adapted, if an accuracy was asked for.
+    pub adaptation: Option<Adaptation>,
 }
 
 impl Solved {

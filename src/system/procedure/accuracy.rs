@@ -1,0 +1,109 @@
+//! What accuracy a case asks for, and what was reached on each mesh.
+
+use crate::geometry::Point;
+
+/// A point of a body that is looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbePoint {
+    /// Name in the case.
+    pub name: String,
+    /// Name of the body.
+    pub body: String,
+    /// Where (length).
+    pub point: Point,
+}
+
+/// A quantity whose error is to be small. Contacts go by their names.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Quantity {
+    /// The displacement in the energy norm.
+    Energy,
+    /// `∫λ ds` of a contact.
+    Force(String),
+    /// λ of a contact, root mean square over the middle of what presses.
+    Pressure(String),
+    /// The ends of contact, by its width.
+    Ends(String),
+    /// The displacement at a point, by its own size.
+    Displacement(ProbePoint),
+    /// The stress at a point, by its own size.
+    Stress(ProbePoint),
+}
+
+/// A relative error that is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// Of what.
+    pub quantity: Quantity,
+    /// The largest error, relative to the quantity.
+    pub tolerance: f64,
+}
+
+/// The accuracy that a case asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accuracy {
+    /// All of them must hold.
+    pub goals: Vec<Goal>,
+    /// Displacement unknowns of the finest mesh, at most; nothing leaves it to the memory of the machine.
+    pub most_unknowns: Option<usize>,
+    /// Seconds after which no further mesh is begun.
+    pub most_seconds: Option<f64>,
+}
+
+/// One mesh of a sequence, in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AdaptedMesh {
+    /// Number, from 1.
+    pub number: usize,
+    /// Its macro triangles.
+    pub macro_triangles: usize,
+    /// Refinements of each of them.
+    pub refine: usize,
+    /// Displacement unknowns.
+    pub unknowns: usize,
+    /// Estimated error of each goal; nothing where there is not enough to tell.
+    pub errors: Vec<Option<f64>>,
+    /// Seconds since the first mesh was begun.
+    pub seconds: f64,
+}
+
+/// How meshes were adapted to an accuracy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Adaptation {
+    /// What was asked for.
+    pub accuracy: Accuracy,
+    /// Every mesh, the last one is that of the solution.
+    pub meshes: Vec<AdaptedMesh>,
+}
+
+impl Quantity {
+    /// The word for it, as in the case.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Energy => "energy",
+            Self::Force(_) => "force",
+            Self::Pressure(_) => "pressure",
+            Self::Ends(_) => "ends",
+            Self::Displacement(_) => "displacement",
+            Self::Stress(_) => "stress",
+        }
+    }
+
+    /// The contact or the probe that it is of; nothing for the whole scene.
+    pub fn of(&self) -> Option<&str> {
+        match self {
+            Self::Energy => None,
+            Self::Force(name) | Self::Pressure(name) | Self::Ends(name) => Some(name),
+            Self::Displacement(probe) | Self::Stress(probe) => Some(&probe.name),
+        }
+    }
+}
+
+impl Adaptation {
+    /// Whether the errors on the last mesh are what was asked for.
+    pub fn is_reached(&self) -> bool {
+        let Some(last) = self.meshes.last() else { return false };
+        let goals = self.accuracy.goals.iter().zip(&last.errors);
+        goals.into_iter().all(|(goal, error)| error.is_some_and(|error| error <= goal.tolerance))
+    }
+}
