@@ -4,6 +4,7 @@
 //! of [`lattice`]; node numbers follow in closed form ([`Numbering`]) and positions from one map per macro triangle
 //! ([`MacroMesh::node_position`]), so no rank ever asks another about the mesh.
 
+mod bisection;
 mod chain;
 mod edge_shape;
 mod edge_trace;
@@ -23,6 +24,7 @@ mod smooth_normal;
 mod spline_shape;
 mod strip;
 
+pub use bisection::{BisectedMesh, Origin};
 pub use chain::Stretch;
 pub use edge_shape::EdgeShape;
 pub use edge_trace::{BoundaryEdge, EdgeNode};

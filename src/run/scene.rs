@@ -4,9 +4,9 @@ use super::RunError;
 use crate::case::Case;
 use crate::contact::CurveChoice;
 use crate::geometry::Point;
-use crate::mesh::{Graph, MacroMesh, Partition, parse_gmsh, read_bytes};
-use crate::petsc::{Session, partition};
-use crate::system::Scene;
+use crate::mesh::{MacroMesh, Partition, parse_gmsh, read_bytes};
+use crate::petsc::Session;
+use crate::system::{self, Scene};
 use std::rc::Rc;
 
 /// The bytes of the mesh file of a case.
@@ -58,11 +58,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
 
 /// A scene with its macro triangles spread over the ranks. **Collective**
 pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, RunError> {
-    let side = |name: &String| mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-    let pairs: Vec<[&[u32]; 2]> = case.contacts.iter().map(|pair| [side(&pair.between[0]), side(&pair.between[1])]).collect();
-    let graph = Graph::new(&mesh, &pairs);
-    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.weights)?;
-    let partition = Partition::new(&mesh, &ranks, session.size());
+    let partition = system::spread(&mesh, &case.contacts, session)?;
     Ok(assemble(case, mesh, partition))
 }
 

@@ -47,7 +47,7 @@ pub use procedure::{
 };
 pub use rigid_start::rigid_start;
 pub use saddle_point::{SaddlePoint, SchurPattern};
-pub use scene::Scene;
+pub use scene::{Scene, spread};
 pub use solution::Solution;
 pub use solver::{LinearEnding, LinearSolve, LinearSolver, Preconditioning, inf_sup};
 pub use space::Space;

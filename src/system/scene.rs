@@ -4,7 +4,8 @@ use crate::body::{Body, Load, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneStrain};
 use crate::geometry::Point;
-use crate::mesh::{MacroMesh, Partition};
+use crate::mesh::{Graph, MacroMesh, Partition};
+use crate::petsc::{self, Session, partition};
 use std::rc::Rc;
 
 /// Everything that defines the system, the same on every rank. Copies share the mesh.
@@ -35,6 +36,15 @@ impl Scene {
         Self { refine: self.refine - times, pairs, ..self.clone() }
     }
 
+    /// The same scene on another mesh of the same bodies, spread over the ranks. **Collective**
+    ///
+    /// # Errors
+    /// What PETSc says.
+    pub fn on(&self, mesh: MacroMesh, session: &Session) -> petsc::Result<Self> {
+        let partition = Rc::new(spread(&mesh, &self.pairs, session)?);
+        Ok(Self { mesh: Rc::new(mesh), partition, ..self.clone() })
+    }
+
     /// Plane-strain law of each body.
     pub fn laws(&self) -> Vec<PlaneStrain> {
         self.bodies.iter().map(|body| body.material.law()).collect()
@@ -45,4 +55,17 @@ impl Scene {
         let extent = |[low, high]: [Point; 2]| Extent { middle: 0.5 * (low + high), radius: 0.5 * (high - low).norm() };
         self.mesh.bounds().into_iter().map(extent).collect()
     }
+}
+
+/// Spreads macro triangles over the ranks: those that share an edge, or face each other in a contact, lie together if they can.
+/// **Collective**
+///
+/// # Errors
+/// What PETSc says.
+pub fn spread(mesh: &MacroMesh, pairs: &[Pair], session: &Session) -> petsc::Result<Partition> {
+    let side = |name: &String| mesh.boundary(name).map(|found| found.edges.as_slice()).unwrap_or(&[]);
+    let sides: Vec<[&[u32]; 2]> = pairs.iter().map(|pair| pair.between.each_ref().map(side)).collect();
+    let graph = Graph::new(mesh, &sides);
+    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.weights)?;
+    Ok(Partition::new(mesh, &ranks, session.size()))
 }

@@ -11,7 +11,7 @@ use super::zone_estimate::ZoneEstimate;
 use crate::contact::Zone;
 use crate::element::Order;
 use crate::petsc::Session;
-use crate::system::recovery::{TracePoint, ZoneErrors, strain_energy, zone_errors};
+use crate::system::recovery::{TracePoint, ZoneErrors, local_strain_energy, strain_energy, zone_errors};
 use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
 
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
@@ -34,6 +34,8 @@ const FORCE_UNKNOWN: f64 = 0.6;
 pub struct Difference {
     /// Square of the relative energy norm.
     energy: f64,
+    /// Its part on each macro triangle of this rank, in the rank's order.
+    local: Vec<f64>,
     /// Relative difference of `∫λ ds`, for each contact.
     force: Vec<f64>,
     /// The zones of each contact.
@@ -45,6 +47,8 @@ pub struct Difference {
 pub struct Estimate {
     /// In the energy norm.
     pub energy: Option<f64>,
+    /// Square of the last difference in that norm on each macro triangle of this rank, in the rank's order.
+    pub local: Vec<f64>,
     /// Of `∫λ ds`, for each contact.
     pub force: Vec<Option<f64>>,
     /// For each zone of each contact, the last difference and, if the zone was there, the one before.
@@ -62,7 +66,9 @@ impl Difference {
         let mut apart = coarse.displacement(&problem.scene, problem.finest(), session.rank());
         apart.iter_mut().zip(&solution.displacement).for_each(|(before, now)| *before = now - *before);
         let whole = strain_energy(problem, &Field::displacement(problem, &solution.displacement, session)?, session)?;
-        let apart = strain_energy(problem, &Field::displacement(problem, &apart, session)?, session)?;
+        let apart = Field::displacement(problem, &apart, session)?;
+        let local = local_strain_energy(problem, &apart, session)?;
+        let apart = strain_energy(problem, &apart, session)?;
         let (mut force, mut zones) = (Vec::new(), Vec::new());
         for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
             let pressure = solution.pressure(contact);
@@ -71,7 +77,9 @@ impl Difference {
             let before = |x| coarse.pressure(at).at_foot(x);
             zones.push(pressure.zones().iter().map(|zone| ZoneDifference::new(contact, pressure.values, zone, before)).collect());
         }
-        Ok(Self { energy: apart.iter().sum::<f64>() / whole.iter().sum::<f64>(), force, zones })
+        let whole = whole.iter().sum::<f64>();
+        let local = local.into_iter().map(|part| part / whole).collect();
+        Ok(Self { energy: apart.iter().sum::<f64>() / whole, local, force, zones })
     }
 }
 
@@ -93,6 +101,7 @@ impl Estimate {
         let force = |k: usize| force_left(before.map(|before| before.force[k]), last.force[k], order);
         Self {
             energy: energy.map(f64::sqrt).filter(|error| error.is_finite()),
+            local: last.local.clone(),
             force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
             zones: contacts.map(zones).collect(),
         }
@@ -148,7 +157,7 @@ mod tests {
     use super::*;
 
     fn difference(square: f64) -> Difference {
-        Difference { energy: square, force: vec![square], zones: vec![Vec::new()] }
+        Difference { energy: square, local: Vec::new(), force: vec![square], zones: vec![Vec::new()] }
     }
 
     #[test]

@@ -36,11 +36,22 @@ struct First {
 }
 
 impl Procedure<'_> {
-    /// Solves a scene. A body that nothing holds is found before anything is assembled. **Collective**
+    /// Solves a scene: on the mesh of the case, or on one that is adapted to an accuracy. **Collective**
     ///
     /// # Errors
     /// [`SystemError`] if the scene cannot be solved at all; everything else is an [`Ending`].
     pub fn solve(&self, scene: Scene) -> Result<Solved, SystemError> {
+        match self.accuracy {
+            Some(accuracy) => self.adapt(scene, accuracy),
+            None => self.solve_on_mesh(scene),
+        }
+    }
+
+    /// Solves a scene on its mesh. A body that nothing holds is found before anything is assembled. **Collective**
+    ///
+    /// # Errors
+    /// As [`Procedure::solve`].
+    pub(super) fn solve_on_mesh(&self, scene: Scene) -> Result<Solved, SystemError> {
         let at_rest = {
             let _stage = self.observer.enter(Work::Contact);
             Self::look(&scene, self.session.rank())?

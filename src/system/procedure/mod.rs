@@ -8,6 +8,7 @@
 //! | active sets | `contact_loop.rs` | the set stands, and the residual is below its tolerance |
 
 mod accuracy;
+mod adapting;
 mod at_rest;
 mod boundaries;
 mod coarse_solution;
@@ -17,6 +18,8 @@ mod ending;
 mod estimate;
 mod first_set;
 mod following;
+mod goal_errors;
+mod marking;
 mod meshes;
 mod observer;
 mod settings;

@@ -3,6 +3,7 @@
 use super::agreed;
 use crate::body::MacroStiffness;
 use crate::contact::{Configuration, Side};
+use crate::element::PlaneStrain;
 use crate::geometry::{Point, cross};
 use crate::mesh::{EdgeNode, lattice};
 use crate::petsc::Session;
@@ -210,41 +211,71 @@ fn body_balance(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum
 /// Strain energy of each body. **Collective**
 ///
 /// # Errors
-/// [`SystemError`] from PETSc or an inverted triangle.
+/// As [`balance`].
 pub fn strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
     let (mut strain, _) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
     Ok(strain)
 }
 
+/// Strain energy of each macro triangle of this rank, in its order. **Collective**
+///
+/// # Errors
+/// As [`balance`].
+pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
+    let laws = problem.scene.laws();
+    let own = problem.scene.partition.triangles_of(session.rank());
+    let energy = |&triangle: &u32| {
+        let mut energy = 0.0;
+        each_force(problem, &laws, u, triangle as usize, |_, force, u| energy += 0.5 * force.dot(&u))?;
+        Ok(energy)
+    };
+    agreed(session, own.iter().map(energy).collect())
+}
+
 /// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
 fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
-    let (scene, space) = (&problem.scene, problem.finest());
+    let scene = &problem.scene;
     let laws = scene.laws();
-    let n = space.numbering.level.intervals;
     let mut strain = vec![0.0; scene.bodies.len()];
     let mut forces = Field::<2>::zeros(problem, session);
     let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
         let body = scene.mesh.triangles[triangle as usize].body as usize;
-        let stiffness = MacroStiffness::new(&scene.mesh, triangle as usize, space.numbering.level, &laws[body])?;
-        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
-        let local: Vec<Point> = lattice::nodes(n).map(|(i, j)| u.point(numbers.node(i, j))).collect();
-        for (at, (i, j)) in lattice::nodes(n).enumerate() {
-            let mut force = Point::zeros();
-            for ((k, l), block) in stiffness.row(i, j) {
-                let u = local[lattice::index(n, k, l)];
-                force.x += block[0][0] * u.x + block[0][1] * u.y;
-                force.y += block[1][0] * u.x + block[1][1] * u.y;
-            }
-            strain[body] += 0.5 * force.dot(&local[at]);
-            let sum = forces.at_mut(numbers.node(i, j));
+        each_force(problem, &laws, u, triangle as usize, |node, force, u| {
+            strain[body] += 0.5 * force.dot(&u);
+            let sum = forces.at_mut(node);
             sum[0] += force.x;
             sum[1] += force.y;
-        }
-        Ok::<(), SystemError>(())
+        })
     });
     agreed(session, added)?;
     Ok((strain, forces.sum(session)?))
+}
+
+/// Internal forces of one macro triangle: number, force and displacement of each of its nodes.
+fn each_force(
+    problem: &Discretisation,
+    laws: &[PlaneStrain],
+    u: &Field<2>,
+    triangle: usize,
+    mut take: impl FnMut(usize, Point, Point),
+) -> Result<(), SystemError> {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let n = numbering.level.intervals;
+    let law = &laws[mesh.triangles[triangle].body as usize];
+    let stiffness = MacroStiffness::new(mesh, triangle, numbering.level, law)?;
+    let numbers = numbering.triangle(mesh, triangle);
+    let local: Vec<Point> = lattice::nodes(n).map(|(i, j)| u.point(numbers.node(i, j))).collect();
+    for (at, (i, j)) in lattice::nodes(n).enumerate() {
+        let mut force = Point::zeros();
+        for ((k, l), block) in stiffness.row(i, j) {
+            let u = local[lattice::index(n, k, l)];
+            force.x += block[0][0] * u.x + block[0][1] * u.y;
+            force.y += block[1][0] * u.x + block[1][1] * u.y;
+        }
+        take(numbers.node(i, j), force, local[at]);
+    }
+    Ok(())
 }
 
 /// `Bᵀλ` at the contact nodes.

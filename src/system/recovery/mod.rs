@@ -13,7 +13,7 @@ mod traces;
 mod zone_ends;
 mod zone_errors;
 
-pub use balance::{Balance, ContactForce, strain_energy};
+pub use balance::{Balance, ContactForce, local_strain_energy, strain_energy};
 pub use corners::Corners;
 pub use deformation::Deformation;
 pub use evaluation::Evaluation;

@@ -1,0 +1,322 @@
+//! Macro meshes that are refined where it is asked for, by newest vertex bisection.
+//!
+//! Each macro triangle has one side that it is halved at: the longest one in the file, the one across from the newest vertex
+//! after that, so that all descendants of a triangle are of four shapes at most (Sewell 1972; Mitchell 1988). What is halved
+//! is halved for both triangles beside it, so that the mesh stays conforming; new vertices of a bent side lie on its curve.
+
+use super::edge_shape::EdgeShape;
+use super::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
+use crate::geometry::Point;
+use std::collections::HashMap;
+
+/// A macro mesh whose triangles know where they are halved.
+#[derive(Clone, Debug)]
+pub struct BisectedMesh {
+    /// The mesh.
+    pub mesh: MacroMesh,
+    /// The side that each triangle is halved at: 0, 1 or 2.
+    sides: Vec<usize>,
+}
+
+/// Where a triangle of a refined mesh comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Origin {
+    /// The triangle of the mesh before that holds it.
+    pub triangle: u32,
+    /// Its corners in that triangle, as `(xi, eta)`.
+    pub corners: [Point; 3],
+}
+
+/// A triangle on its way: its corners, the newest one first, and where they lie in the triangle that it comes from.
+#[derive(Clone, Copy)]
+struct Part {
+    corners: [u32; 3],
+    places: [Point; 3],
+}
+
+impl BisectedMesh {
+    /// A mesh of a file: its triangles are halved at their longest sides first.
+    pub fn new(mesh: MacroMesh) -> Self {
+        let longest = |triangle: &MacroTriangle| {
+            let lengths = triangle.edges.map(|edge| mesh.edge_length(edge));
+            // Sides of one length are told by their number: rounding decides nothing.
+            (1..3).fold(0, |best, k| if lengths[k] > lengths[best] * (1.0 + 1e-9) { k } else { best })
+        };
+        let sides = mesh.triangles.iter().map(longest).collect();
+        Self { mesh, sides }
+    }
+
+    /// The mesh with all sides of the marked triangles halved, and where each of its triangles comes from.
+    pub fn refined(&self, marked: impl Iterator<Item = u32>) -> (Self, Vec<Origin>) {
+        let halved = self.halved(marked);
+        let mut vertices = self.mesh.vertices.clone();
+        let mut middles = vec![None; self.mesh.edges.len()];
+        for edge in (0..self.mesh.edges.len()).filter(|&edge| halved[edge]) {
+            middles[edge] = Some(vertices.len() as u32);
+            vertices.push(self.mesh.edge_position(edge as u32, 0.5));
+        }
+        let mut next = Connected::new(&self.mesh, vertices);
+        let (mut sides, mut origins) = (Vec::new(), Vec::new());
+        for (triangle, known) in self.mesh.triangles.iter().enumerate() {
+            for (part, side) in self.parts(triangle, &middles) {
+                next.add(part.corners, known);
+                sides.push(side);
+                origins.push(Origin { triangle: triangle as u32, corners: part.places });
+            }
+        }
+        next.halve_edges(&self.mesh, &middles);
+        (Self { mesh: next.mesh, sides }, origins)
+    }
+
+    /// Which edges are halved: all of the marked triangles, and as many as it takes that every triangle that has a halved edge
+    /// is halved at its own side.
+    fn halved(&self, marked: impl Iterator<Item = u32>) -> Vec<bool> {
+        let mut halved = vec![false; self.mesh.edges.len()];
+        let mut waiting: Vec<u32> = marked.flat_map(|triangle| self.mesh.triangles[triangle as usize].edges).collect();
+        while let Some(edge) = waiting.pop() {
+            if std::mem::replace(&mut halved[edge as usize], true) {
+                continue;
+            }
+            for triangle in self.mesh.edges[edge as usize].triangles.into_iter().flatten() {
+                waiting.push(self.mesh.triangles[triangle as usize].edges[self.sides[triangle as usize]]);
+            }
+        }
+        halved
+    }
+
+    /// The parts of a triangle by the middles of its edges, each with the side that it is halved at next.
+    fn parts(&self, triangle: usize, middles: &[Option<u32>]) -> Vec<(Part, usize)> {
+        let MacroTriangle { vertices, edges, .. } = &self.mesh.triangles[triangle];
+        let places = [Point::zeros(), Point::x(), Point::y()];
+        let side = self.sides[triangle];
+        let Some(middle) = middles[edges[side] as usize] else {
+            return vec![(Part { corners: *vertices, places }, side)];
+        };
+        // Corners in order from the newest one: the side lies across from it.
+        let turned = [(side + 2) % 3, side, (side + 1) % 3];
+        let whole = Part { corners: turned.map(|k| vertices[k]), places: turned.map(|k| places[k]) };
+        let halves = whole.halves(middle);
+        // The halves are halved at the sides between the newest corner and the two others.
+        let theirs = [edges[(side + 2) % 3], edges[(side + 1) % 3]].map(|edge| middles[edge as usize]);
+        let parts = halves.into_iter().zip(theirs).flat_map(|(half, middle)| match middle {
+            Some(middle) => half.halves(middle).to_vec(),
+            None => vec![half],
+        });
+        parts.map(|part| (part, 1)).collect()
+    }
+}
+
+impl Part {
+    /// Both halves by the middle of the side across from the newest corner; the middle is their newest corner.
+    fn halves(&self, middle: u32) -> [Self; 2] {
+        let ([a, b, c], [x, y, z]) = (self.corners, self.places);
+        let half_way = 0.5 * (y + z);
+        [Self { corners: [middle, a, b], places: [half_way, x, y] }, Self { corners: [middle, c, a], places: [half_way, z, x] }]
+    }
+}
+
+/// A mesh that is being connected.
+struct Connected {
+    mesh: MacroMesh,
+    /// Edges by their ends, the smaller one first.
+    known: HashMap<[u32; 2], u32>,
+}
+
+impl Connected {
+    /// The bodies of a mesh without its triangles.
+    fn new(before: &MacroMesh, vertices: Vec<Point>) -> Self {
+        let mut ratios = before.ratios.clone();
+        ratios.resize(vertices.len(), None);
+        let pieces = before.pieces.iter().map(|piece| super::BodyPiece { first: u32::MAX, ..piece.clone() }).collect();
+        let mesh = MacroMesh {
+            file: before.file.clone(),
+            vertices,
+            ratios,
+            triangles: Vec::new(),
+            edges: Vec::new(),
+            bodies: before.bodies.clone(),
+            pieces,
+            boundaries: Vec::new(),
+        };
+        Self { mesh, known: HashMap::new() }
+    }
+
+    /// Adds a triangle of the same body and piece as one of the mesh before.
+    fn add(&mut self, vertices: [u32; 3], before: &MacroTriangle) {
+        let triangle = self.mesh.triangles.len() as u32;
+        let (mut edges, mut forward) = ([0; 3], [true; 3]);
+        for k in 0..3 {
+            let (a, b) = (vertices[k], vertices[(k + 1) % 3]);
+            let count = self.mesh.edges.len() as u32;
+            edges[k] = *self.known.entry([a.min(b), a.max(b)]).or_insert(count);
+            if edges[k] == count {
+                self.mesh.edges.push(MacroEdge { vertices: [a, b], triangles: [Some(triangle), None], shape: None });
+            } else {
+                self.mesh.edges[edges[k] as usize].triangles[1] = Some(triangle);
+                forward[k] = false;
+            }
+        }
+        let piece = &mut self.mesh.pieces[before.piece as usize];
+        piece.first = piece.first.min(triangle);
+        self.mesh.triangles.push(MacroTriangle { vertices, edges, forward, ..before.clone() });
+    }
+
+    /// Gives the edges the shapes, and the boundaries, of the edges that they are parts of.
+    fn halve_edges(&mut self, before: &MacroMesh, middles: &[Option<u32>]) {
+        for (edge, known) in before.edges.iter().enumerate() {
+            let Some(shape) = &known.shape else { continue };
+            let [a, b] = known.vertices;
+            match middles[edge] {
+                None => self.bend([a, b], shape.clone()),
+                Some(middle) => {
+                    let [from, to] = shape.range;
+                    let at = shape.parameter(0.5);
+                    self.bend([a, middle], EdgeShape { range: [from, at], ..shape.clone() });
+                    self.bend([middle, b], EdgeShape { range: [at, to], ..shape.clone() });
+                }
+            }
+        }
+        for boundary in &before.boundaries {
+            let parts = boundary.edges.iter().flat_map(|&edge| {
+                let [a, b] = before.edges[edge as usize].vertices;
+                match middles[edge as usize] {
+                    None => vec![self.edge(a, b)],
+                    Some(middle) => vec![self.edge(a, middle), self.edge(middle, b)],
+                }
+            });
+            let edges = parts.collect();
+            self.mesh.boundaries.push(Boundary { name: boundary.name.clone(), edges });
+        }
+    }
+
+    fn edge(&self, a: u32, b: u32) -> u32 {
+        self.known[&[a.min(b), a.max(b)]]
+    }
+
+    /// Gives the edge between two vertices a shape that runs from the first to the second.
+    fn bend(&mut self, [a, b]: [u32; 2], shape: EdgeShape) {
+        let edge = self.edge(a, b);
+        let edge = &mut self.mesh.edges[edge as usize];
+        let [from, to] = shape.range;
+        let range = if edge.vertices == [a, b] { [from, to] } else { [to, from] };
+        edge.shape = Some(EdgeShape { range, ..shape });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::two_blocks;
+    use super::*;
+    use crate::geometry::{Curve, cross};
+    use std::collections::HashSet;
+
+    fn area(mesh: &MacroMesh, triangle: &MacroTriangle) -> f64 {
+        let [a, b, c] = triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        0.5 * cross(b - a, c - a)
+    }
+
+    /// Halves the triangles that hold a point, again and again.
+    fn towards(point: Point, times: usize) -> Vec<BisectedMesh> {
+        let mut all = vec![BisectedMesh::new(two_blocks())];
+        for _ in 0..times {
+            let last = &all[all.len() - 1];
+            let near = (0..last.mesh.triangles.len()).filter(|&k| last.mesh.locate(k, point).is_some());
+            let marked: Vec<u32> = near.map(|k| k as u32).collect();
+            all.push(last.refined(marked.into_iter()).0);
+        }
+        all
+    }
+
+    #[test]
+    fn meshes_stay_conforming_and_keep_their_area_bodies_and_boundaries() {
+        for mesh in towards(Point::new(0.0, 1.0), 12).iter().map(|bisected| &bisected.mesh) {
+            let whole: f64 = mesh.triangles.iter().map(|triangle| area(mesh, triangle)).sum();
+            assert!((whole - 4.0).abs() < 1e-12, "{whole}");
+            assert!(mesh.triangles.iter().all(|triangle| area(mesh, triangle) > 0.0));
+            for (k, edge) in mesh.edges.iter().enumerate() {
+                for triangle in edge.triangles.into_iter().flatten() {
+                    assert!(mesh.triangles[triangle as usize].edges.contains(&(k as u32)));
+                }
+            }
+            // No vertex lies inside an edge: all edges with one triangle are on the outline.
+            let inner = mesh.edges.iter().filter(|edge| edge.triangles[1].is_none()).map(|edge| {
+                let [a, b] = edge.vertices.map(|v| mesh.vertices[v as usize]);
+                let on = |x: f64, v: [f64; 2]| v.iter().any(|v| (x - v).abs() < 1e-12);
+                (a.x == b.x && on(a.x, [0.0, 2.0])) || (a.y == b.y && on(a.y, [0.0, 2.0]) || a.y == 1.0)
+            });
+            assert!(inner.into_iter().all(|on| on));
+            for boundary in &mesh.boundaries {
+                let length: f64 = boundary.edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
+                let first = two_blocks();
+                let before: f64 =
+                    first.boundary(&boundary.name).expect("named").edges.iter().map(|&edge| first.edge_length(edge)).sum();
+                assert!((length - before).abs() < 1e-12, "{}", boundary.name);
+            }
+            for piece in &mesh.pieces {
+                assert_eq!(mesh.triangles[piece.first as usize].body as usize, piece.body);
+            }
+        }
+    }
+
+    #[test]
+    fn triangles_are_of_few_shapes_however_often_they_are_halved() {
+        let all = towards(Point::new(0.0, 1.0), 20);
+        let angles = |mesh: &MacroMesh| -> HashSet<i64> {
+            let mut found = HashSet::new();
+            for triangle in &mesh.triangles {
+                let x = triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]);
+                for k in 0..3 {
+                    let angle = (x[(k + 1) % 3] - x[k]).angle(&(x[(k + 2) % 3] - x[k]));
+                    found.insert((angle * 1e6).round() as i64);
+                }
+            }
+            found
+        };
+        let mesh = &all[20].mesh;
+        let first = all[0].mesh.triangles.len();
+        assert!(angles(mesh).len() <= 12 * first, "four shapes of three angles for each triangle");
+        assert!(mesh.triangles.len() < 40 * 20, "{} triangles: refinement stays local", mesh.triangles.len());
+        let smallest = mesh.triangles.iter().map(|triangle| area(mesh, triangle)).fold(f64::INFINITY, f64::min);
+        assert!(smallest < 1e-9);
+    }
+
+    #[test]
+    fn triangles_know_where_they_come_from() {
+        let before = &towards(Point::new(0.9, 1.0), 2)[2];
+        let (after, origins) = before.refined([0, 3].into_iter());
+        assert_eq!(origins.len(), after.mesh.triangles.len());
+        for (triangle, origin) in after.mesh.triangles.iter().zip(&origins) {
+            for (vertex, place) in triangle.vertices.into_iter().zip(origin.corners) {
+                let x = before.mesh.position(origin.triangle as usize, place.x, place.y);
+                assert!((x - after.mesh.vertices[vertex as usize]).norm() < 1e-14);
+            }
+        }
+        // All three sides of a marked triangle are halved: four parts.
+        for marked in [0, 3] {
+            assert_eq!(origins.iter().filter(|origin| origin.triangle == marked).count(), 4);
+        }
+    }
+
+    #[test]
+    fn new_vertices_lie_on_the_curve_of_a_bent_side() {
+        let mut mesh = two_blocks();
+        let circle = Curve::Circle { centre: [1.0, -2.0], radius: 10f64.sqrt() };
+        mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
+        let mut bisected = BisectedMesh::new(mesh);
+        for _ in 0..3 {
+            let all = 0..bisected.mesh.triangles.len() as u32;
+            bisected = bisected.refined(all).0;
+        }
+        let edges = &bisected.mesh.boundary("lower.seam").expect("named").edges;
+        assert_eq!(edges.len(), 8);
+        for &edge in edges {
+            for t in [0.0, 0.3, 1.0] {
+                let x = bisected.mesh.edge_position(edge, t);
+                assert!((x - circle.point(circle.nearest(x))).norm() < 1e-14, "{x}");
+            }
+            let [a, b] = bisected.mesh.edges[edge as usize].vertices.map(|v| bisected.mesh.vertices[v as usize]);
+            assert!((bisected.mesh.edge_position(edge, 1e-9) - a).norm() < 1e-8);
+            assert!((bisected.mesh.edge_position(edge, 1.0 - 1e-9) - b).norm() < 1e-8);
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Estimated errors of the goals of an accuracy.
+
+use super::accuracy::{Goal, Quantity};
+use super::settings::Procedure;
+use super::solved::Solved;
+use crate::system::recovery::Evaluation;
+use crate::system::{Discretisation, SystemError};
+
+impl Procedure<'_> {
+    /// The estimated relative error of each goal; nothing where there is not enough to tell. **Collective**
+    pub(super) fn goal_errors(&self, goals: &[Goal], solved: &Solved) -> Result<Vec<Option<f64>>, SystemError> {
+        goals.iter().map(|goal| self.goal_error(&goal.quantity, solved)).collect()
+    }
+
+    fn goal_error(&self, quantity: &Quantity, solved: &Solved) -> Result<Option<f64>, SystemError> {
+        let Solved { problem, estimate, .. } = solved;
+        Ok(match quantity {
+            Quantity::Energy => estimate.energy,
+            Quantity::Force(name) => contact_called(problem, name).and_then(|at| estimate.force.get(at).copied().flatten()),
+            Quantity::Pressure(name) => match contact_called(problem, name) {
+                Some(at) => self.pressure_error(solved, at)?,
+                None => None,
+            },
+            Quantity::Ends(_) | Quantity::Displacement(_) | Quantity::Stress(_) => None,
+        })
+    }
+
+    /// Error of λ on the worst zone of a contact.
+    fn pressure_error(&self, solved: &Solved, at: usize) -> Result<Option<f64>, SystemError> {
+        let Solved { problem, solution, estimate, .. } = solved;
+        let found = Evaluation::new(problem, solution, self.session)?;
+        let pressure = found.pressure(at);
+        let points = found.traces(&pressure)?;
+        let zones = pressure.zones();
+        let all = estimate.of_zones(at, &pressure, &zones, &points);
+        let errors: Option<Vec<f64>> = all.iter().map(|(zone, _)| zone.pressure).collect();
+        Ok(errors.and_then(|errors| errors.into_iter().reduce(f64::max)))
+    }
+}
+
+/// The place of a contact among all.
+fn contact_called(problem: &Discretisation, name: &str) -> Option<usize> {
+    problem.contacts.iter().position(|contact| contact.pair.name == name)
+}
