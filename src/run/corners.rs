@@ -30,7 +30,7 @@ pub struct Corners {
 
 impl Corners {
     /// Writes it down. Beside such corners λ grows, and what looks singular at an end may be one of them.
-    pub fn describe(&self, contact: &mut summary::Contact, zones: &mut [summary::Zone]) {
+    pub fn describe(&self, contact: &mut summary::ContactSummary, zones: &mut [summary::ZoneSummary]) {
         contact.corner_angle = Some(self.angle.to_degrees());
         contact.corner_error = Some(self.error);
         if self.error > GROWS {
@@ -40,7 +40,7 @@ impl Corners {
 }
 
 /// Looks for corners that are left in the edges of both bodies, on the undeformed bodies.
-pub fn corners(scene: &Scene, contact: &Contact, zones: &[summary::Zone]) -> Corners {
+pub fn corners(scene: &Scene, contact: &Contact, zones: &[summary::ZoneSummary]) -> Corners {
     let boundary = &contact.boundary;
     let within = |s: f64| {
         let ends = zones.iter().filter(|zone| zone.counts(zones)).filter_map(|zone| zone.ends);

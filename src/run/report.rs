@@ -53,7 +53,7 @@ impl Report {
     }
 
     /// What the solution procedure tells.
-    pub fn hear(&self, event: &Event) {
+    pub fn event(&self, event: &Event) {
         match event {
             Event::AtRest { scene, at_rest } => {
                 self.sizes(scene, &at_rest.contacts, &at_rest.numbering);
@@ -195,7 +195,7 @@ impl Report {
         }
     }
 
-    /// The last words: the verdict, and where the results are. A bad one is heard even if the run is quiet.
+    /// The last words: the verdict, and where the results are. A bad one is printed even if the run is quiet.
     pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
         match outcome {
             Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),

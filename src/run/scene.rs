@@ -61,7 +61,7 @@ pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, 
     let side = |name: &String| mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]);
     let pairs: Vec<[&[u32]; 2]> = case.contacts.iter().map(|pair| [side(&pair.between[0]), side(&pair.between[1])]).collect();
     let graph = Graph::new(&mesh, &pairs);
-    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.weights)?;
+    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.connection_weights)?;
     let partition = Partition::new(&mesh, &ranks, session.size());
     Ok(assemble(case, mesh, partition))
 }

@@ -63,7 +63,7 @@ pub enum NextBoundary {
 }
 
 /// A position of an end and how far off it was found to be, in the parameter of Γ_C.
-type Found = Option<(f64, f64)>;
+type FoundEnd = Option<(f64, f64)>;
 
 /// State of the loop over boundaries.
 pub struct Following {
@@ -73,7 +73,7 @@ pub struct Following {
     tolerance: f64,
     displacement: Vec<f64>,
     active: Vec<bool>,
-    ends: Vec<[Found; 2]>,
+    ends: Vec<[FoundEnd; 2]>,
     /// How far the boundary moved last before its ends were held.
     last_way: f64,
     /// How far each boundary has reached so far.
@@ -216,7 +216,7 @@ fn differs(contact: &Contact, meeting: &Meeting) -> bool {
 
 /// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not
 /// beyond the bodies' boundaries.
-fn free_ends(pressure: &ContactPressure, history: &mut [Found; 2]) -> [f64; 2] {
+fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2]) -> [f64; 2] {
     let ContactPressure { contact, values: lambda, active } = *pressure;
     let boundary = &contact.boundary;
     let knots = boundary.knots();

@@ -1,4 +1,4 @@
-//! What a run hears of the procedure while it works.
+//! What a run is told of the procedure while it works.
 
 use super::at_rest::AtRest;
 use super::contact_loop::Pass;
@@ -56,8 +56,8 @@ pub enum Event<'a> {
 
 /// Who watches.
 pub trait Observer {
-    /// Hears of an event, on every rank.
-    fn hear(&self, event: Event);
+    /// Is told of an event, on every rank.
+    fn observe(&self, event: Event);
 
     /// Times a part of the work until the guard is dropped.
     fn enter(&self, work: Work) -> Option<StageGuard<'_>>;
@@ -65,7 +65,7 @@ pub trait Observer {
 
 /// Nobody.
 impl Observer for () {
-    fn hear(&self, _: Event) {}
+    fn observe(&self, _: Event) {}
 
     fn enter(&self, _: Work) -> Option<StageGuard<'_>> {
         None

@@ -20,7 +20,7 @@ pub struct Procedure<'a> {
     pub inf_sup: Option<bool>,
     /// All ranks.
     pub session: &'a Session,
-    /// Who hears of it.
+    /// Who is told of its events.
     pub observer: &'a dyn Observer,
 }
 

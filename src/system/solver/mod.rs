@@ -17,7 +17,7 @@ use self::options::{CoarseSolver, FIELD_SPLIT, is_chosen, lambda_options, precon
 use super::auxiliary::GalerkinLevels;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
-use crate::petsc::{self, Krylov, Level, Matrix, Session, Solved, Vector};
+use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, Session, Vector};
 use fallback::needed;
 use std::rc::Rc;
 
@@ -124,8 +124,8 @@ impl LinearSolver {
             let solvers = preconditioner.field_split_solvers()?;
             let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
             let operators = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::operator));
-            let levels: Vec<Level> =
-                operators.zip(steps).map(|(operator, interpolation)| Level { operator, interpolation }).collect();
+            let levels: Vec<MultigridLevel> =
+                operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;
@@ -277,7 +277,7 @@ impl LinearSolver {
         norm: f64,
         tolerance: f64,
         &LinearSolve { residual, iterations, .. }: &LinearSolve,
-        solved: Solved,
+        solved: KrylovEnding,
     ) -> Result<LinearEnding, SystemError> {
         let floor = self.rounding(system, x, norm)?;
         Ok(if residual <= floor.min(MOST_ROUNDING) {
