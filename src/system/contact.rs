@@ -92,26 +92,15 @@ impl Contact {
         let young = bodies.map(|body| scene.bodies[body].material.young);
         let placed = place(&scene.mesh, numbering, pair, young, known, displacement)?;
         let boundary = placed.boundary;
-        let mut all = all_edges(&scene.mesh, numbering, pair, displacement);
-        if pair.curve == CurveChoice::Fit {
-            let [of_first, of_second] = &mut all;
-            of_first.retain(|edge| faces(&boundary, Side::First, edge));
-            of_second.retain(|edge| faces(&boundary, Side::Second, edge));
-        }
+        let all = facing_edges(scene, numbering, pair, &boundary, displacement);
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
         let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
         let segment_ratio = segment_ratio(&boundary, &all, young);
         let edge_lengths = segment_edge_lengths(&boundary, &all, young);
         let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
-        let multipliers = Multipliers::new(pair.space, &boundary);
         let modulus = 2.0 / (1.0 / young[0] + 1.0 / young[1]);
-        let stabilised = pair.space != MultiplierSpace::P1Continuous
-            && match pair.stabilise {
-                Stabilise::On => true,
-                Stabilise::Auto => segment_ratio < SHORT * safe_ratio,
-                Stabilise::Off => false,
-            };
-        let (multipliers, jumps) = if stabilised {
+        let multipliers = Multipliers::new(pair.space, &boundary);
+        let (multipliers, jumps) = if is_stabilised(pair, segment_ratio < SHORT * safe_ratio) {
             let own = jumps(&multipliers, &edge_lengths, modulus);
             let numbered = own.into_iter().map(|jump| Jump { rows: jump.rows.map(|i| first + i), ..jump });
             (multipliers.stabilised(), numbered.collect())
@@ -181,6 +170,33 @@ impl Contact {
         };
         self.boundary.knots().windows(2).map(owner).collect()
     }
+}
+
+/// Edges of both bodies that take part: all of both boundaries, but where the curve is fitted those alone that face it.
+fn facing_edges(
+    scene: &Scene,
+    numbering: &Numbering,
+    pair: &Pair,
+    boundary: &ContactBoundary,
+    displacement: Displacement,
+) -> [Vec<BoundaryEdge>; 2] {
+    let mut all = all_edges(&scene.mesh, numbering, pair, displacement);
+    if pair.curve == CurveChoice::Fit {
+        for (edges, side) in all.iter_mut().zip([Side::First, Side::Second]) {
+            edges.retain(|edge| faces(boundary, side, edge));
+        }
+    }
+    all
+}
+
+/// Whether a contact gets the jump term: as the case asks, or where its segments are short.
+fn is_stabilised(pair: &Pair, has_short_segments: bool) -> bool {
+    pair.space != MultiplierSpace::P1Continuous
+        && match pair.stabilise {
+            Stabilise::On => true,
+            Stabilise::Auto => has_short_segments,
+            Stabilise::Off => false,
+        }
 }
 
 /// The boundaries of every contact must face each other, and no two contacts claim the same place.
