@@ -1,5 +1,6 @@
 //! The loop over active sets.
 
+use super::change::relative_change;
 use super::contact_state::ContactState;
 use super::ending::{Ending, Failure, Standing};
 use super::first_set::{carried_set, first_set};
@@ -343,13 +344,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     fn change(&mut self) -> f64 {
         let now = self.system.free_displacement();
         let then = std::mem::replace(&mut self.before, now);
-        let mut squares = [0.0; 2];
-        for (now, then) in self.before.iter().zip(then) {
-            squares[0] += (now - then).powi(2);
-            squares[1] += now * now;
-        }
-        self.system.session().sum(&mut squares);
-        if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 }
+        relative_change(&self.before, &then, self.system.session())
     }
 }
 

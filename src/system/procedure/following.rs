@@ -1,5 +1,6 @@
 //! Contact boundaries that follow the solution: fit, solve, move, and fit again, until everything stands.
 
+use super::change::relative_change;
 use super::ending::{Failure, HeldEnds, Standing};
 use crate::contact::{Configuration, CurveChoice, End, Known, Meeting, SmoothSide, true_end};
 use crate::mesh::EdgeNode;
@@ -155,14 +156,8 @@ impl Following {
 
     /// Change of the displacement since the boundary before, relative to its norm. **Collective**
     fn change(&self, displacement: &[f64], session: &Session) -> Option<f64> {
-        let mut squares = [0.0; 2];
-        for (now, then) in displacement.iter().zip(&self.displacement) {
-            squares[0] += (now - then).powi(2);
-            squares[1] += now * now;
-        }
-        session.sum(&mut squares);
         // A rank may have no unknowns; all know the same active set.
-        (!self.active.is_empty()).then(|| if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 })
+        (!self.active.is_empty()).then(|| relative_change(displacement, &self.displacement, session))
     }
 
     /// What the next boundary of each contact is placed by.

@@ -9,6 +9,7 @@
 
 mod at_rest;
 mod boundaries;
+mod change;
 mod coarse_solution;
 mod contact_loop;
 mod contact_state;
