@@ -17,7 +17,7 @@ pub struct Arguments {
 #[derive(Clone, Debug, PartialEq, Eq, Subcommand)]
 pub enum Command {
     /// Solve a case and write its results; start it under mpirun for several ranks
-    Run(Run),
+    Run(RunArguments),
     /// Read everything, solve nothing, say what would be solved
     Check(CaseArguments),
     /// Make every run of a grid that is not made yet, each a row of one table; start it without mpirun
@@ -39,7 +39,7 @@ pub struct CaseArguments {
 
 /// Arguments of `mezha run`.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
-pub struct Run {
+pub struct RunArguments {
     /// The case.
     #[command(flatten)]
     pub case: CaseArguments,
@@ -77,7 +77,7 @@ pub struct Study {
     pub force: bool,
 }
 
-impl Run {
+impl RunArguments {
     /// Folder of the results for a case of this name.
     pub fn folder(&self, case_name: &str) -> PathBuf {
         self.out.clone().unwrap_or_else(|| Path::new("out").join(case_name))

@@ -1,7 +1,7 @@
 //! The command `mezha`: arguments → case → run → exit code. Errors are printed and ranks ended here and nowhere else.
 
 use clap::Parser;
-use mezha::arguments::{Arguments, CaseArguments, Command, Run, Study};
+use mezha::arguments::{Arguments, CaseArguments, Command, RunArguments, Study};
 use mezha::case::{Case, Inputs};
 use mezha::petsc::{self, Session, end_all_ranks, errors_are_final};
 use mezha::run::{self, Outcome, RunError, RunOptions};
@@ -56,7 +56,7 @@ fn is_first_rank() -> bool {
     given_rank().is_none_or(|rank| rank == "0")
 }
 
-fn run_case(arguments: &Run, started: Instant) -> i32 {
+fn run_case(arguments: &RunArguments, started: Instant) -> i32 {
     if let Some(word) = arguments.petsc_options.first().filter(|word| !word.starts_with('-')) {
         let words = format!("`{word}` after -- is not a PETSc option: their names begin with a minus");
         return print_once(&RunError::Input(words));
@@ -82,7 +82,7 @@ fn run_case(arguments: &Run, started: Instant) -> i32 {
 }
 
 /// Reads the case and solves it. **Collective**
-fn solve(arguments: &Run, started: Instant, session: &Session) -> Result<Outcome, RunError> {
+fn solve(arguments: &RunArguments, started: Instant, session: &Session) -> Result<Outcome, RunError> {
     let CaseArguments { case, overrides } = &arguments.case;
     let inputs = arguments.inputs.as_deref().map(Inputs::parse).transpose();
     let inputs = inputs.map_err(|words| RunError::Input(format!("--inputs: {words}")))?;

@@ -1,5 +1,5 @@
-//! Imports go down only: reads every path in `src` and finds those that go up a floor, and ways through the files and folders
-//! of a module that come back to where they began.
+//! Imports go down only: reads every path in `src` and finds those that go up a floor, and cycles of imports among the files
+//! and folders of a module. No two types bear one name.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -187,25 +187,25 @@ fn a_downward_import_is_none_of_its_business() {
     }
 }
 
-/// Rooms of a module are its files and folders; what a module's own file defines stands in a room called `mod`. Paths from
-/// one to another, by the names that the module's file gives them.
-struct Rooms {
+/// Parts of a module are its files and folders; what the module's own file defines is a part called `mod`. Imports of one
+/// part from another, by the names that the module's file gives them.
+struct Parts {
     /// Path of the module.
     module: Vec<String>,
     names: BTreeSet<String>,
-    /// Room of each name that the module's file takes from one of them.
+    /// Part that each name comes from which the module's file takes from one of them.
     exported: BTreeMap<String, String>,
-    paths: BTreeMap<String, BTreeSet<String>>,
+    imports: BTreeMap<String, BTreeSet<String>>,
 }
 
 const OWN: &str = "mod";
 
-impl Rooms {
+impl Parts {
     fn new(module: &[String], files: &[(Vec<String>, String)]) -> Self {
         let inside = files.iter().filter(|(path, _)| path.len() > module.len() && path.starts_with(module));
         let names: BTreeSet<String> = inside.map(|(path, _)| path[module.len()].clone()).collect();
         let own = files.iter().find(|(path, _)| path == module).map_or("", |(_, code)| code.as_str());
-        let mut rooms = Self { module: module.to_vec(), names, exported: BTreeMap::new(), paths: BTreeMap::new() };
+        let mut parts = Self { module: module.to_vec(), names, exported: BTreeMap::new(), imports: BTreeMap::new() };
         for statement in own.split(';').map(str::trim) {
             let (start, shown) = match statement.rsplit_once("use ") {
                 Some((before, path)) if before.is_empty() || before.ends_with(['\n', ' ', ')']) => {
@@ -214,56 +214,56 @@ impl Rooms {
                 _ => continue,
             };
             for path in trees(start) {
-                if rooms.names.contains(&path[0]) {
-                    rooms.exported.insert(path[path.len() - 1].clone(), path[0].clone());
+                if parts.names.contains(&path[0]) {
+                    parts.exported.insert(path[path.len() - 1].clone(), path[0].clone());
                     if !shown {
-                        rooms.add(OWN, path[0].clone());
+                        parts.add(OWN, path[0].clone());
                     }
                 }
             }
         }
         for (path, code) in files.iter().filter(|(path, _)| path.starts_with(module)) {
             let from = path.get(module.len()).map_or(OWN, String::as_str);
-            let found: Vec<String> = absolute(path, code).iter().filter_map(|to| rooms.room_of(to)).collect();
+            let found: Vec<String> = absolute(path, code).iter().filter_map(|to| parts.part_of(to)).collect();
             for to in found {
-                rooms.add(from, to);
+                parts.add(from, to);
             }
         }
-        rooms
+        parts
     }
 
     fn add(&mut self, from: &str, to: String) {
         if from != to {
-            self.paths.entry(from.into()).or_default().insert(to);
+            self.imports.entry(from.into()).or_default().insert(to);
         }
     }
 
-    /// The room that a path leads to, if it leads into this module.
-    fn room_of(&self, path: &[String]) -> Option<String> {
+    /// The part that a path leads to, if it leads into this module.
+    fn part_of(&self, path: &[String]) -> Option<String> {
         let name = path.strip_prefix(self.module.as_slice())?.first()?;
         match (self.names.contains(name), self.exported.get(name)) {
             (true, _) => Some(name.clone()),
-            (false, Some(room)) => Some(room.clone()),
+            (false, Some(part)) => Some(part.clone()),
             (false, None) => (name != "*").then(|| OWN.to_string()),
         }
     }
 
-    /// A way through rooms that comes back to where it began.
-    fn circle(&self) -> Option<String> {
+    /// Parts that import each other in a cycle.
+    fn cycle(&self) -> Option<String> {
         let mut done = BTreeSet::new();
-        self.paths.keys().find_map(|start| self.way_back(start, &mut Vec::new(), &mut done))
+        self.imports.keys().find_map(|start| self.path_back(start, &mut Vec::new(), &mut done))
     }
 
-    fn way_back(&self, at: &str, way: &mut Vec<String>, done: &mut BTreeSet<String>) -> Option<String> {
-        if let Some(first) = way.iter().position(|room| room == at) {
-            return Some(format!("{}: {} → {at}", self.module.join("::"), way[first..].join(" → ")));
+    fn path_back(&self, at: &str, path: &mut Vec<String>, done: &mut BTreeSet<String>) -> Option<String> {
+        if let Some(first) = path.iter().position(|part| part == at) {
+            return Some(format!("{}: {} → {at}", self.module.join("::"), path[first..].join(" → ")));
         }
         if done.contains(at) {
             return None;
         }
-        way.push(at.into());
-        let found = self.paths.get(at).into_iter().flatten().find_map(|next| self.way_back(next, way, done));
-        way.pop();
+        path.push(at.into());
+        let found = self.imports.get(at).into_iter().flatten().find_map(|next| self.path_back(next, path, done));
+        path.pop();
         done.insert(at.into());
         found
     }
@@ -345,19 +345,19 @@ fn modules() -> Vec<(Vec<String>, String)> {
     all.map(|file| (module(&file), text(&file))).collect()
 }
 
-fn circles(files: &[(Vec<String>, String)]) -> Vec<String> {
+fn cycles(files: &[(Vec<String>, String)]) -> Vec<String> {
     let parents: BTreeSet<&[String]> = files.iter().flat_map(|(path, _)| (1..path.len()).map(|end| &path[..end])).collect();
-    parents.into_iter().filter_map(|module| Rooms::new(module, files).circle()).collect()
+    parents.into_iter().filter_map(|module| Parts::new(module, files).cycle()).collect()
 }
 
 #[test]
-fn no_way_through_the_rooms_of_a_module_comes_back() {
-    let found = circles(&modules());
+fn parts_of_a_module_import_each_other_in_no_cycle() {
+    let found = cycles(&modules());
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 #[test]
-fn a_circle_is_found_however_it_is_written() {
+fn a_cycle_is_found_however_it_is_written() {
     let file = |path: &str, code: &str| (path.split("::").map(String::from).collect::<Vec<_>>(), code.to_string());
     let own = "mod a;\nmod b;\npub use a::{One, Other};\npub use b::two;\n";
     for (a, b, own) in [
@@ -367,12 +367,12 @@ fn a_circle_is_found_however_it_is_written() {
         ("use super::two;", "fn f() -> super::One {}", own),
         ("use super::Own;", "", "mod a;\nmod b;\nuse a::One;\npub struct Own(One);\n"),
     ] {
-        assert_eq!(circles(&[file("m", own), file("m::a", a), file("m::b", b)]).len(), 1, "{a} {b}");
+        assert_eq!(cycles(&[file("m", own), file("m::a", a), file("m::b", b)]).len(), 1, "{a} {b}");
     }
     let deep = [file("m", own), file("m::a::c", "use crate::m::two;"), file("m::b::d", "use super::super::a::One;")];
-    assert_eq!(circles(&deep).len(), 1);
+    assert_eq!(cycles(&deep).len(), 1);
     let down = [file("m", own), file("m::a", "use super::two;\nuse crate::n::One;"), file("m::b", "use crate::n::{One, Other};")];
-    assert_eq!(circles(&down), Vec::<String>::new());
+    assert_eq!(cycles(&down), Vec::<String>::new());
 }
 
 /// What one module names of another, by the names under which that one shows it.
@@ -387,4 +387,46 @@ fn a_run_names_few_items_of_the_system() {
     let names = named(&modules(), "run", "system");
     assert!(names.len() <= 12, "{}: {names:?}", names.len());
     assert!(names.contains("Procedure") && names.contains("recovery::Evaluation"), "{names:?}");
+}
+
+/// Names of the types that a file defines: structs, enums, unions, traits and type aliases. Types that belong to an
+/// implementation, such as `Output` of an operator, have no name of their own.
+fn types(code: &str) -> Vec<&str> {
+    let defined = code.lines().filter_map(|line| {
+        let mut words = line.split_whitespace().skip_while(|word| word.starts_with("pub") || *word == "unsafe");
+        let (kind, name) = (words.next()?, words.next()?);
+        // Aliases that are indented belong to an implementation.
+        let is_type = ["struct", "enum", "union", "trait"].contains(&kind) || kind == "type" && !line.starts_with(' ');
+        is_type.then(|| name.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default())
+    });
+    defined.collect()
+}
+
+/// Names that several types bear, with their modules.
+fn shared_names(files: &[(Vec<String>, String)]) -> Vec<String> {
+    let mut modules: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for (module, code) in files {
+        types(code).into_iter().for_each(|name| modules.entry(name).or_default().push(module.join("::")));
+    }
+    let shared = modules.into_iter().filter(|(_, modules)| modules.len() > 1);
+    shared.map(|(name, modules)| format!("{name}: {}", modules.join(", "))).collect()
+}
+
+#[test]
+fn every_type_has_a_name_of_its_own() {
+    let found = shared_names(&modules());
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn two_types_of_one_name_are_found_however_they_are_written() {
+    let file = |path: &str, code: &str| (vec![path.to_string()], code.to_string());
+    let own = file("a", "pub struct One<'a> {\n    one: One,\n}\nimpl Add for One {\n    type Output = One;\n}");
+    for code in ["pub(super) enum One {", "struct One;", "pub struct One(f64);", "unsafe trait One: Other {", "type One<T> = T;"]
+    {
+        assert_eq!(shared_names(&[own.clone(), file("b", code)]), ["One: a, b"], "{code}");
+    }
+    for code in ["pub struct Two(One);", "impl Add for Two {\n    type Output = Two;\n}", "// struct One", "fn one() -> One {}"] {
+        assert_eq!(shared_names(&[own.clone(), file("b", code)]), [""; 0], "{code}");
+    }
 }

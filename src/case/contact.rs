@@ -9,64 +9,39 @@ use crate::contact::{
     Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise,
 };
 
+const CURVES: [(&str, CurveChoice); 3] =
+    [("line", CurveChoice::Line), ("geometry", CurveChoice::Geometry), ("fit", CurveChoice::Fit)];
+const SPACES: [(&str, MultiplierSpace); 3] = [
+    ("p0", MultiplierSpace::P0),
+    ("p1-discontinuous", MultiplierSpace::P1Discontinuous),
+    ("p1-continuous", MultiplierSpace::P1Continuous),
+];
+const LAWS: [(&str, Law); 2] = [("unilateral", Law::Unilateral), ("bilateral", Law::Bilateral)];
+const CONFIGURATIONS: [(&str, Configuration); 2] =
+    [("reference", Configuration::Reference), ("deformed", Configuration::Deformed)];
+const END_RULES: [(&str, EndRule); 2] = [("free", EndRule::Free), ("fixed", EndRule::Fixed)];
+
 /// `[contact.NAME]`
 pub fn read_contact(section: &Section) -> Option<Pair> {
     let between = section.required("between", "[\"lower.seam\", \"upper.seam\"]", read_between);
-    let curve = section.or(
-        "curve",
-        "fit",
-        choice(&[("line", CurveChoice::Line), ("geometry", CurveChoice::Geometry), ("fit", CurveChoice::Fit)]),
-    );
+    let curve = section.or("curve", "fit", choice(&CURVES));
     let gap = section.or("gap", "geometry", read_gap);
-    let space = section.or(
-        "multiplier",
-        "p1-discontinuous",
-        choice(&[
-            ("p0", MultiplierSpace::P0),
-            ("p1-discontinuous", MultiplierSpace::P1Discontinuous),
-            ("p1-continuous", MultiplierSpace::P1Continuous),
-        ]),
-    );
+    let space = section.or("multiplier", "p1-discontinuous", choice(&SPACES));
     let segments = section.or("segments", "auto", read_segments);
-    let law = section.or("law", "unilateral", choice(&[("unilateral", Law::Unilateral), ("bilateral", Law::Bilateral)]));
+    let law = section.or("law", "unilateral", choice(&LAWS));
     let quadrature = read_quadrature(section, space);
-    let stabilise = section.or("stabilise", "auto", |value| match value {
-        Value::Boolean(true) => Ok(Stabilise::On),
-        Value::Boolean(false) => Ok(Stabilise::Off),
-        Value::String(word) if word == "auto" => Ok(Stabilise::Auto),
-        other => Err(must_be("\"auto\", true or false", other)),
-    });
-    let configuration = section.or(
-        "configuration",
-        "reference",
-        choice(&[("reference", Configuration::Reference), ("deformed", Configuration::Deformed)]),
-    );
-    let spans = section.or("spans", "auto", |value| match value {
-        Value::String(word) if word == "auto" => Ok(None),
-        value => values::count(value).map(Some).map_err(|words| format!("{words}, or \"auto\"")),
-    });
+    let stabilise = section.or("stabilise", "auto", read_stabilise);
+    let configuration = section.or("configuration", "reference", choice(&CONFIGURATIONS));
+    let spans = section.or("spans", "auto", read_spans);
     let grading = section.or("grading", 1, read_grading);
-    let ends = section.or(
-        "ends",
-        if curve == Some(CurveChoice::Fit) { "free" } else { "fixed" },
-        choice(&[("free", EndRule::Free), ("fixed", EndRule::Fixed)]),
-    );
+    let usual_ends = if curve == Some(CurveChoice::Fit) { "free" } else { "fixed" };
+    let ends = section.or("ends", usual_ends, choice(&END_RULES));
     if curve.is_some_and(|curve| curve != CurveChoice::Fit) {
-        if configuration == Some(Configuration::Deformed) {
-            section.problem(
-                &["configuration"],
-                "\"deformed\" wants curve = \"fit\": a declared curve does not follow the bodies".into(),
-            );
-        }
-        if spans.is_some_and(|spans| spans.is_some()) {
-            section.problem(&["spans"], "is for curve = \"fit\"; a declared curve has none".into());
-        }
+        check_declared_curve(section, configuration, spans);
     }
     if configuration == Some(Configuration::Deformed) && gap.as_ref().is_some_and(|gap| !matches!(gap, GapChoice::Geometry)) {
-        section.problem(
-            &["gap"],
-            "must be \"geometry\" with configuration = \"deformed\": the bodies slide along each other".into(),
-        );
+        let words = "must be \"geometry\" with configuration = \"deformed\": the bodies slide along each other";
+        section.problem(&["gap"], words.into());
     }
     if matches!(segments, Some(SegmentRule::Fractions(_))) && grading.is_some_and(|grading| grading != [1.0, 1.0]) {
         section.problem(&["grading"], "stands beside segments that are given one by one; leave one of them out".into());
@@ -93,6 +68,17 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
         grading: grading?,
         ends: ends?,
     })
+}
+
+/// What a curve that is declared cannot have: it neither follows the bodies nor is it fitted.
+fn check_declared_curve(section: &Section, configuration: Option<Configuration>, spans: Option<Option<usize>>) {
+    if configuration == Some(Configuration::Deformed) {
+        let words = "\"deformed\" wants curve = \"fit\": a declared curve does not follow the bodies";
+        section.problem(&["configuration"], words.into());
+    }
+    if spans.is_some_and(|spans| spans.is_some()) {
+        section.problem(&["spans"], "is for curve = \"fit\"; a declared curve has none".into());
+    }
 }
 
 /// `quadrature`, and `points` beside `"segment"`.
@@ -144,6 +130,23 @@ fn read_segments(value: &Value) -> Result<SegmentRule, String> {
         Value::String(word) if word == "auto" => Ok(SegmentRule::Auto),
         Value::Array(_) => read_fractions(value),
         _ => Err("must be \"auto\", a whole number >= 1, or fractions like [0, 0.2, 1]".into()),
+    }
+}
+
+fn read_stabilise(value: &Value) -> Result<Stabilise, String> {
+    match value {
+        Value::Boolean(true) => Ok(Stabilise::On),
+        Value::Boolean(false) => Ok(Stabilise::Off),
+        Value::String(word) if word == "auto" => Ok(Stabilise::Auto),
+        other => Err(must_be("\"auto\", true or false", other)),
+    }
+}
+
+/// Spans of a fitted curve; None lets the data choose.
+fn read_spans(value: &Value) -> Result<Option<usize>, String> {
+    match value {
+        Value::String(word) if word == "auto" => Ok(None),
+        value => values::count(value).map(Some).map_err(|words| format!("{words}, or \"auto\"")),
     }
 }
 

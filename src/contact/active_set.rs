@@ -4,7 +4,7 @@ use super::ascent::{Ascent, SetSolution};
 
 /// What a new active set means for the loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum SetChange {
     /// The same set as before: done.
     Settled,
     /// A set not seen before: solve again.
@@ -60,21 +60,21 @@ impl ActiveSet {
     }
 
     /// The next set: active where `force`, that is `λ_i + κ_i (Bu - Cλ - c)_i`, is positive; where it is zero nothing changes.
-    pub fn update(&mut self, force: impl Fn(usize) -> f64) -> Step {
+    pub fn update(&mut self, force: impl Fn(usize) -> f64) -> SetChange {
         let stays = |i: usize| force(i) > 0.0 || (force(i) == 0.0 && self.active[i]);
         let next: Vec<bool> = self.bilateral.iter().enumerate().map(|(i, &bilateral)| bilateral || stays(i)).collect();
         if next == self.active {
-            return Step::Settled;
+            return SetChange::Settled;
         }
         let changed: Vec<usize> = (0..next.len()).filter(|&i| next[i] != self.active[i]).collect();
         let added = changed.iter().filter(|&&i| next[i]).count();
-        let step = Step::Changed { added, released: changed.len() - added };
+        let change = SetChange::Changed { added, released: changed.len() - added };
         self.active = next;
         if self.tried.contains(&self.active) {
-            return Step::Repeated;
+            return SetChange::Repeated;
         }
         self.tried.push(self.active.clone());
-        step
+        change
     }
 
     /// Gives up the plain rule: from here on sets follow by [`ActiveSet::ascend`].
@@ -88,14 +88,14 @@ impl ActiveSet {
     }
 
     /// The next set by rising energy, after [`ActiveSet::begin_ascent`].
-    pub fn ascend(&mut self, found: &SetSolution) -> Step {
-        let Some(ascent) = &mut self.ascent else { return Step::Settled };
-        let Some(next) = ascent.next(&self.active, &self.bilateral, found) else { return Step::Settled };
+    pub fn ascend(&mut self, found: &SetSolution) -> SetChange {
+        let Some(ascent) = &mut self.ascent else { return SetChange::Settled };
+        let Some(next) = ascent.next(&self.active, &self.bilateral, found) else { return SetChange::Settled };
         let added = next.iter().zip(&self.active).filter(|&(&is, &was)| is && !was).count();
         let released = next.iter().zip(&self.active).filter(|&(&is, &was)| was && !is).count();
         self.active = next;
         self.tried.push(self.active.clone());
-        Step::Changed { added, released }
+        SetChange::Changed { added, released }
     }
 
     /// Closes `more` multipliers in the set that was found last, before anything is solved for it. Nothing changes, and the
@@ -126,16 +126,16 @@ mod tests {
     fn a_set_that_stands_is_settled() {
         let mut set = ActiveSet::new(vec![false; 3]);
         let force = |i: usize| if i == 1 { -1.0 } else { 1.0 };
-        assert_eq!(set.update(force), Step::Changed { added: 0, released: 1 });
-        assert_eq!(set.update(force), Step::Settled);
+        assert_eq!(set.update(force), SetChange::Changed { added: 0, released: 1 });
+        assert_eq!(set.update(force), SetChange::Settled);
         assert_eq!(set.active(), [true, false, true]);
     }
 
     #[test]
     fn a_cycle_is_told() {
         let mut set = ActiveSet::new(vec![false; 3]);
-        assert!(matches!(set.update(|i| if i == 2 { -1.0 } else { 1.0 }), Step::Changed { .. }));
-        assert_eq!(set.update(|_| 1.0), Step::Repeated);
+        assert!(matches!(set.update(|i| if i == 2 { -1.0 } else { 1.0 }), SetChange::Changed { .. }));
+        assert_eq!(set.update(|_| 1.0), SetChange::Repeated);
     }
 
     #[test]
@@ -144,7 +144,7 @@ mod tests {
         set.update(|_| -1.0);
         assert!(set.keep(&[1]));
         assert_eq!(set.active(), [false, true, false]);
-        assert_eq!(set.update(|_| -1.0), Step::Changed { added: 0, released: 1 }, "the open set was never solved for");
+        assert_eq!(set.update(|_| -1.0), SetChange::Changed { added: 0, released: 1 }, "the open set was never solved for");
         assert!(!set.keep(&[1]));
         assert_eq!(set.active(), [false; 3]);
     }
@@ -153,13 +153,13 @@ mod tests {
     fn bilateral_multipliers_are_never_released() {
         let mut set = ActiveSet::new(vec![true, false]).starting_from(&[false, false]);
         assert_eq!(set.active(), [true, false]);
-        assert_eq!(set.update(|_| -1.0), Step::Settled);
+        assert_eq!(set.update(|_| -1.0), SetChange::Settled);
     }
 
     #[test]
     fn without_a_force_nothing_changes() {
         let mut set = ActiveSet::new(vec![false; 2]).starting_from(&[true, false]);
-        assert_eq!(set.update(|_| 0.0), Step::Settled);
+        assert_eq!(set.update(|_| 0.0), SetChange::Settled);
         assert_eq!(set.active(), [true, false]);
     }
 }

@@ -29,7 +29,7 @@ struct Halfway {
 }
 
 /// A sample of a fit: parameter, place, weight.
-type Sample = (f64, Point, f64);
+type FitSample = (f64, Point, f64);
 
 /// The curve half-way between two sides.
 pub struct Bisector {
@@ -66,7 +66,7 @@ impl Bisector {
         }
         let curves = sides.map(|side| side.curve(pair.configuration));
         let fit = |points: &[Halfway]| {
-            let samples: Vec<Sample> = points.iter().map(|point| (point.parameter, point.place, point.weight)).collect();
+            let samples: Vec<FitSample> = points.iter().map(|point| (point.parameter, point.place, point.weight)).collect();
             Curve::Spline(fit_by_the_data(&samples, pair.spans))
         };
         let mut curve = fit(&points);
@@ -153,7 +153,7 @@ pub fn stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -
 
 /// The fewest spans whose mean distance from the samples is as small as that of any number, but for a half: more would
 /// follow the scatter between the two bodies.
-fn fit_by_the_data(samples: &[Sample], wish: Option<usize>) -> Spline {
+fn fit_by_the_data(samples: &[FitSample], wish: Option<usize>) -> Spline {
     if let Some(spans) = wish {
         return Spline::fit(samples, spans);
     }
@@ -176,7 +176,7 @@ fn fit_by_the_data(samples: &[Sample], wish: Option<usize>) -> Spline {
 mod tests {
     use super::*;
 
-    fn on_arc(radius: f64, count: usize) -> Vec<Sample> {
+    fn on_arc(radius: f64, count: usize) -> Vec<FitSample> {
         let sample = |k: usize| {
             let a = k as f64 / count as f64;
             (a, Point::new(radius * a.sin(), radius * a.cos()), 1.0 / count as f64)
@@ -187,7 +187,7 @@ mod tests {
     #[test]
     fn the_data_choose_the_spans() {
         assert!(fit_by_the_data(&on_arc(1.0, 200), None).spans() >= 16, "an arc wants many");
-        let straight: Vec<Sample> = (0..40).map(|k| (f64::from(k), Point::new(f64::from(k), 2.0), 1.0)).collect();
+        let straight: Vec<FitSample> = (0..40).map(|k| (f64::from(k), Point::new(f64::from(k), 2.0), 1.0)).collect();
         assert_eq!(fit_by_the_data(&straight, None).spans(), 1);
         let mut scattered = on_arc(1.0, 60);
         scattered.extend(on_arc(1.01, 47));

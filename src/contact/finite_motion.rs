@@ -45,7 +45,7 @@ pub struct FiniteMotion {
 }
 
 /// A point that presses.
-struct Row {
+struct PressedPoint {
     /// λ times the length it stands for.
     weight: f64,
     arc: f64,
@@ -84,7 +84,7 @@ pub fn finite_motion(
         return FiniteMotion::default();
     }
     let tilts = sides.map_or([0.0; 2], |sides| sides.map(|side| mean_tilt(side, boundary, &points)));
-    let row = |&[t, weight, arc]: &[f64; 3]| {
+    let pressed_point = |&[t, weight, arc]: &[f64; 3]| {
         let (x, normal) = (boundary.point(t), boundary.normal(t));
         let [slip, moved, shifted] = match sides {
             Some(sides) => {
@@ -94,33 +94,33 @@ pub fn finite_motion(
             None => [0.0; 3],
         };
         let growth = turns.map(|turn| 0.5 * turn.angle * turn.angle * (x - turn.middle).dot(&normal));
-        Some(Row { weight, arc, slip, moved, shifted, grown: growth[0] - growth[1] })
+        Some(PressedPoint { weight, arc, slip, moved, shifted, grown: growth[0] - growth[1] })
     };
-    let rows: Vec<Row> = points.iter().filter_map(row).collect();
+    let pressed: Vec<PressedPoint> = points.iter().filter_map(pressed_point).collect();
     FiniteMotion {
-        slip: mean(&rows, |row| row.slip * row.slip).sqrt(),
-        whole: gap_error(&rows, force, |row| row.moved),
-        turning: gap_error(&rows, force, |row| row.moved - row.shifted),
+        slip: mean(&pressed, |point| point.slip * point.slip).sqrt(),
+        whole: gap_error(&pressed, force, |point| point.moved),
+        turning: gap_error(&pressed, force, |point| point.moved - point.shifted),
         force,
         length,
     }
 }
 
-/// Mean weighted with λ; zero without rows.
-fn mean(rows: &[Row], value: impl Fn(&Row) -> f64) -> f64 {
-    let total: f64 = rows.iter().map(|row| row.weight).sum();
-    if total == 0.0 { 0.0 } else { rows.iter().map(|row| row.weight * value(row)).sum::<f64>() / total }
+/// Mean weighted with λ; zero without points.
+fn mean(pressed: &[PressedPoint], value: impl Fn(&PressedPoint) -> f64) -> f64 {
+    let total: f64 = pressed.iter().map(|point| point.weight).sum();
+    if total == 0.0 { 0.0 } else { pressed.iter().map(|point| point.weight * value(point)).sum::<f64>() / total }
 }
 
 /// Work of a gap that is left out, and how uneven it is together with growth.
-fn gap_error(rows: &[Row], force: f64, gap: impl Fn(&Row) -> f64) -> GapError {
-    let all = |row: &Row| gap(row) + row.grown;
-    let (middle, error) = (mean(rows, |row| row.arc), mean(rows, all));
-    let square = mean(rows, |row| (all(row) - error).powi(2));
-    let spread = mean(rows, |row| (row.arc - middle).powi(2));
-    let common = mean(rows, |row| (row.arc - middle) * (all(row) - error));
+fn gap_error(pressed: &[PressedPoint], force: f64, gap: impl Fn(&PressedPoint) -> f64) -> GapError {
+    let all = |point: &PressedPoint| gap(point) + point.grown;
+    let (middle, error) = (mean(pressed, |point| point.arc), mean(pressed, all));
+    let square = mean(pressed, |point| (all(point) - error).powi(2));
+    let spread = mean(pressed, |point| (point.arc - middle).powi(2));
+    let common = mean(pressed, |point| (point.arc - middle) * (all(point) - error));
     let tilted = if spread > 0.0 { common * common / spread } else { 0.0 };
-    GapError { work: force * mean(rows, gap), deviation: square.sqrt(), bend: (square - tilted).max(0.0).sqrt() }
+    GapError { work: force * mean(pressed, gap), deviation: square.sqrt(), bend: (square - tilted).max(0.0).sqrt() }
 }
 
 /// Angle by which a side is turned where it presses, its mean weighted with λ (radians).

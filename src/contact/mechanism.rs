@@ -65,9 +65,10 @@ impl Mechanism {
 
 /// Looks for a rigid motion of the pieces that supports and closed contacts resist hardly, whichever body's normals count.
 pub fn find_mechanism(pieces: &[Extent], supports: &[Condition], contacts: &[Touch]) -> Option<Mechanism> {
-    let supports = Rows::new(pieces, supports);
-    let contacts: Vec<[Rows; 2]> = contacts.iter().map(|touch| touch.each_ref().map(|own| Rows::new(pieces, own))).collect();
-    let differ = |[a, b]: &[Rows; 2]| (&a.gram - &b.gram).amax() > NOTHING * a.gram.amax().max(b.gram.amax());
+    let supports = ScaledConditions::new(pieces, supports);
+    let contacts: Vec<[ScaledConditions; 2]> =
+        contacts.iter().map(|touch| touch.each_ref().map(|own| ScaledConditions::new(pieces, own))).collect();
+    let differ = |[a, b]: &[ScaledConditions; 2]| (&a.gram - &b.gram).amax() > NOTHING * a.gram.amax().max(b.gram.amax());
     let curved: Vec<usize> = (0..contacts.len()).filter(|&contact| differ(&contacts[contact])).collect();
     choices(&contacts, &curved).into_iter().find_map(|choice| {
         let chosen = contacts.iter().zip(&choice).map(|(touch, &side)| &touch[side]);
@@ -77,7 +78,7 @@ pub fn find_mechanism(pieces: &[Extent], supports: &[Condition], contacts: &[Tou
 
 /// For each contact the body whose normals count: all combinations for few curved contacts. For many of them those in which
 /// one piece slides along its own boundary, or along those of all its neighbours.
-fn choices(contacts: &[[Rows; 2]], curved: &[usize]) -> Vec<Vec<usize>> {
+fn choices(contacts: &[[ScaledConditions; 2]], curved: &[usize]) -> Vec<Vec<usize>> {
     if curved.len() <= MOST_CHOICES {
         let choice = |bits: usize| {
             let mut choice = vec![0; contacts.len()];
@@ -86,8 +87,11 @@ fn choices(contacts: &[[Rows; 2]], curved: &[usize]) -> Vec<Vec<usize>> {
         };
         return (0..1 << curved.len()).map(choice).collect();
     }
-    let pieces = contacts.iter().flatten().flat_map(|rows| &rows.all).map(|row| row.piece + 1).max().unwrap_or(0);
-    let of = |piece: usize, [first, _]: &[Rows; 2]| usize::from(!first.all.iter().any(|row| row.piece == piece));
+    let pieces =
+        contacts.iter().flatten().flat_map(|conditions| &conditions.all).map(|condition| condition.piece + 1).max().unwrap_or(0);
+    let of = |piece: usize, [first, _]: &[ScaledConditions; 2]| {
+        usize::from(!first.all.iter().any(|condition| condition.piece == piece))
+    };
     let along = |piece: usize| contacts.iter().map(|touch| of(piece, touch)).collect::<Vec<usize>>();
     let other = |choice: Vec<usize>| choice.into_iter().map(|side| 1 - side).collect::<Vec<usize>>();
     let ends = [vec![0; contacts.len()], vec![1; contacts.len()]];
@@ -95,32 +99,33 @@ fn choices(contacts: &[[Rows; 2]], curved: &[usize]) -> Vec<Vec<usize>> {
 }
 
 /// A condition on the scaled motions of the pieces: shifts, and turns by the radius.
-struct Row {
+struct ScaledCondition {
     piece: usize,
     entries: Vec<(usize, f64)>,
     doubt: f64,
 }
 
 /// Conditions, and the sum of their squares.
-struct Rows {
-    all: Vec<Row>,
+struct ScaledConditions {
+    all: Vec<ScaledCondition>,
     gram: DMatrix<f64>,
 }
 
-impl Rows {
+impl ScaledConditions {
     fn new(pieces: &[Extent], conditions: &[Condition]) -> Self {
-        let all: Vec<Row> = conditions.iter().filter_map(|condition| Row::new(pieces, condition)).collect();
+        let all: Vec<ScaledCondition> =
+            conditions.iter().filter_map(|condition| ScaledCondition::new(pieces, condition)).collect();
         let mut gram = DMatrix::zeros(3 * pieces.len(), 3 * pieces.len());
-        for row in &all {
-            for &(i, left) in &row.entries {
-                row.entries.iter().for_each(|&(j, right)| gram[(i, j)] += left * right);
+        for condition in &all {
+            for &(i, left) in &condition.entries {
+                condition.entries.iter().for_each(|&(j, right)| gram[(i, j)] += left * right);
             }
         }
         Self { all, gram }
     }
 }
 
-impl Row {
+impl ScaledCondition {
     fn new(pieces: &[Extent], condition: &Condition) -> Option<Self> {
         let size: f64 = condition.terms.iter().map(|(_, direction)| direction.norm()).sum();
         if size == 0.0 || condition.against == Some(condition.piece) {
@@ -152,21 +157,21 @@ impl Row {
 
 /// The motion that is resisted least, if that is hardly at all. Motions along one axis come first: they have the plainest
 /// words.
-fn softest(pieces: &[Extent], rows: &[&Rows]) -> Option<Mechanism> {
+fn softest(pieces: &[Extent], holding: &[&ScaledConditions]) -> Option<Mechanism> {
     let count = 3 * pieces.len();
     let loose = |motion: &DVector<f64>| {
         let size = (0..pieces.len()).map(|piece| motion.rows(3 * piece, 3).norm()).fold(0.0, f64::max);
-        rows.iter().flat_map(|rows| &rows.all).all(|row| row.resists(motion) <= LEAST_HOLD * size)
+        holding.iter().flat_map(|conditions| &conditions.all).all(|condition| condition.resists(motion) <= LEAST_HOLD * size)
     };
     let unit = |axis: usize| DVector::from_fn(count, |i, _| if i == axis { 1.0 } else { 0.0 });
-    if rows.iter().all(|rows| rows.all.is_empty()) {
+    if holding.iter().all(|conditions| conditions.all.is_empty()) {
         let shift = Point::new(1.0, 0.0);
         return Some(Mechanism { piece: 0, motion: "move in every direction".into(), moves: (shift, 0.0) });
     }
     if let Some(axis) = (0..count).find(|&axis| loose(&unit(axis))) {
         return Some(describe(axis / 3, pieces, &unit(axis)));
     }
-    let gram = rows.iter().fold(DMatrix::zeros(count, count), |sum, rows| sum + &rows.gram);
+    let gram = holding.iter().fold(DMatrix::zeros(count, count), |sum, conditions| sum + &conditions.gram);
     let eigen = SymmetricEigen::new(gram);
     let motion = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned();
     if !loose(&motion) {

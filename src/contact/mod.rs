@@ -25,7 +25,7 @@ mod smooth_side;
 mod trace;
 mod zones;
 
-pub use active_set::{ActiveSet, Step};
+pub use active_set::{ActiveSet, SetChange};
 pub use ascent::{Ascent, SetSolution};
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, Side, declared_gap, integrate};
@@ -43,5 +43,5 @@ pub use placing::{Known, Placed, PlacingError, all_edges, faces, place};
 pub use quadrature::{QuadraturePoint, quadrature_points};
 pub use reconstruction::{Roughness, roughness};
 pub use smooth_side::{Displacement, SmoothSide};
-pub use trace::{Piece, Trace, pieces, trace};
+pub use trace::{EdgeOverlap, Trace, edge_overlaps, trace};
 pub use zones::Zone;

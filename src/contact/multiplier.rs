@@ -55,20 +55,20 @@ pub struct Multipliers {
     /// Segment lengths.
     lengths: Vec<f64>,
     /// `∫ψ_i ds`.
-    weights: Vec<f64>,
+    integrals: Vec<f64>,
 }
 
 impl Multipliers {
     /// The multipliers of a space on a boundary's segments.
     pub fn new(space: MultiplierSpace, boundary: &ContactBoundary) -> Self {
         let lengths = (0..boundary.segments()).map(|k| boundary.segment_length(k)).collect();
-        let mut multipliers = Self { space, alpha: ALPHA, lengths, weights: Vec::new() };
-        multipliers.weights = vec![0.0; multipliers.count()];
+        let mut multipliers = Self { space, alpha: ALPHA, lengths, integrals: Vec::new() };
+        multipliers.integrals = vec![0.0; multipliers.count()];
         for (k, ends) in boundary.knots().windows(2).enumerate() {
             for (z, weight) in gauss_points(10) {
                 let ds = weight * (ends[1] - ends[0]) * boundary.speed(ends[0] + z * (ends[1] - ends[0]));
                 let (rows, values) = multipliers.on_segment(k, *z);
-                (0..2).for_each(|a| multipliers.weights[rows[a]] += ds * values[a]);
+                (0..2).for_each(|a| multipliers.integrals[rows[a]] += ds * values[a]);
             }
         }
         multipliers
@@ -105,8 +105,8 @@ impl Multipliers {
 
     /// Value at the fraction `z` of segment `k`.
     pub fn value(&self, values: &[f64], k: usize, z: f64) -> f64 {
-        let (rows, weights) = self.on_segment(k, z);
-        values[rows[0]] * weights[0] + values[rows[1]] * weights[1]
+        let (rows, shapes) = self.on_segment(k, z);
+        values[rows[0]] * shapes[0] + values[rows[1]] * shapes[1]
     }
 
     /// Segment that a multiplier is counted to: its own, or for a segment end the one before it.
@@ -136,14 +136,14 @@ impl Multipliers {
     }
 
     /// `∫ψ_i ds` (length).
-    pub fn weight(&self, multiplier: usize) -> f64 {
-        self.weights[multiplier]
+    pub fn integral(&self, multiplier: usize) -> f64 {
+        self.integrals[multiplier]
     }
 
     /// `κ_i = γ_i / ∫ψ_i`: the pressure that one unit of weighted penetration is worth (stress per length squared). It
     /// scales the test of the active set; only its size matters.
     pub fn penalty(&self, multiplier: usize, modulus: f64) -> f64 {
-        self.alpha * modulus / (self.length(multiplier) * self.weight(multiplier))
+        self.alpha * modulus / (self.length(multiplier) * self.integral(multiplier))
     }
 
     /// Augmentation weight `D_ii` of a multiplier alone (stress per length squared).
@@ -204,7 +204,7 @@ mod tests {
         for space in SPACES {
             let m = multipliers(space);
             assert!((m.value(&vec![3.0; m.count()], 1, 0.3) - 3.0).abs() < 1e-14);
-            assert!(((0..m.count()).map(|i| m.weight(i)).sum::<f64>() - 2.0).abs() < 1e-15);
+            assert!(((0..m.count()).map(|i| m.integral(i)).sum::<f64>() - 2.0).abs() < 1e-15);
         }
     }
 

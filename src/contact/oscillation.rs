@@ -33,18 +33,19 @@ pub fn oscillation(boundary: &ContactBoundary, multipliers: &Multipliers, lambda
     (sums[1] > 0.0).then(|| (sums[0] / sums[1]).sqrt())
 }
 
-struct Sample {
+/// The pressure at one point of Γ_C.
+struct PressureSample {
     arc: f64,
     value: f64,
     active: bool,
 }
 
-fn samples(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool]) -> Vec<Sample> {
+fn samples(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool]) -> Vec<PressureSample> {
     let arcs = boundary.arcs();
     let at = |k: usize, z: f64| {
         let rows = multipliers.on_segment(k, z).0;
         let active = rows.iter().take(multipliers.per_segment()).all(|&i| active[i]);
-        Sample { arc: arcs[k] + z * (arcs[k + 1] - arcs[k]), value: multipliers.value(lambda, k, z), active }
+        PressureSample { arc: arcs[k] + z * (arcs[k + 1] - arcs[k]), value: multipliers.value(lambda, k, z), active }
     };
     let gauss = 0.5 / 3f64.sqrt();
     match multipliers.space {
@@ -53,14 +54,14 @@ fn samples(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64]
             (0..boundary.segments()).flat_map(|k| [at(k, 0.5 - gauss), at(k, 0.5 + gauss)]).collect()
         }
         MultiplierSpace::P1Continuous => {
-            let end = |i: usize| Sample { arc: arcs[i], value: lambda[i], active: active[i] };
+            let end = |i: usize| PressureSample { arc: arcs[i], value: lambda[i], active: active[i] };
             (0..arcs.len()).map(end).collect()
         }
     }
 }
 
 /// Amplitude of the alternation at the middle one of five samples.
-fn alternation(five: &[Sample]) -> f64 {
+fn alternation(five: &[PressureSample]) -> f64 {
     const OTHERS: [usize; 4] = [0, 1, 3, 4];
     let (mut rest, mut whole) = (five[2].value, 1.0);
     for j in OTHERS {

@@ -168,37 +168,22 @@ fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &Con
 /// A straight line between two straight boundaries, over the extent that both have. It runs to larger x, or upwards if
 /// it is vertical: given segments stay where they are, whichever body is named first and however the mesh is numbered.
 fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Curve, [f64; 2]), String> {
+    let [first, second] = sides.map(|edges| ends(mesh, edges));
+    let (origin, along) = (first.0, upwards((first.1 - first.0).normalize()));
     let mut extents = [[0.0; 2]; 2];
     let mut offsets = [0.0; 2];
-    let (mut origin, mut along) = (Point::zeros(), Point::zeros());
-    for (side, edges) in sides.into_iter().enumerate() {
-        let (a, b) = ends(mesh, edges);
-        if side == 0 {
-            let towards = (b - a).normalize();
-            let falls = towards.x < -1e-9 || (towards.x <= 1e-9 && towards.y < 0.0);
-            (origin, along) = (a, if falls { -towards } else { towards });
-        }
-        let own = (b - a).normalize();
-        if (own.dot(&along).abs() - 1.0).abs() > 1e-9 {
+    for (side, (a, b)) in [first, second].into_iter().enumerate() {
+        if (((b - a).normalize()).dot(&along).abs() - 1.0).abs() > 1e-9 {
             return Err(format!(
                 "curve = \"line\", but \"{}\" and \"{}\" are not parallel; give a [geometry] that lists both, and curve = \"geometry\"",
                 pair.between[0], pair.between[1]
             ));
         }
-        // Far from the origin coordinates lose digits; what that bends is straight.
-        let allowed = 1e-9 * (b - a).norm() + 4.0 * f64::EPSILON * a.amax().max(b.amax());
-        for &edge in edges {
-            let bent = mesh.edges[edge as usize].shape.is_some();
-            let off = mesh.edges[edge as usize]
-                .vertices
-                .iter()
-                .any(|&vertex| crate::geometry::cross(own, mesh.vertices[vertex as usize] - a).abs() > allowed);
-            if bent || off {
-                return Err(format!(
-                    "curve = \"line\", but \"{}\" is not straight; give a [geometry] that lists both boundaries, and curve = \"geometry\"",
-                    pair.between[side]
-                ));
-            }
+        if !is_straight(mesh, sides[side], (a, b)) {
+            return Err(format!(
+                "curve = \"line\", but \"{}\" is not straight; give a [geometry] that lists both boundaries, and curve = \"geometry\"",
+                pair.between[side]
+            ));
         }
         let (s, t) = ((a - origin).dot(&along), (b - origin).dot(&along));
         extents[side] = [s.min(t), s.max(t)];
@@ -218,6 +203,24 @@ fn line_between(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Cu
         [x.x, x.y]
     };
     Ok((Curve::Line([at(start), at(end)]), [0.0, 1.0]))
+}
+
+/// A direction or its opposite: the one to larger x, or upwards if it is vertical.
+fn upwards(direction: Point) -> Point {
+    let falls = direction.x < -1e-9 || (direction.x <= 1e-9 && direction.y < 0.0);
+    if falls { -direction } else { direction }
+}
+
+/// Whether edges lie on the straight line between their ends.
+fn is_straight(mesh: &MacroMesh, edges: &[u32], (a, b): (Point, Point)) -> bool {
+    let along = (b - a).normalize();
+    // Far from the origin coordinates lose digits; what that bends is straight.
+    let allowed = 1e-9 * (b - a).norm() + 4.0 * f64::EPSILON * a.amax().max(b.amax());
+    let lies_off = |vertex: u32| crate::geometry::cross(along, mesh.vertices[vertex as usize] - a).abs() > allowed;
+    edges
+        .iter()
+        .map(|&edge| &mesh.edges[edge as usize])
+        .all(|edge| edge.shape.is_none() && !edge.vertices.into_iter().any(lies_off))
 }
 
 /// The two vertices of a set of edges that are farthest apart, seen from the first vertex.

@@ -1,6 +1,6 @@
 //! Where the coupling integrals of a body are evaluated: points of Γ_C, each with the boundary edge that it sees.
 
-use super::{ContactBoundary, Quadrature, pieces};
+use super::{ContactBoundary, Quadrature, edge_overlaps};
 use crate::geometry::gauss_points;
 use crate::mesh::BoundaryEdge;
 
@@ -25,17 +25,17 @@ pub struct QuadraturePoint {
 /// The quadrature points that a body's edges see, by edge and then along Γ_C.
 pub fn quadrature_points(boundary: &ContactBoundary, edges: &[BoundaryEdge], rule: Quadrature) -> Vec<QuadraturePoint> {
     match rule {
-        Quadrature::Cut => points_of_pieces(boundary, edges),
+        Quadrature::Cut => points_of_overlaps(boundary, edges),
         Quadrature::Segment { points } => points_of_segments(boundary, edges, points),
     }
 }
 
-/// Gauss points of each piece: two are exact where everything is straight.
-fn points_of_pieces(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<QuadraturePoint> {
+/// Gauss points of each overlap of an edge and a segment: two are exact where everything is straight.
+fn points_of_overlaps(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<QuadraturePoint> {
     let mut points = Vec::new();
-    for piece in pieces(boundary, edges) {
-        let count = if boundary.is_straight() && edges[piece.edge].straight { 2 } else { 8 };
-        points.extend(gauss_points_between(boundary, piece.range, piece.edge, piece.segment, count));
+    for overlap in edge_overlaps(boundary, edges) {
+        let count = if boundary.is_straight() && edges[overlap.edge].straight { 2 } else { 8 };
+        points.extend(gauss_points_between(boundary, overlap.range, overlap.edge, overlap.segment, count));
     }
     points
 }
@@ -97,7 +97,7 @@ mod tests {
         points.iter().map(|point| point.weight).sum()
     }
 
-    /// A shape function of an edge times one of a segment is quadratic on a piece, times a gap that is linear cubic.
+    /// A shape function of an edge times one of a segment is quadratic where both overlap, times a gap that is linear cubic.
     #[test]
     fn cut_quadrature_is_exact_for_cubics() {
         let (boundary, edges) = setting(5);

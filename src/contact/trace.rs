@@ -9,7 +9,7 @@ use crate::mesh::BoundaryEdge;
 
 /// A part of Γ_C that sees one boundary edge along its normals and lies in one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct EdgeOverlap {
     /// Index of the boundary edge.
     pub edge: usize,
     /// Segment of Γ_C.
@@ -29,12 +29,12 @@ pub struct Trace {
     pub place: Point,
 }
 
-/// Cuts Γ_C at the feet of the edges' ends and at the segment ends; edges that see no part of it give no piece.
-pub fn pieces(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<Piece> {
+/// Cuts Γ_C at the feet of the edges' ends and at the segment ends; edges that see no part of it give none.
+pub fn edge_overlaps(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<EdgeOverlap> {
     let knots = boundary.knots();
     let (first, last) = (knots[0], knots[knots.len() - 1]);
     let least = 1e-13 * (last - first);
-    let mut pieces = Vec::new();
+    let mut overlaps = Vec::new();
     for (edge, small) in edges.iter().enumerate() {
         let feet = boundary.feet([small.points[0], small.points[1]]);
         let (start, end) = (feet[0].max(first), feet[1].min(last));
@@ -45,12 +45,12 @@ pub fn pieces(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<Piece> 
         while from < end - least {
             let to = if segment + 1 == boundary.segments() { end } else { end.min(knots[segment + 1]) };
             if to - from > least {
-                pieces.push(Piece { edge, segment, range: [from, to] });
+                overlaps.push(EdgeOverlap { edge, segment, range: [from, to] });
             }
             (from, segment) = (to, segment + 1);
         }
     }
-    pieces
+    overlaps
 }
 
 /// Trace on an edge at parameter `t` of Γ_C: where the normal line meets the edge.

@@ -72,7 +72,7 @@ impl Zone {
     pub fn force(&self, multipliers: &Multipliers, lambda: &[f64]) -> f64 {
         let first = multipliers.on_segment(self.segments.start, 0.0).0[0];
         let rows = multipliers.on_segment(self.segments.end - 1, 0.0).0;
-        (first..=rows[0].max(rows[1])).map(|i| lambda[i] * multipliers.weight(i)).sum()
+        (first..=rows[0].max(rows[1])).map(|i| lambda[i] * multipliers.integral(i)).sum()
     }
 
     /// Largest pressure (stress).

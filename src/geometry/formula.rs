@@ -19,7 +19,7 @@ use dual::Dual;
 pub struct Formula {
     text: String,
     /// Postfix; leaves exactly one number on the stack and never more than [`DEPTH`].
-    program: Vec<Step>,
+    program: Vec<Instruction>,
 }
 
 /// Why a formula cannot be read: column, what was found, what is allowed.
@@ -30,9 +30,9 @@ pub struct FormulaError(pub String);
 /// Most numbers that wait on the stack at a time.
 const DEPTH: usize = 24;
 
-/// One step of a program: pushes a number, or takes its operands from the stack and pushes the result.
+/// One instruction of a program: pushes a number, or takes its operands from the stack and pushes the result.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Step {
+enum Instruction {
     Number(f64),
     Variable(usize),
     Negate,
@@ -65,13 +65,13 @@ impl Formula {
 
     /// The formula that is the same everywhere.
     pub fn constant(value: f64) -> Self {
-        Self { text: format!("{value:?}"), program: vec![Step::Number(value)] }
+        Self { text: format!("{value:?}"), program: vec![Instruction::Number(value)] }
     }
 
     /// Its value, if no variable occurs in it.
     pub fn as_constant(&self) -> Option<f64> {
         match self.program[..] {
-            [Step::Number(value)] => Some(value),
+            [Instruction::Number(value)] => Some(value),
             _ => None,
         }
     }
@@ -104,12 +104,12 @@ impl Formula {
         }
         let mut stack = [Dual::constant(0.0); DEPTH];
         let mut top = 0;
-        for step in &self.program {
-            let taken = step.operands();
+        for instruction in &self.program {
+            let taken = instruction.operands();
             let operands = &stack[top - taken..top];
-            let result = match *step {
-                Step::Variable(index) => Dual { value: at[index], slope: f64::from(u8::from(by == Some(index))) },
-                ref step => step.compute(operands),
+            let result = match *instruction {
+                Instruction::Variable(index) => Dual { value: at[index], slope: f64::from(u8::from(by == Some(index))) },
+                ref instruction => instruction.compute(operands),
             };
             top -= taken;
             stack[top] = result;
@@ -119,33 +119,33 @@ impl Formula {
     }
 }
 
-impl Step {
+impl Instruction {
     /// How many numbers it takes from the stack.
     fn operands(&self) -> usize {
         match self {
-            Step::Number(_) | Step::Variable(_) => 0,
-            Step::Negate | Step::Apply(_) => 1,
-            Step::Add | Step::Subtract | Step::Multiply | Step::Divide | Step::Power => 2,
+            Instruction::Number(_) | Instruction::Variable(_) => 0,
+            Instruction::Negate | Instruction::Apply(_) => 1,
+            Instruction::Add | Instruction::Subtract | Instruction::Multiply | Instruction::Divide | Instruction::Power => 2,
         }
     }
 
-    /// Result of a step that needs no variable.
+    /// Result of an instruction that needs no variable.
     fn compute(&self, operands: &[Dual]) -> Dual {
         match (self, operands) {
-            (Step::Number(value), []) => Dual::constant(*value),
-            (Step::Negate, [a]) => -*a,
-            (Step::Apply(function), [a]) => match function {
+            (Instruction::Number(value), []) => Dual::constant(*value),
+            (Instruction::Negate, [a]) => -*a,
+            (Instruction::Apply(function), [a]) => match function {
                 Function::Sqrt => a.sqrt(),
                 Function::Sin => a.sin(),
                 Function::Cos => a.cos(),
                 Function::Exp => a.exp(),
             },
-            (Step::Add, [a, b]) => *a + *b,
-            (Step::Subtract, [a, b]) => *a - *b,
-            (Step::Multiply, [a, b]) => *a * *b,
-            (Step::Divide, [a, b]) => *a / *b,
-            (Step::Power, [a, b]) => a.power(*b),
-            _ => unreachable!("the parser pushes the operands of every step, and variables are pushed by `evaluate`"),
+            (Instruction::Add, [a, b]) => *a + *b,
+            (Instruction::Subtract, [a, b]) => *a - *b,
+            (Instruction::Multiply, [a, b]) => *a * *b,
+            (Instruction::Divide, [a, b]) => *a / *b,
+            (Instruction::Power, [a, b]) => a.power(*b),
+            _ => unreachable!("the parser pushes the operands of every instruction, and variables are pushed by `evaluate`"),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Macro meshes that are refined towards some of their vertices: where nodes lie, and what they are made of.
 
+use super::hierarchy::{HierarchyTriangle, Shapes, barycentric, fraction};
 use super::lattice::{self, Place};
-use super::piece::{Piece, Shapes, fraction, weights};
 use super::{Level, MacroMesh};
 use crate::geometry::Point;
 
@@ -30,10 +30,10 @@ impl MacroMesh {
         self.triangles[triangle].vertices.iter().any(|&vertex| self.ratios[vertex as usize].is_some())
     }
 
-    /// The macro triangle as the piece that all others of a level lie in.
-    fn whole(&self, triangle: usize, level: Level) -> Piece {
+    /// The macro triangle as the root of the hierarchy of a level.
+    fn whole(&self, triangle: usize, level: Level) -> HierarchyTriangle {
         let ratios = self.triangles[triangle].vertices.map(|vertex| self.ratios[vertex as usize]);
-        Piece::whole(ratios, level.refinements())
+        HierarchyTriangle::whole(ratios, level.refinements())
     }
 
     /// Shapes of the affine pieces of a macro triangle.
@@ -46,8 +46,8 @@ impl MacroMesh {
         let n = level.intervals as f64;
         let mut at = Point::new(i as f64 / n, j as f64 / n);
         if self.is_graded(triangle) {
-            let (piece, [a, b, c]) = self.whole(triangle, level).below(weights(at));
-            at = piece.corners[0] * a + piece.corners[1] * b + piece.corners[2] * c;
+            let (affine, [a, b, c]) = self.whole(triangle, level).below(barycentric(at));
+            at = affine.corners[0] * a + affine.corners[1] * b + affine.corners[2] * c;
         }
         self.position(triangle, at.x, at.y)
     }
@@ -59,8 +59,9 @@ impl MacroMesh {
         if a.is_none() && b.is_none() {
             return at;
         }
-        let (piece, [a, b, c]) = Piece::whole([a, b, None], level.refinements()).below(weights(Point::new(at, 0.0)));
-        piece.corners[0].x * a + piece.corners[1].x * b + piece.corners[2].x * c
+        let (affine, [a, b, c]) =
+            HierarchyTriangle::whole([a, b, None], level.refinements()).below(barycentric(Point::new(at, 0.0)));
+        affine.corners[0].x * a + affine.corners[1].x * b + affine.corners[2].x * c
     }
 
     /// Shortest and longest edge of the triangles of a level, straight: those on macro edges, and opposite to graded vertices.
@@ -99,8 +100,8 @@ impl MacroMesh {
         if !self.is_graded(triangle) {
             return l;
         }
-        let (piece, l) = Piece::whole(corners.map(|node| self.ratio(triangle, n, node)), 1).below(l);
-        weights(piece.corners[0] * l[0] + piece.corners[1] * l[1] + piece.corners[2] * l[2])
+        let (affine, l) = HierarchyTriangle::whole(corners.map(|node| self.ratio(triangle, n, node)), 1).below(l);
+        barycentric(affine.corners[0] * l[0] + affine.corners[1] * l[1] + affine.corners[2] * l[2])
     }
 
     /// κ of lattice node `(i, j)` at `n` intervals, if it is a graded vertex.
@@ -260,8 +261,8 @@ mod tests {
         for (triangle, refine) in (0..mesh.triangles.len()).flat_map(|triangle| [0, 1, 4].map(|refine| (triangle, refine))) {
             for (i, j) in lattice::nodes(16) {
                 let at = Point::new(i as f64 / 16.0, j as f64 / 16.0);
-                let piece = mesh.whole(triangle, level(refine)).below(weights(at));
-                let x = (0..3).map(|k| piece.0.corners[k] * piece.1[k]).sum();
+                let affine = mesh.whole(triangle, level(refine)).below(barycentric(at));
+                let x = (0..3).map(|k| affine.0.corners[k] * affine.1[k]).sum();
                 assert!((mesh.lattice_point(triangle, level(refine), x) - at).norm() < 1e-12);
             }
         }

@@ -18,8 +18,8 @@ impl MacroMesh {
             let edges = self.triangles[triangle].edges;
             edges.iter().any(|&edge| self.edges[edge as usize].triangles[1].is_none())
         };
-        let bounding = Cells::new(self, (0..self.triangles.len()).filter(|&triangle| on_boundary(triangle)));
-        let all = Cells::new(self, 0..self.triangles.len());
+        let bounding = GridSquares::new(self, (0..self.triangles.len()).filter(|&triangle| on_boundary(triangle)));
+        let all = GridSquares::new(self, 0..self.triangles.len());
         for triangle in 0..self.triangles.len() {
             let cells = if on_boundary(triangle) { &all } else { &bounding };
             let alike = |other: &usize| *other != triangle && self.triangles[*other].body == self.triangles[triangle].body;
@@ -58,16 +58,16 @@ fn overlap(a: [Point; 3], b: [Point; 3]) -> bool {
 }
 
 /// A square of a grid: the level of its size 2^level, and its place.
-type Cell = (i32, i64, i64);
+type GridSquare = (i32, i64, i64);
 
 /// Grids of squares of many sizes. Each triangle stands in those squares of about its own size that its box meets.
-struct Cells {
+struct GridSquares {
     low: Point,
     levels: BTreeSet<i32>,
-    triangles: HashMap<Cell, Vec<u32>>,
+    triangles: HashMap<GridSquare, Vec<u32>>,
 }
 
-impl Cells {
+impl GridSquares {
     fn new(mesh: &MacroMesh, triangles: impl Iterator<Item = usize>) -> Self {
         let low = mesh.vertices.iter().fold(Point::repeat(f64::INFINITY), |low, x| low.inf(x));
         let mut cells = Self { low, levels: BTreeSet::new(), triangles: HashMap::new() };
@@ -83,7 +83,7 @@ impl Cells {
     }
 
     /// The squares of a level under the box of a triangle.
-    fn under(&self, corners: &[Point; 3], level: i32) -> impl Iterator<Item = Cell> + use<> {
+    fn under(&self, corners: &[Point; 3], level: i32) -> impl Iterator<Item = GridSquare> + use<> {
         let [a, b, c] = corners.map(|x| (x - self.low) / 2f64.powi(level));
         let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
         let [i0, j0, i1, j1] = [low.x, low.y, high.x, high.y].map(|v| v.floor() as i64);

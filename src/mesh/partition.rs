@@ -10,7 +10,7 @@ pub struct Graph {
     /// Neighbours.
     pub neighbours: Vec<i32>,
     /// Weight of each connection.
-    pub weights: Vec<i32>,
+    pub connection_weights: Vec<i32>,
 }
 
 impl Graph {
@@ -31,13 +31,13 @@ impl Graph {
             }
         }
         connections.sort_unstable();
-        let mut graph = Self { offsets: vec![0], neighbours: Vec::new(), weights: Vec::new() };
+        let mut graph = Self { offsets: vec![0], neighbours: Vec::new(), connection_weights: Vec::new() };
         let mut at = 0;
         for triangle in 0..mesh.triangles.len() as i32 {
             while at < connections.len() && connections[at].0 == triangle {
                 let same = connections[at..].iter().take_while(|c| **c == connections[at]).count();
                 graph.neighbours.push(connections[at].1);
-                graph.weights.push(same as i32);
+                graph.connection_weights.push(same as i32);
                 at += same;
             }
             graph.offsets.push(graph.neighbours.len() as i32);
@@ -196,7 +196,7 @@ mod tests {
     /// Neighbours of a macro triangle with their weights.
     fn beside(graph: &Graph, triangle: u32) -> Vec<(i32, i32)> {
         let row = graph.offsets[triangle as usize] as usize..graph.offsets[triangle as usize + 1] as usize;
-        graph.neighbours[row.clone()].iter().copied().zip(graph.weights[row].iter().copied()).collect()
+        graph.neighbours[row.clone()].iter().copied().zip(graph.connection_weights[row].iter().copied()).collect()
     }
 
     fn edges<'a>(mesh: &'a MacroMesh, name: &str) -> &'a [u32] {

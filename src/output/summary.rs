@@ -33,7 +33,7 @@ pub struct Summary {
     /// One entry per contact boundary, where some follow the solution; otherwise empty.
     pub boundaries: Vec<BoundaryIteration>,
     /// By name of the contact.
-    pub contact: BTreeMap<String, Contact>,
+    pub contact: BTreeMap<String, ContactSummary>,
     /// Energies of the solution.
     pub energy: Energy,
     /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
@@ -43,13 +43,13 @@ pub struct Summary {
     #[serde(default)]
     pub rotation: BTreeMap<String, Option<f64>>,
     /// Estimated discretisation errors.
-    pub estimate: Estimate,
+    pub estimate: EstimateSummary,
     /// Relative residuals of force, moment and energy balance.
-    pub balance: Balance,
+    pub balance: BalanceSummary,
     /// By name of the probe.
-    pub probe: BTreeMap<String, Probe>,
+    pub probe: BTreeMap<String, ProbeSummary>,
     /// The linear solver.
-    pub solver: Solver,
+    pub solver: SolverSummary,
     /// Wall time of the stages in seconds, slowest rank.
     pub time_s: Time,
     /// Memory in MiB.
@@ -96,7 +96,7 @@ pub struct Unknowns {
 
 /// A coarser mesh that was solved first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct CoarseSolve {
+pub struct CoarseSolveSummary {
     /// Refinements of the macro mesh.
     pub refine: usize,
     /// Displacement unknowns.
@@ -145,7 +145,7 @@ pub struct BoundaryIteration {
 
 /// One contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Contact {
+pub struct ContactSummary {
     /// Length of the contact boundary.
     pub length: Option<f64>,
     /// Number of its segments.
@@ -190,7 +190,7 @@ pub struct Contact {
     /// Estimated relative error of λ by that corner.
     pub corner_error: Option<f64>,
     /// Intervals of arc length that press, each with what is estimated of it.
-    pub zones: Vec<Zone>,
+    pub zones: Vec<ZoneSummary>,
     /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,
     /// the largest overlap relative to the largest displacement.
     pub missing: Option<f64>,
@@ -203,7 +203,7 @@ pub struct Contact {
 
 /// An interval of a contact that presses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Zone {
+pub struct ZoneSummary {
     /// Arc lengths of its ends.
     pub ends: Option<[f64; 2]>,
     /// Edges of the softer body on it.
@@ -236,7 +236,7 @@ const LEAST_SHARE: f64 = 0.01;
 /// Share of the highest pressure from which a zone counts, however small its force is.
 const LEAST_PRESSURE: f64 = 0.1;
 
-impl Zone {
+impl ZoneSummary {
     /// Whether anyone would look at it, among `all` of its contact.
     pub fn counts(&self, all: &[Self]) -> bool {
         let highest = all.iter().filter_map(|zone| zone.pressure_max).fold(0.0, f64::max);
@@ -260,7 +260,7 @@ pub struct Energy {
 
 /// Estimated discretisation errors.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Estimate {
+pub struct EstimateSummary {
     /// Relative error in the energy norm.
     pub energy: Option<f64>,
     /// By name of the contact, on the same level of the file as `energy`.
@@ -281,7 +281,7 @@ pub struct ContactEstimate {
 
 /// Relative residuals of the balances.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Balance {
+pub struct BalanceSummary {
     /// Of the contact forces on both bodies.
     pub force: Option<f64>,
     /// Of the contact moments on both bodies.
@@ -294,7 +294,7 @@ pub struct Balance {
 
 /// The solution at a point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Probe {
+pub struct ProbeSummary {
     /// The point, undeformed.
     #[serde(deserialize_with = "numbers")]
     pub x: Option<[f64; 2]>,
@@ -308,7 +308,7 @@ pub struct Probe {
 
 /// The linear solver.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Solver {
+pub struct SolverSummary {
     /// `fieldsplit` or `direct`.
     pub name: Option<String>,
     /// What solved it, in words, such as `fieldsplit (multigrid F-cycle)`.
@@ -316,7 +316,7 @@ pub struct Solver {
     /// One number per linear solve.
     pub iterations: Vec<usize>,
     /// Solves on coarser meshes before, the coarsest first.
-    pub coarse: Vec<CoarseSolve>,
+    pub coarse: Vec<CoarseSolveSummary>,
     /// Relative residual of the scaled augmented system.
     pub residual: Option<f64>,
     /// Relative residual of the system as it stands.

@@ -78,8 +78,8 @@ pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S]) -> Res
 pub fn write_curve(path: &Path, points: &[ContactPoint]) -> Result<(), OutputError> {
     let joined = |&i: &usize| points[i].s < points[i + 1].s;
     let starts: Vec<usize> = (0..points.len().saturating_sub(1)).filter(joined).collect();
-    type Column = (&'static str, fn(&ContactPoint) -> f64);
-    let scalars: [Column; 7] = [
+    type NamedScalar = (&'static str, fn(&ContactPoint) -> f64);
+    let scalars: [NamedScalar; 7] = [
         ("s", |p| p.s),
         ("lambda", |p| p.lambda),
         ("gap", |p| p.gap),

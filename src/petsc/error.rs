@@ -47,7 +47,7 @@ pub enum Error {
 }
 
 thread_local! {
-    /// What the error handler has heard since the last check: the message of the innermost failure.
+    /// What the error handler has been told since the last check: the message of the innermost failure.
     static DEEPEST: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
@@ -92,16 +92,16 @@ pub(super) fn has_others() -> bool {
 #[cold]
 fn failure(call: &'static str, code: ffi::PetscErrorCode) -> Error {
     LEAVING.store(FINAL.load(Ordering::Relaxed) && has_others(), Ordering::Relaxed);
-    let heard = DEEPEST.take().filter(|message| !message.is_empty());
-    Error::Petsc { call, code, message: heard.unwrap_or_else(|| general_message(code)) }
+    let deepest = DEEPEST.take().filter(|message| !message.is_empty());
+    Error::Petsc { call, code, message: deepest.unwrap_or_else(|| general_message(code)) }
 }
 
-/// Calls PETSc at its start or end, when [`remember`] is not there to hear: what PETSc would print about an error is kept instead.
-pub(super) fn listened(call: &'static str, function: impl FnOnce() -> ffi::PetscErrorCode) -> Result<()> {
-    unsafe { ffi::mezha_listen(ffi::PetscBool::PETSC_TRUE) };
+/// Calls PETSc at its start or end, when [`remember`] is not in place: what PETSc would print about an error is kept instead.
+pub(super) fn with_message(call: &'static str, function: impl FnOnce() -> ffi::PetscErrorCode) -> Result<()> {
+    unsafe { ffi::mezha_keep_messages(ffi::PetscBool::PETSC_TRUE) };
     let code = function();
-    unsafe { ffi::mezha_listen(ffi::PetscBool::PETSC_FALSE) };
-    DEEPEST.set(Some(essence(&words(unsafe { ffi::mezha_heard() }))));
+    unsafe { ffi::mezha_keep_messages(ffi::PetscBool::PETSC_FALSE) };
+    DEEPEST.set(Some(essence(&words(unsafe { ffi::mezha_kept_message() }))));
     let outcome = check(call, code);
     DEEPEST.set(None);
     outcome

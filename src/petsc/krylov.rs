@@ -17,7 +17,7 @@ pub struct Krylov {
 
 /// How a linear solve ended.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Solved {
+pub struct KrylovEnding {
     /// Whether the tolerance was reached.
     pub converged: bool,
     /// Iterations done.
@@ -88,18 +88,18 @@ impl Krylov {
     ///
     /// # Errors
     /// [`Error::NotConverged`] if the method gives up: PETSc itself reports that as a success.
-    pub fn solve(&self, b: &Vector, x: &mut Vector) -> Result<Solved> {
+    pub fn solve(&self, b: &Vector, x: &mut Vector) -> Result<KrylovEnding> {
         let solved = self.solve_allowing(b, x)?;
         if solved.converged {
             return Ok(solved);
         }
-        let Solved { iterations, residual, reason, .. } = solved;
+        let KrylovEnding { iterations, residual, reason, .. } = solved;
         Err(Error::NotConverged { reason, iterations, residual })
     }
 
     /// As [`Krylov::solve`], but a method that gives up is no error: `converged` tells, `x` holds the last iterate.
     /// **Collective**
-    pub fn solve_allowing(&self, b: &Vector, x: &mut Vector) -> Result<Solved> {
+    pub fn solve_allowing(&self, b: &Vector, x: &mut Vector) -> Result<KrylovEnding> {
         petsc!(KSPSolve(self.raw, b.raw(), x.raw()))?;
         let mut reason = ffi::KSPConvergedReason::KSP_CONVERGED_ITERATING;
         let (mut iterations, mut residual) = (0, 0.0);
@@ -107,7 +107,7 @@ impl Krylov {
         petsc!(KSPGetIterationNumber(self.raw, &mut iterations))?;
         petsc!(KSPGetResidualNorm(self.raw, &mut residual))?;
         let converged = reason.0 > 0;
-        Ok(Solved { converged, iterations: iterations as usize, residual, reason: self.reason(reason)? })
+        Ok(KrylovEnding { converged, iterations: iterations as usize, residual, reason: self.reason(reason)? })
     }
 
     /// Name of the reason to stop, and what failed in the preconditioner.

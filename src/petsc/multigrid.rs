@@ -8,7 +8,7 @@ use super::{ffi, options};
 use std::ptr;
 
 /// One level of a multigrid method.
-pub struct Level<'a> {
+pub struct MultigridLevel<'a> {
     /// The operator of this level.
     pub operator: &'a Matrix,
     /// Interpolation from the next coarser level to this one; `None` on the coarsest. Restriction is its transpose.
@@ -22,7 +22,7 @@ impl Preconditioner {
     ///
     /// # Panics
     /// If interpolations are missing or the coarsest level has one.
-    pub fn multigrid(&self, levels: &[Level<'_>]) -> Result<()> {
+    pub fn multigrid(&self, levels: &[MultigridLevel<'_>]) -> Result<()> {
         let complete = levels.iter().enumerate().all(|(l, level)| level.interpolation.is_some() == (l > 0));
         assert!(complete && !levels.is_empty(), "an interpolation on every level but the coarsest");
         // An earlier default such as "none" would win again when options are read.

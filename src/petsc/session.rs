@@ -1,7 +1,7 @@
 //! Start and end of PETSc and MPI.
 
 use super::broadcast::odd_one;
-use super::error::{Error, Result, has_others, listened, petsc, remember};
+use super::error::{Error, Result, has_others, petsc, remember, with_message};
 use super::{environment, ffi};
 use mpi::environment::Universe;
 use mpi::topology::{Communicator, SimpleCommunicator};
@@ -67,7 +67,7 @@ impl Session {
         let mut array = pointers.as_mut_ptr();
         let initialize = || unsafe { ffi::PetscInitialize(&mut count, &mut array, ptr::null(), ptr::null()) };
         the_end_is_ours(true);
-        let started = listened("PetscInitialize", initialize);
+        let started = with_message("PetscInitialize", initialize);
         if let Err(error) = started.and_then(|()| petsc!(PetscPushErrorHandler(Some(remember), ptr::null_mut()))) {
             the_end_is_ours(false);
             if world.size() > 1 {
@@ -155,7 +155,7 @@ impl Inner {
     fn end(&mut self) -> Result<()> {
         let Some(universe) = self.universe.take() else { return Ok(()) };
         unsafe { ffi::PetscPopErrorHandler() };
-        let ended = listened("PetscFinalize", || unsafe { ffi::PetscFinalize() });
+        let ended = with_message("PetscFinalize", || unsafe { ffi::PetscFinalize() });
         the_end_is_ours(false);
         if ended.is_err() && self.world.size() > 1 {
             forget(universe);

@@ -34,31 +34,31 @@ void mezha_restart_scotch(void)
   if (reset) reset();
 }
 
-static char heard[4096];
+static char kept_message[4096];
 
-static PetscErrorCode hear(const char format[], ...)
+static PetscErrorCode keep_message(const char format[], ...)
 {
-  const size_t used = strlen(heard);
+  const size_t used = strlen(kept_message);
   va_list      values;
   va_start(values, format);
-  vsnprintf(heard + used, sizeof(heard) - used, format, values);
+  vsnprintf(kept_message + used, sizeof(kept_message) - used, format, values);
   va_end(values);
   return 0;
 }
 
-void mezha_listen(PetscBool keep)
+void mezha_keep_messages(PetscBool keep)
 {
   if (keep) {
-    heard[0]         = 0;
-    PetscErrorPrintf = hear;
-  } else if (PetscErrorPrintf == hear) {
+    kept_message[0]         = 0;
+    PetscErrorPrintf = keep_message;
+  } else if (PetscErrorPrintf == keep_message) {
     PetscErrorPrintf = PetscErrorPrintfDefault;
   }
 }
 
-const char *mezha_heard(void)
+const char *mezha_kept_message(void)
 {
-  return heard;
+  return kept_message;
 }
 
 static PetscBool end_is_ours;

@@ -12,9 +12,9 @@ PetscErrorCode mezha_log_work(double operations);
 /* Starts the random numbers of Scotch afresh, if this PETSc has loaded it. */
 void mezha_restart_scotch(void);
 /* From now on PETSc's words about errors are kept, or printed again. */
-void mezha_listen(PetscBool keep);
+void mezha_keep_messages(PetscBool keep);
 /* What was kept since the last start: the error, more about it, hints and a list of calls, a line each. */
-const char *mezha_heard(void);
+const char *mezha_kept_message(void);
 /* While `ours`, the end of this process from inside a library is a failure, whatever code it chooses. */
 void mezha_end_is_ours(PetscBool ours);
 /* Sizes that PETSc works out, and its default real tolerance. */

@@ -17,7 +17,7 @@ const MOST_FACETS: usize = 20_000;
 pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Result<(), RunError> {
     let Evaluation { problem, session, u, .. } = found;
     let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
-    let piece = Nodes::new(found);
+    let piece = PieceMesh::new(found);
     let points: Vec<[f64; 2]> = piece.places.clone();
     let displacement: Vec<[f64; 2]> = piece.numbers.iter().map(|&node| u.at(node)).collect();
     let stresses: Vec<[f64; 4]> = piece.numbers.iter().map(|&node| stress(node)).collect();
@@ -43,15 +43,15 @@ pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize) -> [f64; 
     Ok(())
 }
 
-/// Nodes and cells of the macro triangles of one rank.
-struct Nodes {
+/// The mesh of one piece of the files: nodes and cells of the macro triangles of one rank.
+struct PieceMesh {
     numbers: Vec<usize>,
     places: Vec<[f64; 2]>,
     cells: Vec<u32>,
     bodies: Vec<i32>,
 }
 
-impl Nodes {
+impl PieceMesh {
     fn new(Evaluation { problem, session, .. }: &Evaluation) -> Self {
         let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
         let (n, order) = (numbering.level.intervals, numbering.level.order);

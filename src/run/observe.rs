@@ -1,4 +1,4 @@
-//! What a run hears of the solution procedure: it is printed, and timed.
+//! What a run does with the events of the solution procedure: it prints them, and times the work.
 
 use super::{Run, RunError, Stages};
 use crate::petsc::StageGuard;
@@ -15,8 +15,8 @@ impl Run<'_> {
 }
 
 impl Observer for Run<'_> {
-    fn hear(&self, event: Event) {
-        self.report.hear(&event);
+    fn observe(&self, event: Event) {
+        self.report.event(&event);
     }
 
     fn enter(&self, work: Work) -> Option<StageGuard<'_>> {

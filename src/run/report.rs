@@ -8,7 +8,7 @@ use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
 use crate::system::recovery::Evaluation;
-use crate::system::{Accuracy, AdaptedMesh, Contact, Event, Scene};
+use crate::system::{Accuracy, AdaptedMesh, BoundaryStep, Contact, Event, Pass, Scene};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -52,8 +52,8 @@ impl Report {
         ));
     }
 
-    /// What the solution procedure tells.
-    pub fn hear(&self, event: &Event) {
+    /// An event of the solution procedure.
+    pub fn event(&self, event: &Event) {
         match event {
             Event::AtRest { scene, at_rest } => {
                 self.sizes(scene, &at_rest.contacts, &at_rest.numbering);
@@ -72,41 +72,50 @@ impl Report {
                 ));
                 passes.iter().for_each(|pass| self.fallback(pass.fallback.as_deref()));
             }
-            Event::Begin(follows) => {
-                if let Some([boundary, displacement]) = follows {
-                    self.say(&format!(
-                        "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes"
-                    ));
-                }
-                self.say("outer  active       +/-  Krylov  residual  penetration     du");
-            }
-            Event::Passed(pass, all) => {
-                self.say(&format!(
-                    "{:5}  {:>6}/{all:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
-                    pass.iteration,
-                    pass.active,
-                    format!("+{}", pass.added),
-                    format!("-{}", pass.released),
-                    pass.krylov_iterations,
-                    pass.residual,
-                    pass.max_penetration,
-                    pass.du
-                ));
-                self.fallback(pass.fallback.as_deref());
-            }
+            Event::Begin(follows) => self.head(*follows),
+            Event::Passed(pass, all) => self.pass(pass, *all),
+            Event::Placed(step) => self.boundary(step),
             Event::Adapted { accuracy, mesh } => self.adapted(accuracy, mesh),
-            Event::Placed(step) => {
-                let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
-                self.say(&format!(
-                    "boundary {}: length {}, moves by {}, displacement by {}, multipliers changed {}",
-                    step.iteration,
-                    length(step.length),
-                    figure(step.moved),
-                    figure(step.du),
-                    step.flipped.map_or("-".to_string(), |count| count.to_string())
-                ));
-            }
         }
+    }
+
+    /// Head of the table of passes, and if boundaries follow the bodies, when they stand.
+    fn head(&self, follows: Option<[f64; 2]>) {
+        if let Some([boundary, displacement]) = follows {
+            self.say(&format!(
+                "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes"
+            ));
+        }
+        self.say("outer  active       +/-  Krylov  residual  penetration     du");
+    }
+
+    /// A row of that table; there are `all` multipliers.
+    fn pass(&self, pass: &Pass, all: usize) {
+        self.say(&format!(
+            "{:5}  {:>6}/{all:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
+            pass.iteration,
+            pass.active,
+            format!("+{}", pass.added),
+            format!("-{}", pass.released),
+            pass.krylov_iterations,
+            pass.residual,
+            pass.max_penetration,
+            pass.du
+        ));
+        self.fallback(pass.fallback.as_deref());
+    }
+
+    /// A contact boundary that was solved for.
+    fn boundary(&self, step: &BoundaryStep) {
+        let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
+        self.say(&format!(
+            "boundary {}: length {}, moves by {}, displacement by {}, multipliers changed {}",
+            step.iteration,
+            length(step.length),
+            figure(step.moved),
+            figure(step.du),
+            step.flipped.map_or("-".to_string(), |count| count.to_string())
+        ));
     }
 
     /// One mesh of a sequence.
@@ -211,7 +220,7 @@ impl Report {
         }
     }
 
-    /// The last words: the verdict, and where the results are. A bad one is heard even if the run is quiet.
+    /// The last words: the verdict, and where the results are. A bad one is printed even if the run is quiet.
     pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
         match outcome {
             Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),

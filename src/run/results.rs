@@ -103,7 +103,8 @@ impl Run<'_> {
             let body = solved.problem.scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
             let probed = found.probe(body, Point::new(point.point[0], point.point[1]))?.expect("checked points");
             let [xx, yy, xy, _] = probed.stress;
-            let values = summary::Probe { x: Some(point.point), u: Some(probed.displacement.into()), stress: Some([xx, yy, xy]) };
+            let values =
+                summary::ProbeSummary { x: Some(point.point), u: Some(probed.displacement.into()), stress: Some([xx, yy, xy]) };
             summary.probe.insert(point.name.clone(), values);
         }
         let errors = compare(self.case, &found)?;
@@ -183,14 +184,14 @@ fn ended(solved: &Solved) -> (Status, String) {
 /// What else a reason says: the estimated error, largest values that mean nothing, contacts without pressure.
 fn remarks(summary: &Summary, status: Status) -> String {
     let mut remarks = String::new();
-    let names = |is: &dyn Fn(&summary::Contact) -> bool| {
+    let names = |is: &dyn Fn(&summary::ContactSummary) -> bool| {
         let all = summary.contact.iter().filter(|(_, contact)| is(contact)).map(|(name, _)| name.as_str());
         all.collect::<Vec<_>>().join(", ")
     };
     if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
         remarks += &format!("; estimated error {error:.1e} in the energy norm");
     }
-    let is_singular = |zone: &summary::Zone, all: &[summary::Zone]| zone.singular == Some(true) && zone.counts(all);
+    let is_singular = |zone: &summary::ZoneSummary, all: &[summary::ZoneSummary]| zone.singular == Some(true) && zone.counts(all);
     let singular = names(&|contact| contact.zones.iter().any(|zone| is_singular(zone, &contact.zones)));
     if status == Status::Converged && !singular.is_empty() {
         remarks += &format!(

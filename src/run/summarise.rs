@@ -57,14 +57,14 @@ pub fn describe(summary: &mut Summary, case: &Case, solved: &Solved) {
             flipped: step.flipped,
         })
         .collect();
-    summary.solver = summary::Solver {
+    summary.solver = summary::SolverSummary {
         name: Some(case.solver.choice.name().into()),
         krylov: Some(solved.solver.clone()),
         iterations: solved.passes.iter().map(|step| step.krylov_iterations).collect(),
         coarse: solved
             .coarse
             .iter()
-            .map(|solve| summary::CoarseSolve {
+            .map(|solve| summary::CoarseSolveSummary {
                 refine: solve.refine,
                 unknowns: solve.unknowns,
                 iterations: solve.iterations.clone(),
@@ -93,7 +93,7 @@ pub fn balances(summary: &mut Summary, Evaluation { problem, balance, .. }: &Eva
         external_work: Some(balance.external_work),
     };
     summary.balance =
-        summary::Balance { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
+        summary::BalanceSummary { force: balance.force, moment: balance.moment, energy: balance.energy, bodies: balance.bodies };
 }
 
 /// Largest strain and mean rotation of the bodies.
@@ -104,7 +104,7 @@ pub fn deformations(summary: &mut Summary, found: &Evaluation) {
 }
 
 /// One contact; `at` is its place among all.
-pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary::Contact {
+pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary::ContactSummary {
     let Evaluation { problem, solution, balance, .. } = found;
     let pressure = found.pressure(at);
     let contact = pressure.contact;
@@ -115,7 +115,7 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
     let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
     let closed: Vec<[f64; 2]> = pressure.zones().iter().map(|zone| zone.arcs).collect();
     let inf_sup = solution.inf_sup.get(at).copied().flatten();
-    summary::Contact {
+    summary::ContactSummary {
         length: Some(boundary.length()),
         segments: Some(boundary.segments()),
         multiplier: Some(space_name(contact.pair.space).into()),
@@ -145,7 +145,7 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
 }
 
 /// What sliding and turning spoil. Where nothing presses, the growth of bodies that turn is compared with the smallest gap.
-pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usize, points: &[TracePoint]) {
+pub fn motions(contact: &mut summary::ContactSummary, evaluation: &Evaluation, at: usize, points: &[TracePoint]) {
     let found = evaluation.motions[at];
     contact.slip = found.and_then(|found| found.slip);
     contact.slip_error = found.and_then(|found| found.slip_error);
@@ -155,7 +155,7 @@ pub fn motions(contact: &mut summary::Contact, evaluation: &Evaluation, at: usiz
 }
 
 /// What corners do, if they do anything. Beside such corners λ grows, and what looks singular at an end may be one of them.
-pub fn corners(contact: &mut summary::Contact, zones: &mut [summary::Zone], corners: &Corners) {
+pub fn corners(contact: &mut summary::ContactSummary, zones: &mut [summary::ZoneSummary], corners: &Corners) {
     contact.corner_angle = Some(corners.angle.to_degrees());
     contact.corner_error = Some(corners.error);
     if corners.error > GROWS_AT_CORNERS {

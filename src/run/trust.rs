@@ -132,7 +132,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
 
 /// Trust is false if a figure speaks against the pressure, or if the solve that it comes from has not `converged`; it is null
 /// if nothing tells, or if the corner of a body presses on too few edges.
-fn judge_contact(summary: &Summary, contact: &summary::Contact, pair: &Pair, case: &Case, converged: bool) -> Verdict {
+fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pair, case: &Case, converged: bool) -> Verdict {
     let mut doubts = stability_doubts(contact, pair, case);
     if !converged {
         return Verdict { doubts, unknown: None, trust: Some(false), trust_force: Some(false) };
@@ -155,7 +155,7 @@ fn judge_contact(summary: &Summary, contact: &summary::Contact, pair: &Pair, cas
 }
 
 /// What tells that the displacements do not control the pressure; it may be why a solve has failed.
-fn stability_doubts(contact: &summary::Contact, pair: &Pair, case: &Case) -> Vec<Doubt> {
+fn stability_doubts(contact: &summary::ContactSummary, pair: &Pair, case: &Case) -> Vec<Doubt> {
     let unstable = contact.inf_sup.filter(|beta| *beta < LEAST_INF_SUP);
     let segment = contact.h_ratio.map_or(String::new(), |ratio| format!(" with segments of {} edges", short(ratio)));
     let unstable = unstable.map(|beta| format!("inf-sup constant {beta:.3}{segment}, at least {LEAST_INF_SUP} wanted"));
@@ -176,7 +176,7 @@ fn locking_doubt(case: &Case) -> Option<Doubt> {
 }
 
 /// What tells that zones are too narrow, or too coarse, for their pressure.
-fn zone_doubts(contact: &summary::Contact, trust_force: Option<bool>, shorter: &'static str) -> Vec<Doubt> {
+fn zone_doubts(contact: &summary::ContactSummary, trust_force: Option<bool>, shorter: &'static str) -> Vec<Doubt> {
     let mut doubts = Vec::new();
     let zones = &contact.zones;
     for zone in zones.iter().filter(|zone| zone.counts(zones)) {
@@ -243,7 +243,7 @@ fn force_doubt(error: Option<f64>) -> Option<Doubt> {
 }
 
 /// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.
-fn slip_doubt(contact: &summary::Contact) -> Option<Doubt> {
+fn slip_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
     let (slip, error) = (contact.slip?, contact.slip_error?);
     let by_turning = contact.rotation_error.is_some_and(|turning| turning > MOST_SLIP_ERROR && turning > 0.5 * error);
     (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR && !by_turning).then(|| Doubt {
@@ -257,7 +257,7 @@ fn slip_doubt(contact: &summary::Contact) -> Option<Doubt> {
 }
 
 /// What tells that bodies have turned too far for a theory that makes larger what turns.
-fn turning_doubt(contact: &summary::Contact) -> Option<Doubt> {
+fn turning_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
     let error = contact.rotation_error?;
     let remedy = TURN_LESS;
     if contact.zones.is_empty() {
@@ -292,7 +292,7 @@ fn rotation_doubts(summary: &Summary) -> Vec<Doubt> {
 }
 
 /// What tells of contact that is narrower than a segment.
-fn unresolved_doubt(contact: &summary::Contact, shorter: &'static str) -> Option<Doubt> {
+fn unresolved_doubt(contact: &summary::ContactSummary, shorter: &'static str) -> Option<Doubt> {
     let force = contact.force.unwrap_or(0.0).abs();
     let off = contact.unresolved_force.filter(|off| *off > MOST_UNRESOLVED * force)?;
     let worth = if force > 0.0 { format!(", which is worth {} of its force", short(off / force)) } else { String::new() };
@@ -308,7 +308,7 @@ fn more_segments(pair: &Pair) -> &'static str {
 }
 
 /// What tells that bodies press with corners that the smooth contact boundary has not.
-fn corner_doubt(contact: &summary::Contact, [a, b]: [&str; 2]) -> Option<Doubt> {
+fn corner_doubt(contact: &summary::ContactSummary, [a, b]: [&str; 2]) -> Option<Doubt> {
     let error = contact.corner_error.filter(|error| *error > MOST_CORNER_ERROR)?;
     let angle = contact.corner_angle.unwrap_or(f64::NAN);
     Some(Doubt {
@@ -321,7 +321,7 @@ fn corner_doubt(contact: &summary::Contact, [a, b]: [&str; 2]) -> Option<Doubt> 
 }
 
 /// What neither speaks for a pressure nor against it, in words.
-fn unknown_words(contact: &summary::Contact, name: &str, trust_force: Option<bool>) -> Option<String> {
+fn unknown_words(contact: &summary::ContactSummary, name: &str, trust_force: Option<bool>) -> Option<String> {
     let zones = &contact.zones;
     let counting = || zones.iter().filter(|zone| zone.counts(zones));
     if let Some(zone) = counting().find(|zone| is_concentrated(zone, trust_force)) {
@@ -336,13 +336,13 @@ fn unknown_words(contact: &summary::Contact, name: &str, trust_force: Option<boo
 }
 
 /// A reaction at the corner of a body that no mesh resolves: the force is right.
-fn is_concentrated(zone: &summary::Zone, trust_force: Option<bool>) -> bool {
+fn is_concentrated(zone: &summary::ZoneSummary, trust_force: Option<bool>) -> bool {
     zone.corner == Some(true) && zone.edges.is_some_and(|edges| edges < LEAST_PARTS) && trust_force == Some(true)
 }
 
 /// Whether its signs of error can tell anything: on one or two segments they may all be small beside the error, unless they
 /// are next to nothing, as where the pressure is even.
-fn is_divided(zone: &summary::Zone) -> bool {
+fn is_divided(zone: &summary::ZoneSummary) -> bool {
     zone.segments.is_some_and(|segments| segments > 2) || zone.worst.is_some_and(|worst| worst <= NEXT_TO_NOTHING)
 }
 

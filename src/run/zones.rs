@@ -10,7 +10,7 @@ use crate::system::recovery::TracePoint;
 const LEAST_SEGMENTS: usize = 3;
 
 /// The zones of contact `at`, in order of arc length; `points` are its traces.
-pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::Zone> {
+pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::ZoneSummary> {
     let Solved { problem, solution, estimate, .. } = solved;
     let contact = &problem.contacts[at];
     let pressure = solution.pressure(contact);
@@ -26,7 +26,7 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
         // All signs of a narrow zone may be small beside its error, unless they are very small.
         let wide = edges >= LEAST_PARTS && zone.segments.len() >= LEAST_SEGMENTS;
         let tells = |_: &f64| wide || found.worst.is_some_and(|worst| worst <= PROVES);
-        summary::Zone {
+        summary::ZoneSummary {
             ends: Some(zone.arcs),
             edges: Some(edges),
             segments: Some(zone.segments.len()),
@@ -45,12 +45,12 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
 }
 
 /// Leaves out the errors of largest pressures that grow without bound.
-pub fn without_singular_peaks(zones: &mut [summary::Zone]) {
+pub fn without_singular_peaks(zones: &mut [summary::ZoneSummary]) {
     zones.iter_mut().filter(|zone| zone.singular == Some(true)).for_each(|zone| zone.peak = None);
 }
 
 /// Estimated errors of the whole contact: those of its worst zone that counts, the peak of its highest.
-pub fn contact_estimate(force: Option<f64>, zones: &[summary::Zone]) -> summary::ContactEstimate {
+pub fn contact_estimate(force: Option<f64>, zones: &[summary::ZoneSummary]) -> summary::ContactEstimate {
     let lambda: Option<Vec<f64>> = zones.iter().filter(|zone| zone.counts(zones)).map(|zone| zone.lambda).collect();
     let highest = zones.iter().max_by(|a, b| a.pressure_max.unwrap_or(0.0).total_cmp(&b.pressure_max.unwrap_or(0.0)));
     summary::ContactEstimate {
@@ -66,12 +66,12 @@ mod tests {
 
     #[test]
     fn a_contact_has_the_error_of_its_worst_zone_and_the_peak_of_its_highest() {
-        let zone = |pressure_max, share, lambda, peak| summary::Zone {
+        let zone = |pressure_max, share, lambda, peak| summary::ZoneSummary {
             pressure_max: Some(pressure_max),
             share: Some(share),
             lambda,
             peak: Some(peak),
-            ..summary::Zone::default()
+            ..summary::ZoneSummary::default()
         };
         let all = [zone(1.0, 0.3, Some(0.02), 0.1), zone(3.0, 0.4, Some(0.05), 0.2), zone(2.0, 0.3, Some(0.03), 0.3)];
         let found = contact_estimate(Some(0.01), &all);

@@ -8,7 +8,7 @@ use serde_json::Value;
 /// How a run ended.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Status {
+pub enum RunStatus {
     /// Exit code 0.
     Converged,
     /// Exit code 3: not converged, a mechanism, or an expected value missed.
@@ -25,7 +25,7 @@ pub enum Status {
 #[derive(Clone, Debug)]
 pub struct Ended {
     /// How it ended.
-    pub status: Status,
+    pub status: RunStatus,
     /// Why, in words.
     pub reason: String,
     /// `summary.json`; null if there is none.
@@ -38,9 +38,10 @@ pub struct Ended {
     pub machine: String,
 }
 
-impl Status {
+impl RunStatus {
     /// All of them, the good one first.
-    pub const ALL: [Status; 5] = [Status::Converged, Status::NotConverged, Status::Refused, Status::Timeout, Status::Failed];
+    pub const ALL: [RunStatus; 5] =
+        [RunStatus::Converged, RunStatus::NotConverged, RunStatus::Refused, RunStatus::Timeout, RunStatus::Failed];
 
     /// As the table has it.
     pub fn words(self) -> &'static str {
@@ -58,7 +59,7 @@ impl Ended {
     /// Whether the run converged to a pressure that can be trusted, as far as is known; the reason goes without saying then.
     pub fn is_good(&self) -> bool {
         let mut contacts = self.summary["contact"].as_object().into_iter().flat_map(|contacts| contacts.values());
-        self.status == Status::Converged && contacts.all(|contact| contact["trust"] != false)
+        self.status == RunStatus::Converged && contacts.all(|contact| contact["trust"] != false)
     }
 }
 
@@ -77,7 +78,7 @@ mod tests {
             result: String::new(),
             machine: String::new(),
         };
-        assert!(ended(json!(true), Status::Converged).is_good() && ended(Value::Null, Status::Converged).is_good());
-        assert!(!ended(json!(false), Status::Converged).is_good() && !ended(json!(true), Status::NotConverged).is_good());
+        assert!(ended(json!(true), RunStatus::Converged).is_good() && ended(Value::Null, RunStatus::Converged).is_good());
+        assert!(!ended(json!(false), RunStatus::Converged).is_good() && !ended(json!(true), RunStatus::NotConverged).is_good());
     }
 }

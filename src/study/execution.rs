@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
 
-use super::ended::{Ended, Status};
+use super::ended::{Ended, RunStatus};
 use super::folder::{Folder, read_summary, result_name};
 use super::machine::machine;
 use super::plan::PlannedRun;
@@ -66,14 +66,14 @@ impl<'a> Execution<'a> {
         let change = self.program.change();
         let summary = if change.is_none() { read_summary(&result) } else { Value::Null };
         let (status, reason) = match ending {
-            _ if change.is_some() => (Status::Failed, change.unwrap_or_default()),
+            _ if change.is_some() => (RunStatus::Failed, change.unwrap_or_default()),
             Ok(Some(ending)) => {
                 let (status, reason) = judge(ending, &summary, &String::from_utf8_lossy(&text));
                 let file = format!("{}: ", run.file.display());
                 (status, reason.strip_prefix(&file).unwrap_or(&reason).to_owned())
             }
-            Ok(None) => (Status::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout)),
-            Err(error) => (Status::Failed, format!("cannot start {}: {error}", command.get_program().to_string_lossy())),
+            Ok(None) => (RunStatus::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout)),
+            Err(error) => (RunStatus::Failed, format!("cannot start {}: {error}", command.get_program().to_string_lossy())),
         };
         let result = if summary.is_null() { String::new() } else { result_name(number) };
         Ok(Ended { status, reason, summary, wall, result, machine: self.machine.clone() })
@@ -131,16 +131,16 @@ fn wait_for(child: &mut Child, patience: Duration) -> io::Result<Option<ExitStat
 }
 
 /// The ending of a run in the terms of the table.
-fn judge(ending: ExitStatus, summary: &Value, said: &str) -> (Status, String) {
+fn judge(ending: ExitStatus, summary: &Value, said: &str) -> (RunStatus, String) {
     let reason = summary["reason"].as_str();
     let status = match ending.code() {
-        Some(0) if summary["status"] == "converged" => Status::Converged,
-        Some(3) if summary["status"] == "not_converged" => Status::NotConverged,
-        Some(2) => Status::Refused,
-        _ => Status::Failed,
+        Some(0) if summary["status"] == "converged" => RunStatus::Converged,
+        Some(3) if summary["status"] == "not_converged" => RunStatus::NotConverged,
+        Some(2) => RunStatus::Refused,
+        _ => RunStatus::Failed,
     };
     let words = match (status, reason) {
-        (Status::Converged | Status::NotConverged, Some(reason)) => Some(reason.to_owned()),
+        (RunStatus::Converged | RunStatus::NotConverged, Some(reason)) => Some(reason.to_owned()),
         _ => last_words(said),
     };
     let how = || match (ending.code(), ending.signal()) {
@@ -183,20 +183,20 @@ mod tests {
         let good = json!({ "status": "converged", "reason": "residual" });
         let bad = json!({ "status": "not_converged", "reason": "body upper can move" });
         let table = [
-            (ending(0), &good, "", Status::Converged, "residual"),
-            (ending(3), &bad, "mezha: NOT converged: body upper can move", Status::NotConverged, "body upper can move"),
+            (ending(0), &good, "", RunStatus::Converged, "residual"),
+            (ending(3), &bad, "mezha: NOT converged: body upper can move", RunStatus::NotConverged, "body upper can move"),
             (
                 ending(2),
                 &Value::Null,
                 "mezha: a.toml: mesh.order = 7: must be 1 or 2",
-                Status::Refused,
+                RunStatus::Refused,
                 "a.toml: mesh.order = 7: must be 1 or 2",
             ),
-            (ending(1), &Value::Null, "mezha: PETSc failed", Status::Failed, "PETSc failed"),
-            (ending(0), &Value::Null, "", Status::Failed, "exit code 0, but summary.json does not say so"),
-            (ending(0), &bad, "", Status::Failed, "exit code 0, but summary.json does not say so"),
-            (ending(139), &Value::Null, "", Status::Failed, "exit code 139, without a word"),
-            (ExitStatus::from_raw(9), &Value::Null, "", Status::Failed, "ended by signal 9"),
+            (ending(1), &Value::Null, "mezha: PETSc failed", RunStatus::Failed, "PETSc failed"),
+            (ending(0), &Value::Null, "", RunStatus::Failed, "exit code 0, but summary.json does not say so"),
+            (ending(0), &bad, "", RunStatus::Failed, "exit code 0, but summary.json does not say so"),
+            (ending(139), &Value::Null, "", RunStatus::Failed, "exit code 139, without a word"),
+            (ExitStatus::from_raw(9), &Value::Null, "", RunStatus::Failed, "ended by signal 9"),
         ];
         for (ending, summary, said, status, reason) in table {
             assert_eq!(judge(ending, summary, said), (status, reason.to_owned()), "{ending:?} {said}");

@@ -1,11 +1,11 @@
 //! The figure of a study: lines as diagrams, one block for each case.
 
 use super::fit::PowerLaw;
-use super::lines::{Line, Point};
+use super::lines::{Line, LinePoint};
 use super::plan::Plan;
 use super::repeats::Spread;
 use super::summary_path::SummaryPath;
-use crate::output::plot::{Axis, Block, Diagram, Entry, Mark, diagrams};
+use crate::output::plot::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};
 
 /// The text of `study.svg`; None if no line has two points.
 ///
@@ -32,16 +32,16 @@ pub fn figure(plan: &Plan, lines: &[Line]) -> Result<Option<String>, String> {
         let title = own.first().map(|(_, line)| line.title.as_str()).filter(|title| !title.is_empty());
         let title = title.map_or((*case).to_owned(), |title| format!("{case}: {title}"));
         let legend = own.iter().map(|(style, line)| entry(plan, *style, line)).collect();
-        Block { title, legend, diagrams: Scene { lines: own }.diagrams(plan) }
+        DiagramBlock { title, legend, diagrams: CaseLines { lines: own }.diagrams(plan) }
     };
     diagrams(&cases.iter().map(block).collect::<Vec<_>>())
 }
 
 /// A line's row in the legend: its name, its orders, its cost.
-fn entry(plan: &Plan, style: usize, line: &Line) -> Entry {
+fn entry(plan: &Plan, style: usize, line: &Line) -> LegendRow {
     let order = |error: &SummaryPath| law(&format!("{} ~ h", error.text), line.orders.get(&error.text).copied().flatten());
     let cells = [line.name.clone()].into_iter().chain(plan.errors.iter().map(order)).chain([law("time ~ N", line.cost)]);
-    Entry { style, cells: cells.collect() }
+    LegendRow { style, cells: cells.collect() }
 }
 
 /// A power law in words.
@@ -54,13 +54,13 @@ pub fn law(words: &str, law: Option<PowerLaw>) -> String {
 }
 
 /// The lines of one case, with their styles.
-struct Scene<'a> {
+struct CaseLines<'a> {
     lines: Vec<(usize, &'a Line)>,
 }
 
-impl Scene<'_> {
+impl CaseLines<'_> {
     /// A diagram with logarithmic axes, of the points that have a place in it.
-    fn diagram(&self, title: &str, [x, y]: [&str; 2], place: &dyn Fn(&Point) -> Option<Mark>) -> Diagram {
+    fn diagram(&self, title: &str, [x, y]: [&str; 2], place: &dyn Fn(&LinePoint) -> Option<Mark>) -> Diagram {
         let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
         let marks = |line: &Line| line.points.iter().filter_map(place).collect();
         Diagram {
@@ -105,11 +105,11 @@ impl Scene<'_> {
     }
 }
 
-fn mark(x: f64, y: f64, point: &Point) -> Mark {
+fn mark(x: f64, y: f64, point: &LinePoint) -> Mark {
     Mark { x, y, reach: [y, y], hollow: !point.trusted }
 }
 
-fn timed(x: f64, time: Spread, point: &Point) -> Mark {
+fn timed(x: f64, time: Spread, point: &LinePoint) -> Mark {
     Mark { reach: [time.least, time.most], ..mark(x, time.median, point) }
 }
 
@@ -136,7 +136,7 @@ mod tests {
     }
 
     fn line(front_errors: &[f64]) -> Line {
-        let point = |error: &f64| Point {
+        let point = |error: &f64| LinePoint {
             unknowns: 1.0 / error,
             iterations: None,
             time: Spread::of(vec![1.0 / error]),

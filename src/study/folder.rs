@@ -28,7 +28,7 @@ pub struct Folder {
 
 /// Where the result of a run belongs.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct ResultPlace {
     /// Number of the result under `runs`.
     pub number: usize,
     /// The run, if it has been made.
@@ -87,9 +87,9 @@ impl Folder {
 
     /// Finds the runs that have been made, and a place for each of the others: that of an older run of the same words, or the
     /// next free one.
-    pub fn places(&self, wanted: &[Wanted], timeout: Duration) -> Vec<Place> {
+    pub fn places(&self, wanted: &[Wanted], timeout: Duration) -> Vec<ResultPlace> {
         let mut taken = BTreeSet::new();
-        let mut places: Vec<Option<Place>> = vec![None; wanted.len()];
+        let mut places: Vec<Option<ResultPlace>> = vec![None; wanted.len()];
         for (place, wanted) in places.iter_mut().zip(wanted) {
             let same =
                 self.records.iter().filter(|(number, record)| !taken.contains(*number) && record.identity == wanted.identity);
@@ -97,7 +97,7 @@ impl Folder {
                 same.map(|(&number, record)| (number, self.ended(number, record, timeout))).find(|(_, ended)| ended.is_some());
             if let Some((number, kept)) = found {
                 taken.insert(number);
-                *place = Some(Place { number, kept, again: false });
+                *place = Some(ResultPlace { number, kept, again: false });
             }
         }
         let is_same = |record: &Record, wanted: &Wanted| {
@@ -109,7 +109,7 @@ impl Folder {
             let free = || (1..).find(|number| !taken.contains(number) && !self.records.contains_key(number));
             let number = older.map(|(&number, _)| number).or_else(free).expect("numbers do not end");
             taken.insert(number);
-            *place = Some(Place { number, kept: None, again: older.is_some() });
+            *place = Some(ResultPlace { number, kept: None, again: older.is_some() });
         }
         places.into_iter().flatten().collect()
     }

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::lines::Line;
 use super::repeats::condensed;
-use super::table::{Column, Kind, Table};
+use super::table::{Column, ColumnKind, Table};
 
 /// Comma-separated values: names of the columns, then one line per run. What is not known is empty.
 pub fn csv(table: &Table) -> String {
@@ -17,7 +17,7 @@ pub fn csv(table: &Table) -> String {
 
 /// An object with the rows as a list of objects, whose keys are the names of the columns, and the lines of the figure.
 pub fn json(table: &Table, lines: &[Line]) -> String {
-    serde_json::to_string_pretty(&Whole { table, lines }).expect("tables of JSON values are JSON") + "\n"
+    serde_json::to_string_pretty(&WholeStudy { table, lines }).expect("tables of JSON values are JSON") + "\n"
 }
 
 /// The table for people: repeats in one row, main columns that are not empty, results to four digits, reasons at the end and
@@ -36,11 +36,11 @@ impl Readable {
         let reason = table.place("reason").expect("a column of every table");
         let cell = |row: usize, column: usize| match (table.columns[column].kind, &table.rows[row][column]) {
             _ if column == reason && table.good[row] => String::new(),
-            (Kind::Given, value) => plain(value),
+            (ColumnKind::Given, value) => plain(value),
             (_, value) => rounded(value) + &spread(&table, row, column),
         };
         let order = (0..table.columns.len()).filter(|&column| column != reason).chain([reason]);
-        let main = order.filter(|&column| table.columns[column].kind != Kind::Detail);
+        let main = order.filter(|&column| table.columns[column].kind != ColumnKind::Detail);
         let is_empty = |column: usize| (0..table.rows.len()).all(|row| cell(row, column).is_empty());
         let shown: Vec<usize> = main.filter(|&column| !is_empty(column)).collect();
         Self {
@@ -92,12 +92,12 @@ fn spread(table: &Table, row: usize, column: usize) -> String {
 }
 
 /// Everything that `study.json` holds.
-struct Whole<'a> {
+struct WholeStudy<'a> {
     table: &'a Table,
     lines: &'a [Line],
 }
 
-impl Serialize for Whole<'_> {
+impl Serialize for WholeStudy<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let table = self.table;
         let rows: Vec<Row> = table.rows.iter().map(|cells| Row { columns: &table.columns, cells }).collect();

@@ -6,7 +6,7 @@ use std::ops::Range;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::ended::{Ended, Status};
+use super::ended::{Ended, RunStatus};
 use super::fit::{PowerLaw, front};
 use super::plan::{Plan, PlannedRun};
 use super::repeats::Spread;
@@ -27,12 +27,12 @@ pub struct Line {
     /// time ~ unknowns^exponent.
     pub cost: Option<PowerLaw>,
     /// With ascending numbers of unknowns. A run that has not converged is no point.
-    pub points: Vec<Point>,
+    pub points: Vec<LinePoint>,
 }
 
 /// All repeats of one run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Point {
+pub struct LinePoint {
     /// Displacement components.
     pub unknowns: f64,
     /// Krylov iterations of all linear solves.
@@ -51,7 +51,7 @@ pub struct Point {
     pub result: String,
 }
 
-impl Point {
+impl LinePoint {
     /// Time and error, if both are known and positive.
     pub fn race(&self, error: &str) -> Option<(f64, f64)> {
         Some((self.time?.median, *self.errors.get(error)?)).filter(|(time, error)| *time > 0.0 && *error > 0.0)
@@ -84,9 +84,9 @@ pub fn lines(plan: &Plan, results: &[Ended]) -> Vec<Line> {
 }
 
 impl Line {
-    fn new(plan: &Plan, run: &PlannedRun, name: String, mut points: Vec<Point>) -> Self {
+    fn new(plan: &Plan, run: &PlannedRun, name: String, mut points: Vec<LinePoint>) -> Self {
         points.sort_by(|a, b| a.unknowns.total_cmp(&b.unknowns));
-        let law = |value: &dyn Fn(&Point) -> Option<f64>| {
+        let law = |value: &dyn Fn(&LinePoint) -> Option<f64>| {
             let known = points.iter().filter_map(|point| Some((point.unknowns, value(point)?)));
             PowerLaw::through(&known.collect::<Vec<_>>())
         };
@@ -116,12 +116,12 @@ fn name(plan: &Plan, run: &PlannedRun, all: &[&PlannedRun], along: Option<usize>
 }
 
 /// Repeats as one point; None if none of them converged.
-fn point(plan: &Plan, repeats: &[Ended]) -> Option<Point> {
-    let converged: Vec<&Ended> = repeats.iter().filter(|ended| ended.status == Status::Converged).collect();
+fn point(plan: &Plan, repeats: &[Ended]) -> Option<LinePoint> {
+    let converged: Vec<&Ended> = repeats.iter().filter(|ended| ended.status == RunStatus::Converged).collect();
     let first = converged.first()?;
     let summary = &first.summary;
     let iterations = summary["solver"]["iterations"].as_array().map(|list| list.iter().filter_map(Value::as_f64).sum());
-    Some(Point {
+    Some(LinePoint {
         unknowns: summary["unknowns"]["displacement"].as_f64()?,
         iterations,
         time: Spread::of(converged.iter().filter_map(|ended| plan.time.of(&ended.summary).as_f64()).collect()),
@@ -138,7 +138,7 @@ fn mark_fronts(lines: &mut [Line], error: &str) {
     let cases: Vec<String> = lines.iter().map(|line| line.case.clone()).collect();
     for case in cases {
         let of_case = lines.iter_mut().filter(|line| line.case == case).flat_map(|line| &mut line.points);
-        let mut racing: Vec<(&mut Point, (f64, f64))> =
+        let mut racing: Vec<(&mut LinePoint, (f64, f64))> =
             of_case.filter_map(|point| point.race(error).map(|race| (point, race))).collect();
         let races: Vec<(f64, f64)> = racing.iter().map(|(_, race)| *race).collect();
         let best = racing.iter_mut().zip(front(&races)).filter(|(_, on)| *on);
@@ -189,7 +189,7 @@ mod tests {
             let order = if run.curve.as_deref() == Some("P1") { 1 } else { 2 };
             let unknowns = 4_f64.powi(refine);
             Ended {
-                status: Status::Converged,
+                status: RunStatus::Converged,
                 reason: String::new(),
                 summary: json!({
                     "unknowns": { "displacement": unknowns },
@@ -231,7 +231,7 @@ mod tests {
         let plan = plan();
         let mut results = results(&plan);
         for index in [0, 1, 2] {
-            results[index].status = Status::NotConverged;
+            results[index].status = RunStatus::NotConverged;
         }
         let lines = lines(&plan, &results);
         assert_eq!(lines[0].points.len(), 2);

@@ -24,7 +24,7 @@ pub use error::StudyError;
 
 use ended::Ended;
 use execution::Execution;
-use folder::{Folder, Place, Wanted};
+use folder::{Folder, ResultPlace, Wanted};
 use plan::{Plan, PlannedRun};
 use progress::Progress;
 use record::{Program, Record, inputs, what};
@@ -69,7 +69,7 @@ fn make(
     program: &Program,
     folder: &Folder,
     wanted: &[Wanted],
-    places: Vec<Place>,
+    places: Vec<ResultPlace>,
     progress: &Progress,
 ) -> Result<Vec<Ended>, StudyError> {
     if places.iter().any(|place| place.kept.is_none()) {

@@ -3,7 +3,7 @@
 use super::figure::law;
 use super::fit::{FARTHEST, FITTED};
 use super::format::{Readable, about};
-use super::lines::{Line, Point};
+use super::lines::{Line, LinePoint};
 use super::table::Table;
 
 const STYLE: &str = "body { font: 15px/1.45 sans-serif; color: #262626; margin: 2em auto; padding: 0 1em; max-width: 70em }\n\
@@ -63,14 +63,14 @@ fn laws(table: &Table, lines: &[Line]) -> String {
 /// The points that no other beats, from the fastest to the most accurate one.
 fn front(table: &Table, lines: &[Line], error: &str) -> String {
     let header = ["case", "line", "unknowns", &table.time, error, "result"];
-    let mut best: Vec<(&Line, &Point, (f64, f64))> = Vec::new();
+    let mut best: Vec<(&Line, &LinePoint, (f64, f64))> = Vec::new();
     for line in lines {
         let points = line.points.iter().filter(|point| point.front.contains(error));
         best.extend(points.filter_map(|point| Some((line, point, point.race(error)?))));
     }
     let place = |case: &str| lines.iter().position(|line| line.case == case);
     best.sort_by(|a, b| place(&a.0.case).cmp(&place(&b.0.case)).then(a.2.0.total_cmp(&b.2.0)));
-    let row = |(line, point, (time, error)): &(&Line, &Point, (f64, f64))| {
+    let row = |(line, point, (time, error)): &(&Line, &LinePoint, (f64, f64))| {
         let numbers = [format!("{}", point.unknowns), format!("{time:.3}"), format!("{error:.2e}")];
         [line.case.clone(), line.name.clone()].into_iter().chain(numbers).chain([point.result.clone()]).collect()
     };
@@ -107,11 +107,11 @@ mod tests {
     use super::*;
     use crate::study::fit::PowerLaw;
     use crate::study::repeats::Spread;
-    use crate::study::table::{Column, Kind};
+    use crate::study::table::{Column, ColumnKind};
 
     #[test]
     fn the_page_holds_figure_laws_front_and_escaped_words() {
-        let point = |unknowns: f64, front: &[&str]| Point {
+        let point = |unknowns: f64, front: &[&str]| LinePoint {
             unknowns,
             iterations: Some(5.0),
             time: Spread::of(vec![0.5]),
@@ -134,7 +134,8 @@ mod tests {
             points,
         };
         let table = Table { study: "a < b".into(), errors: vec!["errors.energy".into()], ..Table::default() };
-        let table = Table { columns: ["status", "reason", "repeat"].map(|name| Column::new(name, Kind::Main)).to_vec(), ..table };
+        let table =
+            Table { columns: ["status", "reason", "repeat"].map(|name| Column::new(name, ColumnKind::Main)).to_vec(), ..table };
         let page = html(&table, std::slice::from_ref(&line), Some("<svg></svg>\n"));
         for words in ["<h1>Study a &lt; b</h1>", "<svg></svg>", "P1 &amp; &lt;P0&gt;", "h^2.00", "too few points", "runs/004"] {
             assert!(page.contains(words), "{words}: {page}");

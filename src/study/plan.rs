@@ -20,8 +20,8 @@ use crate::case::section::{Section, read_text};
 use crate::case::{Case, name_of, values};
 
 use moves::Moves;
-use planned::Scene;
-use settings::{CASES, Curve, read_curve, read_grid, read_set};
+use planned::PlannedCase;
+use settings::{CASES, StudyCurve, read_curve, read_grid, read_set};
 
 /// Longest time limit of a run, in seconds: a month.
 const LONGEST: f64 = 30.0 * 86_400.0;
@@ -96,17 +96,17 @@ impl Plan {
         let columns = root.optional("columns", values::list("a list of paths in summary.json", SummaryPath::read));
         let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
         let cases = cases?;
-        let scenes = find_cases(&cases, file, root);
-        check_curves(&curves, &scenes, root);
+        let planned = find_cases(&cases, file, root);
+        check_curves(&curves, &planned, root);
         let moves = Moves { common, grid, curves };
         moves.check_overlaps(root);
-        moves.check_keys(&scenes, root);
+        moves.check_keys(&planned, root);
         let keys = moves.keys();
         if let Some(along) = along.as_ref().filter(|along| !keys.contains(along)) {
             root.problem(&["along"], format!("{along} stands in no grid; take one of its keys"));
         }
         let (ranks, repeat, timeout) = (ranks?, repeat?, timeout?);
-        let runs = moves.expand(&scenes, &ranks, repeat, root)?;
+        let runs = moves.expand(&planned, &ranks, repeat, root)?;
         Some(Self {
             name: name_of(file, "study.toml"),
             keys,
@@ -121,7 +121,7 @@ impl Plan {
 }
 
 /// Finds the case files, and a name for each that no other has.
-fn find_cases(cases: &[String], study: &Path, root: &Section) -> Vec<Scene> {
+fn find_cases(cases: &[String], study: &Path, root: &Section) -> Vec<PlannedCase> {
     let folder = study.parent().unwrap_or(Path::new(""));
     let files: Vec<PathBuf> = cases.iter().map(|case| folder.join(case)).collect();
     let names: Vec<String> = files.iter().map(|file| name_of(file, "case.toml")).collect();
@@ -133,30 +133,30 @@ fn find_cases(cases: &[String], study: &Path, root: &Section) -> Vec<Scene> {
         let alone = names.iter().filter(|name| **name == names[index]).count() == 1;
         if alone { names[index].clone() } else { cases[index].clone() }
     };
-    let scene = |(index, file): (usize, &PathBuf)| Scene {
+    let planned = |(index, file): (usize, &PathBuf)| PlannedCase {
         written: cases[index].clone(),
         file: file.clone(),
         label: label(index),
         title: Case::read(file, &[]).map(|case| case.title).unwrap_or_default(),
     };
-    files.iter().enumerate().map(scene).collect()
+    files.iter().enumerate().map(planned).collect()
 }
 
 /// Curves of one case are told apart by their names, and drawn for cases of the study.
-fn check_curves(curves: &[Curve], scenes: &[Scene], root: &Section) {
+fn check_curves(curves: &[StudyCurve], cases: &[PlannedCase], root: &Section) {
     for (index, curve) in curves.iter().enumerate() {
         let number = (index + 1).to_string();
         if curves[..index].iter().any(|other| other.name == curve.name && other.meets(curve)) {
             let words = format!("\"{}\" is another curve's name; choose one of its own", curve.name);
             root.problem(&["curve", &number, "name"], words);
         }
-        for case in curve.cases.iter().flatten().filter(|case| scenes.iter().all(|scene| scene.written != **case)) {
-            let words = format!("\"{case}\" does not stand in cases; write it there, letter by letter");
+        for name in curve.cases.iter().flatten().filter(|name| cases.iter().all(|case| case.written != **name)) {
+            let words = format!("\"{name}\" does not stand in cases; write it there, letter by letter");
             root.problem(&["curve", &number, "cases"], words);
         }
     }
-    for scene in scenes.iter().filter(|scene| scene.curves(curves).is_empty()) {
-        let words = format!("no [[curve]] is drawn for \"{}\"; take it from cases, or name it in a curve", scene.written);
+    for case in cases.iter().filter(|case| case.curves(curves).is_empty()) {
+        let words = format!("no [[curve]] is drawn for \"{}\"; take it from cases, or name it in a curve", case.written);
         root.problem(&["cases"], words);
     }
 }

@@ -4,8 +4,8 @@ use std::io::{Write, stdout};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use super::ended::{Ended, Status};
-use super::folder::Place;
+use super::ended::{Ended, RunStatus};
+use super::folder::ResultPlace;
 use super::plan::{Plan, PlannedRun};
 
 /// Prints to standard output; a reader that has gone away is no reason to stop.
@@ -17,7 +17,7 @@ pub struct Progress {
 
 impl Progress {
     /// The first line: what the study is, and how much of it has been made.
-    pub fn start(plan: &Plan, places: &[Place]) -> Self {
+    pub fn start(plan: &Plan, places: &[ResultPlace]) -> Self {
         let kept = places.iter().filter(|place| place.kept.is_some()).count();
         let again = places.iter().filter(|place| place.again).count();
         let all = count(plan.runs.len(), "run");
@@ -72,9 +72,9 @@ fn describe(keys: &[String], run: &PlannedRun) -> String {
 
 /// How many runs ended how, and the usual ending first.
 fn verdict(results: &[Ended]) -> String {
-    let of = |status: Status| results.iter().filter(|ended| ended.status == status).count();
-    let counts = Status::ALL.map(|status| (status.words(), of(status)));
-    let some = counts.iter().filter(|(words, number)| *number > 0 || *words == Status::Converged.words());
+    let of = |status: RunStatus| results.iter().filter(|ended| ended.status == status).count();
+    let counts = RunStatus::ALL.map(|status| (status.words(), of(status)));
+    let some = counts.iter().filter(|(words, number)| *number > 0 || *words == RunStatus::Converged.words());
     let words: Vec<String> = some.map(|(words, number)| format!("{number} {}", words.replace('_', " "))).collect();
     format!("{}: {}", count(results.len(), "run"), words.join(", "))
 }

@@ -9,7 +9,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::ended::{Ended, Status};
+use super::ended::{Ended, RunStatus};
 use super::plan::PlannedRun;
 use crate::case::{Case, Inputs, fingerprint};
 use crate::output::OutputError;
@@ -40,7 +40,7 @@ pub struct Record {
     #[serde(flatten)]
     pub identity: Identity,
     /// How it ended.
-    pub status: Status,
+    pub status: RunStatus,
     /// Why.
     pub reason: String,
     /// From its start to its end, in seconds.
@@ -114,10 +114,10 @@ impl Record {
     /// is gone.
     pub fn ended(&self, summary: Value, timeout: Duration, result: &str) -> Option<Ended> {
         let stands = match self.status {
-            Status::Converged | Status::NotConverged => !summary.is_null(),
-            Status::Refused => true,
-            Status::Timeout => self.timeout_s >= timeout.as_secs_f64(),
-            Status::Failed => false,
+            RunStatus::Converged | RunStatus::NotConverged => !summary.is_null(),
+            RunStatus::Refused => true,
+            RunStatus::Timeout => self.timeout_s >= timeout.as_secs_f64(),
+            RunStatus::Failed => false,
         };
         let result = if summary.is_null() { String::new() } else { result.into() };
         stands.then(|| Ended {
@@ -237,13 +237,13 @@ mod tests {
         };
         let (summary, short, long) = (json!({ "status": "converged" }), Duration::from_secs(10), Duration::from_secs(11));
         let stands = |status, summary: &Value, timeout| record(status).ended(summary.clone(), timeout, "runs/001").is_some();
-        assert!(stands(Status::Converged, &summary, long) && !stands(Status::Converged, &Value::Null, long));
-        assert!(stands(Status::NotConverged, &summary, long) && !stands(Status::NotConverged, &Value::Null, long));
-        assert!(stands(Status::Refused, &Value::Null, long));
-        assert!(stands(Status::Timeout, &Value::Null, short) && !stands(Status::Timeout, &Value::Null, long));
-        assert!(!stands(Status::Failed, &summary, short));
-        let text = serde_json::to_string(&record(Status::NotConverged)).unwrap();
+        assert!(stands(RunStatus::Converged, &summary, long) && !stands(RunStatus::Converged, &Value::Null, long));
+        assert!(stands(RunStatus::NotConverged, &summary, long) && !stands(RunStatus::NotConverged, &Value::Null, long));
+        assert!(stands(RunStatus::Refused, &Value::Null, long));
+        assert!(stands(RunStatus::Timeout, &Value::Null, short) && !stands(RunStatus::Timeout, &Value::Null, long));
+        assert!(!stands(RunStatus::Failed, &summary, short));
+        let text = serde_json::to_string(&record(RunStatus::NotConverged)).unwrap();
         assert!(text.contains("\"not_converged\"") && text.contains("\"input\":\"3\""), "{text}");
-        assert_eq!(serde_json::from_str::<Record>(&text).unwrap(), record(Status::NotConverged));
+        assert_eq!(serde_json::from_str::<Record>(&text).unwrap(), record(RunStatus::NotConverged));
     }
 }

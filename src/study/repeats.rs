@@ -5,9 +5,9 @@ use std::ops::Range;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::ended::Status;
+use super::ended::RunStatus;
 use super::plan::Plan;
-use super::table::{Column, Kind, Table};
+use super::table::{Column, ColumnKind, Table};
 
 /// What repeats say of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -56,7 +56,7 @@ pub fn add_spreads(table: &mut Table, names: &[&str]) {
         for (row, spread) in table.rows.iter_mut().zip(spreads) {
             row.splice(at + 1..at + 1, spread);
         }
-        let columns = ["median", "least", "most"].map(|of| Column::new(&format!("{name}.{of}"), Kind::Detail));
+        let columns = ["median", "least", "most"].map(|of| Column::new(&format!("{name}.{of}"), ColumnKind::Detail));
         table.columns.splice(at + 1..at + 1, columns);
     }
 }
@@ -72,7 +72,7 @@ pub fn condensed(table: &Table) -> Table {
                 cells[at] = table.rows[first][median].clone();
             }
         }
-        let severity = |row: &usize| Status::ALL.iter().position(|status| table.status(*row) == status.words());
+        let severity = |row: &usize| RunStatus::ALL.iter().position(|status| table.status(*row) == status.words());
         let worst = group.clone().max_by_key(|row| (severity(row), usize::MAX - row)).unwrap_or(group.start);
         for name in ["status", "reason"] {
             let at = table.place(name).expect("a column of every table");
@@ -110,8 +110,13 @@ mod tests {
 
     /// Three repeats of one run, of which the second failed, and a single one that converged.
     fn table() -> Table {
-        let columns = [("case", Kind::Given), ("repeat", Kind::Given), ("status", Kind::Main), ("reason", Kind::Main)];
-        let columns = columns.into_iter().chain([("time_s.total", Kind::Main), ("error", Kind::Main)]);
+        let columns = [
+            ("case", ColumnKind::Given),
+            ("repeat", ColumnKind::Given),
+            ("status", ColumnKind::Main),
+            ("reason", ColumnKind::Main),
+        ];
+        let columns = columns.into_iter().chain([("time_s.total", ColumnKind::Main), ("error", ColumnKind::Main)]);
         let row = |cells: Value| cells.as_array().unwrap().clone();
         Table {
             columns: columns.map(|(name, kind)| Column::new(name, kind)).collect(),

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use serde_json::Value;
 
-use super::ended::{Ended, Status};
+use super::ended::{Ended, RunStatus};
 use super::plan::{Plan, PlannedRun};
 use super::summary_path::SummaryPath;
 
@@ -43,12 +43,12 @@ pub struct Column {
     /// Its name: a word, a key of the case, or a place in `summary.json`.
     pub name: String,
     /// What it is for a reader.
-    pub kind: Kind,
+    pub kind: ColumnKind,
 }
 
 /// What a column is for a reader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnKind {
     /// What the study has asked for, in its own words.
     Given,
     /// A result that everybody wants to see.
@@ -59,7 +59,7 @@ pub enum Kind {
 
 impl Column {
     /// A column of this name.
-    pub fn new(name: &str, kind: Kind) -> Self {
+    pub fn new(name: &str, kind: ColumnKind) -> Self {
         Self { name: name.into(), kind }
     }
 }
@@ -83,7 +83,7 @@ impl Table {
             rows: plan.runs.iter().zip(results).map(row).collect(),
             groups: plan.groups(),
             good: results.iter().map(Ended::is_good).collect(),
-            converged: results.iter().filter(|ended| ended.status == Status::Converged).count(),
+            converged: results.iter().filter(|ended| ended.status == RunStatus::Converged).count(),
             machines: once(results.iter().map(|ended| ended.machine.as_str())),
             blas: once(results.iter().filter_map(|ended| ended.summary["solver"]["blas"].as_str())),
         }
@@ -106,15 +106,15 @@ impl Table {
 
     /// Whether the run of a row converged.
     pub fn is_converged(&self, row: usize) -> bool {
-        self.status(row) == Status::Converged.words()
+        self.status(row) == RunStatus::Converged.words()
     }
 }
 
 /// All columns; in the order of [`of_plan`], [`of_result`], the places in `summary.json`, and the folder of the result.
-fn columns(plan: &Plan, places: &[(SummaryPath, Kind)]) -> Vec<Column> {
+fn columns(plan: &Plan, places: &[(SummaryPath, ColumnKind)]) -> Vec<Column> {
     let repeated = plan.runs.iter().any(|run| run.repeat > 1);
-    let column = |&(name, kind): &(&str, Kind)| Column::new(name, kind);
-    let (given, main, detail) = (Kind::Given, Kind::Main, Kind::Detail);
+    let column = |&(name, kind): &(&str, ColumnKind)| Column::new(name, kind);
+    let (given, main, detail) = (ColumnKind::Given, ColumnKind::Main, ColumnKind::Detail);
     let of_plan = [("case", given), ("curve", given), ("ranks", given), ("repeat", if repeated { given } else { detail })];
     let of_result = [
         ("status", main),
@@ -158,8 +158,8 @@ fn of_result(plan: &Plan, ended: &Ended) -> [Value; 8] {
 
 /// Places in `summary.json` that have a column: those that every study has, errors, balances and contacts that any of the
 /// results has, and those that the study asks for.
-fn places(plan: &Plan, results: &[Ended]) -> Vec<(SummaryPath, Kind)> {
-    let (main, detail) = (Kind::Main, Kind::Detail);
+fn places(plan: &Plan, results: &[Ended]) -> Vec<(SummaryPath, ColumnKind)> {
+    let (main, detail) = (ColumnKind::Main, ColumnKind::Detail);
     let mut places = vec![
         (SummaryPath::new(&["time_s", "solve"]), main),
         (SummaryPath::new(&["time_s", "total"]), main),

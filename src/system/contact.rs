@@ -97,15 +97,9 @@ impl Contact {
         let segment_ratio = segment_ratio(&boundary, &all, young);
         let edge_lengths = segment_edge_lengths(&boundary, &all, young);
         let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
-        let multipliers = Multipliers::new(pair.space, &boundary);
         let modulus = 2.0 / (1.0 / young[0] + 1.0 / young[1]);
-        let stabilised = pair.space != MultiplierSpace::P1Continuous
-            && match pair.stabilise {
-                Stabilise::On => true,
-                Stabilise::Auto => segment_ratio < SHORT * safe_ratio,
-                Stabilise::Off => false,
-            };
-        let (multipliers, jumps) = if stabilised {
+        let multipliers = Multipliers::new(pair.space, &boundary);
+        let (multipliers, jumps) = if is_stabilised(pair, segment_ratio < SHORT * safe_ratio) {
             let own = jumps(&multipliers, &edge_lengths, modulus);
             let numbered = own.into_iter().map(|jump| Jump { rows: jump.rows.map(|i| first + i), ..jump });
             (multipliers.stabilised(), numbered.collect())
@@ -175,6 +169,16 @@ impl Contact {
         };
         self.boundary.knots().windows(2).map(owner).collect()
     }
+}
+
+/// Whether a contact gets the jump term: as the case asks, or where its segments are short.
+fn is_stabilised(pair: &Pair, has_short_segments: bool) -> bool {
+    pair.space != MultiplierSpace::P1Continuous
+        && match pair.stabilise {
+            Stabilise::On => true,
+            Stabilise::Auto => has_short_segments,
+            Stabilise::Off => false,
+        }
 }
 
 /// The boundaries of every contact must face each other, and no two contacts claim the same place.

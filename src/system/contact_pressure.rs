@@ -51,7 +51,7 @@ impl<'a> ContactPressure<'a> {
 
     /// `∫λ ds` (force per thickness).
     pub fn force(&self) -> f64 {
-        self.values.iter().enumerate().map(|(i, value)| value * self.contact.multipliers.weight(i)).sum()
+        self.values.iter().enumerate().map(|(i, value)| value * self.contact.multipliers.integral(i)).sum()
     }
 
     /// The largest value of a multiplier.

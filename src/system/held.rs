@@ -8,18 +8,18 @@ use crate::mesh::{Level, Numbering, SmoothNormals};
 use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError};
 use std::collections::HashMap;
 
-/// Places of a boundary that are proposed for a support.
-const PLACES: usize = 8;
+/// Points of a boundary that are proposed for a support.
+const POINTS: usize = 8;
 
 /// Cosine of the angle (8 degrees) between a chord's normal and that of its arc at most.
 const ALIKE: f64 = 0.99;
 
-/// Places that are tried, whether a support there would hold all.
-const MOST_PLACES: usize = 32;
+/// Points that are tried, whether a support there would hold all.
+const MOST_POINTS: usize = 32;
 
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held.
 pub fn not_held(problem: &Discretisation, active: &[bool]) -> Option<String> {
-    Whole::of(problem).not_held(active)
+    Restraints::of(problem).not_held(active)
 }
 
 /// The same where all contact is closed, of contacts whose edges are all on this rank.
@@ -40,7 +40,7 @@ pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Cont
         }
     }
     let active = vec![true; rows.len()];
-    Ok(Whole { scene, numbering, contacts, rows: &rows }.not_held(&active))
+    Ok(Restraints { scene, numbering, contacts, rows: &rows }.not_held(&active))
 }
 
 /// Whether some body could move if this contact were open: then equilibrium sets its force, and bodies that are a little
@@ -48,14 +48,14 @@ pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Cont
 pub fn is_needed(problem: &Discretisation, active: &[bool], contact: &Contact) -> bool {
     let mut others = active.to_vec();
     others[contact.range()].fill(false);
-    Whole::of(problem).mechanism(&others).is_some()
+    Restraints::of(problem).mechanism(&others).is_some()
 }
 
 /// Of the open multipliers those with the largest `force`, 1, 2, 4, ... of them: as many as it takes to hold every body.
 pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut open: Vec<usize> = (0..active.len()).filter(|&i| !active[i]).collect();
     open.sort_by(|&a, &b| force(b).total_cmp(&force(a)));
-    let (whole, mut count) = (Whole::of(problem), 1);
+    let (whole, mut count) = (Restraints::of(problem), 1);
     while count < open.len() {
         let mut closed = active.to_vec();
         open[..count].iter().for_each(|&i| closed[i] = true);
@@ -69,14 +69,14 @@ pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(u
 }
 
 /// Everything that holds bodies. Rigid motions are those of the undeformed bodies: a disc that is pressed flat rolls on.
-struct Whole<'a> {
+struct Restraints<'a> {
     scene: &'a Scene,
     numbering: &'a Numbering,
     contacts: &'a [Contact],
     rows: &'a [Vec<Coupled>],
 }
 
-impl<'a> Whole<'a> {
+impl<'a> Restraints<'a> {
     fn of(problem: &'a Discretisation) -> Self {
         Self {
             scene: &problem.scene,
@@ -154,48 +154,54 @@ impl<'a> Whole<'a> {
     fn remedy(&self, mechanism: &Mechanism, extents: &[Extent], touches: &[Touch]) -> String {
         let extent = &extents[mechanism.piece];
         let supports = support_conditions(self.scene);
-        let holds_all = |place: &Place| {
-            let direction = Point::ith(place.axis, 1.0);
-            let terms = vec![(place.point, direction)];
+        let holds_all = |at: &SupportPoint| {
+            let direction = Point::ith(at.axis, 1.0);
+            let terms = vec![(at.point, direction)];
             let with = Condition { piece: mechanism.piece, against: None, terms, doubt: 0.0 };
             find_mechanism(extents, &[supports.as_slice(), &[with]].concat(), touches).is_none()
         };
-        let mut places = self.places(mechanism, extent);
-        places.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
-        let Some(place) = places.iter().take(MOST_PLACES).find(|place| holds_all(place)).or(places.first()) else {
+        let mut candidates = self.support_points(mechanism, extent);
+        candidates.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
+        let Some(at) = candidates.iter().take(MOST_POINTS).find(|at| holds_all(at)).or(candidates.first()) else {
             return "give a part of its boundary a name in the mesh, and a support".into();
         };
         format!(
             "hold it, for example by a support {} = 0 at one point of \"{}\", near ({}, {})",
-            ["ux", "uy"][place.axis],
-            place.boundary,
-            tidy(place.point.x, extent.radius),
-            tidy(place.point.y, extent.radius)
+            ["ux", "uy"][at.axis],
+            at.boundary,
+            tidy(at.point.x, extent.radius),
+            tidy(at.point.y, extent.radius)
         )
     }
 
     /// Vertices on the named boundaries of a piece, with the axis in which they move most; some of each boundary.
-    fn places(&self, mechanism: &Mechanism, extent: &Extent) -> Vec<Place<'_>> {
+    fn support_points(&self, mechanism: &Mechanism, extent: &Extent) -> Vec<SupportPoint<'_>> {
         let mesh = &self.scene.mesh;
         let touches = |name: &str| self.scene.pairs.iter().any(|pair| pair.between.iter().any(|side| side == name));
-        let mut places = Vec::new();
+        let mut found = Vec::new();
         for boundary in &mesh.boundaries {
             let own: Vec<u32> =
                 boundary.edges.iter().copied().filter(|&edge| mesh.piece_beside(edge) == mechanism.piece).collect();
-            for &edge in own.iter().step_by(own.len().div_ceil(PLACES).max(1)) {
+            for &edge in own.iter().step_by(own.len().div_ceil(POINTS).max(1)) {
                 let point = mesh.vertices[mesh.edges[edge as usize].vertices[0] as usize];
                 let u = mechanism.displacement(extent, point);
                 // Rounded, so that the order does not hang on the last digit.
                 let moves = (1e6 * u.amax()).round();
-                places.push(Place { free: !touches(&boundary.name), moves, boundary: &boundary.name, point, axis: u.iamax() });
+                found.push(SupportPoint {
+                    free: !touches(&boundary.name),
+                    moves,
+                    boundary: &boundary.name,
+                    point,
+                    axis: u.iamax(),
+                });
             }
         }
-        places
+        found
     }
 }
 
 /// Where a support might be.
-struct Place<'a> {
+struct SupportPoint<'a> {
     /// Whether no contact is there.
     free: bool,
     /// How far the point moves.

@@ -66,6 +66,6 @@ pub fn spread(mesh: &MacroMesh, pairs: &[Pair], session: &Session) -> petsc::Res
     let side = |name: &String| mesh.boundary(name).map(|found| found.edges.as_slice()).unwrap_or(&[]);
     let sides: Vec<[&[u32]; 2]> = pairs.iter().map(|pair| pair.between.each_ref().map(side)).collect();
     let graph = Graph::new(mesh, &sides);
-    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.weights)?;
+    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.connection_weights)?;
     Ok(Partition::new(mesh, &ranks, session.size()))
 }

@@ -6,6 +6,9 @@ use crate::geometry::Point;
 use crate::mesh::{Level, Numbering};
 use std::ops::Range;
 
+/// Two components at a node.
+pub type Components = [f64; 2];
+
 /// Numbers and constraints of one level. Component `k` of node `j` is unknown `2 j + k`, in the node's frame.
 pub struct Space {
     /// Numbers of the nodes.

@@ -1,6 +1,6 @@
 //! Small matrices and problems for the checks.
 
-use mezha::petsc::{Krylov, Level, Matrix, Session, Vector, options};
+use mezha::petsc::{Krylov, Matrix, MultigridLevel, Session, Vector, options};
 use std::ops::Range;
 
 /// This rank's range of `total` numbers.
@@ -130,8 +130,12 @@ impl<'a> HeldString<'a> {
         let nodes = solvers[0].preconditioner();
         assert_eq!(nodes.prefix(), format!("{prefix}fieldsplit_u_"));
         let interpolations = std::iter::once(None).chain(self.interpolations.iter().map(Some));
-        let levels: Vec<Level> =
-            self.levels.iter().zip(interpolations).map(|(operator, interpolation)| Level { operator, interpolation }).collect();
+        let levels: Vec<MultigridLevel> = self
+            .levels
+            .iter()
+            .zip(interpolations)
+            .map(|(operator, interpolation)| MultigridLevel { operator, interpolation })
+            .collect();
         nodes.multigrid(&levels).unwrap();
         solvers[0].set_up().unwrap();
         krylov

@@ -22,7 +22,8 @@ pub fn scene(session: &Session, order: Order, refine: usize, graded: bool) -> Sc
 /// The same scene on a mesh of its own.
 pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Scene {
     let graph = Graph::new(&mesh, &[]);
-    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.weights).expect("a partition");
+    let ranks =
+        partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.connection_weights).expect("a partition");
     let body = |name: &String| Body {
         name: name.clone(),
         material: Material { young: 7000.0, poisson: 0.227 },

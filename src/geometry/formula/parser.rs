@@ -1,7 +1,7 @@
 //! Formula text to postfix program, by recursive descent.
 
 use super::dual::Dual;
-use super::{DEPTH, FormulaError, Function, Step};
+use super::{DEPTH, FormulaError, Function, Instruction};
 
 /// What a formula may call.
 const FUNCTIONS: [(&str, Function); 4] =
@@ -11,7 +11,7 @@ const FUNCTIONS: [(&str, Function); 4] =
 const NESTING: usize = 64;
 
 /// Reads a whole formula; the column of an error counts characters from 1.
-pub fn parse(text: &str, variables: &[&str]) -> Result<Vec<Step>, FormulaError> {
+pub fn parse(text: &str, variables: &[&str]) -> Result<Vec<Instruction>, FormulaError> {
     let mut parser = Parser { text: text.chars().collect(), next: 0, variables, program: Vec::new(), waiting: 0, nesting: 0 };
     parser.sum()?;
     match parser.peek() {
@@ -26,7 +26,7 @@ struct Parser<'a> {
     /// Index of the next character.
     next: usize,
     variables: &'a [&'a str],
-    program: Vec<Step>,
+    program: Vec<Instruction>,
     /// Numbers on the stack after the program so far.
     waiting: usize,
     nesting: usize,
@@ -39,7 +39,7 @@ impl Parser<'_> {
         while let Some(sign @ ('+' | '-')) = self.peek() {
             self.next += 1;
             self.product()?;
-            self.push(if sign == '+' { Step::Add } else { Step::Subtract })?;
+            self.push(if sign == '+' { Instruction::Add } else { Instruction::Subtract })?;
         }
         Ok(())
     }
@@ -50,7 +50,7 @@ impl Parser<'_> {
         while let Some(sign @ ('*' | '/')) = self.peek() {
             self.next += 1;
             self.signed()?;
-            self.push(if sign == '*' { Step::Multiply } else { Step::Divide })?;
+            self.push(if sign == '*' { Instruction::Multiply } else { Instruction::Divide })?;
         }
         Ok(())
     }
@@ -65,7 +65,7 @@ impl Parser<'_> {
             Some('-') => {
                 self.next += 1;
                 self.signed()?;
-                self.push(Step::Negate)?;
+                self.push(Instruction::Negate)?;
             }
             Some('+') => {
                 self.next += 1;
@@ -83,7 +83,7 @@ impl Parser<'_> {
         if self.peek() == Some('^') {
             self.next += 1;
             self.signed()?;
-            self.push(Step::Power)?;
+            self.push(Instruction::Power)?;
         }
         Ok(())
     }
@@ -122,7 +122,7 @@ impl Parser<'_> {
         }
         let found: String = self.text[start..self.next].iter().collect();
         match found.parse::<f64>() {
-            Ok(value) if value.is_finite() => self.push(Step::Number(value)),
+            Ok(value) if value.is_finite() => self.push(Instruction::Number(value)),
             _ => Err(error_at(start, &found, "allowed here: a finite number like 2, 0.5 or 1e-3")),
         }
     }
@@ -132,10 +132,10 @@ impl Parser<'_> {
         self.skip_while(|c| is_name(c) || c.is_ascii_digit());
         let found: String = self.text[start..self.next].iter().collect();
         if let Some(index) = self.variables.iter().position(|name| *name == found) {
-            return self.push(Step::Variable(index));
+            return self.push(Instruction::Variable(index));
         }
         if found == "pi" {
-            return self.push(Step::Number(std::f64::consts::PI));
+            return self.push(Instruction::Number(std::f64::consts::PI));
         }
         let Some(&(name, function)) = FUNCTIONS.iter().find(|(name, _)| *name == found) else {
             return Err(error_at(start, &found, &format!("allowed here: {}", self.allowed())));
@@ -144,12 +144,12 @@ impl Parser<'_> {
             return Err(self.error_here(&format!("allowed here: (, as in {name}(...)")));
         }
         self.parenthesis()?;
-        self.push(Step::Apply(function))
+        self.push(Instruction::Apply(function))
     }
 
-    /// Appends a step; steps on numbers alone are done at once.
-    fn push(&mut self, step: Step) -> Result<(), FormulaError> {
-        let taken = step.operands();
+    /// Appends an instruction; those on numbers alone are done at once.
+    fn push(&mut self, instruction: Instruction) -> Result<(), FormulaError> {
+        let taken = instruction.operands();
         self.waiting = self.waiting - taken + 1;
         if self.waiting > DEPTH {
             return Err(self.error_here("nested too deeply; simplify the formula"));
@@ -157,14 +157,16 @@ impl Parser<'_> {
         let first = self.program.len() - taken;
         let operands: Vec<Dual> = self.program[first..]
             .iter()
-            .filter_map(|step| if let Step::Number(value) = step { Some(Dual::constant(*value)) } else { None })
+            .filter_map(
+                |instruction| if let Instruction::Number(value) = instruction { Some(Dual::constant(*value)) } else { None },
+            )
             .collect();
         if taken > 0 && operands.len() == taken {
-            let value = step.compute(&operands).value;
+            let value = instruction.compute(&operands).value;
             self.program.truncate(first);
-            self.program.push(Step::Number(value));
+            self.program.push(Instruction::Number(value));
         } else {
-            self.program.push(step);
+            self.program.push(instruction);
         }
         Ok(())
     }

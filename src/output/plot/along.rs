@@ -13,7 +13,7 @@ use crate::output::{ContactPoint, OutputError};
 const SHEET: Sheet = Sheet { width: 820, height: 460, margins: [68, 24, 62, 54] };
 
 /// A quantity of the contact boundary and how it is drawn; in a list, the first is drawn on top.
-struct Curve {
+struct DrawnCurve {
     name: &'static str,
     style: ShapeStyle,
     value: fn(&ContactPoint) -> f64,
@@ -28,9 +28,9 @@ struct Curve {
 /// No point has a finite pressure; the operating system refuses.
 pub fn write_pressure(path: &Path, title: &str, points: &[ContactPoint]) -> Result<(), OutputError> {
     let curves = [
-        Curve { name: "contact pressure λ", style: line(&BLUE, 2.0), value: |p| p.lambda },
-        Curve { name: "−σ₁ of body 1", style: line(&VERMILION, 1.1), value: |p| -p.sigma_1 },
-        Curve { name: "−σ₂ of body 2", style: line(&GREEN, 1.1), value: |p| -p.sigma_2 },
+        DrawnCurve { name: "contact pressure λ", style: line(&BLUE, 2.0), value: |p| p.lambda },
+        DrawnCurve { name: "−σ₁ of body 1", style: line(&VERMILION, 1.1), value: |p| -p.sigma_1 },
+        DrawnCurve { name: "−σ₂ of body 2", style: line(&GREEN, 1.1), value: |p| -p.sigma_2 },
     ];
     let mut range = finite_range(path, points, &curves)?;
     range = [range[0].min(0.0), range[1].max(0.0)];
@@ -45,8 +45,8 @@ pub fn write_pressure(path: &Path, title: &str, points: &[ContactPoint]) -> Resu
 /// No point has a finite displacement; the operating system refuses.
 pub fn write_displacement(path: &Path, title: &str, points: &[ContactPoint]) -> Result<(), OutputError> {
     let curves = [
-        Curve { name: "n·u of body 1", style: line(&VERMILION, 1.1), value: |p| p.un_1 },
-        Curve { name: "n·u of body 2", style: line(&GREEN, 2.6), value: |p| p.un_2 },
+        DrawnCurve { name: "n·u of body 1", style: line(&VERMILION, 1.1), value: |p| p.un_1 },
+        DrawnCurve { name: "n·u of body 2", style: line(&GREEN, 2.6), value: |p| p.un_2 },
     ];
     let range = finite_range(path, points, &curves)?;
     let quantity = Quantity { name: "normal displacement", unit: "length" };
@@ -63,7 +63,7 @@ fn write_curves(
     path: &Path,
     title: &str,
     points: &[ContactPoint],
-    curves: &[Curve],
+    curves: &[DrawnCurve],
     range: [f64; 2],
     quantity: &Quantity,
     remark: Option<&str>,
@@ -97,7 +97,7 @@ fn write_curves(
 }
 
 /// Draws one quantity, broken where it jumps or is not a number.
-fn draw_curve(chart: &mut Chart, points: &[ContactPoint], curve: &Curve) -> DrawResult<()> {
+fn draw_curve(chart: &mut Chart, points: &[ContactPoint], curve: &DrawnCurve) -> DrawResult<()> {
     let places: Vec<(f64, f64)> = points.iter().map(|p| (p.s, (curve.value)(p))).collect();
     let faint = ShapeStyle { color: curve.style.color.mix(0.45), stroke_width: 6, ..curve.style };
     let continuous = |a: &(f64, f64), b: &(f64, f64)| a.0 < b.0 && a.1.is_finite() == b.1.is_finite();
@@ -111,7 +111,7 @@ fn draw_curve(chart: &mut Chart, points: &[ContactPoint], curve: &Curve) -> Draw
 }
 
 /// Smallest and largest finite value of all curves.
-fn finite_range(path: &Path, points: &[ContactPoint], curves: &[Curve]) -> Result<[f64; 2], OutputError> {
+fn finite_range(path: &Path, points: &[ContactPoint], curves: &[DrawnCurve]) -> Result<[f64; 2], OutputError> {
     let values = curves.iter().flat_map(|curve| points.iter().map(curve.value)).filter(|value| value.is_finite());
     let range = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     if range[0] > range[1] {
@@ -121,7 +121,7 @@ fn finite_range(path: &Path, points: &[ContactPoint], curves: &[Curve]) -> Resul
 }
 
 /// Cuts peaks that would squeeze the rest: the range shown, and a remark if it was cut.
-fn cut_peaks([low, high]: [f64; 2], points: &[ContactPoint], curves: &[Curve]) -> ([f64; 2], Option<String>) {
+fn cut_peaks([low, high]: [f64; 2], points: &[ContactPoint], curves: &[DrawnCurve]) -> ([f64; 2], Option<String>) {
     let pieces: Vec<(f64, f64)> = curves
         .iter()
         .flat_map(|curve| points.windows(2).map(|pair| ((curve.value)(&pair[0]), pair[1].s - pair[0].s)))

@@ -208,8 +208,8 @@ fn band(corners: &[[f64; 2]; 3], values: &[f64; 3], [low, high]: [f64; 2]) -> Ve
 }
 
 /// The outlines of the bodies as one path.
-fn outlines(boundary: &[[Node; 2]], scale: f64, colour: RGBColor, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
-    let placed = |points: Vec<Node>| points.into_iter().map(|node| place(node.deformed(scale))).collect();
+fn outlines(boundary: &[[FacetCorner; 2]], scale: f64, colour: RGBColor, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    let placed = |points: Vec<FacetCorner>| points.into_iter().map(|node| place(node.deformed(scale))).collect();
     let loops: Vec<Vec<(i32, i32)>> = loops(boundary).into_iter().map(placed).collect();
     let RGBColor(red, green, blue) = colour;
     let data = path_data(&loops);
@@ -219,11 +219,11 @@ fn outlines(boundary: &[[Node; 2]], scale: f64, colour: RGBColor, place: impl Fn
 /// A corner of a facet in single precision, by its bits: position and displacement, so that bodies that touch keep their own
 /// corners.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Node([u32; 4]);
+struct FacetCorner([u32; 4]);
 
-impl Node {
-    fn new([x, y]: [f64; 2], [ux, uy]: [f64; 2]) -> Node {
-        Node([x, y, ux, uy].map(|number| (number as f32 + 0.0).to_bits()))
+impl FacetCorner {
+    fn new([x, y]: [f64; 2], [ux, uy]: [f64; 2]) -> FacetCorner {
+        FacetCorner([x, y, ux, uy].map(|number| (number as f32 + 0.0).to_bits()))
     }
 
     fn displacement(self) -> [f64; 2] {
@@ -237,15 +237,15 @@ impl Node {
 }
 
 /// The edges of facets that have a body on one side only.
-fn boundary_edges(facets: &[Facet]) -> Vec<[Node; 2]> {
+fn boundary_edges(facets: &[Facet]) -> Vec<[FacetCorner; 2]> {
     unmatched(facets.iter().flat_map(|facet| {
-        let [a, b, c] = [0, 1, 2].map(|k| Node::new(facet.corners[k], facet.displacement[k]));
+        let [a, b, c] = [0, 1, 2].map(|k| FacetCorner::new(facet.corners[k], facet.displacement[k]));
         [[a, b], [b, c], [c, a]]
     }))
 }
 
 /// A contact boundary moved along with the bodies.
-fn moved_contact(contact: &[ContactPoint], boundary: &[[Node; 2]], scale: f64) -> Vec<(f64, f64)> {
+fn moved_contact(contact: &[ContactPoint], boundary: &[[FacetCorner; 2]], scale: f64) -> Vec<(f64, f64)> {
     let moved = |p: &ContactPoint| {
         let u = displacement_near([p.x, p.y], boundary);
         let (along, across) = (p.nx * u[1] - p.ny * u[0], 0.5 * (p.un_1 + p.un_2));
@@ -255,7 +255,7 @@ fn moved_contact(contact: &[ContactPoint], boundary: &[[Node; 2]], scale: f64) -
 }
 
 /// The displacement at the point of the boundary that is nearest to a point.
-fn displacement_near(point: [f64; 2], boundary: &[[Node; 2]]) -> [f64; 2] {
+fn displacement_near(point: [f64; 2], boundary: &[[FacetCorner; 2]]) -> [f64; 2] {
     let nearest = boundary.iter().map(|edge| {
         let [a, b] = edge.map(|node| node.deformed(0.0));
         let (edge_x, edge_y) = (b[0] - a[0], b[1] - a[1]);
@@ -264,7 +264,7 @@ fn displacement_near(point: [f64; 2], boundary: &[[Node; 2]]) -> [f64; 2] {
         ((from_x - fraction * edge_x).hypot(from_y - fraction * edge_y), fraction, edge)
     });
     nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map_or([0.0; 2], |(_, fraction, edge)| {
-        let [first, second] = edge.map(Node::displacement);
+        let [first, second] = edge.map(FacetCorner::displacement);
         [0, 1].map(|axis| (1.0 - fraction) * first[axis] + fraction * second[axis])
     })
 }

@@ -11,18 +11,18 @@ use super::ticks::Ticks;
 
 /// Diagrams that share a legend.
 #[derive(Clone, Debug, Default)]
-pub struct Block {
+pub struct DiagramBlock {
     /// Stands above all.
     pub title: String,
     /// One row for each line.
-    pub legend: Vec<Entry>,
+    pub legend: Vec<LegendRow>,
     /// Two stand side by side; one without a mark is left out.
     pub diagrams: Vec<Diagram>,
 }
 
 /// A row of the legend.
 #[derive(Clone, Debug, Default)]
-pub struct Entry {
+pub struct LegendRow {
     /// Style of the line: its colour and its marks.
     pub style: usize,
     /// Its name, and what else is to be said of it, in columns.
@@ -88,16 +88,16 @@ const WHITE: RGBColor = RGBColor(255, 255, 255);
 ///
 /// # Errors
 /// What plotters has to say, in words.
-pub fn diagrams(blocks: &[Block]) -> Result<Option<String>, String> {
-    let shown: Vec<(&Block, Vec<&Diagram>)> = blocks
+pub fn diagrams(blocks: &[DiagramBlock]) -> Result<Option<String>, String> {
+    let shown: Vec<(&DiagramBlock, Vec<&Diagram>)> = blocks
         .iter()
         .map(|block| (block, block.diagrams.iter().filter(|diagram| diagram.marks().next().is_some()).collect()))
-        .filter(|(_, diagrams): &(&Block, Vec<&Diagram>)| !diagrams.is_empty())
+        .filter(|(_, diagrams): &(&DiagramBlock, Vec<&Diagram>)| !diagrams.is_empty())
         .collect();
     if shown.is_empty() {
         return Ok(None);
     }
-    let height = |(block, diagrams): &(&Block, Vec<&Diagram>)| {
+    let height = |(block, diagrams): &(&DiagramBlock, Vec<&Diagram>)| {
         TITLE + ROW * block.legend.len() as i32 + PANEL.height * diagrams.len().div_ceil(COLUMNS) as i32 + GAP
     };
     let sheet = Sheet { width: PANEL.width * COLUMNS as i32, height: shown.iter().map(height).sum(), margins: [16, 0, 0, 0] };
@@ -114,7 +114,7 @@ pub fn diagrams(blocks: &[Block]) -> Result<Option<String>, String> {
 }
 
 /// Draws title, legend and diagrams into the part of the sheet that is theirs.
-fn draw_block(sheet: &Sheet, whole: &Area, part: &Area, block: &Block, diagrams: &[&Diagram]) -> DrawResult<()> {
+fn draw_block(sheet: &Sheet, whole: &Area, part: &Area, block: &DiagramBlock, diagrams: &[&Diagram]) -> DrawResult<()> {
     sheet.draw_title(part, &block.title)?;
     draw_legend(part, f64::from(sheet.width), &block.legend)?;
     let top = TITLE + ROW * block.legend.len() as i32;
@@ -129,9 +129,9 @@ fn draw_block(sheet: &Sheet, whole: &Area, part: &Area, block: &Block, diagrams:
 
 /// Draws one row for each line: its sample, its name, and what else is said of it; in smaller letters where `width` (pixels) is
 /// too little.
-fn draw_legend(part: &Area, width: f64, legend: &[Entry]) -> DrawResult<()> {
+fn draw_legend(part: &Area, width: f64, legend: &[LegendRow]) -> DrawResult<()> {
     let columns = legend.iter().map(|entry| entry.cells.len()).max().unwrap_or(0);
-    let cell = |entry: &Entry, column: usize| entry.cells.get(column).map_or(0.0, |cell| text_width(cell, LETTERS) + BETWEEN);
+    let cell = |entry: &LegendRow, column: usize| entry.cells.get(column).map_or(0.0, |cell| text_width(cell, LETTERS) + BETWEEN);
     let widest = |column| legend.iter().map(|entry| cell(entry, column)).fold(0.0, f64::max);
     let widths: Vec<f64> = (0..columns).map(widest).collect();
     let smaller = ((width - SAMPLE) / widths.iter().sum::<f64>()).min(1.0);
@@ -245,7 +245,7 @@ mod tests {
     use super::*;
 
     /// Error against unknowns for two lines of these orders, and a diagram without a mark.
-    fn block(orders: [f64; 2]) -> Block {
+    fn block(orders: [f64; 2]) -> DiagramBlock {
         let mark = |order: f64, n: f64| Mark { x: n, y: n.powf(-order), reach: [n.powf(-order) / 2.0; 2], hollow: n > 1e4 };
         let marks = |order: f64| [1e3, 4e3, 1.6e4].map(|n| mark(order, n)).to_vec();
         let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
@@ -256,8 +256,8 @@ mod tests {
             behind: vec![(1e3, 1e-3), (1.6e4, 1e-6)],
             lines: orders.into_iter().enumerate().map(|(style, order)| (style, marks(order))).collect(),
         };
-        let entry = |style| Entry { style, cells: vec![format!("line {style}"), "a law".into()] };
-        Block { title: "bars".into(), legend: vec![entry(0), entry(1)], diagrams: vec![full, Diagram::default()] }
+        let entry = |style| LegendRow { style, cells: vec![format!("line {style}"), "a law".into()] };
+        DiagramBlock { title: "bars".into(), legend: vec![entry(0), entry(1)], diagrams: vec![full, Diagram::default()] }
     }
 
     fn count(text: &str, word: &str) -> usize {

@@ -13,4 +13,4 @@ mod ticks;
 
 pub use along::{write_displacement, write_pressure};
 pub use deformed::{Facet, write_deformed};
-pub use diagrams::{Axis, Block, Diagram, Entry, Mark, diagrams};
+pub use diagrams::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};

@@ -14,19 +14,19 @@ fn filled() -> Summary {
     let mut summary = Summary::new("bars", 2);
     summary.status = Status::Converged;
     summary.outer.push(OuterIteration { iteration: 1, active: Some(60), du: Some(0.1), ..OuterIteration::default() });
-    let contact = Contact {
+    let contact = ContactSummary {
         ends: Some([[0.0, 3.0], [6.0, 4.0]]),
         closed: Some(vec![[0.0, 6.0]]),
         closed_points: Some(vec![[[0.0, 3.0], [6.0, 4.0]]]),
         resultant: Some([1.0, -6.0]),
         trust: Some(true),
-        zones: vec![Zone { ends: Some([0.0, 6.0]), ..Zone::default() }],
-        ..Contact::default()
+        zones: vec![ZoneSummary { ends: Some([0.0, 6.0]), ..ZoneSummary::default() }],
+        ..ContactSummary::default()
     };
     summary.contact.insert("seam".into(), contact);
     summary.energy.strain.insert("lower".into(), Some(1e-3));
     summary.estimate.contact.insert("seam".into(), ContactEstimate { force: Some(1e-9), ..ContactEstimate::default() });
-    summary.probe.insert("corner".into(), Probe { x: Some([6.0, 4.0]), ..Probe::default() });
+    summary.probe.insert("corner".into(), ProbeSummary { x: Some([6.0, 4.0]), ..ProbeSummary::default() });
     summary.solver.iterations = vec![12, 7];
     summary.errors.insert("energy".into(), Some(1e-6));
     summary
@@ -82,7 +82,7 @@ fn what_is_unknown_or_not_finite_is_null() {
     let mut summary = filled();
     summary.energy.total = Some(f64::NAN);
     summary.balance.force = Some(f64::INFINITY);
-    summary.probe.insert("lost".into(), Probe { u: Some([f64::NAN, 1.0]), ..Probe::default() });
+    summary.probe.insert("lost".into(), ProbeSummary { u: Some([f64::NAN, 1.0]), ..ProbeSummary::default() });
     let value = written(&summary);
     for pointer in ["/energy/total", "/balance/force", "/balance/moment", "/probe/lost/u/0", "/probe/lost/x", "/reason"] {
         assert_eq!(value.pointer(pointer), Some(&Value::Null), "{pointer}");

@@ -1,10 +1,10 @@
 //! What speaks against pressures.
 
 use super::*;
-use crate::output::summary::{Balance, Contact, Estimate, Zone};
+use crate::output::summary::{BalanceSummary, ContactSummary, EstimateSummary, ZoneSummary};
 
-fn zone() -> Zone {
-    Zone {
+fn zone() -> ZoneSummary {
+    ZoneSummary {
         ends: Some([0.0, 0.4]),
         edges: Some(8.0),
         segments: Some(6),
@@ -20,12 +20,12 @@ fn zone() -> Zone {
     }
 }
 
-fn words_of(zones: Vec<Zone>, missing: f64) -> String {
-    let contact = Contact { zones, missing: Some(missing), ..Contact::default() };
+fn words_of(zones: Vec<ZoneSummary>, missing: f64) -> String {
+    let contact = ContactSummary { zones, missing: Some(missing), ..ContactSummary::default() };
     zone_doubts(&contact, Some(true), FINER).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
 }
 
-fn words(change: impl Fn(&mut Zone)) -> String {
+fn words(change: impl Fn(&mut ZoneSummary)) -> String {
     let mut zone = zone();
     change(&mut zone);
     words_of(vec![zone], 0.0)
@@ -42,8 +42,8 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
     assert!(words_of(vec![zone()], 0.5).contains("overlap"));
     let far = |energy, force| {
         let summary = Summary {
-            estimate: Estimate { energy: Some(energy), ..Estimate::default() },
-            balance: Balance { force: Some(force), ..Balance::default() },
+            estimate: EstimateSummary { energy: Some(energy), ..EstimateSummary::default() },
+            balance: BalanceSummary { force: Some(force), ..BalanceSummary::default() },
             ..Summary::default()
         };
         size_doubts(&summary).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
@@ -52,7 +52,7 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
     assert!(far(0.6, 1e-15).contains("energy norm 0.60"));
     assert!(far(0.02, 1.0).contains("differ by 1.00"));
     let within = |force: f64, off: f64| {
-        let contact = Contact { force: Some(force), unresolved_force: Some(off), ..Contact::default() };
+        let contact = ContactSummary { force: Some(force), unresolved_force: Some(off), ..ContactSummary::default() };
         unresolved_doubt(&contact, FINER).map_or(String::new(), |doubt| doubt.figure)
     };
     assert_eq!((within(5.4, 0.2), within(0.0, 0.0)), (String::new(), String::new()));
@@ -73,7 +73,7 @@ fn far_rotations_are_doubted_wherever_contact_is() {
 fn sliding_is_doubted_unless_turning_is() {
     let told = |slip_error, rotation_error| {
         let [slip, slip_error, rotation_error] = [0.3, slip_error, rotation_error].map(Some);
-        let contact = Contact { slip, slip_error, rotation_error, zones: vec![zone()], ..Contact::default() };
+        let contact = ContactSummary { slip, slip_error, rotation_error, zones: vec![zone()], ..ContactSummary::default() };
         [slip_doubt(&contact).is_some(), turning_doubt(&contact).is_some()]
     };
     assert_eq!(told(0.015, 0.0), [true, false]);
@@ -84,7 +84,7 @@ fn sliding_is_doubted_unless_turning_is() {
 
 #[test]
 fn corners_are_doubted_by_what_they_do() {
-    let pair = |error| Contact { corner_angle: Some(11.25), corner_error: Some(error), ..Contact::default() };
+    let pair = |error| ContactSummary { corner_angle: Some(11.25), corner_error: Some(error), ..ContactSummary::default() };
     let told = |error| corner_doubt(&pair(error), ["a", "b"]).map(|doubt| doubt.figure);
     assert_eq!(told(0.03), None);
     assert!(told(0.07).is_some_and(|words| words.contains("\"a\" or \"b\" has corners of up to 11 degrees")));
@@ -109,9 +109,9 @@ fn the_force_of_a_zone_is_doubted_unless_the_zone_is_small_beside_the_others() {
 
 #[test]
 fn every_zone_that_counts_is_judged() {
-    let narrow = Zone { ends: Some([0.6, 0.62]), edges: Some(0.9), share: Some(0.05), ..zone() };
+    let narrow = ZoneSummary { ends: Some([0.6, 0.62]), edges: Some(0.9), share: Some(0.05), ..zone() };
     assert!(words_of(vec![zone(), narrow.clone()], 0.0).contains("contact at s = 0.60 to 0.62 0.9 edges wide"));
-    let faint = Zone { share: Some(1e-4), pressure_max: Some(1e-3), ..narrow };
+    let faint = ZoneSummary { share: Some(1e-4), pressure_max: Some(1e-3), ..narrow };
     assert_eq!(words_of(vec![zone(), faint], 0.0), "");
 }
 
@@ -130,8 +130,8 @@ fn bodies_that_overlap_where_nothing_presses_are_told() {
 
 #[test]
 fn the_pressure_at_a_corner_is_left_open_if_the_force_is_right() {
-    let corner = Zone { edges: Some(1.5), corner: Some(true), lambda: None, worst: None, ..zone() };
-    let contact = Contact { zones: vec![corner], ..Contact::default() };
+    let corner = ZoneSummary { edges: Some(1.5), corner: Some(true), lambda: None, worst: None, ..zone() };
+    let contact = ContactSummary { zones: vec![corner], ..ContactSummary::default() };
     assert!(zone_doubts(&contact, Some(true), FINER).is_empty());
     assert!(unknown_words(&contact, "seam", Some(true)).is_some_and(|words| words.contains("singular")));
     assert!(!zone_doubts(&contact, Some(false), FINER).is_empty());
@@ -139,7 +139,13 @@ fn the_pressure_at_a_corner_is_left_open_if_the_force_is_right() {
 
 #[test]
 fn what_nothing_estimates_is_told() {
-    let told = |lambda| unknown_words(&Contact { zones: vec![Zone { lambda, ..zone() }], ..Contact::default() }, "seam", None);
+    let told = |lambda| {
+        unknown_words(
+            &ContactSummary { zones: vec![ZoneSummary { lambda, ..zone() }], ..ContactSummary::default() },
+            "seam",
+            None,
+        )
+    };
     assert_eq!(told(Some(0.01)), None);
     assert!(told(None).is_some_and(|words| words.contains("nothing estimates")));
 }
@@ -157,7 +163,7 @@ fn judged(converged: bool, change: impl Fn(&mut Summary), settings: &[&str]) -> 
     let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
     let case = Case::parse(CASE, std::path::Path::new("case.toml"), &settings).expect("a case");
     let mut summary = Summary::default();
-    summary.contact.insert("seam".into(), Contact { zones: vec![zone()], force: Some(5.0), ..Contact::default() });
+    summary.contact.insert("seam".into(), ContactSummary { zones: vec![zone()], force: Some(5.0), ..ContactSummary::default() });
     let estimate = crate::output::summary::ContactEstimate { force: Some(1e-3), lambda: Some(0.01), peak: Some(0.02) };
     summary.estimate.contact.insert("seam".into(), estimate);
     change(&mut summary);

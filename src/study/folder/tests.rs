@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use super::super::ended::Status;
+use super::super::ended::RunStatus;
 use super::*;
 
 const HOUR: Duration = Duration::from_secs(3600);
@@ -16,7 +16,7 @@ fn finish(folder: &Folder, number: usize, wanted: &Wanted, result: bool) {
         study: "bars".into(),
         what: wanted.what.clone(),
         identity: wanted.identity.clone(),
-        status: Status::Converged,
+        status: RunStatus::Converged,
         reason: "residual".into(),
         wall_s: number as f64,
         timeout_s: 60.0,
@@ -30,8 +30,8 @@ fn finish(folder: &Folder, number: usize, wanted: &Wanted, result: bool) {
 }
 
 /// Numbers, and whether they are kept (k), made again (a) or new (n).
-fn said(places: &[Place]) -> String {
-    let word = |place: &Place| match (&place.kept, place.again) {
+fn said(places: &[ResultPlace]) -> String {
+    let word = |place: &ResultPlace| match (&place.kept, place.again) {
         (Some(_), _) => 'k',
         (None, true) => 'a',
         (None, false) => 'n',

@@ -8,13 +8,13 @@ fn table() -> Table {
         errors: vec!["errors.energy".into()],
         time: "time_s.total".into(),
         columns: [
-            ("case", Kind::Given),
-            ("repeat", Kind::Detail),
-            ("status", Kind::Main),
-            ("reason", Kind::Main),
-            ("error", Kind::Main),
-            ("contact.\"a,b\".trust", Kind::Main),
-            ("wall_s", Kind::Detail),
+            ("case", ColumnKind::Given),
+            ("repeat", ColumnKind::Detail),
+            ("status", ColumnKind::Main),
+            ("reason", ColumnKind::Main),
+            ("error", ColumnKind::Main),
+            ("contact.\"a,b\".trust", ColumnKind::Main),
+            ("wall_s", ColumnKind::Detail),
         ]
         .map(|(name, kind)| Column::new(name, kind))
         .to_vec(),
@@ -90,7 +90,7 @@ fn repeated() -> Table {
     let mut table = table();
     table.rows.splice(1..1, [1.0, 2.5].map(|time| table.rows[0].iter().take(6).cloned().chain([time.into()]).collect()).to_vec());
     (table.groups, table.good) = (vec![0..3, 3..4], vec![true, true, true, false]);
-    table.columns[6].kind = Kind::Main;
+    table.columns[6].kind = ColumnKind::Main;
     super::super::repeats::add_spreads(&mut table, &["wall_s"]);
     table
 }

@@ -2,8 +2,8 @@
 
 use toml::Value;
 
-use super::planned::{PlannedRun, Scene};
-use super::settings::{Axis, Curve, Setting};
+use super::planned::{PlannedCase, PlannedRun};
+use super::settings::{GridAxis, Setting, StudyCurve};
 use crate::case::Case;
 use crate::case::error::dotted;
 use crate::case::section::Section;
@@ -16,9 +16,9 @@ pub struct Moves {
     /// `[set]`: in every run, but where a curve sets the same key.
     pub common: Vec<Setting<Value>>,
     /// `[grid]`: for every curve, but those that have an axis of their own for the same key.
-    pub grid: Vec<Axis>,
+    pub grid: Vec<GridAxis>,
     /// `[[curve]]`
-    pub curves: Vec<Curve>,
+    pub curves: Vec<StudyCurve>,
 }
 
 impl Moves {
@@ -56,7 +56,7 @@ impl Moves {
     }
 
     /// What a curve sets, and before it what `[set]` does and the curve does not.
-    fn set<'a>(&'a self, curve: Option<&'a Curve>) -> impl Iterator<Item = &'a Setting<Value>> + Clone {
+    fn set<'a>(&'a self, curve: Option<&'a StudyCurve>) -> impl Iterator<Item = &'a Setting<Value>> + Clone {
         let (own, grid) = curve.map_or((&[][..], &[][..]), |curve| (&curve.set[..], &curve.grid[..]));
         let left = move |setting: &&Setting<Value>| {
             own.iter().map(|other| &other.path).chain(grid.iter().map(|axis| &axis.path)).all(|path| !meet(path, &setting.path))
@@ -65,31 +65,31 @@ impl Moves {
     }
 
     /// Axes of a curve: those of the grid, with its own in their place, and then the rest of its own.
-    fn axes<'a>(&'a self, curve: Option<&'a Curve>) -> Vec<&'a Axis> {
+    fn axes<'a>(&'a self, curve: Option<&'a StudyCurve>) -> Vec<&'a GridAxis> {
         let own = curve.map_or(&[][..], |curve| &curve.grid);
-        let replaced = |axis: &'a Axis| own.iter().find(|other| other.path == axis.path).unwrap_or(axis);
+        let replaced = |axis: &'a GridAxis| own.iter().find(|other| other.path == axis.path).unwrap_or(axis);
         let more = own.iter().filter(|other| self.grid.iter().all(|axis| axis.path != other.path));
         self.grid.iter().map(replaced).chain(more).collect()
     }
 
     /// A key that no case can have is a slip of the pen: it is told before anything runs. What else is wrong with a case, a
     /// value that it refuses, say, is the row of its run.
-    pub fn check_keys(&self, scenes: &[Scene], root: &Section) {
+    pub fn check_keys(&self, cases: &[PlannedCase], root: &Section) {
         let mut told: Vec<&[String]> = Vec::new();
-        for scene in scenes {
-            for curve in scene.curves(&self.curves) {
+        for case in cases {
+            for curve in case.curves(&self.curves) {
                 let (set, axes) = (self.set(curve), self.axes(curve));
                 let first = axes.iter().map(|axis| overriding(&axis.path, &axis.value[0]));
                 let overrides: Vec<String> =
                     set.clone().map(|setting| overriding(&setting.path, &setting.value)).chain(first).collect();
-                let Err(error) = Case::read(&scene.file, &overrides) else { continue };
+                let Err(error) = Case::read(&case.file, &overrides) else { continue };
                 for (path, written) in set.map(places).chain(axes.into_iter().map(places)) {
                     let key = dotted(path);
                     let meant = |unknown: &str| key == unknown || key.starts_with(&format!("{unknown}."));
                     let problem = error.problems.iter().find(|problem| problem.is_unknown() && meant(&problem.key));
                     if let Some(problem) = problem.filter(|_| !told.contains(&written)) {
                         let below: Vec<&str> = written.iter().map(String::as_str).collect();
-                        root.problem(&below, format!("{} (asked of case {})", problem.words, scene.label));
+                        root.problem(&below, format!("{} (asked of case {})", problem.words, case.label));
                         told.push(written);
                     }
                 }
@@ -99,10 +99,10 @@ impl Moves {
 
     /// Every run: cases, then their curves, then combinations of the grid with the last key running fastest, then ranks and
     /// repeats.
-    pub fn expand(&self, scenes: &[Scene], ranks: &[usize], repeat: usize, root: &Section) -> Option<Vec<PlannedRun>> {
+    pub fn expand(&self, cases: &[PlannedCase], ranks: &[usize], repeat: usize, root: &Section) -> Option<Vec<PlannedRun>> {
         let lines: Vec<_> =
-            scenes.iter().flat_map(|scene| scene.curves(&self.curves).into_iter().map(move |curve| (scene, curve))).collect();
-        let of_line = |axes: Vec<&Axis>| axes.iter().map(|axis| axis.value.len()).fold(1usize, usize::saturating_mul);
+            cases.iter().flat_map(|case| case.curves(&self.curves).into_iter().map(move |curve| (case, curve))).collect();
+        let of_line = |axes: Vec<&GridAxis>| axes.iter().map(|axis| axis.value.len()).fold(1usize, usize::saturating_mul);
         let combined = lines.iter().map(|(_, curve)| of_line(self.axes(*curve))).fold(0, usize::saturating_add);
         let count = [ranks.len(), repeat].into_iter().fold(combined, usize::saturating_mul);
         if count > MOST_RUNS {
@@ -110,8 +110,8 @@ impl Moves {
             return None;
         }
         let mut runs = Vec::with_capacity(count);
-        for (scene, curve) in lines {
-            for planned in self.line(scene, curve) {
+        for (case, curve) in lines {
+            for planned in self.line(case, curve) {
                 for (&ranks, repeat) in ranks.iter().flat_map(|ranks| (1..=repeat).map(move |repeat| (ranks, repeat))) {
                     runs.push(PlannedRun { ranks, repeat, ..planned.clone() });
                 }
@@ -121,16 +121,16 @@ impl Moves {
     }
 
     /// Every combination of one case and one curve.
-    fn line(&self, scene: &Scene, curve: Option<&Curve>) -> Vec<PlannedRun> {
+    fn line(&self, case: &PlannedCase, curve: Option<&StudyCurve>) -> Vec<PlannedRun> {
         let (keys, axes) = (self.keys(), self.axes(curve));
         let set: Vec<String> = self.set(curve).map(|setting| overriding(&setting.path, &setting.value)).collect();
         let planned = |values: Vec<&Value>| {
             let moved = axes.iter().zip(&values).map(|(axis, value)| overriding(&axis.path, value));
             let of_key = |key: &String| axes.iter().position(|axis| dotted(&axis.path) == *key).map(|at| values[at].clone());
             PlannedRun {
-                file: scene.file.clone(),
-                case: scene.label.clone(),
-                title: scene.title.clone(),
+                file: case.file.clone(),
+                case: case.label.clone(),
+                title: case.title.clone(),
                 curve: curve.map(|curve| curve.name.clone()),
                 ranks: 1,
                 repeat: 1,
@@ -165,7 +165,7 @@ fn overriding(path: &[String], value: &Value) -> String {
 }
 
 /// One value of each axis, in every way.
-fn combinations<'a>(axes: &[&'a Axis]) -> Vec<Vec<&'a Value>> {
+fn combinations<'a>(axes: &[&'a GridAxis]) -> Vec<Vec<&'a Value>> {
     axes.iter().fold(vec![Vec::new()], |so_far, axis| {
         let extended = |values: &Vec<&'a Value>, value: &'a Value| values.iter().copied().chain([value]).collect();
         so_far.iter().flat_map(|values| axis.value.iter().map(move |value| extended(values, value))).collect()

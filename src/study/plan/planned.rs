@@ -1,6 +1,6 @@
 //! What a study is made of: its cases, and the runs of them.
 
-use super::settings::Curve;
+use super::settings::StudyCurve;
 use std::path::PathBuf;
 use toml::Value;
 
@@ -26,7 +26,7 @@ pub struct PlannedRun {
 }
 
 /// A case of the study.
-pub struct Scene {
+pub struct PlannedCase {
     /// As it stands in `cases`.
     pub written: String,
     /// The case file.
@@ -37,13 +37,13 @@ pub struct Scene {
     pub title: String,
 }
 
-impl Scene {
+impl PlannedCase {
     /// The curves of this case; one that is none if the study has no curves.
-    pub fn curves<'a>(&self, curves: &'a [Curve]) -> Vec<Option<&'a Curve>> {
+    pub fn curves<'a>(&self, curves: &'a [StudyCurve]) -> Vec<Option<&'a StudyCurve>> {
         if curves.is_empty() {
             return vec![None];
         }
-        let drawn = |curve: &&Curve| curve.cases.as_ref().is_none_or(|cases| cases.contains(&self.written));
+        let drawn = |curve: &&StudyCurve| curve.cases.as_ref().is_none_or(|cases| cases.contains(&self.written));
         curves.iter().filter(drawn).map(Some).collect()
     }
 }

@@ -21,21 +21,21 @@ pub struct Setting<T> {
 }
 
 /// An axis of a grid.
-pub type Axis = Setting<Vec<Value>>;
+pub type GridAxis = Setting<Vec<Value>>;
 
 /// `[[curve]]`
-pub struct Curve {
+pub struct StudyCurve {
     /// Its name.
     pub name: String,
     /// Keys that move together.
     pub set: Vec<Setting<Value>>,
     /// Axes of its own, in place of those of `[grid]` for the same keys, and beside the others.
-    pub grid: Vec<Axis>,
+    pub grid: Vec<GridAxis>,
     /// The cases that it is drawn for, as they stand in `cases`; None: for all.
     pub cases: Option<Vec<String>>,
 }
 
-impl Curve {
+impl StudyCurve {
     /// Whether both are drawn for some case.
     pub fn meets(&self, other: &Self) -> bool {
         match (&self.cases, &other.cases) {
@@ -51,7 +51,7 @@ pub fn read_set(section: &Section) -> Vec<Setting<Value>> {
 }
 
 /// `[grid]`
-pub fn read_grid(section: &Section) -> Vec<Axis> {
+pub fn read_grid(section: &Section) -> Vec<GridAxis> {
     let table = section.optional("grid", values::table).unwrap_or_default();
     let mut axes = Vec::new();
     for setting in settings(&table, &["grid"], section) {
@@ -65,14 +65,14 @@ pub fn read_grid(section: &Section) -> Vec<Axis> {
 }
 
 /// `[[curve]]`
-pub fn read_curve(section: &Section) -> Option<Curve> {
+pub fn read_curve(section: &Section) -> Option<StudyCurve> {
     let name = section.required("name", "\"P1/P0\"", values::name);
     let (mut set, mut grid) = (read_set(section), read_grid(section));
     for written in set.iter_mut().map(|s| &mut s.written).chain(grid.iter_mut().map(|axis| &mut axis.written)) {
         written.splice(0..0, ["curve".into(), section.name().into()]);
     }
     let cases = section.optional("cases", values::list(CASES, values::name));
-    Some(Curve { name: name?, set, grid, cases })
+    Some(StudyCurve { name: name?, set, grid, cases })
 }
 
 /// All keys of a table, which stands at `below` in the section. A table inside, which comes from dots that are not in quotes,

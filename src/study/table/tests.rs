@@ -28,7 +28,7 @@ fn plan() -> Plan {
     }
 }
 
-fn ended(status: Status, summary: Value) -> Ended {
+fn ended(status: RunStatus, summary: Value) -> Ended {
     Ended {
         status,
         reason: "why".into(),
@@ -61,7 +61,7 @@ fn cell(table: &Table, row: usize, column: &str) -> Value {
 
 #[test]
 fn a_result_is_a_row() {
-    let table = Table::new(&plan(), &[ended(Status::Converged, summary()), ended(Status::Failed, Value::Null)]);
+    let table = Table::new(&plan(), &[ended(RunStatus::Converged, summary()), ended(RunStatus::Failed, Value::Null)]);
     let expected = [
         ("case", json!("bars")),
         ("curve", json!("P1/P0")),
@@ -97,7 +97,7 @@ fn a_result_is_a_row() {
 
 #[test]
 fn a_run_without_a_result_has_its_plan_and_its_reason() {
-    let table = Table::new(&plan(), &[ended(Status::Converged, summary()), ended(Status::Timeout, Value::Null)]);
+    let table = Table::new(&plan(), &[ended(RunStatus::Converged, summary()), ended(RunStatus::Timeout, Value::Null)]);
     let known = ["case", "curve", "ranks", "repeat", "mesh.refine", "status", "reason", "wall_s"];
     for (column, value) in table.columns.iter().zip(&table.rows[1]) {
         assert_eq!(value.is_null(), !known.contains(&column.name.as_str()), "{column:?}");
@@ -108,7 +108,7 @@ fn a_run_without_a_result_has_its_plan_and_its_reason() {
 
 #[test]
 fn every_column_stands_once_and_every_row_is_whole() {
-    let table = Table::new(&plan(), &[ended(Status::Converged, summary()), ended(Status::Failed, Value::Null)]);
+    let table = Table::new(&plan(), &[ended(RunStatus::Converged, summary()), ended(RunStatus::Failed, Value::Null)]);
     let mut columns: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
     columns.sort();
     columns.dedup();

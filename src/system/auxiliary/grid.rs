@@ -1,7 +1,7 @@
 //! The grid that the trees of all bodies are cut from, and the nodes of the mesh on it.
 
-use super::level::{AXES, Node, Nodes};
-use super::tree::{Roots, Sample, Tree};
+use super::level::{AXES, LevelNode, LevelNodes};
+use super::tree::{Roots, Tree, WantedWidth};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use crate::system::Space;
@@ -51,22 +51,22 @@ impl<'a> Grid<'a> {
     /// The finest tree of each body.
     pub fn trees(&self) -> Vec<Tree> {
         let unit = (self.unit.x * self.unit.y).sqrt();
-        let mut samples: Vec<Vec<Sample>> = vec![Vec::new(); self.mesh.bodies.len()];
+        let mut widths: Vec<Vec<WantedWidth>> = vec![Vec::new(); self.mesh.bodies.len()];
         for (vertex, &body) in self.bodies.iter().enumerate() {
-            samples[body].push(Sample { at: self.place(vertex), width: (WIDTH * self.lengths[vertex] / unit).ln() });
+            widths[body].push(WantedWidth { at: self.place(vertex), width: (WIDTH * self.lengths[vertex] / unit).ln() });
         }
-        samples.iter_mut().map(|samples| Tree::around(self.roots, samples)).collect()
+        widths.iter_mut().map(|widths| Tree::around(self.roots, widths)).collect()
     }
 
     /// The nodes of the coarsest space, which are the vertices of the macro mesh.
-    pub fn nodes(&self, space: &Space, ranks: usize) -> Nodes {
+    pub fn nodes(&self, space: &Space, ranks: usize) -> LevelNodes {
         let numbering = &space.numbering;
         let mut vertices = vec![0; self.mesh.vertices.len()];
         (0..vertices.len()).for_each(|vertex| vertices[numbering.vertex(vertex as u32)] = vertex);
         let node = |(number, vertex): (usize, usize)| {
             let constraint = space.constraints.get(number);
             let fixed = constraint.map_or([false; 2], |constraint| constraint.fixed);
-            Node {
+            LevelNode {
                 body: self.bodies[vertex],
                 at: self.place(vertex),
                 axes: AXES.map(|axis| space.to_global(number, axis)),
@@ -75,7 +75,7 @@ impl<'a> Grid<'a> {
         };
         let first: Vec<usize> = (0..ranks).map(|rank| numbering.range(rank).start).chain([numbering.node_count()]).collect();
         let unknowns = first.iter().map(|node| 2 * node).collect();
-        Nodes { all: vertices.into_iter().enumerate().map(node).collect(), first, unknowns }
+        LevelNodes { all: vertices.into_iter().enumerate().map(node).collect(), first, unknowns }
     }
 }
 

@@ -13,7 +13,7 @@ pub const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
 
 /// A node of a level: of the mesh, or a vertex of a tree.
 #[derive(Clone, Debug)]
-pub struct Node {
+pub struct LevelNode {
     /// Its body.
     pub body: usize,
     /// Where (units of the trees).
@@ -24,7 +24,7 @@ pub struct Node {
     pub unknowns: [Option<usize>; 2],
 }
 
-impl Node {
+impl LevelNode {
     /// Its unknowns with their directions.
     pub fn components(&self) -> impl Iterator<Item = (usize, Point)> {
         [0, 1].into_iter().filter_map(|k| Some((self.unknowns[k]?, self.axes[k])))
@@ -33,16 +33,16 @@ impl Node {
 
 /// The nodes of a level, in the order of their unknowns.
 #[derive(Clone, Debug)]
-pub struct Nodes {
+pub struct LevelNodes {
     /// All nodes.
-    pub all: Vec<Node>,
+    pub all: Vec<LevelNode>,
     /// First node of each rank, and the end.
     pub first: Vec<usize>,
     /// First unknown of each rank, and the end.
     pub unknowns: Vec<usize>,
 }
 
-impl Nodes {
+impl LevelNodes {
     /// Unknowns of a rank.
     pub fn own(&self, rank: usize) -> Range<usize> {
         self.unknowns[rank]..self.unknowns[rank + 1]
@@ -54,28 +54,28 @@ impl Nodes {
     }
 }
 
-/// The step from a level to the next coarser one.
-pub struct Step {
+/// A level and the next coarser one.
+pub struct Coarsening {
     /// The coarse nodes.
-    pub coarse: Nodes,
+    pub coarse: LevelNodes,
     /// Coarse nodes with their values at finer ones, in compressed rows.
     entries: Vec<(u32, f64)>,
     offsets: Vec<usize>,
 }
 
-impl Step {
+impl Coarsening {
     /// From nodes to the functions of the trees, one for each body. A function belongs to the rank of the first node that
     /// it is not zero at, and has its number in the order of these.
-    pub fn new(fine: &Nodes, trees: &[Tree]) -> Self {
+    pub fn new(fine: &LevelNodes, trees: &[Tree]) -> Self {
         let mut numbers: HashMap<(usize, Vertex), u32> = HashMap::new();
-        let mut coarse = Nodes { all: Vec::new(), first: vec![0], unknowns: vec![0] };
+        let mut coarse = LevelNodes { all: Vec::new(), first: vec![0], unknowns: vec![0] };
         let (mut entries, mut offsets) = (Vec::with_capacity(4 * fine.all.len()), vec![0]);
         for ends in fine.first.windows(2) {
             for node in &fine.all[ends[0]..ends[1]] {
-                for (vertex, value) in trees[node.body].weights(node.at) {
+                for (vertex, value) in trees[node.body].function_values(node.at) {
                     let number = *numbers.entry((node.body, vertex)).or_insert_with(|| {
                         let at = vertex.map(f64::from);
-                        coarse.all.push(Node { body: node.body, at, axes: AXES, unknowns: [None; 2] });
+                        coarse.all.push(LevelNode { body: node.body, at, axes: AXES, unknowns: [None; 2] });
                         coarse.all.len() as u32 - 1
                     });
                     entries.push((number, value));
@@ -84,9 +84,9 @@ impl Step {
             }
             coarse.first.push(coarse.all.len());
         }
-        let mut step = Self { coarse, entries, offsets };
-        step.number(fine);
-        step
+        let mut coarsening = Self { coarse, entries, offsets };
+        coarsening.number(fine);
+        coarsening
     }
 
     /// Coarse unknowns that move a component of a finer node, each with its weight: the function's value there, times the cosine
@@ -106,7 +106,7 @@ impl Step {
 
     /// Numbers the components of the coarse nodes that move some unknown of the finer level. A function of which only a small
     /// part lies in its body is kept, too: without it the level would not contain linear motions up to the boundary.
-    fn number(&mut self, fine: &Nodes) {
+    fn number(&mut self, fine: &LevelNodes) {
         let mut squares = vec![[0.0; 2]; self.coarse.all.len()];
         for (at, node) in fine.all.iter().enumerate() {
             for (_, axis) in node.components() {
@@ -117,7 +117,7 @@ impl Step {
             }
         }
         let mut next = 0;
-        let Nodes { all, first, unknowns } = &mut self.coarse;
+        let LevelNodes { all, first, unknowns } = &mut self.coarse;
         for ends in first.windows(2) {
             for (node, squares) in all[ends[0]..ends[1]].iter_mut().zip(&squares[ends[0]..ends[1]]) {
                 for k in (0..2).filter(|&k| squares[k] > NOTHING) {
@@ -132,14 +132,14 @@ impl Step {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tree::{Roots, Sample};
+    use super::super::tree::{Roots, WantedWidth};
     use super::*;
 
     const ROOTS: Roots = Roots { count: [2, 1], depth: 5 };
 
     /// Two bodies on one grid, finer towards a corner, dealt to three ranks; some nodes of the left side are held, in turned
     /// axes or altogether.
-    fn nodes() -> Nodes {
+    fn nodes() -> LevelNodes {
         let mut all = Vec::new();
         for k in 0..1200_u32 {
             let (s, t) = (f64::from(k % 40) / 39.0, f64::from(k / 40) / 29.0);
@@ -147,48 +147,54 @@ mod tests {
             let body = usize::from(t > 0.5);
             let fixed = [s == 0.0, s == 0.0 && body == 1];
             let unknowns = [0, 1].map(|c| (!fixed[c]).then_some(2 * k as usize + c));
-            all.push(Node { body, at: [64.0 * s * s, 32.0 * t], axes: [Point::new(cos, sin), Point::new(-sin, cos)], unknowns });
+            all.push(LevelNode {
+                body,
+                at: [64.0 * s * s, 32.0 * t],
+                axes: [Point::new(cos, sin), Point::new(-sin, cos)],
+                unknowns,
+            });
         }
-        Nodes { all, first: vec![0, 300, 700, 1200], unknowns: vec![0, 600, 1400, 2400] }
+        LevelNodes { all, first: vec![0, 300, 700, 1200], unknowns: vec![0, 600, 1400, 2400] }
     }
 
     fn trees() -> Vec<Tree> {
         let tree = |body| {
             let nodes = nodes().all.into_iter().filter(|node| node.body == body);
-            let mut samples: Vec<Sample> =
-                nodes.map(|node| Sample { at: node.at, width: (1.0 + 0.1 * node.at[0]).ln() }).collect();
-            Tree::around(ROOTS, &mut samples)
+            let mut widths: Vec<WantedWidth> =
+                nodes.map(|node| WantedWidth { at: node.at, width: (1.0 + 0.1 * node.at[0]).ln() }).collect();
+            Tree::around(ROOTS, &mut widths)
         };
         vec![tree(0), tree(1)]
     }
 
     /// Every level, each with the step to the next coarser one.
-    fn steps() -> Vec<(Nodes, Step)> {
-        let (mut fine, mut trees, mut steps) = (nodes(), trees(), Vec::new());
+    fn coarsenings() -> Vec<(LevelNodes, Coarsening)> {
+        let (mut fine, mut trees, mut coarsenings) = (nodes(), trees(), Vec::new());
         loop {
-            let step = Step::new(&fine, &trees);
-            let coarse = step.coarse.clone();
-            steps.push((fine, step));
-            let Some(coarser) = trees.iter().map(Tree::coarser).collect::<Option<Vec<_>>>() else { return steps };
+            let coarsening = Coarsening::new(&fine, &trees);
+            let coarse = coarsening.coarse.clone();
+            coarsenings.push((fine, coarsening));
+            let Some(coarser) = trees.iter().map(Tree::coarser).collect::<Option<Vec<_>>>() else { return coarsenings };
             (fine, trees) = (coarse, coarser);
         }
     }
 
     #[test]
     fn linear_motions_come_down_to_the_mesh_unchanged() {
-        let motion = |node: &Node| Point::new(0.3 + 0.02 * node.at[0] - 0.05 * node.at[1], 0.01 * node.at[0] + node.body as f64);
-        let steps = steps();
-        assert!(steps.len() > 3);
-        for (fine, step) in steps {
-            let nodes = step.coarse.all.iter().flat_map(|node| node.components().map(move |component| (component, node)));
+        let motion =
+            |node: &LevelNode| Point::new(0.3 + 0.02 * node.at[0] - 0.05 * node.at[1], 0.01 * node.at[0] + node.body as f64);
+        let coarsenings = coarsenings();
+        assert!(coarsenings.len() > 3);
+        for (fine, coarsening) in coarsenings {
+            let nodes = coarsening.coarse.all.iter().flat_map(|node| node.components().map(move |component| (component, node)));
             let values: HashMap<usize, f64> = nodes.map(|((unknown, axis), node)| (unknown, axis.dot(&motion(node)))).collect();
             // Functions beside what is held may be without a component.
-            let whole = |(number, _): &(u32, f64)| step.coarse.all[*number as usize].components().count() == 2;
-            let free: Vec<usize> = (0..fine.all.len()).filter(|&at| step.values(at).iter().all(whole)).collect();
+            let whole = |(number, _): &(u32, f64)| coarsening.coarse.all[*number as usize].components().count() == 2;
+            let free: Vec<usize> = (0..fine.all.len()).filter(|&at| coarsening.values(at).iter().all(whole)).collect();
             assert!(2 * free.len() > fine.all.len());
             for at in free {
                 for (_, axis) in fine.all[at].components() {
-                    let value: f64 = step.row(at, axis).map(|(unknown, weight)| weight * values[&unknown]).sum();
+                    let value: f64 = coarsening.row(at, axis).map(|(unknown, weight)| weight * values[&unknown]).sum();
                     assert!((value - axis.dot(&motion(&fine.all[at]))).abs() < 1e-8, "{:?}", fine.all[at]);
                 }
             }
@@ -197,28 +203,30 @@ mod tests {
 
     #[test]
     fn unknowns_are_numbered_through_by_rank_and_all_move_something() {
-        for (fine, step) in steps() {
+        for (fine, coarsening) in coarsenings() {
             let numbers: Vec<usize> =
-                step.coarse.all.iter().flat_map(|node| node.components().map(|(unknown, _)| unknown)).collect();
-            assert_eq!(numbers, (0..step.coarse.count()).collect::<Vec<_>>());
+                coarsening.coarse.all.iter().flat_map(|node| node.components().map(|(unknown, _)| unknown)).collect();
+            assert_eq!(numbers, (0..coarsening.coarse.count()).collect::<Vec<_>>());
             let mut first = vec![usize::MAX; numbers.len()];
             for (at, node) in fine.all.iter().enumerate() {
                 for (_, axis) in node.components() {
-                    step.row(at, axis).for_each(|(unknown, _)| first[unknown] = first[unknown].min(at));
+                    coarsening.row(at, axis).for_each(|(unknown, _)| first[unknown] = first[unknown].min(at));
                 }
             }
             let rank = |ends: &[usize], at: usize| ends.partition_point(|&end| end <= at);
             for (unknown, &at) in first.iter().enumerate() {
-                assert!(at < usize::MAX && rank(&fine.first, at) >= rank(&step.coarse.unknowns, unknown), "{unknown}");
+                assert!(at < usize::MAX && rank(&fine.first, at) >= rank(&coarsening.coarse.unknowns, unknown), "{unknown}");
             }
         }
     }
 
     #[test]
     fn bodies_share_no_function() {
-        for (fine, step) in steps() {
+        for (fine, coarsening) in coarsenings() {
             for (at, node) in fine.all.iter().enumerate() {
-                assert!(step.values(at).iter().all(|(number, _)| step.coarse.all[*number as usize].body == node.body));
+                assert!(
+                    coarsening.values(at).iter().all(|(number, _)| coarsening.coarse.all[*number as usize].body == node.body)
+                );
             }
         }
     }

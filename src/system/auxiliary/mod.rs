@@ -14,7 +14,7 @@ pub use operators::GalerkinLevels;
 use super::{Discretisation, SystemError};
 use crate::petsc::{Matrix, Session};
 use grid::Grid;
-use level::{Nodes, Step};
+use level::{Coarsening, LevelNodes};
 use tree::Tree;
 
 /// Unknowns up to which a level is factorised on every rank; larger ones get auxiliary levels.
@@ -37,12 +37,12 @@ pub fn auxiliary_interpolations(problem: &Discretisation, session: &Session) -> 
     let (mut nodes, mut trees) = (grid.nodes(space, session.size()), grid.trees());
     let mut interpolations = Vec::new();
     while nodes.count() > FEW {
-        let step = Step::new(&nodes, &trees);
-        if step.coarse.count() as f64 > (1.0 - LEAST_GAIN) * nodes.count() as f64 {
+        let coarsening = Coarsening::new(&nodes, &trees);
+        if coarsening.coarse.count() as f64 > (1.0 - LEAST_GAIN) * nodes.count() as f64 {
             break;
         }
-        interpolations.push(interpolation(&nodes, &step, session)?);
-        nodes = step.coarse;
+        interpolations.push(interpolation(&nodes, &coarsening, session)?);
+        nodes = coarsening.coarse;
         let coarser: Vec<Option<Tree>> = trees.iter().map(Tree::coarser).collect();
         trees = coarser.into_iter().zip(trees).map(|(coarser, tree)| coarser.unwrap_or(tree)).collect();
     }
@@ -50,22 +50,23 @@ pub fn auxiliary_interpolations(problem: &Discretisation, session: &Session) -> 
     Ok(interpolations)
 }
 
-/// The interpolation of a step (fine unknowns x coarse unknowns). Rows of prescribed components are zero. **Collective**
-fn interpolation(fine: &Nodes, step: &Step, session: &Session) -> Result<Matrix, SystemError> {
+/// The interpolation of a coarsening (fine unknowns x coarse unknowns). Rows of prescribed components are zero. **Collective**
+fn interpolation(fine: &LevelNodes, coarsening: &Coarsening, session: &Session) -> Result<Matrix, SystemError> {
     let rank = session.rank();
-    let (rows, columns) = (fine.own(rank), step.coarse.own(rank));
+    let (rows, columns) = (fine.own(rank), coarsening.coarse.own(rank));
     let nodes = fine.first[rank]..fine.first[rank + 1];
     let components = || nodes.clone().flat_map(|at| fine.all[at].components().map(move |(unknown, axis)| (unknown, at, axis)));
     let (mut diagonal, mut off_diagonal) = (vec![0; rows.len()], vec![0; rows.len()]);
     for (row, at, axis) in components() {
-        for (column, _) in step.row(at, axis) {
+        for (column, _) in coarsening.row(at, axis) {
             let counts = if columns.contains(&column) { &mut diagonal } else { &mut off_diagonal };
             counts[row - rows.start] += 1;
         }
     }
     let mut matrix = Matrix::aij(session, rows.len(), columns.len(), 1, &diagonal, &off_diagonal)?;
     for (row, at, axis) in components() {
-        let (columns, weights): (Vec<i32>, Vec<f64>) = step.row(at, axis).map(|(column, weight)| (column as i32, weight)).unzip();
+        let (columns, weights): (Vec<i32>, Vec<f64>) =
+            coarsening.row(at, axis).map(|(column, weight)| (column as i32, weight)).unzip();
         matrix.insert(&[row as i32], &columns, &weights)?;
     }
     matrix.assemble()?;

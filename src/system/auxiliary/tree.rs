@@ -23,7 +23,7 @@ pub struct Roots {
 
 /// A point (units) and the logarithm of the width that cells should have there.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample {
+pub struct WantedWidth {
     /// Where.
     pub at: [f64; 2],
     /// Logarithm of the width (units).
@@ -62,12 +62,12 @@ impl Tree {
         Self { roots, children: vec![LEAF; cells.len()], cells }
     }
 
-    /// The tree whose cells are at most √2 times as wide as the geometric mean of what the samples in them ask for.
-    pub fn around(roots: Roots, samples: &mut [Sample]) -> Self {
+    /// The tree whose cells are at most √2 times as wide as the geometric mean of the widths wanted in them.
+    pub fn around(roots: Roots, widths: &mut [WantedWidth]) -> Self {
         let mut tree = Self::new(roots);
-        let mut rest = samples;
+        let mut rest = widths;
         for root in 0..tree.cells.len() {
-            let here = |sample: &Sample| tree.find(sample.at, 0) == root;
+            let here = |wanted: &WantedWidth| tree.find(wanted.at, 0) == root;
             let count = divide(rest, here);
             let (own, others) = rest.split_at_mut(count);
             tree.grow(root, own);
@@ -90,19 +90,19 @@ impl Tree {
     }
 
     /// Values of the functions that are not zero at a point (units); they sum to 1.
-    pub fn weights(&self, at: [f64; 2]) -> Vec<(Vertex, f64)> {
+    pub fn function_values(&self, at: [f64; 2]) -> Vec<(Vertex, f64)> {
         let cell = self.cells[self.find(at, self.roots.depth)];
         let width = self.width(cell.depth);
         let [s, t] = [0, 1].map(|k| (at[k] / f64::from(width) - f64::from(cell.at[k])).clamp(0.0, 1.0));
         let corners = [([0, 0], (1.0 - s) * (1.0 - t)), ([1, 0], s * (1.0 - t)), ([0, 1], (1.0 - s) * t), ([1, 1], s * t)];
-        let mut weights = Vec::with_capacity(4);
+        let mut values = Vec::with_capacity(4);
         for (corner, value) in corners.into_iter().filter(|(_, value)| *value > ROUNDING) {
             match self.masters(cell, corner) {
-                Some(ends) => ends.into_iter().for_each(|end| add(&mut weights, end, 0.5 * value)),
-                None => add(&mut weights, [0, 1].map(|k| (cell.at[k] + corner[k]) * width), value),
+                Some(ends) => ends.into_iter().for_each(|end| add(&mut values, end, 0.5 * value)),
+                None => add(&mut values, [0, 1].map(|k| (cell.at[k] + corner[k]) * width), value),
             }
         }
-        weights
+        values
     }
 
     /// Ends of the edge in whose middle the corner of a leaf hangs, if it does.
@@ -203,23 +203,23 @@ impl Tree {
         }
     }
 
-    fn grow(&mut self, index: usize, samples: &mut [Sample]) {
+    fn grow(&mut self, index: usize, widths: &mut [WantedWidth]) {
         let Cell { depth, at } = self.cells[index];
-        if samples.is_empty() || depth == self.roots.depth {
+        if widths.is_empty() || depth == self.roots.depth {
             return;
         }
-        let wanted = samples.iter().map(|sample| sample.width).sum::<f64>() / samples.len() as f64;
+        let wanted = widths.iter().map(|wanted| wanted.width).sum::<f64>() / widths.len() as f64;
         if f64::from(self.width(depth)).ln() <= wanted + 0.5 * std::f64::consts::LN_2 {
             return;
         }
         self.split(index);
         let first = self.children[index] as usize;
         let middle = at.map(|k| f64::from((2 * k + 1) * self.width(depth + 1)));
-        let below = divide(samples, |sample| sample.at[1] < middle[1]);
-        let (below, above) = samples.split_at_mut(below);
-        for (row, samples) in [below, above].into_iter().enumerate() {
-            let left = divide(samples, |sample| sample.at[0] < middle[0]);
-            let (left, right) = samples.split_at_mut(left);
+        let below = divide(widths, |wanted| wanted.at[1] < middle[1]);
+        let (below, above) = widths.split_at_mut(below);
+        for (row, widths) in [below, above].into_iter().enumerate() {
+            let left = divide(widths, |wanted| wanted.at[0] < middle[0]);
+            let (left, right) = widths.split_at_mut(left);
             self.grow(first + 2 * row, left);
             self.grow(first + 2 * row + 1, right);
         }
@@ -243,19 +243,19 @@ impl Tree {
 }
 
 /// Adds to the weight of a vertex.
-fn add(weights: &mut Vec<(Vertex, f64)>, vertex: Vertex, value: f64) {
-    match weights.iter_mut().find(|(other, _)| *other == vertex) {
+fn add(values: &mut Vec<(Vertex, f64)>, vertex: Vertex, value: f64) {
+    match values.iter_mut().find(|(other, _)| *other == vertex) {
         Some((_, sum)) => *sum += value,
-        None => weights.push((vertex, value)),
+        None => values.push((vertex, value)),
     }
 }
 
-/// Brings the samples that satisfy a condition to the front; gives their number.
-fn divide(samples: &mut [Sample], first: impl Fn(&Sample) -> bool) -> usize {
+/// Brings the wanted widths that satisfy a condition to the front; gives their number.
+fn divide(widths: &mut [WantedWidth], first: impl Fn(&WantedWidth) -> bool) -> usize {
     let mut count = 0;
-    for k in 0..samples.len() {
-        if first(&samples[k]) {
-            samples.swap(count, k);
+    for k in 0..widths.len() {
+        if first(&widths[k]) {
+            widths.swap(count, k);
             count += 1;
         }
     }
@@ -278,10 +278,10 @@ mod tests {
     /// Cells of width 2 at one point, growing with the distance from it, and nothing at all above a line.
     fn graded() -> Tree {
         let distance = |at: [f64; 2]| (at[0] - 130.0).hypot(at[1] - 70.0);
-        let sample = |at| Sample { at, width: (2.0 + 0.3 * distance(at)).ln() };
+        let wanted = |at| WantedWidth { at, width: (2.0 + 0.3 * distance(at)).ln() };
         let near = (0..400).map(|k| [130.0 + f64::from(k % 20), 60.0 + f64::from(k / 20)]);
-        let mut samples: Vec<Sample> = points().chain(near).filter(|at| at[1] < 150.0 + 0.2 * at[0]).map(sample).collect();
-        Tree::around(ROOTS, &mut samples)
+        let mut widths: Vec<WantedWidth> = points().chain(near).filter(|at| at[1] < 150.0 + 0.2 * at[0]).map(wanted).collect();
+        Tree::around(ROOTS, &mut widths)
     }
 
     fn all() -> Vec<Tree> {
@@ -319,8 +319,8 @@ mod tests {
     fn linear_functions_are_reproduced() {
         for tree in all() {
             for at in points() {
-                let weights = tree.weights(at);
-                let sum = |f: &dyn Fn(Vertex) -> f64| weights.iter().map(|(vertex, value)| value * f(*vertex)).sum::<f64>();
+                let values = tree.function_values(at);
+                let sum = |f: &dyn Fn(Vertex) -> f64| values.iter().map(|(vertex, value)| value * f(*vertex)).sum::<f64>();
                 assert!((sum(&|_| 1.0) - 1.0).abs() < 1e-11);
                 assert!((0..2).all(|k| (sum(&|vertex| f64::from(vertex[k])) - at[k]).abs() < 1e-8));
             }
@@ -331,9 +331,9 @@ mod tests {
     #[test]
     fn functions_are_one_at_their_own_vertex_alone() {
         for tree in all() {
-            let vertices: HashSet<Vertex> = points().flat_map(|at| tree.weights(at)).map(|(vertex, _)| vertex).collect();
+            let vertices: HashSet<Vertex> = points().flat_map(|at| tree.function_values(at)).map(|(vertex, _)| vertex).collect();
             for vertex in vertices {
-                assert_eq!(tree.weights(vertex.map(f64::from)), [(vertex, 1.0)]);
+                assert_eq!(tree.function_values(vertex.map(f64::from)), [(vertex, 1.0)]);
             }
         }
     }
@@ -345,12 +345,12 @@ mod tests {
         for pair in trees.windows(2) {
             for at in points() {
                 let mut sums: HashMap<Vertex, f64> = HashMap::new();
-                for (vertex, value) in pair[0].weights(at) {
-                    for (coarse, weight) in pair[1].weights(vertex.map(f64::from)) {
+                for (vertex, value) in pair[0].function_values(at) {
+                    for (coarse, weight) in pair[1].function_values(vertex.map(f64::from)) {
                         *sums.entry(coarse).or_insert(0.0) += value * weight;
                     }
                 }
-                pair[1].weights(at).into_iter().for_each(|(coarse, value)| *sums.entry(coarse).or_insert(0.0) -= value);
+                pair[1].function_values(at).into_iter().for_each(|(coarse, value)| *sums.entry(coarse).or_insert(0.0) -= value);
                 assert!(sums.values().all(|rest| rest.abs() < 1e-10), "{at:?}");
             }
         }

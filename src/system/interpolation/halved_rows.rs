@@ -2,11 +2,9 @@
 
 use crate::mesh::lattice;
 use crate::petsc::{Matrix, Result, Session, Transfer, Vector};
+use crate::system::space::Components;
 use crate::system::{Scene, Space};
 use std::ops::Range;
-
-/// Two components at a node.
-type Pair = [f64; 2];
 
 /// Consecutive nodes of a fine lattice row whose parents are inner nodes of the same macro triangle, all of this rank; the
 /// first one has an even place in its row.
@@ -74,7 +72,7 @@ impl Transfer for LatticeInterpolation {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         self.stored.multiply(x, y)?;
         let (x, mut y) = (x.values(), y.values_mut());
-        let (x, y): (&[Pair], &mut [Pair]) = (x.as_chunks().0, y.as_chunks_mut().0);
+        let (x, y): (&[Components], &mut [Components]) = (x.as_chunks().0, y.as_chunks_mut().0);
         self.each(|node, [a, b]| y[node] = [0, 1].map(|k| 0.5 * (x[a][k] + x[b][k])));
         Ok(())
     }
@@ -82,7 +80,7 @@ impl Transfer for LatticeInterpolation {
     fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         self.stored.multiply_add(x, y)?;
         let (x, mut y) = (x.values(), y.values_mut());
-        let (x, y): (&[Pair], &mut [Pair]) = (x.as_chunks().0, y.as_chunks_mut().0);
+        let (x, y): (&[Components], &mut [Components]) = (x.as_chunks().0, y.as_chunks_mut().0);
         self.each(|node, [a, b]| (0..2).for_each(|k| y[node][k] += 0.5 * (x[a][k] + x[b][k])));
         Ok(())
     }
@@ -90,7 +88,7 @@ impl Transfer for LatticeInterpolation {
     fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         self.stored.multiply_transpose(x, y)?;
         let (x, mut y) = (x.values(), y.values_mut());
-        let (x, y): (&[Pair], &mut [Pair]) = (x.as_chunks().0, y.as_chunks_mut().0);
+        let (x, y): (&[Components], &mut [Components]) = (x.as_chunks().0, y.as_chunks_mut().0);
         self.each(|node, parents| parents.into_iter().for_each(|p| (0..2).for_each(|k| y[p][k] += 0.5 * x[node][k])));
         Ok(())
     }

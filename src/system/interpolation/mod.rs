@@ -40,7 +40,7 @@ fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session)
 
 /// The rows that are stored: all, or those that are not `halved`. **Collective**
 fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, session: &Session) -> Result<Matrix, SystemError> {
-    let rows = Rows::new(scene, fine, coarse, halved, session);
+    let rows = NodeParents::new(scene, fine, coarse, halved, session);
     let mut diagonal = vec![0; fine.local_unknowns()];
     let mut off_diagonal = vec![0; fine.local_unknowns()];
     for (node, parents) in rows.iter() {
@@ -61,7 +61,7 @@ fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, sessio
             insert(&mut matrix, fine, coarse, node, a, 1.0)?;
             continue;
         }
-        for (parent, weight) in [a, b].into_iter().zip(rows.weights(node)) {
+        for (parent, weight) in [a, b].into_iter().zip(rows.parent_weights(node)) {
             insert(&mut matrix, fine, coarse, node, parent, weight)?;
         }
     }
@@ -92,13 +92,13 @@ fn insert(matrix: &mut Matrix, fine: &Space, coarse: &Space, node: usize, parent
 }
 
 /// Owned fine nodes with their coarse parents, each node once; without those in halved rows if there are such rows.
-struct Rows {
+struct NodeParents {
     nodes: Vec<[u32; 3]>,
     /// Weights of the parents, for the few nodes that are not in their middle.
     graded: HashMap<usize, [f64; 2]>,
 }
 
-impl Rows {
+impl NodeParents {
     fn new(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, session: &Session) -> Self {
         let n = fine.numbering.level.intervals;
         let mut seen = vec![false; fine.own.len()];
@@ -131,7 +131,7 @@ impl Rows {
         rows
     }
 
-    fn weights(&self, node: usize) -> [f64; 2] {
+    fn parent_weights(&self, node: usize) -> [f64; 2] {
         self.graded.get(&node).copied().unwrap_or(EVEN)
     }
 

@@ -25,7 +25,7 @@ const MOST_UNKNOWNS: usize = 2_000_000;
 struct Quiet<'a>(&'a dyn Observer);
 
 impl Observer for Quiet<'_> {
-    fn hear(&self, _: Event) {}
+    fn observe(&self, _: Event) {}
 
     fn enter(&self, work: Work) -> Option<StageGuard<'_>> {
         self.0.enter(work)
@@ -52,7 +52,7 @@ impl Procedure<'_> {
                 errors,
                 seconds: started.elapsed().as_secs_f64(),
             };
-            self.observer.hear(Event::Adapted { accuracy, mesh: &adapted });
+            self.observer.observe(Event::Adapted { accuracy, mesh: &adapted });
             meshes.push(adapted);
             let adaptation = Adaptation { accuracy: accuracy.clone(), meshes };
             let over = self.is_over(&adaptation);

@@ -1,6 +1,6 @@
 //! One mesh: one contact boundary after the other, until everything stands.
 
-use super::contact_loop::{ContactLoop, Found, Pass, Place};
+use super::contact_loop::{ContactLoop, LoopOutcome, LoopPosition, Pass};
 use super::ending::{Ending, Failure, Standing};
 use super::following::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
 use super::observer::{Event, Work};
@@ -23,7 +23,7 @@ pub struct OneMesh<'p> {
     pub procedure: &'p Procedure<'p>,
     /// How far its last solve goes.
     pub tolerance: Tolerance,
-    /// Whether it is the mesh of the case: the others are heard of when they are solved.
+    /// Whether it is the mesh of the case: the others are reported when they are solved.
     pub is_last: bool,
 }
 
@@ -48,7 +48,7 @@ struct Bodies {
 
 /// What was done on a mesh so far.
 #[derive(Default)]
-struct Record {
+struct MeshHistory {
     passes: Vec<Pass>,
     boundaries: Vec<BoundaryStep>,
 }
@@ -90,8 +90,8 @@ impl OneMesh<'_> {
         }
         self.begin(None);
         let mut system = self.system(problem, &bodies, preconditioning)?;
-        let found = self.sets(&mut system, start, self.tolerance, Place { boundary: 1, passes: 0 })?;
-        let Found { solution, ending, passes, ascended } = found;
+        let found = self.sets(&mut system, start, self.tolerance, LoopPosition { boundary: 1, passes: 0 })?;
+        let LoopOutcome { solution, ending, passes, ascended } = found;
         let solution = self.with_inf_sup(&system, solution, ascended || !ending.is_converged())?;
         let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
         Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), preconditioning, solver })
@@ -108,15 +108,15 @@ impl OneMesh<'_> {
         let exact = self.tolerance.residual().min(ON_THE_WAY);
         let mut following = Following::new(problem, exact, start.is_some());
         self.begin(Some(following.tolerances()));
-        let mut record = Record::default();
+        let mut history = MeshHistory::default();
         let mut is_last = false;
         for number in 1.. {
-            let on_boundary = BoundaryLoop { mesh: self, following: &mut following, record: &mut record, number, exact };
+            let on_boundary = BoundaryLoop { mesh: self, following: &mut following, history: &mut history, number, exact };
             let found = on_boundary.solve(self.system(problem, bodies, preconditioning)?, start.take(), is_last)?;
             preconditioning = found.preconditioning;
             match found.after {
                 After::Ended(ending) => {
-                    let Record { passes, boundaries } = record;
+                    let MeshHistory { passes, boundaries } = history;
                     return Ok(OnMesh {
                         solution: found.solution,
                         ending,
@@ -138,7 +138,7 @@ impl OneMesh<'_> {
 
     fn begin(&self, follows: Option<[f64; 2]>) {
         if self.is_last {
-            self.procedure.observer.hear(Event::Begin(follows));
+            self.procedure.observer.observe(Event::Begin(follows));
         }
     }
 
@@ -184,13 +184,19 @@ impl OneMesh<'_> {
     }
 
     /// Solves for one active set after the other. **Collective**
-    fn sets(&self, system: &mut System, start: Option<Start>, tolerance: Tolerance, place: Place) -> Result<Found, SystemError> {
+    fn sets(
+        &self,
+        system: &mut System,
+        start: Option<Start>,
+        tolerance: Tolerance,
+        position: LoopPosition,
+    ) -> Result<LoopOutcome, SystemError> {
         let observer = self.procedure.observer;
         let _stage = observer.enter(Work::Solve);
         let all = system.active().len();
-        ContactLoop::begin(system, start, tolerance, place)?.solve(|pass| {
+        ContactLoop::begin(system, start, tolerance, position)?.solve(|pass| {
             if self.is_last {
-                observer.hear(Event::Passed(pass, all));
+                observer.observe(Event::Passed(pass, all));
             }
         })
     }
@@ -209,7 +215,7 @@ impl OneMesh<'_> {
 struct BoundaryLoop<'l, 'p> {
     mesh: &'l OneMesh<'p>,
     following: &'l mut Following,
-    record: &'l mut Record,
+    history: &'l mut MeshHistory,
     /// Number of the boundary, from 1.
     number: usize,
     /// Residual that the last solve goes to.
@@ -222,15 +228,16 @@ impl BoundaryLoop<'_, '_> {
         let (mut start, mut is_last) = (start, is_last || self.exact >= ON_THE_WAY);
         loop {
             let tolerance = Tolerance::Residual(if is_last { self.exact } else { ON_THE_WAY });
-            let place = Place { boundary: self.number, passes: self.record.passes.len() };
-            let Found { solution, ending, passes, ascended } = self.mesh.sets(&mut system, start.take(), tolerance, place)?;
-            self.record.passes.extend(passes);
+            let position = LoopPosition { boundary: self.number, passes: self.history.passes.len() };
+            let LoopOutcome { solution, ending, passes, ascended } =
+                self.mesh.sets(&mut system, start.take(), tolerance, position)?;
+            self.history.passes.extend(passes);
             let after = match ending {
                 Ending::NotConverged(_) => After::Ended(ending),
                 Ending::Converged(standing) => match self.next(system.problem(), &solution, standing, is_last)? {
                     Some(after) => after,
                     None => {
-                        // The place is right, but it was found with a solve on the way.
+                        // The boundary is right, but it was found with a solve on the way.
                         (start, is_last) = (Some(start_from(&solution)), true);
                         continue;
                     }
@@ -273,12 +280,14 @@ impl BoundaryLoop<'_, '_> {
             return Ok(None);
         }
         if self.mesh.is_last {
-            observer.hear(Event::Placed(&step));
+            observer.observe(Event::Placed(&step));
         }
         let is_near = step.moved.is_some_and(|way| way < NEARLY);
-        self.record.boundaries.push(step);
+        self.history.boundaries.push(step);
         Ok(Some(match next {
-            NextBoundary::Stands => After::Ended(Ending::Converged(standing(&problem.contacts, &self.record.boundaries, within))),
+            NextBoundary::Stands => {
+                After::Ended(Ending::Converged(standing(&problem.contacts, &self.history.boundaries, within)))
+            }
             NextBoundary::GivenUp(failure) => After::Ended(Ending::NotConverged(failure)),
             NextBoundary::Again(contacts, motion) => {
                 let start = carried(&problem.contacts, &contacts, solution);

@@ -68,7 +68,7 @@ impl CoarseSolution {
                     continue;
                 }
                 let mut u = Point::zeros();
-                for ((k, l), weight) in weights(mesh, triangle as usize, level, (i, j)) {
+                for ((k, l), weight) in coarse_values(mesh, triangle as usize, level, (i, j)) {
                     u += weight * self.displacement.point(coarse.node(k, l));
                 }
                 let at = 2 * (node - space.own.start);
@@ -161,9 +161,9 @@ impl CoarseSolution {
     }
 }
 
-/// Nodes of the coarser lattice, and their weights, in node `(i, j)` of a level: the shape functions of the coarse triangle
-/// that holds it. Nodes without weight are left out.
-fn weights(
+/// Nodes of the coarser lattice with the values of their shape functions at node `(i, j)` of a level: those of the
+/// coarse triangle that holds it. Zeros are left out.
+fn coarse_values(
     mesh: &MacroMesh,
     triangle: usize,
     level: Level,
@@ -225,7 +225,7 @@ mod tests {
             let squares = if order == Order::P2 { 1.0 } else { 0.0 };
             let value = |x: Point| 1.0 + 2.0 * x.x - x.y + squares * (x.x * x.x - 3.0 * x.x * x.y + 0.5 * x.y * x.y);
             for (triangle, (i, j)) in (0..6).flat_map(|triangle| lattice::nodes(n).map(move |node| (triangle, node))) {
-                let found: f64 = weights(mesh, triangle, fine, (i, j))
+                let found: f64 = coarse_values(mesh, triangle, fine, (i, j))
                     .map(|((k, l), weight)| {
                         assert!(k + l <= n / 2, "({k}, {l}) is a node");
                         weight * value(mesh.node_position(triangle, coarse, (k, l)))

@@ -1,10 +1,11 @@
 //! The loop over active sets.
 
+use super::change::relative_change;
 use super::contact_state::ContactState;
 use super::ending::{Ending, Failure, Standing};
 use super::first_set::{carried_set, first_set};
 use super::unsettled::going_on;
-use crate::contact::{ActiveSet, Step};
+use crate::contact::{ActiveSet, SetChange};
 use crate::system::{
     LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held, rigid_start,
 };
@@ -80,14 +81,14 @@ enum Next {
 
 /// The set that follows from a solve.
 struct NextSet {
-    step: Step,
+    change: SetChange,
     /// The body that it lets go, in words.
     lost: Option<String>,
 }
 
 /// Where a loop stands among all of a mesh.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct LoopPosition {
     /// Number of the contact boundary, from 1.
     pub boundary: usize,
     /// Passes made on boundaries before.
@@ -95,7 +96,7 @@ pub struct Place {
 }
 
 /// What a loop has found.
-pub struct Found {
+pub struct LoopOutcome {
     /// The solution of the last pass, with the set it was solved for.
     pub solution: Solution,
     /// How it ended.
@@ -111,7 +112,7 @@ pub struct ContactLoop<'s, 'a> {
     system: &'s mut System<'a>,
     /// The set to solve for next; runs ahead of that of the system after a solve.
     set: ActiveSet,
-    place: Place,
+    position: LoopPosition,
     /// How far the last solve was asked to go.
     wanted: f64,
     /// Share of the right-hand side that residuals are measured by.
@@ -132,7 +133,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         system: &'s mut System<'a>,
         start: Option<Start>,
         tolerance: Tolerance,
-        place: Place,
+        position: LoopPosition,
     ) -> Result<Self, SystemError> {
         let problem = system.problem();
         let mut set = ActiveSet::new(bilateral(&problem.contacts));
@@ -151,12 +152,12 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let last = share * last_residual(system, tolerance)?;
         let goal = if set.may_change() { last.max(share * LOOSE) } else { last };
         let (before, wanted) = (system.free_displacement(), tolerance.residual());
-        Ok(Self { system, set, place, wanted, share, tolerance: last, goal, kept: 0, before, passes: Vec::new() })
+        Ok(Self { system, set, position, wanted, share, tolerance: last, goal, kept: 0, before, passes: Vec::new() })
     }
 
-    /// Solves until the active set stands and the last residual is below the tolerance; `report` hears every pass.
+    /// Solves until the active set stands and the last residual is below the tolerance; `report` is called with every pass.
     /// **Collective**
-    pub fn solve(mut self, mut report: impl FnMut(&Pass)) -> Result<Found, SystemError> {
+    pub fn solve(mut self, mut report: impl FnMut(&Pass)) -> Result<LoopOutcome, SystemError> {
         loop {
             let next = self.pass()?;
             report(&self.passes[self.passes.len() - 1]);
@@ -191,20 +192,20 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         self.record(&solve, &state, next_set.as_ref());
         Ok(match next_set {
             None => Next::End(self.after_failure(solve.ending, &state)),
-            Some(NextSet { step: Step::Settled, lost }) => self.after_settled(solve.ending, lost, &state),
-            Some(NextSet { step, lost }) => self.after_change(&step, lost),
+            Some(NextSet { change: SetChange::Settled, lost }) => self.after_settled(solve.ending, lost, &state),
+            Some(NextSet { change, lost }) => self.after_change(&change, lost),
         })
     }
 
     /// Keeps the figures of a pass. **Collective**
     fn record(&mut self, solve: &LinearSolve, state: &ContactState, next: Option<&NextSet>) {
         let (added, released) = match next {
-            Some(NextSet { step: Step::Changed { added, released }, .. }) => (*added, *released),
+            Some(NextSet { change: SetChange::Changed { added, released }, .. }) => (*added, *released),
             _ => (0, 0),
         };
         let pass = Pass {
-            iteration: self.place.passes + self.passes.len() + 1,
-            boundary: self.place.boundary,
+            iteration: self.position.passes + self.passes.len() + 1,
+            boundary: self.position.boundary,
             active: self.system.active().iter().filter(|active| **active).count(),
             added,
             released,
@@ -236,18 +237,18 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     fn next_set(&mut self, state: &ContactState) -> NextSet {
         let problem = self.system.problem();
         let force = |i: usize| state.force(i);
-        let step = if self.set.ascends() { self.set.ascend(&state.found()) } else { self.set.update(force) };
+        let change = if self.set.ascends() { self.set.ascend(&state.found()) } else { self.set.update(force) };
         let lost = not_held(problem, self.set.active());
-        if lost.is_none() || self.kept == MOST_KEPT || !matches!(step, Step::Changed { .. }) {
-            return NextSet { step, lost };
+        if lost.is_none() || self.kept == MOST_KEPT || !matches!(change, SetChange::Changed { .. }) {
+            return NextSet { change, lost };
         }
         if !self.set.keep(&few_that_hold(problem, self.set.active(), force)) {
-            return NextSet { step, lost };
+            return NextSet { change, lost };
         }
         self.kept += 1;
         let states = || self.system.active().iter().zip(self.set.active());
         let changed = |now: bool| states().filter(|&(&was, &is)| was != is && is == now).count();
-        NextSet { step: Step::Changed { added: changed(true), released: changed(false) }, lost: None }
+        NextSet { change: SetChange::Changed { added: changed(true), released: changed(false) }, lost: None }
     }
 
     /// Relative residual that the last solve is to reach, of what strains.
@@ -286,11 +287,11 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         }
     }
 
-    fn after_change(&self, step: &Step, lost: Option<String>) -> Next {
+    fn after_change(&self, change: &SetChange, lost: Option<String>) -> Next {
         if let Some(words) = lost {
             return Next::End(Ending::NotConverged(Failure::NotHeld(words)));
         }
-        let (solves, repeated) = (self.passes.len(), *step == Step::Repeated);
+        let (solves, repeated) = (self.passes.len(), *change == SetChange::Repeated);
         if solves >= MOST_SETS {
             let (was, is) = (self.system.active(), self.set.active());
             let changed: Vec<usize> = (0..was.len()).filter(|&i| was[i] != is[i]).collect();
@@ -324,7 +325,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     }
 
     /// The solution of the last pass. **Collective**
-    fn finish(self, ending: Ending) -> Result<Found, SystemError> {
+    fn finish(self, ending: Ending) -> Result<LoopOutcome, SystemError> {
         let Self { system, share, .. } = self;
         let residual = system.residual()?;
         let whole = share * residual.whole;
@@ -336,20 +337,14 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             plain_residual: system.plain_residual()? / share,
             inf_sup: Vec::new(),
         };
-        Ok(Found { solution, ending, passes: self.passes, ascended: self.set.ascends() })
+        Ok(LoopOutcome { solution, ending, passes: self.passes, ascended: self.set.ascends() })
     }
 
     /// Change of the displacement since the last call, relative to its norm. **Collective**
     fn change(&mut self) -> f64 {
         let now = self.system.free_displacement();
         let then = std::mem::replace(&mut self.before, now);
-        let mut squares = [0.0; 2];
-        for (now, then) in self.before.iter().zip(then) {
-            squares[0] += (now - then).powi(2);
-            squares[1] += now * now;
-        }
-        self.system.session().sum(&mut squares);
-        if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 }
+        relative_change(&self.before, &then, self.system.session())
     }
 }
 

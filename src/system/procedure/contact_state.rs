@@ -46,7 +46,7 @@ impl ContactState {
     /// Largest mean penetration over a multiplier (length).
     pub(super) fn largest_penetration(&self, problem: &Discretisation) -> f64 {
         let mean = |contact: &Contact| {
-            let own = |i: usize| self.penetration[i] / contact.multipliers.weight(i - contact.first);
+            let own = |i: usize| self.penetration[i] / contact.multipliers.integral(i - contact.first);
             contact.range().map(own).fold(0.0, f64::max)
         };
         problem.contacts.iter().map(mean).fold(0.0, f64::max)

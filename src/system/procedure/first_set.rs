@@ -40,7 +40,7 @@ pub(super) fn carried_set(system: &System, carried: &[bool], displacement: &[f64
 fn gaps(system: &System, displacement: &[f64]) -> Vec<f64> {
     let mut gap = system.penetration(displacement);
     for contact in &system.problem().contacts {
-        contact.range().for_each(|i| gap[i] /= -contact.multipliers.weight(i - contact.first));
+        contact.range().for_each(|i| gap[i] /= -contact.multipliers.integral(i - contact.first));
     }
     gap
 }

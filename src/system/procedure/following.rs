@@ -1,5 +1,6 @@
 //! Contact boundaries that follow the solution: fit, solve, move, and fit again, until everything stands.
 
+use super::change::relative_change;
 use super::ending::{Failure, HeldEnds, Standing};
 use crate::contact::{Configuration, CurveChoice, End, Known, Meeting, SmoothSide, true_end};
 use crate::mesh::EdgeNode;
@@ -63,7 +64,7 @@ pub enum NextBoundary {
 }
 
 /// A position of an end and how far off it was found to be, in the parameter of Γ_C.
-type Found = Option<(f64, f64)>;
+type FoundEnd = Option<(f64, f64)>;
 
 /// State of the loop over boundaries.
 pub struct Following {
@@ -73,7 +74,7 @@ pub struct Following {
     tolerance: f64,
     displacement: Vec<f64>,
     active: Vec<bool>,
-    ends: Vec<[Found; 2]>,
+    ends: Vec<[FoundEnd; 2]>,
     /// How far the boundary moved last before its ends were held.
     last_way: f64,
     /// How far each boundary has reached so far.
@@ -155,14 +156,8 @@ impl Following {
 
     /// Change of the displacement since the boundary before, relative to its norm. **Collective**
     fn change(&self, displacement: &[f64], session: &Session) -> Option<f64> {
-        let mut squares = [0.0; 2];
-        for (now, then) in displacement.iter().zip(&self.displacement) {
-            squares[0] += (now - then).powi(2);
-            squares[1] += now * now;
-        }
-        session.sum(&mut squares);
         // A rank may have no unknowns; all know the same active set.
-        (!self.active.is_empty()).then(|| if squares[1] > 0.0 { (squares[0] / squares[1]).sqrt() } else { 0.0 })
+        (!self.active.is_empty()).then(|| relative_change(displacement, &self.displacement, session))
     }
 
     /// What the next boundary of each contact is placed by.
@@ -216,7 +211,7 @@ fn differs(contact: &Contact, meeting: &Meeting) -> bool {
 
 /// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not
 /// beyond the bodies' boundaries.
-fn free_ends(pressure: &ContactPressure, history: &mut [Found; 2]) -> [f64; 2] {
+fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2]) -> [f64; 2] {
     let ContactPressure { contact, values: lambda, active } = *pressure;
     let boundary = &contact.boundary;
     let knots = boundary.knots();

@@ -56,7 +56,7 @@ impl Procedure<'_> {
             let _stage = self.observer.enter(Work::Contact);
             Self::look(&scene, self.session.rank())?
         };
-        self.observer.hear(Event::AtRest { scene: &scene, at_rest: &at_rest });
+        self.observer.observe(Event::AtRest { scene: &scene, at_rest: &at_rest });
         let mut first = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
         let mut coarser = Coarser::default();
         for times in (1..=COARSER.min(scene.refine)).rev() {
@@ -113,7 +113,7 @@ impl Procedure<'_> {
         let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
         coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
         let (active, passes) = (&found.solution.active, &found.passes);
-        self.observer.hear(Event::Coarse { refine, unknowns, active, passes, converged });
+        self.observer.observe(Event::Coarse { refine, unknowns, active, passes, converged });
         if converged {
             let _stage = self.observer.enter(Work::Recovery);
             if let Some(before) = &before {
@@ -164,7 +164,7 @@ impl Procedure<'_> {
 
     fn say(&self, first: &mut First) {
         if let Some(words) = first.words.take() {
-            self.observer.hear(Event::Solver(&words));
+            self.observer.observe(Event::Solver(&words));
         }
     }
 }

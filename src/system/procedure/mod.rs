@@ -11,6 +11,7 @@ mod accuracy;
 mod adapting;
 mod at_rest;
 mod boundaries;
+mod change;
 mod coarse_solution;
 mod contact_loop;
 mod contact_state;

@@ -1,4 +1,4 @@
-//! What a run hears of the procedure while it works.
+//! What a run is told of the procedure while it works.
 
 use super::accuracy::{Accuracy, AdaptedMesh};
 use super::at_rest::AtRest;
@@ -64,8 +64,8 @@ pub enum Event<'a> {
 
 /// Who watches.
 pub trait Observer {
-    /// Hears of an event, on every rank.
-    fn hear(&self, event: Event);
+    /// Is told of an event, on every rank.
+    fn observe(&self, event: Event);
 
     /// Times a part of the work until the guard is dropped.
     fn enter(&self, work: Work) -> Option<StageGuard<'_>>;
@@ -73,7 +73,7 @@ pub trait Observer {
 
 /// Nobody.
 impl Observer for () {
-    fn hear(&self, _: Event) {}
+    fn observe(&self, _: Event) {}
 
     fn enter(&self, _: Work) -> Option<StageGuard<'_>> {
         None

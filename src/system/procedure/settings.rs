@@ -23,7 +23,7 @@ pub struct Procedure<'a> {
     pub accuracy: Option<&'a Accuracy>,
     /// All ranks.
     pub session: &'a Session,
-    /// Who hears of it.
+    /// Who is told of its events.
     pub observer: &'a dyn Observer,
 }
 

@@ -1,7 +1,7 @@
 //! Estimated errors of λ on one zone that presses, from three signs that are independent of each other: how λ differs from
 //! what it was on the mesh before, how far the bodies' stresses are from it, and how coarse the segments are for it.
 
-use crate::contact::{MultiplierSpace, Zone};
+use crate::contact::{MultiplierSpace, Roughness, Zone};
 use crate::geometry::{Point, gauss_points};
 use crate::system::Contact;
 use crate::system::recovery::ZoneErrors;
@@ -61,7 +61,7 @@ impl ZoneDifference {
     /// Compares λ of a contact on a zone with what it was `before`.
     pub(super) fn new(contact: &Contact, lambda: &[f64], zone: &Zone, before: impl Fn(Point) -> f64) -> Self {
         let (knots, arcs) = (contact.boundary.knots(), contact.boundary.arcs());
-        let (mut middle, mut inside, mut force, mut peak) = ([0.0; 2], [0.0; 2], 0.0, f64::NEG_INFINITY);
+        let (mut squares, mut force, mut peak) = ([[0.0; 2]; 2], 0.0, f64::NEG_INFINITY);
         for k in (0..contact.boundary.segments()).filter(|&k| arcs[k + 1] > zone.reach[0] && arcs[k] < zone.reach[1]) {
             let (length, ends) = (arcs[k + 1] - arcs[k], [knots[k], knots[k + 1]]);
             for (z, weight) in gauss_points(3) {
@@ -72,20 +72,20 @@ impl ZoneDifference {
                     peak = there.max(peak);
                 }
                 let here = contact.multipliers.value(lambda, k, *z);
-                for (sums, counts) in [(&mut middle, zone.has_in_its_middle(arc)), (&mut inside, zone.has_inside(arc))] {
-                    if counts {
-                        sums[0] += weight * length * (here - there).powi(2);
-                        sums[1] += weight * length * here * here;
-                    }
+                let counts = [zone.has_in_its_middle(arc), zone.has_inside(arc)];
+                for (sums, _) in squares.iter_mut().zip(counts).filter(|(_, counts)| *counts) {
+                    sums[0] += weight * length * (here - there).powi(2);
+                    sums[1] += weight * length * here * here;
                 }
             }
         }
+        let [pressure, inside] = squares.map(|[difference, whole]| (difference / whole).sqrt());
         let [now, top] = [zone.force(&contact.multipliers, lambda), zone.peak(&contact.multipliers, lambda)];
         let end = |arc: f64| contact.boundary.point(contact.boundary.parameter_at(arc));
         Self {
             ends: zone.arcs.map(end),
-            pressure: (middle[0] / middle[1]).sqrt(),
-            inside: (inside[0] / inside[1]).sqrt(),
+            pressure,
+            inside,
             force: (force / now - 1.0).abs(),
             peak: (peak / top - 1.0).abs(),
             at_ends: [(zone.segments.start, 0.05), (zone.segments.end - 1, 0.95)]
@@ -120,36 +120,46 @@ impl ZoneDifference {
     }
 }
 
+/// The three signs of the error of λ on one part of a zone, as far as they are known.
+struct Signs {
+    /// Mean of both bodies' stresses' distances from λ.
+    stress: Option<f64>,
+    /// What is left by the differences between meshes.
+    left: Option<f64>,
+    /// How coarse the segments are.
+    rough: Option<f64>,
+}
+
+impl Signs {
+    /// The smaller one of stress and difference, but no less than the segments allow.
+    fn error(&self) -> Option<f64> {
+        let smaller = [self.stress, self.left].into_iter().flatten().reduce(f64::min);
+        smaller.zip(self.rough).map(|(error, rough)| error.max(rough))
+    }
+}
+
 impl ZoneEstimate {
     /// From what the solution itself says, and the last two differences between meshes as far as there are any.
     pub fn new(space: MultiplierSpace, errors: &ZoneErrors, differences: [Option<&ZoneDifference>; 2]) -> Self {
         let [last, before] = differences;
-        let stress = geometric_mean(errors.stress);
-        let left = last.and_then(|last| last.left(before, space, |zone| zone.pressure));
-        let left_inside = last.and_then(|last| last.left(before, space, |zone| zone.inside));
-        let stress_inside = geometric_mean(errors.stress_inside);
-        let rough_inside = errors.roughness.map(|rough| rough.inside).filter(|rough| rough.is_finite());
-        let rough = errors.roughness.map(|rough| rough.middle).filter(|rough| rough.is_finite());
-        let largest_stress = errors.stress.into_iter().filter(|stress| stress.is_finite()).reduce(f64::max);
-        let signs = [largest_stress, left, rough].into_iter().flatten();
-        let alone = if signs.clone().count() == 1 { ALONE } else { 1.0 };
-        let pressure = match ([stress, left].into_iter().flatten().reduce(f64::min), rough) {
-            (Some(error), Some(rough)) => {
-                Some(MARGIN * error.max(rough).max(stress.map_or(0.0, |stress| LEAST_OF_STRESS * stress)))
-            }
-            _ => None,
+        let signs = |stress: [f64; 2], left: fn(&ZoneDifference) -> f64, rough: fn(Roughness) -> f64| Signs {
+            stress: geometric_mean(stress),
+            left: last.and_then(|last| last.left(before, space, left)),
+            rough: errors.roughness.map(rough).filter(|rough| rough.is_finite()),
         };
+        let middle = signs(errors.stress, |zone| zone.pressure, |rough| rough.middle);
+        let inside = signs(errors.stress_inside, |zone| zone.inside, |rough| rough.inside);
+        let least = middle.stress.map_or(0.0, |stress| LEAST_OF_STRESS * stress);
+        let pressure = middle.error().map(|error| MARGIN * error.max(least));
+        let largest_stress = errors.stress.into_iter().filter(|stress| stress.is_finite()).reduce(f64::max);
+        let known = [largest_stress, middle.left, middle.rough].into_iter().flatten();
+        let alone = if known.clone().count() == 1 { ALONE } else { 1.0 };
         Self {
             pressure,
-            inside: [stress_inside, left_inside]
-                .into_iter()
-                .flatten()
-                .reduce(f64::min)
-                .zip(rough_inside)
-                .map(|(a, b)| MARGIN * a.max(b)),
-            worst: signs.reduce(f64::max).map(|sign| MARGIN * alone * sign),
+            inside: inside.error().map(|error| MARGIN * error),
+            worst: known.reduce(f64::max).map(|sign| MARGIN * alone * sign),
             force: last.map(|last| 0.5 * last.force).filter(|force| force.is_finite()),
-            peak: pressure.and_then(|error| peak(error, stress, errors, last)),
+            peak: pressure.and_then(|error| peak(error, middle.stress, errors, last)),
         }
     }
 }
@@ -173,7 +183,6 @@ fn geometric_mean([a, b]: [f64; 2]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::Roughness;
 
     fn difference(pressure: f64) -> ZoneDifference {
         ZoneDifference {

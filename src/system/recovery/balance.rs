@@ -53,7 +53,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let Discretisation { contacts, coupling, .. } = problem;
     let (mut strain, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
-    let Sums { work, bodies } = sum_over_nodes(problem, solution, u, &internal, session)?;
+    let NodeSums { work, bodies } = sum_over_nodes(problem, solution, u, &internal, session)?;
     let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let gaps: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| (lambda * gap).abs()).sum();
@@ -88,7 +88,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
 
 /// Work, by what does it.
 #[derive(Clone, Copy, Debug, Default)]
-struct Work {
+struct WorkTerms {
     /// `f·u`
     loads: f64,
     /// `r·u_D`
@@ -103,7 +103,7 @@ struct Work {
     given: [f64; 2],
 }
 
-impl Work {
+impl WorkTerms {
     /// The strain energy with an error that is quadratic in that of the solution: `U + z·(f - Ku - Bᵀλ) + μ·(c - Bu)`. Its first
     /// variation vanishes if `Kz + Bᵀμ = Ku` on free components, `Bz = 0`, and `z = 0` at supports.
     ///
@@ -121,8 +121,8 @@ impl Work {
 }
 
 /// Sums over all nodes.
-struct Sums {
-    work: Work,
+struct NodeSums {
+    work: WorkTerms,
     /// Loads and reactions of each body.
     bodies: Vec<ForceSum>,
 }
@@ -157,13 +157,13 @@ fn sum_over_nodes(
     u: &Field<2>,
     internal: &Field<2>,
     session: &Session,
-) -> Result<Sums, SystemError> {
+) -> Result<NodeSums, SystemError> {
     let space = problem.finest();
     let applied = nodal_forces(problem, session)?;
     let pressed = contact_forces(problem, solution);
     let body_of = body_of_nodes(problem, session.rank());
     let mut bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
-    let mut work = Work::default();
+    let mut work = WorkTerms::default();
     for (at, node) in space.own.clone().enumerate() {
         let [f, k] = [applied.own()[at], internal.own()[at]].map(|[x, y]| Point::new(x, y));
         let (u, push) = (u.point(node), pressed.get(&node).copied().unwrap_or_default());
@@ -191,7 +191,7 @@ fn sum_over_nodes(
     session.sum(&mut sums);
     let [loads, supports, contact, unbalanced, missed, ref given @ ..] = sums;
     let bodies = ForceSum::of_all_ranks(&bodies, session);
-    Ok(Sums { work: Work { loads, supports, contact, unbalanced, missed, given: *given }, bodies })
+    Ok(NodeSums { work: WorkTerms { loads, supports, contact, unbalanced, missed, given: *given }, bodies })
 }
 
 /// Largest sum of loads, reactions and contact forces on a body, over the sum of their magnitudes.
@@ -300,7 +300,7 @@ fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solutio
     };
     for i in contact.range() {
         let lambda = solution.multipliers[i];
-        sum.force += lambda * contact.multipliers.weight(i - contact.first);
+        sum.force += lambda * contact.multipliers.integral(i - contact.first);
         for coupled in &problem.coupling.rows[i] {
             let k = if coupled.side == Side::First { 0 } else { 1 };
             let force = -lambda * coupled.value;

@@ -31,7 +31,7 @@ pub struct Deformation {
 }
 
 /// Integrals over a macro triangle: of the larger principal strain, of 1, of the rotation, of the work on its growth.
-type Sums = [f64; 4];
+type TriangleIntegrals = [f64; 4];
 
 /// Strain, rotation and growth of each body. Strains are means over a macro triangle; where these are hardly refined, over it
 /// and its neighbours. So a corner where the strain is singular counts by what its surroundings see, on fine meshes as on
@@ -41,7 +41,7 @@ type Sums = [f64; 4];
 /// [`SystemError`] from an inverted triangle.
 pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<Deformation>, SystemError> {
     let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
-    let mut sums: Vec<Sums> = vec![Sums::default(); mesh.triangles.len()];
+    let mut sums: Vec<TriangleIntegrals> = vec![TriangleIntegrals::default(); mesh.triangles.len()];
     let own = problem.scene.partition.triangles_of(session.rank());
     let added = own.iter().try_for_each(|&triangle| {
         let law = &laws[mesh.triangles[triangle as usize].body as usize];
@@ -67,7 +67,7 @@ pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -
 }
 
 /// What is known of a body as a whole; its strain is left at zero.
-fn whole(mesh: &MacroMesh, body: usize, sums: &[Sums]) -> Deformation {
+fn whole(mesh: &MacroMesh, body: usize, sums: &[TriangleIntegrals]) -> Deformation {
     let own = || mesh.triangles.iter().zip(sums).filter(|(triangle, _)| triangle.body as usize == body);
     let total = |k: usize| own().map(|(_, sum)| sum[k]).sum::<f64>();
     let area = total(1);
@@ -82,7 +82,7 @@ fn centroid(mesh: &MacroMesh, triangle: &MacroTriangle) -> Point {
 }
 
 /// Each sum with those of the macro triangles beside it.
-fn with_neighbours(mesh: &MacroMesh, sums: &[Sums]) -> Vec<Sums> {
+fn with_neighbours(mesh: &MacroMesh, sums: &[TriangleIntegrals]) -> Vec<TriangleIntegrals> {
     let mut wider = sums.to_vec();
     for edge in &mesh.edges {
         let [Some(a), Some(b)] = edge.triangles.map(|triangle| triangle.map(|triangle| triangle as usize)) else { continue };
@@ -100,10 +100,10 @@ fn integrals<const N: usize>(
     u: &Field<2>,
     triangle: usize,
     law: &PlaneStrain,
-) -> Result<Sums, SystemError> {
+) -> Result<TriangleIntegrals, SystemError> {
     const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
     let level = problem.finest().numbering.level;
-    let mut sums = Sums::default();
+    let mut sums = TriangleIntegrals::default();
     for small in lattice::triangles(level.intervals, level.order) {
         let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
         let (gradients, area) = jacobian(&x, MIDDLE)?;

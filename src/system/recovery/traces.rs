@@ -2,7 +2,7 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::contact::{Distance, pieces, trace};
+use crate::contact::{Distance, edge_overlaps, trace};
 use crate::element::{Order, PlaneStrain, stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
@@ -52,19 +52,19 @@ pub fn trace_points(
     session: &Session,
 ) -> Result<Vec<TracePoint>, SystemError> {
     let contact = pressure.contact;
-    let own = [0, 1].map(|k| pieces(&contact.boundary, &contact.edges[k]));
+    let own = [0, 1].map(|k| edge_overlaps(&contact.boundary, &contact.edges[k]));
     let (parameters, segments) =
-        parameters(contact, &own.iter().flatten().flat_map(|piece| piece.range).collect::<Vec<_>>(), session);
+        parameters(contact, &own.iter().flatten().flat_map(|overlap| overlap.range).collect::<Vec<_>>(), session);
     // Sums over ranks of (count, displacement, stress, distance) for both bodies.
     let mut sums = vec![[0.0; 8]; parameters.len()];
     let tolerance = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
     let mut add = |k: usize| -> Result<(), SystemError> {
-        for piece in &own[k] {
-            let [from, to] = piece.range;
+        for overlap in &own[k] {
+            let [from, to] = overlap.range;
             let first = parameters.partition_point(|&t| t < from - tolerance);
             let last = parameters.partition_point(|&t| t <= to + tolerance);
             for at in first..last {
-                let small = &contact.edges[k][piece.edge];
+                let small = &contact.edges[k][overlap.edge];
                 let values = on_edge(problem, contact, k, small, parameters[at], u)?;
                 sums[at][4 * k] += 1.0;
                 values.iter().enumerate().for_each(|(i, value)| sums[at][4 * k + 1 + i] += value);

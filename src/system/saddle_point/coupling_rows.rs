@@ -13,19 +13,19 @@ pub struct CouplingRows {
     rows: Vec<Vec<(usize, Point)>>,
 }
 
-/// A node of a level on its way to the next coarser one.
-type Nodes = BTreeMap<usize, (EdgeNode, Point)>;
+/// Entries of one row at one level: by node number the node, which finds its parents on the next coarser level, and its entry.
+type NodeEntries = BTreeMap<usize, (EdgeNode, Point)>;
 
 impl CouplingRows {
     /// Rows of every level of `spaces` (coarsest first); the finest are those of `coupling`, the others follow by the
     /// transposed interpolation, each level dropping its own prescribed components.
     pub fn of_levels(mesh: &MacroMesh, coupling: &Coupling, spaces: &[Space]) -> Vec<Self> {
         let finest = &spaces[spaces.len() - 1];
-        let mut rows: Vec<Nodes> = coupling
+        let mut rows: Vec<NodeEntries> = coupling
             .rows
             .iter()
             .map(|row| {
-                let mut nodes = Nodes::new();
+                let mut nodes = NodeEntries::new();
                 for coupled in row {
                     let number = coupled.node.number(mesh, &finest.numbering);
                     nodes.entry(number).or_insert((coupled.node, Point::zeros())).1 += coupled.value;
@@ -44,8 +44,8 @@ impl CouplingRows {
         levels
     }
 
-    fn from_nodes(rows: &[Nodes]) -> Self {
-        let row = |nodes: &Nodes| nodes.iter().map(|(&number, &(_, value))| (number, value)).collect();
+    fn from_nodes(rows: &[NodeEntries]) -> Self {
+        let row = |nodes: &NodeEntries| nodes.iter().map(|(&number, &(_, value))| (number, value)).collect();
         Self { rows: rows.iter().map(row).collect() }
     }
 
@@ -89,8 +89,8 @@ impl CouplingRows {
 }
 
 /// One level down: each node hands its entries to its parents, by their weights.
-fn restrict(mesh: &MacroMesh, nodes: &Nodes, fine: &Space, coarse: &Space) -> Nodes {
-    let mut sums = Nodes::new();
+fn restrict(mesh: &MacroMesh, nodes: &NodeEntries, fine: &Space, coarse: &Space) -> NodeEntries {
+    let mut sums = NodeEntries::new();
     for (&number, &(node, value)) in nodes {
         let global = fine.to_global(number, value);
         for (parent, weight) in node.parents(mesh, fine.numbering.level) {

@@ -17,7 +17,7 @@ use self::options::{CoarseSolver, FIELD_SPLIT, is_chosen, lambda_options, precon
 use super::auxiliary::GalerkinLevels;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
-use crate::petsc::{self, Krylov, Level, Matrix, Session, Solved, Vector};
+use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, Session, Vector};
 use fallback::needed;
 use std::rc::Rc;
 
@@ -36,10 +36,12 @@ pub struct LinearSolver {
     converted: Option<Matrix>,
     interpolations: Rc<[Matrix]>,
     auxiliary: GalerkinLevels,
-    /// What preconditions the displacement block.
+    /// What preconditions the displacement block, from the next solve on.
     pub preconditioning: Preconditioning,
     /// The same in words.
     pub name: String,
+    /// Whether it is set up. A stronger one that a solve falls back on waits for the next solve: there may be none.
+    is_set_up: bool,
 }
 
 /// How a linear solve ended.
@@ -124,17 +126,17 @@ impl LinearSolver {
             let solvers = preconditioner.field_split_solvers()?;
             let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
             let operators = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::operator));
-            let levels: Vec<Level> =
-                operators.zip(steps).map(|(operator, interpolation)| Level { operator, interpolation }).collect();
+            let levels: Vec<MultigridLevel> =
+                operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             solvers[0].preconditioner().multigrid(&levels)?;
             solvers[0].set_up()?;
         }
         let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
         let own = kind == "mg" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
-        let name = format!("fieldsplit ({})", if own { preconditioning.words("multigrid F-cycle") } else { kind });
+        let name = if own { field_split_name(preconditioning) } else { format!("fieldsplit ({kind})") };
         let (session, form) = (session.clone(), Form::Augmented);
-        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, preconditioning, name })
+        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, preconditioning, name, is_set_up: true })
     }
 
     fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {
@@ -162,6 +164,7 @@ impl LinearSolver {
             auxiliary: GalerkinLevels::default(),
             preconditioning: Preconditioning::Factor,
             name,
+            is_set_up: true,
         };
         solver.refresh(system)?;
         solver.krylov.set_from_options()?;
@@ -176,10 +179,18 @@ impl LinearSolver {
             converted.set_symmetric(true)?;
             self.krylov.set_operators(&converted, &converted)?;
             self.converted = Some(converted);
+        } else if !self.is_set_up {
+            self.set_up(system)?;
         } else {
             self.auxiliary.refresh(system.stiffness[0].operator(), below(&self.interpolations, system))?;
             set_operators(&self.krylov, system, self.preconditioning, &self.session)?;
         }
+        Ok(())
+    }
+
+    /// Sets the preconditioning up that a solve has fallen back on. **Collective**
+    fn set_up(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
+        *self = Self::field_split(system, self.interpolations.clone(), self.preconditioning, &self.session)?;
         Ok(())
     }
 
@@ -215,6 +226,9 @@ impl LinearSolver {
         }
         let mut before = f64::INFINITY;
         loop {
+            if !self.is_set_up {
+                self.set_up(system)?;
+            }
             let trial_iterations = self.trial_iterations().min(MOST_ITERATIONS - solve.iterations);
             self.krylov.set_initial_guess_nonzero(true)?;
             self.krylov.set_tolerance(tolerance, trial_iterations)?;
@@ -225,13 +239,13 @@ impl LinearSolver {
             solve.residual = r.norm()? / norm;
             if solve.residual <= tolerance {
                 if self.form == Form::Augmented && self.preconditioning.is_too_weak(needed) {
-                    self.fall_back(system, needed, &mut solve)?;
+                    self.fall_back(system, needed, &mut solve);
                 }
                 return Ok(solve);
             }
             let falls = solve.residual < 0.5 * before;
             let slow = solved.iterations >= trial_iterations && needed > 1.0;
-            if slow && solve.iterations < MOST_ITERATIONS && self.fall_back(system, needed, &mut solve)? {
+            if slow && solve.iterations < MOST_ITERATIONS && self.fall_back(system, needed, &mut solve) {
                 before = f64::INFINITY;
             } else if !falls || solve.iterations >= MOST_ITERATIONS || self.is_exact(&solve) {
                 solve.ending = self.ending(system, x, norm, tolerance, &solve, solved)?;
@@ -257,16 +271,17 @@ impl LinearSolver {
             && solve.iterations >= 2 * self.trial_iterations()
     }
 
-    /// Takes the next preconditioning that promises enough, if there is one. **Collective**
-    fn fall_back(&mut self, system: &SaddlePoint, needed: f64, solve: &mut LinearSolve) -> Result<bool, SystemError> {
+    /// Goes over to the next preconditioning that promises enough, if there is one; the next solve sets it up.
+    fn fall_back(&mut self, system: &SaddlePoint, needed: f64, solve: &mut LinearSolve) -> bool {
+        // The user's own choice stays.
         if self.form == Form::Plain || is_chosen(&self.session) {
-            return Ok(false);
+            return false;
         }
         let unknowns = system.finest_stiffness().operator().size().0;
-        let Some(preconditioning) = self.preconditioning.fallback(needed, unknowns) else { return Ok(false) };
-        *self = Self::field_split(system, self.interpolations.clone(), preconditioning, &self.session)?;
+        let Some(preconditioning) = self.preconditioning.fallback(needed, unknowns) else { return false };
+        (self.preconditioning, self.name, self.is_set_up) = (preconditioning, field_split_name(preconditioning), false);
         solve.fallback = Some(self.name.clone());
-        Ok(true)
+        true
     }
 
     /// What a solve that does not reach its tolerance has come to. **Collective**
@@ -277,7 +292,7 @@ impl LinearSolver {
         norm: f64,
         tolerance: f64,
         &LinearSolve { residual, iterations, .. }: &LinearSolve,
-        solved: Solved,
+        solved: KrylovEnding,
     ) -> Result<LinearEnding, SystemError> {
         let floor = self.rounding(system, x, norm)?;
         Ok(if residual <= floor.min(MOST_ROUNDING) {
@@ -293,6 +308,11 @@ impl LinearSolver {
         let stiffness = system.finest_stiffness().operator().norm_infinity()?;
         Ok(10.0 * f64::EPSILON * stiffness * x.norm()? / norm)
     }
+}
+
+/// The solver with a preconditioning, in words.
+fn field_split_name(preconditioning: Preconditioning) -> String {
+    format!("fieldsplit ({})", preconditioning.words("multigrid F-cycle"))
 }
 
 /// The nest, or for a factor the one with all rows stored. **Collective**

@@ -2,7 +2,7 @@
 
 use super::lattice_operator::Strips;
 use super::preallocation::{ContactNeighbours, Counts};
-use super::strips::{Place, Stencil};
+use super::strips::{Stencil, StripNodes};
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};
 use crate::geometry::Point;
@@ -54,8 +54,8 @@ impl<'a> Assembly<'a> {
         let (scene, space) = (self.scene, self.space);
         let mut counts = Counts::new(space, contact);
         for (&triangle, strips) in &self.strips {
-            for place in strips.iter().map(|strip| self.place(triangle, strip)) {
-                counts.leave_out(place.first..place.first + place.count);
+            for nodes in strips.iter().map(|strip| self.strip_nodes(triangle, strip)) {
+                counts.leave_out(nodes.first..nodes.first + nodes.count);
             }
         }
         let n = space.numbering.level.intervals;
@@ -141,7 +141,7 @@ impl<'a> Assembly<'a> {
                 strips.stencils.push(Stencil::of(stiffness, order, strip));
                 strips.stencils.len() - 1
             });
-            strips.places.push((self.place(triangle, strip), stencil));
+            strips.nodes.push((self.strip_nodes(triangle, strip), stencil));
         }
     }
 
@@ -150,10 +150,10 @@ impl<'a> Assembly<'a> {
     }
 
     /// Where a strip lies among the nodes of this rank.
-    fn place(&self, triangle: usize, strip: &Strip) -> Place {
+    fn strip_nodes(&self, triangle: usize, strip: &Strip) -> StripNodes {
         let numbers = self.space.numbering.triangle(&self.scene.mesh, triangle);
         let first = numbers.node(strip.i.start, strip.j) - self.space.own.start;
-        Place { first, count: strip.i.len(), width: self.space.numbering.level.intervals - 1 - strip.j }
+        StripNodes { first, count: strip.i.len(), width: self.space.numbering.level.intervals - 1 - strip.j }
     }
 }
 

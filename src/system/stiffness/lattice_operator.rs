@@ -1,9 +1,10 @@
 //! The stiffness of a level with most of its rows as strips: what PETSc's solvers see of it.
 
 use super::stored_rows::{StoredRows, far_columns};
-use super::strips::{Pair, Place, Stencil};
+use super::strips::{Stencil, StripNodes};
 use crate::element::Block;
 use crate::petsc::{Gather, Matrix, Operator, Result, Session, Vector};
+use crate::system::space::Components;
 use std::cell::{Cell, Ref, RefCell};
 use std::ops::Range;
 use std::rc::Rc;
@@ -13,8 +14,8 @@ use std::rc::Rc;
 pub struct Strips {
     /// Couplings; few strips have their own.
     pub stencils: Vec<Stencil>,
-    /// Where a strip lies, and which stencil it has.
-    pub places: Vec<(Place, usize)>,
+    /// The nodes of each strip, and which stencil it has.
+    pub nodes: Vec<(StripNodes, usize)>,
 }
 
 /// Stored rows and strips together.
@@ -34,7 +35,7 @@ impl LatticeOperator {
     /// From the stored rows, assembled: those of nodes in strips are empty. **Collective**
     pub fn new(stored: Matrix, own: &Range<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
         let mut in_strip = vec![false; own.len()];
-        strips.places.iter().for_each(|(place, _)| in_strip[place.first..][..place.count].fill(true));
+        strips.nodes.iter().for_each(|(nodes, _)| in_strip[nodes.first..][..nodes.count].fill(true));
         let nodes: Vec<u32> = (0..own.len()).filter(|&node| !in_strip[node]).map(|node| node as u32).collect();
         let far = far_columns(&stored, own, &nodes)?;
         let gather = match session.size() {
@@ -45,11 +46,11 @@ impl LatticeOperator {
             }
         };
         let rows = RefCell::new(StoredRows::read(&stored, own, &nodes, &far)?);
-        let couplings = |&(place, stencil): &(Place, usize)| {
-            let [even, odd] = strips.stencils[stencil].couplings(place).map(|kind| kind.len());
-            0.5 * (place.count * (even + odd)) as f64
+        let couplings = |&(nodes, stencil): &(StripNodes, usize)| {
+            let [even, odd] = strips.stencils[stencil].couplings(nodes).map(|kind| kind.len());
+            0.5 * (nodes.count * (even + odd)) as f64
         };
-        let in_strips = strips.places.iter().map(couplings).sum();
+        let in_strips = strips.nodes.iter().map(couplings).sum();
         Ok(Self { in_strips, own: own.clone(), strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
     }
 
@@ -84,18 +85,18 @@ impl LatticeOperator {
 
     /// Shows the rows of all nodes in strips: couplings as distances in node numbers.
     pub fn each_row(&self, mut show: impl FnMut(usize, &[(isize, Block)])) {
-        for (place, stencil) in self.each_strip() {
-            let kinds = stencil.couplings(place);
-            (0..place.count).for_each(|k| show(place.first + k, &kinds[k % 2]));
+        for (nodes, stencil) in self.each_strip() {
+            let kinds = stencil.couplings(nodes);
+            (0..nodes.count).for_each(|k| show(nodes.first + k, &kinds[k % 2]));
         }
     }
 
-    fn each_strip(&self) -> impl DoubleEndedIterator<Item = (Place, &Stencil)> {
-        self.strips.places.iter().map(|&(place, stencil)| (place, &self.strips.stencils[stencil]))
+    fn each_strip(&self) -> impl DoubleEndedIterator<Item = (StripNodes, &Stencil)> {
+        self.strips.nodes.iter().map(|&(nodes, stencil)| (nodes, &self.strips.stencils[stencil]))
     }
 
     /// Calls `with` with the values of other ranks' nodes that the stored rows want. **Collective**
-    fn with_far<T>(&self, x: &Vector, with: impl FnOnce(&[Pair]) -> T) -> Result<T> {
+    fn with_far<T>(&self, x: &Vector, with: impl FnOnce(&[Components]) -> T) -> Result<T> {
         Ok(match &self.gather {
             Some(gather) => with(gather.borrow_mut().read(x)?.as_chunks().0),
             None => with(&[]),
@@ -109,7 +110,7 @@ impl Operator for Rc<LatticeOperator> {
             let (x, mut y) = (x.values(), y.values_mut());
             let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
             self.rows.borrow().multiply(x, far, y);
-            self.each_strip().for_each(|(place, stencil)| stencil.multiply(place, x, y));
+            self.each_strip().for_each(|(nodes, stencil)| stencil.multiply(nodes, x, y));
         })
     }
 
@@ -118,18 +119,18 @@ impl Operator for Rc<LatticeOperator> {
             let (b, x, mut r) = (b.values(), x.values(), r.values_mut());
             let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
             self.rows.borrow().residual(b, x, far, r);
-            self.each_strip().for_each(|(place, stencil)| stencil.residual(place, b, x, r));
+            self.each_strip().for_each(|(nodes, stencil)| stencil.residual(nodes, b, x, r));
         })
     }
 
     fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()> {
-        let sweep = |far: &[Pair], b: &Vector, x: &mut Vector| {
+        let sweep = |far: &[Components], b: &Vector, x: &mut Vector| {
             let (b, mut x) = (b.values(), x.values_mut());
             let (b, x) = (b.as_chunks().0, Cell::from_mut(x.as_chunks_mut().0).as_slice_of_cells());
             let rows = self.rows.borrow();
             rows.forward(b, x, far);
-            self.each_strip().for_each(|(place, stencil)| stencil.forward(place, b, x));
-            self.each_strip().rev().for_each(|(place, stencil)| stencil.backward(place, b, x));
+            self.each_strip().for_each(|(nodes, stencil)| stencil.forward(nodes, b, x));
+            self.each_strip().rev().for_each(|(nodes, stencil)| stencil.backward(nodes, b, x));
             rows.backward(b, x, far);
         };
         if from_zero {

@@ -1,8 +1,9 @@
 //! The rows of a stiffness that are stored, as blocks of two by two.
 
-use super::strips::{Pair, inverse, subtract};
+use super::strips::{inverse, subtract};
 use crate::element::Block;
 use crate::petsc::{Matrix, Result};
+use crate::system::space::Components;
 use std::cell::Cell;
 use std::ops::Range;
 
@@ -33,7 +34,7 @@ impl Default for Part {
 impl Part {
     /// `sum - Σ K x` of a row, in two parts that do not wait for each other.
     #[inline(always)]
-    fn subtract(&self, k: usize, sum: Pair, x: impl Fn(usize) -> Pair) -> Pair {
+    fn subtract(&self, k: usize, sum: Components, x: impl Fn(usize) -> Components) -> Components {
         let range = self.starts[k] as usize..self.starts[k + 1] as usize;
         let (columns, blocks) = (self.columns[range.clone()].as_chunks::<2>(), self.blocks[range].as_chunks::<2>());
         let (mut sum, mut other) = (sum, [0.0; 2]);
@@ -140,17 +141,17 @@ impl StoredRows {
     }
 
     /// `y = K x` in these rows, `far` the values of the columns of other ranks.
-    pub fn multiply(&self, x: &[Pair], far: &[Pair], y: &mut [Pair]) {
+    pub fn multiply(&self, x: &[Components], far: &[Components], y: &mut [Components]) {
         self.each(x, far, |node, sum| y[node] = sum.map(|v| -v));
     }
 
     /// `r = b - K x` in these rows.
-    pub fn residual(&self, b: &[Pair], x: &[Pair], far: &[Pair], r: &mut [Pair]) {
+    pub fn residual(&self, b: &[Components], x: &[Components], far: &[Components], r: &mut [Components]) {
         self.each(x, far, |node, sum| r[node] = [b[node][0] + sum[0], b[node][1] + sum[1]]);
     }
 
     /// Shows `-K x` row by row.
-    fn each(&self, x: &[Pair], far: &[Pair], mut show: impl FnMut(usize, Pair)) {
+    fn each(&self, x: &[Components], far: &[Components], mut show: impl FnMut(usize, Components)) {
         for (k, &node) in self.nodes.iter().enumerate() {
             let sum = self.near.subtract(k, [0.0; 2], |column| x[column]);
             show(node as usize, self.far.subtract(k, sum, |column| far[column]));
@@ -158,17 +159,17 @@ impl StoredRows {
     }
 
     /// Relaxes the nodes in their order, `far` staying as it is.
-    pub fn forward(&self, b: &[Pair], x: &[Cell<Pair>], far: &[Pair]) {
+    pub fn forward(&self, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
         (0..self.nodes.len()).for_each(|k| self.relax(k, b, x, far));
     }
 
     /// The same in the opposite order.
-    pub fn backward(&self, b: &[Pair], x: &[Cell<Pair>], far: &[Pair]) {
+    pub fn backward(&self, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
         (0..self.nodes.len()).rev().for_each(|k| self.relax(k, b, x, far));
     }
 
     #[inline(always)]
-    fn relax(&self, k: usize, b: &[Pair], x: &[Cell<Pair>], far: &[Pair]) {
+    fn relax(&self, k: usize, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
         let node = self.nodes[k] as usize;
         let mut sum = self.near.subtract(k, b[node], |column| x[column].get());
         if !far.is_empty() {

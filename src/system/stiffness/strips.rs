@@ -7,23 +7,21 @@
 use crate::body::MacroStiffness;
 use crate::element::{Block, Order};
 use crate::mesh::Strip;
+use crate::system::space::Components;
 use std::cell::Cell;
-
-/// Two components at a node.
-pub type Pair = [f64; 2];
 
 /// Couplings of the nodes of a strip.
 pub enum Stencil {
     /// P1.
-    Linear(Box<Kind<7>>),
+    Linear(Box<NodeStencil<7>>),
     /// P2, an even row: corners of triangles and the midsides between them.
-    Corners(Box<(Kind<19>, Kind<9>)>),
+    Corners(Box<(NodeStencil<19>, NodeStencil<9>)>),
     /// P2, an odd row: midsides alone.
-    Midsides(Box<(Kind<9>, Kind<9>)>),
+    Midsides(Box<(NodeStencil<9>, NodeStencil<9>)>),
 }
 
 /// Couplings of one kind of node; the first is with itself.
-pub struct Kind<const N: usize> {
+pub struct NodeStencil<const N: usize> {
     /// Steps `(di, dj)` in the lattice.
     steps: [(i32, i32); N],
     blocks: [Block; N],
@@ -35,7 +33,7 @@ pub struct Kind<const N: usize> {
 
 /// Where a strip lies among the nodes of its rank.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct StripNodes {
     /// Its first node.
     pub first: usize,
     /// How many.
@@ -44,7 +42,7 @@ pub struct Place {
     pub width: usize,
 }
 
-impl<const N: usize> Kind<N> {
+impl<const N: usize> NodeStencil<N> {
     /// From the couplings of one node; `None` if it has not `N` of them.
     pub fn new(couplings: &[((i32, i32), Block)]) -> Option<Self> {
         let mut couplings = couplings.to_vec();
@@ -72,7 +70,7 @@ impl<const N: usize> Kind<N> {
         })
     }
 
-    /// The couplings as [`Kind::new`] takes them.
+    /// The couplings as [`NodeStencil::new`] takes them.
     fn couplings(&self) -> impl Iterator<Item = ((i32, i32), &Block)> {
         self.steps.iter().copied().zip(&self.blocks)
     }
@@ -100,14 +98,14 @@ fn product(a: &Block, b: &Block) -> Block {
 
 /// `sum += k x`.
 #[inline(always)]
-fn add(sum: &mut Pair, k: &Block, x: Pair) {
+fn add(sum: &mut Components, k: &Block, x: Components) {
     sum[0] += k[0][0] * x[0] + k[0][1] * x[1];
     sum[1] += k[1][0] * x[0] + k[1][1] * x[1];
 }
 
 /// `sum -= k x`.
 #[inline(always)]
-pub fn subtract(sum: &mut Pair, k: &Block, x: Pair) {
+pub fn subtract(sum: &mut Components, k: &Block, x: Components) {
     sum[0] -= k[0][0] * x[0] + k[0][1] * x[1];
     sum[1] -= k[1][0] * x[0] + k[1][1] * x[1];
 }
@@ -126,9 +124,11 @@ impl Stencil {
     pub fn of(stiffness: &MacroStiffness, order: Order, strip: &Strip) -> Self {
         let [first, second] = [0, 1].map(|k| couplings(stiffness, strip.i.start + k, strip.j));
         let made = match (order, strip.j % 2) {
-            (Order::P1, _) => Kind::new(&first).map(|kind| Self::Linear(Box::new(kind))),
-            (Order::P2, 0) => Kind::new(&first).zip(Kind::new(&second)).map(|kinds| Self::Corners(Box::new(kinds))),
-            (Order::P2, _) => Kind::new(&first).zip(Kind::new(&second)).map(|kinds| Self::Midsides(Box::new(kinds))),
+            (Order::P1, _) => NodeStencil::new(&first).map(|kind| Self::Linear(Box::new(kind))),
+            (Order::P2, 0) => NodeStencil::new(&first).zip(NodeStencil::new(&second)).map(|kinds| Self::Corners(Box::new(kinds))),
+            (Order::P2, _) => {
+                NodeStencil::new(&first).zip(NodeStencil::new(&second)).map(|kinds| Self::Midsides(Box::new(kinds)))
+            }
         };
         made.expect("the couplings of a strip")
     }
@@ -150,37 +150,37 @@ impl Stencil {
     }
 
     /// `y = K x` on a strip.
-    pub fn multiply(&self, place: Place, x: &[Pair], y: &mut [Pair]) {
-        self.each_kind(&mut Multiply { place, x, y: &mut y[place.first..][..place.count] });
+    pub fn multiply(&self, nodes: StripNodes, x: &[Components], y: &mut [Components]) {
+        self.each_kind(&mut MultiplyOnStrip { nodes, x, y: &mut y[nodes.first..][..nodes.count] });
     }
 
     /// `r = b - K x` on a strip.
-    pub fn residual(&self, place: Place, b: &[Pair], x: &[Pair], r: &mut [Pair]) {
-        let (b, r) = (&b[place.first..][..place.count], &mut r[place.first..][..place.count]);
-        self.each_kind(&mut Residual { place, b, x, r });
+    pub fn residual(&self, nodes: StripNodes, b: &[Components], x: &[Components], r: &mut [Components]) {
+        let (b, r) = (&b[nodes.first..][..nodes.count], &mut r[nodes.first..][..nodes.count]);
+        self.each_kind(&mut ResidualOnStrip { nodes, b, x, r });
     }
 
     /// Relaxes the nodes of a strip one after the other.
-    pub fn forward(&self, place: Place, b: &[Pair], x: &[Cell<Pair>]) {
+    pub fn forward(&self, nodes: StripNodes, b: &[Components], x: &[Cell<Components>]) {
         match self {
-            Self::Linear(kind) => one_kind(kind, place, b, x, 0..place.count),
-            Self::Corners(kinds) => two_kinds(&kinds.0, &kinds.1, place, b, x, 0..place.count),
-            Self::Midsides(kinds) => two_kinds(&kinds.0, &kinds.1, place, b, x, 0..place.count),
+            Self::Linear(kind) => one_kind(kind, nodes, b, x, 0..nodes.count),
+            Self::Corners(kinds) => two_kinds(&kinds.0, &kinds.1, nodes, b, x, 0..nodes.count),
+            Self::Midsides(kinds) => two_kinds(&kinds.0, &kinds.1, nodes, b, x, 0..nodes.count),
         }
     }
 
     /// The same from the last to the first.
-    pub fn backward(&self, place: Place, b: &[Pair], x: &[Cell<Pair>]) {
+    pub fn backward(&self, nodes: StripNodes, b: &[Components], x: &[Cell<Components>]) {
         match self {
-            Self::Linear(kind) => one_kind(kind, place, b, x, (0..place.count).rev()),
-            Self::Corners(kinds) => two_kinds(&kinds.0, &kinds.1, place, b, x, (0..place.count).rev()),
-            Self::Midsides(kinds) => two_kinds(&kinds.0, &kinds.1, place, b, x, (0..place.count).rev()),
+            Self::Linear(kind) => one_kind(kind, nodes, b, x, (0..nodes.count).rev()),
+            Self::Corners(kinds) => two_kinds(&kinds.0, &kinds.1, nodes, b, x, (0..nodes.count).rev()),
+            Self::Midsides(kinds) => two_kinds(&kinds.0, &kinds.1, nodes, b, x, (0..nodes.count).rev()),
         }
     }
 
     /// Couplings of the nodes of a strip, as distances in node numbers: of every first and every second.
-    pub fn couplings(&self, place: Place) -> [Vec<(isize, Block)>; 2] {
-        let mut all = Couplings { width: place.width, kinds: Vec::new() };
+    pub fn couplings(&self, nodes: StripNodes) -> [Vec<(isize, Block)>; 2] {
+        let mut all = Couplings { width: nodes.width, kinds: Vec::new() };
         self.each_kind(&mut all);
         let second = all.kinds.get(1).unwrap_or(&all.kinds[0]).clone();
         [all.kinds.swap_remove(0), second]
@@ -195,18 +195,18 @@ impl Stencil {
 }
 
 trait EachKind {
-    fn kind<const N: usize>(&mut self, kind: &Kind<N>, start: usize, step: usize);
+    fn kind<const N: usize>(&mut self, kind: &NodeStencil<N>, start: usize, step: usize);
 }
 
-struct Multiply<'a> {
-    place: Place,
-    x: &'a [Pair],
-    y: &'a mut [Pair],
+struct MultiplyOnStrip<'a> {
+    nodes: StripNodes,
+    x: &'a [Components],
+    y: &'a mut [Components],
 }
 
-impl EachKind for Multiply<'_> {
-    fn kind<const N: usize>(&mut self, kind: &Kind<N>, start: usize, step: usize) {
-        let Place { first, count, width } = self.place;
+impl EachKind for MultiplyOnStrip<'_> {
+    fn kind<const N: usize>(&mut self, kind: &NodeStencil<N>, start: usize, step: usize) {
+        let StripNodes { first, count, width } = self.nodes;
         let near = runs(self.x, first, count, kind.distances(width));
         for k in (start..count).step_by(step) {
             let mut sum = [0.0; 2];
@@ -218,16 +218,16 @@ impl EachKind for Multiply<'_> {
     }
 }
 
-struct Residual<'a> {
-    place: Place,
-    b: &'a [Pair],
-    x: &'a [Pair],
-    r: &'a mut [Pair],
+struct ResidualOnStrip<'a> {
+    nodes: StripNodes,
+    b: &'a [Components],
+    x: &'a [Components],
+    r: &'a mut [Components],
 }
 
-impl EachKind for Residual<'_> {
-    fn kind<const N: usize>(&mut self, kind: &Kind<N>, start: usize, step: usize) {
-        let Place { first, count, width } = self.place;
+impl EachKind for ResidualOnStrip<'_> {
+    fn kind<const N: usize>(&mut self, kind: &NodeStencil<N>, start: usize, step: usize) {
+        let StripNodes { first, count, width } = self.nodes;
         let near = runs(self.x, first, count, kind.distances(width));
         for k in (start..count).step_by(step) {
             let mut sum = self.b[k];
@@ -241,9 +241,15 @@ impl EachKind for Residual<'_> {
 
 /// Gauss-Seidel over nodes of one kind.
 #[inline(always)]
-fn one_kind<const N: usize>(kind: &Kind<N>, place: Place, b: &[Pair], x: &[Cell<Pair>], order: impl Iterator<Item = usize>) {
-    let b = &b[place.first..][..place.count];
-    let near = runs(x, place.first, place.count, kind.distances(place.width));
+fn one_kind<const N: usize>(
+    kind: &NodeStencil<N>,
+    nodes: StripNodes,
+    b: &[Components],
+    x: &[Cell<Components>],
+    order: impl Iterator<Item = usize>,
+) {
+    let b = &b[nodes.first..][..nodes.count];
+    let near = runs(x, nodes.first, nodes.count, kind.distances(nodes.width));
     for k in order {
         relax(kind, &near, b[k], k);
     }
@@ -252,16 +258,16 @@ fn one_kind<const N: usize>(kind: &Kind<N>, place: Place, b: &[Pair], x: &[Cell<
 /// Gauss-Seidel over nodes of two kinds in turn.
 #[inline(always)]
 fn two_kinds<const N: usize, const M: usize>(
-    even: &Kind<N>,
-    odd: &Kind<M>,
-    place: Place,
-    b: &[Pair],
-    x: &[Cell<Pair>],
+    even: &NodeStencil<N>,
+    odd: &NodeStencil<M>,
+    nodes: StripNodes,
+    b: &[Components],
+    x: &[Cell<Components>],
     order: impl Iterator<Item = usize>,
 ) {
-    let b = &b[place.first..][..place.count];
-    let near_even = runs(x, place.first, place.count, even.distances(place.width));
-    let near_odd = runs(x, place.first, place.count, odd.distances(place.width));
+    let b = &b[nodes.first..][..nodes.count];
+    let near_even = runs(x, nodes.first, nodes.count, even.distances(nodes.width));
+    let near_odd = runs(x, nodes.first, nodes.count, odd.distances(nodes.width));
     for k in order {
         if k % 2 == 0 { relax(even, &near_even, b[k], k) } else { relax(odd, &near_odd, b[k], k) }
     }
@@ -269,7 +275,7 @@ fn two_kinds<const N: usize, const M: usize>(
 
 /// `x_k = D⁻¹ (b_k - (K - D) x)`.
 #[inline(always)]
-fn relax<const N: usize>(kind: &Kind<N>, near: &[&[Cell<Pair>]; N], b: Pair, k: usize) {
+fn relax<const N: usize>(kind: &NodeStencil<N>, near: &[&[Cell<Components>]; N], b: Components, k: usize) {
     let mut sum = [0.0; 2];
     add(&mut sum, &kind.inverse, b);
     for (near, scaled) in near.iter().zip(&kind.scaled).skip(1) {
@@ -284,7 +290,7 @@ struct Couplings {
 }
 
 impl EachKind for Couplings {
-    fn kind<const N: usize>(&mut self, kind: &Kind<N>, _: usize, _: usize) {
+    fn kind<const N: usize>(&mut self, kind: &NodeStencil<N>, _: usize, _: usize) {
         let distances = kind.distances(self.width);
         self.kinds.push(distances.into_iter().zip(kind.couplings().map(|(_, block)| *block)).collect());
     }
@@ -293,7 +299,7 @@ impl EachKind for Couplings {
 struct LargestRow(f64);
 
 impl EachKind for LargestRow {
-    fn kind<const N: usize>(&mut self, kind: &Kind<N>, _: usize, _: usize) {
+    fn kind<const N: usize>(&mut self, kind: &NodeStencil<N>, _: usize, _: usize) {
         self.0 = self.0.max(kind.largest_row());
     }
 }

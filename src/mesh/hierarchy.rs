@@ -29,7 +29,7 @@ pub(super) fn fraction(ratios: [Option<f64>; 2]) -> f64 {
 
 /// A triangle of the hierarchy over one macro triangle, in the reference triangle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct HierarchyTriangle {
     /// Its corners.
     pub(super) corners: [Point; 3],
     /// κ of the graded corners.
@@ -40,7 +40,7 @@ pub(super) struct Piece {
     shape: usize,
 }
 
-impl Piece {
+impl HierarchyTriangle {
     /// The macro triangle, to be refined so many times.
     pub(super) fn whole(ratios: [Option<f64>; 3], refinements: u32) -> Self {
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Point::from);
@@ -72,7 +72,7 @@ impl Piece {
         Self { corners, ratios, left: self.left - 1, shape: 1 + 4 * first + k }
     }
 
-    /// The affine piece that holds a lattice point, with the point's barycentric coordinates in it.
+    /// The triangle that holds a lattice point and is affine, with the point's barycentric coordinates in it.
     pub(super) fn below(mut self, mut l: [f64; 3]) -> (Self, [f64; 3]) {
         while self.is_graded() {
             let corner = (0..3).find(|&k| l[k] >= 0.5);
@@ -108,14 +108,14 @@ impl Piece {
 }
 
 /// Barycentric coordinates of the point `(xi, eta)` of the reference triangle.
-pub(super) fn weights(at: Point) -> [f64; 3] {
+pub(super) fn barycentric(at: Point) -> [f64; 3] {
     [1.0 - at.x - at.y, at.x, at.y]
 }
 
 /// The shapes of the affine pieces of one macro triangle. A piece of shape `1 + 4 a + b` lies in the child at `a` of the
 /// whole (3: in the middle), and is the child at `b` of the child before it; shape 0 is the whole.
 pub struct Shapes {
-    pub(super) whole: Piece,
+    pub(super) whole: HierarchyTriangle,
     pub(super) intervals: usize,
 }
 
@@ -132,14 +132,14 @@ impl Shapes {
     pub fn of(&self, corners: [(usize, usize); 3]) -> usize {
         let sum = corners.iter().fold([0, 0], |[i, j], corner| [i + corner.0, j + corner.1]);
         let middle = sum.map(|v| v as f64 / (3 * self.intervals) as f64);
-        self.whole.below(weights(middle.into())).0.shape
+        self.whole.below(barycentric(middle.into())).0.shape
     }
 
     /// Corners, in the reference triangle, of a triangle like those of a shape but for its size.
     pub fn corners(&self, shape: usize) -> [Point; 3] {
         let Some(path) = shape.checked_sub(1) else { return self.whole.corners };
         let (first, last) = (path / 4, path % 4);
-        let child = Piece { left: 2, ..self.whole }.child(first);
+        let child = HierarchyTriangle { left: 2, ..self.whole }.child(first);
         if first == last { child.corners } else { child.child(last).corners }
     }
 }
