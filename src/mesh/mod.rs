@@ -8,6 +8,7 @@ mod chain;
 mod edge_shape;
 mod edge_trace;
 mod gmsh;
+mod gmsh_writer;
 mod grading;
 pub mod lattice;
 mod macro_mesh;
