@@ -43,6 +43,11 @@ fn check_says_what_would_be_solved() {
     for word in ["bars_inclined", "64 macro triangles", "16384 P2 triangles", "body lower", "E = 7000", "seam", "30 segments"] {
         assert!(output.contains(word), "{word} in {output}");
     }
+    assert!(!output.contains("accuracy"), "{output}");
+    let set = ["--set", "accuracy=1e-4", "--set", "accuracy.pressure=1e-3"];
+    let (code, output, _) = mezha(None, &[&["check", &case("bars_inclined")], &set[..]].concat());
+    let words = "accuracy asked for: energy to 1e-4, pressure of seam to 1e-3; the mesh is adapted to it";
+    assert!(code == Some(0) && output.lines().any(|line| line == words), "{output}");
     let (code, output, _) = mezha(None, &["check", &case("bars_inclined"), "--set", "mesh.order=1", "--set", "mesh.refine=0"]);
     assert_eq!(code, Some(0));
     assert!(output.contains("64 P1 triangles"), "{output}");

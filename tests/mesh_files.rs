@@ -2,8 +2,10 @@
 
 mod support;
 
-use mezha::mesh::read_gmsh;
+use mezha::mesh::{Boundary, read_gmsh};
 use std::collections::HashMap;
+use std::path::Path;
+use std::process::Command;
 use support::mesh::{GOOD, Mesh, Random, write_scene};
 use support::{Run, difference};
 
@@ -130,4 +132,38 @@ fn a_jumbled_mesh_has_the_same_bodies_and_boundaries() {
     }
     let wanted = [21.0, 15.0, 6.0, 6.0, 37f64.sqrt(), 37f64.sqrt(), 6.0, 6.0];
     assert!(measures.iter().all(|found| difference(found, &wanted) < 1e-12), "{measures:?}");
+}
+
+/// What `to_gmsh` writes is read by others to the same counts: `MEZHA_PYTHON` is an interpreter that has `meshio`, and gmsh if
+/// it shall be asked, too.
+#[test]
+fn others_read_what_is_written() {
+    let Some(python) = std::env::var_os("MEZHA_PYTHON") else {
+        println!("skipped: MEZHA_PYTHON is not set, so nobody has read the files");
+        return;
+    };
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut wanted = String::new();
+    for name in ["bars", "rings", "stack"] {
+        let place = if name == "bars" { "patch_inclined" } else { name };
+        let mut mesh = read_gmsh(&cases.join(place).join(format!("{name}.msh"))).expect("a mesh");
+        let twice = mesh.boundaries[0].edges.clone();
+        mesh.boundaries.push(Boundary { name: "twice".into(), edges: twice });
+        std::fs::write(folder.path().join(format!("{name}.msh")), mesh.to_gmsh()).expect("a mesh can be written");
+        let bodies = mesh
+            .bodies
+            .iter()
+            .enumerate()
+            .map(|(body, name)| (name, mesh.triangles.iter().filter(|triangle| triangle.body as usize == body).count()));
+        let mut counts: Vec<_> = bodies.chain(mesh.boundaries.iter().map(|b| (&b.name, b.edges.len()))).collect();
+        counts.sort();
+        let counts: Vec<String> = counts.iter().map(|(name, count)| format!("{name} {count}")).collect();
+        wanted += &format!("{name}.msh: {} points; {}\n", mesh.vertices.len(), counts.join("; "));
+    }
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mesh_readable.py");
+    let run = Command::new(python).arg(script).arg(folder.path()).output().expect("python starts");
+    let said = String::from_utf8_lossy(&run.stdout);
+    assert!(run.status.success(), "{said}{}", String::from_utf8_lossy(&run.stderr));
+    assert_eq!(said, wanted);
 }

@@ -36,13 +36,13 @@ impl CaseError {
         Self { file: file.into(), problems: vec![Problem { key: String::new(), value: None, words }] }
     }
 
-    /// An error of TOML itself.
-    pub(crate) fn of_syntax(file: &Path, text: &str, error: &toml::de::Error) -> Self {
+    /// An error of TOML itself, with a remedy if one is known.
+    pub(crate) fn of_syntax(file: &Path, text: &str, error: &toml::de::Error, remedy: &str) -> Self {
         let before = &text[..error.span().map_or(0, |span| span.start)];
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
         let message = error.message().replace('\n', ", ");
-        Self::of_file(file, format!("line {line}, column {column}: {message}; the file is written in TOML, see toml.io"))
+        Self::of_file(file, format!("line {line}, column {column}: {message}{remedy}; the file is written in TOML, see toml.io"))
     }
 }
 

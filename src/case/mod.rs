@@ -3,6 +3,7 @@
 //! Everything that needs no mesh is checked here, and all that is wrong is reported at once, each with file, key, value and
 //! remedy.
 
+mod accuracy;
 mod contact;
 pub(crate) mod error;
 mod exact;
@@ -145,7 +146,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let (mut table, log) = overridden(text, file, overrides)?;
+        let (mut table, log) = overridden(text, file, overrides, &accuracy::SHORT)?;
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let log = log.into_inner();
@@ -184,6 +185,7 @@ impl Case {
         let output = model::read_output(root);
         let probes = root.named("probe", model::read_probe);
         let exact = exact::read_exact(root);
+        let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
         model::check_bodies(root);
         model::check_geometries(&geometries, root);
         model::check_probes(&probes, root);
@@ -201,7 +203,7 @@ impl Case {
             loads,
             contacts,
             solver: solver?,
-            accuracy: None,
+            accuracy,
             output: output?,
             probes,
             exact,

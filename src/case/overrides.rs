@@ -7,15 +7,24 @@ use toml::{Table, Value};
 use super::error::{CaseError, Problem, dotted};
 use super::section::Log;
 
+/// A key at the root of a file, and a key below it: a number under the first stands for a table with it under the second.
+pub type ShortForm = (&'static str, &'static str);
+
 /// The table of a TOML text after its overrides, and a log that knows these; `file` gives errors their name.
 ///
 /// # Errors
 /// [`CaseError`] if the text is no TOML. What is wrong with an override is in the log.
-pub fn overridden(text: &str, file: &Path, overrides: &[String]) -> Result<(Table, Log), CaseError> {
-    let mut table: Table = toml::from_str(text).map_err(|error| CaseError::of_syntax(file, text, &error))?;
+pub fn overridden(text: &str, file: &Path, overrides: &[String], short: &[ShortForm]) -> Result<(Table, Log), CaseError> {
+    let mut table: Table = toml::from_str(text).map_err(|error| {
+        let here = error.span().map_or("", |span| text[span.start..].trim_start_matches('['));
+        let clash = ["duplicate", "cannot extend"].iter().any(|word| error.message().contains(word));
+        let twice = short.iter().filter(|(root, _)| clash && here.starts_with(root));
+        let remedy = twice.map(|(root, key)| format!("; a number under {root} is short for [{root}] {key}: give one of the two"));
+        CaseError::of_syntax(file, text, &error, &remedy.collect::<String>())
+    })?;
     let mut log = Log::default();
     for text in overrides {
-        match apply_override(&mut table, text) {
+        match apply_override(&mut table, text, short) {
             Ok(path) => log.overridden.push(path),
             Err(problem) => log.problems.push(problem),
         }
@@ -27,18 +36,28 @@ pub fn overridden(text: &str, file: &Path, overrides: &[String]) -> Result<(Tabl
 ///
 /// # Errors
 /// A [`Problem`] if the text is not `KEY=VALUE`, or if a table is wanted where a value stands.
-fn apply_override(table: &mut Table, text: &str) -> Result<Vec<String>, Problem> {
+fn apply_override(table: &mut Table, text: &str, short: &[ShortForm]) -> Result<Vec<String>, Problem> {
     let problem = |key: String, words: &str| Problem { key, value: None, words: words.into() };
     let wanted = "must be KEY=VALUE, as in --set body.upper.young=7e6";
     let (key, value) = text.split_once('=').ok_or_else(|| problem(format!("--set {text}"), wanted))?;
     let path = read_key(key).ok_or_else(|| problem(format!("--set {text}"), wanted))?;
     let value = value.trim();
     let value = value.parse::<Value>().unwrap_or_else(|_| Value::from(value));
+    if path.len() > 1 {
+        short.iter().filter(|(root, _)| path[0] == *root).for_each(|form| write_out(table, form));
+    }
     set_value(table, &path, value).map_err(|above| {
         let words = format!("{above} is a value, not a table; set {above} itself, or another key");
         problem(format!("--set {}", dotted(&path)), &words)
     })?;
     Ok(path)
+}
+
+/// Makes the table of a number that is short for it.
+fn write_out(table: &mut Table, (root, key): &ShortForm) {
+    if let Some(value) = table.get_mut(*root).filter(|value| value.is_integer() || value.is_float()) {
+        *value = Value::Table(Table::from_iter([((*key).to_owned(), value.clone())]));
+    }
 }
 
 /// Sets the value at a path; tables that are missing are created. In a list of tables a number is a place, from 1.

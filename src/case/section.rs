@@ -55,6 +55,11 @@ impl<'a> Section<'a> {
         self.get(key).is_some()
     }
 
+    /// Whether a table is written under a key.
+    pub fn has_table(&self, key: &'static str) -> bool {
+        self.get(key).is_some_and(Value::is_table)
+    }
+
     /// A value that must be given; `example` shows how.
     pub fn required<T>(&self, key: &'static str, example: &str, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
         match self.get(key) {

@@ -9,6 +9,7 @@ mod chain;
 mod edge_shape;
 mod edge_trace;
 mod gmsh;
+mod gmsh_writer;
 mod grading;
 mod hierarchy;
 pub mod lattice;

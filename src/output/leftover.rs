@@ -110,7 +110,7 @@ fn host() -> String {
 
 /// Whether a run writes a file of this name.
 fn is_result_name(name: &str) -> bool {
-    const WRITTEN: [(&str, &str); 8] = [
+    const WRITTEN: [(&str, &str); 10] = [
         ("summary", ".json"),
         ("case", ".toml"),
         ("contact_", ".csv"),
@@ -119,6 +119,8 @@ fn is_result_name(name: &str) -> bool {
         ("pressure_", ".svg"),
         ("displacement_", ".svg"),
         ("deformed", ".svg"),
+        ("accuracy", ".svg"),
+        ("mesh.msh", "mesh.msh"), // and no other mesh of the user's
     ];
     WRITTEN.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
 }
@@ -187,6 +189,12 @@ mod tests {
         drop(lock);
         recover(&root.path().join("bars"));
         assert!(!path.exists());
+    }
+
+    #[test]
+    fn meshes_of_the_user_are_no_results() {
+        assert!(["mesh.msh", "accuracy.svg", "summary.json"].iter().all(|name| is_result_name(name)));
+        assert!(!["mesh_fine.msh", "bars.msh", "mesh.geo", "notes.md"].iter().any(|name| is_result_name(name)));
     }
 
     #[test]

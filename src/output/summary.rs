@@ -57,6 +57,9 @@ pub struct Summary {
     /// Relative errors against exact or reference values: `energy`, `force_CONTACT`, `lambda_CONTACT`, `displacement_BODY`,
     /// `energy_norm_BODY`, `u_BODY`.
     pub errors: BTreeMap<String, Option<f64>>,
+    /// The accuracy that was asked for, and how far it was reached; the key is missing if none was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
 }
 
 /// Verdict of a run.
@@ -277,6 +280,47 @@ pub struct ContactEstimate {
     pub lambda: Option<f64>,
     /// Of the largest λ; null where that is singular.
     pub peak: Option<f64>,
+}
+
+/// The accuracy that was asked for, and the meshes that were adapted to it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Accuracy {
+    /// Whether every goal holds on the last mesh.
+    pub reached: bool,
+    /// What was asked for, and what there is on the last mesh.
+    pub goals: Vec<Goal>,
+    /// Every mesh, the last one is that of the result.
+    pub meshes: Vec<AdaptedMesh>,
+    /// Name of the Gmsh file of the last mesh, beside the summary.
+    pub final_mesh: String,
+}
+
+/// A relative error that was asked for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Goal {
+    /// Of what, as in the case: `energy`, `force`, `pressure`, `ends`, `displacement`, `stress`.
+    pub goal: String,
+    /// Name of the contact or the probe; null for the whole scene.
+    pub of: Option<String>,
+    /// The largest error that was asked for.
+    pub asked: f64,
+    /// Estimated error on the last mesh; null if it cannot be told.
+    pub estimate: Option<f64>,
+}
+
+/// One mesh of those that were adapted.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AdaptedMesh {
+    /// Its macro triangles.
+    pub macro_triangles: usize,
+    /// Refinements of each of them.
+    pub refine: usize,
+    /// Displacement unknowns.
+    pub unknowns: usize,
+    /// Estimated error of each goal, in their order.
+    pub estimates: Vec<Option<f64>>,
+    /// Seconds since the first mesh was begun.
+    pub seconds: f64,
 }
 
 /// Relative residuals of the balances.

@@ -1,6 +1,6 @@
 //! `mezha check` and `mezha info`.
 
-use super::{RunError, scene};
+use super::{RunError, accuracy, scene};
 use crate::case::Case;
 use crate::element::Order;
 use crate::mesh::Partition;
@@ -52,6 +52,9 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
             super::report::length(contact.boundary.length()),
             contact.multipliers.count()
         ));
+    }
+    if let Some(accuracy) = &case.accuracy {
+        lines.push(format!("accuracy asked for: {}; the mesh is adapted to it", accuracy::request(accuracy)));
     }
     let not_held = at_rest.not_held(&scene)?;
     Ok(Checked { words: lines.join("\n"), not_held })

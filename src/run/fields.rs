@@ -3,7 +3,7 @@
 use super::RunError;
 use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
-use crate::output::plot::Facet;
+use crate::output::plot::{Facet, DrawnEdge};
 use crate::output::vtk::{Piece, write_parallel, write_piece};
 use crate::system::recovery::Evaluation;
 use std::collections::HashMap;
@@ -114,6 +114,30 @@ pub fn facets(found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Vec<Fac
         von_mises: [v[4], v[9], v[14]],
     };
     session.gather_all(&values).chunks_exact(15).map(facet).collect()
+}
+
+/// Macro edges for the figure of the deformed bodies, from all ranks; none of a mesh that it shows in part. **Collective**
+pub fn macro_edges(found: &Evaluation) -> Vec<DrawnEdge> {
+    let Evaluation { problem, session, u, .. } = found;
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let n = numbering.level.intervals;
+    let (shown, skip) = shown(mesh.triangles.len(), n);
+    let step = n / shown;
+    let mut values: Vec<f64> = Vec::new();
+    for &triangle in problem.scene.partition.triangles_of(session.rank()).iter().filter(|_| skip == 1) {
+        let numbers = numbering.triangle(mesh, triangle as usize);
+        let edges = mesh.triangles[triangle as usize].edges;
+        for side in (0..3).filter(|&side| mesh.edges[edges[side] as usize].triangles[0] == Some(triangle)) {
+            for k in (0..=n).step_by(step) {
+                let (i, j) = lattice::side_node(n, side, k);
+                let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
+                values.extend([x.x, x.y]);
+                values.extend(u.at(numbers.node(i, j)));
+            }
+        }
+    }
+    let edge = |v: &[f64]| DrawnEdge(v.chunks_exact(4).map(|v| ([v[0], v[1]], [v[2], v[3]])).collect());
+    session.gather_all(&values).chunks_exact(4 * (shown + 1)).map(edge).collect()
 }
 
 /// Intervals of a macro edge that the figure shows, of `n`, and of how many macro triangles it shows one: a mesh that is fine

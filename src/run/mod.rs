@@ -1,5 +1,6 @@
 //! From a case to its result.
 
+mod accuracy;
 mod check;
 mod exact;
 mod fields;

@@ -2,14 +2,15 @@
 
 use super::exact::{Errors, compare};
 use super::report::{memory, short};
-use super::{Outcome, Run, RunError, fields, summarise, trust, zones};
+use super::{Outcome, Run, RunError, accuracy, fields, summarise, trust, zones};
 use crate::case::Case;
 use crate::contact::{Configuration, CurveChoice, GapChoice};
 use crate::geometry::Point;
+use crate::mesh::MacroMesh;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
 use crate::system::recovery::{Evaluation, TracePoint};
-use crate::system::{Contact, Solved};
+use crate::system::{Adaptation, Contact, Quantity, Solved};
 use std::path::Path;
 
 /// Share of the drawn distance by which a declared gap may differ from it.
@@ -27,12 +28,16 @@ impl Run<'_> {
             let errors = self.evaluate(&mut summary, solved)?;
             (status, reason) = self.judge(&mut summary, solved, errors);
         }
+        if let Some(adaptation) = accuracy::adaptation(self.case, solved) {
+            summary.accuracy = Some(accuracy::summarise(&adaptation));
+            (status, reason) = accuracy::judge(&adaptation, status, &reason);
+        }
         reason += &remarks(&summary, status);
         summary.status = status;
         summary.reason = Some(reason.clone());
         summary.time_s = self.report.times(&self.stages, self.session);
         summary.memory_mib = memory(self.session);
-        let finished = folder.map_or(Ok(()), |folder| finish(self.case, &summary, folder));
+        let finished = folder.map_or(Ok(()), |folder| finish(self.case, &summary, &solved.problem.scene.mesh, folder));
         let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
@@ -108,7 +113,7 @@ impl Run<'_> {
             summary.probe.insert(point.name.clone(), values);
         }
         let errors = compare(self.case, &found)?;
-        self.write_files(&found, &traces)?;
+        self.write_files(&found, &traces, solved.adaptation.as_ref())?;
         Ok(errors)
     }
 
@@ -147,7 +152,12 @@ impl Run<'_> {
     }
 
     /// Traces in files; fields and figures too, unless the case wants none. **Collective**
-    fn write_files(&self, found: &Evaluation, traces: &[Vec<ContactPoint>]) -> Result<(), RunError> {
+    fn write_files(
+        &self,
+        found: &Evaluation,
+        traces: &[Vec<ContactPoint>],
+        adaptation: Option<&Adaptation>,
+    ) -> Result<(), RunError> {
         let (case, session) = (self.case, self.session);
         let folder = &self.files;
         let written = if session.rank() == 0 { write_tables(folder, &found.problem.contacts, traces) } else { Ok(()) };
@@ -159,6 +169,7 @@ impl Run<'_> {
         let at = |node: usize| stress.at(node);
         session.agree(fields::write(folder, found, at)).map_err(RunError::Failed)?;
         let facets = fields::facets(found, at);
+        let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found));
         if session.rank() != 0 {
             return Ok(());
         }
@@ -170,9 +181,19 @@ impl Run<'_> {
             plot::write_displacement(&folder.join(format!("displacement_{name}.svg")), title, points)?;
         }
         let lines: Vec<&[ContactPoint]> = traces.iter().map(Vec::as_slice).collect();
-        plot::write_deformed(&folder.join("deformed.svg"), title, &facets, &lines)?;
-        Ok(())
+        plot::write_deformed(&folder.join("deformed.svg"), title, &facets, &macro_edges, &lines)?;
+        adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title, adaptation))
     }
+}
+
+/// Draws what was reached on each mesh, if there are two of them.
+fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result<(), RunError> {
+    let sequences = accuracy::sequences(adaptation);
+    let is_known = sequences.iter().any(|sequence| sequence.points.iter().any(|(_, error)| *error > 0.0));
+    if adaptation.meshes.len() >= 2 && is_known {
+        plot::write_accuracy(&folder.join("accuracy.svg"), title, &sequences)?;
+    }
+    Ok(())
 }
 
 /// How the procedure ended: the status, and its words.
@@ -188,7 +209,8 @@ fn remarks(summary: &Summary, status: Status) -> String {
         let all = summary.contact.iter().filter(|(_, contact)| is(contact)).map(|(name, _)| name.as_str());
         all.collect::<Vec<_>>().join(", ")
     };
-    if let (Status::Converged, Some(error)) = (status, summary.estimate.energy) {
+    let is_told = summary.accuracy.iter().flat_map(|accuracy| &accuracy.goals).any(|goal| goal.goal == Quantity::Energy.word());
+    if let (Status::Converged, Some(error), false) = (status, summary.estimate.energy, is_told) {
         remarks += &format!("; estimated error {error:.1e} in the energy norm");
     }
     let is_singular = |zone: &summary::ZoneSummary, all: &[summary::ZoneSummary]| zone.singular == Some(true) && zone.counts(all);
@@ -211,10 +233,16 @@ fn write_tables(folder: &Path, contacts: &[Contact], traces: &[Vec<ContactPoint>
     contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), points))
 }
 
-/// Writes what tells a whole result, and puts the folder in its place.
-fn finish(case: &Case, summary: &Summary, folder: ResultFolder) -> Result<(), OutputError> {
-    let path = folder.path("case.toml");
-    std::fs::write(&path, case.resolved()).map_err(|source| OutputError::Io { action: "write", path, source })?;
+/// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place.
+fn finish(case: &Case, summary: &Summary, mesh: &MacroMesh, folder: ResultFolder) -> Result<(), OutputError> {
+    let write = |name: &str, text: String| {
+        let path = folder.path(name);
+        std::fs::write(&path, text).map_err(|source| OutputError::Io { action: "write", path, source })
+    };
+    write("case.toml", case.resolved())?;
+    if let Some(accuracy) = &summary.accuracy {
+        write(&accuracy.final_mesh, mesh.to_gmsh())?;
+    }
     summary.write(&folder.path("summary.json"))?;
     folder.commit()
 }

@@ -68,7 +68,7 @@ impl Plan {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let (table, log) = overridden(text, file, overrides)?;
+        let (table, log) = overridden(text, file, overrides, &[])?;
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let problems = log.into_inner().problems;

@@ -6,7 +6,7 @@ use plotters::element::{PathElement, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, FontTransform, RGBColor};
 
-use super::outline::{loops, path_data, unmatched};
+use super::outline::{line_data, loops, path_data, unmatched};
 use super::palette::{GREY, INK, viridis};
 use super::sheet::{Area, AxisSpec, DrawResult, PIXEL, Scale, Sheet, line, text_style};
 use super::ticks::{Ticks, cut_off, number_text, round_number};
@@ -23,6 +23,10 @@ pub struct Facet {
     pub von_mises: [f64; 3],
 }
 
+/// An edge of the macro mesh as the figure shows it: undeformed points from end to end, and their displacements.
+#[derive(Clone, Debug)]
+pub struct DrawnEdge(pub Vec<([f64; 2], [f64; 2])>);
+
 /// Steps of the colour bar.
 const LEVELS: usize = 40;
 /// The largest displacement is drawn as about this fraction of the size of the bodies.
@@ -38,11 +42,18 @@ const BAR_ROOM: i32 = 120;
 ///
 /// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title
 /// states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
-/// themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small.
+/// themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small. Macro edges,
+/// if there are any, are thin lines on the deformed bodies.
 ///
 /// # Errors
 /// There is no facet, or a number is not finite; the operating system refuses.
-pub fn write_deformed(path: &Path, title: &str, facets: &[Facet], contacts: &[&[ContactPoint]]) -> Result<(), OutputError> {
+pub fn write_deformed(
+    path: &Path,
+    title: &str,
+    facets: &[Facet],
+    macro_edges: &[DrawnEdge],
+    contacts: &[&[ContactPoint]],
+) -> Result<(), OutputError> {
     check_facets(path, facets)?;
     let scale = automatic_scale(facets);
     let view = View::around(facets, scale);
@@ -62,6 +73,7 @@ pub fn write_deformed(path: &Path, title: &str, facets: &[Facet], contacts: &[&[
         let place = |x: [f64; 2]| chart.backend_coord(&x.into());
         Ok(outlines(&boundary, 0.0, GREY, place)
             + &fills(facets, scale, &colours, place)
+            + &macro_lines(macro_edges, scale, place)
             + &outlines(&boundary, scale, INK, place))
     })
 }
@@ -216,6 +228,20 @@ fn outlines(boundary: &[[FacetCorner; 2]], scale: f64, colour: RGBColor, place: 
     format!("<path fill=\"none\" stroke=\"#{red:02x}{green:02x}{blue:02x}\" stroke-width=\"7\" d=\"{data}\"/>\n")
 }
 
+/// Macro edges as one path of thin lines; nothing if there are none, and no edge with a number that is not finite.
+fn macro_lines(edges: &[DrawnEdge], scale: f64, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    let moved = |(x, u): &([f64; 2], [f64; 2])| [0, 1].map(|axis| x[axis] + scale * u[axis]);
+    let placed = |DrawnEdge(points): &DrawnEdge| {
+        let places = points.iter().map(moved).map(|x| x.iter().all(|number| number.is_finite()).then(|| place(x)));
+        places.collect::<Option<Vec<_>>>()
+    };
+    let data: String = edges.iter().filter_map(placed).map(|points| line_data(&points)).collect();
+    if data.is_empty() {
+        return data;
+    }
+    format!("<path fill=\"none\" stroke=\"#fff\" stroke-opacity=\"0.55\" stroke-width=\"3\" d=\"{data}\"/>\n")
+}
+
 /// A corner of a facet in single precision, by its bits: position and displacement, so that bodies that touch keep their own
 /// corners.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -320,7 +346,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deformed.svg");
         let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
-        write_deformed(&path, "blocks", facets, &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
+        write_deformed(&path, "blocks", facets, &[], &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
     }
 
     #[test]
@@ -367,6 +393,24 @@ mod tests {
         let point = ContactPoint { x: 1.0, y: 0.5, nx: 1.0, un_1: 0.2, un_2: 0.4, ..ContactPoint::default() };
         let moved = moved_contact(&[point], &boundary_edges(&facets), 10.0);
         assert!((moved[0].0 - 4.0).abs() < 1e-6 && (moved[0].1 - 1.0).abs() < 1e-6, "{moved:?}");
+    }
+
+    #[test]
+    fn macro_edges_are_thin_lines_that_move_with_the_bodies() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deformed.svg");
+        let facets = block(0.0, 4, |_, y| [0.0, 1e-3 * y], |_, _| 1.0);
+        let edge = |x: f64| DrawnEdge([0.0, 0.5, 1.0].map(|y| ([x, y], [0.0, 1e-3 * y])).into());
+        let mut edges = vec![edge(0.0), edge(0.25), edge(0.5)];
+        edges[2].0[1].1 = [f64::NAN, 0.0];
+        write_deformed(&path, "blocks", &facets, &edges, &[]).unwrap();
+        let figure = std::fs::read_to_string(path).unwrap();
+        let lines: Vec<&str> = figure.lines().filter(|line| line.contains("stroke-opacity")).collect();
+        let [line] = lines[..] else { panic!("{lines:?}") };
+        assert!(line.matches('M').count() == 2 && !line.contains("z\"") && !figure.contains("NaN"), "{line}");
+        let moved = macro_lines(&edges[1..2], 100.0, |[x, y]| ((100.0 * x) as i32, (1000.0 * y).round() as i32));
+        assert!(moved.contains("d=\"M25 0l0 1100\""), "{moved}");
+        assert!(!draw(&facets).unwrap().contains("stroke-opacity"), "no mesh unless there are macro edges");
     }
 
     #[test]

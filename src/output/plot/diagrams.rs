@@ -70,8 +70,8 @@ pub struct Mark {
 const PANEL: Sheet = Sheet { width: 450, height: 320, margins: [66, 18, 38, 50] };
 const COLUMNS: usize = 2;
 /// Above the diagrams of a block: its title, and each row of its legend (pixels).
-const TITLE: i32 = 34;
-const ROW: i32 = 19;
+pub(super) const TITLE: i32 = 34;
+pub(super) const ROW: i32 = 19;
 /// In a row of the legend: its sample, the height of letters, and the room between two cells (pixels).
 const SAMPLE: f64 = 56.0;
 const LETTERS: f64 = 12.0;
@@ -129,7 +129,7 @@ fn draw_block(sheet: &Sheet, whole: &Area, part: &Area, block: &DiagramBlock, di
 
 /// Draws one row for each line: its sample, its name, and what else is said of it; in smaller letters where `width` (pixels) is
 /// too little.
-fn draw_legend(part: &Area, width: f64, legend: &[LegendRow]) -> DrawResult<()> {
+pub(super) fn draw_legend(part: &Area, width: f64, legend: &[LegendRow]) -> DrawResult<()> {
     let columns = legend.iter().map(|entry| entry.cells.len()).max().unwrap_or(0);
     let cell = |entry: &LegendRow, column: usize| entry.cells.get(column).map_or(0.0, |cell| text_width(cell, LETTERS) + BETWEEN);
     let widest = |column| legend.iter().map(|entry| cell(entry, column)).fold(0.0, f64::max);
@@ -169,7 +169,7 @@ fn draw_diagram(whole: &Area, panel: &Area, diagram: &Diagram) -> DrawResult<()>
     Ok(())
 }
 
-fn draw_line(whole: &Area, chart: &mut Chart, style: usize, marks: &[Mark]) -> DrawResult<()> {
+pub(super) fn draw_line(whole: &Area, chart: &mut Chart, style: usize, marks: &[Mark]) -> DrawResult<()> {
     let places: Vec<(f64, f64)> = marks.iter().map(|mark| (mark.x, mark.y)).collect();
     let reaches = marks.iter().filter(|mark| mark.reach[0] < mark.reach[1]);
     let bars = reaches.map(|mark| PathElement::new(mark.reach.map(|y| (mark.x, y)).to_vec(), line(&colour(style), 1.0)));
@@ -201,7 +201,7 @@ fn draw_mark(area: &Area, (x, y): (i32, i32), style: usize, hollow: bool) -> Dra
     Ok(())
 }
 
-fn colour(style: usize) -> RGBColor {
+pub(super) fn colour(style: usize) -> RGBColor {
     LINES[style % LINES.len()]
 }
 
@@ -225,7 +225,7 @@ impl Axis {
     }
 
     /// The axis with room around these values.
-    fn spec(&self, values: impl Iterator<Item = f64>) -> AxisSpec {
+    pub(super) fn spec(&self, values: impl Iterator<Item = f64>) -> AxisSpec {
         let shown = values.filter(|value| self.shows(*value));
         let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
         let (scale, range, ticks) = if self.logarithmic {

@@ -3,6 +3,7 @@
 //! Units are the user's own, so axes name the quantity: *unit of length*, *unit of stress*. Text is left to the fonts of the
 //! viewer; plotters is built without its font libraries, and nothing of the layout hangs on the exact width of a text.
 
+mod accuracy;
 mod along;
 mod deformed;
 mod diagrams;
@@ -11,6 +12,7 @@ mod palette;
 mod sheet;
 mod ticks;
 
+pub use accuracy::{Sequence, write_accuracy};
 pub use along::{write_displacement, write_pressure};
-pub use deformed::{Facet, write_deformed};
+pub use deformed::{DrawnEdge, Facet, write_deformed};
 pub use diagrams::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};

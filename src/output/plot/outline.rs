@@ -62,10 +62,27 @@ pub(super) fn path_data(loops: &[Vec<(i32, i32)>]) -> String {
     text
 }
 
+/// An open line of figure coordinates as the `d` of an SVG path; points inside straight runs are left out.
+pub(super) fn line_data(points: &[(i32, i32)]) -> String {
+    let inner = |i: &usize| *i == 0 || i + 1 == points.len() || turns([points[i - 1], points[*i], points[i + 1]]);
+    let corners: Vec<(i32, i32)> = (0..points.len()).filter(inner).map(|i| points[i]).collect();
+    let Some(&(mut x, mut y)) = corners.first() else { return String::new() };
+    let mut text = format!("M{x} {y}l");
+    for &(next_x, next_y) in &corners[1..] {
+        let _ = write!(text, "{} {} ", next_x - x, next_y - y);
+        (x, y) = (next_x, next_y);
+    }
+    text.trim_end().to_owned()
+}
+
 /// Whether a loop changes its direction at a point.
 fn is_corner(points: &[(i32, i32)], i: usize) -> bool {
     let count = points.len();
-    let [a, b, c] = [points[(i + count - 1) % count], points[i], points[(i + 1) % count]];
+    turns([points[(i + count - 1) % count], points[i], points[(i + 1) % count]])
+}
+
+/// Whether the way from point to point changes its direction at the middle one.
+fn turns([a, b, c]: [(i32, i32); 3]) -> bool {
     let (first, second) = ((b.0 - a.0, b.1 - a.1), (c.0 - b.0, c.1 - b.1));
     let cross = i64::from(first.0) * i64::from(second.1) - i64::from(first.1) * i64::from(second.0);
     let dot = i64::from(first.0) * i64::from(second.0) + i64::from(first.1) * i64::from(second.1);

@@ -77,6 +77,31 @@ fn keys_are_the_names_that_other_tools_rely_on() {
     assert_eq!(value["mezha"], json!(env!("CARGO_PKG_VERSION")));
 }
 
+/// The key stands there only if an accuracy was asked for, and summaries of before can still be read.
+#[test]
+fn an_accuracy_is_told_where_it_was_asked_for() {
+    let without = written(&filled());
+    assert!(without.get("accuracy").is_none());
+    assert_eq!(serde_json::from_value::<Summary>(without).unwrap(), filled());
+    let goal = Goal { goal: "energy".into(), of: None, asked: 1e-4, estimate: Some(8.1e-5) };
+    let mesh = AdaptedMesh { macro_triangles: 24, refine: 2, unknowns: 1600, estimates: vec![Some(8.1e-5), None], seconds: 0.25 };
+    let of_seam = Goal { goal: "pressure".into(), of: Some("seam".into()), asked: 1e-3, estimate: None };
+    let accuracy = Accuracy { reached: false, goals: vec![goal, of_seam], meshes: vec![mesh], final_mesh: "mesh.msh".into() };
+    let summary = Summary { accuracy: Some(accuracy), ..filled() };
+    let value = written(&summary);
+    let expected = json!({
+        "reached": false,
+        "goals": [
+            {"goal": "energy", "of": null, "asked": 1e-4, "estimate": 8.1e-5},
+            {"goal": "pressure", "of": "seam", "asked": 1e-3, "estimate": null},
+        ],
+        "meshes": [{"macro_triangles": 24, "refine": 2, "unknowns": 1600, "estimates": [8.1e-5, null], "seconds": 0.25}],
+        "final_mesh": "mesh.msh",
+    });
+    assert_eq!(value["accuracy"], expected);
+    assert_eq!(serde_json::from_value::<Summary>(value).unwrap(), summary);
+}
+
 #[test]
 fn what_is_unknown_or_not_finite_is_null() {
     let mut summary = filled();

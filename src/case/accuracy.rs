@@ -1,0 +1,163 @@
+//! `[accuracy]`: relative errors that the mesh is adapted to.
+
+use toml::Value;
+
+use super::Probe;
+use super::error::suggest;
+use super::section::Section;
+use super::values;
+use crate::contact::{Law, Pair};
+use crate::geometry::Point;
+use crate::system::{Accuracy, Goal, ProbePoint, Quantity};
+
+/// A number at the root of a case under this name stands for a table with that number under this key.
+pub const SHORT: [(&str, &str); 1] = [("accuracy", "energy")];
+
+/// Relative errors that may be asked for: below, rounding begins; above, an error says nothing.
+const TOLERANCES: [f64; 2] = [1e-8, 0.5];
+
+/// Fewer unknowns than this are no mesh.
+const LEAST_UNKNOWNS: i64 = 100;
+
+/// What an empty `[accuracy]` may hold.
+const SOME_GOAL: &str = "asks for nothing; give energy = 1e-4, say, or force, pressure, ends, displacement, stress";
+
+/// Tolerances of the goals that a contact may have.
+#[derive(Clone, Copy, Default)]
+struct OfContact {
+    force: Option<f64>,
+    pressure: Option<f64>,
+    ends: Option<f64>,
+}
+
+/// `[accuracy.contact.NAME]`
+struct Single {
+    name: String,
+    own: OfContact,
+    is_empty: bool,
+}
+
+/// `accuracy = 1e-4`, or `[accuracy]`; nothing if the case has neither, or if the log knows what is wrong.
+pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[Probe]) -> Option<Accuracy> {
+    if !root.has("accuracy") {
+        return None;
+    }
+    if !root.has_table("accuracy") {
+        let of_energy =
+            |value: &Value| tolerance(value).map_err(|words| format!("{words}; or a table [accuracy] of such numbers"));
+        let goals = vec![Goal { quantity: Quantity::Energy, tolerance: root.optional("accuracy", of_energy)? }];
+        return Some(Accuracy { goals, most_unknowns: None, most_seconds: None });
+    }
+    let section = root.table("accuracy");
+    let energy = section.optional("energy", tolerance);
+    let all = read_contact_goals(&section);
+    let single = section.named("contact", |section| {
+        Some(Single { name: section.name().into(), own: read_contact_goals(section), is_empty: is_empty(section) })
+    });
+    let [displacement, stress] = ["displacement", "stress"].map(|key| section.optional(key, tolerance));
+    let most_unknowns = section.optional("max_unknowns", most_unknowns);
+    let most_seconds = section.optional("max_seconds", values::positive);
+    check_contacts(&section, root, &single);
+    check_ends(&section, contacts, &single);
+    if probes.is_empty() && root.names_below("probe").next().is_none() {
+        let words = "there is no point to look at; write [probe.NAME] with point and body";
+        given(&section, ["displacement", "stress"]).for_each(|key| section.problem(&[key], words.into()));
+    }
+    if is_empty(&section) && given(&section, ["energy", "displacement", "stress"]).next().is_none() && single.is_empty() {
+        section.problem(&[], SOME_GOAL.into());
+    }
+    let mut goals: Vec<Goal> = energy.map(|tolerance| Goal { quantity: Quantity::Energy, tolerance }).into_iter().collect();
+    for pair in contacts {
+        let own = single.iter().find(|single| single.name == pair.name).map_or(OfContact::default(), |single| single.own);
+        goals.extend(goals_of(pair, all, own));
+    }
+    goals.extend(probes.iter().flat_map(|probe| goals_at(probe, displacement, stress)));
+    Some(Accuracy { goals, most_unknowns, most_seconds })
+}
+
+/// A relative error.
+fn tolerance(value: &Value) -> Result<f64, String> {
+    let [least, most] = TOLERANCES;
+    let wanted = format!("must be a number from {least:e} to {most}, the relative error that is asked for");
+    values::number(value).ok().filter(|number| (least..=most).contains(number)).ok_or(wanted)
+}
+
+fn most_unknowns(value: &Value) -> Result<usize, String> {
+    match value.as_integer() {
+        Some(count @ LEAST_UNKNOWNS..) => Ok(count as usize),
+        _ => Err(format!("must be a whole number of at least {LEAST_UNKNOWNS}, such as 100000")),
+    }
+}
+
+/// What is asked of all contacts, or of one.
+fn read_contact_goals(section: &Section) -> OfContact {
+    let [force, pressure, ends] = ["force", "pressure", "ends"].map(|key| section.optional(key, tolerance));
+    OfContact { force, pressure, ends }
+}
+
+/// Whether a table asks for nothing of contacts.
+fn is_empty(section: &Section) -> bool {
+    given(section, ["force", "pressure", "ends"]).next().is_none()
+}
+
+/// Those keys that a table has.
+fn given<const N: usize>(section: &Section, keys: [&'static str; N]) -> impl Iterator<Item = &'static str> {
+    keys.into_iter().filter(|key| section.has(key))
+}
+
+/// What is asked of contacts has contacts that it can be asked of.
+fn check_contacts(section: &Section, root: &Section, single: &[Single]) {
+    for Single { name, is_empty, .. } in single {
+        if !root.names_below("contact").any(|known| known == name) {
+            let words = format!("no such contact; {}", suggest(name, root.names_below("contact")));
+            section.problem(&["contact", name], words);
+        } else if *is_empty {
+            section.problem(&["contact", name], "asks for nothing; give force, pressure or ends".into());
+        }
+    }
+    if root.names_below("contact").next().is_none() {
+        let words = "there is no contact in this case; leave it out, or ask for energy";
+        given(section, ["force", "pressure", "ends"]).for_each(|key| section.problem(&[key], words.into()));
+    }
+}
+
+/// Only unilateral contact ends where the solution says.
+fn check_ends(section: &Section, contacts: &[Pair], single: &[Single]) {
+    let words = |which: &str| {
+        format!(
+            "{which} bilateral, presses and pulls all along, and has no ends to be found; leave it out, or give law = \"unilateral\""
+        )
+    };
+    for Single { name, own, .. } in single {
+        let is_bilateral = contacts.iter().any(|pair| pair.name == *name && pair.law == Law::Bilateral);
+        if own.ends.is_some() && is_bilateral {
+            section.problem(&["contact", name, "ends"], words(&format!("contact.{name} is")));
+        }
+    }
+    if section.has("ends") && !contacts.is_empty() && contacts.iter().all(|pair| pair.law == Law::Bilateral) {
+        section.problem(&["ends"], words("every contact is"));
+    }
+}
+
+/// Goals of one contact: its own before those of all. The ends of bilateral contact are known.
+fn goals_of(pair: &Pair, all: OfContact, own: OfContact) -> Vec<Goal> {
+    let ends = own.ends.or(all.ends).filter(|_| pair.law == Law::Unilateral);
+    let tolerances: [(fn(String) -> Quantity, Option<f64>); 3] =
+        [(Quantity::Force, own.force.or(all.force)), (Quantity::Pressure, own.pressure.or(all.pressure)), (Quantity::Ends, ends)];
+    let goal = |(quantity, tolerance): (fn(String) -> Quantity, Option<f64>)| {
+        tolerance.map(|tolerance| Goal { quantity: quantity(pair.name.clone()), tolerance })
+    };
+    tolerances.into_iter().filter_map(goal).collect()
+}
+
+/// Goals at one point.
+fn goals_at(probe: &Probe, displacement: Option<f64>, stress: Option<f64>) -> Vec<Goal> {
+    let [x, y] = probe.point;
+    let place = ProbePoint { name: probe.name.clone(), body: probe.body.clone(), point: Point::new(x, y) };
+    let displacement = displacement.map(|tolerance| Goal { quantity: Quantity::Displacement(place.clone()), tolerance });
+    let stress = stress.map(|tolerance| Goal { quantity: Quantity::Stress(place), tolerance });
+    displacement.into_iter().chain(stress).collect()
+}
+
+#[cfg(test)]
+mod tests;

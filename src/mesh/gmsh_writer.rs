@@ -1,0 +1,185 @@
+//! Writer of Gmsh 4.1 ASCII files.
+
+use super::macro_mesh::MacroMesh;
+use crate::geometry::Point;
+use std::fmt::Write;
+
+impl MacroMesh {
+    /// The text of a Gmsh 4.1 ASCII file of this mesh, with the names of all bodies and boundaries.
+    ///
+    /// Vertices, triangles, edges and boundaries come back in this order and to the last digit from [`super::parse_gmsh`]. An
+    /// edge that lies in several boundaries is a line of each. Edges are straight: a `[geometry]` of the case bends them again.
+    pub fn to_gmsh(&self) -> String {
+        let mut text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n".to_owned();
+        section(&mut text, "PhysicalNames", &self.physical_names());
+        section(&mut text, "Entities", &self.entities());
+        section(&mut text, "Nodes", &self.nodes());
+        section(&mut text, "Elements", &self.elements());
+        text
+    }
+
+    /// Boundaries and bodies by name; a tag is a place, from 1.
+    fn physical_names(&self) -> String {
+        let mut text = format!("{}\n", self.boundaries.len() + self.bodies.len());
+        let names = self.boundaries.iter().map(|boundary| (1, &boundary.name)).enumerate();
+        for (place, (dimension, name)) in names.chain(self.bodies.iter().map(|name| (2, name)).enumerate()) {
+            line(&mut text, format_args!("{dimension} {} \"{name}\"", place + 1));
+        }
+        text
+    }
+
+    /// One curve for each boundary, one surface for each body, each with its physical tag and the box around it.
+    fn entities(&self) -> String {
+        let mut text = format!("0 {} {} 0\n", self.boundaries.len(), self.bodies.len());
+        for (place, boundary) in self.boundaries.iter().enumerate() {
+            let ends = boundary.edges.iter().flat_map(|&edge| self.edges[edge as usize].vertices);
+            entity(&mut text, place + 1, self.box_around(ends));
+        }
+        for body in 0..self.bodies.len() {
+            let own = self.triangles.iter().filter(|triangle| triangle.body as usize == body);
+            entity(&mut text, body + 1, self.box_around(own.flat_map(|triangle| triangle.vertices)));
+        }
+        text
+    }
+
+    /// Lower left and upper right corner of the box around some vertices.
+    fn box_around(&self, vertices: impl Iterator<Item = u32>) -> [Point; 2] {
+        let places = vertices.map(|vertex| self.vertices[vertex as usize]);
+        places.map(|x| [x, x]).reduce(|[low, high], [x, _]| [low.inf(&x), high.sup(&x)]).unwrap_or_default()
+    }
+
+    /// Vertices in their order: a block for as many of one body as follow each other.
+    fn nodes(&self) -> String {
+        let mut bodies = vec![0; self.vertices.len()];
+        for triangle in &self.triangles {
+            triangle.vertices.iter().for_each(|&vertex| bodies[vertex as usize] = triangle.body);
+        }
+        let (blocks, count) = (bodies.chunk_by(|a, b| a == b), self.vertices.len());
+        let mut text = format!("{} {count} 1 {count}\n", blocks.clone().count());
+        let mut first = 0;
+        for block in blocks {
+            line(&mut text, format_args!("2 {} 0 {}", block[0] + 1, block.len()));
+            (first..first + block.len()).for_each(|vertex| line(&mut text, format_args!("{}", vertex + 1)));
+            for x in &self.vertices[first..first + block.len()] {
+                line(&mut text, format_args!("{:?} {:?} 0", x.x, x.y));
+            }
+            first += block.len();
+        }
+        text
+    }
+
+    /// Lines of the boundaries, then triangles in their order: a block for as many of one body as follow each other.
+    fn elements(&self) -> String {
+        let boundaries = self.boundaries.iter().filter(|boundary| !boundary.edges.is_empty()).count();
+        let blocks = self.triangles.chunk_by(|a, b| a.body == b.body);
+        let count = self.triangles.len() + self.boundaries.iter().map(|boundary| boundary.edges.len()).sum::<usize>();
+        let mut text = format!("{} {count} 1 {count}\n", boundaries + blocks.clone().count());
+        let mut tag = 0;
+        for (place, boundary) in self.boundaries.iter().enumerate().filter(|(_, boundary)| !boundary.edges.is_empty()) {
+            line(&mut text, format_args!("1 {} 1 {}", place + 1, boundary.edges.len()));
+            for &edge in &boundary.edges {
+                let [a, b] = self.edges[edge as usize].vertices;
+                tag += 1;
+                line(&mut text, format_args!("{tag} {} {}", a + 1, b + 1));
+            }
+        }
+        for block in blocks {
+            line(&mut text, format_args!("2 {} 2 {}", block[0].body + 1, block.len()));
+            for triangle in block {
+                let [a, b, c] = triangle.vertices;
+                tag += 1;
+                line(&mut text, format_args!("{tag} {} {} {}", a + 1, b + 1, c + 1));
+            }
+        }
+        text
+    }
+}
+
+fn section(text: &mut String, name: &str, content: &str) {
+    line(text, format_args!("${name}\n{content}$End{name}"));
+}
+
+/// An entity that has the physical tag of its own number, and no neighbours.
+fn entity(text: &mut String, tag: usize, [low, high]: [Point; 2]) {
+    line(text, format_args!("{tag} {:?} {:?} 0 {:?} {:?} 0 1 {tag} 0", low.x, low.y, high.x, high.y));
+}
+
+fn line(text: &mut String, words: std::fmt::Arguments) {
+    writeln!(text, "{words}").expect("a text takes every line");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Curve;
+    use crate::mesh::{Boundary, parse_gmsh, read_gmsh};
+    use std::path::Path;
+
+    fn case_mesh(file: &str) -> MacroMesh {
+        read_gmsh(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(file)).expect("a mesh")
+    }
+
+    fn again(mesh: &MacroMesh) -> MacroMesh {
+        parse_gmsh(mesh.to_gmsh().as_bytes(), Path::new("again.msh")).expect("our own reader reads it")
+    }
+
+    /// Everything but the file and the shapes of edges, to the last digit.
+    fn content(mesh: &MacroMesh) -> String {
+        let edges: Vec<_> = mesh.edges.iter().map(|edge| (edge.vertices, edge.triangles)).collect();
+        format!("{:?}", (&mesh.vertices, &mesh.triangles, edges, &mesh.bodies, &mesh.pieces, &mesh.boundaries))
+    }
+
+    #[test]
+    fn a_mesh_comes_back_to_the_last_digit() {
+        for file in ["stack/stack.msh", "rings/rings.msh", "hertz/hertz.msh", "patch_inclined/bars.msh"] {
+            let mut mesh = case_mesh(file);
+            for (place, x) in mesh.vertices.iter_mut().enumerate() {
+                *x = Point::new(x.x / 3.0 + 1e-9 * place as f64, x.y / 7.0) * 1e-3;
+            }
+            let [edge, last] = [mesh.boundaries[0].edges[0], *mesh.boundaries.last().expect("some").edges.last().expect("some")];
+            mesh.boundaries.push(Boundary { name: "in several, \u{3bb}".into(), edges: vec![last, edge] });
+            assert_eq!(content(&again(&mesh)), content(&mesh), "{file}");
+        }
+    }
+
+    /// Triangles and vertices of several bodies in turns, as they may lie after bisection.
+    #[test]
+    fn bodies_may_take_turns() {
+        let mesh = case_mesh("stack/stack.msh");
+        let text = mesh.to_gmsh();
+        let blocks = text.lines().filter(|line| line.starts_with("2 ") && line.split(' ').nth(2) == Some("2")).count();
+        assert!(mesh.bodies.len() > 1 && blocks >= mesh.bodies.len(), "{blocks} blocks");
+        let mut raw = super::super::macro_mesh::RawMesh { vertices: mesh.vertices.clone(), ..Default::default() };
+        for start in 0..7 {
+            let turn = mesh.triangles.iter().skip(start).step_by(7);
+            let corners = |t: &super::super::MacroTriangle| t.vertices.map(|vertex| vertex as usize);
+            raw.triangles.extend(turn.map(|t| (corners(t), vec![mesh.bodies[t.body as usize].clone()], 0)));
+        }
+        let mixed = MacroMesh::build(raw, Path::new("mixed.msh")).expect("the same triangles");
+        assert_eq!(content(&again(&mixed)), content(&mixed));
+    }
+
+    #[test]
+    fn curves_bend_it_again() {
+        let mut mesh = case_mesh("rings/rings.msh");
+        let curve = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
+        let names: Vec<String> = mesh
+            .boundaries
+            .iter()
+            .filter(|boundary| {
+                let ends = boundary.edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
+                ends.map(|vertex| mesh.vertices[vertex as usize]).all(|x| (x.norm() - 1.0).abs() < 1e-6)
+            })
+            .map(|boundary| boundary.name.clone())
+            .collect();
+        assert!(!names.is_empty(), "the rings have a boundary of radius 1");
+        mesh.bend("ring", &names, &curve).expect("it is a circle");
+        let mut read = again(&mesh);
+        assert_eq!(content(&read), content(&mesh));
+        read.bend("ring", &names, &curve).expect("it still is");
+        let moved = mesh.vertices.iter().zip(&read.vertices).map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
+        assert!(moved < 1e-15, "{moved}");
+        let bent = |mesh: &MacroMesh| mesh.edges.iter().filter(|edge| edge.shape.is_some()).count();
+        assert!(bent(&mesh) > 0 && bent(&read) == bent(&mesh));
+    }
+}
