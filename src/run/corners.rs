@@ -59,3 +59,50 @@ pub fn corners(scene: &Scene, contact: &Contact, zones: &[summary::Zone]) -> Cor
     let share = if matches!(contact.pair.gap, GapChoice::Closed) { WHERE_CLOSED } else { 1.0 };
     Corners { angle: sharpest[0].max(sharpest[1]), error: share * BY_A_CORNER * part(0).hypot(part(1)) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{CurveChoice, Known, MultiplierSpace};
+    use crate::geometry::{Formula, Point};
+    use crate::system::samples::{blocks, contact, pair};
+
+    /// A corner of 2.3 degrees in the middle of the upper block, which has a fifth of the compliance.
+    #[test]
+    fn a_corner_counts_by_the_compliance_of_its_body_where_a_zone_presses() {
+        let mut pair = pair(MultiplierSpace::P0, 8);
+        (pair.curve, pair.gap) = (CurveChoice::Fit, GapChoice::Formula(Formula::constant(0.0)));
+        let lift = |x: Point| Point::new(0.0, if x.y == 1.0 && x.x == 0.9 { 0.02 } else { 0.0 });
+        let scene = blocks(pair, lift, Vec::new());
+        let mut contact = contact(&scene, Known::default());
+        let angle = (0.02f64 / 0.9).atan() + (0.02f64 / 1.1).atan();
+        let arc = contact.boundary.arc(contact.boundary.foot(Point::new(0.9, 1.02)));
+        let found = |contact: &Contact, ends: [f64; 2], share: f64| {
+            let zone = summary::Zone { ends: Some(ends), share: Some(share), ..summary::Zone::default() };
+            let found = corners(&scene, contact, &[zone]);
+            (found.angle, found.error)
+        };
+        for ends in [[arc - 0.4, arc + 0.6], [arc - 0.06, arc + 0.94], [arc - 0.94, arc + 0.06]] {
+            let (of, error) = found(&contact, ends, 1.0);
+            assert!((of - angle).abs() < 1e-9 && (error - 0.5 * 0.2 * angle).abs() < 1e-9, "{of}, {error}");
+        }
+        for ends in [[arc - 0.04, arc + 0.96], [arc - 0.96, arc + 0.04], [arc + 0.1, arc + 0.5], [arc - 0.5, arc - 0.1]] {
+            assert_eq!(found(&contact, ends, 1.0), (0.0, 0.0), "no corner within {ends:?}");
+        }
+        assert_eq!(found(&contact, [arc - 0.4, arc + 0.6], 1e-3), (0.0, 0.0), "a zone that nobody would look at");
+        contact.pair.gap = GapChoice::Closed;
+        let (_, error) = found(&contact, [arc - 0.4, arc + 0.6], 1.0);
+        assert!((error - 0.3 * 0.5 * 0.2 * angle).abs() < 1e-9, "{error}");
+    }
+
+    #[test]
+    fn growth_beside_corners_that_matter_is_not_called_singular() {
+        for (error, singular) in [(0.004, Some(true)), (0.006, Some(false))] {
+            let (mut contact, mut zones) = (summary::Contact::default(), [summary::Zone::default()]);
+            zones[0].singular = Some(true);
+            Corners { angle: std::f64::consts::PI / 18.0, error }.describe(&mut contact, &mut zones);
+            assert_eq!((zones[0].singular, contact.corner_error), (singular, Some(error)));
+            assert!((contact.corner_angle.unwrap_or(0.0) - 10.0).abs() < 1e-9);
+        }
+    }
+}

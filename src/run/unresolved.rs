@@ -21,3 +21,32 @@ pub fn unresolved_force(contact: &Contact, points: &[ContactPoint]) -> f64 {
     };
     contact.modulus * points.windows(2).map(part).sum::<f64>()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Known, MultiplierSpace, SegmentRule};
+    use crate::geometry::Point;
+    use crate::system::samples::{blocks, contact, pair};
+
+    #[test]
+    fn overlap_between_points_is_a_force_by_the_length_of_their_segment() {
+        let mut pair = pair(MultiplierSpace::P0, 1);
+        pair.segments = SegmentRule::Fractions(vec![0.0, 0.25, 1.0]);
+        let contact = contact(&blocks(pair, |_| Point::zeros(), Vec::new()), Known::default());
+        let point = |s, gap, un_1, un_2| ContactPoint { s, gap, un_1, un_2, ..ContactPoint::default() };
+        // A ten-millionth of the largest displacement is 0.01.
+        let points = [
+            point(0.0, 0.2, 0.0, 3.0),
+            point(0.25, -0.1, -1e5, 0.0),
+            point(0.5, -0.005, f64::NAN, 7.0),
+            point(1.0, -0.3, 1.0, -2e4),
+            point(2.0, f64::NAN, 0.0, 0.0),
+        ];
+        // Trapezia of the depths 0.09 and 0.29 on segments of 0.5 and 1.5; E is 2 and 6, their harmonic mean 3.
+        let wanted = 3.0 * (0.5 * 0.09 * 0.5 / 0.5 + 0.5 * 0.29 * 1.5 / 1.5);
+        let found = unresolved_force(&contact, &points);
+        assert!((found - wanted).abs() < 1e-9, "{found} instead of {wanted}");
+        assert_eq!(unresolved_force(&contact, &points[4..]), 0.0);
+    }
+}
