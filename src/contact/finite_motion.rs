@@ -163,32 +163,12 @@ fn left_out(sides: [&SmoothSide; 2], tilts: [f64; 2], x: Point, normal: Point) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{
-        CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise,
-    };
+    use crate::contact::{MultiplierSpace, samples};
     use crate::element::Order;
     use crate::geometry::Curve;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{EdgeNode, Level, Numbering, Partition};
     use std::rc::Rc;
-
-    fn pair() -> Pair {
-        Pair {
-            name: "seam".into(),
-            between: ["lower.seam", "upper.seam"].map(String::from),
-            curve: CurveChoice::Line,
-            gap: GapChoice::Geometry,
-            space: MultiplierSpace::P0,
-            segments: SegmentRule::Auto,
-            law: Law::Unilateral,
-            quadrature: Quadrature::Cut,
-            stabilise: Stabilise::Off,
-            configuration: Configuration::Reference,
-            spans: None,
-            grading: [1.0, 1.0],
-            ends: EndRule::Fixed,
-        }
-    }
 
     /// The flat lower side, and the upper one over it, bent, each moved by a function of the place.
     fn sides(moves: [&dyn Fn(Point) -> Point; 2]) -> [SmoothSide; 2] {
@@ -197,14 +177,14 @@ mod tests {
         mesh.vertices.iter_mut().filter(|x| x.x == 0.9 && x.y == 1.0).for_each(|x| x.y = 1.1);
         let numbering = Numbering::new(Level { intervals: 16, order: Order::P2 }, &Rc::new(Partition::new(&mesh, &[0; 6], 1)));
         let upper = mesh.bodies.iter().position(|name| name == "upper");
-        let places = SmoothSide::of_pair(&mesh, &numbering, &pair(), &|_| Point::zeros());
+        let places = SmoothSide::of_pair(&mesh, &numbering, &samples::seam(), &|_| Point::zeros());
         let displacement = |node: EdgeNode| {
             let side = usize::from(Some(mesh.body_beside(node.edge)) == upper);
             let near = |place: &&Point| (*place - node.place(&mesh, &numbering)).norm();
             let place = places[side][0].places.iter().min_by(|a, b| near(a).total_cmp(&near(b))).expect("nodes");
             moves[side](*place)
         };
-        SmoothSide::of_pair(&mesh, &numbering, &pair(), &displacement).map(|mut stretches| stretches.swap_remove(0))
+        SmoothSide::of_pair(&mesh, &numbering, &samples::seam(), &displacement).map(|mut stretches| stretches.swap_remove(0))
     }
 
     /// The line y = 1 in segments of a tenth, and a pressure that differs from one to the next; nothing presses at its ends.

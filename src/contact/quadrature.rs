@@ -180,7 +180,8 @@ mod tests {
         long.cut(&[0.0, 0.3, 0.7, 1.0]);
         for edges in &edges {
             let seen = quadrature_points(&long, edges, Quadrature::Segment { points: 6 });
-            let between = |segment: usize| gauss_points_between(&long, [long.knots()[segment], long.knots()[segment + 1]], 0, segment, 6);
+            let between =
+                |segment: usize| gauss_points_between(&long, [long.knots()[segment], long.knots()[segment + 1]], 0, segment, 6);
             let on_body = |point: &QuadraturePoint| (0.0..2.0).contains(&long.point(point.parameter).x);
             let wanted: f64 = (0..3).flat_map(between).filter(on_body).map(|point| point.weight).sum();
             assert!((length(&seen) - wanted).abs() < 1e-12 && wanted < 2.4 && seen.iter().all(on_body));

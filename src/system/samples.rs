@@ -3,9 +3,7 @@
 use super::discretisation::finest_numbering;
 use super::{Contact, Scene};
 use crate::body::{Body, Material, Support};
-use crate::contact::{
-    Configuration, CurveChoice, EndRule, GapChoice, Known, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise,
-};
+use crate::contact::{Known, MultiplierSpace, Pair, SegmentRule, samples};
 use crate::element::Order;
 use crate::geometry::{Formula, Point};
 use crate::mesh::samples::two_blocks;
@@ -14,21 +12,7 @@ use std::rc::Rc;
 
 /// The contact of the two blocks along the line between them, by the drawn gap, on even segments.
 pub fn pair(space: MultiplierSpace, segments: usize) -> Pair {
-    Pair {
-        name: "seam".into(),
-        between: ["lower.seam", "upper.seam"].map(String::from),
-        curve: CurveChoice::Line,
-        gap: GapChoice::Geometry,
-        space,
-        segments: SegmentRule::Count(segments),
-        law: Law::Unilateral,
-        quadrature: Quadrature::Cut,
-        stabilise: Stabilise::Off,
-        configuration: Configuration::Reference,
-        spans: None,
-        grading: [1.0, 1.0],
-        ends: EndRule::Fixed,
-    }
+    Pair { space, segments: SegmentRule::Count(segments), ..samples::seam() }
 }
 
 /// The two blocks, the vertices of the upper one moved by a function of their place. E is 2 below and 6 above, ν 0 and 0.5.
