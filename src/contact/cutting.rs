@@ -233,4 +233,24 @@ mod tests {
         assert!((length(0) / length(19) - 1.0).abs() < 1e-9, "even before the middle");
         assert!((length(19) / length(39) / 8.0 - 1.0).abs() < 0.1 && fractions.is_sorted_by(|a, b| a < b));
     }
+
+    #[test]
+    fn the_softer_body_rules_alone_from_a_third_of_the_modulus_on() {
+        let (edges, boundary) = graded_seam(0.5);
+        // Even: 32 edges on each macro edge, the first of 2 below, of 0.9 above.
+        let [lower, upper] = [2.0 / 32.0, 0.9 / 32.0];
+        let first = |edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]| {
+            let mut boundary = boundary.clone();
+            boundary.cut(&[0.0, 0.25, 0.5, 1.0]);
+            segment_edge_lengths(&boundary, edges, young)[0]
+        };
+        let swapped = [edges[1].clone(), edges[0].clone()];
+        for (ratio, wanted) in [(1.0, lower), (2.9, lower), (3.1, upper)] {
+            let found = [first(&edges, [ratio, 1.0]), first(&swapped, [1.0, ratio])];
+            assert!(found.iter().all(|found| (found - wanted).abs() < 1e-9), "{ratio}: {found:?} instead of {wanted}");
+        }
+        for ratio in [1.0, 2.9, 3.1, 100.0] {
+            assert!((first(&edges, [1.0, ratio]) - lower).abs() < 1e-9, "the coarse body is the softer one");
+        }
+    }
 }

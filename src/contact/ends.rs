@@ -127,4 +127,36 @@ mod tests {
         let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
         assert_eq!(true_end(&boundary, &multipliers, &[1.0], &[true], End::First), None);
     }
+
+    /// Pressures of all kinds on uneven segments, and the same seen from the other side.
+    #[test]
+    fn the_first_end_is_found_as_the_last_one_is() {
+        let place = |ends: &[f64], lambda: &[f64], active: &[bool], end: End| {
+            let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [1.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+            boundary.cut(ends);
+            true_end(&boundary, &Multipliers::new(MultiplierSpace::P0, &boundary), lambda, active, end)
+        };
+        let ends = [0.0, 0.1, 0.25, 0.3, 0.5, 0.62, 0.8, 1.0];
+        let back: Vec<f64> = ends.iter().rev().map(|z| 1.0 - z).collect();
+        for (lambda, is_active, wanted) in [
+            ([0.0, 0.0, 1.0, 3.0, 2.5, 0.0, 0.0], "0011100", None),
+            ([0.5, 0.9, 1.2, 1.0, 0.9, 0.7, 0.4], "1111111", None),
+            ([0.0, 0.01, 0.2, 0.9, 0.9, 0.2, 0.01], "0111111", None),
+            ([0.0, 0.0, 0.0, 0.7, 0.0, 0.0, 0.0], "0001000", Some([0.3, 0.5])),
+            ([0.0, 2.0, 0.8, 0.7, 0.8, 2.0, 0.0], "0111110", Some([0.05, 0.9])),
+            ([0.0, 0.1, 0.9, 4.0, 1.2, 0.1, 0.0], "0111110", Some([0.1, 0.8])),
+        ] {
+            let active: Vec<bool> = is_active.chars().map(|c| c == '1').collect();
+            let (mut mirrored, mut active_back) = (lambda.to_vec(), active.clone());
+            mirrored.reverse();
+            active_back.reverse();
+            let first = place(&ends, &lambda, &active, End::First).expect("an end");
+            let last = place(&back, &mirrored, &active_back, End::Last).expect("an end");
+            assert!((first + last - 1.0).abs() < 1e-12, "{is_active}: {first} and {last}");
+            let other = place(&ends, &lambda, &active, End::Last).expect("an end");
+            if let Some(wanted) = wanted {
+                assert!((first - wanted[0]).abs() < 1e-12 && (other - wanted[1]).abs() < 1e-12, "{is_active}: {first}, {other}");
+            }
+        }
+    }
 }

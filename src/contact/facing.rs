@@ -253,3 +253,115 @@ fn ends(boundary: &ContactBoundary) -> [f64; 2] {
     let knots = boundary.knots();
     [knots[0], knots[knots.len() - 1]]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::samples::seam;
+    use crate::element::Order;
+    use crate::geometry::{Curve, Formula};
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{Level, Partition};
+    use std::rc::Rc;
+
+    /// The two blocks, each vertex of the upper one moved by a function of its place.
+    fn blocks(upper: impl Fn(Point) -> Point) -> (MacroMesh, Numbering) {
+        let mut mesh = two_blocks();
+        let body = mesh.bodies.iter().position(|name| name == "upper").expect("a body");
+        let own: Vec<u32> = mesh.triangles.iter().filter(|t| t.body as usize == body).flat_map(|t| t.vertices).collect();
+        let own: std::collections::BTreeSet<u32> = own.into_iter().collect();
+        for vertex in own {
+            let x = &mut mesh.vertices[vertex as usize];
+            *x += upper(*x);
+        }
+        let numbering = Numbering::new(Level { intervals: 16, order: Order::P1 }, &Rc::new(Partition::new(&mesh, &[0; 6], 1)));
+        (mesh, numbering)
+    }
+
+    fn line([from, to]: [f64; 2]) -> ContactBoundary {
+        ContactBoundary::new(Curve::Line([[from, 1.0], [to, 1.0]]), [0.0, 1.0], Point::new(0.0, 1.0))
+    }
+
+    fn checked(gap: GapChoice, between: [&str; 2], upper: impl Fn(Point) -> Point) -> Result<(), String> {
+        let (mesh, numbering) = blocks(upper);
+        let pair = Pair { gap, between: between.map(String::from), ..seam() };
+        Facing::new(&mesh, &numbering, &pair, &line([0.0, 2.0])).check(&mesh)
+    }
+
+    const SEAM: [&str; 2] = ["lower.seam", "upper.seam"];
+
+    #[test]
+    fn bodies_behind_each_other_must_overlap_there() {
+        let lifted = |y: f64| checked(GapChoice::Geometry, SEAM, move |_| Point::new(0.0, y));
+        for y in [0.0, 3.0, -1e-7, -0.1, -0.5, -0.99] {
+            assert_eq!(lifted(y), Ok(()), "by {y}");
+        }
+        // Each lies wholly below the other; so does a half of them.
+        for (y, distance) in [(-2.2, "2.200e0"), (-3.0, "3.000e0")] {
+            let words = lifted(y).expect_err("apart");
+            assert!(words.contains(&format!("each lies {distance} behind the other, and outside")), "{words}");
+        }
+    }
+
+    /// The upper block rises steeply out of the lower one, or falls below it, over a part of the length.
+    #[test]
+    fn a_small_part_behind_and_outside_is_left_alone() {
+        let below = |share: f64| checked(GapChoice::Geometry, SEAM, move |x| Point::new(0.0, -40.0 * (share - 0.5 * x.x)));
+        assert_eq!((below(0.05), below(0.2)), (Ok(()), Ok(())));
+        assert!(below(0.5).expect_err("half of it").contains("do not face each other: near (") && below(0.9).is_err());
+    }
+
+    #[test]
+    fn what_is_said_to_touch_must_be_drawn_so() {
+        let drawn = |y: f64| checked(GapChoice::Closed, SEAM, move |_| Point::new(0.0, y));
+        // A tenth of the longest macro edge, which is 2.
+        assert_eq!([drawn(0.0), drawn(0.19), drawn(-0.19)], [Ok(()), Ok(()), Ok(())]);
+        let [apart, into] = [drawn(0.21), drawn(-0.21)].map(|found| found.expect_err("too far"));
+        assert!(apart.contains("are drawn 2.100e-1 apart, on a length of 2.000e0"), "{apart}");
+        assert!(into.contains("are drawn 2.100e-1 into each other"), "{into}");
+        // The middle one of the distances tells: more than a half of them are small here, and less than a half there.
+        let tilted = |share: f64| checked(GapChoice::Closed, SEAM, move |x| Point::new(0.0, 0.2 * 0.5 * x.x / share));
+        assert!(tilted(0.6).is_ok() && tilted(0.4).is_err());
+        let number = GapChoice::Formula(Formula::constant(0.0));
+        assert_eq!(checked(number, SEAM, |_| Point::new(0.0, 0.5)), Ok(()), "a declared gap is believed");
+    }
+
+    #[test]
+    fn a_boundary_that_turns_its_back_is_named() {
+        for (between, name) in
+            [(["bottom", "upper.seam"], "bottom"), (["lower.seam", "top"], "top"), (["upper.seam", "lower.seam"], "upper.seam")]
+        {
+            let words = checked(GapChoice::Geometry, between, |_| Point::zeros()).expect_err("a back");
+            assert!(words.contains(&format!("\"{name}\" has its body on the side of the other one")), "{words}");
+        }
+    }
+
+    /// Words of two contacts of the two blocks, on parts of the line; edges have lengths of up to 0.125.
+    fn clash(first: ([&str; 2], [f64; 2]), second: ([&str; 2], [f64; 2])) -> Option<String> {
+        let (mesh, numbering) = blocks(|_| Point::zeros());
+        let [one, other] =
+            [first, second].map(|(between, ends)| (Pair { between: between.map(String::from), ..seam() }, line(ends)));
+        let facing = [&one, &other].map(|(pair, boundary)| Facing::new(&mesh, &numbering, pair, boundary));
+        let [there, back] = [facing[0].clash(&facing[1]), facing[1].clash(&facing[0])];
+        assert_eq!(there.is_some(), back.is_some());
+        there
+    }
+
+    #[test]
+    fn two_contacts_of_the_same_boundaries_share_an_edge_and_a_half_at_most() {
+        assert_eq!(clash((SEAM, [0.0, 1.0]), (SEAM, [1.0, 2.0])), None);
+        assert_eq!(clash((SEAM, [0.0, 1.05]), (SEAM, [0.95, 2.0])), None);
+        let words = clash((SEAM, [0.0, 1.25]), (SEAM, [0.75, 2.0])).expect("half the length");
+        assert!(words.contains("is in contact.seam too, over 5.000e-1 of the same length"), "{words}");
+        assert!(clash((SEAM, [0.0, 2.0]), (SEAM, [0.5, 1.0])).is_some());
+    }
+
+    #[test]
+    fn contacts_with_another_body_share_half_the_shorter_one_at_most() {
+        let other = ["lower.seam", "top"];
+        assert_eq!(clash((SEAM, [0.0, 1.0]), (other, [0.7, 2.0])), None);
+        let words = clash((SEAM, [0.0, 1.0]), (other, [0.3, 2.0])).expect("most of the first");
+        assert!(words.contains("\"lower.seam\" is in contact.seam too"), "{words}");
+        assert!(clash((other, [0.3, 2.0]), (SEAM, [0.0, 1.0])).is_some());
+    }
+}

@@ -159,3 +159,153 @@ fn left_out(sides: [&SmoothSide; 2], tilts: [f64; 2], x: Point, normal: Point) -
     let apart = moved[1] - moved[0];
     Some([apart.dot(&turn_right(normal)).abs(), change[1] - change[0] - apart.dot(&normal)])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{MultiplierSpace, samples};
+    use crate::element::Order;
+    use crate::geometry::Curve;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{EdgeNode, Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    /// The flat lower side, and the upper one over it, bent, each moved by a function of the place.
+    fn sides(moves: [&dyn Fn(Point) -> Point; 2]) -> [SmoothSide; 2] {
+        let mut mesh = two_blocks();
+        // The vertex between both edges of the upper seam is lifted: a smooth arch.
+        mesh.vertices.iter_mut().filter(|x| x.x == 0.9 && x.y == 1.0).for_each(|x| x.y = 1.1);
+        let numbering = Numbering::new(Level { intervals: 16, order: Order::P2 }, &Rc::new(Partition::new(&mesh, &[0; 6], 1)));
+        let upper = mesh.bodies.iter().position(|name| name == "upper");
+        let places = SmoothSide::of_pair(&mesh, &numbering, &samples::seam(), &|_| Point::zeros());
+        let displacement = |node: EdgeNode| {
+            let side = usize::from(Some(mesh.body_beside(node.edge)) == upper);
+            let near = |place: &&Point| (*place - node.place(&mesh, &numbering)).norm();
+            let place = places[side][0].places.iter().min_by(|a, b| near(a).total_cmp(&near(b))).expect("nodes");
+            moves[side](*place)
+        };
+        SmoothSide::of_pair(&mesh, &numbering, &samples::seam(), &displacement).map(|mut stretches| stretches.swap_remove(0))
+    }
+
+    /// The line y = 1 in segments of a tenth, and a pressure that differs from one to the next; nothing presses at its ends.
+    fn seam() -> (ContactBoundary, Multipliers, Vec<f64>) {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 1.0], [2.0, 1.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&(0..=20).map(|k| f64::from(k) / 20.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
+        let pressure = |k: usize| if (4..14).contains(&k) { 1.0 + 0.3 * k as f64 } else { -0.5 };
+        (boundary, multipliers, (0..20).map(pressure).collect())
+    }
+
+    /// Points that press on the seam: x and λ times length, by the Gauss points of each segment.
+    fn presses(lambda: &[f64]) -> Vec<[f64; 2]> {
+        let on = |k: usize| gauss_points(POINTS).iter().map(move |(z, weight)| [0.1 * (k as f64 + z), 0.1 * weight * lambda[k]]);
+        (0..lambda.len()).filter(|&k| lambda[k] > 0.0).flat_map(on).collect()
+    }
+
+    /// Work, deviation from the mean, and deviation from the line of least squares, of an error at the points that press.
+    fn expected(points: &[[f64; 2]], error: impl Fn(f64) -> f64) -> GapError {
+        let total: f64 = points.iter().map(|point| point[1]).sum();
+        let sum = |value: &dyn Fn(f64) -> f64| points.iter().map(|[x, weight]| weight * value(*x)).sum::<f64>();
+        let (mean_x, mean) = (sum(&|x| x) / total, sum(&error) / total);
+        let slope = sum(&|x| (x - mean_x) * error(x)) / sum(&|x| (x - mean_x) * (x - mean_x));
+        let deviation = (sum(&|x| (error(x) - mean).powi(2)) / total).sqrt();
+        let bend = (sum(&|x| (error(x) - mean - slope * (x - mean_x)).powi(2)) / total).sqrt();
+        GapError { work: sum(&error), deviation, bend }
+    }
+
+    fn assert_near(found: GapError, wanted: GapError, tolerance: f64) {
+        let pairs = [(found.work, wanted.work), (found.deviation, wanted.deviation), (found.bend, wanted.bend)];
+        assert!(pairs.iter().all(|(a, b)| (a - b).abs() < tolerance * b.abs()), "{found:?} instead of {wanted:?}");
+    }
+
+    /// Height of a curve over x by bisection.
+    fn height(curve: &Curve, x: f64) -> f64 {
+        let [mut from, mut to] = curve.range();
+        for _ in 0..60 {
+            let middle = 0.5 * (from + to);
+            if curve.point(middle).x < x { from = middle } else { to = middle }
+        }
+        curve.point(from).y
+    }
+
+    #[test]
+    fn an_arch_that_slides_is_seen_at_half_the_way_behind() {
+        for (first, second) in [([0.0, 0.0], [0.2, 0.07]), ([0.2, -0.05], [0.0, 0.0]), ([-0.05, 0.01], [0.1, 0.02])] {
+            let (first, second) = (Point::from(first), Point::from(second));
+            let (boundary, multipliers, lambda) = seam();
+            let sides = sides([&|_| first, &|_| second]);
+            let found = finite_motion(Some([&sides[0], &sides[1]]), [Turn::default(); 2], &boundary, &multipliers, &lambda);
+            let way = second - first;
+            assert!((found.slip - way.x.abs()).abs() < 1e-9 && (found.length - 1.0).abs() < 1e-9, "{found:?}");
+            let points = presses(&lambda);
+            assert!((found.force - points.iter().map(|point| point[1]).sum::<f64>()).abs() < 1e-9);
+            // The line of the gap goes with the mean of both: over the arch it lags half the way behind.
+            let arch = sides[1].curve(Configuration::Reference);
+            assert_near(found.whole, expected(&points, |x| height(arch, x - 0.5 * way.x) - height(arch, x)), 1e-6);
+            assert!(found.turning.work.abs() < 1e-9 && found.turning.deviation < 1e-9, "nothing turns: {found:?}");
+        }
+    }
+
+    #[test]
+    fn an_arch_that_turns_opens_the_gap_that_its_true_rotation_opens() {
+        for angle in [0.06, -0.04] {
+            let (boundary, multipliers, lambda) = seam();
+            let pivot = Point::new(0.7, 1.4);
+            let turned = |x: Point| pivot + Rotation2::new(angle) * (x - pivot);
+            let sides = sides([&|_| Point::zeros(), &|x| turned(x) - x]);
+            let found = finite_motion(Some([&sides[0], &sides[1]]), [Turn::default(); 2], &boundary, &multipliers, &lambda);
+            let arch = sides[1].curve(Configuration::Reference);
+            let moved = |x: f64| turned(Point::new(x, height(arch, x))) - Point::new(x, height(arch, x));
+            // Along a line from half the way, tilted by half the angle, from the flat side to the arch as it lies now.
+            let gap = |x: f64| {
+                let origin = Point::new(x, 1.0) + 0.5 * moved(x);
+                let direction = Rotation2::new(0.5 * angle) * Point::new(0.0, 1.0);
+                let (mut low, mut high) = (-1.0, 1.0);
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    let back = pivot + Rotation2::new(-angle) * (origin + middle * direction - pivot);
+                    if back.y < height(arch, back.x) { low = middle } else { high = middle }
+                }
+                low - (1.0 - origin.y) / direction.y
+            };
+            let points = presses(&lambda);
+            let linear = |x: f64| height(arch, x) - 1.0 + moved(x).y;
+            assert_near(found.whole, expected(&points, |x| gap(x) - linear(x)), 1e-5);
+            let shifted = |x: f64| height(arch, x - 0.5 * moved(x).x) - height(arch, x);
+            assert_near(found.turning, expected(&points, |x| gap(x) - linear(x) - shifted(x)), 1e-5);
+            let slip = points.iter().map(|[x, weight]| weight * moved(*x).x.powi(2)).sum::<f64>() / found.force;
+            assert!((found.slip - slip.sqrt()).abs() < 1e-8, "{} instead of {}", found.slip, slip.sqrt());
+        }
+    }
+
+    /// Growth is half the square of the angle times the distance from the middle along the normal: uneven around an arc where
+    /// that middle is not the arc's, and nothing where both bodies grow alike.
+    #[test]
+    fn bodies_that_turn_grow_unevenly_about_another_middle_than_that_of_the_arc() {
+        let arc = Curve::Circle { centre: [1.0, 2.0], radius: 0.5 };
+        let mut boundary = ContactBoundary::new(arc, [-1.0, 1.0], Point::new(1.0, 0.0));
+        boundary.cut(&(0..=50).map(|k| f64::from(k) / 50.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
+        let at = |x: f64, y: f64| Turn { angle: -0.2, middle: Point::new(1.0 + x, 2.0 + y) };
+        let of = |turns: [Turn; 2]| finite_motion(None, turns, &boundary, &multipliers, &[3.0; 50]);
+        let nothing = Turn::default();
+        let found = of([at(0.0, 0.0), nothing]);
+        assert!(found.whole.deviation < 1e-9 && found.whole.bend < 1e-9 && found.slip == 0.0);
+        assert!((found.force - 3.0).abs() < 1e-9 && (found.length - 1.0).abs() < 1e-9);
+        // Mean and mean square of cos and sin on -1 to 1; the line of least squares takes 3 (sin 1 - cos 1)² off the latter.
+        let (mean, sine) = (1f64.sin(), 0.5 - 0.25 * 2f64.sin());
+        let even = (1.0 - sine - mean * mean).sqrt();
+        let odd = (sine - 3.0 * (1f64.sin() - 1f64.cos()).powi(2)).sqrt();
+        for turns in [[at(0.3, 0.0), nothing], [nothing, at(0.3, 0.0)], [at(0.5, 0.4), at(0.2, 0.4)]] {
+            let found = of(turns).whole;
+            let wanted = 0.02 * 0.3 * even;
+            assert!((found.deviation / wanted - 1.0).abs() < 1e-3 && (found.bend / wanted - 1.0).abs() < 1e-3, "{found:?}");
+            assert_eq!(found.work, 0.0);
+        }
+        let found = of([at(0.0, 0.3), nothing]);
+        assert!((found.whole.deviation / (0.02 * 0.3 * sine.sqrt()) - 1.0).abs() < 1e-3, "{found:?}");
+        assert!((found.turning.bend / (0.02 * 0.3 * odd) - 1.0).abs() < 1e-2, "{found:?}");
+        assert_eq!(of([at(0.1, 0.3); 2]).whole, GapError::default(), "both grow alike");
+        assert_eq!(finite_motion(None, [nothing; 2], &boundary, &multipliers, &[-1.0; 50]), FiniteMotion::default());
+    }
+}

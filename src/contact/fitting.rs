@@ -224,3 +224,71 @@ fn what_splits(sides: &[SmoothSide], touching: &[usize]) -> String {
         Some(_) => format!("has corners of more than 20 degrees, and {count} of its smooth stretches"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::samples::seam;
+    use crate::element::Order;
+    use crate::geometry::{Curve, Formula};
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{EdgeNode, Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    fn pair() -> Pair {
+        Pair { curve: super::super::CurveChoice::Fit, configuration: Configuration::Deformed, ..seam() }
+    }
+
+    /// The seam of the two blocks, nodes every eighth of an edge, the upper one lowered by a function of x.
+    fn lowered(by: impl Fn(f64) -> f64) -> [Vec<SmoothSide>; 2] {
+        let mesh = two_blocks();
+        let numbering = Numbering::new(Level { intervals: 16, order: Order::P1 }, &Rc::new(Partition::new(&mesh, &[0; 6], 1)));
+        let upper = mesh.bodies.iter().position(|name| name == "upper");
+        let displacement = |node: EdgeNode| {
+            let x = node.place(&mesh, &numbering);
+            Point::new(0.0, if Some(mesh.body_beside(node.edge)) == upper { -by(x.x) } else { 0.0 })
+        };
+        SmoothSide::of_pair(&mesh, &numbering, &pair(), &displacement)
+    }
+
+    /// Γ_C over a part of the seam; its parameter is x.
+    fn part([from, to]: [f64; 2]) -> ContactBoundary {
+        let formula = |text| Formula::parse(text, &["t"]).expect("a formula");
+        let curve = Curve::Parametric { x: formula("t"), y: formula("1"), range: [0.0, 2.0] };
+        ContactBoundary::new(curve, [from, to], Point::new(0.0, 1.0))
+    }
+
+    #[test]
+    fn the_depth_beyond_the_ends_is_that_of_the_deepest_node_outside_the_margin() {
+        let meeting = Meeting { stretches: [0, 0], nodes: [0..17, 0..33], ends: [0.0, 2.0] };
+        let sides = lowered(|x| 0.01 * x);
+        // Nodes of body 1 lie at each eighth.
+        for (ends, margin, depth) in [
+            ([0.5, 1.0], 0.1, 0.02),
+            ([0.5, 1.9], 0.2, 0.0025),
+            ([0.5, 1.9], 0.05, 0.02),
+            ([0.5, 2.0], 0.1, 0.00375),
+            ([0.5, 2.0], 0.2, 0.0025),
+            ([0.1, 1.9], 0.2, 0.0),
+        ] {
+            let found = meeting.depth_beyond(&sides, &pair(), &part(ends), margin);
+            assert!((found - depth).abs() < 1e-5, "{found} beyond {ends:?} by {margin}, instead of {depth}");
+        }
+        assert_eq!(meeting.depth_beyond(&lowered(|_| -0.01), &pair(), &part([0.5, 1.0]), 0.1), 0.0, "they are apart");
+    }
+
+    /// Contact is where the upper block is lowered: from the first node to the last, and an edge of 0.125 farther.
+    #[test]
+    fn a_boundary_is_fitted_an_edge_beyond_where_bodies_penetrate() {
+        let sides = lowered(|x| if (0.45..1.3).contains(&x) { 0.01 } else { -0.05 });
+        let meeting = Meeting::now(&sides, &pair()).expect("one stretch").expect("they touch");
+        let [first, last] = meeting.ends;
+        assert!((first - (0.5 - 0.125)).abs() < 0.03 && (last - (1.25 + 0.125)).abs() < 0.03, "{:?}", meeting.ends);
+        // Nodes of both as far as an edge beyond these ends.
+        for (side, nodes) in meeting.sides(&sides).into_iter().zip(&meeting.nodes) {
+            let [from, to] = [nodes.start, nodes.end - 1].map(|node| side.parameters[node]);
+            assert!((first - from) > 0.0 && first - from < 0.126 && to - last > 0.0 && to - last < 0.126, "{from} to {to}");
+        }
+        assert_eq!(Meeting::now(&lowered(|_| -0.05), &pair()), Ok(None));
+    }
+}

@@ -21,6 +21,8 @@ mod pair;
 mod placing;
 mod quadrature;
 mod reconstruction;
+#[cfg(test)]
+pub(crate) mod samples;
 mod smooth_side;
 mod trace;
 mod zones;

@@ -122,4 +122,46 @@ mod tests {
         let (boundary, multipliers) = setting(MultiplierSpace::P0, 4);
         assert_eq!(oscillation(&boundary, &multipliers, &[1.0; 4], &[true; 4]), None);
     }
+
+    /// The figure of an even pressure on 50 segments with one higher value.
+    fn of_one(odd: usize, active: std::ops::Range<usize>) -> f64 {
+        let (boundary, multipliers) = setting(MultiplierSpace::P0, 50);
+        let active: Vec<bool> = (0..50).map(|k| active.contains(&k)).collect();
+        let value = |k: usize| if k == odd { 1.5 } else { 1.0 };
+        let lambda: Vec<f64> = (0..50).map(|k| if active[k] { value(k) } else { 0.0 }).collect();
+        oscillation(&boundary, &multipliers, &lambda, &active).expect("enough samples")
+    }
+
+    /// A fifth at an end of the boundary, a tenth where contact ends inside, from the first sample to the last; the middle one
+    /// of five samples tells.
+    #[test]
+    fn the_ends_of_contact_do_not_count() {
+        for (active, seen) in [(0..50, 8..42), (10..40, 11..39), (0..40, 6..38), (10..50, 12..44)] {
+            for odd in [seen.start, seen.end - 1] {
+                assert!(of_one(odd, active.clone()) > 1e-3, "{odd} in {active:?} counts");
+            }
+            for odd in [seen.start - 1, seen.end] {
+                assert!(of_one(odd, active.clone()) < 1e-9, "{odd} in {active:?} does not count");
+            }
+        }
+    }
+
+    /// The nearest linear functions to a parabola meet it at the two Gauss points of each segment.
+    #[test]
+    fn a_parabola_has_no_oscillation_in_any_space() {
+        let parabola = |x: f64| 3.0 + x * (2.0 - x);
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
+            let (boundary, multipliers) = setting(space, 10);
+            let lambda: Vec<f64> = match space {
+                MultiplierSpace::P0 => (0..10).map(|k| parabola(0.2 * (f64::from(k) + 0.5))).collect(),
+                // The chord, higher by H²/6 times half the curvature.
+                MultiplierSpace::P1Discontinuous => {
+                    (0..10).flat_map(|k| [k, k + 1]).map(|k| parabola(0.2 * f64::from(k)) + 0.04 / 6.0).collect()
+                }
+                MultiplierSpace::P1Continuous => (0..=10).map(|k| parabola(0.2 * f64::from(k))).collect(),
+            };
+            let found = oscillation(&boundary, &multipliers, &lambda, &vec![true; lambda.len()]).expect("enough samples");
+            assert!(found < 1e-12, "{space:?}: {found}");
+        }
+    }
 }

@@ -156,4 +156,35 @@ mod tests {
         let points = quadrature_points(&boundary, &edges, Quadrature::Segment { points: 5 });
         assert!(points.iter().all(|point| point.segment < 3) && (10..15).contains(&points.len()), "{}", points.len());
     }
+
+    /// Each fixed point belongs to the edge that begins at or before it, once, and is lost where the body has no edge.
+    #[test]
+    fn fixed_points_belong_to_one_edge_each_and_are_lost_beyond_the_body() {
+        for (segments, count) in [(8, 1), (5, 3), (1, 20)] {
+            let (boundary, edges) = setting(segments);
+            for edges in &edges {
+                let points = quadrature_points(&boundary, edges, Quadrature::Segment { points: count });
+                assert_eq!(points.len(), segments * count);
+                assert!((length(&points) - 2.0).abs() < 1e-12);
+                for point in &points {
+                    let x = boundary.point(point.parameter).x;
+                    let [a, b] = [0, 1].map(|k| edges[point.edge].points[k].x);
+                    assert!(a.min(b) <= x + 1e-9 && x < a.max(b) - 1e-9, "{x} is not on {a} to {b}");
+                    assert!((2.0 * (point.segment as f64 + point.fraction) / segments as f64 - x).abs() < 1e-12);
+                }
+            }
+        }
+        // Half as long again on the left, a quarter on the right.
+        let (_, edges) = setting(1);
+        let mut long = ContactBoundary::new(Curve::Line([[-1.0, 1.0], [2.5, 1.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        long.cut(&[0.0, 0.3, 0.7, 1.0]);
+        for edges in &edges {
+            let seen = quadrature_points(&long, edges, Quadrature::Segment { points: 6 });
+            let between =
+                |segment: usize| gauss_points_between(&long, [long.knots()[segment], long.knots()[segment + 1]], 0, segment, 6);
+            let on_body = |point: &QuadraturePoint| (0.0..2.0).contains(&long.point(point.parameter).x);
+            let wanted: f64 = (0..3).flat_map(between).filter(on_body).map(|point| point.weight).sum();
+            assert!((length(&seen) - wanted).abs() < 1e-12 && wanted < 2.4 && seen.iter().all(on_body));
+        }
+    }
 }

@@ -138,4 +138,24 @@ mod tests {
             assert!(found(space, &ends).middle < 0.1, "{space:?}: {:?}", found(space, &ends));
         }
     }
+
+    /// Where contact ends inside the boundary the pressure is zero there: two segments are enough for a parabola then.
+    #[test]
+    fn a_pressure_is_zero_where_contact_ends_inside_the_boundary() {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [4.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&[0.0, 0.25, 0.5, 0.75, 1.0]);
+        let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
+        let of = |pressed: std::ops::Range<usize>| {
+            let lambda: Vec<f64> = (0..4).map(|k| if pressed.contains(&k) { 1.5 } else { 0.0 }).collect();
+            let active: Vec<bool> = (0..4).map(|k| pressed.contains(&k)).collect();
+            roughness(&boundary, &multipliers, &lambda, &Zone::all(&boundary, &multipliers, &lambda, &active)[0])
+        };
+        // 2 (x - 1) (3 - x), highest at the last Gauss point before its middle.
+        let z = 0.5 + 0.5 * (5.0 + 2.0 * (10.0f64 / 7.0).sqrt()).sqrt() / 3.0;
+        let found = of(1..3).expect("four samples").peak;
+        assert!((found - (2.0 * z * (2.0 - z) / 1.5 - 1.0)).abs() < 1e-12, "{found}");
+        assert!(of(0..2).is_some() && of(2..4).is_some(), "three samples");
+        assert_eq!(of(0..1), None);
+        assert!(of(1..2).is_some(), "zero, the middle, zero");
+    }
 }

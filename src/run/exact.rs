@@ -111,3 +111,25 @@ fn displacement_error(
     session.sum(&mut sums);
     (sums[0] / sums[1]).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_that_is_no_number_or_above_its_tolerance_misses_it() {
+        let mut errors = Errors::default();
+        for (name, error, tolerance) in [
+            ("none", 0.5, None),
+            ("below", 0.009, Some(0.01)),
+            ("at", 0.01, Some(0.01)),
+            ("above", 0.011, Some(0.01)),
+            ("nan", f64::NAN, Some(0.01)),
+        ] {
+            errors.add(name.into(), error, tolerance);
+        }
+        assert_eq!(errors.values.len(), 5);
+        let names: Vec<&str> = errors.missed.iter().filter_map(|words| words.split(':').next()).collect();
+        assert_eq!(names, ["above", "nan"]);
+    }
+}

@@ -3,7 +3,7 @@
 use super::RunError;
 use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
-use crate::output::plot::{Facet, DrawnEdge};
+use crate::output::plot::{DrawnEdge, Facet};
 use crate::output::vtk::{Piece, write_parallel, write_piece};
 use crate::system::recovery::Evaluation;
 use std::collections::HashMap;

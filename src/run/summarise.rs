@@ -180,3 +180,19 @@ fn closed_edges(contact: &Contact, closed: &[[f64; 2]]) -> Option<f64> {
         |&[from, to]: &[f64; 2]| (0..contact.edge_lengths.len()).filter(|&k| arcs[k] >= from && arcs[k] < to).map(edges).sum();
     closed.iter().map(on).reduce(f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_beside_corners_that_matter_is_not_called_singular() {
+        for (error, singular) in [(0.004, Some(true)), (0.006, Some(false))] {
+            let (mut contact, mut zones) = (summary::ContactSummary::default(), [summary::ZoneSummary::default()]);
+            zones[0].singular = Some(true);
+            corners(&mut contact, &mut zones, &Corners { angle: std::f64::consts::PI / 18.0, error });
+            assert_eq!((zones[0].singular, contact.corner_error), (singular, Some(error)));
+            assert!((contact.corner_angle.unwrap_or(0.0) - 10.0).abs() < 1e-9);
+        }
+    }
+}

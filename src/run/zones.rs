@@ -81,4 +81,12 @@ mod tests {
         assert_eq!(contact_estimate(None, &[all[0].clone(), faint]).lambda, Some(0.02));
         assert_eq!(contact_estimate(None, &[all[0].clone(), zone(1.0, 0.5, None, 0.1)]).lambda, None);
     }
+
+    #[test]
+    fn only_singular_zones_lose_the_error_of_their_peak() {
+        let zone = |singular| summary::ZoneSummary { singular, peak: Some(0.1), ..summary::ZoneSummary::default() };
+        let mut zones = [zone(Some(true)), zone(Some(false)), zone(None)];
+        without_singular_peaks(&mut zones);
+        assert_eq!(zones.map(|zone| zone.peak), [None, Some(0.1), Some(0.1)]);
+    }
 }

@@ -121,3 +121,26 @@ pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
     check_size(scene, levels[levels.len() - 1])?;
     levels.into_iter().map(|level| Space::new(scene, level, rank)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::MultiplierSpace;
+    use crate::geometry::Point;
+    use crate::system::samples::{blocks, pair};
+
+    /// The two blocks are grids of one and of two cells, each of n by n.
+    #[test]
+    fn a_mesh_that_32_bits_cannot_count_is_refused_with_the_number_of_its_nodes() {
+        let mut scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new());
+        let level = |intervals| Level { intervals, order: scene.order };
+        assert!(check_size(&scene, level(8192)).is_ok());
+        let (refused, n) = (level(16384), 16384u64);
+        scene.refine = 14;
+        let words = check_size(&scene, refused).expect_err("too fine").to_string();
+        assert!(
+            words.contains(&format!("mesh.refine = 14: {} nodes are more", (n + 1) * (n + 1) + (2 * n + 1) * (n + 1))),
+            "{words}"
+        );
+    }
+}

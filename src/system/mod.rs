@@ -22,6 +22,8 @@ mod procedure;
 pub mod recovery;
 mod rigid_start;
 mod saddle_point;
+#[cfg(test)]
+pub(crate) mod samples;
 mod scene;
 mod solution;
 mod solver;

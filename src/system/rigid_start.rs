@@ -55,3 +55,32 @@ fn motions(scene: &Scene) -> Option<Vec<Vector3<f64>>> {
     };
     moves.then(|| sums.into_iter().map(solve).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Support;
+    use crate::contact::MultiplierSpace;
+    use crate::geometry::Formula;
+    use crate::system::samples::{blocks, pair};
+
+    /// Supports that ask of the lower block a shift and a turn, at both ends of its bottom, or that ask for nothing.
+    #[test]
+    fn supports_that_turn_a_body_tell_its_rigid_motion() {
+        let formula = |text| Some(Formula::parse(text, &["x", "y"]).expect("a formula"));
+        let found = |ux, uy| {
+            let on = vec!["bottom".into(), "lower.seam".into()];
+            let support = Support { name: "held".into(), on, ux: formula(ux), uy: formula(uy), normal: None };
+            let scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), vec![support]);
+            (motions(&scene), scene)
+        };
+        assert_eq!(found("0", "0").0, None);
+        let (motions, scene) = found("0.03 - 0.1 * y", "0.1 * x - 0.02");
+        let (motions, extents) = (motions.expect("they move"), scene.extents());
+        let lower = scene.mesh.bodies.iter().position(|name| name == "lower").expect("a body");
+        let [middle, radius] = [extents[lower].middle, Point::repeat(extents[lower].radius)];
+        let wanted = Vector3::new(0.03 - 0.1 * middle.y, 0.1 * middle.x - 0.02, 0.1 * radius.x);
+        assert!((motions[lower] - wanted).norm() < 1e-12, "{} instead of {wanted}", motions[lower]);
+        assert_eq!(motions[1 - lower], Vector3::zeros(), "nothing holds the other one");
+    }
+}

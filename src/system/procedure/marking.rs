@@ -14,7 +14,8 @@ pub(super) fn marked(indicators: &[f64]) -> Vec<u32> {
     order.sort_by(|&a, &b| value(b).total_cmp(&value(a)));
     let whole: f64 = order.iter().map(|&triangle| value(triangle)).sum();
     let (mut sum, mut count) = (0.0, 0);
-    while count < order.len() && (sum < SHARE * whole || value(order[count]) > (1.0 - MARGIN) * value(order[count - 1])) {
+    let alike = |count: usize| count > 0 && value(order[count]) > (1.0 - MARGIN) * value(order[count - 1]);
+    while count < order.len() && (sum < SHARE * whole || alike(count)) {
         sum += value(order[count]);
         count += 1;
     }

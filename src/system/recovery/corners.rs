@@ -1,7 +1,7 @@
 //! Corners of bodies that press within a contact whose normals are those of smooth boundaries.
 
-use super::Evaluation;
 use crate::contact::GapChoice;
+use crate::system::{Contact, Scene};
 
 /// Error of λ by a corner of one radian on the softer body (root mean square). Measured on rings of subdivided chords with
 /// corners of 4 to 18 degrees, on stiff and on alike ones.
@@ -24,24 +24,55 @@ pub struct Corners {
     pub error: f64,
 }
 
-impl Evaluation<'_> {
-    /// Looks for corners that are left in the edges of both bodies of a contact, on the undeformed bodies, within `zones`: the
-    /// arcs that press.
-    pub fn corners(&self, contact: usize, zones: &[[f64; 2]]) -> Corners {
-        let (scene, contact) = (&self.problem.scene, &self.problem.contacts[contact]);
-        let boundary = &contact.boundary;
-        let within = |s: f64| zones.iter().any(|[from, to]| (s - from).min(to - s) > END * (to - from));
-        let sharpest = contact.pair.between.each_ref().map(|name| {
-            let all = scene.mesh.corners_left(name).into_iter();
-            let pressing = all.filter(|corner| within(boundary.arc(boundary.foot(corner.place))));
-            pressing.map(|corner| corner.angle).fold(0.0, f64::max)
-        });
-        let compliance = contact.bodies.map(|body| {
-            let material = &scene.bodies[body].material;
-            (1.0 - material.poisson.powi(2)) / material.young
-        });
-        let part = |k: usize| sharpest[k] * compliance[k] / (compliance[0] + compliance[1]);
-        let share = if matches!(contact.pair.gap, GapChoice::Closed) { WHERE_CLOSED } else { 1.0 };
-        Corners { angle: sharpest[0].max(sharpest[1]), error: share * BY_A_CORNER * part(0).hypot(part(1)) }
+/// Looks for corners that are left in the edges of both bodies of a contact, on the undeformed bodies, within `zones`: the
+/// arcs that press.
+pub fn corners(scene: &Scene, contact: &Contact, zones: &[[f64; 2]]) -> Corners {
+    let boundary = &contact.boundary;
+    let within = |s: f64| zones.iter().any(|[from, to]| (s - from).min(to - s) > END * (to - from));
+    let sharpest = contact.pair.between.each_ref().map(|name| {
+        let all = scene.mesh.corners_left(name).into_iter();
+        let pressing = all.filter(|corner| within(boundary.arc(boundary.foot(corner.place))));
+        pressing.map(|corner| corner.angle).fold(0.0, f64::max)
+    });
+    let compliance = contact.bodies.map(|body| {
+        let material = &scene.bodies[body].material;
+        (1.0 - material.poisson.powi(2)) / material.young
+    });
+    let part = |k: usize| sharpest[k] * compliance[k] / (compliance[0] + compliance[1]);
+    let share = if matches!(contact.pair.gap, GapChoice::Closed) { WHERE_CLOSED } else { 1.0 };
+    Corners { angle: sharpest[0].max(sharpest[1]), error: share * BY_A_CORNER * part(0).hypot(part(1)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{CurveChoice, Known, MultiplierSpace};
+    use crate::geometry::{Formula, Point};
+    use crate::system::samples::{blocks, contact, pair};
+
+    /// A corner of 2.3 degrees in the middle of the upper block, which has a fifth of the compliance.
+    #[test]
+    fn a_corner_counts_by_the_compliance_of_its_body_where_a_zone_presses() {
+        let mut pair = pair(MultiplierSpace::P0, 8);
+        (pair.curve, pair.gap) = (CurveChoice::Fit, GapChoice::Formula(Formula::constant(0.0)));
+        let lift = |x: Point| Point::new(0.0, if x.y == 1.0 && x.x == 0.9 { 0.02 } else { 0.0 });
+        let scene = blocks(pair, lift, Vec::new());
+        let mut contact = contact(&scene, Known::default());
+        let angle = (0.02f64 / 0.9).atan() + (0.02f64 / 1.1).atan();
+        let arc = contact.boundary.arc(contact.boundary.foot(Point::new(0.9, 1.02)));
+        let found = |contact: &Contact, ends: [f64; 2]| {
+            let found = corners(&scene, contact, &[ends]);
+            (found.angle, found.error)
+        };
+        for ends in [[arc - 0.4, arc + 0.6], [arc - 0.06, arc + 0.94], [arc - 0.94, arc + 0.06]] {
+            let (of, error) = found(&contact, ends);
+            assert!((of - angle).abs() < 1e-9 && (error - 0.5 * 0.2 * angle).abs() < 1e-9, "{of}, {error}");
+        }
+        for ends in [[arc - 0.04, arc + 0.96], [arc - 0.96, arc + 0.04], [arc + 0.1, arc + 0.5], [arc - 0.5, arc - 0.1]] {
+            assert_eq!(found(&contact, ends), (0.0, 0.0), "no corner within {ends:?}");
+        }
+        contact.pair.gap = GapChoice::Closed;
+        let (_, error) = found(&contact, [arc - 0.4, arc + 0.6]);
+        assert!((error - 0.3 * 0.5 * 0.2 * angle).abs() < 1e-9, "{error}");
     }
 }

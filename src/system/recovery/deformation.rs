@@ -136,4 +136,17 @@ mod tests {
         assert!((principal(&Matrix2::new(0.1, 0.0, 0.0, -0.4)) - 0.4).abs() < 1e-15);
         assert!((principal(&Matrix2::new(0.0, 0.2, 0.0, 0.0)) - 0.1).abs() < 1e-15);
     }
+
+    #[test]
+    fn a_body_turns_by_the_mean_over_its_area() {
+        let mesh = crate::mesh::samples::two_blocks();
+        let body = mesh.bodies.iter().position(|name| name == "lower").expect("a body");
+        let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].body as usize == body).collect();
+        let mut sums = vec![[9.0, 9.0, 9.0, 9.0]; mesh.triangles.len()];
+        (sums[own[0]], sums[own[1]]) = ([0.0, 1.0, 0.02, 0.3], [0.0, 3.0, 0.18, 0.5]);
+        let found = whole(&mesh, body, &sums);
+        assert!((found.rotation - 0.05).abs() < 1e-12 && (found.growth - 0.8).abs() < 1e-12);
+        let [a, b] = [0, 1].map(|k| centroid(&mesh, &mesh.triangles[own[k]]));
+        assert!((found.middle - (0.25 * a + 0.75 * b)).norm() < 1e-12);
+    }
 }

@@ -1,9 +1,11 @@
 //! A solution looked at: what is computed of it once, and what can be asked of it.
 
 use super::balance::{Balance, balance};
+use super::corners::{Corners, corners};
 use super::deformation::{Deformation, deformations};
 use super::error_norm::energy_error;
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
+use super::overlaps::{missing_force, unresolved_force};
 use super::probe::{Probed, probe};
 use super::stress::nodal_stress;
 use super::traces::{TracePoint, trace_points};
@@ -51,6 +53,22 @@ impl<'a> Evaluation<'a> {
     /// beside their displacements.
     pub fn growth_by_gap(&self, contact: usize, points: &[TracePoint]) -> Option<f64> {
         growth_by_gap(self.problem.contacts[contact].bodies.map(|body| &self.deformations[body]), points)
+    }
+
+    /// Corners of the bodies of a contact within `zones`: the arcs that press.
+    pub fn corners(&self, contact: usize, zones: &[[f64; 2]]) -> Corners {
+        corners(&self.problem.scene, &self.problem.contacts[contact], zones)
+    }
+
+    /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the
+    /// largest overlap relative to the largest relative displacement.
+    pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<f64> {
+        missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force)
+    }
+
+    /// Force that penetration within single segments of a contact is worth (force per thickness).
+    pub fn unresolved_force(&self, contact: usize, points: &[TracePoint]) -> f64 {
+        unresolved_force(&self.problem.contacts[contact], points)
     }
 
     /// Both bodies' traces along a contact boundary. **Collective**

@@ -63,3 +63,95 @@ impl ContactPressure<'_> {
 fn touches(contact: &Contact, zone: &Zone, end: usize) -> bool {
     if end == 0 { zone.segments.start == 0 } else { zone.segments.end == contact.boundary.segments() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Known, SegmentRule};
+    use crate::geometry::Point;
+    use crate::system::samples::{blocks, contact, pair};
+
+    /// Whether a pressure, given at the middles of uneven segments by their distance from an end, grows towards that end.
+    fn grows(space: MultiplierSpace, end: usize, pressure: impl Fn(f64) -> f64, before: [Option<f64>; 2]) -> bool {
+        let mut pair = pair(space, 1);
+        let from_first = [0.0, 0.05, 0.2, 0.5, 0.8, 1.0];
+        let fractions = from_first.map(|z| if end == 0 { z } else { 1.0 - z });
+        let mut fractions = fractions.to_vec();
+        fractions.sort_by(f64::total_cmp);
+        pair.segments = SegmentRule::Fractions(fractions);
+        let contact = contact(&blocks(pair, |_| Point::zeros(), Vec::new()), Known::default());
+        let away = |k: usize| {
+            let middle = 0.5 * (contact.boundary.arcs()[k] + contact.boundary.arcs()[k + 1]);
+            if end == 0 { middle } else { 2.0 - middle }
+        };
+        let times = if space == MultiplierSpace::P0 { 1 } else { 2 };
+        let values: Vec<f64> = (0..5).flat_map(|k| vec![pressure(away(k)); times]).collect();
+        let active: Vec<bool> = vec![true; values.len()];
+        let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
+        let zones = pressure.zones();
+        assert_eq!(zones.len(), 1);
+        pressure.grows_towards(&zones[0], end, before)
+    }
+
+    #[test]
+    fn a_pressure_grows_towards_an_end_if_it_does_so_ever_more_quickly() {
+        for end in [0, 1] {
+            let first = |pressure: &dyn Fn(f64) -> f64| grows(MultiplierSpace::P0, end, pressure, [None; 2]);
+            assert!(first(&|r| 1.0 / r.sqrt()) && first(&|r| 4.0 - r + 0.1 * r * r));
+            assert!(!first(&|r| 4.0 - r - 0.1 * r * r), "it grows, but less and less");
+            assert!(!first(&|r| 4.0 - 0.1 * r + 0.01 * r * r), "next to even");
+            assert!(!first(&|r| 1.0 + r * r) && !first(&|_| 1.0));
+        }
+    }
+
+    #[test]
+    fn a_pressure_is_singular_only_if_it_went_on_growing_with_each_mesh() {
+        // In the segment at the end it is 2.
+        let singular = |space, before, earlier| grows(space, 1, |r| 2.0 * (0.05 / r).sqrt(), [before, earlier]);
+        let found = |before, earlier| singular(MultiplierSpace::P0, Some(before), Some(earlier));
+        assert!(found(1.5, 1.0) && found(1.9, 1.8));
+        assert!(!found(1.5, 0.7), "each time by much less");
+        assert!(!found(1.97, 1.96), "next to nothing");
+        assert!(!found(1.5, 1.6), "it fell before");
+        assert!(!found(2.5, 1.0), "it falls");
+        assert!(!singular(MultiplierSpace::P0, Some(1.5), None), "steps say nothing");
+        assert!(singular(MultiplierSpace::P1Discontinuous, Some(1.5), None));
+        assert!(!singular(MultiplierSpace::P1Discontinuous, Some(1.97), None));
+    }
+
+    #[test]
+    fn a_zone_that_ends_inside_or_on_two_segments_is_not_singular() {
+        let contact = contact(&blocks(pair(MultiplierSpace::P0, 10), |_| Point::zeros(), Vec::new()), Known::default());
+        let found = |pressed: std::ops::Range<usize>, end: usize| {
+            let power = |k: usize| 1.0 / (if end == 0 { k - pressed.start + 1 } else { pressed.end - k } as f64);
+            let values: Vec<f64> = (0..10).map(|k| if pressed.contains(&k) { power(k) } else { 0.0 }).collect();
+            let active: Vec<bool> = (0..10).map(|k| pressed.contains(&k)).collect();
+            let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
+            pressure.grows_towards(&pressure.zones()[0], end, [None; 2])
+        };
+        assert!(found(0..5, 0) && found(5..10, 1) && found(0..3, 0) && found(0..10, 1));
+        assert!(!found(1..6, 0) && !found(4..9, 1) && !found(0..2, 0) && !found(8..10, 1));
+    }
+
+    /// Both ends of a zone that reaches them, and of one that does not.
+    fn corners(upper: impl Fn(Point) -> Point, ends: Option<[f64; 2]>) -> [bool; 2] {
+        let scene = blocks(pair(MultiplierSpace::P0, 8), upper, Vec::new());
+        let contact = contact(&scene, Known { ends, ..Known::default() });
+        let zone = |active: &[bool]| Zone::all(&contact.boundary, &contact.multipliers, &[1.0; 8], active).remove(0);
+        let inner: Vec<bool> = (0..8).map(|k| (1..7).contains(&k)).collect();
+        let pressure = ContactPressure { contact: &contact, values: &[1.0; 8], active: &[true; 8] };
+        let of = |zone: &Zone| [0, 1].map(|end| pressure.ends_at_a_corner(&scene.mesh, zone, end));
+        assert_eq!(of(&zone(&inner)), [false; 2]);
+        of(&zone(&[true; 8]))
+    }
+
+    #[test]
+    fn a_corner_is_where_one_body_ends_and_the_other_goes_on() {
+        assert_eq!(corners(|_| Point::zeros(), None), [false; 2], "both end");
+        assert_eq!(corners(|_| Point::new(0.3, 0.0), None), [true; 2]);
+        assert_eq!(corners(|_| Point::new(-0.3, 0.0), None), [true; 2]);
+        assert_eq!(corners(|x| Point::new(-0.5 * x.x, 0.0), None), [false, true]);
+        assert_eq!(corners(|x| Point::new(0.5 * (2.0 - x.x), 0.0), None), [true, false]);
+        assert_eq!(corners(|_| Point::zeros(), Some([0.25, 0.75])), [false; 2], "both go on");
+    }
+}

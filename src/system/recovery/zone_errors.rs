@@ -49,3 +49,30 @@ fn apart(points: &[TracePoint], counts: impl Fn(f64) -> bool) -> [f64; 2] {
     }
     [0, 1].map(|k| (sums[k] / sums[2]).sqrt())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stresses_are_apart_from_the_pressure_by_their_root_mean_square() {
+        // Uneven points; λ is 2, and the stresses miss it by 0.1 and by 0.2 times the arc length, where both bodies are.
+        let arcs: Vec<f64> = (0..=40).map(|k| (f64::from(k) / 40.0).powi(2) * 3.0).collect();
+        let zero = crate::geometry::Point::zeros();
+        let point = |&arc: &f64| TracePoint {
+            arc,
+            x: zero,
+            normal: zero,
+            lambda: 2.0,
+            displacement: [0.0; 2],
+            stress: [-2.1, 0.2 * arc - 2.0],
+            distance: [0.0; 2],
+            gap: 0.0,
+        };
+        let points: Vec<TracePoint> = arcs.iter().map(point).collect();
+        let [first, second] = apart(&points, |arc| arc <= 3.0);
+        assert!((first - 0.05).abs() < 1e-12 && (second - 0.1 * 3f64.sqrt()).abs() < 1e-3, "{first}, {second}");
+        let [_, half] = apart(&points, |arc| arc <= 1.5);
+        assert!((half - 0.1 * (1.5f64 * 1.5 / 3.0).sqrt()).abs() < 5e-3, "{half}");
+    }
+}
