@@ -60,6 +60,7 @@ pub mod petsc;
 
 pub mod geometry;
 
+pub mod accuracy;
 pub mod element;
 
 pub mod mesh;

@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Modules and their floors. A module imports from lower floors and from itself.
-const FLOORS: [(&str, u8); 13] = [
+const FLOORS: [(&str, u8); 14] = [
     ("petsc", 0),
     ("geometry", 0),
+    ("accuracy", 1),
     ("element", 1),
     ("mesh", 2),
     ("body", 3),
@@ -22,7 +23,7 @@ const FLOORS: [(&str, u8); 13] = [
 ];
 
 /// Modules of the kernels, which return values and never see PETSc.
-const KERNELS: [&str; 5] = ["geometry", "element", "mesh", "body", "contact"];
+const KERNELS: [&str; 6] = ["accuracy", "geometry", "element", "mesh", "body", "contact"];
 
 fn floor(module: &str) -> Option<u8> {
     FLOORS.iter().find(|(name, _)| *name == module).map(|(_, floor)| *floor)

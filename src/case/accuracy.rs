@@ -6,9 +6,9 @@ use super::Probe;
 use super::error::suggest;
 use super::section::Section;
 use super::values;
+use crate::accuracy::{Accuracy, Goal, ProbePoint, Quantity};
 use crate::contact::{Law, Pair};
 use crate::geometry::Point;
-use crate::system::{Accuracy, Goal, ProbePoint, Quantity};
 
 /// A number at the root of a case under this name stands for a table with that number under this key.
 pub const SHORT: [(&str, &str); 1] = [("accuracy", "energy")];

@@ -19,11 +19,12 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
+use crate::accuracy::Accuracy;
 use crate::body::{Body, Load, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
-use crate::system::{Accuracy, SolverChoice, Tolerance};
+use crate::system::{SolverChoice, Tolerance};
 
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};

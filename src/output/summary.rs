@@ -59,7 +59,7 @@ pub struct Summary {
     pub errors: BTreeMap<String, Option<f64>>,
     /// The accuracy that was asked for, and how far it was reached; the key is missing if none was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<Accuracy>,
+    pub accuracy: Option<AccuracySummary>,
 }
 
 /// Verdict of a run.
@@ -284,20 +284,20 @@ pub struct ContactEstimate {
 
 /// The accuracy that was asked for, and the meshes that were adapted to it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Accuracy {
+pub struct AccuracySummary {
     /// Whether every goal holds on the last mesh.
     pub reached: bool,
     /// What was asked for, and what there is on the last mesh.
-    pub goals: Vec<Goal>,
+    pub goals: Vec<GoalSummary>,
     /// Every mesh, the last one is that of the result.
-    pub meshes: Vec<AdaptedMesh>,
+    pub meshes: Vec<AdaptedMeshSummary>,
     /// Name of the Gmsh file of the last mesh, beside the summary.
     pub final_mesh: String,
 }
 
 /// A relative error that was asked for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Goal {
+pub struct GoalSummary {
     /// Of what, as in the case: `energy`, `force`, `pressure`, `ends`, `displacement`, `stress`.
     pub goal: String,
     /// Name of the contact or the probe; null for the whole scene.
@@ -310,7 +310,7 @@ pub struct Goal {
 
 /// One mesh of those that were adapted.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AdaptedMesh {
+pub struct AdaptedMeshSummary {
     /// Its macro triangles.
     pub macro_triangles: usize,
     /// Refinements of each of them.

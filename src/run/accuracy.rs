@@ -1,9 +1,10 @@
 //! What a run says of the accuracy that was asked for.
 
+use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity};
 use crate::case::Case;
 use crate::output::plot::Sequence;
 use crate::output::summary::{self, Status};
-use crate::system::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, Solved};
+use crate::system::Solved;
 
 /// File of the last mesh, in the result folder.
 pub const FINAL_MESH: &str = "mesh.msh";
@@ -15,21 +16,21 @@ pub fn adaptation(case: &Case, solved: &Solved) -> Option<Adaptation> {
 }
 
 /// The same in the terms of `summary.json`.
-pub fn summarise(adaptation: &Adaptation) -> summary::Accuracy {
-    let goal = |(place, goal): (usize, &Goal)| summary::Goal {
+pub fn summarise(adaptation: &Adaptation) -> summary::AccuracySummary {
+    let goal = |(place, goal): (usize, &Goal)| summary::GoalSummary {
         goal: goal.quantity.word().into(),
         of: goal.quantity.of().map(str::to_owned),
         asked: goal.tolerance,
         estimate: estimate(adaptation, place),
     };
-    let mesh = |mesh: &AdaptedMesh| summary::AdaptedMesh {
+    let mesh = |mesh: &AdaptedMesh| summary::AdaptedMeshSummary {
         macro_triangles: mesh.macro_triangles,
         refine: mesh.refine,
         unknowns: mesh.unknowns,
         estimates: mesh.errors.clone(),
         seconds: mesh.seconds,
     };
-    summary::Accuracy {
+    summary::AccuracySummary {
         reached: adaptation.is_reached(),
         goals: adaptation.accuracy.goals.iter().enumerate().map(goal).collect(),
         meshes: adaptation.meshes.iter().map(mesh).collect(),
@@ -117,7 +118,7 @@ fn grouped(count: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::ProbePoint;
+    use crate::accuracy::ProbePoint;
 
     fn adapted(last: [Option<f64>; 2]) -> Adaptation {
         let goal = |quantity, tolerance| Goal { quantity, tolerance };

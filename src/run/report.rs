@@ -1,6 +1,7 @@
 //! What a run prints on rank 0 while it lives.
 
 use super::{Outcome, RunOptions, Stages};
+use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::case::Case;
 use crate::element::Order;
 use crate::mesh::Numbering;
@@ -8,7 +9,7 @@ use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
 use crate::system::recovery::Evaluation;
-use crate::system::{Accuracy, AdaptedMesh, BoundaryStep, Contact, Event, Pass, Scene};
+use crate::system::{Contact, Event, Scene};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -73,13 +74,34 @@ impl Report {
                 passes.iter().for_each(|pass| self.fallback(pass.fallback.as_deref()));
             }
             Event::Begin(follows) => self.head(*follows),
-            Event::Passed(pass, all) => self.pass(pass, *all),
-            Event::Placed(step) => self.boundary(step),
+            Event::Passed(pass, all) => {
+                self.say(&format!(
+                    "{:5}  {:>6}/{all:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
+                    pass.iteration,
+                    pass.active,
+                    format!("+{}", pass.added),
+                    format!("-{}", pass.released),
+                    pass.krylov_iterations,
+                    pass.residual,
+                    pass.max_penetration,
+                    pass.du
+                ));
+                self.fallback(pass.fallback.as_deref());
+            }
+            Event::Placed(step) => {
+                let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
+                let flipped = step.flipped.map_or("-".to_string(), |count| count.to_string());
+                let (length, moved, du) = (length(step.length), figure(step.moved), figure(step.du));
+                self.say(&format!(
+                    "boundary {}: length {length}, moves by {moved}, displacement by {du}, multipliers changed {flipped}",
+                    step.iteration
+                ));
+            }
             Event::Adapted { accuracy, mesh } => self.adapted(accuracy, mesh),
         }
     }
 
-    /// Head of the table of passes, and if boundaries follow the bodies, when they stand.
+    /// Head of the table of passes, and before it, if boundaries follow the bodies, when they stand.
     fn head(&self, follows: Option<[f64; 2]>) {
         if let Some([boundary, displacement]) = follows {
             self.say(&format!(
@@ -87,35 +109,6 @@ impl Report {
             ));
         }
         self.say("outer  active       +/-  Krylov  residual  penetration     du");
-    }
-
-    /// A row of that table; there are `all` multipliers.
-    fn pass(&self, pass: &Pass, all: usize) {
-        self.say(&format!(
-            "{:5}  {:>6}/{all:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
-            pass.iteration,
-            pass.active,
-            format!("+{}", pass.added),
-            format!("-{}", pass.released),
-            pass.krylov_iterations,
-            pass.residual,
-            pass.max_penetration,
-            pass.du
-        ));
-        self.fallback(pass.fallback.as_deref());
-    }
-
-    /// A contact boundary that was solved for.
-    fn boundary(&self, step: &BoundaryStep) {
-        let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
-        self.say(&format!(
-            "boundary {}: length {}, moves by {}, displacement by {}, multipliers changed {}",
-            step.iteration,
-            length(step.length),
-            figure(step.moved),
-            figure(step.du),
-            step.flipped.map_or("-".to_string(), |count| count.to_string())
-        ));
     }
 
     /// One mesh of a sequence.

@@ -3,6 +3,7 @@
 use super::exact::{Errors, compare};
 use super::report::{memory, short};
 use super::{Outcome, Run, RunError, accuracy, fields, summarise, trust, zones};
+use crate::accuracy::{Adaptation, Quantity};
 use crate::case::Case;
 use crate::contact::{Configuration, CurveChoice, GapChoice};
 use crate::geometry::Point;
@@ -10,7 +11,7 @@ use crate::mesh::MacroMesh;
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
 use crate::system::recovery::{Evaluation, TracePoint};
-use crate::system::{Adaptation, Contact, Quantity, Solved};
+use crate::system::{Contact, Solved};
 use std::path::Path;
 
 /// Share of the drawn distance by which a declared gap may differ from it.

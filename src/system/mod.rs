@@ -44,8 +44,8 @@ pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};
 pub use interpolation::interpolations;
 pub use nodal_force::{load, nodal_forces};
 pub use procedure::{
-    Accuracy, Adaptation, AdaptedMesh, AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Goal, Observer, Pass,
-    ProbePoint, Procedure, Quantity, Solved, Standing, Work, ZoneDifference, ZoneEstimate,
+    AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,
+    ZoneDifference, ZoneEstimate,
 };
 pub use rigid_start::rigid_start;
 pub use saddle_point::{SaddlePoint, SchurPattern};

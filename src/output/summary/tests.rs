@@ -83,10 +83,12 @@ fn an_accuracy_is_told_where_it_was_asked_for() {
     let without = written(&filled());
     assert!(without.get("accuracy").is_none());
     assert_eq!(serde_json::from_value::<Summary>(without).unwrap(), filled());
-    let goal = Goal { goal: "energy".into(), of: None, asked: 1e-4, estimate: Some(8.1e-5) };
-    let mesh = AdaptedMesh { macro_triangles: 24, refine: 2, unknowns: 1600, estimates: vec![Some(8.1e-5), None], seconds: 0.25 };
-    let of_seam = Goal { goal: "pressure".into(), of: Some("seam".into()), asked: 1e-3, estimate: None };
-    let accuracy = Accuracy { reached: false, goals: vec![goal, of_seam], meshes: vec![mesh], final_mesh: "mesh.msh".into() };
+    let goal = GoalSummary { goal: "energy".into(), of: None, asked: 1e-4, estimate: Some(8.1e-5) };
+    let mesh =
+        AdaptedMeshSummary { macro_triangles: 24, refine: 2, unknowns: 1600, estimates: vec![Some(8.1e-5), None], seconds: 0.25 };
+    let of_seam = GoalSummary { goal: "pressure".into(), of: Some("seam".into()), asked: 1e-3, estimate: None };
+    let accuracy =
+        AccuracySummary { reached: false, goals: vec![goal, of_seam], meshes: vec![mesh], final_mesh: "mesh.msh".into() };
     let summary = Summary { accuracy: Some(accuracy), ..filled() };
     let value = written(&summary);
     let expected = json!({

@@ -1,11 +1,11 @@
 //! The loop over meshes that are adapted to an accuracy: solved, judged, refined where the error is, until all goals are
 //! reached.
 
-use super::accuracy::{Accuracy, Adaptation, AdaptedMesh};
 use super::marking::marked;
 use super::observer::{Event, Observer, Work};
 use super::settings::Procedure;
 use super::solved::Solved;
+use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh};
 use crate::contact::SegmentRule;
 use crate::mesh::BisectedMesh;
 use crate::petsc::StageGuard;

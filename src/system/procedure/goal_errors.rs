@@ -1,8 +1,8 @@
 //! Estimated errors of the goals of an accuracy.
 
-use super::accuracy::{Goal, Quantity};
 use super::settings::Procedure;
 use super::solved::Solved;
+use crate::accuracy::{Goal, Quantity};
 use crate::system::recovery::Evaluation;
 use crate::system::{Discretisation, SystemError};
 

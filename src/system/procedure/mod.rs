@@ -7,7 +7,6 @@
 //! | boundaries | `boundaries.rs` with `following.rs` | boundary, displacement and set stand |
 //! | active sets | `contact_loop.rs` | the set stands, and the residual is below its tolerance |
 
-mod accuracy;
 mod adapting;
 mod at_rest;
 mod boundaries;
@@ -28,7 +27,6 @@ mod solved;
 mod unsettled;
 mod zone_estimate;
 
-pub use accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, ProbePoint, Quantity};
 pub use at_rest::AtRest;
 pub use contact_loop::Pass;
 pub use ending::{Ending, Failure, Standing};

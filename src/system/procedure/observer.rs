@@ -1,9 +1,9 @@
 //! What a run is told of the procedure while it works.
 
-use super::accuracy::{Accuracy, AdaptedMesh};
 use super::at_rest::AtRest;
 use super::contact_loop::Pass;
 use super::following::BoundaryStep;
+use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::petsc::StageGuard;
 use crate::system::Scene;
 

@@ -1,7 +1,7 @@
 //! How a scene is solved.
 
-use super::accuracy::Accuracy;
 use super::observer::Observer;
+use crate::accuracy::Accuracy;
 use crate::petsc::Session;
 use crate::system::{Discretisation, Form, SolverChoice, Tolerance};
 

@@ -1,10 +1,10 @@
 //! A scene solved.
 
-use super::accuracy::Adaptation;
 use super::contact_loop::Pass;
 use super::ending::Ending;
 use super::estimate::Estimate;
 use super::following::BoundaryStep;
+use crate::accuracy::Adaptation;
 use crate::system::{Discretisation, Solution};
 
 /// A coarser mesh that was solved first.

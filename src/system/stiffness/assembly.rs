@@ -2,7 +2,7 @@
 
 use super::lattice_operator::Strips;
 use super::preallocation::{ContactNeighbours, Counts};
-use super::strips::{Stencil, StripNodes};
+use super::strips::{StripNodes, stencil};
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};
 use crate::geometry::Point;
@@ -55,7 +55,7 @@ impl<'a> Assembly<'a> {
         let mut counts = Counts::new(space, contact);
         for (&triangle, strips) in &self.strips {
             for nodes in strips.iter().map(|strip| self.strip_nodes(triangle, strip)) {
-                counts.leave_out(nodes.first..nodes.first + nodes.count);
+                counts.leave_out(nodes.range());
             }
         }
         let n = space.numbering.level.intervals;
@@ -138,7 +138,7 @@ impl<'a> Assembly<'a> {
         let mut known = BTreeMap::new();
         for strip in self.strips_of(triangle) {
             let stencil = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
-                strips.stencils.push(Stencil::of(stiffness, order, strip));
+                strips.stencils.push(stencil(stiffness, order, strip));
                 strips.stencils.len() - 1
             });
             strips.nodes.push((self.strip_nodes(triangle, strip), stencil));

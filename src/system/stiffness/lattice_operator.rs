@@ -13,7 +13,7 @@ use std::rc::Rc;
 #[derive(Default)]
 pub struct Strips {
     /// Couplings; few strips have their own.
-    pub stencils: Vec<Stencil>,
+    pub stencils: Vec<Box<dyn Stencil>>,
     /// The nodes of each strip, and which stencil it has.
     pub nodes: Vec<(StripNodes, usize)>,
 }
@@ -35,7 +35,7 @@ impl LatticeOperator {
     /// From the stored rows, assembled: those of nodes in strips are empty. **Collective**
     pub fn new(stored: Matrix, own: &Range<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
         let mut in_strip = vec![false; own.len()];
-        strips.nodes.iter().for_each(|(nodes, _)| in_strip[nodes.first..][..nodes.count].fill(true));
+        strips.nodes.iter().for_each(|(nodes, _)| in_strip[nodes.range()].fill(true));
         let nodes: Vec<u32> = (0..own.len()).filter(|&node| !in_strip[node]).map(|node| node as u32).collect();
         let far = far_columns(&stored, own, &nodes)?;
         let gather = match session.size() {
@@ -47,7 +47,7 @@ impl LatticeOperator {
         };
         let rows = RefCell::new(StoredRows::read(&stored, own, &nodes, &far)?);
         let couplings = |&(nodes, stencil): &(StripNodes, usize)| {
-            let [even, odd] = strips.stencils[stencil].couplings(nodes).map(|kind| kind.len());
+            let [even, odd] = strips.stencils[stencil].couplings(nodes.width).map(|kind| kind.len());
             0.5 * (nodes.count * (even + odd)) as f64
         };
         let in_strips = strips.nodes.iter().map(couplings).sum();
@@ -86,13 +86,13 @@ impl LatticeOperator {
     /// Shows the rows of all nodes in strips: couplings as distances in node numbers.
     pub fn each_row(&self, mut show: impl FnMut(usize, &[(isize, Block)])) {
         for (nodes, stencil) in self.each_strip() {
-            let kinds = stencil.couplings(nodes);
+            let kinds = stencil.couplings(nodes.width);
             (0..nodes.count).for_each(|k| show(nodes.first + k, &kinds[k % 2]));
         }
     }
 
-    fn each_strip(&self) -> impl DoubleEndedIterator<Item = (StripNodes, &Stencil)> {
-        self.strips.nodes.iter().map(|&(nodes, stencil)| (nodes, &self.strips.stencils[stencil]))
+    fn each_strip(&self) -> impl DoubleEndedIterator<Item = (StripNodes, &dyn Stencil)> {
+        self.strips.nodes.iter().map(|&(nodes, stencil)| (nodes, self.strips.stencils[stencil].as_ref()))
     }
 
     /// Calls `with` with the values of other ranks' nodes that the stored rows want. **Collective**
@@ -110,7 +110,7 @@ impl Operator for Rc<LatticeOperator> {
             let (x, mut y) = (x.values(), y.values_mut());
             let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
             self.rows.borrow().multiply(x, far, y);
-            self.each_strip().for_each(|(nodes, stencil)| stencil.multiply(nodes, x, y));
+            self.each_strip().for_each(|(nodes, stencil)| stencil.multiply(nodes, x, &mut y[nodes.range()]));
         })
     }
 
@@ -119,7 +119,7 @@ impl Operator for Rc<LatticeOperator> {
             let (b, x, mut r) = (b.values(), x.values(), r.values_mut());
             let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
             self.rows.borrow().residual(b, x, far, r);
-            self.each_strip().for_each(|(nodes, stencil)| stencil.residual(nodes, b, x, r));
+            self.each_strip().for_each(|(nodes, stencil)| stencil.residual(nodes, &b[nodes.range()], x, &mut r[nodes.range()]));
         })
     }
 
@@ -129,8 +129,8 @@ impl Operator for Rc<LatticeOperator> {
             let (b, x) = (b.as_chunks().0, Cell::from_mut(x.as_chunks_mut().0).as_slice_of_cells());
             let rows = self.rows.borrow();
             rows.forward(b, x, far);
-            self.each_strip().for_each(|(nodes, stencil)| stencil.forward(nodes, b, x));
-            self.each_strip().rev().for_each(|(nodes, stencil)| stencil.backward(nodes, b, x));
+            self.each_strip().for_each(|(nodes, stencil)| stencil.forward(nodes, &b[nodes.range()], x));
+            self.each_strip().rev().for_each(|(nodes, stencil)| stencil.backward(nodes, &b[nodes.range()], x));
             rows.backward(b, x, far);
         };
         if from_zero {
@@ -155,7 +155,7 @@ impl Operator for Rc<LatticeOperator> {
 
     fn norm_infinity(&self) -> Result<f64> {
         let stored = self.stored.borrow().norm_infinity()?;
-        Ok(self.strips.stencils.iter().map(Stencil::norm_infinity).fold(stored, f64::max))
+        Ok(self.strips.stencils.iter().map(|stencil| stencil.norm_infinity()).fold(stored, f64::max))
     }
 
     fn work(&self) -> f64 {
