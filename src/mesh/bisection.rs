@@ -29,7 +29,7 @@ pub struct Origin {
 
 /// A triangle on its way: its corners, the newest one first, and where they lie in the triangle that it comes from.
 #[derive(Clone, Copy)]
-struct Part {
+struct TrianglePart {
     corners: [u32; 3],
     places: [Point; 3],
 }
@@ -85,16 +85,16 @@ impl BisectedMesh {
     }
 
     /// The parts of a triangle by the middles of its edges, each with the side that it is halved at next.
-    fn parts(&self, triangle: usize, middles: &[Option<u32>]) -> Vec<(Part, usize)> {
+    fn parts(&self, triangle: usize, middles: &[Option<u32>]) -> Vec<(TrianglePart, usize)> {
         let MacroTriangle { vertices, edges, .. } = &self.mesh.triangles[triangle];
         let places = [Point::zeros(), Point::x(), Point::y()];
         let side = self.sides[triangle];
         let Some(middle) = middles[edges[side] as usize] else {
-            return vec![(Part { corners: *vertices, places }, side)];
+            return vec![(TrianglePart { corners: *vertices, places }, side)];
         };
         // Corners in order from the newest one: the side lies across from it.
         let turned = [(side + 2) % 3, side, (side + 1) % 3];
-        let whole = Part { corners: turned.map(|k| vertices[k]), places: turned.map(|k| places[k]) };
+        let whole = TrianglePart { corners: turned.map(|k| vertices[k]), places: turned.map(|k| places[k]) };
         let halves = whole.halves(middle);
         // The halves are halved at the sides between the newest corner and the two others.
         let theirs = [edges[(side + 2) % 3], edges[(side + 1) % 3]].map(|edge| middles[edge as usize]);
@@ -106,7 +106,7 @@ impl BisectedMesh {
     }
 }
 
-impl Part {
+impl TrianglePart {
     /// Both halves by the middle of the side across from the newest corner; the middle is their newest corner.
     fn halves(&self, middle: u32) -> [Self; 2] {
         let ([a, b, c], [x, y, z]) = (self.corners, self.places);

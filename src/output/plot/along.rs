@@ -35,7 +35,7 @@ pub fn write_pressure(path: &Path, title: &str, points: &[ContactPoint]) -> Resu
     let mut range = finite_range(path, points, &curves)?;
     range = [range[0].min(0.0), range[1].max(0.0)];
     let (shown, remark) = cut_peaks(range, points, &curves);
-    let quantity = Quantity { name: "pressure", unit: "stress" };
+    let quantity = DrawnQuantity { name: "pressure", unit: "stress" };
     write_curves(path, title, points, &curves, shown, &quantity, remark.as_deref())
 }
 
@@ -49,12 +49,12 @@ pub fn write_displacement(path: &Path, title: &str, points: &[ContactPoint]) -> 
         DrawnCurve { name: "n·u of body 2", style: line(&GREEN, 2.6), value: |p| p.un_2 },
     ];
     let range = finite_range(path, points, &curves)?;
-    let quantity = Quantity { name: "normal displacement", unit: "length" };
+    let quantity = DrawnQuantity { name: "normal displacement", unit: "length" };
     write_curves(path, title, points, &curves, range, &quantity, None)
 }
 
 /// What the vertical axis shows.
-struct Quantity {
+struct DrawnQuantity {
     name: &'static str,
     unit: &'static str,
 }
@@ -65,7 +65,7 @@ fn write_curves(
     points: &[ContactPoint],
     curves: &[DrawnCurve],
     range: [f64; 2],
-    quantity: &Quantity,
+    quantity: &DrawnQuantity,
     remark: Option<&str>,
 ) -> Result<(), OutputError> {
     let ends = [points[0].s, points[points.len() - 1].s];
