@@ -142,12 +142,13 @@ fn check_ends(section: &Section, contacts: &[Pair], single: &[Single]) {
 /// Goals of one contact: its own before those of all. The ends of bilateral contact are known.
 fn goals_of(pair: &Pair, all: OfContact, own: OfContact) -> Vec<Goal> {
     let ends = own.ends.or(all.ends).filter(|_| pair.law == Law::Unilateral);
-    let tolerances: [(fn(String) -> Quantity, Option<f64>); 3] =
-        [(Quantity::Force, own.force.or(all.force)), (Quantity::Pressure, own.pressure.or(all.pressure)), (Quantity::Ends, ends)];
-    let goal = |(quantity, tolerance): (fn(String) -> Quantity, Option<f64>)| {
-        tolerance.map(|tolerance| Goal { quantity: quantity(pair.name.clone()), tolerance })
-    };
-    tolerances.into_iter().filter_map(goal).collect()
+    let name = || pair.name.clone();
+    let tolerances = [
+        (Quantity::Force(name()), own.force.or(all.force)),
+        (Quantity::Pressure(name()), own.pressure.or(all.pressure)),
+        (Quantity::Ends(name()), ends),
+    ];
+    tolerances.into_iter().filter_map(|(quantity, tolerance)| Some(Goal { quantity, tolerance: tolerance? })).collect()
 }
 
 /// Goals at one point.

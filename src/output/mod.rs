@@ -5,7 +5,7 @@
 //! | `summary.json` | [`Summary::write`] |
 //! | `contact_NAME.csv` | [`write_contact`] |
 //! | `fields.vtu`, or `fields.pvtu` and its pieces; `contact_NAME.vtu` | [`vtk`] |
-//! | `pressure_NAME.svg`, `displacement_NAME.svg`, `deformed.svg` | [`plot`] |
+//! | `pressure_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `accuracy.svg` | [`plot`] |
 //!
 //! All of it goes through a [`ResultFolder`], which appears under its name only when it is whole.
 //! Nothing here communicates: in parallel every rank writes its own piece of the fields, and rank 0 the rest.

@@ -239,7 +239,7 @@ fn macro_lines(edges: &[MacroEdge], scale: f64, place: impl Fn([f64; 2]) -> (i32
     if data.is_empty() {
         return data;
     }
-    format!("<path fill=\"none\" stroke=\"#fff\" stroke-opacity=\"0.55\" stroke-width=\"3\" d=\"{data}\"/>\n")
+    format!("<path fill=\"none\" stroke=\"#fff\" stroke-opacity=\"0.75\" stroke-width=\"4\" d=\"{data}\"/>\n")
 }
 
 /// A corner of a facet in single precision, by its bits: position and displacement, so that bodies that touch keep their own
