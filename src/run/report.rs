@@ -8,7 +8,7 @@ use crate::output::Summary;
 use crate::output::summary::{Memory, Time};
 use crate::petsc::Session;
 use crate::system::recovery::Evaluation;
-use crate::system::{Accuracy, AdaptedMesh, Contact, Event, Scene};
+use crate::system::{Contact, Event, Scene};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -94,7 +94,10 @@ impl Report {
                 ));
                 self.fallback(pass.fallback.as_deref());
             }
-            Event::Adapted { accuracy, mesh } => self.adapted(accuracy, mesh),
+            Event::Adapted { accuracy, mesh } => {
+                let goals = accuracy.goals.iter().map(|goal| goal.quantity.word()).zip(mesh.errors.iter().copied());
+                self.adapted([mesh.number, mesh.macro_triangles, mesh.unknowns], goals, mesh.seconds);
+            }
             Event::Placed(step) => {
                 let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
                 self.say(&format!(
@@ -109,18 +112,18 @@ impl Report {
         }
     }
 
-    /// One mesh of a sequence.
-    fn adapted(&self, accuracy: &Accuracy, mesh: &AdaptedMesh) {
-        let goals = accuracy.goals.iter().zip(&mesh.errors);
-        let figure = |error: &Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
-        let all: Vec<String> = goals.map(|(goal, error)| format!("{} {}", goal.quantity.word(), figure(error))).collect();
+    /// One mesh of a sequence: its number, macro triangles and unknowns, what is estimated of each goal, seconds so far.
+    fn adapted(
+        &self,
+        [number, triangles, unknowns]: [usize; 3],
+        goals: impl Iterator<Item = (&'static str, Option<f64>)>,
+        seconds: f64,
+    ) {
+        let figure = |error: Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
+        let all: Vec<String> = goals.map(|(word, error)| format!("{word} {}", figure(error))).collect();
         self.say(&format!(
-            "mesh {:2}: {} macro triangles, {} unknowns, {}, {:.2} s",
-            mesh.number,
-            mesh.macro_triangles,
-            mesh.unknowns,
-            all.join(", "),
-            mesh.seconds
+            "mesh {number:2}: {triangles} macro triangles, {unknowns} unknowns, {}, {seconds:.2} s",
+            all.join(", ")
         ));
     }
 
