@@ -32,8 +32,8 @@ pub fn summarise(adaptation: &Adaptation) -> summary::AccuracySummary {
     };
     summary::AccuracySummary {
         reached: adaptation.is_reached(),
-        goals: goals.collect(),
-        meshes: meshes.collect(),
+        goals: adaptation.accuracy.goals.iter().enumerate().map(goal).collect(),
+        meshes: adaptation.meshes.iter().map(mesh).collect(),
         final_mesh: FINAL_MESH.into(),
     }
 }
@@ -57,35 +57,27 @@ pub fn sequences(adaptation: &Adaptation) -> Vec<Sequence> {
             adaptation.meshes.iter().filter_map(move |mesh| Some((mesh.unknowns as f64, mesh.errors.get(place).copied()??)));
         known.collect()
     };
-    goals
-        .map(|(place, goal)| Sequence {
-            name: name(goal.quantity.word(), goal.quantity.of()),
-            asked: goal.tolerance,
-            points: points(place),
-        })
-        .collect()
+    goals.map(|(place, goal)| Sequence { name: name(&goal.quantity), asked: goal.tolerance, points: points(place) }).collect()
 }
 
-/// What a case asks for, if it does, on one line: `energy to 1e-4, pressure of seam to 1e-3; at most 100 000 unknowns`.
-pub fn request(case: &Case) -> Option<String> {
-    let accuracy = case.accuracy.as_ref()?;
-    let names = accuracy.goals.iter().map(|goal| name(goal.quantity.word(), goal.quantity.of()));
-    let goals: Vec<String> = names.zip(&accuracy.goals).map(|(name, goal)| format!("{name} to {:e}", goal.tolerance)).collect();
+/// What is asked for, on one line: `energy to 1e-4, pressure of seam to 1e-3; at most 100 000 unknowns`.
+pub fn request(accuracy: &Accuracy) -> String {
+    let goals = accuracy.goals.iter().map(|goal| format!("{} to {:e}", name(&goal.quantity), goal.tolerance));
     let unknowns = accuracy.most_unknowns.map(|most| format!("; at most {} unknowns", grouped(most)));
     let seconds = accuracy.most_seconds.map(|most| format!("; no further mesh after {most} s"));
-    Some([goals.join(", ")].into_iter().chain(unknowns).chain(seconds).collect())
+    [goals.collect::<Vec<_>>().join(", ")].into_iter().chain(unknowns).chain(seconds).collect()
 }
 
 /// What is reached, and on what: `energy to 8.1e-5 (asked 1e-4): 21 868 unknowns on 7 meshes, 0.31 s`.
 fn words(adaptation: &Adaptation) -> String {
-    let goals = adaptation.accuracy.goals.iter().enumerate().map(|(place, goal)| {
-        let name = name(goal.quantity.word(), goal.quantity.of());
+    let goal = |(place, goal): (usize, &Goal)| {
+        let name = name(&goal.quantity);
         match estimate(adaptation, place) {
             Some(error) => format!("{name} to {} (asked {:e})", figure(error), goal.tolerance),
             None => format!("{name} to an unknown error (asked {:e})", goal.tolerance),
         }
-    });
-    let goals = goals.collect::<Vec<_>>().join(", ");
+    };
+    let goals = adaptation.accuracy.goals.iter().enumerate().map(goal).collect::<Vec<_>>().join(", ");
     let meshes = match adaptation.meshes.len() {
         1 => "1 mesh".into(),
         count => format!("{count} meshes"),
@@ -102,9 +94,10 @@ fn estimate(adaptation: &Adaptation, place: usize) -> Option<f64> {
 }
 
 /// `energy`, `pressure of seam`, `stress at tip`
-fn name(word: &str, of: Option<&str>) -> String {
-    match (word, of) {
-        ("displacement" | "stress", Some(probe)) => format!("{word} at {probe}"),
+fn name(quantity: &Quantity) -> String {
+    let word = quantity.word();
+    match (quantity, quantity.of()) {
+        (Quantity::Displacement(_) | Quantity::Stress(_), Some(probe)) => format!("{word} at {probe}"),
         (_, Some(contact)) => format!("{word} of {contact}"),
         (_, None) => word.into(),
     }
@@ -183,17 +176,12 @@ mod tests {
 
     #[test]
     fn a_request_is_one_line() {
-        let scene = "mesh.file = 'a.msh'\nbody.a = { young = 1, poisson = 0.3 }\nprobe.tip = { point = [0, 0], body = 'a' }\n";
-        let words = |text: &str| {
-            let case = Case::parse(&format!("{scene}{text}"), Path::new("case.toml"), &[]).expect("a good case");
-            request(&case)
-        };
-        assert_eq!(words(""), None);
-        assert_eq!(words("accuracy = 1e-4").as_deref(), Some("energy to 1e-4"));
-        assert_eq!(
-            words("[accuracy]\nstress = 0.05\nenergy = 0.01\nmax_unknowns = 1100000\nmax_seconds = 2.5").as_deref(),
-            Some("energy to 1e-2, stress at tip to 5e-2; at most 1 100 000 unknowns; no further mesh after 2.5 s")
-        );
+        let mut accuracy = adapted([None; 2]).accuracy;
+        assert_eq!(request(&accuracy), "energy to 1e-4, pressure of seam to 1e-3");
+        let probe = ProbePoint { name: "tip".into(), body: "a".into(), point: crate::geometry::Point::new(0.0, 0.0) };
+        accuracy.goals = vec![Goal { quantity: Quantity::Stress(probe), tolerance: 0.05 }];
+        (accuracy.most_unknowns, accuracy.most_seconds) = (Some(1_100_000), Some(2.5));
+        assert_eq!(request(&accuracy), "stress at tip to 5e-2; at most 1 100 000 unknowns; no further mesh after 2.5 s");
         assert_eq!([7, 999, 1000].map(grouped), ["7", "999", "1 000"]);
     }
 }

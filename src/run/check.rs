@@ -53,8 +53,8 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
             contact.multipliers.count()
         ));
     }
-    if let Some(words) = accuracy::request(case) {
-        lines.push(format!("accuracy asked for: {words}; the mesh is adapted to it"));
+    if let Some(accuracy) = &case.accuracy {
+        lines.push(format!("accuracy asked for: {}; the mesh is adapted to it", accuracy::request(accuracy)));
     }
     let not_held = at_rest.not_held(&scene)?;
     Ok(Checked { words: lines.join("\n"), not_held })

@@ -117,8 +117,12 @@ impl Report {
         let figure = |error: &Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
         let all: Vec<String> = goals.map(|(goal, error)| format!("{} {}", goal.quantity.word(), figure(error))).collect();
         self.say(&format!(
-            "mesh {number:2}: {triangles} macro triangles, {unknowns} unknowns, {}, {seconds:.2} s",
-            all.join(", ")
+            "mesh {:2}: {} macro triangles, {} unknowns, {}, {:.2} s",
+            mesh.number,
+            mesh.macro_triangles,
+            mesh.unknowns,
+            all.join(", "),
+            mesh.seconds
         ));
     }
 

@@ -210,8 +210,7 @@ fn remarks(summary: &Summary, status: Status) -> String {
         let all = summary.contact.iter().filter(|(_, contact)| is(contact)).map(|(name, _)| name.as_str());
         all.collect::<Vec<_>>().join(", ")
     };
-    // Only the energy norm is of no contact and no probe.
-    let is_told = summary.accuracy.iter().flat_map(|accuracy| &accuracy.goals).any(|goal| goal.of.is_none());
+    let is_told = summary.accuracy.iter().flat_map(|accuracy| &accuracy.goals).any(|goal| goal.goal == Quantity::Energy.word());
     if let (Status::Converged, Some(error), false) = (status, summary.estimate.energy, is_told) {
         remarks += &format!("; estimated error {error:.1e} in the energy norm");
     }
