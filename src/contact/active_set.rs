@@ -162,4 +162,10 @@ mod tests {
         assert_eq!(set.update(|_| 0.0), SetChange::Settled);
         assert_eq!(set.active(), [true, false]);
     }
+
+    #[test]
+    fn only_a_bilateral_set_may_not_change() {
+        assert!(!ActiveSet::new(vec![true; 3]).may_change());
+        assert!(ActiveSet::new(vec![true, false]).may_change() && ActiveSet::new(vec![false]).may_change());
+    }
 }

@@ -253,4 +253,15 @@ mod tests {
             assert!((first(&edges, [1.0, ratio]) - lower).abs() < 1e-9, "the coarse body is the softer one");
         }
     }
+
+    #[test]
+    fn meshes_match_where_each_edge_lies_on_one_of_the_other_side_the_other_way_round() {
+        let ([lower, upper], _) = graded_seam(0.5);
+        let mut across = lower.clone();
+        across.iter_mut().for_each(|edge| edge.points.swap(0, 1));
+        let ratio =
+            |other: Vec<BoundaryEdge>| safe_ratio_of(Order::P2, MultiplierSpace::P1Discontinuous, &[lower.clone(), other]);
+        assert_eq!(ratio(across.clone()), 2.0);
+        assert_eq!([ratio(upper), ratio(lower.clone()), ratio(across[1..].to_vec())], [1.5; 3]);
+    }
 }

@@ -364,4 +364,24 @@ mod tests {
         assert!(words.contains("\"lower.seam\" is in contact.seam too"), "{words}");
         assert!(clash((other, [0.3, 2.0]), (SEAM, [0.0, 1.0])).is_some());
     }
+
+    /// Places lie evenly within the part that Γ_C is; across each are a point of the flat side and one of the rising side over it.
+    #[test]
+    fn points_across_lie_on_the_normal_line_of_their_place() {
+        let (mesh, numbering) = blocks(|x| Point::new(0.0, 0.1 * x.x));
+        let pair = seam();
+        let curve = Curve::Line([[0.0, 1.0], [2.0, 1.0]]);
+        let boundary = ContactBoundary::new(curve, [0.25, 0.35], Point::new(0.0, 1.0));
+        let facing = Facing::new(&mesh, &numbering, &pair, &boundary);
+        let places: Vec<f64> = facing.places().collect();
+        let (step, count) = (0.1 / PLACES as f64, PLACES as f64);
+        assert!((places[0] - 0.25 - 0.5 * step).abs() < 1e-12 && (places.iter().sum::<f64>() / count - 0.3).abs() < 1e-12);
+        assert!(places.windows(2).all(|two| (two[1] - two[0] - step).abs() < 1e-12));
+        for t in places {
+            let Across::Facing([below, above]) = facing.across(t) else { panic!("both are there at {t}") };
+            let (x, y) = (2.0 * t, 1.0 + 0.2 * t);
+            assert!((below - Point::new(x, 1.0)).norm() < 1e-12 && (above - Point::new(x, y)).norm() < 1e-12, "{t}: {above}");
+        }
+        assert!(matches!(facing.across(-0.1), Across::Nothing) && matches!(facing.across(1.1), Across::Nothing));
+    }
 }

@@ -158,4 +158,19 @@ mod tests {
         assert_eq!(of(0..1), None);
         assert!(of(1..2).is_some(), "zero, the middle, zero");
     }
+
+    /// The nearest linear functions to a parabola meet it at the two Gauss points of each segment: from these it is found again.
+    #[test]
+    fn a_parabola_is_found_again_from_the_gauss_points_of_its_nearest_chords() {
+        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [4.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        boundary.cut(&(0..=8).map(|k| f64::from(k) / 8.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(MultiplierSpace::P1Discontinuous, &boundary);
+        let at = |k: usize| 5.0 + (0.5 * k as f64) * (4.0 - 0.5 * k as f64) + 0.25 / 6.0;
+        let lambda: Vec<f64> = (0..8).flat_map(|k| [at(k), at(k + 1)]).collect();
+        let zones = Zone::all(&boundary, &multipliers, &lambda, &[true; 16]);
+        let found = roughness(&boundary, &multipliers, &lambda, &zones[0]).expect("enough samples");
+        // The parabola less its nearest chord is H²/6 times the Legendre polynomial of second degree, whose mean square is 1/5.
+        let size = 0.25 / 6.0 / 5f64.sqrt();
+        assert!((found.middle * 8.66 / size - 1.0).abs() < 0.02, "{found:?}, {size}");
+    }
 }

@@ -79,3 +79,33 @@ pub fn trace(boundary: &ContactBoundary, small: &BoundaryEdge, t: f64) -> Trace 
     let place = small.places.iter().zip(values).fold(Point::zeros(), |sum, (place, value)| sum + value * place);
     Trace { fraction, values, place }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::element::Order;
+    use crate::geometry::Curve;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    /// Γ_C lies below the seam: the normal line through x meets the seam in (x, 1).
+    #[test]
+    fn a_trace_lies_where_the_normal_line_meets_the_edge() {
+        let mesh = two_blocks();
+        let boundary = ContactBoundary::new(Curve::Line([[0.0, 0.7], [2.0, 0.7]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        for order in [Order::P1, Order::P2] {
+            let numbering = Numbering::new(Level { intervals: 4, order }, &Rc::new(Partition::new(&mesh, &[0; 6], 1)));
+            let edges = &mesh.boundary("upper.seam").expect("named").edges;
+            for edge in edges.iter().flat_map(|&edge| BoundaryEdge::all_of(&mesh, edge, &numbering)) {
+                for share in [0.1, 0.35, 0.8] {
+                    let wanted = edge.points[0] + share * (edge.points[1] - edge.points[0]);
+                    let found = trace(&boundary, &edge, boundary.foot(wanted));
+                    assert!((found.fraction - share).abs() < 1e-12, "{} instead of {share}", found.fraction);
+                    assert!((found.place - wanted).norm() < 1e-12, "{} instead of {wanted}", found.place);
+                    assert!((found.values.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+                }
+            }
+        }
+    }
+}

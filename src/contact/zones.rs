@@ -137,4 +137,15 @@ mod tests {
         let middle = |arc: f64| zones[0].has_in_its_middle(arc);
         assert_eq!([0.9, 1.1, 3.9, 4.1].map(middle), [false, true, true, false]);
     }
+
+    #[test]
+    fn middle_and_rest_of_a_zone_are_counted_from_its_own_ends() {
+        let (found, ..) = zones(MultiplierSpace::P0, |k| (4..9).contains(&k));
+        assert!((found[0].length() - 5.0).abs() < 1e-12);
+        let middle = |arc: f64| found[0].has_in_its_middle(arc);
+        assert_eq!([4.9, 5.1, 7.9, 8.1].map(middle), [false, true, true, false]);
+        let (found, ..) = zones(MultiplierSpace::P0, |k| k >= 5);
+        let inside = |arc: f64| found[0].has_inside(arc);
+        assert_eq!([4.9, 5.1, 9.4, 9.6].map(inside), [false, true, true, false], "the tenth at the end of the boundary");
+    }
 }

@@ -193,3 +193,22 @@ fn check_facing(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> R
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::finest_numbering;
+    use crate::system::samples::{blocks, pair};
+
+    #[test]
+    fn multipliers_of_all_contacts_are_numbered_through() {
+        let mut scene = blocks(pair(MultiplierSpace::P0, 3), |_| Point::zeros(), Vec::new());
+        scene.pairs.extend([pair(MultiplierSpace::P1Discontinuous, 4), pair(MultiplierSpace::P1Continuous, 5)]);
+        let numbering = finest_numbering(&scene).expect("a small mesh");
+        let nothing = vec![Known::default(); 3];
+        let all = Contact::all_again(&scene, &numbering, 0, &nothing, &|_| Point::zeros()).expect("they face each other");
+        let ranges: Vec<_> = all.iter().map(Contact::range).collect();
+        assert_eq!(ranges, [0..3, 3..11, 11..17]);
+        assert!(Contact::all(&scene, &numbering, 0).is_err_and(|error| error.to_string().contains("one place of a boundary")));
+    }
+}

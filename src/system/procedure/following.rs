@@ -292,3 +292,30 @@ pub fn carried(before: &[Contact], after: &[Contact], solution: &Solution) -> Op
     let alike = before.iter().zip(after).all(|(a, b)| a.multipliers.count() == b.multipliers.count());
     alike.then(|| start_from(solution))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{EndRule, Known, MultiplierSpace, Pair};
+    use crate::geometry::Point;
+    use crate::system::samples::{blocks, contact, pair};
+
+    /// Between two places of Γ_C on the seam, which is 2 long; the first is 0.5 long.
+    fn way_to(ends: [f64; 2], segments: usize, rule: EndRule) -> Option<f64> {
+        let place = |ends, segments| {
+            let pair = Pair { ends: rule, ..pair(MultiplierSpace::P0, segments) };
+            contact(&blocks(pair, |_| Point::zeros(), Vec::new()), Known { ends: Some(ends), ..Known::default() })
+        };
+        way(&[place([0.25, 0.5], 5)], &[place(ends, segments)])
+    }
+
+    #[test]
+    fn the_way_of_free_ends_is_measured_by_the_length() {
+        let near = |found: Option<f64>, wanted: f64| assert!((found.expect("as many") - wanted).abs() < 1e-12, "{found:?}");
+        near(way_to([0.25, 0.5], 5, EndRule::Free), 0.0);
+        near(way_to([0.2, 0.5], 5, EndRule::Free), 0.1 / 0.5);
+        near(way_to([0.3, 0.8], 5, EndRule::Free), 0.6 / 0.5);
+        near(way_to([0.3, 0.8], 5, EndRule::Fixed), 0.0);
+        assert_eq!(way_to([0.25, 0.5], 4, EndRule::Free), None, "other segments");
+    }
+}

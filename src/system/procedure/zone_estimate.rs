@@ -239,4 +239,14 @@ mod tests {
         assert_eq!(at(3.2, 3.6).again(&others), Some(&others[1]));
         assert_eq!(at(6.0, 6.5).again(&others), None);
     }
+
+    #[test]
+    fn what_is_left_falls_half_way_between_what_was_seen_and_what_should_be() {
+        // With a factor f of the squares √(f/(1-f)) is left of the last difference: of 1/4 as seen, of 1/16 as it should be.
+        let (last, before) = (difference(0.1), difference(0.2));
+        let left = last.left(Some(&before), MultiplierSpace::P1Continuous, |zone| zone.pressure).expect("a number");
+        let wanted = 0.1 * ((1.0f64 / 3.0).sqrt() * (1.0f64 / 15.0).sqrt()).sqrt();
+        assert!((left - wanted).abs() < 1e-12, "{left} instead of {wanted}");
+        assert_eq!(last.left(Some(&difference(f64::NAN)), MultiplierSpace::P0, |zone| zone.pressure), None);
+    }
 }
