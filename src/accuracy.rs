@@ -99,6 +99,21 @@ impl Quantity {
     }
 }
 
+impl Accuracy {
+    /// The points that goals are set for, each once.
+    pub fn probes(&self) -> Vec<ProbePoint> {
+        let mut all: Vec<ProbePoint> = Vec::new();
+        for goal in &self.goals {
+            if let Quantity::Displacement(probe) | Quantity::Stress(probe) = &goal.quantity
+                && !all.contains(probe)
+            {
+                all.push(probe.clone());
+            }
+        }
+        all
+    }
+}
+
 impl Adaptation {
     /// Whether the errors on the last mesh are what was asked for.
     pub fn is_reached(&self) -> bool {

@@ -118,19 +118,13 @@ impl Multipliers {
         }
     }
 
-    /// Segments that a multiplier lives on, as first and one past the last.
-    pub fn support(&self, multiplier: usize) -> std::ops::Range<usize> {
-        match self.space {
-            MultiplierSpace::P0 => multiplier..multiplier + 1,
-            MultiplierSpace::P1Discontinuous => multiplier / 2..multiplier / 2 + 1,
-            MultiplierSpace::P1Continuous => multiplier.saturating_sub(1)..(multiplier + 1).min(self.lengths.len()),
-        }
-    }
-
     /// Length `H_i` that a multiplier stands for: its segment, or the lumped length of a segment end.
     pub fn length(&self, multiplier: usize) -> f64 {
         match self.space {
-            MultiplierSpace::P1Continuous => self.support(multiplier).map(|k| 0.5 * self.lengths[k]).sum(),
+            MultiplierSpace::P1Continuous => {
+                let beside = multiplier.saturating_sub(1)..(multiplier + 1).min(self.lengths.len());
+                beside.map(|k| 0.5 * self.lengths[k]).sum()
+            }
             _ => self.lengths[self.segment_of(multiplier)],
         }
     }

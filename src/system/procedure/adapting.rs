@@ -39,7 +39,7 @@ impl Procedure<'_> {
         let mut mesh = BisectedMesh::new(scene.mesh.as_ref().clone());
         let mut scene = prepared(scene);
         let quiet = Quiet(self.observer);
-        let one = Procedure { accuracy: None, observer: &quiet, ..*self };
+        let one = Procedure { observer: &quiet, ..*self };
         let mut meshes = Vec::new();
         for number in 1.. {
             let mut solved = one.solve_on_mesh(scene.clone())?;

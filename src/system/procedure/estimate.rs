@@ -8,10 +8,12 @@
 use super::coarse_solution::CoarseSolution;
 use super::zone_estimate::ZoneDifference;
 use super::zone_estimate::ZoneEstimate;
+use crate::accuracy::ProbePoint;
 use crate::contact::Zone;
 use crate::element::Order;
+use crate::geometry::Point;
 use crate::petsc::Session;
-use crate::system::recovery::{TracePoint, ZoneErrors, local_strain_energy, strain_energy, zone_errors};
+use crate::system::recovery::{TracePoint, ZoneErrors, local_strain_energy, probe, strain_energy, zone_errors};
 use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
 
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
@@ -22,6 +24,12 @@ const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 
 /// Factors by which errors of a force fall on a smooth solution, P1 and P2.
 const FORCE_FALLS: [f64; 2] = [0.25, 0.125];
+
+/// Factor by which errors of the ends of contact fall: they lie at ends of segments.
+const ENDS_FALL: f64 = 0.5;
+
+/// Factors by which errors of displacement and of stress at a point fall on a smooth solution, P1 and P2.
+const PROBES_FALL: [[f64; 2]; 2] = [[0.25, 0.125], [0.5, 0.25]];
 
 /// Largest factor by which errors of a force are taken to fall.
 const FORCE_SLOWEST: f64 = 0.6;
@@ -38,6 +46,10 @@ pub struct Difference {
     local: Vec<f64>,
     /// Relative difference of `∫λ ds`, for each contact.
     force: Vec<f64>,
+    /// Largest way of an end of contact by the width of its zone, for each contact.
+    ends: Vec<f64>,
+    /// Relative difference of the displacement and of the stress at each probe that a goal is set for.
+    probes: Vec<[f64; 2]>,
     /// The zones of each contact.
     zones: Vec<Vec<ZoneDifference>>,
 }
@@ -51,35 +63,43 @@ pub struct Estimate {
     pub local: Vec<f64>,
     /// Of `∫λ ds`, for each contact.
     pub force: Vec<Option<f64>>,
+    /// Of the ends of contact by the width of its zone, for each contact.
+    pub ends: Vec<Option<f64>>,
+    /// Of the displacement and of the stress at each probe that a goal is set for.
+    pub probes: Vec<[Option<f64>; 2]>,
     /// For each zone of each contact, the last difference and, if the zone was there, the one before.
     pub zones: Vec<Vec<[Option<ZoneDifference>; 2]>>,
 }
 
 impl Difference {
-    /// Compares a solution with the one before. **Collective**
+    /// Compares a solution with the one before, at `probes` too. **Collective**
     pub fn new(
         problem: &Discretisation,
         solution: &Solution,
         coarse: &CoarseSolution,
+        probes: &[ProbePoint],
         session: &Session,
     ) -> Result<Self, SystemError> {
         let mut apart = coarse.displacement(&problem.scene, problem.finest(), session.rank());
         apart.iter_mut().zip(&solution.displacement).for_each(|(before, now)| *before = now - *before);
-        let whole = strain_energy(problem, &Field::displacement(problem, &solution.displacement, session)?, session)?;
+        let u = Field::displacement(problem, &solution.displacement, session)?;
+        let whole = strain_energy(problem, &u, session)?;
         let apart = Field::displacement(problem, &apart, session)?;
+        let probes = probes.iter().map(|point| at_probe(problem, point, &u, &apart, session)).collect::<Result<_, _>>()?;
         let local = local_strain_energy(problem, &apart, session)?;
         let apart = strain_energy(problem, &apart, session)?;
-        let (mut force, mut zones) = (Vec::new(), Vec::new());
+        let (mut force, mut ends, mut zones) = (Vec::new(), Vec::new(), Vec::new());
         for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
             let pressure = solution.pressure(contact);
             let now = pressure.force();
             force.push(((now - before) / now).abs());
+            ends.push(way_of_ends(&pressure, &coarse.pressure(at)));
             let before = |x| coarse.pressure(at).at_foot(x);
             zones.push(pressure.zones().iter().map(|zone| ZoneDifference::new(contact, pressure.values, zone, before)).collect());
         }
         let whole = whole.iter().sum::<f64>();
         let local = local.into_iter().map(|part| part / whole).collect();
-        Ok(Self { energy: apart.iter().sum::<f64>() / whole, local, force, zones })
+        Ok(Self { energy: apart.iter().sum::<f64>() / whole, local, force, ends, probes, zones })
     }
 }
 
@@ -98,11 +118,21 @@ impl Estimate {
             Some(before) => left(before.energy, last.energy),
             None => Some(last.energy * ENERGY_BY_ONE[order.degree() - 1].powi(2)),
         };
-        let force = |k: usize| force_left(before.map(|before| before.force[k]), last.force[k], order);
+        let force = |k: usize| value_left(before.map(|before| before.force[k]), last.force[k], FORCE_FALLS[order.degree() - 1]);
+        let ends = |k: usize| value_left(before.map(|before| before.ends[k]), last.ends[k], ENDS_FALL);
+        let probe = |k: usize| {
+            [0, 1].map(|what: usize| {
+                let fall = PROBES_FALL[what][order.degree() - 1];
+                value_left(before.map(|before| before.probes[k][what]), last.probes[k][what], fall)
+                    .map(|error| error.max(residual))
+            })
+        };
         Self {
             energy: energy.map(f64::sqrt).filter(|error| error.is_finite()),
             local: last.local.clone(),
             force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
+            ends: contacts.clone().map(ends).collect(),
+            probes: (0..last.probes.len()).map(probe).collect(),
             zones: contacts.map(zones).collect(),
         }
     }
@@ -127,6 +157,37 @@ impl Estimate {
     }
 }
 
+/// Relative differences of displacement and stress at a point; not a number where no body holds it. **Collective**
+fn at_probe(
+    problem: &Discretisation,
+    point: &ProbePoint,
+    u: &Field<2>,
+    apart: &Field<2>,
+    session: &Session,
+) -> Result<[f64; 2], SystemError> {
+    let Some(body) = problem.scene.bodies.iter().position(|body| body.name == point.body) else { return Ok([f64::NAN; 2]) };
+    let [whole, part] = [u, apart].map(|field| probe(problem, field, body, point.point, session));
+    let (Some(whole), Some(part)) = (whole?, part?) else { return Ok([f64::NAN; 2]) };
+    let size = |stress: [f64; 4]| (stress[0].powi(2) + stress[1].powi(2) + 2.0 * stress[2].powi(2)).sqrt();
+    Ok([part.displacement.norm() / whole.displacement.norm(), size(part.stress) / size(whole.stress)])
+}
+
+/// Largest way of an end of a zone that presses from where it was on the mesh before, by the width of the zone; one where there
+/// are other zones.
+fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f64 {
+    let ends = |pressure: &ContactPressure| -> Vec<[Point; 2]> {
+        let boundary = &pressure.contact.boundary;
+        let end = |arc: f64| boundary.point(boundary.parameter_at(arc));
+        pressure.zones().iter().map(|zone| zone.arcs.map(end)).collect()
+    };
+    let (now, before) = (ends(now), ends(before));
+    if now.len() != before.len() {
+        return 1.0;
+    }
+    let way = |(a, b): (&[Point; 2], &[Point; 2])| (a[0] - b[0]).norm().max((a[1] - b[1]).norm()) / (a[1] - a[0]).norm();
+    now.iter().zip(&before).map(way).fold(0.0, f64::max)
+}
+
 /// What is left of an additive error, from two successive differences of it; nothing if they do not fall, or are none.
 fn left(before: f64, last: f64) -> Option<f64> {
     if last > before || last < 0.0 {
@@ -137,10 +198,10 @@ fn left(before: f64, last: f64) -> Option<f64> {
     rest.is_finite().then_some(rest)
 }
 
-/// What is left of the error of a force, from one difference or two. The last one may be small by luck, where errors of either
-/// sign meet: so it counts for no less than the one before leaves of itself on a smooth solution.
-fn force_left(before: Option<f64>, last: f64, order: Order) -> Option<f64> {
-    let fall = FORCE_FALLS[order.degree() - 1];
+/// What is left of the error of a value, from one difference or two; `fall` is the factor by which it falls on a smooth solution.
+/// The last difference may be small by luck, where errors of either sign meet: so it counts for no less than the one before
+/// leaves of itself there.
+fn value_left(before: Option<f64>, last: f64, fall: f64) -> Option<f64> {
     let left = match before {
         Some(before) if last < fall * before => fall * before * FORCE_UNKNOWN,
         Some(before) => {
@@ -157,7 +218,14 @@ mod tests {
     use super::*;
 
     fn difference(square: f64) -> Difference {
-        Difference { energy: square, local: Vec::new(), force: vec![square], zones: vec![Vec::new()] }
+        Difference {
+            energy: square,
+            local: Vec::new(),
+            force: vec![square],
+            ends: vec![square],
+            probes: Vec::new(),
+            zones: vec![Vec::new()],
+        }
     }
 
     #[test]

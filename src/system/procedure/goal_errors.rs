@@ -2,7 +2,7 @@
 
 use super::settings::Procedure;
 use super::solved::Solved;
-use crate::accuracy::{Goal, Quantity};
+use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::system::recovery::Evaluation;
 use crate::system::{Discretisation, SystemError};
 
@@ -21,8 +21,16 @@ impl Procedure<'_> {
                 Some(at) => self.pressure_error(solved, at)?,
                 None => None,
             },
-            Quantity::Ends(_) | Quantity::Displacement(_) | Quantity::Stress(_) => None,
+            Quantity::Ends(name) => contact_called(problem, name).and_then(|at| estimate.ends.get(at).copied().flatten()),
+            Quantity::Displacement(probe) => self.at_probe(solved, probe)[0],
+            Quantity::Stress(probe) => self.at_probe(solved, probe)[1],
         })
+    }
+
+    /// Errors of displacement and stress at a point.
+    fn at_probe(&self, solved: &Solved, probe: &ProbePoint) -> [Option<f64>; 2] {
+        let at = self.probes().iter().position(|other| other == probe);
+        at.and_then(|at| solved.estimate.probes.get(at).copied()).unwrap_or([None; 2])
     }
 
     /// Error of λ on the worst zone of a contact.

@@ -1,7 +1,7 @@
 //! How a scene is solved.
 
 use super::observer::Observer;
-use crate::accuracy::Accuracy;
+use crate::accuracy::{Accuracy, ProbePoint};
 use crate::petsc::Session;
 use crate::system::{Discretisation, Form, SolverChoice, Tolerance};
 
@@ -28,6 +28,11 @@ pub struct Procedure<'a> {
 }
 
 impl Procedure<'_> {
+    /// The points that goals are set for.
+    pub(super) fn probes(&self) -> Vec<ProbePoint> {
+        self.accuracy.map_or_else(Vec::new, Accuracy::probes)
+    }
+
     /// Whether the inf-sup constants are to be measured: they are cheap, asked for, or may tell why a solve has failed or an
     /// active set was hard to find.
     pub(super) fn wants_inf_sup(&self, problem: &Discretisation, is_hard: bool) -> bool {
