@@ -115,10 +115,15 @@ impl Accuracy {
 }
 
 impl Adaptation {
+    /// The goals that are missed on the last mesh, with their places among all.
+    pub fn missed(&self) -> impl Iterator<Item = (usize, &Goal)> {
+        let errors = self.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
+        let holds = |place: usize, goal: &Goal| errors.get(place).copied().flatten().is_some_and(|error| error <= goal.tolerance);
+        self.accuracy.goals.iter().enumerate().filter(move |(place, goal)| !holds(*place, goal))
+    }
+
     /// Whether the errors on the last mesh are what was asked for.
     pub fn is_reached(&self) -> bool {
-        let Some(last) = self.meshes.last() else { return false };
-        let goals = self.accuracy.goals.iter().zip(&last.errors);
-        goals.into_iter().all(|(goal, error)| error.is_some_and(|error| error <= goal.tolerance))
+        !self.meshes.is_empty() && self.missed().next().is_none()
     }
 }

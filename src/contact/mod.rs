@@ -46,4 +46,4 @@ pub use quadrature::{QuadraturePoint, quadrature_points};
 pub use reconstruction::{Roughness, roughness};
 pub use smooth_side::{Displacement, SmoothSide};
 pub use trace::{EdgeOverlap, Trace, edge_overlaps, trace};
-pub use zones::Zone;
+pub use zones::{Zone, zone_counts};

@@ -9,6 +9,17 @@ const MIDDLE: f64 = 0.6;
 /// Share of it beside an end of the boundary that is left out of the rest.
 const BESIDE: f64 = 0.1;
 
+/// Share of the force from which a zone counts.
+const LEAST_SHARE: f64 = 0.01;
+
+/// Share of the highest pressure from which a zone counts, however small its force is.
+const LEAST_PRESSURE: f64 = 0.1;
+
+/// Whether anyone would look at a zone: by its share of the force of its contact, and its peak beside the `highest` of all.
+pub fn zone_counts(share: f64, peak: f64, highest: f64) -> bool {
+    share.abs() >= LEAST_SHARE || peak >= LEAST_PRESSURE * highest
+}
+
 /// Neighbouring segments that carry pressure, with none beside them that does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zone {

@@ -3,6 +3,7 @@
 //! The names of the fields are the keys of the file. `None` is written as `null`, and so is every number that is not finite:
 //! what does not apply, or was not reached, never shows as a made-up number.
 
+use crate::contact::zone_counts;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -233,18 +234,11 @@ pub struct ZoneSummary {
     pub corner: Option<bool>,
 }
 
-/// Share of the force from which a zone counts.
-const LEAST_SHARE: f64 = 0.01;
-
-/// Share of the highest pressure from which a zone counts, however small its force is.
-const LEAST_PRESSURE: f64 = 0.1;
-
 impl ZoneSummary {
     /// Whether anyone would look at it, among `all` of its contact.
     pub fn counts(&self, all: &[Self]) -> bool {
         let highest = all.iter().filter_map(|zone| zone.pressure_max).fold(0.0, f64::max);
-        self.share.is_none_or(|share| share.abs() >= LEAST_SHARE)
-            || self.pressure_max.is_some_and(|pressure| pressure >= LEAST_PRESSURE * highest)
+        self.share.is_none_or(|share| zone_counts(share, self.pressure_max.unwrap_or(f64::NAN), highest))
     }
 }
 

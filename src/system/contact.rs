@@ -41,6 +41,8 @@ pub struct Contact {
     pub known: Known,
     /// Parameters of Γ_C beyond which one of the bodies has no boundary.
     pub limits: [f64; 2],
+    /// Whether a load acts on the boundary of body 1, and of body 2: its stress is not that of the contact alone.
+    pub loaded: [bool; 2],
 }
 
 impl Contact {
@@ -115,6 +117,7 @@ impl Contact {
             pair: pair.clone(),
             known: Known { meeting: placed.meeting, ends, segments },
             limits: placed.limits,
+            loaded: sides.each_ref().map(|edges| is_loaded(scene, edges)),
             boundary,
             multipliers,
             first,
@@ -169,6 +172,12 @@ impl Contact {
         };
         self.boundary.knots().windows(2).map(owner).collect()
     }
+}
+
+/// Whether a load acts on one of these edges.
+fn is_loaded(scene: &Scene, edges: &[u32]) -> bool {
+    let names = scene.loads.iter().flat_map(|load| &load.on);
+    names.filter_map(|name| scene.mesh.boundary(name)).flat_map(|boundary| &boundary.edges).any(|edge| edges.contains(edge))
 }
 
 /// Whether a contact gets the jump term: as the case asks, or where its segments are short.

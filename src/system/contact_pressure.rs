@@ -1,7 +1,7 @@
 //! The pressure on one contact boundary.
 
 use super::{Contact, Solution};
-use crate::contact::{Zone, oscillation};
+use crate::contact::{Zone, oscillation, zone_counts};
 use crate::geometry::{Formula, Point, gauss_points};
 
 /// λ of one contact, with the set that it was solved for.
@@ -62,6 +62,15 @@ impl<'a> ContactPressure<'a> {
     /// The zones that press, in order of arc length.
     pub fn zones(&self) -> Vec<Zone> {
         Zone::all(&self.contact.boundary, &self.contact.multipliers, self.values, self.active)
+    }
+
+    /// Which of its zones anyone would look at.
+    pub fn counting(&self, zones: &[Zone]) -> Vec<bool> {
+        let forces: Vec<f64> = zones.iter().map(|zone| self.force_of(zone)).collect();
+        let peaks: Vec<f64> = zones.iter().map(|zone| self.peak_of(zone)).collect();
+        let whole: f64 = forces.iter().map(|force| force.abs()).sum();
+        let highest = peaks.iter().copied().fold(0.0, f64::max);
+        forces.iter().zip(&peaks).map(|(force, peak)| zone_counts(force / whole, *peak, highest)).collect()
     }
 
     /// `∫λ ds` of one zone.

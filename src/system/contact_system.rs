@@ -116,6 +116,17 @@ impl<'a> System<'a> {
         self.solver.solve(&self.blocks, b, &mut self.unknowns, tolerance)
     }
 
+    /// Displacements under other nodal forces (`load`, of this rank) and other gaps, all else as it is: the active set,
+    /// supports that do not move. **Collective**
+    pub fn response(&mut self, load: &[f64], gap: &[f64], tolerance: f64) -> Result<Vec<f64>, SystemError> {
+        self.bring_solver_up_to_date()?;
+        let b = self.blocks.right_hand_side_of(load, gap, self.space())?;
+        let mut x = self.unknowns.duplicate()?;
+        x.set(0.0)?;
+        self.solver.solve(&self.blocks, &b, &mut x, tolerance)?;
+        Ok(x.values()[..self.space().local_unknowns()].to_vec())
+    }
+
     fn bring_solver_up_to_date(&mut self) -> Result<(), SystemError> {
         if !self.is_solver_current {
             self.solver.refresh(&self.blocks)?;

@@ -1,6 +1,7 @@
 //! The loop over meshes that are adapted to an accuracy: solved, judged, refined where the error is, until all goals are
 //! reached.
 
+use super::duals::weighted;
 use super::marking::marked;
 use super::observer::{Event, Observer, Work};
 use super::settings::Procedure;
@@ -60,8 +61,9 @@ impl Procedure<'_> {
                 solved.adaptation = Some(adaptation);
                 return Ok(solved);
             }
+            let marked = self.marked(&scene, &solved, &adaptation)?;
             meshes = adaptation.meshes;
-            mesh = mesh.refined(self.marked(&scene, &solved).into_iter()).0;
+            mesh = mesh.refined(marked.into_iter()).0;
             scene = scene.on(mesh.mesh.clone(), self.session)?;
         }
         unreachable!("the loop has an end")
@@ -75,15 +77,33 @@ impl Procedure<'_> {
         self.session.any(late) || last.unknowns > accuracy.most_unknowns.unwrap_or(MOST_UNKNOWNS)
     }
 
-    /// The macro triangles that hold most of the error. **Collective**
-    fn marked(&self, scene: &Scene, solved: &Solved) -> Vec<u32> {
-        let mut indicators = vec![0.0; scene.mesh.triangles.len()];
-        let own = scene.partition.triangles_of(self.session.rank());
-        for (&triangle, &part) in own.iter().zip(&solved.estimate.local) {
-            indicators[triangle as usize] = part;
+    /// The macro triangles that hold most of the error of each goal that is missed; all, if nothing tells. **Collective**
+    fn marked(&self, scene: &Scene, solved: &Solved, adaptation: &Adaptation) -> Result<Vec<u32>, SystemError> {
+        let left = &solved.estimate.local;
+        let mut all = Vec::new();
+        for (place, _) in adaptation.missed() {
+            let own = match solved.solution.duals.get(place) {
+                Some(Some(dual)) if !left.is_empty() => weighted(&solved.problem, left, dual, self.session)?,
+                _ => left.clone(),
+            };
+            all.extend(marked(&self.gathered(scene, &own)));
         }
-        self.session.sum(&mut indicators);
-        marked(&indicators)
+        if all.is_empty() {
+            all.extend(0..scene.mesh.triangles.len() as u32);
+        }
+        all.sort_unstable();
+        all.dedup();
+        Ok(all)
+    }
+
+    /// Values of all macro triangles, from those of each rank. **Collective**
+    fn gathered(&self, scene: &Scene, own: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; scene.mesh.triangles.len()];
+        for (&triangle, &value) in scene.partition.triangles_of(self.session.rank()).iter().zip(own) {
+            all[triangle as usize] = value;
+        }
+        self.session.sum(&mut all);
+        all
     }
 }
 

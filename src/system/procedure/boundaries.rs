@@ -1,6 +1,7 @@
 //! One mesh: one contact boundary after the other, until everything stands.
 
 use super::contact_loop::{ContactLoop, LoopOutcome, LoopPosition, Pass};
+use super::duals::Duals;
 use super::ending::{Ending, Failure, Standing};
 use super::following::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
 use super::observer::{Event, Work};
@@ -25,6 +26,8 @@ pub struct OneMesh<'p> {
     pub tolerance: Tolerance,
     /// Whether it is the mesh of the case: the others are reported when they are solved.
     pub is_last: bool,
+    /// The goals whose dual problems are solved in the end.
+    pub duals: Option<Duals<'p>>,
 }
 
 /// What was found on one mesh.
@@ -92,7 +95,7 @@ impl OneMesh<'_> {
         let mut system = self.system(problem, &bodies, preconditioning)?;
         let found = self.sets(&mut system, start, self.tolerance, LoopPosition { boundary: 1, passes: 0 })?;
         let LoopOutcome { solution, ending, passes, ascended } = found;
-        let solution = self.with_inf_sup(&system, solution, ascended || !ending.is_converged())?;
+        let solution = self.finished(&mut system, solution, ascended || !ending.is_converged())?;
         let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
         Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), preconditioning, solver })
     }
@@ -201,13 +204,17 @@ impl OneMesh<'_> {
         })
     }
 
-    /// A solution with the inf-sup constants of its contacts, if they are wanted. **Collective**
-    fn with_inf_sup(&self, system: &System, solution: Solution, is_hard: bool) -> Result<Solution, SystemError> {
-        if !self.is_last || !self.procedure.wants_inf_sup(system.problem(), is_hard) {
-            return Ok(solution);
-        }
+    /// A solution with what else the last system tells, as far as it is wanted: the inf-sup constants of its contacts, and dual
+    /// displacements. **Collective**
+    fn finished(&self, system: &mut System, mut solution: Solution, is_hard: bool) -> Result<Solution, SystemError> {
         let _stage = self.procedure.observer.enter(Work::Solve);
-        Ok(Solution { inf_sup: system.inf_sup()?, ..solution })
+        if self.is_last && self.procedure.wants_inf_sup(system.problem(), is_hard) {
+            solution.inf_sup = system.inf_sup()?;
+        }
+        if let Some(duals) = self.duals {
+            solution.duals = duals.solve(system, &solution)?;
+        }
+        Ok(solution)
     }
 }
 
@@ -244,7 +251,7 @@ impl BoundaryLoop<'_, '_> {
                 },
             };
             let solution = match &after {
-                After::Ended(ending) => self.mesh.with_inf_sup(&system, solution, ascended || !ending.is_converged())?,
+                After::Ended(ending) => self.mesh.finished(&mut system, solution, ascended || !ending.is_converged())?,
                 After::Moved { .. } => solution,
             };
             return Ok(OnBoundary {

@@ -163,7 +163,7 @@ impl CoarseSolution {
 
 /// Nodes of the coarser lattice with the values of their shape functions at node `(i, j)` of a level: those of the
 /// coarse triangle that holds it. Zeros are left out.
-fn coarse_values(
+pub(super) fn coarse_values(
     mesh: &MacroMesh,
     triangle: usize,
     level: Level,

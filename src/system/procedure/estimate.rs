@@ -59,6 +59,8 @@ pub struct Difference {
 pub struct Estimate {
     /// In the energy norm.
     pub energy: Option<f64>,
+    /// The last difference in that norm.
+    pub difference: Option<f64>,
     /// Square of the last difference in that norm on each macro triangle of this rank, in the rank's order.
     pub local: Vec<f64>,
     /// Of `∫λ ds`, for each contact.
@@ -129,6 +131,7 @@ impl Estimate {
         };
         Self {
             energy: energy.map(f64::sqrt).filter(|error| error.is_finite()),
+            difference: Some(last.energy.sqrt()).filter(|difference| difference.is_finite()),
             local: last.local.clone(),
             force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
             ends: contacts.clone().map(ends).collect(),
@@ -178,7 +181,8 @@ fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f64 {
     let ends = |pressure: &ContactPressure| -> Vec<[Point; 2]> {
         let boundary = &pressure.contact.boundary;
         let end = |arc: f64| boundary.point(boundary.parameter_at(arc));
-        pressure.zones().iter().map(|zone| zone.arcs.map(end)).collect()
+        let zones = pressure.zones();
+        zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts).map(|(zone, _)| zone.arcs.map(end)).collect()
     };
     let (now, before) = (ends(now), ends(before));
     if now.len() != before.len() {

@@ -6,6 +6,9 @@ use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::system::recovery::Evaluation;
 use crate::system::{Discretisation, SystemError};
 
+/// Differences in the energy norm that say that the solution was there before.
+const ROUNDING: f64 = 1e-6;
+
 impl Procedure<'_> {
     /// The estimated relative error of each goal; nothing where there is not enough to tell. **Collective**
     pub(super) fn goal_errors(&self, goals: &[Goal], solved: &Solved) -> Result<Vec<Option<f64>>, SystemError> {
@@ -15,7 +18,8 @@ impl Procedure<'_> {
     fn goal_error(&self, quantity: &Quantity, solved: &Solved) -> Result<Option<f64>, SystemError> {
         let Solved { problem, estimate, .. } = solved;
         Ok(match quantity {
-            Quantity::Energy => estimate.energy,
+            // Where everything is found on the mesh before, rounding is all that the differences tell.
+            Quantity::Energy => estimate.energy.or(estimate.difference.filter(|difference| *difference <= ROUNDING)),
             Quantity::Force(name) => contact_called(problem, name).and_then(|at| estimate.force.get(at).copied().flatten()),
             Quantity::Pressure(name) => match contact_called(problem, name) {
                 Some(at) => self.pressure_error(solved, at)?,
@@ -41,7 +45,8 @@ impl Procedure<'_> {
         let points = found.traces(&pressure)?;
         let zones = pressure.zones();
         let all = estimate.of_zones(at, &pressure, &zones, &points);
-        let errors: Option<Vec<f64>> = all.iter().map(|(zone, _)| zone.pressure).collect();
+        let counting = all.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
+        let errors: Option<Vec<f64>> = counting.map(|((zone, _), _)| zone.pressure).collect();
         Ok(errors.and_then(|errors| errors.into_iter().reduce(f64::max)))
     }
 }

@@ -3,6 +3,7 @@
 use super::at_rest::AtRest;
 use super::boundaries::{OnMesh, OneMesh};
 use super::coarse_solution::CoarseSolution;
+use super::duals::Duals;
 use super::ending::{Ending, Failure};
 use super::estimate::{Difference, Estimate};
 use super::observer::{Event, Work};
@@ -108,7 +109,8 @@ impl Procedure<'_> {
         let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
         let preconditioning = before.as_ref().map_or(least, |before| before.preconditioning.max(least));
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(COARSE));
-        let found = OneMesh { procedure: self, tolerance, is_last: false }.solve(&mut problem, start, preconditioning)?;
+        let found =
+            OneMesh { procedure: self, tolerance, is_last: false, duals: None }.solve(&mut problem, start, preconditioning)?;
         let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
         let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
         coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
@@ -152,7 +154,8 @@ impl Procedure<'_> {
         let preconditioning =
             coarse.as_ref().map_or(first.preconditioning, |coarse| coarse.preconditioning.max(first.preconditioning));
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
-        let found = OneMesh { procedure: self, tolerance, is_last: true }.solve(&mut problem, start, preconditioning)?;
+        let duals = self.accuracy.map(|accuracy| Duals { goals: &accuracy.goals, coarse: coarse.as_ref() });
+        let found = OneMesh { procedure: self, tolerance, is_last: true, duals }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, &self.probes(), self.session)?);

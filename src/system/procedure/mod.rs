@@ -14,6 +14,7 @@ mod change;
 mod coarse_solution;
 mod contact_loop;
 mod contact_state;
+mod duals;
 mod ending;
 mod estimate;
 mod first_set;

@@ -51,6 +51,20 @@ pub fn probe(
         .then(|| Probed { displacement: Point::new(mean[0], mean[1]), stress: [mean[2], mean[3], mean[4], mean[5]] }))
 }
 
+/// Nodes of the triangle at reference coordinates of a macro triangle, and the values of their shape functions there.
+pub fn shapes_at(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(usize, f64)> {
+    match problem.finest().numbering.level.order {
+        Order::P1 => nodes_with_shapes::<3>(problem, triangle, at),
+        Order::P2 => nodes_with_shapes::<6>(problem, triangle, at),
+    }
+}
+
+fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(usize, f64)> {
+    let (small, l) = small_triangle(problem, triangle, at);
+    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
+    small.nodes::<N>().into_iter().map(|(i, j)| numbers.node(i, j)).zip(shape::<N>(l)).collect()
+}
+
 /// Displacement and stress at reference coordinates of a macro triangle.
 fn values_at<const N: usize>(
     problem: &Discretisation,
@@ -59,6 +73,17 @@ fn values_at<const N: usize>(
     at: Point,
     law: &PlaneStrain,
 ) -> Result<[f64; 6], SystemError> {
+    let (small, l) = small_triangle(problem, triangle, at);
+    let level = problem.finest().numbering.level;
+    let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
+    let nodal = nodal::<N>(problem, u, triangle, &small);
+    let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
+    let s = stress(&x, &nodal, l, law)?;
+    Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])
+}
+
+/// The triangle of a macro triangle's lattice at reference coordinates, and the barycentric ones in it.
+fn small_triangle(problem: &Discretisation, triangle: usize, at: Point) -> (Triangle, [f64; 3]) {
     let level = problem.finest().numbering.level;
     let count = level.triangles_per_edge();
     let scaled = problem.scene.mesh.lattice_point(triangle, level, at).map(|v| v.max(0.0)) * count as f64;
@@ -68,15 +93,9 @@ fn values_at<const N: usize>(
         if i > j { i -= 1 } else { j -= 1 }
     }
     let (xi, eta) = (scaled.x - i as f64, scaled.y - j as f64);
-    let down = xi + eta > 1.0 && i + j + 2 <= count;
-    let (small, l) = if down {
+    if xi + eta > 1.0 && i + j + 2 <= count {
         (Triangle::at(step * (i + 1), step * (j + 1), level.order, true), [xi + eta - 1.0, 1.0 - xi, 1.0 - eta])
     } else {
         (Triangle::at(step * i, step * j, level.order, false), [1.0 - xi - eta, xi, eta])
-    };
-    let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
-    let nodal = nodal::<N>(problem, u, triangle, &small);
-    let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
-    let s = stress(&x, &nodal, l, law)?;
-    Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])
+    }
 }

@@ -19,6 +19,12 @@ pub struct ZoneErrors {
 
 /// One for each zone; `points` are those of [`super::Evaluation::traces`].
 pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[TracePoint]) -> Vec<ZoneErrors> {
+    // The stress of a body that bears a load there says nothing of λ.
+    let told = |point: &TracePoint| {
+        let stress = [0, 1].map(|k| if contact.loaded[k] { f64::NAN } else { point.stress[k] });
+        TracePoint { stress, ..*point }
+    };
+    let points: &[TracePoint] = &points.iter().map(told).collect::<Vec<_>>();
     let one = |zone: &Zone| {
         let arcs = contact.boundary.arcs();
         let height = |k: &usize| contact.multipliers.value(lambda, *k, 0.5);

@@ -169,15 +169,20 @@ impl SaddlePoint {
 
     /// Right-hand side: `f + Bᵀ D c`, and `ĉ` on active multipliers. **Collective**
     pub fn right_hand_side(&self, space: &Space) -> Result<Vector, SystemError> {
+        self.right_hand_side_of(&self.load, &self.gap, space)
+    }
+
+    /// The same for other nodal forces of this rank, and other gaps. **Collective**
+    pub fn right_hand_side_of(&self, load: &[f64], gap: &[f64], space: &Space) -> Result<Vector, SystemError> {
         let (_, mut b) = self.nest.create_vectors()?;
         let mut values = b.values_mut();
         let unknowns = space.local_unknowns();
-        values[..unknowns].copy_from_slice(&self.load);
+        values[..unknowns].copy_from_slice(load);
         if self.form == Form::Augmented {
-            self.add_weighted(&self.gap, 1.0, &mut values[..unknowns], space);
+            self.add_weighted(gap, 1.0, &mut values[..unknowns], space);
         }
         for (at, &i) in self.multipliers.own.iter().enumerate() {
-            values[unknowns + at] = if self.active[i] { self.multipliers.scale[i] * self.gap[i] } else { 0.0 };
+            values[unknowns + at] = if self.active[i] { self.multipliers.scale[i] * gap[i] } else { 0.0 };
         }
         drop(values);
         Ok(b)
