@@ -4,10 +4,26 @@ use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity};
 use crate::case::Case;
 use crate::output::plot::Sequence;
 use crate::output::summary::{self, Status};
+use crate::petsc::Session;
 use crate::system::Solved;
 
 /// File of the last mesh, in the result folder.
 pub const FINAL_MESH: &str = "mesh.msh";
+
+/// Memory that an unknown of the displacement takes on a mesh with many macro triangles (bytes).
+const BYTES: f64 = 2000.0;
+
+/// An accuracy with a limit to its unknowns: half of the memory that the machine has left, if nobody has set another.
+/// **Collective**
+pub fn limited(accuracy: &Accuracy, session: &Session) -> Accuracy {
+    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let kib = line.and_then(|rest| rest.split_whitespace().next()).and_then(|kib| kib.parse::<f64>().ok());
+    let mut most = [-kib.unwrap_or(4e6) * 1024.0 / (2.0 * BYTES)];
+    // The machine with the least of it decides.
+    session.max(&mut most);
+    Accuracy { most_unknowns: accuracy.most_unknowns.or(Some(-most[0] as usize)), ..accuracy.clone() }
+}
 
 /// How the mesh was adapted, if an accuracy was asked for; without any mesh if the run ended before.
 pub fn adaptation(case: &Case, solved: &Solved) -> Option<Adaptation> {

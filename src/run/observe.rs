@@ -1,6 +1,6 @@
 //! What a run does with the events of the solution procedure: it prints them, and times the work.
 
-use super::{Run, RunError, Stages};
+use super::{Run, RunError, Stages, accuracy};
 use crate::petsc::StageGuard;
 use crate::system::{Event, Observer, Procedure, Scene, Solved, Work};
 
@@ -9,7 +9,8 @@ impl Run<'_> {
     pub(super) fn solve(&self, scene: Scene) -> Result<Solved, RunError> {
         let solver = &self.case.solver;
         let (choice, tolerance, inf_sup) = (solver.choice, solver.tolerance, solver.inf_sup);
-        let accuracy = self.case.accuracy.as_ref();
+        let accuracy = self.case.accuracy.as_ref().map(|accuracy| accuracy::limited(accuracy, self.session));
+        let accuracy = accuracy.as_ref();
         Ok(Procedure { choice, tolerance, inf_sup, accuracy, session: self.session, observer: self }.solve(scene)?)
     }
 }

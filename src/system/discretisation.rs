@@ -2,7 +2,7 @@
 
 use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError};
 use crate::contact::Jump;
-use crate::mesh::{Level, Numbering, levels};
+use crate::mesh::{Level, MacroMesh, Numbering, levels};
 use crate::petsc::Session;
 
 /// Everything that a system is assembled from.
@@ -90,15 +90,19 @@ impl Discretisation {
 
 /// PETSc counts with 32 bits: the five numbers of a node's stress must still be counted.
 fn check_size(scene: &Scene, level: Level) -> Result<(), SystemError> {
-    let n = level.intervals as u64;
-    let inner = if n < 3 { 0 } else { (n - 1) * (n - 2) / 2 };
-    let mesh = &scene.mesh;
-    let nodes = mesh.vertices.len() as u64 + mesh.edges.len() as u64 * (n - 1) + mesh.triangles.len() as u64 * inner;
+    let nodes = node_count(&scene.mesh, level);
     if 5 * nodes > i32::MAX as u64 {
         let words = format!("mesh.refine = {}: {nodes} nodes are more than 32-bit numbers can count; refine less", scene.refine);
         return Err(SystemError::Case(words));
     }
     Ok(())
+}
+
+/// Nodes of a level, whoever owns them.
+pub fn node_count(mesh: &MacroMesh, level: Level) -> u64 {
+    let n = level.intervals as u64;
+    let inner = if n < 3 { 0 } else { (n - 1) * (n - 2) / 2 };
+    mesh.vertices.len() as u64 + mesh.edges.len() as u64 * (n - 1) + mesh.triangles.len() as u64 * inner
 }
 
 /// The nodes of the level that is solved in.

@@ -37,7 +37,7 @@ pub use contact::Contact;
 pub use contact_pressure::ContactPressure;
 pub use contact_system::{Residual, Start, System};
 pub use coupling::{Coupled, Coupling, bilateral};
-pub use discretisation::{Discretisation, finest_numbering, spaces};
+pub use discretisation::{Discretisation, finest_numbering, node_count, spaces};
 pub use error::SystemError;
 pub use field::Field;
 pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};

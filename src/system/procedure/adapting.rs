@@ -8,9 +8,10 @@ use super::settings::Procedure;
 use super::solved::Solved;
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh};
 use crate::contact::SegmentRule;
-use crate::mesh::BisectedMesh;
+use crate::mesh::{BisectedMesh, levels};
 use crate::petsc::StageGuard;
-use crate::system::{Scene, SystemError};
+use crate::system::{Scene, SystemError, node_count};
+use std::cell::Cell;
 use std::time::Instant;
 
 /// Refinements of each macro triangle, at least: what two of them tell is what the mesh is adapted by.
@@ -19,77 +20,125 @@ const LEAST_REFINE: usize = 2;
 /// Meshes at most.
 const MOST_MESHES: usize = 40;
 
-/// Displacement unknowns at most, if nobody has set a limit.
-const MOST_UNKNOWNS: usize = 2_000_000;
+/// Meshes within which the error of a goal must fall to this share, or it will not.
+const STUCK: usize = 6;
+const FALLS: f64 = 0.8;
 
-/// Hears nothing of the single meshes of a sequence, but keeps their times.
-struct Quiet<'a>(&'a dyn Observer);
+/// How much larger a mesh must be after so many, at least, if that is to be said.
+const LARGER: f64 = 4.0;
 
-impl Observer for Quiet<'_> {
-    fn observe(&self, _: Event) {}
+/// A mesh of more triangles is not too coarse for a scene that is refused on it.
+const MOST_REFUSED: usize = 5000;
+
+/// Meshes at most that cannot be solved, one after the other, before the scene itself is taken for the reason.
+const MOST_FAILED: usize = 4;
+
+/// Tells what is known before the first mesh is solved; of the rest of a sequence it keeps the times alone.
+struct BeforeTheFirst<'a> {
+    observer: &'a dyn Observer,
+    is_first: Cell<bool>,
+}
+
+impl Observer for BeforeTheFirst<'_> {
+    fn observe(&self, event: Event) {
+        if matches!(event, Event::AtRest { .. }) && self.is_first.replace(false) {
+            self.observer.observe(event);
+        }
+    }
 
     fn enter(&self, work: Work) -> Option<StageGuard<'_>> {
-        self.0.enter(work)
+        self.observer.enter(work)
     }
+}
+
+/// A sequence of meshes on its way.
+struct Sequence {
+    scene: Scene,
+    mesh: BisectedMesh,
+    adaptation: Adaptation,
+    /// Meshes that could not be solved since the last one that could, and why the first of them was refused.
+    failed: usize,
+    refusal: Option<SystemError>,
+    started: Instant,
 }
 
 impl Procedure<'_> {
     /// Solves a scene on one mesh after the other, until the accuracy is reached or a limit is. **Collective**
     pub(super) fn adapt(&self, scene: Scene, accuracy: &Accuracy) -> Result<Solved, SystemError> {
-        let started = Instant::now();
-        let mut mesh = BisectedMesh::new(scene.mesh.as_ref().clone());
-        let mut scene = prepared(scene);
-        let quiet = Quiet(self.observer);
-        let one = Procedure { observer: &quiet, ..*self };
-        let mut meshes = Vec::new();
-        for number in 1.. {
-            let mut solved = one.solve_on_mesh(scene.clone())?;
-            let errors = one.goal_errors(&accuracy.goals, &solved)?;
-            let adapted = AdaptedMesh {
-                number,
-                macro_triangles: scene.mesh.triangles.len(),
-                refine: scene.refine,
-                unknowns: solved.problem.unknown_count(),
-                errors,
-                seconds: started.elapsed().as_secs_f64(),
+        let observer = BeforeTheFirst { observer: self.observer, is_first: Cell::new(true) };
+        let one = Procedure { observer: &observer, ..*self };
+        let mut sequence = Sequence {
+            mesh: BisectedMesh::new(scene.mesh.as_ref().clone()),
+            scene: prepared(scene),
+            adaptation: Adaptation { accuracy: accuracy.clone(), meshes: Vec::new() },
+            failed: 0,
+            refusal: None,
+            started: Instant::now(),
+        };
+        loop {
+            let marked = match one.solve_on_mesh(sequence.scene.clone()) {
+                Err(error @ SystemError::Case(_)) => sequence.after_refusal(error)?,
+                outcome => {
+                    let mut solved = outcome?;
+                    self.judge(&mut sequence, &solved)?;
+                    let marked = if self.is_over(&sequence) { Vec::new() } else { self.marked(&sequence, &solved)? };
+                    if marked.is_empty() || !sequence.has_room(&marked) {
+                        solved.adaptation = Some(sequence.adaptation);
+                        return Ok(solved);
+                    }
+                    marked
+                }
             };
-            self.observer.observe(Event::Adapted { accuracy, mesh: &adapted });
-            meshes.push(adapted);
-            let adaptation = Adaptation { accuracy: accuracy.clone(), meshes };
-            let over = self.is_over(&adaptation);
-            if over || adaptation.is_reached() || number == MOST_MESHES {
-                solved.adaptation = Some(adaptation);
-                return Ok(solved);
-            }
-            let marked = self.marked(&scene, &solved, &adaptation)?;
-            meshes = adaptation.meshes;
-            mesh = mesh.refined(marked.into_iter()).0;
-            scene = scene.on(mesh.mesh.clone(), self.session)?;
+            sequence.mesh = sequence.mesh.refined(marked.into_iter()).0;
+            sequence.scene = sequence.scene.on(sequence.mesh.mesh.clone(), self.session)?;
         }
-        unreachable!("the loop has an end")
     }
 
-    /// Whether a limit is reached; the same on every rank. **Collective**
-    fn is_over(&self, Adaptation { accuracy, meshes }: &Adaptation) -> bool {
-        let Some(last) = meshes.last() else { return false };
-        let late = accuracy.most_seconds.is_some_and(|most| last.seconds > most);
+    /// Estimates the errors on a mesh. **Collective**
+    fn judge(&self, sequence: &mut Sequence, solved: &Solved) -> Result<(), SystemError> {
+        let goals = &sequence.adaptation.accuracy.goals;
+        let errors = if solved.ending.is_converged() { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
+        sequence.failed = if solved.ending.is_converged() { 0 } else { sequence.failed + 1 };
+        let adapted = AdaptedMesh {
+            number: sequence.adaptation.meshes.len() + 1,
+            macro_triangles: sequence.scene.mesh.triangles.len(),
+            refine: sequence.scene.refine,
+            unknowns: solved.problem.unknown_count(),
+            errors,
+            seconds: sequence.started.elapsed().as_secs_f64(),
+        };
+        self.observer.observe(Event::Adapted { accuracy: &sequence.adaptation.accuracy, mesh: &adapted });
+        sequence.adaptation.meshes.push(adapted);
+        Ok(())
+    }
+
+    /// Whether the accuracy is reached, or will not be; the same on every rank. **Collective**
+    fn is_over(&self, Sequence { adaptation, failed, .. }: &Sequence) -> bool {
+        let meshes = &adaptation.meshes;
+        let late = adaptation.accuracy.most_seconds.zip(meshes.last()).is_some_and(|(most, last)| last.seconds > most);
         // Clocks differ from rank to rank.
-        self.session.any(late) || last.unknowns > accuracy.most_unknowns.unwrap_or(MOST_UNKNOWNS)
+        let late = self.session.any(late);
+        late || adaptation.is_reached() || meshes.len() == MOST_MESHES || *failed == MOST_FAILED || is_stuck(adaptation)
     }
 
     /// The macro triangles that hold most of the error of each goal that is missed; all, if nothing tells. **Collective**
-    fn marked(&self, scene: &Scene, solved: &Solved, adaptation: &Adaptation) -> Result<Vec<u32>, SystemError> {
+    fn marked(&self, sequence: &Sequence, solved: &Solved) -> Result<Vec<u32>, SystemError> {
         let left = &solved.estimate.local;
+        let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
         let mut all = Vec::new();
         for (place, _) in adaptation.missed() {
             let own = match solved.solution.duals.get(place) {
                 Some(Some(dual)) if !left.is_empty() => weighted(&solved.problem, left, dual, self.session)?,
                 _ => left.clone(),
             };
-            all.extend(marked(&self.gathered(scene, &own)));
+            let mut indicators = self.gathered(scene, &own);
+            if indicators.iter().all(|&value| value == 0.0) {
+                indicators = self.gathered(scene, left);
+            }
+            all.extend(marked(&indicators));
         }
         if all.is_empty() {
-            all.extend(0..scene.mesh.triangles.len() as u32);
+            return Ok(sequence.all_triangles());
         }
         all.sort_unstable();
         all.dedup();
@@ -105,6 +154,46 @@ impl Procedure<'_> {
         self.session.sum(&mut all);
         all
     }
+}
+
+impl Sequence {
+    fn all_triangles(&self) -> Vec<u32> {
+        (0..self.scene.mesh.triangles.len() as u32).collect()
+    }
+
+    /// What is marked where the scene is refused on a mesh: that may be too coarse for it, and is refined all over.
+    ///
+    /// # Errors
+    /// The first refusal, if finer meshes do not help.
+    fn after_refusal(&mut self, error: SystemError) -> Result<Vec<u32>, SystemError> {
+        self.failed += 1;
+        let first = self.refusal.get_or_insert(error);
+        let all = self.scene.mesh.triangles.len();
+        if self.failed == MOST_FAILED || all > MOST_REFUSED {
+            return Err(first.clone());
+        }
+        Ok(self.all_triangles())
+    }
+
+    /// Whether the next mesh has no more unknowns than are allowed.
+    fn has_room(&self, marked: &[u32]) -> bool {
+        let Some(most) = self.adaptation.accuracy.most_unknowns else { return true };
+        let next = self.mesh.refined(marked.iter().copied()).0.mesh;
+        let levels = levels(self.scene.order, self.scene.refine);
+        2 * node_count(&next, levels[levels.len() - 1]) <= most as u64
+    }
+}
+
+/// Whether the estimate of a goal that is missed has not fallen for some meshes.
+fn is_stuck(adaptation: &Adaptation) -> bool {
+    let meshes = &adaptation.meshes;
+    let Some(then) = meshes.len().checked_sub(STUCK + 1) else { return false };
+    let last = &meshes[meshes.len() - 1];
+    // The best of the meshes before, and the best of the last few.
+    let best =
+        |meshes: &[AdaptedMesh], place: usize| meshes.iter().filter_map(|mesh| mesh.errors[place]).fold(f64::INFINITY, f64::min);
+    let stuck = |place: usize| best(&meshes[then + 1..], place) > FALLS * best(&meshes[..=then], place);
+    last.unknowns as f64 > LARGER * meshes[then].unknowns as f64 && adaptation.missed().any(|(place, _)| stuck(place))
 }
 
 /// The scene as the first mesh has it: fine enough to be judged, with segments that follow the edges of each mesh.

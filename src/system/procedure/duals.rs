@@ -98,13 +98,15 @@ fn force_weights(pressure: &ContactPressure) -> Vec<f64> {
     (0..pressure.values.len()).map(|i| pressure.contact.multipliers.integral(i)).collect()
 }
 
-/// The force near both ends of each zone that lie inside the boundary.
+/// The force near both ends of each zone, but for those where a body ends.
 fn end_weights(pressure: &ContactPressure) -> Vec<f64> {
-    let multipliers = &pressure.contact.multipliers;
+    let contact = pressure.contact;
+    let (multipliers, knots) = (&contact.multipliers, contact.boundary.knots());
+    let whole = [knots[0] <= contact.limits[0], knots[knots.len() - 1] >= contact.limits[1]];
     let mut weights = vec![0.0; pressure.values.len()];
     let beside = |zone: &Zone, k: usize| {
         let [first, last] = [k - zone.segments.start, zone.segments.end - 1 - k].map(|away| away < AT_AN_END);
-        (first && !zone.is_at_end[0]) || (last && !zone.is_at_end[1])
+        (first && !(zone.is_at_end[0] && whole[0])) || (last && !(zone.is_at_end[1] && whole[1]))
     };
     for zone in pressure.zones() {
         for k in zone.segments.clone().filter(|&k| beside(&zone, k)) {
