@@ -3,11 +3,11 @@
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity};
 use crate::case::Case;
 use crate::output::plot::Sequence;
-use crate::output::summary::{self, Status};
+use crate::output::summary::{AccuracyStep, GoalSummary, Status};
 use crate::system::Solved;
 
 /// File of the last mesh, in the result folder.
-pub const FINAL_MESH: &str = "mesh.msh";
+pub const ADAPTED_MESH: &str = "adapted.msh";
 
 /// How the mesh was adapted, if an accuracy was asked for; without any mesh if the run ended before.
 pub fn adaptation(case: &Case, solved: &Solved) -> Option<Adaptation> {
@@ -15,26 +15,34 @@ pub fn adaptation(case: &Case, solved: &Solved) -> Option<Adaptation> {
     solved.adaptation.clone().or_else(none)
 }
 
-/// The same in the terms of `summary.json`.
-pub fn summarise(adaptation: &Adaptation) -> summary::AccuracySummary {
-    let goal = |(place, goal): (usize, &Goal)| summary::GoalSummary {
-        goal: goal.quantity.word().into(),
-        of: goal.quantity.of().map(str::to_owned),
-        asked: goal.tolerance,
-        estimate: estimate(adaptation, place),
-    };
-    let mesh = |mesh: &AdaptedMesh| summary::AdaptedMeshSummary {
+/// The same in the terms of `summary.json`: a step for each mesh.
+pub fn summarise(Adaptation { accuracy, meshes }: &Adaptation) -> Vec<AccuracyStep> {
+    meshes.iter().map(|mesh| step(&accuracy.goals, mesh)).collect()
+}
+
+fn step(goals: &[Goal], mesh: &AdaptedMesh) -> AccuracyStep {
+    let mut step = AccuracyStep {
         macro_triangles: mesh.macro_triangles,
         refine: mesh.refine,
         unknowns: mesh.unknowns,
-        estimates: mesh.errors.clone(),
         seconds: mesh.seconds,
+        ..AccuracyStep::default()
     };
-    summary::AccuracySummary {
-        reached: adaptation.is_reached(),
-        goals: adaptation.accuracy.goals.iter().enumerate().map(goal).collect(),
-        meshes: adaptation.meshes.iter().map(mesh).collect(),
-        final_mesh: FINAL_MESH.into(),
+    for (goal, &estimate) in goals.iter().zip(&mesh.errors) {
+        *place_of(&goal.quantity, &mut step) = Some(GoalSummary { estimate, asked: goal.tolerance });
+    }
+    step
+}
+
+/// Where a step tells of a quantity.
+fn place_of<'a>(quantity: &Quantity, step: &'a mut AccuracyStep) -> &'a mut Option<GoalSummary> {
+    match quantity {
+        Quantity::Energy => &mut step.energy,
+        Quantity::Force(name) => &mut step.contact.entry(name.clone()).or_default().force,
+        Quantity::Pressure(name) => &mut step.contact.entry(name.clone()).or_default().pressure,
+        Quantity::Ends(name) => &mut step.contact.entry(name.clone()).or_default().ends,
+        Quantity::Displacement(probe) => &mut step.probe.entry(probe.name.clone()).or_default().displacement,
+        Quantity::Stress(probe) => &mut step.probe.entry(probe.name.clone()).or_default().stress,
     }
 }
 
@@ -156,15 +164,27 @@ mod tests {
     }
 
     #[test]
-    fn the_summary_has_every_goal_and_mesh() {
-        let told = summarise(&adapted([Some(8e-5), None]));
-        assert!(!told.reached && told.final_mesh == FINAL_MESH);
-        let goals: Vec<_> =
-            told.goals.iter().map(|goal| (&goal.goal[..], goal.of.as_deref(), goal.asked, goal.estimate)).collect();
-        assert_eq!(goals, [("energy", None, 1e-4, Some(8e-5)), ("pressure", Some("seam"), 1e-3, None)]);
-        assert_eq!(told.meshes.iter().map(|mesh| mesh.unknowns).collect::<Vec<_>>(), [600, 21_868]);
-        assert_eq!(told.meshes[0].estimates, [Some(1e-2), None]);
-        assert!(summarise(&adapted([Some(8e-5), Some(1e-3)])).reached);
+    fn the_summary_has_every_mesh_and_goal() {
+        let mut adaptation = adapted([Some(8e-5), None]);
+        let probe = ProbePoint { name: "tip".into(), body: "a".into(), point: crate::geometry::Point::new(0.0, 0.0) };
+        let goals = [
+            Quantity::Force("seam".into()),
+            Quantity::Ends("glue".into()),
+            Quantity::Displacement(probe.clone()),
+            Quantity::Stress(probe),
+        ];
+        adaptation.accuracy.goals.extend(goals.map(|quantity| Goal { quantity, tolerance: 0.1 }));
+        adaptation.meshes[1].errors.extend([0.01, 0.02, 0.03, 0.04].map(Some));
+        let told = summarise(&adaptation);
+        assert_eq!(told.iter().map(|step| (step.macro_triangles, step.unknowns)).collect::<Vec<_>>(), [(8, 600), (16, 21_868)]);
+        let goal = |estimate, asked| Some(GoalSummary { estimate, asked });
+        let last = &told[1];
+        assert_eq!((&last.energy, &last.contact["seam"].pressure), (&goal(Some(8e-5), 1e-4), &goal(None, 1e-3)));
+        assert_eq!((&last.contact["seam"].force, &last.contact["glue"].ends), (&goal(Some(0.01), 0.1), &goal(Some(0.02), 0.1)));
+        assert_eq!(last.contact["glue"].pressure, None, "only what is asked for");
+        let tip = &last.probe["tip"];
+        assert_eq!((&tip.displacement, &tip.stress), (&goal(Some(0.03), 0.1), &goal(Some(0.04), 0.1)));
+        assert!(summarise(&Adaptation { meshes: Vec::new(), ..adaptation }).is_empty());
     }
 
     #[test]
