@@ -87,9 +87,14 @@ pub fn request(accuracy: &Accuracy) -> String {
 /// what it would take.
 fn words(adaptation: &Adaptation) -> String {
     let goal = |(place, goal): (usize, &Goal)| {
+        let reached = match estimate(adaptation, place) {
+            // What is missed must not look like what was asked for.
+            Some(error) if error > goal.tolerance => figure(rounded_up(error)),
+            Some(error) => figure(error),
+            None => "an unknown error".into(),
+        };
         let would_take = would_take(adaptation, place).unwrap_or_default();
-        let (name, reached) = (name(&goal.quantity), estimate(adaptation, place).map_or("an unknown error".into(), figure));
-        format!("{name} to {reached} (asked {:e}{would_take})", goal.tolerance)
+        format!("{} to {reached} (asked {:e}{would_take})", name(&goal.quantity), goal.tolerance)
     };
     let goals = adaptation.accuracy.goals.iter().enumerate().map(goal).collect::<Vec<_>>().join(", ");
     let meshes = match adaptation.meshes.len() {
@@ -116,7 +121,7 @@ fn would_take(adaptation: &Adaptation, place: usize) -> Option<String> {
     Some(if needed > MOST_FORETOLD {
         format!(", which would take more than {} unknowns", grouped(MOST_FORETOLD as usize))
     } else {
-        format!(", which would take some {} unknowns", grouped(two_digits(needed)))
+        format!(", which would take some {} unknowns", grouped(rounded_up(needed).round() as usize))
     })
 }
 
@@ -132,10 +137,10 @@ fn unknowns_needed(adaptation: &Adaptation, place: usize) -> Option<f64> {
     (excess > 1.0).then(|| unknowns * excess.powf(1.0 / order))
 }
 
-/// The next larger count of two digits and zeros; rounding makes no count larger.
-fn two_digits(count: f64) -> usize {
-    let unit = 10_f64.powf((count.log10().floor() - 1.0).max(0.0));
-    ((count / unit * (1.0 - 1e-9)).ceil() * unit) as usize
+/// The next larger number of two digits and zeros; rounding makes no number larger.
+fn rounded_up(number: f64) -> f64 {
+    let unit = 10_f64.powf(number.log10().floor() - 1.0);
+    (number / unit * (1.0 - 1e-9)).ceil() * unit
 }
 
 /// Estimated error of a goal on the last mesh.
@@ -251,11 +256,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_foretold_is_rounded_up() {
-        for (count, words) in [(7.0, 7), (99.0, 99), (100.4, 110), (13_276.5, 14_000), (300_000.0, 300_000), (9.95e5, 1_000_000)]
-        {
-            assert_eq!(two_digits(count), words);
+    fn what_is_missed_is_rounded_up() {
+        for (number, words) in [(99.0, 99), (100.4, 110), (13_276.5, 14_000), (300_000.0, 300_000), (9.95e5, 1_000_000)] {
+            assert_eq!(rounded_up(number).round() as usize, words);
         }
+        assert_eq!([1.001e-4, 2e-4, 9.91e-3].map(|error| figure(rounded_up(error))), ["1.1e-4", "2e-4", "1e-2"]);
+        let reason = judge(&falling(&[1.02e-4]), Status::Converged, "the set stands").1;
+        assert!(reason.contains("energy to 1.1e-4 (asked 1e-4)"), "{reason}");
         let slow = would_take(&falling(&[1e-2, 0.999e-2, 0.998e-2]), 0);
         assert_eq!(slow.as_deref(), Some(", which would take more than 1 000 000 000 000 unknowns"));
     }
