@@ -120,7 +120,7 @@ fn is_result_name(name: &str) -> bool {
         ("displacement_", ".svg"),
         ("deformed", ".svg"),
         ("accuracy", ".svg"),
-        ("mesh.msh", "mesh.msh"), // and no other mesh of the user's
+        ("adapted.msh", "adapted.msh"), // and no other mesh of the user's
     ];
     WRITTEN.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
 }
@@ -193,8 +193,8 @@ mod tests {
 
     #[test]
     fn meshes_of_the_user_are_no_results() {
-        assert!(["mesh.msh", "accuracy.svg", "summary.json"].iter().all(|name| is_result_name(name)));
-        assert!(!["mesh_fine.msh", "bars.msh", "mesh.geo", "notes.md"].iter().any(|name| is_result_name(name)));
+        assert!(["adapted.msh", "accuracy.svg", "summary.json"].iter().all(|name| is_result_name(name)));
+        assert!(!["adapted_fine.msh", "mesh.msh", "adapted.geo", "notes.md"].iter().any(|name| is_result_name(name)));
     }
 
     #[test]

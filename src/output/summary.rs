@@ -58,9 +58,10 @@ pub struct Summary {
     /// Relative errors against exact or reference values: `energy`, `force_CONTACT`, `lambda_CONTACT`, `displacement_BODY`,
     /// `energy_norm_BODY`, `u_BODY`.
     pub errors: BTreeMap<String, Option<f64>>,
-    /// The accuracy that was asked for, and how far it was reached; the key is missing if none was.
+    /// One entry per mesh that was adapted to an accuracy, the last one is that of the result; the key is missing if no accuracy
+    /// was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<AccuracySummary>,
+    pub accuracy: Option<Vec<AccuracyStep>>,
 }
 
 /// Verdict of a run.
@@ -276,45 +277,60 @@ pub struct ContactEstimate {
     pub peak: Option<f64>,
 }
 
-/// The accuracy that was asked for, and the meshes that were adapted to it.
+/// One mesh of those that were adapted to an accuracy. Goals that are not asked for are missing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AccuracySummary {
-    /// Whether every goal holds on the last mesh.
-    pub reached: bool,
-    /// What was asked for, and what there is on the last mesh.
-    pub goals: Vec<GoalSummary>,
-    /// Every mesh, the last one is that of the result.
-    pub meshes: Vec<AdaptedMeshSummary>,
-    /// Name of the Gmsh file of the last mesh, beside the summary.
-    pub final_mesh: String,
-}
-
-/// A relative error that was asked for.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct GoalSummary {
-    /// Of what, as in the case: `energy`, `force`, `pressure`, `ends`, `displacement`, `stress`.
-    pub goal: String,
-    /// Name of the contact or the probe; null for the whole scene.
-    pub of: Option<String>,
-    /// The largest error that was asked for.
-    pub asked: f64,
-    /// Estimated error on the last mesh; null if it cannot be told.
-    pub estimate: Option<f64>,
-}
-
-/// One mesh of those that were adapted.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AdaptedMeshSummary {
+pub struct AccuracyStep {
     /// Its macro triangles.
     pub macro_triangles: usize,
     /// Refinements of each of them.
     pub refine: usize,
     /// Displacement unknowns.
     pub unknowns: usize,
-    /// Estimated error of each goal, in their order.
-    pub estimates: Vec<Option<f64>>,
     /// Seconds since the first mesh was begun.
     pub seconds: f64,
+    /// The displacement in the energy norm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy: Option<GoalSummary>,
+    /// By name of the contact.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub contact: BTreeMap<String, ContactGoals>,
+    /// By name of the probe.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub probe: BTreeMap<String, ProbeGoals>,
+}
+
+/// What is asked of a contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactGoals {
+    /// ∫λ ds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<GoalSummary>,
+    /// λ over the middle of what presses, root mean square.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<GoalSummary>,
+    /// The ends of contact, by its width.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ends: Option<GoalSummary>,
+}
+
+/// What is asked at a probe.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ProbeGoals {
+    /// The displacement, by its own size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<GoalSummary>,
+    /// The stress, by its own size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<GoalSummary>,
+}
+
+/// A relative error.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GoalSummary {
+    /// As estimated; null where there is not enough to tell.
+    pub estimate: Option<f64>,
+    /// The largest that was asked for.
+    pub asked: f64,
 }
 
 /// Relative residuals of the balances.

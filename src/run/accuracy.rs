@@ -3,12 +3,18 @@
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity};
 use crate::case::Case;
 use crate::output::plot::Sequence;
-use crate::output::summary::{self, Status};
+use crate::output::summary::{AccuracyStep, GoalSummary, Status};
 use crate::petsc::Session;
 use crate::system::Solved;
 
 /// File of the last mesh, in the result folder.
-pub const FINAL_MESH: &str = "mesh.msh";
+pub const ADAPTED_MESH: &str = "adapted.msh";
+
+/// So many meshes tell how an error falls.
+const LAST: usize = 3;
+
+/// Beyond so many unknowns an extrapolation says no more than that there are more.
+const MOST_FORETOLD: f64 = 1e12;
 
 /// Memory that an unknown of the displacement takes on a mesh with many macro triangles (bytes).
 const BYTES: f64 = 2000.0;
@@ -31,26 +37,34 @@ pub fn adaptation(case: &Case, solved: &Solved) -> Option<Adaptation> {
     solved.adaptation.clone().or_else(none)
 }
 
-/// The same in the terms of `summary.json`.
-pub fn summarise(adaptation: &Adaptation) -> summary::AccuracySummary {
-    let goal = |(place, goal): (usize, &Goal)| summary::GoalSummary {
-        goal: goal.quantity.word().into(),
-        of: goal.quantity.of().map(str::to_owned),
-        asked: goal.tolerance,
-        estimate: estimate(adaptation, place),
-    };
-    let mesh = |mesh: &AdaptedMesh| summary::AdaptedMeshSummary {
+/// The same in the terms of `summary.json`: a step for each mesh.
+pub fn summarise(Adaptation { accuracy, meshes }: &Adaptation) -> Vec<AccuracyStep> {
+    meshes.iter().map(|mesh| step(&accuracy.goals, mesh)).collect()
+}
+
+fn step(goals: &[Goal], mesh: &AdaptedMesh) -> AccuracyStep {
+    let mut step = AccuracyStep {
         macro_triangles: mesh.macro_triangles,
         refine: mesh.refine,
         unknowns: mesh.unknowns,
-        estimates: mesh.errors.clone(),
         seconds: mesh.seconds,
+        ..AccuracyStep::default()
     };
-    summary::AccuracySummary {
-        reached: adaptation.is_reached(),
-        goals: adaptation.accuracy.goals.iter().enumerate().map(goal).collect(),
-        meshes: adaptation.meshes.iter().map(mesh).collect(),
-        final_mesh: FINAL_MESH.into(),
+    for (goal, &estimate) in goals.iter().zip(&mesh.errors) {
+        *place_of(&goal.quantity, &mut step) = Some(GoalSummary { estimate, asked: goal.tolerance });
+    }
+    step
+}
+
+/// Where a step tells of a quantity.
+fn place_of<'a>(quantity: &Quantity, step: &'a mut AccuracyStep) -> &'a mut Option<GoalSummary> {
+    match quantity {
+        Quantity::Energy => &mut step.energy,
+        Quantity::Force(name) => &mut step.contact.entry(name.clone()).or_default().force,
+        Quantity::Pressure(name) => &mut step.contact.entry(name.clone()).or_default().pressure,
+        Quantity::Ends(name) => &mut step.contact.entry(name.clone()).or_default().ends,
+        Quantity::Displacement(probe) => &mut step.probe.entry(probe.name.clone()).or_default().displacement,
+        Quantity::Stress(probe) => &mut step.probe.entry(probe.name.clone()).or_default().stress,
     }
 }
 
@@ -59,7 +73,8 @@ pub fn judge(adaptation: &Adaptation, status: Status, reason: &str) -> (Status, 
     match (status, adaptation.is_reached()) {
         (Status::Converged, true) => (status, format!("{}; {reason}", words(adaptation))),
         (Status::Converged, false) => {
-            (Status::NotConverged, format!("the accuracy is not reached: {}; {reason}", words(adaptation)))
+            let words = format!("{}{}", words(adaptation), limits(&adaptation.accuracy));
+            (Status::NotConverged, format!("the accuracy is not reached: {words}; {reason}"))
         }
         (Status::NotConverged, _) => (status, reason.into()),
     }
@@ -67,13 +82,13 @@ pub fn judge(adaptation: &Adaptation, status: Status, reason: &str) -> (Status, 
 
 /// The estimates on each mesh as a figure shows them: one line for each goal.
 pub fn sequences(adaptation: &Adaptation) -> Vec<Sequence> {
-    let goals = adaptation.accuracy.goals.iter().enumerate();
-    let points = |place: usize| {
-        let known =
-            adaptation.meshes.iter().filter_map(move |mesh| Some((mesh.unknowns as f64, mesh.errors.get(place).copied()??)));
-        known.collect()
-    };
-    goals.map(|(place, goal)| Sequence { name: name(&goal.quantity), asked: goal.tolerance, points: points(place) }).collect()
+    (0..adaptation.accuracy.goals.len()).map(|place| sequence(adaptation, place)).collect()
+}
+
+fn sequence(Adaptation { accuracy, meshes }: &Adaptation, place: usize) -> Sequence {
+    let goal = &accuracy.goals[place];
+    let point = |mesh: &AdaptedMesh| Some((mesh.unknowns as f64, mesh.errors.get(place).copied()??));
+    Sequence { name: name(&goal.quantity), asked: goal.tolerance, points: meshes.iter().filter_map(point).collect() }
 }
 
 /// What is asked for, on one line: `energy to 1e-4, pressure of seam to 1e-3; at most 100 000 unknowns`.
@@ -84,14 +99,18 @@ pub fn request(accuracy: &Accuracy) -> String {
     [goals.collect::<Vec<_>>().join(", ")].into_iter().chain(unknowns).chain(seconds).collect()
 }
 
-/// What is reached, and on what: `energy to 8.1e-5 (asked 1e-4): 21 868 unknowns on 7 meshes, 0.31 s`.
+/// What is reached, and on what: `energy to 8.1e-5 (asked 1e-4): 21 868 unknowns on 7 meshes, 0.31 s`; beside what is missed,
+/// what it would take.
 fn words(adaptation: &Adaptation) -> String {
     let goal = |(place, goal): (usize, &Goal)| {
-        let name = name(&goal.quantity);
-        match estimate(adaptation, place) {
-            Some(error) => format!("{name} to {} (asked {:e})", figure(error), goal.tolerance),
-            None => format!("{name} to an unknown error (asked {:e})", goal.tolerance),
-        }
+        let reached = match estimate(adaptation, place) {
+            // What is missed must not look like what was asked for.
+            Some(error) if error > goal.tolerance => figure(rounded_up(error)),
+            Some(error) => figure(error),
+            None => "an unknown error".into(),
+        };
+        let would_take = would_take(adaptation, place).unwrap_or_default();
+        format!("{} to {reached} (asked {:e}{would_take})", name(&goal.quantity), goal.tolerance)
     };
     let goals = adaptation.accuracy.goals.iter().enumerate().map(goal).collect::<Vec<_>>().join(", ");
     let meshes = match adaptation.meshes.len() {
@@ -102,6 +121,42 @@ fn words(adaptation: &Adaptation) -> String {
         Some(last) => format!("{goals}: {} unknowns on {meshes}, {:.2} s", grouped(last.unknowns), last.seconds),
         None => format!("{goals}: no mesh was adapted"),
     }
+}
+
+/// The limits that the case sets: `; the case allows 2 000 unknowns and 5 s`.
+fn limits(accuracy: &Accuracy) -> String {
+    let unknowns = accuracy.most_unknowns.map(|most| format!("{} unknowns", grouped(most)));
+    let seconds = accuracy.most_seconds.map(|most| format!("{most} s"));
+    let all: Vec<String> = unknowns.into_iter().chain(seconds).collect();
+    if all.is_empty() { String::new() } else { format!("; the case allows {}", all.join(" and ")) }
+}
+
+/// What a goal that is missed would take: `, which would take some 300 000 unknowns`.
+fn would_take(adaptation: &Adaptation, place: usize) -> Option<String> {
+    let needed = unknowns_needed(adaptation, place)?;
+    Some(if needed > MOST_FORETOLD {
+        format!(", which would take more than {} unknowns", grouped(MOST_FORETOLD as usize))
+    } else {
+        format!(", which would take some {} unknowns", grouped(rounded_up(needed).round() as usize))
+    })
+}
+
+/// Unknowns on which a goal that is missed would hold, if its estimate falls on like `unknowns^-p`, with p from the last three
+/// meshes. Nothing if it holds, if one of these meshes does not tell the error, or if it does not fall.
+fn unknowns_needed(adaptation: &Adaptation, place: usize) -> Option<f64> {
+    let Adaptation { accuracy, meshes } = adaptation;
+    let last = Adaptation { accuracy: accuracy.clone(), meshes: meshes[meshes.len().checked_sub(LAST)?..].to_vec() };
+    let sequence = sequence(&last, place);
+    let order = sequence.order().filter(|order| *order > 0.0)?;
+    let (unknowns, error) = *sequence.points.last()?;
+    let excess = error / sequence.asked;
+    (excess > 1.0).then(|| unknowns * excess.powf(1.0 / order))
+}
+
+/// The next larger number of two digits and zeros; rounding makes no number larger.
+fn rounded_up(number: f64) -> f64 {
+    let unit = 10_f64.powf(number.log10().floor() - 1.0);
+    (number / unit * (1.0 - 1e-9)).ceil() * unit
 }
 
 /// Estimated error of a goal on the last mesh.
@@ -171,16 +226,93 @@ mod tests {
         assert!(status == Status::NotConverged && reason.contains("no mesh was adapted"), "{reason}");
     }
 
+    /// Estimates of the energy on meshes of 1000, 2000, 4000 ... unknowns; asked is 1e-4.
+    fn falling(errors: &[f64]) -> Adaptation {
+        let adapted = adapted([None; 2]);
+        let mesh = |(k, &error): (usize, &f64)| AdaptedMesh {
+            number: k + 1,
+            unknowns: 1000 << k,
+            errors: vec![Some(error), None],
+            ..adapted.meshes[0].clone()
+        };
+        Adaptation { meshes: errors.iter().enumerate().map(mesh).collect(), accuracy: adapted.accuracy }
+    }
+
     #[test]
-    fn the_summary_has_every_goal_and_mesh() {
-        let told = summarise(&adapted([Some(8e-5), None]));
-        assert!(!told.reached && told.final_mesh == FINAL_MESH);
-        let goals: Vec<_> =
-            told.goals.iter().map(|goal| (&goal.goal[..], goal.of.as_deref(), goal.asked, goal.estimate)).collect();
-        assert_eq!(goals, [("energy", None, 1e-4, Some(8e-5)), ("pressure", Some("seam"), 1e-3, None)]);
-        assert_eq!(told.meshes.iter().map(|mesh| mesh.unknowns).collect::<Vec<_>>(), [600, 21_868]);
-        assert_eq!(told.meshes[0].estimates, [Some(1e-2), None]);
-        assert!(summarise(&adapted([Some(8e-5), Some(1e-3)])).reached);
+    fn what_is_missed_is_extrapolated_with_its_own_order() {
+        for order in [0.25, 0.5, 0.9, 1.5] {
+            // The first mesh is off the law, and does not count.
+            let errors = [0.9, 0.03, 0.03 * 2_f64.powf(-order), 0.03 * 4_f64.powf(-order)];
+            let needed = unknowns_needed(&falling(&errors), 0).unwrap();
+            let expected = 2000.0 * 300_f64.powf(1.0 / order);
+            assert!((needed / expected - 1.0).abs() < 1e-10, "order {order}: {needed} against {expected}");
+        }
+        let (status, reason) = judge(&falling(&[4e-4, 2e-4 * 2_f64.sqrt(), 2e-4]), Status::Converged, "the set stands");
+        let words = "energy to 2e-4 (asked 1e-4, which would take some 16 000 unknowns), pressure of seam to an unknown error (asked 1e-3): 4 000 unknowns on 3 meshes, 0.02 s; the set stands";
+        assert_eq!((status, reason), (Status::NotConverged, format!("the accuracy is not reached: {words}")));
+    }
+
+    #[test]
+    fn nothing_is_extrapolated_without_an_order() {
+        let none: [&[f64]; 7] = [
+            &[],
+            &[4e-3, 2e-3],
+            &[1e-3, 1e-3, 1e-3],
+            &[1e-3, 2e-3, 4e-3],
+            &[4e-4, 2e-4, 1e-4],
+            &[8e-3, 4e-3, 2e-3, f64::NAN],
+            &[8e-3, f64::INFINITY, 4e-3, 2e-3],
+        ];
+        for errors in none {
+            assert_eq!(unknowns_needed(&falling(errors), 0), None, "{errors:?}");
+        }
+        let mut unknown = falling(&[8e-3, 4e-3, 2e-3, 1e-3]);
+        unknown.meshes[2].errors[0] = None;
+        assert_eq!(unknowns_needed(&unknown, 0), None, "one of the last three does not tell");
+    }
+
+    #[test]
+    fn what_is_missed_is_rounded_up() {
+        for (number, words) in [(99.0, 99), (100.4, 110), (13_276.5, 14_000), (300_000.0, 300_000), (9.95e5, 1_000_000)] {
+            assert_eq!(rounded_up(number).round() as usize, words);
+        }
+        assert_eq!([1.001e-4, 2e-4, 9.91e-3].map(|error| figure(rounded_up(error))), ["1.1e-4", "2e-4", "1e-2"]);
+        let reason = judge(&falling(&[1.02e-4]), Status::Converged, "the set stands").1;
+        assert!(reason.contains("energy to 1.1e-4 (asked 1e-4)"), "{reason}");
+        let slow = would_take(&falling(&[1e-2, 0.999e-2, 0.998e-2]), 0);
+        assert_eq!(slow.as_deref(), Some(", which would take more than 1 000 000 000 000 unknowns"));
+    }
+
+    #[test]
+    fn limits_of_the_case_are_named() {
+        let mut missed = falling(&[4e-4, 2e-4]);
+        (missed.accuracy.most_unknowns, missed.accuracy.most_seconds) = (Some(2000), Some(0.5));
+        let reason = judge(&missed, Status::Converged, "the set stands").1;
+        assert!(reason.ends_with("0.02 s; the case allows 2 000 unknowns and 0.5 s; the set stands"), "{reason}");
+    }
+
+    #[test]
+    fn the_summary_has_every_mesh_and_goal() {
+        let mut adaptation = adapted([Some(8e-5), None]);
+        let probe = ProbePoint { name: "tip".into(), body: "a".into(), point: crate::geometry::Point::new(0.0, 0.0) };
+        let goals = [
+            Quantity::Force("seam".into()),
+            Quantity::Ends("glue".into()),
+            Quantity::Displacement(probe.clone()),
+            Quantity::Stress(probe),
+        ];
+        adaptation.accuracy.goals.extend(goals.map(|quantity| Goal { quantity, tolerance: 0.1 }));
+        adaptation.meshes[1].errors.extend([0.01, 0.02, 0.03, 0.04].map(Some));
+        let told = summarise(&adaptation);
+        assert_eq!(told.iter().map(|step| (step.macro_triangles, step.unknowns)).collect::<Vec<_>>(), [(8, 600), (16, 21_868)]);
+        let goal = |estimate, asked| Some(GoalSummary { estimate, asked });
+        let last = &told[1];
+        assert_eq!((&last.energy, &last.contact["seam"].pressure), (&goal(Some(8e-5), 1e-4), &goal(None, 1e-3)));
+        assert_eq!((&last.contact["seam"].force, &last.contact["glue"].ends), (&goal(Some(0.01), 0.1), &goal(Some(0.02), 0.1)));
+        assert_eq!(last.contact["glue"].pressure, None, "only what is asked for");
+        let tip = &last.probe["tip"];
+        assert_eq!((&tip.displacement, &tip.stress), (&goal(Some(0.03), 0.1), &goal(Some(0.04), 0.1)));
+        assert!(summarise(&Adaptation { meshes: Vec::new(), ..adaptation }).is_empty());
     }
 
     #[test]

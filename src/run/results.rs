@@ -3,7 +3,7 @@
 use super::exact::{Errors, compare};
 use super::report::{memory, short};
 use super::{Outcome, Run, RunError, accuracy, fields, summarise, trust, zones};
-use crate::accuracy::{Adaptation, Quantity};
+use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, CurveChoice, GapChoice};
 use crate::geometry::Point;
@@ -210,7 +210,7 @@ fn remarks(summary: &Summary, status: Status) -> String {
         let all = summary.contact.iter().filter(|(_, contact)| is(contact)).map(|(name, _)| name.as_str());
         all.collect::<Vec<_>>().join(", ")
     };
-    let is_told = summary.accuracy.iter().flat_map(|accuracy| &accuracy.goals).any(|goal| goal.goal == Quantity::Energy.word());
+    let is_told = summary.accuracy.iter().flatten().any(|step| step.energy.is_some());
     if let (Status::Converged, Some(error), false) = (status, summary.estimate.energy, is_told) {
         remarks += &format!("; estimated error {error:.1e} in the energy norm");
     }
@@ -241,8 +241,8 @@ fn finish(case: &Case, summary: &Summary, mesh: &MacroMesh, folder: ResultFolder
         std::fs::write(&path, text).map_err(|source| OutputError::Io { action: "write", path, source })
     };
     write("case.toml", case.resolved())?;
-    if let Some(accuracy) = &summary.accuracy {
-        write(&accuracy.final_mesh, mesh.to_gmsh())?;
+    if summary.accuracy.as_ref().is_some_and(|steps| !steps.is_empty()) {
+        write(accuracy::ADAPTED_MESH, mesh.to_gmsh())?;
     }
     summary.write(&folder.path("summary.json"))?;
     folder.commit()

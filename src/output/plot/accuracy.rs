@@ -39,7 +39,7 @@ impl Sequence {
     }
 
     /// The exponent p of error ~ N^-p on the last three meshes, by least squares; None on fewer, or if N is the same on all.
-    fn order(&self) -> Option<f64> {
+    pub fn order(&self) -> Option<f64> {
         let all: Vec<(f64, f64)> = self.shown().map(|(n, error)| (n.ln(), error.ln())).collect();
         let last = &all[all.len().checked_sub(LAST)?..];
         let mean = |value: fn(&(f64, f64)) -> f64| last.iter().map(value).sum::<f64>() / LAST as f64;

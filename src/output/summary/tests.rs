@@ -83,25 +83,35 @@ fn an_accuracy_is_told_where_it_was_asked_for() {
     let without = written(&filled());
     assert!(without.get("accuracy").is_none());
     assert_eq!(serde_json::from_value::<Summary>(without).unwrap(), filled());
-    let goal = GoalSummary { goal: "energy".into(), of: None, asked: 1e-4, estimate: Some(8.1e-5) };
-    let mesh =
-        AdaptedMeshSummary { macro_triangles: 24, refine: 2, unknowns: 1600, estimates: vec![Some(8.1e-5), None], seconds: 0.25 };
-    let of_seam = GoalSummary { goal: "pressure".into(), of: Some("seam".into()), asked: 1e-3, estimate: None };
-    let accuracy =
-        AccuracySummary { reached: false, goals: vec![goal, of_seam], meshes: vec![mesh], final_mesh: "mesh.msh".into() };
-    let summary = Summary { accuracy: Some(accuracy), ..filled() };
-    let value = written(&summary);
-    let expected = json!({
-        "reached": false,
-        "goals": [
-            {"goal": "energy", "of": null, "asked": 1e-4, "estimate": 8.1e-5},
-            {"goal": "pressure", "of": "seam", "asked": 1e-3, "estimate": null},
-        ],
-        "meshes": [{"macro_triangles": 24, "refine": 2, "unknowns": 1600, "estimates": [8.1e-5, null], "seconds": 0.25}],
-        "final_mesh": "mesh.msh",
-    });
-    assert_eq!(value["accuracy"], expected);
-    assert_eq!(serde_json::from_value::<Summary>(value).unwrap(), summary);
+    let goal = |estimate, asked| Some(GoalSummary { estimate, asked });
+    let first = AccuracyStep { macro_triangles: 8, refine: 2, unknowns: 600, seconds: 0.25, ..AccuracyStep::default() };
+    let seam = ContactGoals { force: goal(Some(1e-3), 1e-2), pressure: goal(None, 1e-3), ends: goal(Some(f64::NAN), 0.02) };
+    let tip = ProbeGoals { displacement: goal(Some(0.01), 0.05), stress: goal(None, 0.1) };
+    let all = AccuracyStep {
+        energy: goal(Some(8.1e-5), 1e-4),
+        contact: [("seam".into(), seam)].into(),
+        probe: [("tip".into(), tip)].into(),
+        ..first.clone()
+    };
+    let value = written(&Summary { accuracy: Some(vec![first.clone(), all]), ..filled() });
+    let size = json!({"macro_triangles": 8, "refine": 2, "unknowns": 600, "seconds": 0.25});
+    let mut told = size.clone();
+    told["energy"] = json!({"estimate": 8.1e-5, "asked": 1e-4});
+    told["contact"] = json!({"seam": {
+        "force": {"estimate": 1e-3, "asked": 1e-2},
+        "pressure": {"estimate": null, "asked": 1e-3},
+        "ends": {"estimate": null, "asked": 0.02},
+    }});
+    told["probe"] =
+        json!({"tip": {"displacement": {"estimate": 0.01, "asked": 0.05}, "stress": {"estimate": null, "asked": 0.1}}});
+    assert_eq!(value["accuracy"], json!([size, told]), "goals that are not asked for are missing");
+    let read: Summary = serde_json::from_value(value).unwrap();
+    assert_eq!(
+        read.accuracy.map(|steps| (steps[0].clone(), steps[1].contact["seam"].ends.clone())),
+        Some((first, goal(None, 0.02)))
+    );
+    let none = Summary { accuracy: Some(Vec::new()), ..filled() };
+    assert_eq!(written(&none)["accuracy"], json!([]), "asked for, and ended before the first mesh");
 }
 
 #[test]

@@ -52,7 +52,7 @@ impl Observer for BeforeTheFirst<'_> {
 }
 
 /// A sequence of meshes on its way.
-struct Sequence {
+struct MeshSequence {
     scene: Scene,
     mesh: BisectedMesh,
     adaptation: Adaptation,
@@ -67,7 +67,7 @@ impl Procedure<'_> {
     pub(super) fn adapt(&self, scene: Scene, accuracy: &Accuracy) -> Result<Solved, SystemError> {
         let observer = BeforeTheFirst { observer: self.observer, is_first: Cell::new(true) };
         let one = Procedure { observer: &observer, ..*self };
-        let mut sequence = Sequence {
+        let mut sequence = MeshSequence {
             mesh: BisectedMesh::new(scene.mesh.as_ref().clone()),
             scene: prepared(scene),
             adaptation: Adaptation { accuracy: accuracy.clone(), meshes: Vec::new() },
@@ -81,7 +81,7 @@ impl Procedure<'_> {
                 outcome => {
                     let mut solved = outcome?;
                     self.judge(&mut sequence, &solved)?;
-                    let marked = if self.is_over(&sequence) { Vec::new() } else { self.marked(&sequence, &solved)? };
+                    let marked = if self.is_over(&sequence, &solved) { Vec::new() } else { self.marked(&sequence, &solved)? };
                     if marked.is_empty() || !sequence.has_room(&marked) {
                         solved.adaptation = Some(sequence.adaptation);
                         return Ok(solved);
@@ -95,7 +95,7 @@ impl Procedure<'_> {
     }
 
     /// Estimates the errors on a mesh. **Collective**
-    fn judge(&self, sequence: &mut Sequence, solved: &Solved) -> Result<(), SystemError> {
+    fn judge(&self, sequence: &mut MeshSequence, solved: &Solved) -> Result<(), SystemError> {
         let goals = &sequence.adaptation.accuracy.goals;
         let errors = if solved.ending.is_converged() { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
         sequence.failed = if solved.ending.is_converged() { 0 } else { sequence.failed + 1 };
@@ -113,16 +113,20 @@ impl Procedure<'_> {
     }
 
     /// Whether the accuracy is reached, or will not be; the same on every rank. **Collective**
-    fn is_over(&self, Sequence { adaptation, failed, .. }: &Sequence) -> bool {
+    fn is_over(&self, MeshSequence { adaptation, failed, .. }: &MeshSequence, solved: &Solved) -> bool {
         let meshes = &adaptation.meshes;
         let late = adaptation.accuracy.most_seconds.zip(meshes.last()).is_some_and(|(most, last)| last.seconds > most);
         // Clocks differ from rank to rank.
         let late = self.session.any(late);
-        late || adaptation.is_reached() || meshes.len() == MOST_MESHES || *failed == MOST_FAILED || is_stuck(adaptation)
+        late || !solved.is_solved()
+            || adaptation.is_reached()
+            || meshes.len() == MOST_MESHES
+            || *failed == MOST_FAILED
+            || is_stuck(adaptation)
     }
 
     /// The macro triangles that hold most of the error of each goal that is missed; all, if nothing tells. **Collective**
-    fn marked(&self, sequence: &Sequence, solved: &Solved) -> Result<Vec<u32>, SystemError> {
+    fn marked(&self, sequence: &MeshSequence, solved: &Solved) -> Result<Vec<u32>, SystemError> {
         let left = &solved.estimate.local;
         let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
         let mut all = Vec::new();
@@ -156,7 +160,7 @@ impl Procedure<'_> {
     }
 }
 
-impl Sequence {
+impl MeshSequence {
     fn all_triangles(&self) -> Vec<u32> {
         (0..self.scene.mesh.triangles.len() as u32).collect()
     }

@@ -211,7 +211,7 @@ fn body_balance(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum
 /// Strain energy of each body. **Collective**
 ///
 /// # Errors
-/// As [`balance`].
+/// [`SystemError`] from PETSc or an inverted triangle.
 pub fn strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
     let (mut strain, _) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
@@ -221,7 +221,7 @@ pub fn strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) 
 /// Strain energy of each macro triangle of this rank, in its order. **Collective**
 ///
 /// # Errors
-/// As [`balance`].
+/// [`SystemError`] from PETSc or an inverted triangle.
 pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
     let laws = problem.scene.laws();
     let own = problem.scene.partition.triangles_of(session.rank());
