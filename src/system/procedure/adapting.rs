@@ -66,7 +66,8 @@ impl Procedure<'_> {
     /// Solves a scene on one mesh after the other, until the accuracy is reached or a limit is. **Collective**
     pub(super) fn adapt(&self, scene: Scene, accuracy: &Accuracy) -> Result<Solved, SystemError> {
         let observer = BeforeTheFirst { observer: self.observer, is_first: Cell::new(true) };
-        let one = Procedure { observer: &observer, ..*self };
+        let inf_sup = Some(self.inf_sup == Some(true));
+        let one = Procedure { observer: &observer, inf_sup, ..*self };
         let mut sequence = MeshSequence {
             mesh: BisectedMesh::new(scene.mesh.as_ref().clone()),
             scene: prepared(scene),
