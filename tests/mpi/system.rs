@@ -33,6 +33,7 @@ fn main() -> std::process::ExitCode {
             the_solution_does_not_know_the_sets_before,
             a_plain_system_has_the_solution_of_the_augmented_one,
             the_plain_residual_is_that_of_the_system_without_augmentation,
+            responses_are_those_of_load_and_gap_and_reciprocal,
             multipliers_live_where_body_one_does,
         ],
         outside: &[],
@@ -331,6 +332,44 @@ fn a_plain_system_has_the_solution_of_the_augmented_one(session: &Session) {
         });
         assert!(apart(session, &a.0, &b.0) < 1e-7 && apart(session, &a.1, &b.1) < 1e-8);
     }
+}
+
+/// Dual problems are other right-hand sides of the same system: its own one gives its solution, forces act on each other's
+/// displacements alike (Betti), and gaps are met where contact is closed.
+fn responses_are_those_of_load_and_gap_and_reciprocal(session: &Session) {
+    for problem in problems(session).into_iter().step_by(3) {
+        let definition = Definition::new(&problem, session);
+        let (mut system, _) = system(&problem, SolverChoice::FieldSplit, session);
+        let set = &sets(problem.multiplier_count())[1];
+        system.set_active(set).expect("a set");
+        let mut respond = |load: &[f64], gap: &[f64]| system.response(load, gap, 1e-11).expect("a response");
+        let (load, gap) = (definition.load(), definition.gap());
+        let own = respond(&load, &gap);
+        let first = problem.finest().own.start;
+        let erratic_load = |seed: f64| -> Vec<f64> {
+            let free = |(k, value): (usize, f64)| if load_is_free(&problem, first, k) { value } else { 0.0 };
+            (0..load.len()).map(|k| erratic(2 * first + k, seed)).enumerate().map(free).collect()
+        };
+        let none = vec![0.0; gap.len()];
+        let [f, g] = [0.3, 4.0].map(erratic_load);
+        let (by_f, by_g) = (respond(&f, &none), respond(&g, &none));
+        let mut works = [(&f, &by_g), (&g, &by_f)].map(|(force, way)| force.iter().zip(way).map(|(a, b)| a * b).sum::<f64>());
+        session.sum(&mut works);
+        assert!((works[0] / works[1] - 1.0).abs() < 1e-7, "{works:?}");
+        let wanted: Vec<f64> = (0..gap.len()).map(|i| if set[i] { 1e-3 * erratic(i, 7.0) } else { 0.0 }).collect();
+        if problem.jumps().next().is_none() {
+            let met = definition.couple(&respond(&vec![0.0; load.len()], &wanted));
+            let closed = |v: &[f64]| -> Vec<f64> { v.iter().zip(set).filter(|(_, active)| **active).map(|(v, _)| *v).collect() };
+            assert!(apart(session, &closed(&met), &closed(&wanted)) < 1e-7);
+        }
+        assert_eq!(system.solve(1e-11).expect("a solve").ending, LinearEnding::Converged, "responses leave the system as it was");
+        assert!(apart(session, &own, &system.free_displacement()) < 1e-7);
+    }
+}
+
+/// Whether no support holds component `k` of this rank.
+fn load_is_free(problem: &Discretisation, first: usize, k: usize) -> bool {
+    problem.finest().constraints.get(first + k / 2).is_none_or(|constraint| !constraint.fixed[k % 2])
 }
 
 /// For unknowns that solve nothing: `f - K u - Bᵀ λ`, and `s (c - B u + C λ)` on active multipliers, by `|b|` of the system.
