@@ -96,7 +96,7 @@ fn a_run_that_begins_with_the_adapted_mesh_is_there_at_once() {
 fn a_limit_ends_with_what_was_reached_and_what_it_would_take() {
     let (_folder, file) = bars();
     let goals = Run::file(&file).set("accuracy.energy", "1e-3").set("accuracy.force", "1e-3");
-    let ended = goals.set("accuracy.max_unknowns", 2000).ended();
+    let ended = goals.set("accuracy.max_unknowns", 3000).ended();
     assert_eq!(ended.code, Some(3), "{}", ended.said());
     assert_eq!(ended.value("/status"), "not_converged");
     let reason = ended.value("/reason").as_str().expect("words").to_owned();

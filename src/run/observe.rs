@@ -1,6 +1,7 @@
 //! What a run does with the events of the solution procedure: it prints them, and times the work.
 
 use super::{Run, RunError, Stages, accuracy};
+use crate::contact::SegmentRule;
 use crate::petsc::StageGuard;
 use crate::system::{Event, Observer, Procedure, Scene, Solved, Work};
 
@@ -11,6 +12,10 @@ impl Run<'_> {
         let (choice, tolerance, inf_sup) = (solver.choice, solver.tolerance, solver.inf_sup);
         let accuracy = self.case.accuracy.as_ref().map(|accuracy| accuracy::limited(accuracy, self.session));
         let accuracy = accuracy.as_ref();
+        let given = self.case.contacts.iter().filter(|pair| pair.segments != SegmentRule::Auto);
+        for pair in given.filter(|_| accuracy.is_some()) {
+            self.report.say(&format!("contact {}: its segments follow the edges of each mesh, not the case", pair.name));
+        }
         Ok(Procedure { choice, tolerance, inf_sup, accuracy, session: self.session, observer: self }.solve(scene)?)
     }
 }

@@ -99,7 +99,11 @@ impl Procedure<'_> {
     fn judge(&self, sequence: &mut MeshSequence, solved: &Solved) -> Result<(), SystemError> {
         let goals = &sequence.adaptation.accuracy.goals;
         let errors = if solved.ending.is_converged() { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
-        sequence.failed = if solved.ending.is_converged() { 0 } else { sequence.failed + 1 };
+        if solved.ending.is_converged() {
+            (sequence.failed, sequence.refusal) = (0, None);
+        } else {
+            sequence.failed += 1;
+        }
         let adapted = AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,
             macro_triangles: sequence.scene.mesh.triangles.len(),

@@ -1,9 +1,11 @@
-//! The solution procedure: on coarser meshes first, on each of them one contact boundary after the other, on each of these
-//! one active set after the other.
+//! The solution procedure: on one adapted mesh after the other, if an accuracy is asked for; on each of them on coarser
+//! refinements first, on each of these one contact boundary after the other, and on each boundary one active set after the
+//! other.
 //!
 //! | loop | file | ends when |
 //! |---|---|---|
-//! | meshes | `meshes.rs` | the mesh of the case is solved |
+//! | adapted meshes | `adapting.rs` | all goals are reached, or a limit is |
+//! | refinements | `meshes.rs` | the mesh of the case is solved |
 //! | boundaries | `boundaries.rs` with `following.rs` | boundary, displacement and set stand |
 //! | active sets | `contact_loop.rs` | the set stands, and the residual is below its tolerance |
 
