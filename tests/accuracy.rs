@@ -125,3 +125,42 @@ fn a_case_that_asks_for_nothing_has_no_steps() {
     assert!(ended.summary().get("accuracy").is_none() && !ended.out.join("adapted.msh").exists());
     assert_eq!(ended.number("/unknowns/displacement"), 60.0, "the mesh of the file");
 }
+
+/// Reference values of a run with 604 076 unknowns, whose error in the energy norm is below 1e-5.
+#[test]
+fn displacement_and_stress_at_a_point_are_as_exact_as_asked() {
+    let (_folder, file) = bars();
+    let probe = |run: Run| run.set("probe.mid", r#"{ point = [3.0, 1.2], body = "lower" }"#);
+    let ended = probe(Run::file(&file)).set("accuracy", "{ displacement = 1e-4, stress = 1e-3 }").ranks(2).converged();
+    let u = [4.815406689831281e-05, -0.00016162066699035695];
+    let stress = [-0.17015083645095216, -1.0267189605872655, -0.06282580376593719];
+    let values =
+        |name: &str, count: usize| -> Vec<f64> { (0..count).map(|k| ended.number(&format!("/probe/mid/{name}/{k}"))).collect() };
+    let off = |found: &[f64], wanted: &[f64]| {
+        let size = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let apart: Vec<f64> = found.iter().zip(wanted).map(|(a, b)| a - b).collect();
+        size(&apart) / size(wanted)
+    };
+    let errors = [off(&values("u", 2), &u), off(&values("stress", 3), &stress)];
+    println!("{:?}: u off by {:.1e}, stress by {:.1e}", sizes(&ended), errors[0], errors[1]);
+    assert!(errors[0] <= 1e-4 && errors[1] <= 1e-3, "{errors:?}");
+    assert!(sizes(&ended).last().is_some_and(|[_, unknowns]| *unknowns <= 10_000), "{:?}", sizes(&ended));
+}
+
+/// The order that the best meshes have: the estimate in the energy norm falls like N⁻¹ for P2, N^-½ for P1.
+#[test]
+fn the_estimate_falls_with_the_order_of_the_elements() {
+    let (_folder, file) = bars();
+    for (order, asked, least) in [(1, "5e-3", 0.45), (2, "2e-4", 0.9)] {
+        let ended = Run::file(&file).set("mesh.order", order).set("accuracy", asked).converged();
+        let last = sizes(&ended).len() - 1;
+        let at = |step: usize| {
+            let estimate = ended.number(&format!("/accuracy/{step}/energy/estimate"));
+            (sizes(&ended)[step][1] as f64, estimate)
+        };
+        let ((n, before), (m, now)) = (at(last - 3), at(last));
+        let found = (before / now).ln() / (m / n).ln();
+        println!("P{order}: {:?}: order {found:.2}", sizes(&ended));
+        assert!(found >= least, "P{order}: order {found}");
+    }
+}
