@@ -3,8 +3,8 @@
 use super::settings::Procedure;
 use super::solved::Solved;
 use crate::accuracy::{Goal, ProbePoint, Quantity};
-use crate::system::recovery::Evaluation;
-use crate::system::{Discretisation, SystemError};
+use crate::system::recovery::trace_points;
+use crate::system::{Discretisation, Field, SystemError};
 
 /// Differences in the energy norm that say that the solution was there before.
 const ROUNDING: f64 = 1e-6;
@@ -40,9 +40,9 @@ impl Procedure<'_> {
     /// Error of λ on the worst zone of a contact.
     fn pressure_error(&self, solved: &Solved, at: usize) -> Result<Option<f64>, SystemError> {
         let Solved { problem, solution, estimate, .. } = solved;
-        let found = Evaluation::new(problem, solution, self.session)?;
-        let pressure = found.pressure(at);
-        let points = found.traces(&pressure)?;
+        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let pressure = solution.pressure(&problem.contacts[at]);
+        let points = trace_points(problem, &pressure, &u, self.session)?;
         let zones = pressure.zones();
         let all = estimate.of_zones(at, &pressure, &zones, &points);
         let counting = all.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);

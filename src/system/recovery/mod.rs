@@ -19,7 +19,7 @@ pub use deformation::Deformation;
 pub use evaluation::Evaluation;
 pub use motion_error::MotionError;
 pub use probe::{Probed, probe, shapes_at};
-pub use traces::TracePoint;
+pub use traces::{TracePoint, trace_points};
 pub use zone_errors::{ZoneErrors, zone_errors};
 
 use super::{Discretisation, Field, SystemError};
