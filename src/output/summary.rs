@@ -4,6 +4,10 @@
 //! what does not apply, or was not reached, never shows as a made-up number.
 
 use crate::contact::zone_counts;
+mod accuracy;
+
+pub use accuracy::{AccuracyStep, ContactGoals, GoalSummary, ProbeGoals};
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -275,62 +279,6 @@ pub struct ContactEstimate {
     pub lambda: Option<f64>,
     /// Of the largest λ; null where that is singular.
     pub peak: Option<f64>,
-}
-
-/// One mesh of those that were adapted to an accuracy. Goals that are not asked for are missing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AccuracyStep {
-    /// Its macro triangles.
-    pub macro_triangles: usize,
-    /// Refinements of each of them.
-    pub refine: usize,
-    /// Displacement unknowns.
-    pub unknowns: usize,
-    /// Seconds since the first mesh was begun.
-    pub seconds: f64,
-    /// The displacement in the energy norm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub energy: Option<GoalSummary>,
-    /// By name of the contact.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub contact: BTreeMap<String, ContactGoals>,
-    /// By name of the probe.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub probe: BTreeMap<String, ProbeGoals>,
-}
-
-/// What is asked of a contact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ContactGoals {
-    /// ∫λ ds.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub force: Option<GoalSummary>,
-    /// λ over the middle of what presses, root mean square.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pressure: Option<GoalSummary>,
-    /// The ends of contact, by its width.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ends: Option<GoalSummary>,
-}
-
-/// What is asked at a probe.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ProbeGoals {
-    /// The displacement, by its own size.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub displacement: Option<GoalSummary>,
-    /// The stress, by its own size.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stress: Option<GoalSummary>,
-}
-
-/// A relative error.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct GoalSummary {
-    /// As estimated; null where there is not enough to tell.
-    pub estimate: Option<f64>,
-    /// The largest that was asked for.
-    pub asked: f64,
 }
 
 /// Relative residuals of the balances.

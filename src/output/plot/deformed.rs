@@ -6,7 +6,8 @@ use plotters::element::{PathElement, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, FontTransform, RGBColor};
 
-use super::outline::{line_data, loops, path_data, unmatched};
+use super::macro_edges::{DrawnEdge, macro_lines};
+use super::outline::{loops, path_data, unmatched};
 use super::palette::{GREY, INK, viridis};
 use super::sheet::{Area, AxisSpec, DrawResult, PIXEL, Scale, Sheet, line, text_style};
 use super::ticks::{Ticks, cut_off, number_text, round_number};
@@ -22,10 +23,6 @@ pub struct Facet {
     /// Von Mises stress at the corners.
     pub von_mises: [f64; 3],
 }
-
-/// An edge of the macro mesh as the figure shows it: undeformed points from end to end, and their displacements.
-#[derive(Clone, Debug)]
-pub struct DrawnEdge(pub Vec<([f64; 2], [f64; 2])>);
 
 /// Steps of the colour bar.
 const LEVELS: usize = 40;
@@ -226,20 +223,6 @@ fn outlines(boundary: &[[FacetCorner; 2]], scale: f64, colour: RGBColor, place: 
     let RGBColor(red, green, blue) = colour;
     let data = path_data(&loops);
     format!("<path fill=\"none\" stroke=\"#{red:02x}{green:02x}{blue:02x}\" stroke-width=\"7\" d=\"{data}\"/>\n")
-}
-
-/// Macro edges as one path of thin lines; nothing if there are none, and no edge with a number that is not finite.
-fn macro_lines(edges: &[DrawnEdge], scale: f64, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
-    let moved = |(x, u): &([f64; 2], [f64; 2])| [0, 1].map(|axis| x[axis] + scale * u[axis]);
-    let placed = |DrawnEdge(points): &DrawnEdge| {
-        let places = points.iter().map(moved).map(|x| x.iter().all(|number| number.is_finite()).then(|| place(x)));
-        places.collect::<Option<Vec<_>>>()
-    };
-    let data: String = edges.iter().filter_map(placed).map(|points| line_data(&points)).collect();
-    if data.is_empty() {
-        return data;
-    }
-    format!("<path fill=\"none\" stroke=\"#fff\" stroke-opacity=\"0.75\" stroke-width=\"4\" d=\"{data}\"/>\n")
 }
 
 /// A corner of a facet in single precision, by its bits: position and displacement, so that bodies that touch keep their own

@@ -7,6 +7,7 @@ mod accuracy;
 mod along;
 mod deformed;
 mod diagrams;
+mod macro_edges;
 mod outline;
 mod palette;
 mod sheet;
@@ -14,5 +15,6 @@ mod ticks;
 
 pub use accuracy::{Sequence, write_accuracy};
 pub use along::{write_displacement, write_pressure};
-pub use deformed::{DrawnEdge, Facet, write_deformed};
+pub use deformed::{Facet, write_deformed};
 pub use diagrams::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};
+pub use macro_edges::DrawnEdge;

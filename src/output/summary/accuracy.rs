@@ -1,0 +1,60 @@
+//! What the summary says of an accuracy that was asked for.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// One mesh of those that were adapted to an accuracy. Goals that are not asked for are missing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AccuracyStep {
+    /// Its macro triangles.
+    pub macro_triangles: usize,
+    /// Refinements of each of them.
+    pub refine: usize,
+    /// Displacement unknowns.
+    pub unknowns: usize,
+    /// Seconds since the first mesh was begun.
+    pub seconds: f64,
+    /// The displacement in the energy norm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy: Option<GoalSummary>,
+    /// By name of the contact.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub contact: BTreeMap<String, ContactGoals>,
+    /// By name of the probe.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub probe: BTreeMap<String, ProbeGoals>,
+}
+
+/// What is asked of a contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactGoals {
+    /// ∫λ ds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<GoalSummary>,
+    /// λ over the middle of what presses, root mean square.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<GoalSummary>,
+    /// The ends of contact, by its width.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ends: Option<GoalSummary>,
+}
+
+/// What is asked at a probe.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ProbeGoals {
+    /// The displacement, by its own size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<GoalSummary>,
+    /// The stress, by its own size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<GoalSummary>,
+}
+
+/// A relative error.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GoalSummary {
+    /// As estimated; null where there is not enough to tell.
+    pub estimate: Option<f64>,
+    /// The largest that was asked for.
+    pub asked: f64,
+}
