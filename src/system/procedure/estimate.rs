@@ -203,18 +203,19 @@ fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f64 {
 }
 
 /// Largest part of the segment next to an end of a zone that presses by which that end may be off, by the width of the zone; none
-/// where a body ends.
+/// where a body ends and presses to its end.
 fn ends_within_segments(pressure: &ContactPressure) -> f64 {
     let contact = pressure.contact;
     let (arcs, knots) = (contact.boundary.arcs(), contact.boundary.knots());
     let is_of_a_body = [knots[0] <= contact.limits[0], knots[knots.len() - 1] >= contact.limits[1]];
     let off = |zone: &Zone, end: usize| {
-        let part = match zone.is_at_end[end] {
+        let segment = [zone.segments.start, zone.segments.end - 1][end];
+        let presses_to_its_end = pressure.active[contact.multipliers.on_segment(segment, 0.0).0[end]];
+        let part = match zone.is_at_end[end] && presses_to_its_end {
             false => WITHIN_A_SEGMENT[0],
             true if contact.pair.has_free_ends() && !is_of_a_body[end] => WITHIN_A_SEGMENT[1],
             true => 0.0,
         };
-        let segment = [zone.segments.start, zone.segments.end - 1][end];
         part * (arcs[segment + 1] - arcs[segment]) / zone.length()
     };
     let zones = pressure.zones();
