@@ -130,7 +130,8 @@ impl Estimate {
         let force = |k: usize| value_left(before.map(|before| before.force[k]), last.force[k], FORCE_FALLS[order.degree() - 1]);
         let ends = |k: usize| {
             // Ends that stay where they are from mesh to mesh are no better for it than the segments are short.
-            value_left(before.map(|before| before.ends[k]), last.ends[k], ENDS_FALL).map(|error| error.max(last.within_segments[k]))
+            value_left(before.map(|before| before.ends[k]), last.ends[k], ENDS_FALL)
+                .map(|error| error.max(last.within_segments[k]))
         };
         let probe = |k: usize| {
             [0, 1].map(|what: usize| {
