@@ -2,6 +2,9 @@
 
 use crate::geometry::Point;
 
+/// Share of what is asked for that the estimate of a single value must not exceed on the first mesh.
+const FIRST: f64 = 0.25;
+
 /// A point of a body that is looked at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbePoint {
@@ -67,6 +70,24 @@ pub struct AdaptedMesh {
     pub seconds: f64,
 }
 
+/// Why a sequence of meshes has ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SequenceEnd {
+    /// A mesh could not be solved.
+    #[default]
+    Unsolved,
+    /// All goals hold.
+    Reached,
+    /// The next mesh would have more unknowns than are allowed.
+    Unknowns,
+    /// The seconds are over.
+    Seconds,
+    /// There are as many meshes as there may be.
+    Meshes,
+    /// The estimate of a goal no longer falls, or cannot be had.
+    Stuck,
+}
+
 /// How meshes were adapted to an accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Adaptation {
@@ -74,6 +95,8 @@ pub struct Adaptation {
     pub accuracy: Accuracy,
     /// Every mesh, the last one is that of the solution.
     pub meshes: Vec<AdaptedMesh>,
+    /// Why there is no further one.
+    pub end: SequenceEnd,
 }
 
 impl Quantity {
@@ -115,10 +138,18 @@ impl Accuracy {
 }
 
 impl Adaptation {
-    /// The goals that are missed on the last mesh, with their places among all.
+    /// The goals that are missed on the last mesh, with their places among all. The first mesh may be too coarse to show how
+    /// slowly a value comes to rest: its estimate must be so much smaller.
     pub fn missed(&self) -> impl Iterator<Item = (usize, &Goal)> {
         let errors = self.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
-        let holds = |place: usize, goal: &Goal| errors.get(place).copied().flatten().is_some_and(|error| error <= goal.tolerance);
+        let is_first = self.meshes.len() == 1;
+        let share = move |goal: &Goal| {
+            let may_be_luck = is_first && goal.quantity != Quantity::Energy;
+            if may_be_luck { FIRST } else { 1.0 }
+        };
+        let holds = move |place: usize, goal: &Goal| {
+            errors.get(place).copied().flatten().is_some_and(|error| error <= share(goal) * goal.tolerance)
+        };
         self.accuracy.goals.iter().enumerate().filter(move |(place, goal)| !holds(*place, goal))
     }
 

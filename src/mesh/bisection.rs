@@ -18,21 +18,9 @@ pub struct BisectedMesh {
     sides: Vec<usize>,
 }
 
-/// Where a triangle of a refined mesh comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Origin {
-    /// The triangle of the mesh before that holds it.
-    pub triangle: u32,
-    /// Its corners in that triangle, as `(xi, eta)`.
-    pub corners: [Point; 3],
-}
-
-/// A triangle on its way: its corners, the newest one first, and where they lie in the triangle that it comes from.
+/// A part of a triangle: its corners, the newest one first.
 #[derive(Clone, Copy)]
-struct TrianglePart {
-    corners: [u32; 3],
-    places: [Point; 3],
-}
+struct TrianglePart([u32; 3]);
 
 impl BisectedMesh {
     /// A mesh of a file: its triangles are halved at their longest sides first.
@@ -46,8 +34,8 @@ impl BisectedMesh {
         Self { mesh, sides }
     }
 
-    /// The mesh with all sides of the marked triangles halved, and where each of its triangles comes from.
-    pub fn refined(&self, marked: impl Iterator<Item = u32>) -> (Self, Vec<Origin>) {
+    /// The mesh with all sides of the marked triangles halved.
+    pub fn refined(&self, marked: impl Iterator<Item = u32>) -> Self {
         let halved = self.halved(marked);
         let mut vertices = self.mesh.vertices.clone();
         let mut middles = vec![None; self.mesh.edges.len()];
@@ -56,16 +44,15 @@ impl BisectedMesh {
             vertices.push(self.mesh.edge_position(edge as u32, 0.5));
         }
         let mut next = Connected::new(&self.mesh, vertices);
-        let (mut sides, mut origins) = (Vec::new(), Vec::new());
+        let mut sides = Vec::new();
         for (triangle, known) in self.mesh.triangles.iter().enumerate() {
-            for (part, side) in self.parts(triangle, &middles) {
-                next.add(part.corners, known);
+            for (TrianglePart(corners), side) in self.parts(triangle, &middles) {
+                next.add(corners, known);
                 sides.push(side);
-                origins.push(Origin { triangle: triangle as u32, corners: part.places });
             }
         }
         next.halve_edges(&self.mesh, &middles);
-        (Self { mesh: next.mesh, sides }, origins)
+        Self { mesh: next.mesh, sides }
     }
 
     /// Which edges are halved: all of the marked triangles, and as many as it takes that every triangle that has a halved edge
@@ -87,14 +74,13 @@ impl BisectedMesh {
     /// The parts of a triangle by the middles of its edges, each with the side that it is halved at next.
     fn parts(&self, triangle: usize, middles: &[Option<u32>]) -> Vec<(TrianglePart, usize)> {
         let MacroTriangle { vertices, edges, .. } = &self.mesh.triangles[triangle];
-        let places = [Point::zeros(), Point::x(), Point::y()];
         let side = self.sides[triangle];
         let Some(middle) = middles[edges[side] as usize] else {
-            return vec![(TrianglePart { corners: *vertices, places }, side)];
+            return vec![(TrianglePart(*vertices), side)];
         };
         // Corners in order from the newest one: the side lies across from it.
         let turned = [(side + 2) % 3, side, (side + 1) % 3];
-        let whole = TrianglePart { corners: turned.map(|k| vertices[k]), places: turned.map(|k| places[k]) };
+        let whole = TrianglePart(turned.map(|k| vertices[k]));
         let halves = whole.halves(middle);
         // The halves are halved at the sides between the newest corner and the two others.
         let theirs = [edges[(side + 2) % 3], edges[(side + 1) % 3]].map(|edge| middles[edge as usize]);
@@ -108,10 +94,9 @@ impl BisectedMesh {
 
 impl TrianglePart {
     /// Both halves by the middle of the side across from the newest corner; the middle is their newest corner.
-    fn halves(&self, middle: u32) -> [Self; 2] {
-        let ([a, b, c], [x, y, z]) = (self.corners, self.places);
-        let half_way = 0.5 * (y + z);
-        [Self { corners: [middle, a, b], places: [half_way, x, y] }, Self { corners: [middle, c, a], places: [half_way, z, x] }]
+    fn halves(self, middle: u32) -> [Self; 2] {
+        let Self([a, b, c]) = self;
+        [Self([middle, a, b]), Self([middle, c, a])]
     }
 }
 
@@ -222,7 +207,7 @@ mod tests {
             let last = &all[all.len() - 1];
             let near = (0..last.mesh.triangles.len()).filter(|&k| last.mesh.locate(k, point).is_some());
             let marked: Vec<u32> = near.map(|k| k as u32).collect();
-            all.push(last.refined(marked.into_iter()).0);
+            all.push(last.refined(marked.into_iter()));
         }
         all
     }
@@ -281,20 +266,21 @@ mod tests {
     }
 
     #[test]
-    fn triangles_know_where_they_come_from() {
+    fn all_sides_of_a_marked_triangle_are_halved() {
         let before = &towards(Point::new(0.9, 1.0), 2)[2];
-        let (after, origins) = before.refined([0, 3].into_iter());
-        assert_eq!(origins.len(), after.mesh.triangles.len());
-        for (triangle, origin) in after.mesh.triangles.iter().zip(&origins) {
-            for (vertex, place) in triangle.vertices.into_iter().zip(origin.corners) {
-                let x = before.mesh.position(origin.triangle as usize, place.x, place.y);
-                assert!((x - after.mesh.vertices[vertex as usize]).norm() < 1e-14);
+        let after = before.refined([0, 3].into_iter());
+        let is_new = |vertex: u32| vertex as usize >= before.mesh.vertices.len();
+        for marked in [0, 3] {
+            let corners = before.mesh.triangles[marked].vertices.map(|vertex| before.mesh.vertices[vertex as usize]);
+            let middles: Vec<Point> = (0..3).map(|k| 0.5 * (corners[k] + corners[(k + 1) % 3])).collect();
+            for middle in middles {
+                let found = (0..after.mesh.vertices.len() as u32).filter(|&v| is_new(v));
+                assert_eq!(found.filter(|&v| (after.mesh.vertices[v as usize] - middle).norm() < 1e-14).count(), 1);
             }
         }
-        // All three sides of a marked triangle are halved: four parts.
-        for marked in [0, 3] {
-            assert_eq!(origins.iter().filter(|origin| origin.triangle == marked).count(), 4);
-        }
+        // Two triangles are quartered, their neighbours halved at least.
+        assert!(after.mesh.triangles.len() >= before.mesh.triangles.len() + 6);
+        assert_eq!(before.refined(std::iter::empty()).mesh.triangles.len(), before.mesh.triangles.len());
     }
 
     #[test]
@@ -305,7 +291,7 @@ mod tests {
         let mut bisected = BisectedMesh::new(mesh);
         for _ in 0..3 {
             let all = 0..bisected.mesh.triangles.len() as u32;
-            bisected = bisected.refined(all).0;
+            bisected = bisected.refined(all);
         }
         let edges = &bisected.mesh.boundary("lower.seam").expect("named").edges;
         assert_eq!(edges.len(), 8);

@@ -25,7 +25,7 @@ mod smooth_normal;
 mod spline_shape;
 mod strip;
 
-pub use bisection::{BisectedMesh, Origin};
+pub use bisection::BisectedMesh;
 pub use chain::Stretch;
 pub use edge_shape::EdgeShape;
 pub use edge_trace::{BoundaryEdge, EdgeNode};

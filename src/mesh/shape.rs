@@ -92,6 +92,11 @@ impl MacroMesh {
     /// Reference coordinates `(xi, eta)` of a point in a macro triangle by Newton's method on its map; nothing if the
     /// point lies outside.
     pub fn locate(&self, triangle: usize, x: Point) -> Option<Point> {
+        self.locate_near(triangle, x, NEAR)
+    }
+
+    /// The same, where points outside count as inside up to the distance `near` (barycentric).
+    pub fn locate_near(&self, triangle: usize, x: Point, near: f64) -> Option<Point> {
         let [a, b, c] = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
         let size = (b - a).norm().max((c - a).norm()).max((c - b).norm());
         if (x - (a + b + c) / 3.0).norm() > 1.5 * size {
@@ -108,7 +113,7 @@ impl MacroMesh {
                 }
             }
         }
-        let inside = at.x >= -NEAR && at.y >= -NEAR && at.x + at.y <= 1.0 + NEAR;
+        let inside = at.x >= -near && at.y >= -near && at.x + at.y <= 1.0 + near;
         inside.then_some(at)
     }
 

@@ -1,6 +1,6 @@
 //! What a run says of the accuracy that was asked for.
 
-use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity};
+use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
 use crate::case::Case;
 use crate::output::plot::Sequence;
 use crate::output::summary::{AccuracyStep, GoalSummary, Status};
@@ -33,12 +33,16 @@ pub fn limited(accuracy: &Accuracy, session: &Session) -> Accuracy {
 
 /// How the mesh was adapted, if an accuracy was asked for; without any mesh if the run ended before.
 pub fn adaptation(case: &Case, solved: &Solved) -> Option<Adaptation> {
-    let none = || case.accuracy.clone().map(|accuracy| Adaptation { accuracy, meshes: Vec::new() });
-    solved.adaptation.clone().or_else(none)
+    let accuracy = case.accuracy.clone()?;
+    // The limit by memory is none of the case.
+    Some(match solved.adaptation.clone() {
+        Some(adaptation) => Adaptation { accuracy, ..adaptation },
+        None => Adaptation { accuracy, meshes: Vec::new(), end: SequenceEnd::Unsolved },
+    })
 }
 
 /// The same in the terms of `summary.json`: a step for each mesh.
-pub fn summarise(Adaptation { accuracy, meshes }: &Adaptation) -> Vec<AccuracyStep> {
+pub fn summarise(Adaptation { accuracy, meshes, .. }: &Adaptation) -> Vec<AccuracyStep> {
     meshes.iter().map(|mesh| step(&accuracy.goals, mesh)).collect()
 }
 
@@ -73,10 +77,11 @@ pub fn judge(adaptation: &Adaptation, status: Status, reason: &str) -> (Status, 
     match (status, adaptation.is_reached()) {
         (Status::Converged, true) => (status, format!("{}; {reason}", words(adaptation))),
         (Status::Converged, false) => {
-            let words = format!("{}{}", words(adaptation), limits(&adaptation.accuracy));
+            let words = format!("{}{}", words(adaptation), limits(adaptation));
             (Status::NotConverged, format!("the accuracy is not reached: {words}; {reason}"))
         }
-        (Status::NotConverged, _) => (status, reason.into()),
+        (Status::NotConverged, _) if adaptation.meshes.is_empty() => (status, reason.into()),
+        (Status::NotConverged, _) => (status, format!("{reason}; {}", words(adaptation))),
     }
 }
 
@@ -85,7 +90,7 @@ pub fn sequences(adaptation: &Adaptation) -> Vec<Sequence> {
     (0..adaptation.accuracy.goals.len()).map(|place| sequence(adaptation, place)).collect()
 }
 
-fn sequence(Adaptation { accuracy, meshes }: &Adaptation, place: usize) -> Sequence {
+fn sequence(Adaptation { accuracy, meshes, .. }: &Adaptation, place: usize) -> Sequence {
     let goal = &accuracy.goals[place];
     let point = |mesh: &AdaptedMesh| Some((mesh.unknowns as f64, mesh.errors.get(place).copied()??));
     Sequence { name: name(&goal.quantity), asked: goal.tolerance, points: meshes.iter().filter_map(point).collect() }
@@ -123,12 +128,19 @@ fn words(adaptation: &Adaptation) -> String {
     }
 }
 
-/// The limits that the case sets: `; the case allows 2 000 unknowns and 5 s`.
-fn limits(accuracy: &Accuracy) -> String {
+/// The limits that the case sets, and what else has ended the sequence: `; the case allows 2 000 unknowns and 5 s`.
+fn limits(Adaptation { accuracy, end, .. }: &Adaptation) -> String {
     let unknowns = accuracy.most_unknowns.map(|most| format!("{} unknowns", grouped(most)));
     let seconds = accuracy.most_seconds.map(|most| format!("{most} s"));
-    let all: Vec<String> = unknowns.into_iter().chain(seconds).collect();
-    if all.is_empty() { String::new() } else { format!("; the case allows {}", all.join(" and ")) }
+    let all: Vec<String> = unknowns.iter().cloned().chain(seconds).collect();
+    let allowed = if all.is_empty() { String::new() } else { format!("; the case allows {}", all.join(" and ")) };
+    let end = match end {
+        SequenceEnd::Unknowns if unknowns.is_none() => "; the next mesh would take more than half of the memory that is left",
+        SequenceEnd::Stuck => "; an estimate no longer falls, or cannot be had",
+        SequenceEnd::Meshes => "; there are no more meshes than that",
+        _ => "",
+    };
+    allowed + end
 }
 
 /// What a goal that is missed would take: `, which would take some 300 000 unknowns`.
@@ -144,8 +156,8 @@ fn would_take(adaptation: &Adaptation, place: usize) -> Option<String> {
 /// Unknowns on which a goal that is missed would hold, if its estimate falls on like `unknowns^-p`, with p from the last three
 /// meshes. Nothing if it holds, if one of these meshes does not tell the error, or if it does not fall.
 fn unknowns_needed(adaptation: &Adaptation, place: usize) -> Option<f64> {
-    let Adaptation { accuracy, meshes } = adaptation;
-    let last = Adaptation { accuracy: accuracy.clone(), meshes: meshes[meshes.len().checked_sub(LAST)?..].to_vec() };
+    let Adaptation { accuracy, meshes, end } = adaptation;
+    let last = Adaptation { accuracy: accuracy.clone(), meshes: meshes[meshes.len().checked_sub(LAST)?..].to_vec(), end: *end };
     let sequence = sequence(&last, place);
     let order = sequence.order().filter(|order| *order > 0.0)?;
     let (unknowns, error) = *sequence.points.last()?;
@@ -165,7 +177,7 @@ fn estimate(adaptation: &Adaptation, place: usize) -> Option<f64> {
 }
 
 /// `energy`, `pressure of seam`, `stress at tip`
-fn name(quantity: &Quantity) -> String {
+pub fn name(quantity: &Quantity) -> String {
     let word = quantity.word();
     match (quantity, quantity.of()) {
         (Quantity::Displacement(_) | Quantity::Stress(_), Some(probe)) => format!("{word} at {probe}"),
@@ -203,7 +215,7 @@ mod tests {
             seconds,
         };
         let meshes = vec![mesh(1, 600, [Some(1e-2), None], 0.02), mesh(2, 21_868, last, 0.314)];
-        Adaptation { accuracy: Accuracy { goals, most_unknowns: None, most_seconds: None }, meshes }
+        Adaptation { accuracy: Accuracy { goals, most_unknowns: None, most_seconds: None }, meshes, end: SequenceEnd::Reached }
     }
 
     #[test]
@@ -212,7 +224,10 @@ mod tests {
         let words = "energy to 8.1e-5 (asked 1e-4), pressure of seam to 4e-4 (asked 1e-3): 21 868 unknowns on 2 meshes, 0.31 s";
         let (status, reason) = judge(&reached, Status::Converged, "the set stands");
         assert_eq!((status, reason), (Status::Converged, format!("{words}; the set stands")));
-        assert_eq!(judge(&reached, Status::NotConverged, "a mechanism"), (Status::NotConverged, "a mechanism".into()));
+        let (status, reason) = judge(&reached, Status::NotConverged, "values are missed");
+        assert_eq!((status, reason), (Status::NotConverged, format!("values are missed; {words}")));
+        let none = Adaptation { meshes: Vec::new(), ..reached };
+        assert_eq!(judge(&none, Status::NotConverged, "a mechanism"), (Status::NotConverged, "a mechanism".into()));
     }
 
     #[test]
@@ -235,7 +250,11 @@ mod tests {
             errors: vec![Some(error), None],
             ..adapted.meshes[0].clone()
         };
-        Adaptation { meshes: errors.iter().enumerate().map(mesh).collect(), accuracy: adapted.accuracy }
+        Adaptation {
+            meshes: errors.iter().enumerate().map(mesh).collect(),
+            accuracy: adapted.accuracy,
+            end: SequenceEnd::Seconds,
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A solution against the exact or reference values of its case.
 
 use super::RunError;
+use super::outcome::outside;
 use crate::case::{Case, LambdaExact};
 use crate::geometry::Point;
 use crate::system::recovery::Evaluation;
@@ -63,7 +64,7 @@ fn compare_bodies(case: &Case, found: &Evaluation, errors: &mut Errors) -> Resul
         if let Some(displacement) = &exact.displacement {
             let mut worst: f64 = 0.0;
             for (x, value) in displacement.at.iter().zip(&displacement.value) {
-                let probed = found.probe(body, Point::new(x[0], x[1]))?.expect("checked points");
+                let probed = found.probe(body, Point::new(x[0], x[1]))?.ok_or_else(|| outside(*x))?;
                 worst = worst.max((probed.displacement - Point::new(value[0], value[1])).norm() / size);
             }
             errors.add(format!("displacement_{}", exact.name), worst, Some(displacement.tolerance));

@@ -12,9 +12,9 @@ impl Run<'_> {
         let (choice, tolerance, inf_sup) = (solver.choice, solver.tolerance, solver.inf_sup);
         let accuracy = self.case.accuracy.as_ref().map(|accuracy| accuracy::limited(accuracy, self.session));
         let accuracy = accuracy.as_ref();
-        let given = self.case.contacts.iter().filter(|pair| pair.segments != SegmentRule::Auto);
+        let given = self.case.contacts.iter().filter(|pair| pair.segments != SegmentRule::Auto || pair.grading != [1.0, 1.0]);
         for pair in given.filter(|_| accuracy.is_some()) {
-            self.report.say(&format!("contact {}: its segments follow the edges of each mesh, not the case", pair.name));
+            self.report.say(&format!("contact {}: `segments` and `grading` of the case are not used; with an accuracy the segments follow the edges of each mesh", pair.name));
         }
         Ok(Procedure { choice, tolerance, inf_sup, accuracy, session: self.session, observer: self }.solve(scene)?)
     }

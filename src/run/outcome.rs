@@ -49,6 +49,11 @@ impl RunError {
     }
 }
 
+/// A point that no triangle of its body holds any more: on the mesh of the file it lay on the edge.
+pub(super) fn outside([x, y]: [f64; 2]) -> RunError {
+    RunError::Key(format!("the point [{x}, {y}] lies outside its body; move it inside"))
+}
+
 impl From<SystemError> for RunError {
     fn from(error: SystemError) -> Self {
         match error {

@@ -1,6 +1,6 @@
 //! What a run prints on rank 0 while it lives.
 
-use super::{Outcome, RunOptions, Stages};
+use super::{Outcome, RunOptions, Stages, accuracy};
 use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::case::Case;
 use crate::element::Order;
@@ -97,7 +97,7 @@ impl Report {
                     step.iteration
                 ));
             }
-            Event::Adapted { accuracy, mesh } => self.adapted(accuracy, mesh),
+            Event::Adapted { accuracy: asked, mesh } => self.adapted(asked, mesh),
         }
     }
 
@@ -112,10 +112,11 @@ impl Report {
     }
 
     /// One mesh of a sequence.
-    fn adapted(&self, accuracy: &Accuracy, mesh: &AdaptedMesh) {
-        let goals = accuracy.goals.iter().zip(&mesh.errors);
+    fn adapted(&self, asked: &Accuracy, mesh: &AdaptedMesh) {
+        let goals = asked.goals.iter().zip(&mesh.errors);
         let figure = |error: &Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
-        let all: Vec<String> = goals.map(|(goal, error)| format!("{} {}", goal.quantity.word(), figure(error))).collect();
+        let all: Vec<String> =
+            goals.map(|(goal, error)| format!("{} {}", accuracy::name(&goal.quantity), figure(error))).collect();
         self.say(&format!(
             "mesh {:2}: {} macro triangles, {} unknowns, {}, {:.2} s",
             mesh.number,

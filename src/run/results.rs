@@ -1,6 +1,7 @@
 //! A solution made into a result folder.
 
 use super::exact::{Errors, compare};
+use super::outcome::outside;
 use super::report::{memory, short};
 use super::{Outcome, Run, RunError, accuracy, fields, summarise, trust, zones};
 use crate::accuracy::Adaptation;
@@ -107,7 +108,7 @@ impl Run<'_> {
         }
         for point in &self.case.probes {
             let body = solved.problem.scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
-            let probed = found.probe(body, Point::new(point.point[0], point.point[1]))?.expect("checked points");
+            let probed = found.probe(body, Point::new(point.point[0], point.point[1]))?.ok_or_else(|| outside(point.point))?;
             let [xx, yy, xy, _] = probed.stress;
             let values =
                 summary::ProbeSummary { x: Some(point.point), u: Some(probed.displacement.into()), stress: Some([xx, yy, xy]) };

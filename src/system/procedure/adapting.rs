@@ -6,7 +6,7 @@ use super::marking::marked;
 use super::observer::{Event, Observer, Work};
 use super::settings::Procedure;
 use super::solved::Solved;
-use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh};
+use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, SequenceEnd};
 use crate::contact::SegmentRule;
 use crate::mesh::{BisectedMesh, levels};
 use crate::petsc::StageGuard;
@@ -71,26 +71,27 @@ impl Procedure<'_> {
         let mut sequence = MeshSequence {
             mesh: BisectedMesh::new(scene.mesh.as_ref().clone()),
             scene: prepared(scene),
-            adaptation: Adaptation { accuracy: accuracy.clone(), meshes: Vec::new() },
+            adaptation: Adaptation { accuracy: accuracy.clone(), meshes: Vec::new(), end: SequenceEnd::Unsolved },
             failed: 0,
             refusal: None,
             started: Instant::now(),
         };
+        sequence.check_first()?;
         loop {
-            let marked = match one.solve_on_mesh(sequence.scene.clone()) {
+            match one.solve_on_mesh(sequence.scene.clone()) {
                 Err(error @ SystemError::Case(_)) => sequence.after_refusal(error)?,
                 outcome => {
                     let mut solved = outcome?;
                     self.judge(&mut sequence, &solved)?;
-                    let marked = if self.is_over(&sequence, &solved) { Vec::new() } else { self.marked(&sequence, &solved)? };
-                    if marked.is_empty() || !sequence.has_room(&marked) {
-                        solved.adaptation = Some(sequence.adaptation);
+                    let end = self.end(&sequence, &solved);
+                    let marked = if end.is_none() { self.marked(&sequence, &solved)? } else { Vec::new() };
+                    let end = end.or_else(|| (!sequence.refine(&marked)).then_some(SequenceEnd::Unknowns));
+                    if let Some(end) = end {
+                        solved.adaptation = Some(Adaptation { end, ..sequence.adaptation });
                         return Ok(solved);
                     }
-                    marked
                 }
-            };
-            sequence.mesh = sequence.mesh.refined(marked.into_iter()).0;
+            }
             sequence.scene = sequence.scene.on(sequence.mesh.mesh.clone(), self.session)?;
         }
     }
@@ -117,27 +118,31 @@ impl Procedure<'_> {
         Ok(())
     }
 
-    /// Whether the accuracy is reached, or will not be; the same on every rank. **Collective**
-    fn is_over(&self, MeshSequence { adaptation, failed, .. }: &MeshSequence, solved: &Solved) -> bool {
+    /// Why there is no further mesh, if so: the accuracy is reached, or will not be. The same on every rank. **Collective**
+    fn end(&self, MeshSequence { adaptation, failed, .. }: &MeshSequence, solved: &Solved) -> Option<SequenceEnd> {
         let meshes = &adaptation.meshes;
         let late = adaptation.accuracy.most_seconds.zip(meshes.last()).is_some_and(|(most, last)| last.seconds > most);
         // Clocks differ from rank to rank.
         let late = self.session.any(late);
-        late || !solved.is_solved()
-            || adaptation.is_reached()
-            || meshes.len() == MOST_MESHES
-            || *failed == MOST_FAILED
-            || is_stuck(adaptation)
+        let all = [
+            (!solved.is_solved() || *failed == MOST_FAILED, SequenceEnd::Unsolved),
+            (adaptation.is_reached(), SequenceEnd::Reached),
+            (late, SequenceEnd::Seconds),
+            (is_stuck(adaptation), SequenceEnd::Stuck),
+            (meshes.len() == MOST_MESHES, SequenceEnd::Meshes),
+        ];
+        all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end)
     }
 
     /// The macro triangles that hold most of the error of each goal that is missed; all, if nothing tells. **Collective**
     fn marked(&self, sequence: &MeshSequence, solved: &Solved) -> Result<Vec<u32>, SystemError> {
-        let left = &solved.estimate.local;
+        // A rank may have no macro triangle: all of them know whether there is a difference.
+        let (left, is_known) = (&solved.estimate.local, solved.estimate.difference.is_some());
         let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
         let mut all = Vec::new();
         for (place, _) in adaptation.missed() {
             let own = match solved.solution.duals.get(place) {
-                Some(Some(dual)) if !left.is_empty() => weighted(&solved.problem, left, dual, self.session)?,
+                Some(Some(dual)) if is_known => weighted(&solved.problem, left, dual, self.session)?,
                 _ => left.clone(),
             };
             let mut indicators = self.gathered(scene, &own);
@@ -170,26 +175,47 @@ impl MeshSequence {
         (0..self.scene.mesh.triangles.len() as u32).collect()
     }
 
-    /// What is marked where the scene is refused on a mesh: that may be too coarse for it, and is refined all over.
+    /// The first mesh has no more unknowns than are allowed.
+    ///
+    /// # Errors
+    /// In words otherwise.
+    fn check_first(&self) -> Result<(), SystemError> {
+        let unknowns = self.unknowns(&self.mesh);
+        match self.adaptation.accuracy.most_unknowns {
+            Some(most) if unknowns > most => Err(SystemError::Case(format!(
+                "accuracy.max_unknowns = {most}: the mesh of the file has {unknowns} with refine = {}, the least; draw it coarser, or allow more",
+                self.scene.refine
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Where the scene is refused on a mesh: that may be too coarse for it, and is refined all over.
     ///
     /// # Errors
     /// The first refusal, if finer meshes do not help.
-    fn after_refusal(&mut self, error: SystemError) -> Result<Vec<u32>, SystemError> {
+    fn after_refusal(&mut self, error: SystemError) -> Result<(), SystemError> {
         self.failed += 1;
-        let first = self.refusal.get_or_insert(error);
-        let all = self.scene.mesh.triangles.len();
-        if self.failed == MOST_FAILED || all > MOST_REFUSED {
-            return Err(first.clone());
-        }
-        Ok(self.all_triangles())
+        self.refusal.get_or_insert(error);
+        let helps =
+            self.failed < MOST_FAILED && self.scene.mesh.triangles.len() <= MOST_REFUSED && self.refine(&self.all_triangles());
+        if helps { Ok(()) } else { self.refusal.take().map_or(Ok(()), Err) }
     }
 
-    /// Whether the next mesh has no more unknowns than are allowed.
-    fn has_room(&self, marked: &[u32]) -> bool {
-        let Some(most) = self.adaptation.accuracy.most_unknowns else { return true };
-        let next = self.mesh.refined(marked.iter().copied()).0.mesh;
+    /// Refines the marked triangles, if the next mesh then has no more unknowns than are allowed.
+    fn refine(&mut self, marked: &[u32]) -> bool {
+        let next = self.mesh.refined(marked.iter().copied());
+        let fits = self.adaptation.accuracy.most_unknowns.is_none_or(|most| self.unknowns(&next) <= most);
+        if fits {
+            self.mesh = next;
+        }
+        fits
+    }
+
+    /// Displacement unknowns of a mesh.
+    fn unknowns(&self, mesh: &BisectedMesh) -> usize {
         let levels = levels(self.scene.order, self.scene.refine);
-        2 * node_count(&next, levels[levels.len() - 1]) <= most as u64
+        2 * node_count(&mesh.mesh, levels[levels.len() - 1]) as usize
     }
 }
 
@@ -201,7 +227,10 @@ fn is_stuck(adaptation: &Adaptation) -> bool {
     // The best of the meshes before, and the best of the last few.
     let best =
         |meshes: &[AdaptedMesh], place: usize| meshes.iter().filter_map(|mesh| mesh.errors[place]).fold(f64::INFINITY, f64::min);
-    let stuck = |place: usize| best(&meshes[then + 1..], place) > FALLS * best(&meshes[..=then], place);
+    let stuck = |place: usize| {
+        let last = best(&meshes[then + 1..], place);
+        last.is_infinite() || last > FALLS * best(&meshes[..=then], place)
+    };
     last.unknowns as f64 > LARGER * meshes[then].unknowns as f64 && adaptation.missed().any(|(place, _)| stuck(place))
 }
 

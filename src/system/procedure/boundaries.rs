@@ -95,7 +95,7 @@ impl OneMesh<'_> {
         let mut system = self.system(problem, &bodies, preconditioning)?;
         let found = self.sets(&mut system, start, self.tolerance, LoopPosition { boundary: 1, passes: 0 })?;
         let LoopOutcome { solution, ending, passes, ascended } = found;
-        let solution = self.finished(&mut system, solution, ascended || !ending.is_converged())?;
+        let solution = self.finished(&mut system, solution, &ending, ascended)?;
         let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
         Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), preconditioning, solver })
     }
@@ -206,12 +206,18 @@ impl OneMesh<'_> {
 
     /// A solution with what else the last system tells, as far as it is wanted: the inf-sup constants of its contacts, and dual
     /// displacements. **Collective**
-    fn finished(&self, system: &mut System, mut solution: Solution, is_hard: bool) -> Result<Solution, SystemError> {
+    fn finished(
+        &self,
+        system: &mut System,
+        mut solution: Solution,
+        ending: &Ending,
+        ascended: bool,
+    ) -> Result<Solution, SystemError> {
         let _stage = self.procedure.observer.enter(Work::Solve);
-        if self.is_last && self.procedure.wants_inf_sup(system.problem(), is_hard) {
+        if self.is_last && self.procedure.wants_inf_sup(system.problem(), ascended || !ending.is_converged()) {
             solution.inf_sup = system.inf_sup()?;
         }
-        if let Some(duals) = self.duals {
+        if let (Some(duals), true) = (self.duals, ending.is_converged()) {
             solution.duals = duals.solve(system, &solution)?;
         }
         Ok(solution)
@@ -251,7 +257,7 @@ impl BoundaryLoop<'_, '_> {
                 },
             };
             let solution = match &after {
-                After::Ended(ending) => self.mesh.finished(&mut system, solution, ascended || !ending.is_converged())?,
+                After::Ended(ending) => self.mesh.finished(&mut system, solution, ending, ascended)?,
                 After::Moved { .. } => solution,
             };
             return Ok(OnBoundary {

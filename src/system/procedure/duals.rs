@@ -2,7 +2,8 @@
 //!
 //! The error of a linear functional J is `a(u - u_h, z - z_h)`, where z solves the same system with J as its right-hand side
 //! (Becker, Rannacher, Acta Numerica 10, 2001; with contact on a frozen set: Blum, Suttmeier, Computing 65, 2000). So a macro
-//! triangle counts by the product of what is left there of u and of z.
+//! triangle counts by the product of what is left there of u and of z. The dual problem of a stress at a point is taken to be that
+//! of the displacement there: it is as near to it.
 
 use super::coarse_solution::{CoarseSolution, coarse_values};
 use crate::accuracy::{Goal, ProbePoint, Quantity};
@@ -159,7 +160,7 @@ pub(super) fn weighted(
     Ok(left.iter().zip(dual).map(|(u, z)| (u * z).sqrt()).collect())
 }
 
-/// What the finest level adds to a displacement: its difference from its interpolant on the next coarser one.
+/// What the finest level adds to a displacement: its difference from its interpolant on the next coarser one. **Collective**
 fn surplus(problem: &Discretisation, unknowns: &[f64], session: &crate::petsc::Session) -> Result<Field<2>, SystemError> {
     let whole = Field::displacement(problem, unknowns, session)?;
     let (mesh, space) = (&problem.scene.mesh, problem.finest());

@@ -15,6 +15,7 @@ impl Procedure<'_> {
         goals.iter().map(|goal| self.goal_error(&goal.quantity, solved)).collect()
     }
 
+    /// Of one goal. **Collective**
     fn goal_error(&self, quantity: &Quantity, solved: &Solved) -> Result<Option<f64>, SystemError> {
         let Solved { problem, estimate, .. } = solved;
         Ok(match quantity {
@@ -26,18 +27,18 @@ impl Procedure<'_> {
                 None => None,
             },
             Quantity::Ends(name) => contact_called(problem, name).and_then(|at| estimate.ends.get(at).copied().flatten()),
-            Quantity::Displacement(probe) => self.at_probe(solved, probe)[0],
-            Quantity::Stress(probe) => self.at_probe(solved, probe)[1],
+            Quantity::Displacement(probe) => self.probe_errors(solved, probe)[0],
+            Quantity::Stress(probe) => self.probe_errors(solved, probe)[1],
         })
     }
 
     /// Errors of displacement and stress at a point.
-    fn at_probe(&self, solved: &Solved, probe: &ProbePoint) -> [Option<f64>; 2] {
+    fn probe_errors(&self, solved: &Solved, probe: &ProbePoint) -> [Option<f64>; 2] {
         let at = self.probes().iter().position(|other| other == probe);
         at.and_then(|at| solved.estimate.probes.get(at).copied()).unwrap_or([None; 2])
     }
 
-    /// Error of λ on the worst zone of a contact.
+    /// Error of λ on the worst zone of a contact. **Collective**
     fn pressure_error(&self, solved: &Solved, at: usize) -> Result<Option<f64>, SystemError> {
         let Solved { problem, solution, estimate, .. } = solved;
         let u = Field::displacement(problem, &solution.displacement, self.session)?;

@@ -6,19 +6,20 @@ const SHARE: f64 = 0.6;
 /// Indicators that are nearer to each other than this share are taken for equal, so that rounding marks nothing.
 const MARGIN: f64 = 1e-3;
 
-/// The fewest triangles that hold a share of the sum of all indicators; with each of them, those whose indicators are as good
-/// as equal to it. In ascending order.
+/// The fewest triangles that hold a share of the sum of all indicators; with them those whose indicators are as good
+/// as equal to the least of theirs. In ascending order.
 pub(super) fn marked(indicators: &[f64]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..indicators.len() as u32).collect();
     let value = |triangle: u32| indicators[triangle as usize];
     order.sort_by(|&a, &b| value(b).total_cmp(&value(a)));
     let whole: f64 = order.iter().map(|&triangle| value(triangle)).sum();
     let (mut sum, mut count) = (0.0, 0);
-    let alike = |count: usize| count > 0 && value(order[count]) > (1.0 - MARGIN) * value(order[count - 1]);
-    while count < order.len() && (sum < SHARE * whole || alike(count)) {
+    while count < order.len() && sum < SHARE * whole {
         sum += value(order[count]);
         count += 1;
     }
+    let least = if count > 0 { (1.0 - MARGIN) * value(order[count - 1]) } else { f64::INFINITY };
+    count += order[count..].iter().take_while(|&&triangle| value(triangle) > least).count();
     order.truncate(count);
     order.sort_unstable();
     order

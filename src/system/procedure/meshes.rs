@@ -20,6 +20,9 @@ const COARSER: usize = 2;
 /// Relative residual of the solves on coarser meshes: below any discretisation error there.
 const COARSE: f64 = 1e-6;
 
+/// The same where an accuracy is asked for: differences between the meshes are what it is told by.
+const COARSE_FOR_ACCURACY: f64 = 1e-8;
+
 /// What is known before the mesh of the case is solved.
 #[derive(Default)]
 struct Coarser {
@@ -108,7 +111,11 @@ impl Procedure<'_> {
         self.say(first);
         let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
         let preconditioning = before.as_ref().map_or(least, |before| before.preconditioning.max(least));
-        let tolerance = Tolerance::Residual(self.tolerance.residual().max(COARSE));
+        let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
+            COARSE_FOR_ACCURACY
+        } else {
+            COARSE
+        }));
         let found =
             OneMesh { procedure: self, tolerance, is_last: false, duals: None }.solve(&mut problem, start, preconditioning)?;
         let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());

@@ -8,6 +8,10 @@ use crate::mesh::lattice::Triangle;
 use crate::petsc::Session;
 use crate::system::{Discretisation, Field, SystemError};
 
+/// How far outside a macro triangle a point may lie (barycentric): as far as on the mesh of the file first; a point that lies as
+/// little outside of that is farther out by the size of its triangles where these are small.
+const OUTSIDE: [f64; 4] = [1e-8, 1e-6, 1e-4, 1e-2];
+
 /// Values at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probed {
@@ -29,6 +33,24 @@ pub fn probe(
     x: Point,
     session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
+    for near in OUTSIDE {
+        let found = probe_near(problem, u, body, x, near, session)?;
+        if found.is_some() {
+            return Ok(found);
+        }
+    }
+    Ok(None)
+}
+
+/// The same, where points outside count up to the distance `near` (barycentric). **Collective**
+fn probe_near(
+    problem: &Discretisation,
+    u: &Field<2>,
+    body: usize,
+    x: Point,
+    near: f64,
+    session: &Session,
+) -> Result<Option<Probed>, SystemError> {
     let law = problem.scene.bodies[body].material.law();
     let mut sums = [0.0; 7];
     let added = problem.scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
@@ -36,7 +58,7 @@ pub fn probe(
         if problem.scene.mesh.triangles[triangle].body as usize != body {
             return Ok(());
         }
-        let Some(at) = problem.scene.mesh.locate(triangle, x) else { return Ok(()) };
+        let Some(at) = problem.scene.mesh.locate_near(triangle, x, near) else { return Ok(()) };
         let values = match problem.finest().numbering.level.order {
             Order::P1 => values_at::<3>(problem, u, triangle, at, &law)?,
             Order::P2 => values_at::<6>(problem, u, triangle, at, &law)?,
