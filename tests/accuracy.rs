@@ -164,3 +164,31 @@ fn the_estimate_falls_with_the_order_of_the_elements() {
         assert!(found >= least, "P{order}: order {found}");
     }
 }
+
+/// Eight triangles on nine ranks: one at least has none, and must come to every sum of the others.
+#[test]
+fn ranks_without_triangles_do_not_hold_the_others_up() {
+    let (_folder, file) = bars();
+    let run = Run::file(&file).set("probe.mid", r#"{ point = [3.0, 1.2], body = "lower" }"#).set("accuracy.displacement", "2e-3");
+    let few = run.ranks(9).converged();
+    assert!(sizes(&few).len() > 1, "{:?}", sizes(&few));
+    assert!(last_estimate(&few, "probe/mid/displacement") <= 2e-3);
+}
+
+/// Where a part moves next to rigidly its energy is rounding, of either sign: that must not weigh all triangles alike.
+#[test]
+fn weights_of_a_goal_leave_most_triangles_as_they_are() {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/first/case.toml");
+    let run = Run::file(&file).set("accuracy.pressure", "1e-3").set("output.fields", false).set("mesh.refine", 2);
+    let found = sizes(&run.converged());
+    assert!(found.len() > 1 && found[1][0] < 2 * found[0][0], "{found:?}");
+}
+
+/// A mesh file that has more unknowns than are allowed is refused before anything is solved.
+#[test]
+fn a_mesh_that_is_too_large_from_the_start_is_refused() {
+    let (_folder, file) = bars();
+    let ended = Run::file(&file).set("accuracy", "{ energy = 1e-3, max_unknowns = 200 }").ranks(2).ended();
+    assert_eq!(ended.code, Some(2), "{}", ended.said());
+    assert!(ended.said().contains("has 612 unknowns with refine = 2"), "{}", ended.said());
+}

@@ -195,9 +195,8 @@ mod tests {
         assert_eq!(fit_by_the_data(&on_arc(1.0, 200), Some(7)).spans(), 7);
     }
 
-    use crate::contact::{
-        Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule, Stabilise,
-    };
+    use crate::contact::samples::seam;
+    use crate::contact::{Configuration, CurveChoice, EndRule};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{EdgeNode, Level, Numbering, Partition};
@@ -205,19 +204,11 @@ mod tests {
 
     fn pair(between: [&str; 2]) -> Pair {
         Pair {
-            name: "seam".into(),
             between: between.map(String::from),
             curve: CurveChoice::Fit,
-            gap: GapChoice::Geometry,
-            space: MultiplierSpace::P0,
-            segments: SegmentRule::Auto,
-            law: Law::Unilateral,
-            quadrature: Quadrature::Cut,
-            stabilise: Stabilise::Off,
             configuration: Configuration::Deformed,
-            spans: None,
-            grading: [1.0, 1.0],
             ends: EndRule::Free,
+            ..seam()
         }
     }
 

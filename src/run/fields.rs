@@ -119,16 +119,16 @@ pub fn facets(found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Vec<Fac
 /// Macro edges for the figure of the deformed bodies, from all ranks; none of a mesh that it shows in part. **Collective**
 pub fn macro_edges(found: &Evaluation) -> Vec<DrawnEdge> {
     let Evaluation { problem, session, u, .. } = found;
-    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let mesh = &problem.scene.mesh;
+    let numbering = &problem.finest().numbering;
     let n = numbering.level.intervals;
     let (shown, skip) = shown(mesh.triangles.len(), n);
-    let step = n / shown;
     let mut values: Vec<f64> = Vec::new();
     for &triangle in problem.scene.partition.triangles_of(session.rank()).iter().filter(|_| skip == 1) {
         let numbers = numbering.triangle(mesh, triangle as usize);
         let edges = mesh.triangles[triangle as usize].edges;
         for side in (0..3).filter(|&side| mesh.edges[edges[side] as usize].triangles[0] == Some(triangle)) {
-            for k in (0..=n).step_by(step) {
+            for k in (0..=n).step_by(n / shown) {
                 let (i, j) = lattice::side_node(n, side, k);
                 let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
                 values.extend([x.x, x.y]);

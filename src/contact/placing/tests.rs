@@ -1,28 +1,15 @@
 //! Where contact boundaries are placed, and which are refused.
 
 use super::*;
-use crate::contact::{EndRule, GapChoice, Law, MultiplierSpace, Quadrature, Stabilise};
+use crate::contact::GapChoice;
+use crate::contact::samples::seam;
 use crate::element::Order;
 use crate::mesh::samples::two_blocks;
 use crate::mesh::{Level, Partition};
 use std::rc::Rc;
 
 fn pair(segments: SegmentRule) -> Pair {
-    Pair {
-        name: "seam".into(),
-        between: ["lower.seam".into(), "upper.seam".into()],
-        curve: CurveChoice::Line,
-        gap: GapChoice::Closed,
-        space: MultiplierSpace::P0,
-        segments,
-        law: Law::Unilateral,
-        quadrature: Quadrature::Cut,
-        stabilise: Stabilise::Off,
-        configuration: Configuration::Reference,
-        spans: None,
-        grading: [1.0, 1.0],
-        ends: EndRule::Fixed,
-    }
+    Pair { gap: GapChoice::Closed, segments, ..seam() }
 }
 
 fn cover(mesh: &MacroMesh, curve: Curve) -> Result<(), String> {

@@ -183,7 +183,7 @@ impl MeshSequence {
         let unknowns = self.unknowns(&self.mesh);
         match self.adaptation.accuracy.most_unknowns {
             Some(most) if unknowns > most => Err(SystemError::Case(format!(
-                "accuracy.max_unknowns = {most}: the mesh of the file has {unknowns} with refine = {}, the least; draw it coarser, or allow more",
+                "accuracy: the mesh of the file alone has {unknowns} unknowns with refine = {}, and max_unknowns, or half of the memory that is left, allows {most}; draw it coarser, or allow more",
                 self.scene.refine
             ))),
             _ => Ok(()),

@@ -10,6 +10,7 @@ use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::contact::Zone;
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::lattice;
+use crate::petsc::Session;
 use crate::system::recovery::{local_strain_energy, shapes_at};
 use crate::system::{ContactPressure, Discretisation, Field, Solution, System, SystemError};
 
@@ -46,6 +47,7 @@ impl Duals<'_> {
             .collect()
     }
 
+    /// The right-hand side of the dual problem of a quantity. **Collective**
     fn functional(&self, quantity: &Quantity, system: &System, solution: &Solution) -> Result<Option<Functional>, SystemError> {
         let problem = system.problem();
         let nothing = vec![0.0; problem.finest().local_unknowns()];
@@ -150,18 +152,13 @@ fn point_force(
 
 /// What a macro triangle counts for a goal: the product of what is left there of the solution and of the dual one, for each
 /// macro triangle of this rank. `left` are squares in the energy norm. **Collective**
-pub(super) fn weighted(
-    system: &Discretisation,
-    left: &[f64],
-    dual: &[f64],
-    session: &crate::petsc::Session,
-) -> Result<Vec<f64>, SystemError> {
-    let dual = local_strain_energy(system, &surplus(system, dual, session)?, session)?;
+pub(super) fn weighted(problem: &Discretisation, left: &[f64], dual: &[f64], session: &Session) -> Result<Vec<f64>, SystemError> {
+    let dual = local_strain_energy(problem, &surplus(problem, dual, session)?, session)?;
     Ok(left.iter().zip(dual).map(|(u, z)| (u * z).sqrt()).collect())
 }
 
 /// What the finest level adds to a displacement: its difference from its interpolant on the next coarser one. **Collective**
-fn surplus(problem: &Discretisation, unknowns: &[f64], session: &crate::petsc::Session) -> Result<Field<2>, SystemError> {
+fn surplus(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Result<Field<2>, SystemError> {
     let whole = Field::displacement(problem, unknowns, session)?;
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let level = space.numbering.level;
