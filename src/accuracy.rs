@@ -112,6 +112,11 @@ impl Quantity {
         }
     }
 
+    /// Whether its error is a norm, that falls with the root of what lies in the parts of the mesh.
+    pub fn is_norm(&self) -> bool {
+        matches!(self, Self::Energy | Self::Pressure(_))
+    }
+
     /// The contact or the probe that it is of; nothing for the whole scene.
     pub fn of(&self) -> Option<&str> {
         match self {

@@ -109,6 +109,27 @@ pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneStrain, straight
     Ok(k)
 }
 
+/// Strain energy of the nodal displacements `u` (energy per thickness), and where in the triangle it lies: at three points,
+/// one near each corner, given by their barycentric coordinates.
+///
+/// # Errors
+/// [`BadJacobian`] where the map folds over.
+pub fn energies<const N: usize>(
+    nodes: &[Point; N],
+    u: &[Point; N],
+    law: &PlaneStrain,
+) -> Result<[([f64; 3], f64); 3], BadJacobian> {
+    let mut found = [([0.0; 3], 0.0); 3];
+    for (place, &(l, weight)) in found.iter_mut().zip(THREE) {
+        let (gradients, determinant) = jacobian(nodes, l)?;
+        let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
+        let [xx, yy, xy, _] = law.stress(&gradient);
+        let density = xx * gradient[(0, 0)] + yy * gradient[(1, 1)] + xy * (gradient[(0, 1)] + gradient[(1, 0)]);
+        *place = (l, 0.25 * weight * determinant * density);
+    }
+    Ok(found)
+}
+
 /// Stress (xx, yy, xy, zz) of the nodal displacements `u` at barycentric coordinates `l`.
 ///
 /// # Errors

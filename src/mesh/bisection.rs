@@ -16,11 +16,41 @@ pub struct BisectedMesh {
     pub mesh: MacroMesh,
     /// The side that each triangle is halved at: 0, 1 or 2.
     sides: Vec<usize>,
+    /// Where each triangle lies in the mesh before.
+    pub origins: Vec<Origin>,
+}
+
+/// Where a triangle lies in a mesh that is coarser.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Origin {
+    /// The triangle that it is a part of.
+    pub triangle: u32,
+    /// Its corners in the barycentric coordinates of that triangle.
+    pub corners: [[f64; 3]; 3],
 }
 
 /// A part of a triangle: its corners, the newest one first.
 #[derive(Clone, Copy)]
 struct TrianglePart([u32; 3]);
+
+impl Origin {
+    /// All of a triangle.
+    fn whole(triangle: usize) -> Self {
+        Self { triangle: triangle as u32, corners: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
+    }
+
+    /// A point of the part, by the barycentric coordinates of both.
+    pub fn point(&self, l: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| (0..3).map(|corner| l[corner] * self.corners[corner][k]).sum())
+    }
+
+    /// Its area, as a share of the triangle's.
+    pub fn area(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        let [u, v] = [b, c].map(|x| [x[1] - a[1], x[2] - a[2]]);
+        (u[0] * v[1] - u[1] * v[0]).abs()
+    }
+}
 
 impl BisectedMesh {
     /// A mesh of a file: its triangles are halved at their longest sides first.
@@ -31,7 +61,8 @@ impl BisectedMesh {
             (1..3).fold(0, |best, k| if lengths[k] > lengths[best] * (1.0 + 1e-9) { k } else { best })
         };
         let sides = mesh.triangles.iter().map(longest).collect();
-        Self { mesh, sides }
+        let origins = (0..mesh.triangles.len()).map(Origin::whole).collect();
+        Self { mesh, sides, origins }
     }
 
     /// The mesh with all sides of the marked triangles halved.
@@ -44,15 +75,34 @@ impl BisectedMesh {
             vertices.push(self.mesh.edge_position(edge as u32, 0.5));
         }
         let mut next = Connected::new(&self.mesh, vertices);
-        let mut sides = Vec::new();
+        let (mut sides, mut origins) = (Vec::new(), Vec::new());
         for (triangle, known) in self.mesh.triangles.iter().enumerate() {
             for (TrianglePart(corners), side) in self.parts(triangle, &middles) {
                 next.add(corners, known);
                 sides.push(side);
+                origins.push(self.origin(triangle, &middles, corners));
             }
         }
         next.halve_edges(&self.mesh, &middles);
-        Self { mesh: next.mesh, sides }
+        Self { mesh: next.mesh, sides, origins }
+    }
+
+    /// Where a part of a triangle lies in it, from its corners: those of the triangle, and middles of its edges.
+    fn origin(&self, triangle: usize, middles: &[Option<u32>], corners: [u32; 3]) -> Origin {
+        let MacroTriangle { vertices, edges, .. } = &self.mesh.triangles[triangle];
+        let whole = Origin::whole(triangle).corners;
+        let place = |vertex: u32| {
+            (0..3).fold([0.0; 3], |found, k| {
+                if vertices[k] == vertex {
+                    whole[k]
+                } else if middles[edges[k] as usize] == Some(vertex) {
+                    std::array::from_fn(|l| 0.5 * (whole[k][l] + whole[(k + 1) % 3][l]))
+                } else {
+                    found
+                }
+            })
+        };
+        Origin { triangle: triangle as u32, corners: corners.map(place) }
     }
 
     /// Which edges are halved: all of the marked triangles, and as many as it takes that every triangle that has a halved edge
@@ -240,6 +290,23 @@ mod tests {
             for piece in &mesh.pieces {
                 assert_eq!(mesh.triangles[piece.first as usize].body as usize, piece.body);
             }
+        }
+    }
+
+    #[test]
+    fn every_part_knows_where_it_lies() {
+        let all = towards(Point::new(0.9, 1.0), 4);
+        for (before, after) in all.iter().zip(&all[1..]) {
+            let mut areas = vec![0.0; before.mesh.triangles.len()];
+            for (triangle, origin) in after.mesh.triangles.iter().zip(&after.origins) {
+                areas[origin.triangle as usize] += origin.area();
+                let whole = before.mesh.triangles[origin.triangle as usize].vertices;
+                for (vertex, l) in triangle.vertices.iter().zip(origin.corners) {
+                    let at = (0..3).fold(Point::zeros(), |sum, k| sum + l[k] * before.mesh.vertices[whole[k] as usize]);
+                    assert!((after.mesh.vertices[*vertex as usize] - at).norm() < 1e-14);
+                }
+            }
+            assert!(areas.iter().all(|area| (area - 1.0).abs() < 1e-14));
         }
     }
 

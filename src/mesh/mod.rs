@@ -5,6 +5,7 @@
 //! ([`MacroMesh::node_position`]), so no rank ever asks another about the mesh.
 
 mod bisection;
+mod cells;
 mod chain;
 mod edge_shape;
 mod edge_trace;
@@ -25,7 +26,8 @@ mod smooth_normal;
 mod spline_shape;
 mod strip;
 
-pub use bisection::BisectedMesh;
+pub use bisection::{BisectedMesh, Origin};
+pub use cells::Cells;
 pub use chain::Stretch;
 pub use edge_shape::EdgeShape;
 pub use edge_trace::{BoundaryEdge, EdgeNode};

@@ -2,13 +2,14 @@
 //! reached.
 
 use super::duals::weighted;
-use super::marking::marked;
+use super::estimate::Estimate;
+use super::foreseen::{Indicators, LocalIndicator, next_mesh};
 use super::observer::{Event, Observer, Work};
 use super::settings::Procedure;
 use super::solved::Solved;
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, SequenceEnd};
 use crate::contact::SegmentRule;
-use crate::mesh::{BisectedMesh, levels};
+use crate::mesh::{BisectedMesh, Cells, levels};
 use crate::petsc::StageGuard;
 use crate::system::{Scene, SystemError, node_count};
 use std::cell::Cell;
@@ -29,6 +30,9 @@ const LARGER: f64 = 4.0;
 
 /// A mesh of more triangles is not too coarse for a scene that is refused on it.
 const MOST_REFUSED: usize = 5000;
+
+/// Share of an error that was foreseen, at least, that the next ones are taken for.
+const LEAST_TRUST: f64 = 0.4;
 
 /// Meshes at most that cannot be solved, one after the other, before the scene itself is taken for the reason.
 const MOST_FAILED: usize = 4;
@@ -56,6 +60,8 @@ struct MeshSequence {
     scene: Scene,
     mesh: BisectedMesh,
     adaptation: Adaptation,
+    /// Error of each goal that was foreseen for this mesh, by what is asked for.
+    foreseen: Vec<Option<f64>>,
     /// Meshes that could not be solved since the last one that could, and why the first of them was refused.
     failed: usize,
     refusal: Option<SystemError>,
@@ -72,6 +78,7 @@ impl Procedure<'_> {
             mesh: BisectedMesh::new(scene.mesh.as_ref().clone()),
             scene: prepared(scene),
             adaptation: Adaptation { accuracy: accuracy.clone(), meshes: Vec::new(), end: SequenceEnd::Unsolved },
+            foreseen: vec![None; accuracy.goals.len()],
             failed: 0,
             refusal: None,
             started: Instant::now(),
@@ -84,8 +91,8 @@ impl Procedure<'_> {
                     let mut solved = outcome?;
                     self.judge(&mut sequence, &solved)?;
                     let end = self.end(&sequence, &solved);
-                    let marked = if end.is_none() { self.marked(&sequence, &solved)? } else { Vec::new() };
-                    let end = end.or_else(|| (!sequence.refine(&marked)).then_some(SequenceEnd::Unknowns));
+                    let missed = if end.is_none() { self.indicators(&sequence, &solved)? } else { Vec::new() };
+                    let end = end.or_else(|| (!sequence.refine(&missed)).then_some(SequenceEnd::Unknowns));
                     if let Some(end) = end {
                         solved.adaptation = Some(Adaptation { end, ..sequence.adaptation });
                         return Ok(solved);
@@ -134,47 +141,43 @@ impl Procedure<'_> {
         all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end)
     }
 
-    /// The macro triangles that hold most of the error of each goal that is missed; all, if nothing tells. **Collective**
-    fn marked(&self, sequence: &MeshSequence, solved: &Solved) -> Result<Vec<u32>, SystemError> {
+    /// Where the errors of the goals that are missed lie. **Collective**
+    fn indicators(&self, sequence: &MeshSequence, solved: &Solved) -> Result<Vec<Indicators>, SystemError> {
         // A rank may have no macro triangle: all of them know whether there is a difference.
-        let (left, is_known) = (&solved.estimate.local, solved.estimate.difference.is_some());
+        let Estimate { local: left, falls, difference, .. } = &solved.estimate;
         let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
+        let errors = adaptation.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
         let mut all = Vec::new();
-        for (place, _) in adaptation.missed() {
+        for (place, goal) in adaptation.missed() {
             let own = match solved.solution.duals.get(place) {
-                Some(Some(dual)) if is_known => weighted(&solved.problem, left, dual, self.session)?,
+                Some(Some(dual)) if difference.is_some() => weighted(&solved.problem, left, dual, self.session)?,
                 _ => left.clone(),
             };
-            let mut indicators = self.gathered(scene, &own);
-            if indicators.iter().all(|&value| value == 0.0) {
-                indicators = self.gathered(scene, left);
+            let mut local = self.gathered(scene, &own, falls);
+            if local.iter().all(|indicator| indicator.cells.sum() == 0.0) {
+                local = self.gathered(scene, left, falls);
             }
-            all.extend(marked(&indicators));
+            let error = errors.get(place).copied().flatten().map(|error| error / goal.tolerance);
+            let trust = sequence.foreseen[place].zip(error).map_or(1.0, |(foreseen, error)| error / foreseen);
+            all.push(Indicators { local, error, trust: trust.clamp(LEAST_TRUST, 1.0), is_norm: goal.quantity.is_norm() });
         }
-        if all.is_empty() {
-            return Ok(sequence.all_triangles());
-        }
-        all.sort_unstable();
-        all.dedup();
         Ok(all)
     }
 
-    /// Values of all macro triangles, from those of each rank. **Collective**
-    fn gathered(&self, scene: &Scene, own: &[f64]) -> Vec<f64> {
-        let mut all = vec![0.0; scene.mesh.triangles.len()];
-        for (&triangle, &value) in scene.partition.triangles_of(self.session.rank()).iter().zip(own) {
-            all[triangle as usize] = value;
+    /// Indicators of all macro triangles, from those of each rank. **Collective**
+    fn gathered(&self, scene: &Scene, own: &[Cells], falls: &[f64]) -> Vec<LocalIndicator> {
+        const COUNT: usize = 1 + Cells::COUNT;
+        let mut all = vec![[0.0; COUNT]; scene.mesh.triangles.len()];
+        for ((&triangle, cells), fall) in scene.partition.triangles_of(self.session.rank()).iter().zip(own).zip(falls) {
+            all[triangle as usize][0] = *fall;
+            all[triangle as usize][1..].copy_from_slice(cells.values());
         }
-        self.session.sum(&mut all);
-        all
+        self.session.sum(all.as_flattened_mut());
+        all.iter().map(|values| LocalIndicator { fall: values[0], cells: Cells::new(|k| values[1 + k]) }).collect()
     }
 }
 
 impl MeshSequence {
-    fn all_triangles(&self) -> Vec<u32> {
-        (0..self.scene.mesh.triangles.len() as u32).collect()
-    }
-
     /// The first mesh has no more unknowns than are allowed.
     ///
     /// # Errors
@@ -197,19 +200,19 @@ impl MeshSequence {
     fn after_refusal(&mut self, error: SystemError) -> Result<(), SystemError> {
         self.failed += 1;
         self.refusal.get_or_insert(error);
-        let helps =
-            self.failed < MOST_FAILED && self.scene.mesh.triangles.len() <= MOST_REFUSED && self.refine(&self.all_triangles());
+        let helps = self.failed < MOST_FAILED && self.scene.mesh.triangles.len() <= MOST_REFUSED && self.refine(&[]);
         if helps { Ok(()) } else { self.refusal.take().map_or(Ok(()), Err) }
     }
 
-    /// Refines the marked triangles, if the next mesh then has no more unknowns than are allowed.
-    fn refine(&mut self, marked: &[u32]) -> bool {
-        let next = self.mesh.refined(marked.iter().copied());
-        let fits = self.adaptation.accuracy.most_unknowns.is_none_or(|most| self.unknowns(&next) <= most);
-        if fits {
-            self.mesh = next;
-        }
-        fits
+    /// Refines where the goals are missed, everywhere without any, if the next mesh then has no more unknowns than are allowed.
+    fn refine(&mut self, missed: &[Indicators]) -> bool {
+        let most = self.adaptation.accuracy.most_unknowns;
+        let Some(next) = next_mesh(&self.mesh, missed, |mesh| self.unknowns(mesh), most) else { return false };
+        self.mesh = next.mesh;
+        let places: Vec<usize> = self.adaptation.missed().map(|(place, _)| place).collect();
+        self.foreseen.fill(None);
+        places.into_iter().zip(next.errors).for_each(|(place, error)| self.foreseen[place] = error);
+        true
     }
 
     /// Displacement unknowns of a mesh.

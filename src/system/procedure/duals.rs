@@ -9,9 +9,9 @@ use super::coarse_solution::{CoarseSolution, coarse_values};
 use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::contact::Zone;
 use crate::geometry::{Point, gauss_points};
-use crate::mesh::lattice;
+use crate::mesh::{Cells, lattice};
 use crate::petsc::Session;
-use crate::system::recovery::{local_strain_energy, shapes_at};
+use crate::system::recovery::{cell_energies, shapes_at};
 use crate::system::{ContactPressure, Discretisation, Field, Solution, System, SystemError};
 
 /// Relative residual of dual solutions: they weigh errors, and are no results.
@@ -150,11 +150,17 @@ fn point_force(
     Ok(force.own().iter().enumerate().flat_map(free).collect())
 }
 
-/// What a macro triangle counts for a goal: the product of what is left there of the solution and of the dual one, for each
-/// macro triangle of this rank. `left` are squares in the energy norm. **Collective**
-pub(super) fn weighted(problem: &Discretisation, left: &[f64], dual: &[f64], session: &Session) -> Result<Vec<f64>, SystemError> {
-    let dual = local_strain_energy(problem, &surplus(problem, dual, session)?, session)?;
-    Ok(left.iter().zip(dual).map(|(u, z)| (u * z).sqrt()).collect())
+/// What each cell of this rank's macro triangles counts for a goal: the product of what is left there of the solution and of the
+/// dual one. `left` are squares in the energy norm. **Collective**
+pub(super) fn weighted(
+    problem: &Discretisation,
+    left: &[Cells],
+    dual: &[f64],
+    session: &Session,
+) -> Result<Vec<Cells>, SystemError> {
+    let dual = cell_energies(problem, &surplus(problem, dual, session)?, session)?;
+    // Rounding may leave a rigid motion a little less than nothing.
+    Ok(left.iter().zip(dual).map(|(u, z)| u.combined(&z, |u, z| (u * z).max(0.0).sqrt())).collect())
 }
 
 /// What the finest level adds to a displacement: its difference from its interpolant on the next coarser one. **Collective**

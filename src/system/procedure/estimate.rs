@@ -8,16 +8,20 @@
 use super::coarse_solution::CoarseSolution;
 use super::zone_estimate::ZoneDifference;
 use super::zone_estimate::ZoneEstimate;
-use crate::accuracy::ProbePoint;
+use crate::accuracy::{Accuracy, ProbePoint};
 use crate::contact::Zone;
 use crate::element::Order;
 use crate::geometry::Point;
+use crate::mesh::Cells;
 use crate::petsc::Session;
-use crate::system::recovery::{TracePoint, ZoneErrors, local_strain_energy, probe, strain_energy, zone_errors};
+use crate::system::recovery::{TracePoint, ZoneErrors, cell_energies, probe, strain_energy, zone_errors};
 use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
 
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
 const FACTORS: [f64; 2] = [1.0 / 80.0, 0.75];
+
+/// The same on one macro triangle, as far as the next mesh is foreseen: from P2 on a smooth solution to P1 at a corner.
+const LOCAL_FACTORS: [f64; 2] = [1.0 / 16.0, 0.5];
 
 /// The same by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
 const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
@@ -47,8 +51,8 @@ const FORCE_UNKNOWN: f64 = 0.6;
 pub struct Difference {
     /// Square of the relative energy norm.
     energy: f64,
-    /// Its part on each macro triangle of this rank, in the rank's order.
-    local: Vec<f64>,
+    /// Its parts in the macro triangles of this rank, in the rank's order; only where an accuracy is asked for.
+    local: Vec<Cells>,
     /// Relative difference of `∫λ ds`, for each contact.
     force: Vec<f64>,
     /// Largest way of an end of contact by the width of its zone, for each contact.
@@ -68,8 +72,11 @@ pub struct Estimate {
     pub energy: Option<f64>,
     /// The last difference in that norm.
     pub difference: Option<f64>,
-    /// Square of the last difference in that norm on each macro triangle of this rank, in the rank's order.
-    pub local: Vec<f64>,
+    /// Square of the last difference in that norm in the macro triangles of this rank, in the rank's order; only where an
+    /// accuracy is asked for.
+    pub local: Vec<Cells>,
+    /// Factor by which it has fallen on each of them with the last refinement, in the same order.
+    pub falls: Vec<f64>,
     /// Of `∫λ ds`, for each contact.
     pub force: Vec<Option<f64>>,
     /// Of the ends of contact by the width of its zone, for each contact.
@@ -81,12 +88,12 @@ pub struct Estimate {
 }
 
 impl Difference {
-    /// Compares a solution with the one before, at `probes` too. **Collective**
+    /// Compares a solution with the one before, as far as an accuracy that may be asked for wants it. **Collective**
     pub fn new(
         problem: &Discretisation,
         solution: &Solution,
         coarse: &CoarseSolution,
-        probes: &[ProbePoint],
+        accuracy: Option<&Accuracy>,
         session: &Session,
     ) -> Result<Self, SystemError> {
         let mut apart = coarse.displacement(&problem.scene, problem.finest(), session.rank());
@@ -94,8 +101,9 @@ impl Difference {
         let u = Field::displacement(problem, &solution.displacement, session)?;
         let whole = strain_energy(problem, &u, session)?;
         let apart = Field::displacement(problem, &apart, session)?;
+        let probes = accuracy.map_or_else(Vec::new, Accuracy::probes);
         let probes = probes.iter().map(|point| at_probe(problem, point, &u, &apart, session)).collect::<Result<_, _>>()?;
-        let local = local_strain_energy(problem, &apart, session)?;
+        let local = if accuracy.is_some() { cell_energies(problem, &apart, session)? } else { Vec::new() };
         let apart = strain_energy(problem, &apart, session)?;
         let (mut force, mut ends, mut within_segments, mut zones) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
@@ -108,7 +116,7 @@ impl Difference {
             zones.push(pressure.zones().iter().map(|zone| ZoneDifference::new(contact, pressure.values, zone, before)).collect());
         }
         let whole = whole.iter().sum::<f64>();
-        let local = local.into_iter().map(|part| part / whole).collect();
+        let local = local.into_iter().map(|part| part.scaled(1.0 / whole)).collect();
         Ok(Self { energy: apart.iter().sum::<f64>() / whole, local, force, ends, within_segments, probes, zones })
     }
 }
@@ -149,6 +157,7 @@ impl Estimate {
             energy: energy.map(f64::sqrt).filter(|error| error.is_finite()),
             difference: Some(last.energy.sqrt()).filter(|difference| difference.is_finite()),
             local: last.local.clone(),
+            falls: falls(last, before),
             force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
             ends: contacts.clone().map(ends).collect(),
             probes: (0..last.probes.len()).map(probe).collect(),
@@ -174,6 +183,16 @@ impl Estimate {
         };
         errors.iter().enumerate().map(one).collect()
     }
+}
+
+/// Factor by which the difference has fallen on each macro triangle of this rank; what it falls by at a corner, where one
+/// difference is all there is.
+fn falls(last: &Difference, before: Option<&Difference>) -> Vec<f64> {
+    let fall = |(at, now): (usize, &Cells)| match before.and_then(|before| before.local.get(at)) {
+        Some(then) if then.sum() > 0.0 => (now.sum() / then.sum()).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]),
+        _ => LOCAL_FACTORS[1],
+    };
+    last.local.iter().enumerate().map(fall).collect()
 }
 
 /// Relative differences of displacement and stress at a point; not a number where no body holds it. **Collective**

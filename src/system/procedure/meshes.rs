@@ -126,7 +126,7 @@ impl Procedure<'_> {
         if converged {
             let _stage = self.observer.enter(Work::Recovery);
             if let Some(before) = &before {
-                coarser.differences.push(Difference::new(&problem, &found.solution, before, &self.probes(), self.session)?);
+                coarser.differences.push(Difference::new(&problem, &found.solution, before, self.accuracy, self.session)?);
             }
             coarser.found = Some(CoarseSolution::new(problem, found.solution, found.preconditioning, self.session)?);
         }
@@ -165,7 +165,7 @@ impl Procedure<'_> {
         let found = OneMesh { procedure: self, tolerance, is_last: true, duals }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
-            differences.push(Difference::new(&problem, &found.solution, coarse, &self.probes(), self.session)?);
+            differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
         }
         let estimate = Estimate::new(&differences, problem.scene.order, found.solution.residual);
         let OnMesh { solution, ending, passes, boundaries, solver, .. } = found;

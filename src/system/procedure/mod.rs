@@ -21,6 +21,7 @@ mod ending;
 mod estimate;
 mod first_set;
 mod following;
+mod foreseen;
 mod goal_errors;
 mod marking;
 mod meshes;

@@ -1,6 +1,7 @@
 //! What a solution means on the bodies: energies, reactions, stresses, traces on Γ_C, values at points, errors.
 
 mod balance;
+mod cell_energies;
 mod corners;
 mod deformation;
 mod error_norm;
@@ -13,7 +14,8 @@ mod traces;
 mod zone_ends;
 mod zone_errors;
 
-pub use balance::{Balance, ContactForce, local_strain_energy, strain_energy};
+pub use balance::{Balance, ContactForce, strain_energy};
+pub use cell_energies::cell_energies;
 pub use corners::Corners;
 pub use deformation::Deformation;
 pub use evaluation::Evaluation;
