@@ -86,6 +86,8 @@ pub enum SequenceEnd {
     Meshes,
     /// The estimate of a goal no longer falls, or cannot be had.
     Stuck,
+    /// Finer meshes could not be solved.
+    Refused,
 }
 
 /// How meshes were adapted to an accuracy.
@@ -97,6 +99,8 @@ pub struct Adaptation {
     pub meshes: Vec<AdaptedMesh>,
     /// Why there is no further one.
     pub end: SequenceEnd,
+    /// Why finer meshes could not be solved, if they could not.
+    pub refusal: Option<String>,
 }
 
 impl Quantity {
@@ -143,6 +147,11 @@ impl Accuracy {
 }
 
 impl Adaptation {
+    /// Before the first mesh.
+    pub fn new(accuracy: Accuracy) -> Self {
+        Self { accuracy, meshes: Vec::new(), end: SequenceEnd::Unsolved, refusal: None }
+    }
+
     /// The goals that are missed on the last mesh, with their places among all. The first mesh may be too coarse to show how
     /// slowly a value comes to rest: its estimate must be so much smaller.
     pub fn missed(&self) -> impl Iterator<Item = (usize, &Goal)> {

@@ -16,7 +16,7 @@ pub struct BisectedMesh {
     pub mesh: MacroMesh,
     /// The side that each triangle is halved at: 0, 1 or 2.
     sides: Vec<usize>,
-    /// Where each triangle lies in the mesh before.
+    /// Where each triangle lies in the mesh that this one began with.
     pub origins: Vec<Origin>,
 }
 
@@ -34,6 +34,12 @@ pub struct Origin {
 struct TrianglePart([u32; 3]);
 
 impl Origin {
+    /// Where it lies in a mesh that is coarser still, from where that one's triangles do.
+    pub fn within(&self, coarser: &[Self]) -> Self {
+        let outer = &coarser[self.triangle as usize];
+        Self { triangle: outer.triangle, corners: self.corners.map(|l| outer.point(l)) }
+    }
+
     /// All of a triangle.
     fn whole(triangle: usize) -> Self {
         Self { triangle: triangle as u32, corners: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
@@ -65,6 +71,12 @@ impl BisectedMesh {
         Self { mesh, sides, origins }
     }
 
+    /// The same mesh as one to begin with.
+    pub fn as_first(&self) -> Self {
+        let origins = (0..self.mesh.triangles.len()).map(Origin::whole).collect();
+        Self { mesh: self.mesh.clone(), sides: self.sides.clone(), origins }
+    }
+
     /// The mesh with all sides of the marked triangles halved.
     pub fn refined(&self, marked: impl Iterator<Item = u32>) -> Self {
         let halved = self.halved(marked);
@@ -80,7 +92,7 @@ impl BisectedMesh {
             for (TrianglePart(corners), side) in self.parts(triangle, &middles) {
                 next.add(corners, known);
                 sides.push(side);
-                origins.push(self.origin(triangle, &middles, corners));
+                origins.push(self.part(triangle, &middles, corners).within(&self.origins));
             }
         }
         next.halve_edges(&self.mesh, &middles);
@@ -88,7 +100,7 @@ impl BisectedMesh {
     }
 
     /// Where a part of a triangle lies in it, from its corners: those of the triangle, and middles of its edges.
-    fn origin(&self, triangle: usize, middles: &[Option<u32>], corners: [u32; 3]) -> Origin {
+    fn part(&self, triangle: usize, middles: &[Option<u32>], corners: [u32; 3]) -> Origin {
         let MacroTriangle { vertices, edges, .. } = &self.mesh.triangles[triangle];
         let whole = Origin::whole(triangle).corners;
         let place = |vertex: u32| {
@@ -296,7 +308,7 @@ mod tests {
     #[test]
     fn every_part_knows_where_it_lies() {
         let all = towards(Point::new(0.9, 1.0), 4);
-        for (before, after) in all.iter().zip(&all[1..]) {
+        for (before, after) in all.iter().map(|_| &all[0]).zip(&all[1..]) {
             let mut areas = vec![0.0; before.mesh.triangles.len()];
             for (triangle, origin) in after.mesh.triangles.iter().zip(&after.origins) {
                 areas[origin.triangle as usize] += origin.area();

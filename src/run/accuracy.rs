@@ -37,7 +37,7 @@ pub fn adaptation(case: &Case, solved: &Solved) -> Option<Adaptation> {
     // The limit by memory is none of the case.
     Some(match solved.adaptation.clone() {
         Some(adaptation) => Adaptation { accuracy, ..adaptation },
-        None => Adaptation { accuracy, meshes: Vec::new(), end: SequenceEnd::Unsolved },
+        None => Adaptation::new(accuracy),
     })
 }
 
@@ -129,7 +129,7 @@ fn words(adaptation: &Adaptation) -> String {
 }
 
 /// The limits that the case sets, and what else has ended the sequence: `; the case allows 2 000 unknowns and 5 s`.
-fn limits(Adaptation { accuracy, end, .. }: &Adaptation) -> String {
+fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
     let unknowns = accuracy.most_unknowns.map(|most| format!("{} unknowns", grouped(most)));
     let seconds = accuracy.most_seconds.map(|most| format!("{most} s"));
     let all: Vec<String> = unknowns.iter().cloned().chain(seconds).collect();
@@ -140,7 +140,8 @@ fn limits(Adaptation { accuracy, end, .. }: &Adaptation) -> String {
         SequenceEnd::Meshes => "; there are no more meshes than that",
         _ => "",
     };
-    allowed + end
+    let refusal = refusal.as_ref().map(|words| format!("; no finer mesh could be solved: {words}")).unwrap_or_default();
+    allowed + end + &refusal
 }
 
 /// What a goal that is missed would take: `, which would take some 300 000 unknowns`.
@@ -156,8 +157,8 @@ fn would_take(adaptation: &Adaptation, place: usize) -> Option<String> {
 /// Unknowns on which a goal that is missed would hold, if its estimate falls on like `unknowns^-p`, with p from the last three
 /// meshes. Nothing if it holds, if one of these meshes does not tell the error, or if it does not fall.
 fn unknowns_needed(adaptation: &Adaptation, place: usize) -> Option<f64> {
-    let Adaptation { accuracy, meshes, end } = adaptation;
-    let last = Adaptation { accuracy: accuracy.clone(), meshes: meshes[meshes.len().checked_sub(LAST)?..].to_vec(), end: *end };
+    let Adaptation { accuracy, meshes, .. } = adaptation;
+    let last = Adaptation { meshes: meshes[meshes.len().checked_sub(LAST)?..].to_vec(), ..Adaptation::new(accuracy.clone()) };
     let sequence = sequence(&last, place);
     let order = sequence.order().filter(|order| *order > 0.0)?;
     let (unknowns, error) = *sequence.points.last()?;
@@ -215,7 +216,12 @@ mod tests {
             seconds,
         };
         let meshes = vec![mesh(1, 600, [Some(1e-2), None], 0.02), mesh(2, 21_868, last, 0.314)];
-        Adaptation { accuracy: Accuracy { goals, most_unknowns: None, most_seconds: None }, meshes, end: SequenceEnd::Reached }
+        Adaptation {
+            accuracy: Accuracy { goals, most_unknowns: None, most_seconds: None },
+            meshes,
+            end: SequenceEnd::Reached,
+            refusal: None,
+        }
     }
 
     #[test]
@@ -254,6 +260,7 @@ mod tests {
             meshes: errors.iter().enumerate().map(mesh).collect(),
             accuracy: adapted.accuracy,
             end: SequenceEnd::Seconds,
+            refusal: None,
         }
     }
 

@@ -12,6 +12,7 @@ use crate::mesh::{BoundaryEdge, Numbering};
 const SHORT: f64 = 0.95;
 
 /// One contact of the scene: its boundary, its multipliers, and the edges of each body that this rank owns.
+#[derive(Clone)]
 pub struct Contact {
     /// What the case asks for.
     pub pair: Pair,

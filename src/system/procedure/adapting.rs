@@ -3,39 +3,30 @@
 
 use super::duals::weighted;
 use super::estimate::Estimate;
-use super::foreseen::{Indicators, LocalIndicator, next_mesh};
+use super::foreseen::{Indicators, LocalIndicator};
+use super::mesh_sequence::MeshSequence;
 use super::observer::{Event, Observer, Work};
+use super::predecessor::Predecessor;
 use super::settings::Procedure;
 use super::solved::Solved;
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, SequenceEnd};
-use crate::contact::SegmentRule;
-use crate::mesh::{BisectedMesh, Cells, levels};
+use crate::mesh::Cells;
 use crate::petsc::StageGuard;
-use crate::system::{Scene, SystemError, node_count};
+use crate::system::{Scene, SystemError};
 use std::cell::Cell;
-use std::time::Instant;
-
-/// Refinements of each macro triangle, at least: what two of them tell is what the mesh is adapted by.
-const LEAST_REFINE: usize = 2;
 
 /// Meshes at most.
 const MOST_MESHES: usize = 40;
 
 /// Meshes within which the error of a goal must fall to this share, or it will not.
-const STUCK: usize = 6;
+const STUCK: usize = 4;
 const FALLS: f64 = 0.8;
 
 /// How much larger a mesh must be after so many, at least, if that is to be said.
 const LARGER: f64 = 4.0;
 
-/// A mesh of more triangles is not too coarse for a scene that is refused on it.
-const MOST_REFUSED: usize = 5000;
-
 /// Share of an error that was foreseen, at least, that the next ones are taken for.
 const LEAST_TRUST: f64 = 0.4;
-
-/// Meshes at most that cannot be solved, one after the other, before the scene itself is taken for the reason.
-const MOST_FAILED: usize = 4;
 
 /// Tells what is known before the first mesh is solved; of the rest of a sequence it keeps the times alone.
 struct BeforeTheFirst<'a> {
@@ -55,47 +46,28 @@ impl Observer for BeforeTheFirst<'_> {
     }
 }
 
-/// A sequence of meshes on its way.
-struct MeshSequence {
-    scene: Scene,
-    mesh: BisectedMesh,
-    adaptation: Adaptation,
-    /// Error of each goal that was foreseen for this mesh, by what is asked for.
-    foreseen: Vec<Option<f64>>,
-    /// Meshes that could not be solved since the last one that could, and why the first of them was refused.
-    failed: usize,
-    refusal: Option<SystemError>,
-    started: Instant,
-}
-
 impl Procedure<'_> {
     /// Solves a scene on one mesh after the other, until the accuracy is reached or a limit is. **Collective**
     pub(super) fn adapt(&self, scene: Scene, accuracy: &Accuracy) -> Result<Solved, SystemError> {
         let observer = BeforeTheFirst { observer: self.observer, is_first: Cell::new(true) };
         let inf_sup = Some(self.inf_sup == Some(true));
         let one = Procedure { observer: &observer, inf_sup, ..*self };
-        let mut sequence = MeshSequence {
-            mesh: BisectedMesh::new(scene.mesh.as_ref().clone()),
-            scene: prepared(scene),
-            adaptation: Adaptation { accuracy: accuracy.clone(), meshes: Vec::new(), end: SequenceEnd::Unsolved },
-            foreseen: vec![None; accuracy.goals.len()],
-            failed: 0,
-            refusal: None,
-            started: Instant::now(),
-        };
+        let mut sequence = MeshSequence::new(scene, accuracy);
         sequence.check_first()?;
         loop {
-            match one.solve_on_mesh(sequence.scene.clone()) {
-                Err(error @ SystemError::Case(_)) => sequence.after_refusal(error)?,
+            match one.solve_next(&sequence) {
+                Err(error @ SystemError::Case(_)) => {
+                    if !sequence.goes_on_after(error) {
+                        return sequence.given_up();
+                    }
+                }
                 outcome => {
-                    let mut solved = outcome?;
+                    let solved = outcome?;
                     self.judge(&mut sequence, &solved)?;
                     let end = self.end(&sequence, &solved);
                     let missed = if end.is_none() { self.indicators(&sequence, &solved)? } else { Vec::new() };
-                    let end = end.or_else(|| (!sequence.refine(&missed)).then_some(SequenceEnd::Unknowns));
-                    if let Some(end) = end {
-                        solved.adaptation = Some(Adaptation { end, ..sequence.adaptation });
-                        return Ok(solved);
+                    if let Some(ended) = sequence.go_on(solved, end, &missed) {
+                        return Ok(ended);
                     }
                 }
             }
@@ -103,15 +75,16 @@ impl Procedure<'_> {
         }
     }
 
+    /// Solves the next mesh of a sequence. **Collective**
+    fn solve_next(&self, sequence: &MeshSequence) -> Result<Solved, SystemError> {
+        let predecessor = sequence.last().map(|(last, origins)| Predecessor::new(last, origins, self.session)).transpose()?;
+        self.solve_on_mesh(sequence.scene.clone(), predecessor.as_ref())
+    }
+
     /// Estimates the errors on a mesh. **Collective**
     fn judge(&self, sequence: &mut MeshSequence, solved: &Solved) -> Result<(), SystemError> {
         let goals = &sequence.adaptation.accuracy.goals;
         let errors = if solved.ending.is_converged() { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
-        if solved.ending.is_converged() {
-            (sequence.failed, sequence.refusal) = (0, None);
-        } else {
-            sequence.failed += 1;
-        }
         let adapted = AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,
             macro_triangles: sequence.scene.mesh.triangles.len(),
@@ -126,13 +99,13 @@ impl Procedure<'_> {
     }
 
     /// Why there is no further mesh, if so: the accuracy is reached, or will not be. The same on every rank. **Collective**
-    fn end(&self, MeshSequence { adaptation, failed, .. }: &MeshSequence, solved: &Solved) -> Option<SequenceEnd> {
+    fn end(&self, MeshSequence { adaptation, .. }: &MeshSequence, solved: &Solved) -> Option<SequenceEnd> {
         let meshes = &adaptation.meshes;
         let late = adaptation.accuracy.most_seconds.zip(meshes.last()).is_some_and(|(most, last)| last.seconds > most);
         // Clocks differ from rank to rank.
         let late = self.session.any(late);
         let all = [
-            (!solved.is_solved() || *failed == MOST_FAILED, SequenceEnd::Unsolved),
+            (!solved.is_solved(), SequenceEnd::Unsolved),
             (adaptation.is_reached(), SequenceEnd::Reached),
             (late, SequenceEnd::Seconds),
             (is_stuck(adaptation), SequenceEnd::Stuck),
@@ -177,51 +150,6 @@ impl Procedure<'_> {
     }
 }
 
-impl MeshSequence {
-    /// The first mesh has no more unknowns than are allowed.
-    ///
-    /// # Errors
-    /// In words otherwise.
-    fn check_first(&self) -> Result<(), SystemError> {
-        let unknowns = self.unknowns(&self.mesh);
-        match self.adaptation.accuracy.most_unknowns {
-            Some(most) if unknowns > most => Err(SystemError::Case(format!(
-                "accuracy: the mesh of the file alone has {unknowns} unknowns with refine = {}, and max_unknowns, or half of the memory that is left, allows {most}; draw it coarser, or allow more",
-                self.scene.refine
-            ))),
-            _ => Ok(()),
-        }
-    }
-
-    /// Where the scene is refused on a mesh: that may be too coarse for it, and is refined all over.
-    ///
-    /// # Errors
-    /// The first refusal, if finer meshes do not help.
-    fn after_refusal(&mut self, error: SystemError) -> Result<(), SystemError> {
-        self.failed += 1;
-        self.refusal.get_or_insert(error);
-        let helps = self.failed < MOST_FAILED && self.scene.mesh.triangles.len() <= MOST_REFUSED && self.refine(&[]);
-        if helps { Ok(()) } else { self.refusal.take().map_or(Ok(()), Err) }
-    }
-
-    /// Refines where the goals are missed, everywhere without any, if the next mesh then has no more unknowns than are allowed.
-    fn refine(&mut self, missed: &[Indicators]) -> bool {
-        let most = self.adaptation.accuracy.most_unknowns;
-        let Some(next) = next_mesh(&self.mesh, missed, |mesh| self.unknowns(mesh), most) else { return false };
-        self.mesh = next.mesh;
-        let places: Vec<usize> = self.adaptation.missed().map(|(place, _)| place).collect();
-        self.foreseen.fill(None);
-        places.into_iter().zip(next.errors).for_each(|(place, error)| self.foreseen[place] = error);
-        true
-    }
-
-    /// Displacement unknowns of a mesh.
-    fn unknowns(&self, mesh: &BisectedMesh) -> usize {
-        let levels = levels(self.scene.order, self.scene.refine);
-        2 * node_count(&mesh.mesh, levels[levels.len() - 1]) as usize
-    }
-}
-
 /// Whether the estimate of a goal that is missed has not fallen for some meshes.
 fn is_stuck(adaptation: &Adaptation) -> bool {
     let meshes = &adaptation.meshes;
@@ -235,14 +163,4 @@ fn is_stuck(adaptation: &Adaptation) -> bool {
         last.is_infinite() || last > FALLS * best(&meshes[..=then], place)
     };
     last.unknowns as f64 > LARGER * meshes[then].unknowns as f64 && adaptation.missed().any(|(place, _)| stuck(place))
-}
-
-/// The scene as the first mesh has it: fine enough to be judged, with segments that follow the edges of each mesh.
-fn prepared(mut scene: Scene) -> Scene {
-    scene.refine = scene.refine.max(LEAST_REFINE);
-    for pair in &mut scene.pairs {
-        pair.segments = SegmentRule::Auto;
-        pair.grading = [1.0, 1.0];
-    }
-    scene
 }

@@ -15,11 +15,16 @@ use crate::system::{
 pub struct CoarseSolution {
     displacement: Field<2>,
     numbering: Numbering,
+    contact: ContactSolution,
+    /// The preconditioner it needed.
+    pub preconditioning: Preconditioning,
+}
+
+/// What a solution says of the contacts of another mesh: where they lie, and what presses.
+pub(super) struct ContactSolution {
     contacts: Vec<Contact>,
     multipliers: Vec<f64>,
     active: Vec<bool>,
-    /// The preconditioner it needed.
-    pub preconditioning: Preconditioning,
 }
 
 impl CoarseSolution {
@@ -33,9 +38,7 @@ impl CoarseSolution {
         Ok(Self {
             displacement: Field::displacement(&problem, &solution.displacement, session)?,
             numbering: problem.finest().numbering.clone(),
-            contacts: problem.contacts,
-            multipliers: solution.multipliers,
-            active: solution.active,
+            contact: ContactSolution::new(problem.contacts, &solution),
             preconditioning,
         })
     }
@@ -46,12 +49,18 @@ impl CoarseSolution {
     /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on that mesh.
     pub fn refined(&self, scene: Scene, session: &Session) -> Result<(Discretisation, Start), SystemError> {
         let spaces = spaces(&scene, session.rank())?;
-        let finest = &spaces[spaces.len() - 1];
-        let displacement = self.displacement(&scene, finest, session.rank());
-        let (contacts, motion) = self.contacts(&scene, finest, &displacement, session)?;
-        let problem = Discretisation::with(scene, spaces, contacts, motion, session)?;
-        let (pressures, active) = self.multipliers(&problem.contacts);
-        Ok((problem, Start { displacement, pressures, active }))
+        let displacement = self.displacement(&scene, &spaces[spaces.len() - 1], session.rank());
+        self.contact.start_on(scene, spaces, displacement, session)
+    }
+
+    /// `∫λ ds` of each contact.
+    pub fn forces(&self) -> Vec<f64> {
+        (0..self.contact.contacts.len()).map(|at| self.pressure(at).force()).collect()
+    }
+
+    /// The pressure on a contact.
+    pub fn pressure(&self, contact: usize) -> ContactPressure<'_> {
+        ContactPressure::new(&self.contact.contacts[contact], &self.contact.multipliers, &self.contact.active)
     }
 
     /// The same displacement on the next refinement: this rank's unknowns in the nodes' frames.
@@ -77,6 +86,31 @@ impl CoarseSolution {
             }
         }
         values
+    }
+}
+
+impl ContactSolution {
+    /// The contacts with what was found on them.
+    pub fn new(contacts: Vec<Contact>, solution: &Solution) -> Self {
+        Self { contacts, multipliers: solution.multipliers.clone(), active: solution.active.clone() }
+    }
+
+    /// Another mesh, displaced by `displacement` (this rank's unknowns in the nodes' frames), with the contacts where this
+    /// solution says, and where to start on it. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on that mesh.
+    pub fn start_on(
+        &self,
+        scene: Scene,
+        spaces: Vec<Space>,
+        displacement: Vec<f64>,
+        session: &Session,
+    ) -> Result<(Discretisation, Start), SystemError> {
+        let (contacts, motion) = self.contacts(&scene, &spaces[spaces.len() - 1], &displacement, session)?;
+        let problem = Discretisation::with(scene, spaces, contacts, motion, session)?;
+        let (pressures, active) = self.multipliers(&problem.contacts);
+        Ok((problem, Start { displacement, pressures, active }))
     }
 
     /// Pressures and states of the multipliers of the same contacts cut anew.
@@ -107,7 +141,7 @@ impl CoarseSolution {
         (values, active)
     }
 
-    /// Places the contacts of a finer mesh: those that follow begin where these have ended. **Collective**
+    /// Places the contacts of another mesh: those that follow begin where these have ended. **Collective**
     ///
     /// # Errors
     /// [`SystemError::Case`] if a boundary cannot be placed.
@@ -148,16 +182,6 @@ impl CoarseSolution {
             contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         }
         Ok((contacts, motion))
-    }
-
-    /// `∫λ ds` of each contact.
-    pub fn forces(&self) -> Vec<f64> {
-        (0..self.contacts.len()).map(|at| self.pressure(at).force()).collect()
-    }
-
-    /// The pressure on a contact.
-    pub fn pressure(&self, contact: usize) -> ContactPressure<'_> {
-        ContactPressure::new(&self.contacts[contact], &self.multipliers, &self.active)
     }
 }
 

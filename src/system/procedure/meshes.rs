@@ -7,6 +7,7 @@ use super::duals::Duals;
 use super::ending::{Ending, Failure};
 use super::estimate::{Difference, Estimate};
 use super::observer::{Event, Work};
+use super::predecessor::Predecessor;
 use super::settings::Procedure;
 use super::solved::{CoarseSolve, Solved};
 use crate::system::{
@@ -25,11 +26,21 @@ const COARSE_FOR_ACCURACY: f64 = 1e-8;
 
 /// What is known before the mesh of the case is solved.
 #[derive(Default)]
-struct Coarser {
-    /// The solution on the last mesh, if there is any.
+struct Coarser<'p> {
+    /// The solution on the adapted mesh before, if there is any.
+    predecessor: Option<&'p Predecessor<'p>>,
+    /// The solution on the last refinement, if there is any.
     found: Option<CoarseSolution>,
     differences: Vec<Difference>,
     solves: Vec<CoarseSolve>,
+}
+
+impl Coarser<'_> {
+    /// What was needed on the mesh `before`, or on the adapted one before.
+    fn preconditioning(&self, before: Option<&CoarseSolution>) -> Preconditioning {
+        let needed = before.map(|before| before.preconditioning).or(self.predecessor.map(|before| before.preconditioning));
+        needed.unwrap_or(Preconditioning::Sweep)
+    }
 }
 
 /// The linear solver to begin with.
@@ -47,22 +58,23 @@ impl Procedure<'_> {
     pub fn solve(&self, scene: Scene) -> Result<Solved, SystemError> {
         match self.accuracy {
             Some(accuracy) => self.adapt(scene, accuracy),
-            None => self.solve_on_mesh(scene),
+            None => self.solve_on_mesh(scene, None),
         }
     }
 
-    /// Solves a scene on its mesh. A body that nothing holds is found before anything is assembled. **Collective**
+    /// Solves a scene on its mesh, from the solution on an adapted mesh before, if there is any. A body that nothing holds is
+    /// found before anything is assembled. **Collective**
     ///
     /// # Errors
     /// As [`Procedure::solve`].
-    pub(super) fn solve_on_mesh(&self, scene: Scene) -> Result<Solved, SystemError> {
+    pub(super) fn solve_on_mesh(&self, scene: Scene, predecessor: Option<&Predecessor>) -> Result<Solved, SystemError> {
         let at_rest = {
             let _stage = self.observer.enter(Work::Contact);
             Self::look(&scene, self.session.rank())?
         };
         self.observer.observe(Event::AtRest { scene: &scene, at_rest: &at_rest });
         let mut first = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
-        let mut coarser = Coarser::default();
+        let mut coarser = Coarser { predecessor, ..Coarser::default() };
         for times in (1..=COARSER.min(scene.refine)).rev() {
             match self.coarse_mesh(scene.coarser(times), &mut first, &mut coarser) {
                 // The mesh is too coarse for the scene; the case's own may do.
@@ -70,7 +82,7 @@ impl Procedure<'_> {
                 outcome => outcome?,
             }
         }
-        let (problem, start) = self.refine(scene, at_rest.contacts, coarser.found.as_ref())?;
+        let (problem, start) = self.refine(scene, at_rest.contacts, &coarser)?;
         if let (None, Some(words)) = (&start, not_held_at_all(&problem)) {
             return Ok(nothing(problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
         }
@@ -100,8 +112,12 @@ impl Procedure<'_> {
         let (refine, before) = (scene.refine, coarser.found.take());
         let (mut problem, start) = {
             let _stage = self.observer.enter(Work::Contact);
-            match &before {
-                Some(before) => before.refined(scene, self.session).map(|(problem, start)| (problem, Some(start)))?,
+            let known = match &before {
+                Some(before) => Some(before.refined(scene.clone(), self.session)?),
+                None => self.from_predecessor(&scene, coarser.predecessor)?,
+            };
+            match known {
+                Some((problem, start)) => (problem, Some(start)),
                 None => (Discretisation::new(scene, self.session)?, None),
             }
         };
@@ -110,7 +126,7 @@ impl Procedure<'_> {
         }
         self.say(first);
         let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
-        let preconditioning = before.as_ref().map_or(least, |before| before.preconditioning.max(least));
+        let preconditioning = coarser.preconditioning(before.as_ref()).max(least);
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
             COARSE_FOR_ACCURACY
         } else {
@@ -138,15 +154,32 @@ impl Procedure<'_> {
         &self,
         scene: Scene,
         contacts: Vec<Contact>,
-        coarse: Option<&CoarseSolution>,
+        coarser: &Coarser,
     ) -> Result<(Discretisation, Option<Start>), SystemError> {
         let _stage = self.observer.enter(Work::Contact);
-        if let Some(coarse) = coarse {
-            let (problem, start) = coarse.refined(scene, self.session)?;
+        let known = match &coarser.found {
+            Some(coarse) => Some(coarse.refined(scene.clone(), self.session)?),
+            None => self.from_predecessor(&scene, coarser.predecessor)?,
+        };
+        if let Some((problem, start)) = known {
             return Ok((problem, Some(start)));
         }
         let spaces = spaces(&scene, self.session.rank())?;
         Ok((Discretisation::with(scene, spaces, contacts, BoundaryMotion::default(), self.session)?, None))
+    }
+
+    /// A mesh with what the adapted mesh before says of it, if that can be had. **Collective**
+    fn from_predecessor(
+        &self,
+        scene: &Scene,
+        predecessor: Option<&Predecessor>,
+    ) -> Result<Option<(Discretisation, Start)>, SystemError> {
+        match predecessor.map(|predecessor| predecessor.start_on(scene.clone(), self.session)) {
+            Some(Ok(found)) => Ok(Some(found)),
+            // Where a boundary lay there, it cannot here.
+            None | Some(Err(SystemError::Case(_))) => Ok(None),
+            Some(Err(error)) => Err(error),
+        }
     }
 
     /// Solves the mesh of the case. **Collective**
@@ -155,11 +188,11 @@ impl Procedure<'_> {
         mut problem: Discretisation,
         start: Option<Start>,
         mut first: First,
-        Coarser { found: coarse, mut differences, solves }: Coarser,
+        coarser: Coarser,
     ) -> Result<Solved, SystemError> {
         self.say(&mut first);
-        let preconditioning =
-            coarse.as_ref().map_or(first.preconditioning, |coarse| coarse.preconditioning.max(first.preconditioning));
+        let preconditioning = coarser.preconditioning(coarser.found.as_ref()).max(first.preconditioning);
+        let Coarser { found: coarse, mut differences, solves, .. } = coarser;
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
         let duals = self.accuracy.map(|accuracy| Duals { goals: &accuracy.goals, coarse: coarse.as_ref() });
         let found = OneMesh { procedure: self, tolerance, is_last: true, duals }.solve(&mut problem, start, preconditioning)?;
@@ -168,8 +201,19 @@ impl Procedure<'_> {
             differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
         }
         let estimate = Estimate::new(&differences, problem.scene.order, found.solution.residual);
-        let OnMesh { solution, ending, passes, boundaries, solver, .. } = found;
-        Ok(Solved { problem, solution, ending, passes, boundaries, solver, estimate, coarse: solves, adaptation: None })
+        let OnMesh { solution, ending, passes, boundaries, preconditioning, solver } = found;
+        Ok(Solved {
+            problem,
+            solution,
+            ending,
+            passes,
+            boundaries,
+            solver,
+            preconditioning,
+            estimate,
+            coarse: solves,
+            adaptation: None,
+        })
     }
 
     fn say(&self, first: &mut First) {
@@ -187,6 +231,16 @@ fn not_held_at_all(problem: &Discretisation) -> Option<String> {
 /// A scene that cannot be solved.
 fn nothing(problem: Discretisation, ending: Ending, coarse: Vec<CoarseSolve>) -> Solved {
     let solution = Solution::nothing(problem.finest(), &vec![true; problem.multiplier_count()]);
-    let (estimate, solver) = (Estimate::default(), "none".into());
-    Solved { problem, solution, ending, passes: Vec::new(), boundaries: Vec::new(), solver, estimate, coarse, adaptation: None }
+    Solved {
+        problem,
+        solution,
+        ending,
+        passes: Vec::new(),
+        boundaries: Vec::new(),
+        solver: "none".into(),
+        preconditioning: Preconditioning::Sweep,
+        estimate: Estimate::default(),
+        coarse,
+        adaptation: None,
+    }
 }

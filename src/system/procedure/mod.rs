@@ -4,7 +4,7 @@
 //!
 //! | loop | file | ends when |
 //! |---|---|---|
-//! | adapted meshes | `adapting.rs` | all goals are reached, or a limit is |
+//! | adapted meshes | `adapting.rs` with `mesh_sequence.rs` | all goals are reached, or a limit is |
 //! | refinements | `meshes.rs` | the mesh of the case is solved |
 //! | boundaries | `boundaries.rs` with `following.rs` | boundary, displacement and set stand |
 //! | active sets | `contact_loop.rs` | the set stands, and the residual is below its tolerance |
@@ -24,8 +24,10 @@ mod following;
 mod foreseen;
 mod goal_errors;
 mod marking;
+mod mesh_sequence;
 mod meshes;
 mod observer;
+mod predecessor;
 mod settings;
 mod solved;
 mod unsettled;

@@ -5,7 +5,7 @@ use super::ending::Ending;
 use super::estimate::Estimate;
 use super::following::BoundaryStep;
 use crate::accuracy::Adaptation;
-use crate::system::{Discretisation, Solution};
+use crate::system::{Discretisation, Preconditioning, Solution};
 
 /// A coarser mesh that was solved first.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +32,8 @@ pub struct Solved {
     pub boundaries: Vec<BoundaryStep>,
     /// What solved it, in words.
     pub solver: String,
+    /// The preconditioner that it needed.
+    pub preconditioning: Preconditioning,
     /// Estimated errors of discretisation.
     pub estimate: Estimate,
     /// Coarser meshes that were solved first.

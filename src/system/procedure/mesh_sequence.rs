@@ -1,0 +1,170 @@
+//! A sequence of meshes that is adapted to an accuracy, on its way: what it is refined by, and what becomes of meshes that cannot
+//! be solved.
+
+use super::foreseen::{Indicators, next_mesh};
+use super::solved::Solved;
+use crate::accuracy::{Accuracy, Adaptation, SequenceEnd};
+use crate::contact::SegmentRule;
+use crate::mesh::{BisectedMesh, Origin, levels};
+use crate::system::{Scene, SystemError, node_count};
+use std::time::Instant;
+
+/// Refinements of each macro triangle, at least: what two of them tell is what the mesh is adapted by.
+const LEAST_REFINE: usize = 2;
+
+/// A mesh of more triangles is not too coarse for a scene that is refused on it.
+const MOST_REFUSED: usize = 5000;
+
+/// Meshes at most that cannot be solved, one after the other, before the scene itself is taken for the reason.
+const MOST_FAILED: usize = 4;
+
+/// A sequence of meshes on its way.
+pub(super) struct MeshSequence {
+    /// The scene on the present mesh.
+    pub scene: Scene,
+    /// The present mesh.
+    pub mesh: BisectedMesh,
+    /// What was asked for, and every mesh so far.
+    pub adaptation: Adaptation,
+    /// Error of each goal that was foreseen for this mesh, by what is asked for.
+    pub foreseen: Vec<Option<f64>>,
+    /// The last mesh that could be solved, and where the triangles of the present one lie in it.
+    last: Option<Solved>,
+    origins: Vec<Origin>,
+    /// Meshes that could not be solved since, and why the first of them was refused.
+    failed: usize,
+    refusal: Option<SystemError>,
+    /// When the first mesh was begun.
+    pub started: Instant,
+}
+
+impl MeshSequence {
+    /// Before the first mesh: that of the scene.
+    pub fn new(scene: Scene, accuracy: &Accuracy) -> Self {
+        let mesh = BisectedMesh::new(scene.mesh.as_ref().clone());
+        Self {
+            origins: mesh.origins.clone(),
+            mesh,
+            scene: prepared(scene),
+            adaptation: Adaptation::new(accuracy.clone()),
+            foreseen: vec![None; accuracy.goals.len()],
+            last: None,
+            failed: 0,
+            refusal: None,
+            started: Instant::now(),
+        }
+    }
+
+    /// The first mesh has no more unknowns than are allowed.
+    ///
+    /// # Errors
+    /// In words otherwise.
+    pub fn check_first(&self) -> Result<(), SystemError> {
+        let unknowns = self.unknowns(&self.mesh);
+        match self.adaptation.accuracy.most_unknowns {
+            Some(most) if unknowns > most => Err(SystemError::Case(format!(
+                "accuracy: the mesh of the file alone has {unknowns} unknowns with refine = {}, and max_unknowns, or half of the memory that is left, allows {most}; draw it coarser, or allow more",
+                self.scene.refine
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// The last mesh that could be solved, if there is any, and where the triangles of the present one lie in it.
+    pub fn last(&self) -> Option<(&Solved, &[Origin])> {
+        self.last.as_ref().map(|last| (last, self.origins.as_slice()))
+    }
+
+    /// Goes on from a mesh that is solved, unless it is the end, or the next mesh would be too large, or too many could not be
+    /// solved: then gives what there is.
+    pub fn go_on(&mut self, solved: Solved, end: Option<SequenceEnd>, missed: &[Indicators]) -> Option<Solved> {
+        if let Some(end) = end {
+            return Some(self.ended(solved, end));
+        }
+        if solved.ending.is_converged() {
+            (self.failed, self.refusal) = (0, None);
+            self.origins = self.mesh.as_first().origins;
+        } else {
+            self.failed += 1;
+            self.refusal.get_or_insert(SystemError::Case(solved.ending.to_string()));
+            if self.failed == MOST_FAILED {
+                return Some(match self.last.take() {
+                    Some(last) => self.without_later(last),
+                    None => self.ended(solved, SequenceEnd::Unsolved),
+                });
+            }
+        }
+        if !self.refine(missed) {
+            return Some(self.ended(solved, SequenceEnd::Unknowns));
+        }
+        if solved.ending.is_converged() {
+            self.last = Some(solved);
+        }
+        None
+    }
+
+    /// Where the scene is refused on a mesh: that may be too coarse for it, and is refined all over, if that may help.
+    pub fn goes_on_after(&mut self, error: SystemError) -> bool {
+        self.failed += 1;
+        self.refusal.get_or_insert(error);
+        self.failed < MOST_FAILED && self.scene.mesh.triangles.len() <= MOST_REFUSED && self.refine(&[])
+    }
+
+    /// The last mesh that could be solved, after finer ones could not.
+    ///
+    /// # Errors
+    /// The first refusal, if there is no such mesh.
+    pub fn given_up(&mut self) -> Result<Solved, SystemError> {
+        match (self.last.take(), self.refusal.take()) {
+            (None, Some(refusal)) => Err(refusal),
+            (None, None) => Err(SystemError::Case("accuracy: no mesh could be solved".into())),
+            (Some(last), refusal) => {
+                self.refusal = refusal;
+                Ok(self.without_later(last))
+            }
+        }
+    }
+
+    /// A solution as the result of the sequence.
+    fn ended(&self, mut solved: Solved, end: SequenceEnd) -> Solved {
+        solved.adaptation = Some(Adaptation { end, ..self.adaptation.clone() });
+        solved
+    }
+
+    /// The last solution as the result of the sequence, which forgets the meshes after it.
+    fn without_later(&mut self, last: Solved) -> Solved {
+        let unknowns = last.problem.unknown_count();
+        let meshes = &mut self.adaptation.meshes;
+        meshes.truncate(meshes.iter().rposition(|mesh| mesh.unknowns == unknowns).map_or(0, |at| at + 1));
+        self.adaptation.refusal = self.refusal.take().map(|refusal| refusal.to_string());
+        self.ended(last, SequenceEnd::Refused)
+    }
+
+    /// Refines where the goals are missed, everywhere without any, if the next mesh then has no more unknowns than are allowed.
+    fn refine(&mut self, missed: &[Indicators]) -> bool {
+        let most = self.adaptation.accuracy.most_unknowns;
+        let Some(next) = next_mesh(&self.mesh, missed, |mesh| self.unknowns(mesh), most) else { return false };
+        self.origins = next.mesh.origins.iter().map(|origin| origin.within(&self.origins)).collect();
+        self.mesh = next.mesh;
+        let places: Vec<usize> = self.adaptation.missed().map(|(place, _)| place).collect();
+        self.foreseen.fill(None);
+        places.into_iter().zip(next.errors).for_each(|(place, error)| self.foreseen[place] = error);
+        true
+    }
+
+    /// Displacement unknowns of a mesh.
+    fn unknowns(&self, mesh: &BisectedMesh) -> usize {
+        let levels = levels(self.scene.order, self.scene.refine);
+        2 * node_count(&mesh.mesh, levels[levels.len() - 1]) as usize
+    }
+}
+
+/// The scene as the first mesh has it: fine enough to be judged, with segments that follow the edges of each mesh.
+fn prepared(mut scene: Scene) -> Scene {
+    scene.refine = scene.refine.max(LEAST_REFINE);
+    for pair in &mut scene.pairs {
+        pair.segments = SegmentRule::Auto;
+        pair.grading = [1.0, 1.0];
+    }
+    scene
+}

@@ -1,0 +1,68 @@
+//! What the solution on one adapted mesh says of the next one, which has other macro triangles.
+
+use super::coarse_solution::ContactSolution;
+use super::solved::Solved;
+use crate::geometry::Point;
+use crate::mesh::{Origin, lattice};
+use crate::petsc::{Session, Vector};
+use crate::system::recovery::shapes_at;
+use crate::system::{Discretisation, Field, Preconditioning, Scene, Space, Start, SystemError, spaces};
+
+/// A solution on the mesh before, whose macro triangles those of the next mesh are parts of.
+pub(super) struct Predecessor<'s> {
+    problem: &'s Discretisation,
+    displacement: Field<2>,
+    contact: ContactSolution,
+    /// The preconditioner it needed.
+    pub preconditioning: Preconditioning,
+    /// Where each macro triangle of the next mesh lies.
+    origins: &'s [Origin],
+}
+
+impl<'s> Predecessor<'s> {
+    /// Takes a solution over, for a mesh whose macro triangles have these origins. **Collective**
+    pub fn new(solved: &'s Solved, origins: &'s [Origin], session: &Session) -> Result<Self, SystemError> {
+        let Solved { problem, solution, preconditioning, .. } = solved;
+        let displacement = Field::displacement(problem, &solution.displacement, session)?;
+        let contact = ContactSolution::new(problem.contacts.clone(), solution);
+        Ok(Self { problem, displacement, contact, preconditioning: *preconditioning, origins })
+    }
+
+    /// The next mesh with the contacts where this solution says, and where to start on it. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on that mesh.
+    pub fn start_on(&self, scene: Scene, session: &Session) -> Result<(Discretisation, Start), SystemError> {
+        let spaces = spaces(&scene, session.rank())?;
+        let displacement = self.displacement(&scene, &spaces[spaces.len() - 1], session)?;
+        self.contact.start_on(scene, spaces, displacement, session)
+    }
+
+    /// The same displacement on the next mesh: this rank's unknowns in the nodes' frames. Every rank knows it on the macro
+    /// triangles that it had, and tells those that have their parts. **Collective**
+    fn displacement(&self, scene: &Scene, space: &Space, session: &Session) -> Result<Vec<f64>, SystemError> {
+        let n = space.numbering.level.intervals;
+        // Displacement, and how often it was told: a node may lie in several triangles.
+        let mut sums = Vector::new(session, 3 * space.own.len())?;
+        let known = |origin: &Origin| self.problem.scene.partition.owner(origin.triangle) == session.rank();
+        for (triangle, origin) in self.origins.iter().enumerate().filter(|(_, origin)| known(origin)) {
+            let numbers = space.numbering.triangle(&scene.mesh, triangle);
+            for (i, j) in lattice::nodes(n) {
+                let [x, y] = [i, j].map(|k| k as f64 / n as f64);
+                let [_, x, y] = origin.point([1.0 - x - y, x, y]);
+                let shapes = shapes_at(self.problem, origin.triangle as usize, Point::new(x, y));
+                let u: Point =
+                    shapes.iter().fold(Point::zeros(), |sum, (node, value)| sum + *value * self.displacement.point(*node));
+                let first = 3 * numbers.node(i, j) as i32;
+                sums.add(&[first, first + 1, first + 2], &[u.x, u.y, 1.0])?;
+            }
+        }
+        sums.assemble()?;
+        let mut unknowns = vec![0.0; space.local_unknowns()];
+        for (at, (u, sum)) in unknowns.chunks_exact_mut(2).zip(sums.values().chunks_exact(3)).enumerate() {
+            let in_frame = space.to_frame(space.own.start + at, Point::new(sum[0], sum[1]) / sum[2]);
+            u.copy_from_slice(in_frame.as_slice());
+        }
+        Ok(unknowns)
+    }
+}
