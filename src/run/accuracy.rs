@@ -1,5 +1,6 @@
 //! What a run says of the accuracy that was asked for.
 
+use super::memory;
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
 use crate::case::Case;
 use crate::output::plot::Sequence;
@@ -19,16 +20,10 @@ const MOST_FORETOLD: f64 = 1e12;
 /// Memory that an unknown of the displacement takes on a mesh with many macro triangles (bytes).
 const BYTES: f64 = 2000.0;
 
-/// An accuracy with a limit to its unknowns: half of the memory that the machine has left, if nobody has set another.
-/// **Collective**
+/// An accuracy with a limit to its unknowns: half of the memory that is left, if nobody has set another. **Collective**
 pub fn limited(accuracy: &Accuracy, session: &Session) -> Accuracy {
-    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
-    let kib = line.and_then(|rest| rest.split_whitespace().next()).and_then(|kib| kib.parse::<f64>().ok());
-    let mut most = [-kib.unwrap_or(4e6) * 1024.0 / (2.0 * BYTES)];
-    // The machine with the least of it decides.
-    session.max(&mut most);
-    Accuracy { most_unknowns: accuracy.most_unknowns.or(Some(-most[0] as usize)), ..accuracy.clone() }
+    let most = memory::left(session) / (2.0 * BYTES);
+    Accuracy { most_unknowns: accuracy.most_unknowns.or(Some(most as usize)), ..accuracy.clone() }
 }
 
 /// How the mesh was adapted, if an accuracy was asked for; without any mesh if the run ended before.

@@ -76,6 +76,9 @@ const MOST_UNRESOLVED: f64 = 0.1;
 /// What mends a pressure whose bodies are too coarse for it.
 const FINER: &str = "refine the mesh where contact is";
 
+/// The same where the mesh makes itself.
+const LESS_ERROR: &str = "ask for a smaller error, of pressure too";
+
 /// What mends a solution whose bodies turn too far.
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
 
@@ -106,9 +109,12 @@ struct Verdict {
 pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     let (mut told, mut remedies) = (Vec::new(), Vec::new());
     let mut judgement = Judgement::default();
-    for pair in &case.contacts {
+    for pair in &as_solved(case) {
         let Some(contact) = summary.contact.get(&pair.name) else { continue };
-        let Verdict { doubts, unknown, trust, trust_force } = judge_contact(summary, contact, pair, case, converged);
+        let Verdict { mut doubts, unknown, trust, trust_force } = judge_contact(summary, contact, pair, case, converged);
+        for doubt in doubts.iter_mut().filter(|doubt| doubt.remedy == FINER && case.accuracy.is_some()) {
+            doubt.remedy = LESS_ERROR;
+        }
         if trust.is_none() {
             judgement.unknown.extend(unknown);
         }
@@ -130,6 +136,12 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     judgement
 }
 
+/// The contacts of a case as they were solved: with an accuracy the segments are the program's own.
+fn as_solved(case: &Case) -> Vec<Pair> {
+    let rule = |pair: &Pair| if case.accuracy.is_some() { SegmentRule::Auto } else { pair.segments.clone() };
+    case.contacts.iter().map(|pair| Pair { segments: rule(pair), ..pair.clone() }).collect()
+}
+
 /// Trust is false if a figure speaks against the pressure, or if the solve that it comes from has not `converged`; it is null
 /// if nothing tells, or if the corner of a body presses on too few edges.
 fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pair, case: &Case, converged: bool) -> Verdict {
@@ -149,7 +161,7 @@ fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pa
     doubts.extend(beyond_the_model);
     doubts.extend(unresolved_doubt(contact, more_segments(pair)));
     doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
-    let unknown = unknown_words(contact, &pair.name, trust_force);
+    let unknown = unknown_words(contact, pair, trust_force);
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
     Verdict { doubts, unknown, trust, trust_force }
 }
@@ -321,8 +333,8 @@ fn corner_doubt(contact: &summary::ContactSummary, [a, b]: [&str; 2]) -> Option<
 }
 
 /// What neither speaks for a pressure nor against it, in words.
-fn unknown_words(contact: &summary::ContactSummary, name: &str, trust_force: Option<bool>) -> Option<String> {
-    let zones = &contact.zones;
+fn unknown_words(contact: &summary::ContactSummary, pair: &Pair, trust_force: Option<bool>) -> Option<String> {
+    let (zones, name) = (&contact.zones, &pair.name);
     let counting = || zones.iter().filter(|zone| zone.counts(zones));
     if let Some(zone) = counting().find(|zone| is_concentrated(zone, trust_force)) {
         let edges = zone.edges.unwrap_or(f64::NAN);
@@ -332,7 +344,7 @@ fn unknown_words(contact: &summary::ContactSummary, name: &str, trust_force: Opt
     }
     counting()
         .any(|zone| zone.lambda.is_none() && !(is_proved(zone.worst) && is_divided(zone)))
-        .then(|| format!("contact {name}: nothing estimates the error of its pressure; refine the mesh, or take more segments"))
+        .then(|| format!("contact {name}: nothing estimates the error of its pressure; {}", more_segments(pair)))
 }
 
 /// A reaction at the corner of a body that no mesh resolves: the force is right.

@@ -1,6 +1,7 @@
 //! The loop over meshes that are adapted to an accuracy: solved, judged, refined where the error is, until all goals are
 //! reached.
 
+use super::across::across;
 use super::duals::weighted;
 use super::marking::marked;
 use super::observer::{Event, Observer, Work};
@@ -154,6 +155,7 @@ impl Procedure<'_> {
         if all.is_empty() {
             return Ok(sequence.all_triangles());
         }
+        all.extend(across(&scene.mesh, &scene.pairs, &all));
         all.sort_unstable();
         all.dedup();
         Ok(all)
