@@ -12,6 +12,7 @@ mod report;
 mod results;
 mod run_options;
 mod scene;
+mod slivers;
 mod stages;
 mod summarise;
 mod trust;

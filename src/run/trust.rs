@@ -3,7 +3,7 @@
 use super::report::short;
 use crate::body::Body;
 use crate::case::Case;
-use crate::contact::{MultiplierSpace, Pair, SegmentRule};
+use crate::contact::{MultiplierSpace, Pair, Quadrature, SegmentRule};
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary;
@@ -77,7 +77,10 @@ const MOST_UNRESOLVED: f64 = 0.1;
 const FINER: &str = "refine the mesh where contact is";
 
 /// The same where the mesh makes itself.
-const LESS_ERROR: &str = "ask for a smaller error, of pressure too";
+const LESS_ERROR: &str = "let the mesh become finer where contact is: ask for a smaller error, of pressure too, or allow more unknowns";
+
+/// What keeps it from becoming better there, however fine the mesh is.
+const CUT: &str = "take quadrature = \"cut\"";
 
 /// What mends a solution whose bodies turn too far.
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
@@ -113,7 +116,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
         let Some(contact) = summary.contact.get(&pair.name) else { continue };
         let Verdict { mut doubts, unknown, trust, trust_force } = judge_contact(summary, contact, pair, case, converged);
         for doubt in doubts.iter_mut().filter(|doubt| doubt.remedy == FINER && case.accuracy.is_some()) {
-            doubt.remedy = LESS_ERROR;
+            doubt.remedy = if pair.quadrature == Quadrature::Cut { LESS_ERROR } else { CUT };
         }
         if trust.is_none() {
             judgement.unknown.extend(unknown);
