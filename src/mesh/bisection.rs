@@ -322,7 +322,8 @@ mod tests {
             assert!(largest < 145.0, "{largest} degrees");
         }
         let mesh = &all[8].mesh;
-        let (corner, _) = mesh.triangles.iter().enumerate().find(|(k, _)| mesh.locate(*k, Point::new(0.0, 0.0)).is_some()).expect("inside");
+        let (corner, _) =
+            mesh.triangles.iter().enumerate().find(|(k, _)| mesh.locate(*k, Point::new(0.0, 0.0)).is_some()).expect("inside");
         let smallest = angles(mesh, &mesh.triangles[corner]).into_iter().fold(f64::INFINITY, f64::min);
         println!("{} triangles, the smallest angle in the corner is {smallest:.1} degrees", mesh.triangles.len());
         assert!(smallest > 10.0, "{smallest} degrees in the corner");

@@ -172,7 +172,8 @@ mod tests {
     #[test]
     fn address_space_is_limited_by_ulimit() {
         let left = |limit: &str| {
-            let limits = format!("Limit    Soft Limit   Hard Limit   Units\nMax address space         {limit}   unlimited   bytes\n");
+            let limits =
+                format!("Limit    Soft Limit   Hard Limit   Units\nMax address space         {limit}   unlimited   bytes\n");
             let find = |path: &Path| match path.to_str() {
                 Some("/proc/self/limits") => Some(limits.clone()),
                 Some("/proc/self/status") => Some("VmPeak:\t 9 kB\nVmSize:\t 1048576 kB\n".into()),

@@ -92,8 +92,7 @@ impl Display for Standing {
 }
 
 /// What helps where the contact conditions cannot be met.
-const NOT_MET: &str =
-    "rounding allows no better; take bodies that are less slender or less unlike in stiffness, or, without [accuracy], fewer segments";
+const NOT_MET: &str = "rounding allows no better; take bodies that are less slender or less unlike in stiffness, or, without [accuracy], fewer segments";
 
 /// What does not stand.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
