@@ -1,13 +1,25 @@
 //! Macro meshes that are refined where it is asked for, by newest vertex bisection.
 //!
 //! Each macro triangle has one side that it is halved at: the longest one in the file, the one across from the newest vertex
-//! after that, so that all descendants of a triangle are of four shapes at most (Sewell 1972; Mitchell 1988). What is halved
-//! is halved for both triangles beside it, so that the mesh stays conforming; new vertices of a bent side lie on its curve.
+//! after that, so that all descendants of a triangle are of four shapes at most (Sewell 1972; Mitchell 1988). Slivers would
+//! stay slivers that way: they are halved at their longest sides until they are none (Rivara, Int. J. Numer. Meth. Engng. 20,
+//! 1984). What is halved is halved for both triangles beside it, so that the mesh stays conforming; new vertices of a bent side
+//! lie on its curve.
 
 use super::edge_shape::EdgeShape;
 use super::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
 use crate::geometry::Point;
 use std::collections::HashMap;
+
+/// A side that is so many times shorter than the longest one of its triangle is halved after that one only.
+const SLENDER: f64 = 3.0;
+
+/// The side across from the newest vertex is that much shorter than the longest one in slivers alone: with sides a < b < c,
+/// halved at c, the part at a is as long as c/2, and so a < c/3.
+const SHORT: f64 = SLENDER / 2.0;
+
+/// Lengths that differ by less than this share of them are taken for equal.
+const EQUAL: f64 = 1e-9;
 
 /// A macro mesh whose triangles know where they are halved.
 #[derive(Clone, Debug)]
@@ -61,12 +73,8 @@ impl Origin {
 impl BisectedMesh {
     /// A mesh of a file: its triangles are halved at their longest sides first.
     pub fn new(mesh: MacroMesh) -> Self {
-        let longest = |triangle: &MacroTriangle| {
-            let lengths = triangle.edges.map(|edge| mesh.edge_length(edge));
-            // Sides of one length are told by their number: rounding decides nothing.
-            (1..3).fold(0, |best, k| if lengths[k] > lengths[best] * (1.0 + 1e-9) { k } else { best })
-        };
-        let sides = mesh.triangles.iter().map(longest).collect();
+        let side = |triangle: &MacroTriangle| longest(triangle.edges.map(|edge| mesh.edge_length(edge)));
+        let sides = mesh.triangles.iter().map(side).collect();
         let origins = (0..mesh.triangles.len()).map(Origin::whole).collect();
         Self { mesh, sides, origins }
     }
@@ -77,7 +85,7 @@ impl BisectedMesh {
         Self { mesh: self.mesh.clone(), sides: self.sides.clone(), origins }
     }
 
-    /// The mesh with all sides of the marked triangles halved.
+    /// The mesh with all sides of the marked triangles halved, but for the short ones of slivers.
     pub fn refined(&self, marked: impl Iterator<Item = u32>) -> Self {
         let halved = self.halved(marked);
         let mut vertices = self.mesh.vertices.clone();
@@ -89,10 +97,10 @@ impl BisectedMesh {
         let mut next = Connected::new(&self.mesh, vertices);
         let (mut sides, mut origins) = (Vec::new(), Vec::new());
         for (triangle, known) in self.mesh.triangles.iter().enumerate() {
-            for (TrianglePart(corners), side) in self.parts(triangle, &middles) {
-                next.add(corners, known);
-                sides.push(side);
-                origins.push(self.part(triangle, &middles, corners).within(&self.origins));
+            for (part, side) in self.parts(triangle, &middles) {
+                sides.push(side.unwrap_or_else(|| part.side(&next.mesh.vertices)));
+                origins.push(self.part(triangle, &middles, part.0).within(&self.origins));
+                next.add(part.0, known);
             }
         }
         next.halve_edges(&self.mesh, &middles);
@@ -117,28 +125,43 @@ impl BisectedMesh {
         Origin { triangle: triangle as u32, corners: corners.map(place) }
     }
 
-    /// Which edges are halved: all of the marked triangles, and as many as it takes that every triangle that has a halved edge
-    /// is halved at its own side.
+    /// Which edges are halved: those of the marked triangles that are not too short, and as many as it takes that every triangle
+    /// that has a halved edge is halved at its own side.
     fn halved(&self, marked: impl Iterator<Item = u32>) -> Vec<bool> {
         let mut halved = vec![false; self.mesh.edges.len()];
-        let mut waiting: Vec<u32> = marked.flat_map(|triangle| self.mesh.triangles[triangle as usize].edges).collect();
+        let mut waiting: Vec<u32> = marked.flat_map(|triangle| self.long_edges(triangle as usize)).collect();
         while let Some(edge) = waiting.pop() {
             if std::mem::replace(&mut halved[edge as usize], true) {
                 continue;
             }
             for triangle in self.mesh.edges[edge as usize].triangles.into_iter().flatten() {
-                waiting.push(self.mesh.triangles[triangle as usize].edges[self.sides[triangle as usize]]);
+                waiting.extend(self.halved_together(triangle as usize));
             }
         }
         halved
     }
 
-    /// The parts of a triangle by the middles of its edges, each with the side that it is halved at next.
-    fn parts(&self, triangle: usize, middles: &[Option<u32>]) -> Vec<(TrianglePart, usize)> {
+    /// The edges of a triangle that are halved as soon as one of them is: its own side, and both long ones of a needle. One alone
+    /// would leave a triangle with an angle of nearly π, and large errors (Babuška, Aziz, SIAM J. Numer. Anal. 13, 1976).
+    fn halved_together(&self, triangle: usize) -> Vec<u32> {
+        let long: Vec<u32> = self.long_edges(triangle).collect();
+        if long.len() == 2 { long } else { vec![self.mesh.triangles[triangle].edges[self.sides[triangle]]] }
+    }
+
+    /// The edges of a triangle, without those that are short beside the longest one.
+    fn long_edges(&self, triangle: usize) -> impl Iterator<Item = u32> {
+        let edges = self.mesh.triangles[triangle].edges;
+        let lengths = edges.map(|edge| self.mesh.edge_length(edge));
+        let least = lengths[longest(lengths)] / SLENDER * (1.0 - EQUAL);
+        edges.into_iter().zip(lengths).filter(move |(_, length)| *length >= least).map(|(edge, _)| edge)
+    }
+
+    /// The parts of a triangle by the middles of its edges, each with the side that it is halved at next if it is no new one.
+    fn parts(&self, triangle: usize, middles: &[Option<u32>]) -> Vec<(TrianglePart, Option<usize>)> {
         let MacroTriangle { vertices, edges, .. } = &self.mesh.triangles[triangle];
         let side = self.sides[triangle];
         let Some(middle) = middles[edges[side] as usize] else {
-            return vec![(TrianglePart(*vertices), side)];
+            return vec![(TrianglePart(*vertices), Some(side))];
         };
         // Corners in order from the newest one: the side lies across from it.
         let turned = [(side + 2) % 3, side, (side + 1) % 3];
@@ -150,7 +173,7 @@ impl BisectedMesh {
             Some(middle) => half.halves(middle).to_vec(),
             None => vec![half],
         });
-        parts.map(|part| (part, 1)).collect()
+        parts.map(|part| (part, None)).collect()
     }
 }
 
@@ -160,6 +183,19 @@ impl TrianglePart {
         let Self([a, b, c]) = self;
         [Self([middle, a, b]), Self([middle, c, a])]
     }
+
+    /// The side that it is halved at: across from the newest corner, or the longest one if that is much longer.
+    fn side(self, vertices: &[Point]) -> usize {
+        let corners = self.0.map(|corner| vertices[corner as usize]);
+        let lengths = [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm());
+        let longest = longest(lengths);
+        if lengths[longest] > SHORT * (1.0 + EQUAL) * lengths[1] { longest } else { 1 }
+    }
+}
+
+/// The longest of three sides. Sides of one length are told by their number: rounding decides nothing.
+fn longest(lengths: [f64; 3]) -> usize {
+    (1..3).fold(0, |best, k| if lengths[k] > lengths[best] * (1.0 + EQUAL) { k } else { best })
 }
 
 /// A mesh that is being connected.
@@ -252,7 +288,7 @@ impl Connected {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::two_blocks;
+    use super::super::samples::{self, two_blocks};
     use super::*;
     use crate::geometry::{Curve, cross};
     use std::collections::HashSet;
@@ -342,6 +378,34 @@ mod tests {
         assert!(mesh.triangles.len() < 40 * 20, "{} triangles: refinement stays local", mesh.triangles.len());
         let smallest = mesh.triangles.iter().map(|triangle| area(mesh, triangle)).fold(f64::INFINITY, f64::min);
         assert!(smallest < 1e-9);
+    }
+
+    /// Columns that are thirty times as high as wide.
+    #[test]
+    fn needles_become_good_triangles() {
+        let columns = 12;
+        let mesh = samples::columns(columns, 30.0);
+        let mut all = vec![BisectedMesh::new(mesh)];
+        for _ in 0..8 {
+            let last = &all[all.len() - 1];
+            let near = (0..last.mesh.triangles.len()).filter(|&k| last.mesh.locate(k, Point::new(0.0, 0.0)).is_some());
+            all.push(last.refined(near.map(|k| k as u32)));
+        }
+        let angles = |mesh: &MacroMesh, triangle: &MacroTriangle| {
+            let x = triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]);
+            [0, 1, 2].map(|k| (x[(k + 1) % 3] - x[k]).angle(&(x[(k + 2) % 3] - x[k])).to_degrees())
+        };
+        for bisected in &all {
+            let mesh = &bisected.mesh;
+            let largest = mesh.triangles.iter().flat_map(|triangle| angles(mesh, triangle)).fold(0.0, f64::max);
+            assert!(largest < 145.0, "{largest} degrees");
+        }
+        let mesh = &all[8].mesh;
+        let (corner, _) =
+            mesh.triangles.iter().enumerate().find(|(k, _)| mesh.locate(*k, Point::new(0.0, 0.0)).is_some()).expect("inside");
+        let smallest = angles(mesh, &mesh.triangles[corner]).into_iter().fold(f64::INFINITY, f64::min);
+        println!("{} triangles, the smallest angle in the corner is {smallest:.1} degrees", mesh.triangles.len());
+        assert!(smallest > 10.0, "{smallest} degrees in the corner");
     }
 
     #[test]

@@ -242,6 +242,12 @@ impl MacroMesh {
         (self.vertices[b as usize] - self.vertices[a as usize]).norm()
     }
 
+    /// Smallest angle of a macro triangle with straight sides (radians).
+    pub fn smallest_angle(&self, triangle: usize) -> f64 {
+        let x = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
+        (0..3).map(|k| (x[(k + 1) % 3] - x[k]).angle(&(x[(k + 2) % 3] - x[k]))).fold(f64::INFINITY, f64::min)
+    }
+
     /// Smallest box around all vertices of each piece: lower left and upper right corner.
     pub fn bounds(&self) -> Vec<[Point; 2]> {
         let mut bounds = vec![[Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)]; self.pieces.len()];

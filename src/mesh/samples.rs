@@ -13,6 +13,14 @@ pub fn two_blocks() -> MacroMesh {
     MacroMesh::build(raw, Path::new("blocks.msh")).expect("a good mesh")
 }
 
+/// One block of so many columns of width 1 over y = 0, each of two triangles.
+pub fn columns(count: usize, height: f64) -> MacroMesh {
+    let mut raw = RawMesh::default();
+    let xs: Vec<f64> = (0..=count).map(|k| k as f64).collect();
+    block(&mut raw, "columns", &xs, [0.0, height], ["bottom", "top"]);
+    MacroMesh::build(raw, Path::new("columns.msh")).expect("a good mesh")
+}
+
 fn block(raw: &mut RawMesh, body: &str, xs: &[f64], [low, high]: [f64; 2], names: [&str; 2]) {
     let first = raw.vertices.len();
     for &x in xs {

@@ -56,6 +56,11 @@ impl Session {
         self.world().all_reduce_into(&own[..], values, SystemOperation::max());
     }
 
+    /// Number of ranks on the machine of this one, which share its memory. **Collective**
+    pub fn ranks_here(&self) -> usize {
+        self.world().split_shared(0).size() as usize
+    }
+
     /// Whether any rank says so. **Collective**
     pub fn any(&self, here: bool) -> bool {
         let mut anywhere = 0_i32;

@@ -1,5 +1,6 @@
 //! What a run says of the accuracy that was asked for.
 
+use super::memory;
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
 use crate::case::Case;
 use crate::output::plot::Sequence;
@@ -19,16 +20,10 @@ const MOST_FORETOLD: f64 = 1e12;
 /// Memory that an unknown of the displacement takes on a mesh with many macro triangles (bytes).
 const BYTES: f64 = 2000.0;
 
-/// An accuracy with a limit to its unknowns: half of the memory that the machine has left, if nobody has set another.
-/// **Collective**
+/// An accuracy with a limit to its unknowns: half of the memory that is left, if nobody has set another. **Collective**
 pub fn limited(accuracy: &Accuracy, session: &Session) -> Accuracy {
-    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
-    let kib = line.and_then(|rest| rest.split_whitespace().next()).and_then(|kib| kib.parse::<f64>().ok());
-    let mut most = [-kib.unwrap_or(4e6) * 1024.0 / (2.0 * BYTES)];
-    // The machine with the least of it decides.
-    session.max(&mut most);
-    Accuracy { most_unknowns: accuracy.most_unknowns.or(Some(-most[0] as usize)), ..accuracy.clone() }
+    let most = memory::left(session) / (2.0 * BYTES);
+    Accuracy { most_unknowns: accuracy.most_unknowns.or(Some(most as usize)), ..accuracy.clone() }
 }
 
 /// How the mesh was adapted, if an accuracy was asked for; without any mesh if the run ended before.
@@ -100,7 +95,7 @@ fn sequence(Adaptation { accuracy, meshes, .. }: &Adaptation, place: usize) -> S
 pub fn request(accuracy: &Accuracy) -> String {
     let goals = accuracy.goals.iter().map(|goal| format!("{} to {:e}", name(&goal.quantity), goal.tolerance));
     let unknowns = accuracy.most_unknowns.map(|most| format!("; at most {} unknowns", grouped(most)));
-    let seconds = accuracy.most_seconds.map(|most| format!("; no further mesh after {most} s"));
+    let seconds = accuracy.most_seconds.map(|most| format!("; no further mesh after {} s", plain(most)));
     [goals.collect::<Vec<_>>().join(", ")].into_iter().chain(unknowns).chain(seconds).collect()
 }
 
@@ -131,7 +126,7 @@ fn words(adaptation: &Adaptation) -> String {
 /// The limits that the case sets, and what else has ended the sequence: `; the case allows 2 000 unknowns and 5 s`.
 fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
     let unknowns = accuracy.most_unknowns.map(|most| format!("{} unknowns", grouped(most)));
-    let seconds = accuracy.most_seconds.map(|most| format!("{most} s"));
+    let seconds = accuracy.most_seconds.map(|most| format!("{} s", plain(most)));
     let all: Vec<String> = unknowns.iter().cloned().chain(seconds).collect();
     let allowed = if all.is_empty() { String::new() } else { format!("; the case allows {}", all.join(" and ")) };
     let end = match end {
@@ -189,7 +184,12 @@ pub fn name(quantity: &Quantity) -> String {
 
 /// Two digits at most: `8.1e-5`, `4e-4`.
 fn figure(error: f64) -> String {
-    format!("{error:.1e}").replace(".0e", "e")
+    if error == 0.0 { "0".into() } else { format!("{error:.1e}").replace(".0e", "e") }
+}
+
+/// A number of the case, however large or small: `0.5`, `1e-300`.
+fn plain(number: f64) -> String {
+    if (1e-4..1e7).contains(&number) { number.to_string() } else { format!("{number:e}") }
 }
 
 /// A count in groups of three digits: `21 868`.
@@ -356,6 +356,7 @@ mod tests {
         accuracy.goals = vec![Goal { quantity: Quantity::Stress(probe), tolerance: 0.05 }];
         (accuracy.most_unknowns, accuracy.most_seconds) = (Some(1_100_000), Some(2.5));
         assert_eq!(request(&accuracy), "stress at tip to 5e-2; at most 1 100 000 unknowns; no further mesh after 2.5 s");
+        assert_eq!([0.001, 1000.0, 1e-300, 1e300].map(plain), ["0.001", "1000", "1e-300", "1e300"]);
         assert_eq!([7, 999, 1000].map(grouped), ["7", "999", "1 000"]);
     }
 }

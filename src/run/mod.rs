@@ -5,12 +5,14 @@ mod check;
 mod exact;
 mod fields;
 mod input;
+mod memory;
 mod observe;
 mod outcome;
 mod report;
 mod results;
 mod run_options;
 mod scene;
+mod slivers;
 mod stages;
 mod summarise;
 mod trust;
@@ -42,7 +44,7 @@ pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outco
 fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
     refuse_options(session)?;
     let (folder, files) = claim_folder(options, session)?;
-    let report = Report::new(options, session);
+    let report = Report::new(case, options, session);
     let run = Run { case, options, session, stages: Stages::new(session)?, report, files };
     run.report.start(case);
     let scene = run.read_scene()?;

@@ -26,13 +26,16 @@ pub struct Report {
     first: bool,
     ranks: usize,
     started: Instant,
+    /// Whether the mesh is adapted: the one of the file, and its segments, are a beginning only.
+    adapts: bool,
 }
 
 impl Report {
-    /// A report of one run.
-    pub fn new(options: &RunOptions, session: &Session) -> Self {
+    /// A report of a run of a case.
+    pub fn new(case: &Case, options: &RunOptions, session: &Session) -> Self {
         let first = session.rank() == 0;
-        Self { speaks: first && !options.quiet, first, ranks: session.size(), started: options.started }
+        let adapts = case.accuracy.is_some();
+        Self { speaks: first && !options.quiet, first, ranks: session.size(), started: options.started, adapts }
     }
 
     /// Prints a line.
@@ -58,7 +61,9 @@ impl Report {
         match event {
             Event::AtRest { scene, at_rest } => {
                 self.sizes(scene, &at_rest.contacts, &at_rest.numbering);
-                self.short_segments(&at_rest.contacts);
+                if !self.adapts {
+                    self.short_segments(&at_rest.contacts);
+                }
                 self.locking(scene);
             }
             Event::Solver(words) => self.say(&format!("solver: {words}")),
@@ -134,7 +139,8 @@ impl Report {
         let triangles = scene.mesh.triangles.len() * level.triangles_per_edge().pow(2);
         let unknowns = 2 * numbering.node_count();
         let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
-        self.say(&format!("{triangles} {order} triangles, {unknowns} unknowns, {multipliers} multipliers"));
+        let first = if self.adapts { "the first mesh: " } else { "" };
+        self.say(&format!("{first}{triangles} {order} triangles, {unknowns} unknowns, {multipliers} multipliers"));
         for contact in contacts {
             self.say(&format!(
                 "contact {}: {} segments over {}",

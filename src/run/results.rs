@@ -3,6 +3,7 @@
 use super::exact::{Errors, compare};
 use super::outcome::outside;
 use super::report::{memory, short};
+use super::slivers::slivers;
 use super::{Outcome, Run, RunError, accuracy, fields, summarise, trust, zones};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
@@ -33,6 +34,8 @@ impl Run<'_> {
         if let Some(adaptation) = accuracy::adaptation(self.case, solved) {
             summary.accuracy = Some(accuracy::summarise(&adaptation));
             (status, reason) = accuracy::judge(&adaptation, status, &reason);
+            let flat = slivers(&solved.problem.scene.mesh).filter(|_| !adaptation.is_reached());
+            reason += &flat.map_or(String::new(), |words| format!("; {words}"));
         }
         reason += &remarks(&summary, status);
         summary.status = status;

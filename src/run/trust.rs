@@ -3,7 +3,7 @@
 use super::report::short;
 use crate::body::Body;
 use crate::case::Case;
-use crate::contact::{MultiplierSpace, Pair, SegmentRule};
+use crate::contact::{MultiplierSpace, Pair, Quadrature, SegmentRule};
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary;
@@ -76,6 +76,13 @@ const MOST_UNRESOLVED: f64 = 0.1;
 /// What mends a pressure whose bodies are too coarse for it.
 const FINER: &str = "refine the mesh where contact is";
 
+/// The same where the mesh makes itself.
+const LESS_ERROR: &str =
+    "let the mesh become finer where contact is: ask for a smaller error, of pressure too, or allow more unknowns";
+
+/// What keeps it from becoming better there, however fine the mesh is.
+const CUT: &str = "take quadrature = \"cut\"";
+
 /// What mends a solution whose bodies turn too far.
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
 
@@ -106,9 +113,10 @@ struct Verdict {
 pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     let (mut told, mut remedies) = (Vec::new(), Vec::new());
     let mut judgement = Judgement::default();
-    for pair in &case.contacts {
+    for pair in &as_solved(case) {
         let Some(contact) = summary.contact.get(&pair.name) else { continue };
-        let Verdict { doubts, unknown, trust, trust_force } = judge_contact(summary, contact, pair, case, converged);
+        let Verdict { mut doubts, unknown, trust, trust_force } = judge_contact(summary, contact, pair, case, converged);
+        doubts.iter_mut().for_each(|doubt| doubt.remedy = on_order(doubt.remedy, pair, case));
         if trust.is_none() {
             judgement.unknown.extend(unknown);
         }
@@ -130,6 +138,21 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     judgement
 }
 
+/// The contacts of a case as they were solved: with an accuracy the segments are the program's own.
+fn as_solved(case: &Case) -> Vec<Pair> {
+    let rule = |pair: &Pair| if case.accuracy.is_some() { SegmentRule::Auto } else { pair.segments.clone() };
+    case.contacts.iter().map(|pair| Pair { segments: rule(pair), ..pair.clone() }).collect()
+}
+
+/// What mends a pressure of a mesh that makes itself, instead of a finer one.
+fn on_order(remedy: &'static str, pair: &Pair, case: &Case) -> &'static str {
+    match remedy {
+        FINER if case.accuracy.is_some() && pair.quadrature == Quadrature::Cut => LESS_ERROR,
+        FINER if case.accuracy.is_some() => CUT,
+        _ => remedy,
+    }
+}
+
 /// Trust is false if a figure speaks against the pressure, or if the solve that it comes from has not `converged`; it is null
 /// if nothing tells, or if the corner of a body presses on too few edges.
 fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pair, case: &Case, converged: bool) -> Verdict {
@@ -149,7 +172,7 @@ fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pa
     doubts.extend(beyond_the_model);
     doubts.extend(unresolved_doubt(contact, more_segments(pair)));
     doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
-    let unknown = unknown_words(contact, &pair.name, trust_force);
+    let unknown = unknown_words(contact, &pair.name, trust_force, on_order(more_segments(pair), pair, case));
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
     Verdict { doubts, unknown, trust, trust_force }
 }
@@ -321,7 +344,12 @@ fn corner_doubt(contact: &summary::ContactSummary, [a, b]: [&str; 2]) -> Option<
 }
 
 /// What neither speaks for a pressure nor against it, in words.
-fn unknown_words(contact: &summary::ContactSummary, name: &str, trust_force: Option<bool>) -> Option<String> {
+fn unknown_words(
+    contact: &summary::ContactSummary,
+    name: &str,
+    trust_force: Option<bool>,
+    remedy: &'static str,
+) -> Option<String> {
     let zones = &contact.zones;
     let counting = || zones.iter().filter(|zone| zone.counts(zones));
     if let Some(zone) = counting().find(|zone| is_concentrated(zone, trust_force)) {
@@ -332,7 +360,7 @@ fn unknown_words(contact: &summary::ContactSummary, name: &str, trust_force: Opt
     }
     counting()
         .any(|zone| zone.lambda.is_none() && !(is_proved(zone.worst) && is_divided(zone)))
-        .then(|| format!("contact {name}: nothing estimates the error of its pressure; refine the mesh, or take more segments"))
+        .then(|| format!("contact {name}: nothing estimates the error of its pressure; {remedy}"))
 }
 
 /// A reaction at the corner of a body that no mesh resolves: the force is right.

@@ -1,4 +1,4 @@
-//! The runs of a study as lines in a diagram: points joined along one key, with what they say together.
+//! The runs of a study as lines in a diagram: points joined along some keys, with what they say together.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -11,7 +11,7 @@ use super::fit::{PowerLaw, front};
 use super::plan::{Plan, PlannedRun};
 use super::repeats::Spread;
 
-/// Points that differ in one key alone, `mesh.refine` unless the study says otherwise.
+/// Points that differ in some keys alone, in `mesh.refine` unless the study says otherwise.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// Name of the case.
@@ -60,10 +60,10 @@ impl LinePoint {
 
 /// All lines of a study, in the order of its runs.
 pub fn lines(plan: &Plan, results: &[Ended]) -> Vec<Line> {
-    let along = plan.keys.iter().position(|key| *key == plan.along);
     let same = |a: &PlannedRun, b: &PlannedRun| {
-        let mut values = a.values.iter().zip(&b.values).enumerate();
-        (&a.case, &a.curve, a.ranks) == (&b.case, &b.curve, b.ranks) && values.all(|(at, (a, b))| Some(at) == along || a == b)
+        let mut values = a.values.iter().zip(&b.values).zip(&plan.keys);
+        let same_values = values.all(|((a, b), key)| plan.along.contains(key) || a == b);
+        (&a.case, &a.curve, a.ranks) == (&b.case, &b.curve, b.ranks) && same_values
     };
     let mut found: Vec<(&PlannedRun, Vec<Range<usize>>)> = Vec::new();
     for group in plan.groups() {
@@ -76,7 +76,7 @@ pub fn lines(plan: &Plan, results: &[Ended]) -> Vec<Line> {
     let first: Vec<&PlannedRun> = found.iter().map(|(run, _)| *run).collect();
     let line = |(run, groups): &(&PlannedRun, Vec<Range<usize>>)| {
         let points = groups.iter().filter_map(|group| point(plan, &results[group.clone()])).collect();
-        Line::new(plan, run, name(plan, run, &first, along), points)
+        Line::new(plan, run, name(plan, run, &first), points)
     };
     let mut lines: Vec<Line> = found.iter().map(line).collect();
     plan.errors.iter().for_each(|error| mark_fronts(&mut lines, &error.text));
@@ -101,9 +101,9 @@ impl Line {
 }
 
 /// What tells a line from all others: its curve, then keys with several values, then ranks.
-fn name(plan: &Plan, run: &PlannedRun, all: &[&PlannedRun], along: Option<usize>) -> String {
+fn name(plan: &Plan, run: &PlannedRun, all: &[&PlannedRun]) -> String {
     let mut words: Vec<String> = run.curve.iter().cloned().collect();
-    for (at, key) in plan.keys.iter().enumerate().filter(|(at, _)| Some(*at) != along) {
+    for (at, key) in plan.keys.iter().enumerate().filter(|(_, key)| !plan.along.contains(key)) {
         if let Some(value) = run.values[at].as_ref().filter(|_| all.iter().any(|other| other.values[at] != run.values[at])) {
             let last = key.rsplit('.').next().unwrap_or(key);
             words.push(value.as_str().map_or_else(|| format!("{last} {value}"), str::to_owned));
@@ -175,7 +175,7 @@ mod tests {
             keys: vec!["mesh.refine".into(), "solver.name".into()],
             errors: ["errors.energy", "errors.force"].map(|path| SummaryPath::parse(path).unwrap()).to_vec(),
             time: SummaryPath::parse("time_s.total").unwrap(),
-            along: "mesh.refine".into(),
+            along: vec!["mesh.refine".into()],
             columns: Vec::new(),
             timeout: Duration::from_secs(1),
             runs: runs.flatten().collect(),
@@ -249,8 +249,10 @@ mod tests {
         }
         let names = |plan: &Plan| lines(plan, &results(plan)).into_iter().map(|line| line.name).collect::<Vec<_>>();
         assert_eq!(names(&plan), ["auto, 1 rank", "direct, 2 ranks"]);
-        plan.along = "solver.name".into();
+        plan.along = vec!["solver.name".into()];
         assert_eq!(names(&plan)[..2], ["refine 3, 1 rank", "refine 1, 1 rank"]);
+        plan.along.push("mesh.refine".into());
+        assert_eq!(names(&plan), ["1 rank", "2 ranks"]);
         for run in &mut plan.runs {
             (run.ranks, run.values) = (1, vec![Some(1.into()), Some("auto".into())]);
         }

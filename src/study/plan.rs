@@ -37,8 +37,8 @@ pub struct Plan {
     pub errors: Vec<SummaryPath>,
     /// Where the time axis does.
     pub time: SummaryPath,
-    /// The key along which the points of a line are joined.
-    pub along: String,
+    /// The keys along which the points of a line are joined.
+    pub along: Vec<String>,
     /// What else is asked of `summary.json`.
     pub columns: Vec<SummaryPath>,
     /// Time limit of a run.
@@ -89,9 +89,9 @@ impl Plan {
             single => Ok(vec![SummaryPath::read(single)?]),
         });
         let time = root.or("time", "time_s.total", SummaryPath::read);
-        let along = root.optional("along", |value| {
-            let names = read_key(&values::name(value)?);
-            names.map(|names| dotted(&names)).ok_or("must be a key of the case with dots, as in \"mesh.refine\"".into())
+        let along = root.optional("along", |value| match value {
+            Value::Array(_) => values::list("a list of keys of the case", read_along)(value),
+            single => Ok(vec![read_along(single)?]),
         });
         let columns = root.optional("columns", values::list("a list of paths in summary.json", SummaryPath::read));
         let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
@@ -102,7 +102,7 @@ impl Plan {
         moves.check_overlaps(root);
         moves.check_keys(&planned, root);
         let keys = moves.keys();
-        if let Some(along) = along.as_ref().filter(|along| !keys.contains(along)) {
+        if let Some(along) = along.iter().flatten().find(|along| !keys.contains(along)) {
             root.problem(&["along"], format!("{along} stands in no grid; take one of its keys"));
         }
         let (ranks, repeat, timeout) = (ranks?, repeat?, timeout?);
@@ -112,12 +112,18 @@ impl Plan {
             keys,
             errors: errors.unwrap_or_default(),
             time: time?,
-            along: along.unwrap_or("mesh.refine".into()),
+            along: along.unwrap_or(vec!["mesh.refine".into()]),
             columns: columns.unwrap_or_default(),
             timeout,
             runs,
         })
     }
+}
+
+/// A key of the case, as it is told from others.
+fn read_along(value: &Value) -> Result<String, String> {
+    let names = read_key(&values::name(value)?);
+    names.map(|names| dotted(&names)).ok_or("must be a key of the case with dots, as in \"mesh.refine\"".into())
 }
 
 /// Finds the case files, and a name for each that no other has.

@@ -144,6 +144,7 @@ fn what_nothing_estimates_is_told() {
             &ContactSummary { zones: vec![ZoneSummary { lambda, ..zone() }], ..ContactSummary::default() },
             "seam",
             None,
+            FINER,
         )
     };
     assert_eq!(told(Some(0.01)), None);
@@ -188,4 +189,21 @@ fn what_is_beyond_the_model_spoils_the_force_too() {
     let coarse = |summary: &mut Summary| summary.contact.get_mut("seam").expect("it is there").zones[0].lambda = Some(0.2);
     let found = judged(true, coarse, &[]);
     assert!(found.0 == Some(false) && found.1 == Some(true) && found.2.contains("whose force is to be trusted"), "{found:?}");
+}
+
+/// With an accuracy the mesh and its segments are the program's own.
+#[test]
+fn advice_names_nothing_that_an_accuracy_overrides() {
+    let rough = |summary: &mut Summary| {
+        let contact = summary.contact.get_mut("seam").expect("it is there");
+        (contact.missing, contact.inf_sup, contact.zones[0].lambda) = (Some(0.5), Some(0.01), Some(0.2));
+    };
+    let given = "contact.seam.segments=30";
+    let (.., without) = judged(true, rough, &[given]);
+    assert!(without.contains("take more segments") && without.contains("take fewer segments"), "{without}");
+    let (.., with) = judged(true, rough, &[given, "accuracy=1e-3"]);
+    assert!(with.contains("ask for a smaller error"), "{with}");
+    assert!(!with.contains("segments (") && !with.contains("more segments") && !with.contains(FINER), "{with}");
+    let (.., sampled) = judged(true, rough, &[given, "accuracy=1e-3", "contact.seam.quadrature=segment"]);
+    assert!(sampled.contains("take quadrature = \"cut\"") && !sampled.contains("ask for"), "{sampled}");
 }

@@ -153,8 +153,10 @@ fn the_command_line_overrides_keys_of_the_study() {
 #[test]
 fn points_are_joined_along_a_key_that_moves() {
     let along = |text: &str| parse(&format!("cases = ['rings.toml']\n{text}\ngrid.'contact.a.segments' = [1, 2]"));
-    assert_eq!(along("").unwrap().along, "mesh.refine");
-    assert_eq!(along("along = 'contact.a.segments'").unwrap().along, "contact.a.segments");
+    assert_eq!(along("").unwrap().along, ["mesh.refine"]);
+    assert_eq!(along("along = 'contact.a.segments'").unwrap().along, ["contact.a.segments"]);
+    let both = "along = ['contact.a.segments', 'mesh.order']\ngrid.'mesh.order' = [1, 2]";
+    assert_eq!(along(both).unwrap().along, ["contact.a.segments", "mesh.order"]);
     let words = along("along = 'mesh.order'").unwrap_err();
     assert!(words.contains("along = \"mesh.order\": mesh.order stands in no grid; take one of its keys"), "{words}");
 }

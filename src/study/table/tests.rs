@@ -21,7 +21,7 @@ fn plan() -> Plan {
         keys: vec!["mesh.refine".into()],
         errors: vec![SummaryPath::parse("errors.energy").unwrap()],
         time: SummaryPath::parse("time_s.total").unwrap(),
-        along: "mesh.refine".into(),
+        along: vec!["mesh.refine".into()],
         columns: ["errors.energy", "probe.tip.u.1"].map(|path| SummaryPath::parse(path).unwrap()).to_vec(),
         timeout: Duration::from_secs(1),
         runs: vec![run(1), run(2)],

@@ -92,8 +92,7 @@ impl Display for Standing {
 }
 
 /// What helps where the contact conditions cannot be met.
-const NOT_MET: &str =
-    "rounding allows no better; take fewer segments, or a mesh whose bodies are less slender or less unlike in stiffness";
+const NOT_MET: &str = "rounding allows no better; take bodies that are less slender or less unlike in stiffness, or, without [accuracy], fewer segments";
 
 /// What does not stand.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -119,7 +118,7 @@ pub enum Failure {
     SetChanges(String),
     /// The contact boundary.
     #[error(
-        "the contact boundary still moves after {fits} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; refine the mesh where contact is, or take another number of segments",
+        "the contact boundary still moves after {fits} fits: by {} of its length, the displacement by {} of its norm, {} multipliers change; refine the mesh where contact is, or, without [accuracy], take another number of segments",
         figure(.moved), figure(.du), .flipped.map_or("all".to_string(), |count| count.to_string())
     )]
     BoundaryMoves {
@@ -134,7 +133,7 @@ pub enum Failure {
     },
     /// Bodies penetrate each other where the contact boundary has ended.
     #[error(
-        "contact {contact}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh there, or take more segments"
+        "contact {contact}: the bodies penetrate each other by {depth:.1e} beyond the ends of the contact boundary; refine the mesh there, or, without [accuracy], take more segments"
     )]
     Beyond {
         /// Name of the contact.

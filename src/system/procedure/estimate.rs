@@ -109,7 +109,7 @@ impl Difference {
         for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
             let pressure = solution.pressure(contact);
             let now = pressure.force();
-            force.push(((now - before) / now).abs());
+            force.push(share((now - before).abs(), now.abs()));
             ends.push(way_of_ends(&pressure, &coarse.pressure(at)));
             within_segments.push(ends_within_segments(&pressure));
             let before = |x| coarse.pressure(at).at_foot(x);
@@ -117,7 +117,7 @@ impl Difference {
         }
         let whole = whole.iter().sum::<f64>();
         let local = local.into_iter().map(|part| part.scaled(1.0 / whole)).collect();
-        Ok(Self { energy: apart.iter().sum::<f64>() / whole, local, force, ends, within_segments, probes, zones })
+        Ok(Self { energy: share(apart.iter().sum::<f64>(), whole), local, force, ends, within_segments, probes, zones })
     }
 }
 
@@ -195,6 +195,11 @@ fn falls(last: &Difference, before: Option<&Difference>) -> Vec<f64> {
     last.local.iter().enumerate().map(fall).collect()
 }
 
+/// A part of a whole; none where both are nothing, as on a contact that stays open.
+fn share(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part / whole }
+}
+
 /// Relative differences of displacement and stress at a point; not a number where no body holds it. **Collective**
 fn at_probe(
     problem: &Discretisation,
@@ -221,7 +226,7 @@ fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f64 {
     };
     let (now, before) = (ends(now), ends(before));
     if now.is_empty() {
-        return f64::NAN;
+        return if before.is_empty() { 0.0 } else { f64::NAN };
     }
     if now.len() != before.len() {
         return 1.0;

@@ -1,9 +1,11 @@
 //! The next mesh of a sequence: refined where the errors lie, and at once again where it can be foreseen that too much is left.
 //!
-//! Differences are known on cells, sixteen in each macro triangle, so that the parts of a refined triangle have indicators
+//! Differences are known on cells, sixty-four in each macro triangle, so that the parts of a refined triangle have indicators
 //! before anything is solved on them: what lies in their cells, less by what the last refinement has brought there.
 
+use super::across::across;
 use super::marking::marked;
+use crate::contact::Pair;
 use crate::mesh::{BisectedMesh, Cells, Origin};
 
 /// Rounds of refinement before the next solve, at most: parts of a third round are single cells.
@@ -82,10 +84,11 @@ pub(super) struct NextMesh {
     pub errors: Vec<Option<f64>>,
 }
 
-/// The next mesh, by the indicators of all goals that are missed; all triangles are refined if these tell nothing. Nothing if it
-/// has more unknowns than `most`.
+/// The next mesh, by the indicators of all goals that are missed; what lies across a contact of `pairs` from fine edges follows
+/// them. All triangles are refined if these tell nothing. Nothing if it has more unknowns than `most`.
 pub(super) fn next_mesh(
     mesh: &BisectedMesh,
+    pairs: &[Pair],
     missed: &[Indicators],
     unknowns: impl Fn(&BisectedMesh) -> usize,
     most: Option<usize>,
@@ -103,7 +106,7 @@ pub(super) fn next_mesh(
         }
         let now = next.as_ref().unwrap_or(&first);
         let candidates = SHARES.iter().map(|share| {
-            let refined = refined(now, &left, *share, round == 0);
+            let refined = refined(now, pairs, &left, *share, round == 0);
             let left = missed.iter().map(|goal| goal.on(&refined)).collect();
             (refined, left)
         });
@@ -114,9 +117,10 @@ pub(super) fn next_mesh(
 }
 
 /// A mesh refined where the triangles hold a share of what is left of the errors.
-fn refined(mesh: &BisectedMesh, left: &[Indicators], share: f64, is_first: bool) -> BisectedMesh {
+fn refined(mesh: &BisectedMesh, pairs: &[Pair], left: &[Indicators], share: f64, is_first: bool) -> BisectedMesh {
     let open = left.iter().filter(|goal| is_first || goal.is_foreseen_to_be_missed());
     let mut chosen: Vec<u32> = open.flat_map(|goal| goal.marked(share)).collect();
+    chosen.extend(across(&mesh.mesh, pairs, &chosen));
     chosen.sort_unstable();
     chosen.dedup();
     if chosen.is_empty() {
@@ -168,7 +172,7 @@ mod tests {
         let first = BisectedMesh::new(two_blocks());
         let point = Point::new(0.0, 1.0);
         let sizes = [1.5, 3.0].map(|error| {
-            let next = next_mesh(&first, &[at(&first.mesh, point, error)], unknowns, None).expect("no limit");
+            let next = next_mesh(&first, &[], &[at(&first.mesh, point, error)], unknowns, None).expect("no limit");
             let near = (0..next.mesh.mesh.triangles.len()).filter(|&k| next.mesh.mesh.locate(k, point).is_some());
             let foreseen = next.errors[0].expect("known");
             // Each quartering of what lies at the point halves the error; what keeps the mesh conforming may halve it further.
@@ -185,16 +189,16 @@ mod tests {
     fn limits_hold_and_nothing_known_refines_everywhere() {
         let first = BisectedMesh::new(two_blocks());
         let point = Point::new(0.0, 1.0);
-        let all = next_mesh(&first, &[], unknowns, None).expect("no limit");
+        let all = next_mesh(&first, &[], &[], unknowns, None).expect("no limit");
         assert_eq!(all.mesh.mesh.triangles.len(), 4 * first.mesh.triangles.len());
         let nothing = Indicators { local: vec![LocalIndicator::default(); 6], error: None, trust: 1.0, is_norm: true };
-        let once = next_mesh(&first, &[nothing], unknowns, None).expect("no limit");
+        let once = next_mesh(&first, &[], &[nothing], unknowns, None).expect("no limit");
         assert_eq!(once.mesh.mesh.triangles.len(), all.mesh.mesh.triangles.len());
-        assert!(next_mesh(&first, &[at(&first.mesh, point, 9.0)], unknowns, Some(unknowns(&first))).is_none());
+        assert!(next_mesh(&first, &[], &[at(&first.mesh, point, 9.0)], unknowns, Some(unknowns(&first))).is_none());
         let far = at(&first.mesh, point, 1e9);
-        let next = next_mesh(&first, std::slice::from_ref(&far), unknowns, None).expect("no limit");
+        let next = next_mesh(&first, &[], std::slice::from_ref(&far), unknowns, None).expect("no limit");
         let limit = unknowns(&next.mesh) - 1;
-        let less = next_mesh(&first, &[far], unknowns, Some(limit)).expect("one round fits");
+        let less = next_mesh(&first, &[], &[far], unknowns, Some(limit)).expect("one round fits");
         assert!(unknowns(&less.mesh) <= limit);
     }
 
@@ -204,7 +208,7 @@ mod tests {
         let goal = at(&first.mesh, Point::new(0.0, 1.0), 3.0);
         let count = |trust| {
             let goal = Indicators { trust, ..goal.clone() };
-            next_mesh(&first, &[goal], unknowns, None).expect("no limit").mesh.mesh.triangles.len()
+            next_mesh(&first, &[], &[goal], unknowns, None).expect("no limit").mesh.mesh.triangles.len()
         };
         assert!(count(0.4) < count(1.0), "half of what was foreseen came before");
     }

@@ -48,6 +48,10 @@ impl Procedure<'_> {
         let all = estimate.of_zones(at, &pressure, &zones, &points);
         let counting = all.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
         let errors: Option<Vec<f64>> = counting.map(|((zone, _), _)| zone.pressure).collect();
+        if zones.is_empty() {
+            // Where nothing presses, the force is all that there is to know of λ.
+            return Ok(estimate.force.get(at).copied().flatten());
+        }
         Ok(errors.and_then(|errors| errors.into_iter().reduce(f64::max)))
     }
 }

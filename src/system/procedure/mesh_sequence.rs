@@ -143,7 +143,7 @@ impl MeshSequence {
     /// Refines where the goals are missed, everywhere without any, if the next mesh then has no more unknowns than are allowed.
     fn refine(&mut self, missed: &[Indicators]) -> bool {
         let most = self.adaptation.accuracy.most_unknowns;
-        let Some(next) = next_mesh(&self.mesh, missed, |mesh| self.unknowns(mesh), most) else { return false };
+        let Some(next) = next_mesh(&self.mesh, &self.scene.pairs, missed, |mesh| self.unknowns(mesh), most) else { return false };
         self.origins = next.mesh.origins.iter().map(|origin| origin.within(&self.origins)).collect();
         self.mesh = next.mesh;
         let places: Vec<usize> = self.adaptation.missed().map(|(place, _)| place).collect();

@@ -9,6 +9,7 @@
 //! | boundaries | `boundaries.rs` with `following.rs` | boundary, displacement and set stand |
 //! | active sets | `contact_loop.rs` | the set stands, and the residual is below its tolerance |
 
+mod across;
 mod adapting;
 mod at_rest;
 mod boundaries;
