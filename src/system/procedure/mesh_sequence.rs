@@ -168,3 +168,102 @@ fn prepared(mut scene: Scene) -> Scene {
     }
     scene
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::{AdaptedMesh, Goal, Quantity};
+    use crate::contact::MultiplierSpace;
+    use crate::geometry::Point;
+    use crate::system::procedure::ending::{Ending, Failure, Standing};
+    use crate::system::procedure::estimate::Estimate;
+    use crate::system::samples::{blocks, pair};
+    use crate::system::{BoundaryMotion, Coupling, Discretisation, Preconditioning, Solution, spaces};
+
+    fn sequence() -> MeshSequence {
+        let scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new());
+        let goals = vec![Goal { quantity: Quantity::Energy, tolerance: 1e-3 }];
+        MeshSequence::new(scene, &Accuracy { goals, most_unknowns: None, most_seconds: None })
+    }
+
+    /// The present mesh as if it had been solved, and kept among all.
+    fn solved(sequence: &mut MeshSequence, ending: Ending) -> Solved {
+        let scene = sequence.scene.clone();
+        let spaces = spaces(&scene, 0).expect("a small mesh");
+        let coupling = Coupling { rows: Vec::new(), gap: Vec::new(), owners: Vec::new(), lost: Vec::new() };
+        let solution = Solution::nothing(&spaces[spaces.len() - 1], &[]);
+        let problem = Discretisation { scene, spaces, contacts: Vec::new(), coupling, motion: BoundaryMotion::default() };
+        sequence.adaptation.meshes.push(AdaptedMesh {
+            number: sequence.adaptation.meshes.len() + 1,
+            macro_triangles: problem.scene.mesh.triangles.len(),
+            refine: 2,
+            unknowns: problem.unknown_count(),
+            errors: vec![Some(1e-2)],
+            seconds: 0.0,
+        });
+        Solved {
+            problem,
+            solution,
+            ending,
+            passes: Vec::new(),
+            boundaries: Vec::new(),
+            solver: String::new(),
+            preconditioning: Preconditioning::Sweep,
+            estimate: Estimate::default(),
+            coarse: Vec::new(),
+            adaptation: None,
+        }
+    }
+
+    /// The next scene, on one rank.
+    fn go_over(sequence: &mut MeshSequence) {
+        let mesh = sequence.mesh.mesh.clone();
+        let partition = crate::mesh::Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
+        sequence.scene = Scene { mesh: mesh.into(), partition: partition.into(), ..sequence.scene.clone() };
+    }
+
+    #[test]
+    fn the_last_mesh_that_could_be_solved_is_the_result_where_finer_ones_are_refused() {
+        let mut sequence = sequence();
+        let first = solved(&mut sequence, Ending::Converged(Standing::Residual));
+        let unknowns = first.problem.unknown_count();
+        assert!(sequence.go_on(first, None, &[]).is_none(), "there is a next mesh");
+        go_over(&mut sequence);
+        let failure = || Ending::NotConverged(Failure::BoundaryLost("the boundary is lost".into()));
+        let mut ended = None;
+        for _ in 0..MOST_FAILED {
+            let failed = solved(&mut sequence, failure());
+            ended = sequence.go_on(failed, None, &[]);
+            go_over(&mut sequence);
+        }
+        let ended = ended.expect("too many could not be solved");
+        assert!(ended.ending.is_converged() && ended.problem.unknown_count() == unknowns);
+        let adaptation = ended.adaptation.expect("a sequence");
+        assert_eq!((adaptation.meshes.len(), adaptation.end), (1, SequenceEnd::Refused));
+        assert_eq!(adaptation.refusal.as_deref(), Some("the boundary is lost"));
+    }
+
+    #[test]
+    fn a_scene_that_no_mesh_can_solve_is_refused_with_the_first_reason() {
+        let mut sequence = sequence();
+        let mut refusals = 1..;
+        while sequence.goes_on_after(SystemError::Case(format!("refusal {}", refusals.next().expect("more")))) {
+            go_over(&mut sequence);
+        }
+        let refused = sequence.given_up().err().expect("nothing was solved").to_string();
+        assert!(refused.contains("refusal 1"), "{refused}");
+    }
+
+    #[test]
+    fn triangles_know_where_they_lie_in_the_last_mesh_that_was_solved() {
+        let mut sequence = sequence();
+        let whole = sequence.scene.mesh.triangles.len();
+        let first = solved(&mut sequence, Ending::Converged(Standing::Residual));
+        sequence.go_on(first, None, &[]);
+        go_over(&mut sequence);
+        assert!(sequence.goes_on_after(SystemError::Case("too coarse".into())));
+        let (_, origins) = sequence.last().expect("the first one was solved");
+        assert_eq!(origins.len(), 16 * whole, "refined twice since");
+        assert!(origins.iter().all(|origin| (origin.area() - 1.0 / 16.0).abs() < 1e-12 && (origin.triangle as usize) < whole));
+    }
+}
