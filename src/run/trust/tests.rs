@@ -133,7 +133,7 @@ fn the_pressure_at_a_corner_is_left_open_if_the_force_is_right() {
     let corner = ZoneSummary { edges: Some(1.5), corner: Some(true), lambda: None, worst: None, ..zone() };
     let contact = ContactSummary { zones: vec![corner], ..ContactSummary::default() };
     assert!(zone_doubts(&contact, Some(true), FINER).is_empty());
-    assert!(unknown_words(&contact, "seam", Some(true)).is_some_and(|words| words.contains("singular")));
+    assert!(unknown_words(&contact, "seam", Some(true), FINER).is_some_and(|words| words.contains("singular")));
     assert!(!zone_doubts(&contact, Some(false), FINER).is_empty());
 }
 
