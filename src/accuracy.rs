@@ -25,6 +25,8 @@ pub enum Quantity {
     Force(String),
     /// λ of a contact, root mean square over the middle of what presses.
     Pressure(String),
+    /// The largest λ of a contact.
+    Peak(String),
     /// The ends of contact, by its width.
     Ends(String),
     /// The displacement at a point, by its own size.
@@ -86,6 +88,8 @@ pub enum SequenceEnd {
     Meshes,
     /// The estimate of a goal no longer falls, or cannot be had.
     Stuck,
+    /// The largest λ of a contact is asked for, and grows without bound.
+    Unbounded,
 }
 
 /// How meshes were adapted to an accuracy.
@@ -106,6 +110,7 @@ impl Quantity {
             Self::Energy => "energy",
             Self::Force(_) => "force",
             Self::Pressure(_) => "pressure",
+            Self::Peak(_) => "peak",
             Self::Ends(_) => "ends",
             Self::Displacement(_) => "displacement",
             Self::Stress(_) => "stress",
@@ -116,7 +121,7 @@ impl Quantity {
     pub fn of(&self) -> Option<&str> {
         match self {
             Self::Energy => None,
-            Self::Force(name) | Self::Pressure(name) | Self::Ends(name) => Some(name),
+            Self::Force(name) | Self::Pressure(name) | Self::Peak(name) | Self::Ends(name) => Some(name),
             Self::Displacement(probe) | Self::Stress(probe) => Some(&probe.name),
         }
     }

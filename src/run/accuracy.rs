@@ -66,6 +66,7 @@ fn place_of<'a>(quantity: &Quantity, step: &'a mut AccuracyStep) -> &'a mut Opti
         Quantity::Energy => &mut step.energy,
         Quantity::Force(name) => &mut step.contact.entry(name.clone()).or_default().force,
         Quantity::Pressure(name) => &mut step.contact.entry(name.clone()).or_default().pressure,
+        Quantity::Peak(name) => &mut step.contact.entry(name.clone()).or_default().peak,
         Quantity::Ends(name) => &mut step.contact.entry(name.clone()).or_default().ends,
         Quantity::Displacement(probe) => &mut step.probe.entry(probe.name.clone()).or_default().displacement,
         Quantity::Stress(probe) => &mut step.probe.entry(probe.name.clone()).or_default().stress,
@@ -138,6 +139,7 @@ fn limits(Adaptation { accuracy, end, .. }: &Adaptation) -> String {
         SequenceEnd::Unknowns if unknowns.is_none() => "; the next mesh would take more than half of the memory that is left",
         SequenceEnd::Stuck => "; an estimate no longer falls, or cannot be had",
         SequenceEnd::Meshes => "; there are no more meshes than that",
+        SequenceEnd::Unbounded => "; a largest λ that is asked for grows without bound towards an end of contact: it has no value, ask for pressure or force instead",
         _ => "",
     };
     allowed + end

@@ -1,7 +1,7 @@
 //! The pressure on one contact boundary.
 
 use super::{Contact, Solution};
-use crate::contact::{Zone, oscillation, zone_counts};
+use crate::contact::{Zone, oscillation, recovered_peak, zone_counts};
 use crate::geometry::{Formula, Point, gauss_points};
 
 /// λ of one contact, with the set that it was solved for.
@@ -81,6 +81,14 @@ impl<'a> ContactPressure<'a> {
     /// The largest λ of one zone.
     pub fn peak_of(&self, zone: &Zone) -> f64 {
         zone.peak(&self.contact.multipliers, self.values)
+    }
+
+    /// The largest value of a smooth pressure with the means of λ; nothing where λ is largest on a zone of less than three
+    /// segments.
+    pub fn recovered_peak(&self) -> Option<f64> {
+        let zones = self.zones();
+        let highest = zones.iter().max_by(|a, b| self.peak_of(a).total_cmp(&self.peak_of(b)))?;
+        recovered_peak(&self.contact.boundary, &self.contact.multipliers, self.values, highest)
     }
 
     /// How much of it is checkerboard; nothing if there is not enough to tell.

@@ -34,6 +34,9 @@ pub struct ContactGoals {
     /// λ over the middle of what presses, root mean square.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure: Option<GoalSummary>,
+    /// The largest λ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peak: Option<GoalSummary>,
     /// The ends of contact, by its width.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ends: Option<GoalSummary>,

@@ -6,7 +6,7 @@ use super::marking::marked;
 use super::observer::{Event, Observer, Work};
 use super::settings::Procedure;
 use super::solved::Solved;
-use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, SequenceEnd};
+use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
 use crate::contact::SegmentRule;
 use crate::mesh::{BisectedMesh, levels};
 use crate::petsc::StageGuard;
@@ -23,6 +23,9 @@ const MOST_MESHES: usize = 40;
 /// Meshes within which the error of a goal must fall to this share, or it will not.
 const STUCK: usize = 6;
 const FALLS: f64 = 0.8;
+
+/// Meshes in a row that tell that λ grows without bound.
+const UNBOUNDED: usize = 4;
 
 /// How much larger a mesh must be after so many, at least, if that is to be said.
 const LARGER: f64 = 4.0;
@@ -128,10 +131,19 @@ impl Procedure<'_> {
             (!solved.is_solved() || *failed == MOST_FAILED, SequenceEnd::Unsolved),
             (adaptation.is_reached(), SequenceEnd::Reached),
             (late, SequenceEnd::Seconds),
+            (self.is_unbounded(adaptation, solved), SequenceEnd::Unbounded),
             (is_stuck(adaptation), SequenceEnd::Stuck),
             (meshes.len() == MOST_MESHES, SequenceEnd::Meshes),
         ];
         all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end)
+    }
+
+    /// Whether the largest λ of a contact is asked for, and grows without bound, as some meshes in a row have told.
+    fn is_unbounded(&self, adaptation: &Adaptation, solved: &Solved) -> bool {
+        let Some(then) = adaptation.meshes.len().checked_sub(UNBOUNDED) else { return false };
+        let never = |place: usize| adaptation.meshes[then..].iter().all(|mesh| mesh.errors[place].is_none());
+        let grows = |goal: &Goal| matches!(&goal.quantity, Quantity::Peak(name) if self.has_unbounded_peak(solved, name));
+        adaptation.missed().any(|(place, goal)| never(place) && grows(goal))
     }
 
     /// The macro triangles that hold most of the error of each goal that is missed; all, if nothing tells. **Collective**

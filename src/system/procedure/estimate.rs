@@ -25,6 +25,9 @@ const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 /// Factors by which errors of a force fall on a smooth solution, P1 and P2.
 const FORCE_FALLS: [f64; 2] = [0.25, 0.125];
 
+/// Factor by which errors of the largest pressure fall on a smooth solution.
+const PEAK_FALLS: f64 = 0.25;
+
 /// Factor by which errors of the ends of contact fall: they lie at ends of segments.
 const ENDS_FALL: f64 = 0.5;
 
@@ -42,6 +45,9 @@ const FORCE_SLOWEST: f64 = 0.6;
 /// Error of a force by a difference that says nothing of how it falls.
 const FORCE_UNKNOWN: f64 = 0.6;
 
+/// λ at both ends of a zone, on the mesh before and on the one before that (stress).
+pub(super) type AtEnds = [Option<[f64; 2]>; 2];
+
 /// How a solution differs from that on the mesh before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
@@ -51,6 +57,10 @@ pub struct Difference {
     local: Vec<f64>,
     /// Relative difference of `∫λ ds`, for each contact.
     force: Vec<f64>,
+    /// Relative difference of the largest pressure, recovered from means of λ, for each contact.
+    peak: Vec<f64>,
+    /// How far the largest λ is from that, relative, for each contact.
+    above: Vec<f64>,
     /// Largest way of an end of contact by the width of its zone, for each contact.
     ends: Vec<f64>,
     /// Error of these ends, at least, as they lie at ends of segments; by the same width.
@@ -72,6 +82,8 @@ pub struct Estimate {
     pub local: Vec<f64>,
     /// Of `∫λ ds`, for each contact.
     pub force: Vec<Option<f64>>,
+    /// Of the largest λ, for each contact.
+    pub peak: Vec<Option<f64>>,
     /// Of the ends of contact by the width of its zone, for each contact.
     pub ends: Vec<Option<f64>>,
     /// Of the displacement and of the stress at each probe that a goal is set for.
@@ -98,10 +110,14 @@ impl Difference {
         let local = local_strain_energy(problem, &apart, session)?;
         let apart = strain_energy(problem, &apart, session)?;
         let (mut force, mut ends, mut within_segments, mut zones) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut peak, mut above) = (Vec::new(), Vec::new());
         for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
             let pressure = solution.pressure(contact);
             let now = pressure.force();
             force.push(((now - before) / now).abs());
+            let [now, before] = [pressure.recovered_peak(), coarse.pressure(at).recovered_peak()];
+            peak.push(now.zip(before).map_or(f64::NAN, |(now, before)| (before / now - 1.0).abs()));
+            above.push(now.map_or(f64::NAN, |now| (pressure.largest() / now - 1.0).abs()));
             ends.push(way_of_ends(&pressure, &coarse.pressure(at)));
             within_segments.push(ends_within_segments(&pressure));
             let before = |x| coarse.pressure(at).at_foot(x);
@@ -109,7 +125,7 @@ impl Difference {
         }
         let whole = whole.iter().sum::<f64>();
         let local = local.into_iter().map(|part| part / whole).collect();
-        Ok(Self { energy: apart.iter().sum::<f64>() / whole, local, force, ends, within_segments, probes, zones })
+        Ok(Self { energy: apart.iter().sum::<f64>() / whole, local, force, peak, above, ends, within_segments, probes, zones })
     }
 }
 
@@ -129,6 +145,10 @@ impl Estimate {
             None => Some(last.energy * ENERGY_BY_ONE[order.degree() - 1].powi(2)),
         };
         let force = |k: usize| value_left(before.map(|before| before.force[k]), last.force[k], FORCE_FALLS[order.degree() - 1]);
+        let peak = |k: usize| {
+            if std::env::var("DBG").is_ok() { eprintln!("DBG peak before {:?} last {} above {}", before.map(|b| b.peak[k]), last.peak[k], last.above[k]); }
+            value_left(before.map(|before| before.peak[k]), last.peak[k], PEAK_FALLS).map(|error| (error + last.above[k]).max(residual))
+        };
         let ends = |k: usize| {
             // Ends that stay where they are from mesh to mesh are no better for it than the segments are short.
             value_left(before.map(|before| before.ends[k]), last.ends[k], ENDS_FALL)
@@ -150,6 +170,7 @@ impl Estimate {
             difference: Some(last.energy.sqrt()).filter(|difference| difference.is_finite()),
             local: last.local.clone(),
             force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
+            peak: contacts.clone().map(peak).collect(),
             ends: contacts.clone().map(ends).collect(),
             probes: (0..last.probes.len()).map(probe).collect(),
             zones: contacts.map(zones).collect(),
@@ -164,7 +185,7 @@ impl Estimate {
         pressure: &ContactPressure,
         zones: &[Zone],
         points: &[TracePoint],
-    ) -> Vec<(ZoneEstimate, [Option<[f64; 2]>; 2])> {
+    ) -> Vec<(ZoneEstimate, AtEnds)> {
         let errors = zone_errors(pressure.contact, pressure.values, zones, points);
         let one = |(k, errors): (usize, &ZoneErrors)| {
             let differences = self.zones.get(at).and_then(|of_contact| of_contact.get(k));
@@ -173,6 +194,12 @@ impl Estimate {
             (estimate, differences.map(|difference| difference.map(|found| found.at_ends)))
         };
         errors.iter().enumerate().map(one).collect()
+    }
+
+    /// What λ was at the ends of each zone of contact `at`; nothing if there were no coarser meshes.
+    pub(super) fn at_ends(&self, at: usize) -> Vec<AtEnds> {
+        let zones = self.zones.get(at).map_or(&[][..], Vec::as_slice);
+        zones.iter().map(|pair| pair.each_ref().map(|difference| difference.as_ref().map(|found| found.at_ends))).collect()
     }
 }
 
@@ -266,6 +293,8 @@ mod tests {
             energy: square,
             local: Vec::new(),
             force: vec![square],
+            peak: vec![square],
+            above: vec![square],
             ends: vec![square],
             within_segments: vec![0.01],
             probes: Vec::new(),
