@@ -2,7 +2,7 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::element::{Order, PlaneStrain, shape, stress};
+use crate::element::{Order, PlaneStrain, SIX_POINTS, shape, stress};
 use crate::geometry::Point;
 use crate::mesh::lattice::Triangle;
 use crate::petsc::Session;
@@ -90,6 +90,58 @@ fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, 
     small.nodes::<N>().into_iter().map(|(i, j)| numbers.node(i, j)).zip(shape::<N>(l)).collect()
 }
 
+/// Root mean square of the size of the stress over the triangles of the lattice that hold a point; zero if no body holds it.
+/// **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn stress_around(
+    problem: &Discretisation,
+    u: &Field<2>,
+    body: usize,
+    x: Point,
+    session: &Session,
+) -> Result<f64, SystemError> {
+    let law = problem.scene.bodies[body].material.law();
+    let mut sums = [0.0; 2];
+    let added = holding(problem, body, x, session).into_iter().try_for_each(|(triangle, at)| {
+        match problem.finest().numbering.level.order {
+            Order::P1 => add_squares::<3>(problem, u, triangle, at, &law, &mut sums),
+            Order::P2 => add_squares::<6>(problem, u, triangle, at, &law, &mut sums),
+        }
+    });
+    agreed(session, added)?;
+    session.sum(&mut sums);
+    Ok(if sums[1] > 0.0 { (sums[0] / sums[1]).sqrt() } else { 0.0 })
+}
+
+fn add_squares<const N: usize>(
+    problem: &Discretisation,
+    u: &Field<2>,
+    triangle: usize,
+    at: Point,
+    law: &PlaneStrain,
+    sums: &mut [f64; 2],
+) -> Result<(), SystemError> {
+    let small = small_triangle(problem, triangle, at).0;
+    let x = positions(&problem.scene.mesh, triangle, problem.finest().numbering.level, &small.nodes::<N>());
+    let nodal = nodal::<N>(problem, u, triangle, &small);
+    for &(l, weight) in SIX_POINTS {
+        let s = stress(&x, &nodal, l, law)?;
+        sums[0] += weight * (s[0] * s[0] + s[1] * s[1] + 2.0 * s[2] * s[2]);
+        sums[1] += weight;
+    }
+    Ok(())
+}
+
+/// This rank's macro triangles of a body that hold a point, and its reference coordinates in them.
+fn holding(problem: &Discretisation, body: usize, x: Point, session: &Session) -> Vec<(usize, Point)> {
+    let mesh = &problem.scene.mesh;
+    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
+    let own = own.filter(|&triangle| mesh.triangles[triangle].body as usize == body);
+    own.filter_map(|triangle| Some((triangle, mesh.locate(triangle, x)?))).collect()
+}
+
 /// Nodal forces of the functional `v ↦ s : σ(v)`, mean over the triangles of the lattice that hold a point, where s is the
 /// mean of the stress of `u` on them, of any size: the direction in which it points. All zero if no body holds the point.
 /// **Collective**
@@ -104,11 +156,8 @@ pub fn stress_forces(
     session: &Session,
 ) -> Result<Field<2>, SystemError> {
     let law = problem.scene.bodies[body].material.law();
-    let mesh = &problem.scene.mesh;
-    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
-    let own = own.filter(|&triangle| mesh.triangles[triangle].body as usize == body);
-    let holding: Vec<(usize, Point)> = own.filter_map(|triangle| Some((triangle, mesh.locate(triangle, x)?))).collect();
     let mut forces = Field::<2>::zeros(problem, session);
+    let holding = holding(problem, body, x, session);
     let added = holding.into_iter().try_for_each(|(triangle, at)| match problem.finest().numbering.level.order {
         Order::P1 => add_stress_forces::<3>(problem, u, triangle, at, &law, &mut forces),
         Order::P2 => add_stress_forces::<6>(problem, u, triangle, at, &law, &mut forces),
