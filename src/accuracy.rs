@@ -68,6 +68,8 @@ pub struct AdaptedMesh {
     pub unknowns: usize,
     /// Estimated error of each goal; nothing where there is not enough to tell.
     pub errors: Vec<Option<f64>>,
+    /// True error of each goal, where the case tells it; empty if nobody has looked.
+    pub true_errors: Vec<Option<f64>>,
     /// Seconds since the first mesh was begun.
     pub seconds: f64,
 }

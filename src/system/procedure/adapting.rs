@@ -114,9 +114,10 @@ impl Procedure<'_> {
             refine: sequence.scene.refine,
             unknowns: solved.problem.unknown_count(),
             errors,
+            true_errors: Vec::new(),
             seconds: sequence.started.elapsed().as_secs_f64(),
         };
-        self.observer.observe(Event::Adapted { accuracy: &sequence.adaptation.accuracy, mesh: &adapted });
+        self.observer.observe(Event::Adapted { accuracy: &sequence.adaptation.accuracy, mesh: &adapted, solved });
         sequence.adaptation.meshes.push(adapted);
         Ok(())
     }
