@@ -25,6 +25,8 @@ pub enum Quantity {
     Force(String),
     /// λ of a contact, root mean square over the middle of what presses.
     Pressure(String),
+    /// The largest λ of a contact.
+    Peak(String),
     /// The ends of contact, by its width.
     Ends(String),
     /// The displacement at a point, by its own size.
@@ -66,6 +68,8 @@ pub struct AdaptedMesh {
     pub unknowns: usize,
     /// Estimated error of each goal; nothing where there is not enough to tell.
     pub errors: Vec<Option<f64>>,
+    /// True error of each goal, where the case tells it; empty if nobody has looked.
+    pub true_errors: Vec<Option<f64>>,
     /// Seconds since the first mesh was begun.
     pub seconds: f64,
 }
@@ -88,6 +92,8 @@ pub enum SequenceEnd {
     Stuck,
     /// Finer meshes could not be solved.
     Refused,
+    /// The largest λ of a contact is asked for, and grows without bound.
+    Unbounded,
 }
 
 /// How meshes were adapted to an accuracy.
@@ -110,6 +116,7 @@ impl Quantity {
             Self::Energy => "energy",
             Self::Force(_) => "force",
             Self::Pressure(_) => "pressure",
+            Self::Peak(_) => "peak",
             Self::Ends(_) => "ends",
             Self::Displacement(_) => "displacement",
             Self::Stress(_) => "stress",
@@ -125,7 +132,7 @@ impl Quantity {
     pub fn of(&self) -> Option<&str> {
         match self {
             Self::Energy => None,
-            Self::Force(name) | Self::Pressure(name) | Self::Ends(name) => Some(name),
+            Self::Force(name) | Self::Pressure(name) | Self::Peak(name) | Self::Ends(name) => Some(name),
             Self::Displacement(probe) | Self::Stress(probe) => Some(&probe.name),
         }
     }

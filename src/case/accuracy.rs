@@ -20,13 +20,17 @@ const TOLERANCES: [f64; 2] = [1e-8, 0.5];
 const LEAST_UNKNOWNS: i64 = 100;
 
 /// What an empty `[accuracy]` may hold.
-const SOME_GOAL: &str = "asks for nothing; give energy = 1e-4, say, or force, pressure, ends, displacement, stress";
+const SOME_GOAL: &str = "asks for nothing; give energy = 1e-4, say, or force, pressure, peak, ends, displacement, stress";
+
+/// Goals that a contact may have.
+const OF_CONTACTS: [&str; 4] = ["force", "pressure", "peak", "ends"];
 
 /// Tolerances of the goals that a contact may have.
 #[derive(Clone, Copy, Default)]
 struct OfContact {
     force: Option<f64>,
     pressure: Option<f64>,
+    peak: Option<f64>,
     ends: Option<f64>,
 }
 
@@ -91,13 +95,13 @@ fn most_unknowns(value: &Value) -> Result<usize, String> {
 
 /// What is asked of all contacts, or of one.
 fn read_contact_goals(section: &Section) -> OfContact {
-    let [force, pressure, ends] = ["force", "pressure", "ends"].map(|key| section.optional(key, tolerance));
-    OfContact { force, pressure, ends }
+    let [force, pressure, peak, ends] = OF_CONTACTS.map(|key| section.optional(key, tolerance));
+    OfContact { force, pressure, peak, ends }
 }
 
 /// Whether a table asks for nothing of contacts.
 fn is_empty(section: &Section) -> bool {
-    given(section, ["force", "pressure", "ends"]).next().is_none()
+    given(section, OF_CONTACTS).next().is_none()
 }
 
 /// Those keys that a table has.
@@ -112,12 +116,12 @@ fn check_contacts(section: &Section, root: &Section, single: &[Single]) {
             let words = format!("no such contact; {}", suggest(name, root.names_below("contact")));
             section.problem(&["contact", name], words);
         } else if *is_empty {
-            section.problem(&["contact", name], "asks for nothing; give force, pressure or ends".into());
+            section.problem(&["contact", name], "asks for nothing; give force, pressure, peak or ends".into());
         }
     }
     if root.names_below("contact").next().is_none() {
         let words = "there is no contact in this case; leave it out, or ask for energy";
-        given(section, ["force", "pressure", "ends"]).for_each(|key| section.problem(&[key], words.into()));
+        given(section, OF_CONTACTS).for_each(|key| section.problem(&[key], words.into()));
     }
 }
 
@@ -146,6 +150,7 @@ fn goals_of(pair: &Pair, all: OfContact, own: OfContact) -> Vec<Goal> {
     let tolerances = [
         (Quantity::Force(name()), own.force.or(all.force)),
         (Quantity::Pressure(name()), own.pressure.or(all.pressure)),
+        (Quantity::Peak(name()), own.peak.or(all.peak)),
         (Quantity::Ends(name()), ends),
     ];
     tolerances.into_iter().filter_map(|(quantity, tolerance)| Some(Goal { quantity, tolerance: tolerance? })).collect()

@@ -28,6 +28,9 @@ struct Halfway {
     weight: f64,
 }
 
+/// Share of the data's length by which the curve may go on to the end of a side.
+const BEYOND: f64 = 1e-3;
+
 /// A sample of a fit: parameter, place, weight.
 type FitSample = (f64, Point, f64);
 
@@ -115,18 +118,22 @@ fn halfway(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> V
     points
 }
 
-/// The part of the curve that both sides see: the data, but no farther than the feet of the ends of a side.
+/// The part of the curve that both sides see: the data, but up to the feet of the ends of a side and no farther. Least squares
+/// may begin a little inside of such an end: pressure would be missing between the two.
 fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve: &Curve, data: [f64; 2]) -> [f64; 2] {
     let middle = 0.5 * (data[0] + data[1]);
-    let mut limits = data;
+    let beyond = BEYOND * (data[1] - data[0]);
+    let (mut limits, mut ends) = (data, [false; 2]);
     for (side, nodes) in sides.iter().zip(nodes) {
         let last = side.points.len() - 1;
         for node in [0, last].into_iter().filter(|node| nodes.contains(node)) {
             let foot = curve.nearest(side.positions(pair.configuration)[node]);
             if foot < middle {
-                limits[0] = limits[0].max(foot);
+                let nearest = if ends[0] { limits[0] } else { data[0] - beyond };
+                (limits[0], ends[0]) = (nearest.max(foot), true);
             } else {
-                limits[1] = limits[1].min(foot);
+                let nearest = if ends[1] { limits[1] } else { data[1] + beyond };
+                (limits[1], ends[1]) = (nearest.min(foot), true);
             }
         }
     }

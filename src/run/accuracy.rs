@@ -26,12 +26,15 @@ pub fn limited(accuracy: &Accuracy, session: &Session) -> Accuracy {
     Accuracy { most_unknowns: accuracy.most_unknowns.or(Some(most as usize)), ..accuracy.clone() }
 }
 
-/// How the mesh was adapted, if an accuracy was asked for; without any mesh if the run ended before.
-pub fn adaptation(case: &Case, solved: &Solved) -> Option<Adaptation> {
+/// How the mesh was adapted, with true errors of the goals on each mesh, if an accuracy was asked for; without any mesh if the run ended before.
+pub fn adaptation(case: &Case, solved: &Solved, true_errors: &[Vec<Option<f64>>]) -> Option<Adaptation> {
     let accuracy = case.accuracy.clone()?;
     // The limit by memory is none of the case.
     Some(match solved.adaptation.clone() {
-        Some(adaptation) => Adaptation { accuracy, ..adaptation },
+        Some(mut adaptation) => {
+            adaptation.meshes.iter_mut().zip(true_errors).for_each(|(mesh, errors)| mesh.true_errors.clone_from(errors));
+            Adaptation { accuracy, ..adaptation }
+        }
         None => Adaptation::new(accuracy),
     })
 }
@@ -49,8 +52,9 @@ fn step(goals: &[Goal], mesh: &AdaptedMesh) -> AccuracyStep {
         seconds: mesh.seconds,
         ..AccuracyStep::default()
     };
-    for (goal, &estimate) in goals.iter().zip(&mesh.errors) {
-        *place_of(&goal.quantity, &mut step) = Some(GoalSummary { estimate, asked: goal.tolerance });
+    for (place, (goal, &estimate)) in goals.iter().zip(&mesh.errors).enumerate() {
+        let error = mesh.true_errors.get(place).copied().flatten();
+        *place_of(&goal.quantity, &mut step) = Some(GoalSummary { estimate, error, asked: goal.tolerance });
     }
     step
 }
@@ -61,6 +65,7 @@ fn place_of<'a>(quantity: &Quantity, step: &'a mut AccuracyStep) -> &'a mut Opti
         Quantity::Energy => &mut step.energy,
         Quantity::Force(name) => &mut step.contact.entry(name.clone()).or_default().force,
         Quantity::Pressure(name) => &mut step.contact.entry(name.clone()).or_default().pressure,
+        Quantity::Peak(name) => &mut step.contact.entry(name.clone()).or_default().peak,
         Quantity::Ends(name) => &mut step.contact.entry(name.clone()).or_default().ends,
         Quantity::Displacement(probe) => &mut step.probe.entry(probe.name.clone()).or_default().displacement,
         Quantity::Stress(probe) => &mut step.probe.entry(probe.name.clone()).or_default().stress,
@@ -80,15 +85,18 @@ pub fn judge(adaptation: &Adaptation, status: Status, reason: &str) -> (Status, 
     }
 }
 
-/// The estimates on each mesh as a figure shows them: one line for each goal.
+/// The estimates on each mesh as a figure shows them, and the true errors as far as they are known: for each goal.
 pub fn sequences(adaptation: &Adaptation) -> Vec<Sequence> {
     (0..adaptation.accuracy.goals.len()).map(|place| sequence(adaptation, place)).collect()
 }
 
 fn sequence(Adaptation { accuracy, meshes, .. }: &Adaptation, place: usize) -> Sequence {
     let goal = &accuracy.goals[place];
-    let point = |mesh: &AdaptedMesh| Some((mesh.unknowns as f64, mesh.errors.get(place).copied()??));
-    Sequence { name: name(&goal.quantity), asked: goal.tolerance, points: meshes.iter().filter_map(point).collect() }
+    let points = |of: fn(&AdaptedMesh) -> &[Option<f64>]| {
+        meshes.iter().filter_map(|mesh| Some((mesh.unknowns as f64, of(mesh).get(place).copied()??))).collect()
+    };
+    let (estimates, errors) = (points(|mesh| &mesh.errors), points(|mesh| &mesh.true_errors));
+    Sequence { name: name(&goal.quantity), asked: goal.tolerance, estimates, errors }
 }
 
 /// What is asked for, on one line: `energy to 1e-4, pressure of seam to 1e-3; at most 100 000 unknowns`.
@@ -133,6 +141,9 @@ fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
         SequenceEnd::Unknowns if unknowns.is_none() => "; the next mesh would take more than half of the memory that is left",
         SequenceEnd::Stuck => "; an estimate no longer falls, or cannot be had",
         SequenceEnd::Meshes => "; there are no more meshes than that",
+        SequenceEnd::Unbounded => {
+            "; a largest λ that is asked for grows without bound towards an end of contact: it has no value, ask for pressure or force instead"
+        }
         _ => "",
     };
     let refusal = refusal.as_ref().map(|words| format!("; no finer mesh could be solved: {words}")).unwrap_or_default();
@@ -156,7 +167,7 @@ fn unknowns_needed(adaptation: &Adaptation, place: usize) -> Option<f64> {
     let last = Adaptation { meshes: meshes[meshes.len().checked_sub(LAST)?..].to_vec(), ..Adaptation::new(accuracy.clone()) };
     let sequence = sequence(&last, place);
     let order = sequence.order().filter(|order| *order > 0.0)?;
-    let (unknowns, error) = *sequence.points.last()?;
+    let (unknowns, error) = *sequence.estimates.last()?;
     let excess = error / sequence.asked;
     (excess > 1.0).then(|| unknowns * excess.powf(1.0 / order))
 }
@@ -213,6 +224,7 @@ mod tests {
             refine: 3,
             unknowns,
             errors: errors.into(),
+            true_errors: Vec::new(),
             seconds,
         };
         let meshes = vec![mesh(1, 600, [Some(1e-2), None], 0.02), mesh(2, 21_868, last, 0.314)];
@@ -324,17 +336,19 @@ mod tests {
         let goals = [
             Quantity::Force("seam".into()),
             Quantity::Ends("glue".into()),
+            Quantity::Peak("glue".into()),
             Quantity::Displacement(probe.clone()),
             Quantity::Stress(probe),
         ];
         adaptation.accuracy.goals.extend(goals.map(|quantity| Goal { quantity, tolerance: 0.1 }));
-        adaptation.meshes[1].errors.extend([0.01, 0.02, 0.03, 0.04].map(Some));
+        adaptation.meshes[1].errors.extend([0.01, 0.02, 0.05, 0.03, 0.04].map(Some));
         let told = summarise(&adaptation);
         assert_eq!(told.iter().map(|step| (step.macro_triangles, step.unknowns)).collect::<Vec<_>>(), [(8, 600), (16, 21_868)]);
-        let goal = |estimate, asked| Some(GoalSummary { estimate, asked });
+        let goal = |estimate, asked| Some(GoalSummary { estimate, error: None, asked });
         let last = &told[1];
         assert_eq!((&last.energy, &last.contact["seam"].pressure), (&goal(Some(8e-5), 1e-4), &goal(None, 1e-3)));
         assert_eq!((&last.contact["seam"].force, &last.contact["glue"].ends), (&goal(Some(0.01), 0.1), &goal(Some(0.02), 0.1)));
+        assert_eq!(last.contact["glue"].peak, goal(Some(0.05), 0.1));
         assert_eq!(last.contact["glue"].pressure, None, "only what is asked for");
         let tip = &last.probe["tip"];
         assert_eq!((&tip.displacement, &tip.stress), (&goal(Some(0.03), 0.1), &goal(Some(0.04), 0.1)));
@@ -343,9 +357,14 @@ mod tests {
 
     #[test]
     fn a_figure_shows_what_is_known() {
-        let shown = sequences(&adapted([Some(8e-5), Some(4e-4)]));
-        assert_eq!((&shown[0].name[..], &shown[0].points[..]), ("energy", &[(600.0, 1e-2), (21_868.0, 8e-5)][..]));
-        assert_eq!((shown[1].asked, &shown[1].points[..]), (1e-3, &[(21_868.0, 4e-4)][..]));
+        let mut adapted = adapted([Some(8e-5), Some(4e-4)]);
+        adapted.meshes[1].true_errors = vec![Some(7e-5), None];
+        let shown = sequences(&adapted);
+        assert_eq!((&shown[0].name[..], &shown[0].estimates[..]), ("energy", &[(600.0, 1e-2), (21_868.0, 8e-5)][..]));
+        assert_eq!((shown[1].asked, &shown[1].estimates[..]), (1e-3, &[(21_868.0, 4e-4)][..]));
+        assert_eq!((&shown[0].errors[..], &shown[1].errors[..]), (&[(21_868.0, 7e-5)][..], &[][..]));
+        let told = summarise(&adapted)[1].energy.clone();
+        assert_eq!(told, Some(GoalSummary { estimate: Some(8e-5), error: Some(7e-5), asked: 1e-4 }));
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod scene;
 mod slivers;
 mod stages;
 mod summarise;
+mod true_errors;
 mod trust;
 mod zones;
 
@@ -29,6 +30,7 @@ use crate::petsc::{self, Session};
 use crate::system::Scene;
 use report::Report;
 use stages::Stages;
+use std::cell::RefCell;
 use std::ffi::OsString;
 use std::os::unix::ffi::OsStringExt;
 use std::path::PathBuf;
@@ -45,7 +47,7 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     refuse_options(session)?;
     let (folder, files) = claim_folder(options, session)?;
     let report = Report::new(case, options, session);
-    let run = Run { case, options, session, stages: Stages::new(session)?, report, files };
+    let run = Run { case, options, session, stages: Stages::new(session)?, report, files, true_errors: RefCell::default() };
     run.report.start(case);
     let scene = run.read_scene()?;
     let solved = run.solve(scene)?;
@@ -86,6 +88,8 @@ struct Run<'a> {
     report: Report,
     /// Where all ranks write their files to.
     files: PathBuf,
+    /// On each mesh that was adapted, the true error of each goal as far as the case tells it.
+    true_errors: RefCell<Vec<Vec<Option<f64>>>>,
 }
 
 impl Run<'_> {

@@ -1,5 +1,6 @@
 //! What a run does with the events of the solution procedure: it prints them, and times the work.
 
+use super::true_errors::true_errors;
 use super::{Run, RunError, Stages, accuracy};
 use crate::contact::SegmentRule;
 use crate::petsc::StageGuard;
@@ -23,6 +24,12 @@ impl Run<'_> {
 impl Observer for Run<'_> {
     fn observe(&self, event: Event) {
         self.report.event(&event);
+        if let Event::Adapted { accuracy, solved, .. } = event {
+            let _stage = self.stages.output.enter();
+            let errors = true_errors(self.case, &accuracy.goals, solved, self.session);
+            // What cannot be looked at is told by the evaluation of the result.
+            self.true_errors.borrow_mut().push(errors.unwrap_or_default());
+        }
     }
 
     fn enter(&self, work: Work) -> Option<StageGuard<'_>> {

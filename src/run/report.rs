@@ -102,7 +102,7 @@ impl Report {
                     step.iteration
                 ));
             }
-            Event::Adapted { accuracy: asked, mesh } => self.adapted(asked, mesh),
+            Event::Adapted { accuracy: asked, mesh, .. } => self.adapted(asked, mesh),
         }
     }
 

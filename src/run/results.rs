@@ -31,7 +31,7 @@ impl Run<'_> {
             let errors = self.evaluate(&mut summary, solved)?;
             (status, reason) = self.judge(&mut summary, solved, errors);
         }
-        if let Some(adaptation) = accuracy::adaptation(self.case, solved) {
+        if let Some(adaptation) = accuracy::adaptation(self.case, solved, &self.true_errors.borrow()) {
             summary.accuracy = Some(accuracy::summarise(&adaptation));
             (status, reason) = accuracy::judge(&adaptation, status, &reason);
             let flat = slivers(&solved.problem.scene.mesh).filter(|_| !adaptation.is_reached());
@@ -118,7 +118,8 @@ impl Run<'_> {
             summary.probe.insert(point.name.clone(), values);
         }
         let errors = compare(self.case, &found)?;
-        self.write_files(&found, &traces, solved.adaptation.as_ref())?;
+        let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
+        self.write_files(&found, &traces, adaptation.as_ref())?;
         Ok(errors)
     }
 
@@ -194,7 +195,7 @@ impl Run<'_> {
 /// Draws what was reached on each mesh, if there are two of them.
 fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result<(), RunError> {
     let sequences = accuracy::sequences(adaptation);
-    let is_known = sequences.iter().any(|sequence| sequence.points.iter().any(|(_, error)| *error > 0.0));
+    let is_known = sequences.iter().any(|sequence| sequence.estimates.iter().any(|(_, error)| *error > 0.0));
     if adaptation.meshes.len() >= 2 && is_known {
         plot::write_accuracy(&folder.join("accuracy.svg"), title, &sequences)?;
     }

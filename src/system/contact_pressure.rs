@@ -1,7 +1,7 @@
 //! The pressure on one contact boundary.
 
 use super::{Contact, Solution};
-use crate::contact::{Zone, oscillation, zone_counts};
+use crate::contact::{Zone, oscillation, recovered_peak, zone_counts};
 use crate::geometry::{Formula, Point, gauss_points};
 
 /// λ of one contact, with the set that it was solved for.
@@ -83,9 +83,51 @@ impl<'a> ContactPressure<'a> {
         zone.peak(&self.contact.multipliers, self.values)
     }
 
+    /// The largest value of a smooth pressure with the means of λ; nothing where λ is largest on a zone of less than three
+    /// segments.
+    pub fn recovered_peak(&self) -> Option<f64> {
+        let zones = self.zones();
+        let highest = zones.iter().max_by(|a, b| self.peak_of(a).total_cmp(&self.peak_of(b)))?;
+        recovered_peak(&self.contact.boundary, &self.contact.multipliers, self.values, highest)
+    }
+
     /// How much of it is checkerboard; nothing if there is not enough to tell.
     pub fn oscillation(&self) -> Option<f64> {
         oscillation(&self.contact.boundary, &self.contact.multipliers, self.values, self.active)
+    }
+
+    /// Root mean square error over the middle of the worst zone that counts, against a formula of `x, y`, by that of the formula;
+    /// nothing where nothing presses.
+    pub fn middle_error(&self, exact: &Formula) -> Option<f64> {
+        let boundary = &self.contact.boundary;
+        let (knots, arcs) = (boundary.knots(), boundary.arcs());
+        let error = |zone: &Zone| {
+            let mut sums = [0.0; 2];
+            for k in zone.segments.clone() {
+                let length = arcs[k + 1] - arcs[k];
+                for (z, weight) in gauss_points(8).iter().filter(|(z, _)| zone.has_in_its_middle(arcs[k] + z * length)) {
+                    let x = boundary.point(knots[k] + z * (knots[k + 1] - knots[k]));
+                    let wanted = exact.value(&[x.x, x.y]);
+                    sums[0] += weight * length * (self.value(k, *z) - wanted).powi(2);
+                    sums[1] += weight * length * wanted * wanted;
+                }
+            }
+            (sums[0] / sums[1]).sqrt()
+        };
+        let zones = self.zones();
+        let counting = zones.iter().zip(self.counting(&zones)).filter(|(_, counts)| *counts);
+        counting.map(|(zone, _)| error(zone)).reduce(f64::max)
+    }
+
+    /// Relative error of the largest value, against the largest one of a formula of `x, y` on Γ_C.
+    pub fn peak_error(&self, exact: &Formula) -> f64 {
+        let boundary = &self.contact.boundary;
+        let places = boundary.knots().windows(2).flat_map(|ends| {
+            let inside = gauss_points(8).iter().map(move |(z, _)| ends[0] + z * (ends[1] - ends[0]));
+            [ends[0], ends[1]].into_iter().chain(inside)
+        });
+        let values = places.map(|t| boundary.point(t)).map(|x| exact.value(&[x.x, x.y]));
+        (self.largest() / values.fold(f64::NEG_INFINITY, f64::max) - 1.0).abs()
     }
 
     /// Relative L2 error on Γ_C against a formula of `x, y`.

@@ -40,14 +40,17 @@ fn a_number_is_short_for_energy() {
 
 #[test]
 fn goals_are_in_the_order_of_the_case() {
-    let all = "[accuracy]\nstress = 0.1\ndisplacement = 0.05\nends = 0.02\npressure = 1e-3\nforce = 1e-2\nenergy = 1e-4";
+    let all =
+        "[accuracy]\nstress = 0.1\ndisplacement = 0.05\npeak = 0.03\nends = 0.02\npressure = 1e-3\nforce = 1e-2\nenergy = 1e-4";
     let expected = [
         "energy - 0.0001",
         "force seam 0.01",
         "pressure seam 0.001",
+        "peak seam 0.03",
         "ends seam 0.02",
         "force glue 0.01",
         "pressure glue 0.001",
+        "peak glue 0.03",
         "displacement tip 0.05",
         "stress tip 0.1",
         "displacement end 0.05",
@@ -93,9 +96,13 @@ fn every_error_names_key_value_and_remedy() {
         (SCENE, "accuracy={energy = 0.1, max_unknowns = 1e5}", "must be a whole number of at least 100"),
         (SCENE, "accuracy.enrgy=0.1", "accuracy.enrgy: unknown key; did you mean \"energy\"?"),
         (SCENE, "accuracy.contact.sam.force=0.1", "accuracy.contact.sam: no such contact; did you mean \"seam\"?"),
-        (SCENE, "accuracy.contact.seam={}", "accuracy.contact.seam: asks for nothing; give force, pressure or ends"),
+        (SCENE, "accuracy.contact.seam={}", "accuracy.contact.seam: asks for nothing; give force, pressure, peak or ends"),
         (SCENE, "accuracy.contact.seam=0.1", "accuracy.contact.seam = 0.1 (--set): must be a table"),
-        (SCENE, "accuracy.contact.seam.energy=0.1", "accuracy.contact.seam.energy: unknown key; there are force, pressure, ends"),
+        (
+            SCENE,
+            "accuracy.contact.seam.energy=0.1",
+            "accuracy.contact.seam.energy: unknown key; there are force, pressure, peak, ends",
+        ),
         (SCENE, "accuracy.contact.glue.ends=0.1", "accuracy.contact.glue.ends = 0.1 (--set): contact.glue is bilateral"),
         (LEAST, "accuracy.force=0.1", "accuracy.force = 0.1 (--set): there is no contact in this case"),
         (

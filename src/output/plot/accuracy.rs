@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use plotters::element::{PathElement, Rectangle};
+use plotters::element::{DashedPathElement, PathElement, Rectangle};
 
 use super::diagrams::{Axis, LegendRow, Mark, ROW, TITLE, colour, draw_legend, draw_line};
 use super::palette::GREY;
@@ -18,7 +18,9 @@ pub struct Sequence {
     /// The largest error that was asked for.
     pub asked: f64,
     /// Unknowns and estimated error, mesh by mesh.
-    pub points: Vec<(f64, f64)>,
+    pub estimates: Vec<(f64, f64)>,
+    /// Unknowns and true error, on the meshes where it is known.
+    pub errors: Vec<(f64, f64)>,
 }
 
 /// Size of the figure without its legend (pixels).
@@ -26,16 +28,18 @@ const WIDTH: i32 = 820;
 const HEIGHT: i32 = 460;
 /// Distances of the plot from the left, right and bottom of the figure, and from the legend (pixels).
 const MARGINS: [i32; 4] = [68, 24, 54, 14];
+/// Lengths of the dashes of a true error, and of what is between them.
+const DASH: i32 = 6 * PIXEL;
+const GAP: i32 = 4 * PIXEL;
 /// The order is that of so many meshes.
 const LAST: usize = 3;
 /// On meshes of the same size, up to rounding, there is no order.
 const LEAST_SPREAD: f64 = 1e-9;
 
 impl Sequence {
-    /// Points that a logarithmic diagram can show.
+    /// Estimates that a logarithmic diagram can show.
     fn shown(&self) -> impl Iterator<Item = (f64, f64)> {
-        let is_shown = |(n, error): &(f64, f64)| [*n, *error].iter().all(|value| value.is_finite() && *value > 0.0);
-        self.points.iter().copied().filter(is_shown)
+        shown(&self.estimates)
     }
 
     /// The exponent p of error ~ N^-p on the last three meshes, by least squares; None on fewer, or if N is the same on all.
@@ -59,8 +63,13 @@ impl Sequence {
     }
 }
 
+/// Points that a logarithmic diagram can show.
+fn shown(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
+    points.iter().copied().filter(|(n, error)| [*n, *error].iter().all(|value| value.is_finite() && *value > 0.0))
+}
+
 /// Draws `accuracy.svg`: the estimated error of every goal against unknowns, on logarithmic axes, with a thin line at what was
-/// asked for.
+/// asked for, and a dashed one through the true errors where they are known.
 ///
 /// # Errors
 /// No error is known on any mesh; the operating system refuses.
@@ -69,9 +78,11 @@ pub fn write_accuracy(path: &Path, title: &str, goals: &[Sequence]) -> Result<()
         return Err(OutputError::Figure { path: path.into(), reason: "no error is known on any mesh".into() });
     }
     let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
-    let points = || goals.iter().flat_map(Sequence::shown);
+    let points = || goals.iter().flat_map(|goal| goal.shown().chain(shown(&goal.errors)));
+    let known = goals.iter().any(|goal| shown(&goal.errors).next().is_some());
     let x = axis("unknowns N").spec(points().map(|(n, _)| n));
-    let y = axis("estimated relative error").spec(points().map(|(_, error)| error).chain(goals.iter().map(|goal| goal.asked)));
+    let y = axis(if known { "relative error: estimated, and true (dashed)" } else { "estimated relative error" })
+        .spec(points().map(|(_, error)| error).chain(goals.iter().map(|goal| goal.asked)));
     let top = TITLE + ROW * goals.len() as i32 + MARGINS[3];
     let sheet =
         Sheet { width: WIDTH, height: HEIGHT + ROW * goals.len() as i32, margins: [MARGINS[0], MARGINS[1], top, MARGINS[2]] };
@@ -87,6 +98,8 @@ pub fn write_accuracy(path: &Path, title: &str, goals: &[Sequence]) -> Result<()
         for (style, goal) in goals.iter().enumerate() {
             let marks: Vec<Mark> = goal.shown().map(|(x, y)| Mark { x, y, reach: [y, y], hollow: y > goal.asked }).collect();
             draw_line(area, &mut chart, style, &marks)?;
+            let truth: Vec<(f64, f64)> = shown(&goal.errors).collect();
+            chart.draw_series([DashedPathElement::new(truth, DASH, GAP, line(&colour(style), 1.2))])?;
         }
         // The frame again, over the ends of the lines.
         let [left, right, top, bottom] = sheet.margins.map(|margin| margin * PIXEL);
@@ -105,8 +118,8 @@ mod tests {
     /// Meshes whose errors fall as N^-order, after a first one that is off that law.
     fn sequence(name: &str, order: f64) -> Sequence {
         let points = [600.0, 2_000.0, 7_000.0, 30_000.0].map(|n: f64| (n, 3.0 * n.powf(-order)));
-        let mut sequence = Sequence { name: name.into(), asked: 1e-3, points: points.into() };
-        sequence.points[0].1 *= 40.0;
+        let mut sequence = Sequence { name: name.into(), asked: 1e-3, estimates: points.into(), errors: Vec::new() };
+        sequence.estimates[0].1 *= 40.0;
         sequence
     }
 
@@ -121,13 +134,13 @@ mod tests {
         for order in [0.42, 1.0, 2.5] {
             let mut sequence = sequence("energy", order);
             assert!((sequence.order().unwrap() - order).abs() < 1e-12);
-            sequence.points.push((1e5, f64::NAN));
+            sequence.estimates.push((1e5, f64::NAN));
             assert!((sequence.order().unwrap() - order).abs() < 1e-12, "what is unknown does not count");
         }
         let mut short = sequence("energy", 1.0);
-        short.points.truncate(2);
+        short.estimates.truncate(2);
         assert_eq!(short.order(), None);
-        short.points = vec![(600.0, 1e-2); 3];
+        short.estimates = vec![(600.0, 1e-2); 3];
         assert_eq!(short.order(), None, "one mesh thrice");
     }
 
@@ -143,12 +156,23 @@ mod tests {
     }
 
     #[test]
+    fn true_errors_are_a_second_line() {
+        let lines = |goal: &Sequence| draw(std::slice::from_ref(goal)).unwrap();
+        let mut goal = sequence("energy", 1.0);
+        let without = lines(&goal);
+        goal.errors = vec![(2_000.0, 1e-4), (30_000.0, 1e-6), (40_000.0, 0.0)];
+        let with = lines(&goal);
+        assert!(with.contains("true (dashed)") && !without.contains("true (dashed)"));
+        assert!(with.matches("polyline").count() > without.matches("polyline").count() + 10, "dashes");
+    }
+
+    #[test]
     fn few_points_are_a_figure_and_none_are_not() {
         let mut goals = [sequence("energy", 1.0), sequence("force of seam", 1.0)];
-        goals[0].points.truncate(1);
-        goals[1].points.clear();
+        goals[0].estimates.truncate(1);
+        goals[1].estimates.clear();
         assert!(draw(&goals).unwrap().contains("too few meshes for an order"));
-        goals[0].points[0].1 = 0.0;
+        goals[0].estimates[0].1 = 0.0;
         assert!(matches!(draw(&goals), Err(OutputError::Figure { .. })));
         assert!(matches!(draw(&[]), Err(OutputError::Figure { .. })));
     }

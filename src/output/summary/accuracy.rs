@@ -34,6 +34,9 @@ pub struct ContactGoals {
     /// λ over the middle of what presses, root mean square.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure: Option<GoalSummary>,
+    /// The largest λ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peak: Option<GoalSummary>,
     /// The ends of contact, by its width.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ends: Option<GoalSummary>,
@@ -55,6 +58,9 @@ pub struct ProbeGoals {
 pub struct GoalSummary {
     /// As estimated; null where there is not enough to tell.
     pub estimate: Option<f64>,
+    /// As the expected values of the case tell it; null where they do not.
+    #[serde(default)]
+    pub error: Option<f64>,
     /// The largest that was asked for.
     pub asked: f64,
 }

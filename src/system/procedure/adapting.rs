@@ -9,7 +9,7 @@ use super::observer::{Event, Observer, Work};
 use super::predecessor::Predecessor;
 use super::settings::Procedure;
 use super::solved::Solved;
-use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, SequenceEnd};
+use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
 use crate::mesh::Cells;
 use crate::petsc::StageGuard;
 use crate::system::{Scene, SystemError};
@@ -21,6 +21,9 @@ const MOST_MESHES: usize = 40;
 /// Meshes within which the error of a goal must fall to this share, or it will not.
 const STUCK: usize = 4;
 const FALLS: f64 = 0.8;
+
+/// Meshes in a row that tell that λ grows without bound.
+const UNBOUNDED: usize = 4;
 
 /// How much larger a mesh must be after so many, at least, if that is to be said.
 const LARGER: f64 = 4.0;
@@ -91,9 +94,10 @@ impl Procedure<'_> {
             refine: sequence.scene.refine,
             unknowns: solved.problem.unknown_count(),
             errors,
+            true_errors: Vec::new(),
             seconds: sequence.started.elapsed().as_secs_f64(),
         };
-        self.observer.observe(Event::Adapted { accuracy: &sequence.adaptation.accuracy, mesh: &adapted });
+        self.observer.observe(Event::Adapted { accuracy: &sequence.adaptation.accuracy, mesh: &adapted, solved });
         sequence.adaptation.meshes.push(adapted);
         Ok(())
     }
@@ -108,10 +112,19 @@ impl Procedure<'_> {
             (!solved.is_solved(), SequenceEnd::Unsolved),
             (adaptation.is_reached(), SequenceEnd::Reached),
             (late, SequenceEnd::Seconds),
+            (self.is_unbounded(adaptation, solved), SequenceEnd::Unbounded),
             (is_stuck(adaptation), SequenceEnd::Stuck),
             (meshes.len() == MOST_MESHES, SequenceEnd::Meshes),
         ];
         all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end)
+    }
+
+    /// Whether the largest λ of a contact is asked for, and grows without bound, as some meshes in a row have told.
+    fn is_unbounded(&self, adaptation: &Adaptation, solved: &Solved) -> bool {
+        let Some(then) = adaptation.meshes.len().checked_sub(UNBOUNDED) else { return false };
+        let never = |place: usize| adaptation.meshes[then..].iter().all(|mesh| mesh.errors[place].is_none());
+        let grows = |goal: &Goal| matches!(&goal.quantity, Quantity::Peak(name) if self.has_unbounded_peak(solved, name));
+        adaptation.missed().any(|(place, goal)| never(place) && grows(goal))
     }
 
     /// Where the errors of the goals that are missed lie. **Collective**

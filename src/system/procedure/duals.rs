@@ -2,8 +2,8 @@
 //!
 //! The error of a linear functional J is `a(u - u_h, z - z_h)`, where z solves the same system with J as its right-hand side
 //! (Becker, Rannacher, Acta Numerica 10, 2001; with contact on a frozen set: Blum, Suttmeier, Computing 65, 2000). So a macro
-//! triangle counts by the product of what is left there of u and of z. The dual problem of a stress at a point is taken to be that
-//! of the displacement there: it is as near to it.
+//! triangle counts by the product of what is left there of u and of z. The stress at a point is no functional of
+//! displacements with finite energy; its mean over the triangle of the lattice that holds the point is.
 
 use super::coarse_solution::{CoarseSolution, coarse_values};
 use crate::accuracy::{Goal, ProbePoint, Quantity};
@@ -11,11 +11,14 @@ use crate::contact::Zone;
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::{Cells, lattice};
 use crate::petsc::Session;
-use crate::system::recovery::{cell_energies, shapes_at};
-use crate::system::{ContactPressure, Discretisation, Field, Solution, System, SystemError};
+use crate::system::recovery::{cell_energies, shapes_at, stress_forces};
+use crate::system::{ContactPressure, Discretisation, Field, Solution, Space, System, SystemError};
 
 /// Relative residual of dual solutions: they weigh errors, and are no results.
 const ROUGH: f64 = 1e-3;
+
+/// Segments on either side of the one with the largest pressure that tell of it.
+const AT_THE_PEAK: usize = 1;
 
 /// Segments at an end of a zone that tell where it ends.
 const AT_AN_END: usize = 2;
@@ -62,9 +65,14 @@ impl Duals<'_> {
             Quantity::Energy => None,
             Quantity::Force(name) => of_pressure(name, &|_, pressure| force_weights(pressure)),
             Quantity::Pressure(name) => of_pressure(name, &|at, pressure| self.pressure_weights(at, pressure)),
+            Quantity::Peak(name) => of_pressure(name, &|_, pressure| peak_weights(pressure)),
             Quantity::Ends(name) => of_pressure(name, &|_, pressure| end_weights(pressure)),
-            Quantity::Displacement(point) | Quantity::Stress(point) => Some(Functional {
+            Quantity::Displacement(point) => Some(Functional {
                 load: point_force(problem, point, solution, system)?,
+                gap: vec![0.0; problem.multiplier_count()],
+            }),
+            Quantity::Stress(point) => Some(Functional {
+                load: self.stress_load(problem, point, solution, system)?,
                 gap: vec![0.0; problem.multiplier_count()],
             }),
         })
@@ -94,11 +102,47 @@ impl Duals<'_> {
         }
         weights
     }
+
+    /// The nodal forces of the mean stress over the triangles that hold a point, in the direction in which it changed from the
+    /// mesh before: this rank's part. **Collective**
+    fn stress_load(
+        &self,
+        problem: &Discretisation,
+        point: &ProbePoint,
+        solution: &Solution,
+        system: &System,
+    ) -> Result<Vec<f64>, SystemError> {
+        let (space, session) = (problem.finest(), system.session());
+        let mut change = solution.displacement.clone();
+        if let Some(coarse) = self.coarse {
+            let before = coarse.displacement(&problem.scene, space, session.rank());
+            change.iter_mut().zip(before).for_each(|(now, before)| *now -= before);
+        }
+        let change = Field::displacement(problem, &change, session)?;
+        let Some(body) = problem.scene.bodies.iter().position(|body| body.name == point.body) else {
+            return Ok(vec![0.0; space.local_unknowns()]);
+        };
+        let forces = stress_forces(problem, &change, body, point.point, session)?;
+        Ok(free_forces(space, &forces))
+    }
 }
 
 /// `∫ψ_i ds`: the force.
 fn force_weights(pressure: &ContactPressure) -> Vec<f64> {
     (0..pressure.values.len()).map(|i| pressure.contact.multipliers.integral(i)).collect()
+}
+
+/// The force on the segments beside the largest pressure.
+fn peak_weights(pressure: &ContactPressure) -> Vec<f64> {
+    let multipliers = &pressure.contact.multipliers;
+    let highest = |k: usize| pressure.value(k, 0.0).max(pressure.value(k, 1.0));
+    let segments = pressure.contact.boundary.segments();
+    let top = (0..segments).max_by(|a, b| highest(*a).total_cmp(&highest(*b))).unwrap_or(0);
+    let mut weights = vec![0.0; pressure.values.len()];
+    for k in top.saturating_sub(AT_THE_PEAK)..(top + 1 + AT_THE_PEAK).min(segments) {
+        multipliers.on_segment(k, 0.5).0.into_iter().for_each(|row| weights[row] = multipliers.integral(row));
+    }
+    weights
 }
 
 /// The force near both ends of each zone, but for those where a body ends.
@@ -142,12 +186,16 @@ fn point_force(
             sum[1] += value * direction.y;
         }
     }
-    let force = force.sum(session)?;
+    Ok(free_forces(space, &force.sum(session)?))
+}
+
+/// This rank's nodal forces in the nodes' frames, without what supports take.
+fn free_forces(space: &Space, forces: &Field<2>) -> Vec<f64> {
     let free = |(at, [x, y]): (usize, &[f64; 2])| {
         let v = space.free_part(space.own.start + at, Point::new(*x, *y));
         [v.x, v.y]
     };
-    Ok(force.own().iter().enumerate().flat_map(free).collect())
+    forces.own().iter().enumerate().flat_map(free).collect()
 }
 
 /// What each cell of this rank's macro triangles counts for a goal: the product of what is left there of the solution and of the

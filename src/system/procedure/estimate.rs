@@ -14,7 +14,7 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::Cells;
 use crate::petsc::Session;
-use crate::system::recovery::{TracePoint, ZoneErrors, cell_energies, probe, strain_energy, zone_errors};
+use crate::system::recovery::{TracePoint, ZoneErrors, cell_energies, probe, strain_energy, stress_around, zone_errors};
 use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
 
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
@@ -28,6 +28,9 @@ const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 
 /// Factors by which errors of a force fall on a smooth solution, P1 and P2.
 const FORCE_FALLS: [f64; 2] = [0.25, 0.125];
+
+/// Factor by which errors of the largest pressure fall on a smooth solution.
+const PEAK_FALLS: f64 = 0.25;
 
 /// Factor by which errors of the ends of contact fall: they lie at ends of segments.
 const ENDS_FALL: f64 = 0.5;
@@ -46,6 +49,9 @@ const FORCE_SLOWEST: f64 = 0.6;
 /// Error of a force by a difference that says nothing of how it falls.
 const FORCE_UNKNOWN: f64 = 0.6;
 
+/// λ at both ends of a zone, on the mesh before and on the one before that (stress).
+pub(super) type AtEnds = [Option<[f64; 2]>; 2];
+
 /// How a solution differs from that on the mesh before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
@@ -55,11 +61,16 @@ pub struct Difference {
     local: Vec<Cells>,
     /// Relative difference of `∫λ ds`, for each contact.
     force: Vec<f64>,
+    /// Relative difference of the largest pressure, recovered from means of λ, for each contact.
+    peak: Vec<f64>,
+    /// How far the largest λ is from that, relative, for each contact.
+    above: Vec<f64>,
     /// Largest way of an end of contact by the width of its zone, for each contact.
     ends: Vec<f64>,
     /// Error of these ends, at least, as they lie at ends of segments; by the same width.
     within_segments: Vec<f64>,
-    /// Relative difference of the displacement and of the stress at each probe that a goal is set for.
+    /// Relative difference of the displacement at each probe that a goal is set for, and of the stress there or, if that is
+    /// larger, in the mean over the triangle.
     probes: Vec<[f64; 2]>,
     /// The zones of each contact.
     zones: Vec<Vec<ZoneDifference>>,
@@ -79,6 +90,8 @@ pub struct Estimate {
     pub falls: Vec<f64>,
     /// Of `∫λ ds`, for each contact.
     pub force: Vec<Option<f64>>,
+    /// Of the largest λ, for each contact.
+    pub peak: Vec<Option<f64>>,
     /// Of the ends of contact by the width of its zone, for each contact.
     pub ends: Vec<Option<f64>>,
     /// Of the displacement and of the stress at each probe that a goal is set for.
@@ -106,10 +119,14 @@ impl Difference {
         let local = if accuracy.is_some() { cell_energies(problem, &apart, session)? } else { Vec::new() };
         let apart = strain_energy(problem, &apart, session)?;
         let (mut force, mut ends, mut within_segments, mut zones) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut peak, mut above) = (Vec::new(), Vec::new());
         for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
             let pressure = solution.pressure(contact);
             let now = pressure.force();
             force.push(share((now - before).abs(), now.abs()));
+            let [now, before] = [pressure.recovered_peak(), coarse.pressure(at).recovered_peak()];
+            peak.push(now.zip(before).map_or(f64::NAN, |(now, before)| (before / now - 1.0).abs()));
+            above.push(now.map_or(f64::NAN, |now| (pressure.largest() / now - 1.0).abs()));
             ends.push(way_of_ends(&pressure, &coarse.pressure(at)));
             within_segments.push(ends_within_segments(&pressure));
             let before = |x| coarse.pressure(at).at_foot(x);
@@ -117,7 +134,17 @@ impl Difference {
         }
         let whole = whole.iter().sum::<f64>();
         let local = local.into_iter().map(|part| part.scaled(1.0 / whole)).collect();
-        Ok(Self { energy: share(apart.iter().sum::<f64>(), whole), local, force, ends, within_segments, probes, zones })
+        Ok(Self {
+            energy: share(apart.iter().sum::<f64>(), whole),
+            local,
+            force,
+            peak,
+            above,
+            ends,
+            within_segments,
+            probes,
+            zones,
+        })
     }
 }
 
@@ -137,6 +164,13 @@ impl Estimate {
             None => Some(last.energy * ENERGY_BY_ONE[order.degree() - 1].powi(2)),
         };
         let force = |k: usize| value_left(before.map(|before| before.force[k]), last.force[k], FORCE_FALLS[order.degree() - 1]);
+        let peak = |k: usize| {
+            if std::env::var("DBG").is_ok() {
+                eprintln!("DBG peak before {:?} last {} above {}", before.map(|b| b.peak[k]), last.peak[k], last.above[k]);
+            }
+            value_left(before.map(|before| before.peak[k]), last.peak[k], PEAK_FALLS)
+                .map(|error| (error + last.above[k]).max(residual))
+        };
         let ends = |k: usize| {
             // Ends that stay where they are from mesh to mesh are no better for it than the segments are short.
             value_left(before.map(|before| before.ends[k]), last.ends[k], ENDS_FALL)
@@ -159,6 +193,7 @@ impl Estimate {
             local: last.local.clone(),
             falls: falls(last, before),
             force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
+            peak: contacts.clone().map(peak).collect(),
             ends: contacts.clone().map(ends).collect(),
             probes: (0..last.probes.len()).map(probe).collect(),
             zones: contacts.map(zones).collect(),
@@ -173,7 +208,7 @@ impl Estimate {
         pressure: &ContactPressure,
         zones: &[Zone],
         points: &[TracePoint],
-    ) -> Vec<(ZoneEstimate, [Option<[f64; 2]>; 2])> {
+    ) -> Vec<(ZoneEstimate, AtEnds)> {
         let errors = zone_errors(pressure.contact, pressure.values, zones, points);
         let one = |(k, errors): (usize, &ZoneErrors)| {
             let differences = self.zones.get(at).and_then(|of_contact| of_contact.get(k));
@@ -182,6 +217,12 @@ impl Estimate {
             (estimate, differences.map(|difference| difference.map(|found| found.at_ends)))
         };
         errors.iter().enumerate().map(one).collect()
+    }
+
+    /// What λ was at the ends of each zone of contact `at`; nothing if there were no coarser meshes.
+    pub(super) fn at_ends(&self, at: usize) -> Vec<AtEnds> {
+        let zones = self.zones.get(at).map_or(&[][..], Vec::as_slice);
+        zones.iter().map(|pair| pair.each_ref().map(|difference| difference.as_ref().map(|found| found.at_ends))).collect()
     }
 }
 
@@ -211,8 +252,10 @@ fn at_probe(
     let Some(body) = problem.scene.bodies.iter().position(|body| body.name == point.body) else { return Ok([f64::NAN; 2]) };
     let [whole, part] = [u, apart].map(|field| probe(problem, field, body, point.point, session));
     let (Some(whole), Some(part)) = (whole?, part?) else { return Ok([f64::NAN; 2]) };
+    // Where a point lies in its triangle decides how good a stress is there: at some places it is by luck.
+    let around = stress_around(problem, apart, body, point.point, session)?;
     let size = |stress: [f64; 4]| (stress[0].powi(2) + stress[1].powi(2) + 2.0 * stress[2].powi(2)).sqrt();
-    Ok([part.displacement.norm() / whole.displacement.norm(), size(part.stress) / size(whole.stress)])
+    Ok([part.displacement.norm() / whole.displacement.norm(), size(part.stress).max(around) / size(whole.stress)])
 }
 
 /// Largest way of an end of a zone that presses from where it was on the mesh before, by the width of the zone; one where there
@@ -290,6 +333,8 @@ mod tests {
             energy: square,
             local: Vec::new(),
             force: vec![square],
+            peak: vec![square],
+            above: vec![square],
             ends: vec![square],
             within_segments: vec![0.01],
             probes: Vec::new(),

@@ -1,8 +1,10 @@
 //! Estimated errors of the goals of an accuracy.
 
+use super::estimate::AtEnds;
 use super::settings::Procedure;
 use super::solved::Solved;
 use crate::accuracy::{Goal, ProbePoint, Quantity};
+use crate::contact::Zone;
 use crate::system::recovery::trace_points;
 use crate::system::{Discretisation, Field, SystemError};
 
@@ -25,6 +27,10 @@ impl Procedure<'_> {
             Quantity::Pressure(name) => match contact_called(problem, name) {
                 Some(at) => self.pressure_error(solved, at)?,
                 None => None,
+            },
+            Quantity::Peak(name) => match contact_called(problem, name) {
+                Some(at) if !has_unbounded_peak(solved, at) => estimate.peak.get(at).copied().flatten(),
+                _ => None,
             },
             Quantity::Ends(name) => contact_called(problem, name).and_then(|at| estimate.ends.get(at).copied().flatten()),
             Quantity::Displacement(probe) => self.probe_errors(solved, probe)[0],
@@ -54,6 +60,20 @@ impl Procedure<'_> {
         }
         Ok(errors.and_then(|errors| errors.into_iter().reduce(f64::max)))
     }
+
+    /// Whether λ of a contact grows without bound towards an end of it, as far as this mesh tells.
+    pub(super) fn has_unbounded_peak(&self, solved: &Solved, name: &str) -> bool {
+        contact_called(&solved.problem, name).is_some_and(|at| has_unbounded_peak(solved, at))
+    }
+}
+
+/// Whether λ of a contact grows without bound towards an end of one of its zones.
+fn has_unbounded_peak(Solved { problem, solution, estimate, .. }: &Solved, at: usize) -> bool {
+    let pressure = solution.pressure(&problem.contacts[at]);
+    let grows = |(zone, at_ends): (&Zone, &AtEnds)| {
+        (0..2).any(|end| pressure.grows_towards(zone, end, at_ends.map(|values| values.map(|values| values[end]))))
+    };
+    pressure.zones().iter().zip(&estimate.at_ends(at)).any(grows)
 }
 
 /// The place of a contact among all.

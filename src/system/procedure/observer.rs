@@ -3,6 +3,7 @@
 use super::at_rest::AtRest;
 use super::contact_loop::Pass;
 use super::following::BoundaryStep;
+use super::solved::Solved;
 use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::petsc::StageGuard;
 use crate::system::Scene;
@@ -59,6 +60,8 @@ pub enum Event<'a> {
         accuracy: &'a Accuracy,
         /// The mesh.
         mesh: &'a AdaptedMesh,
+        /// What was found on it.
+        solved: &'a Solved,
     },
 }
 

@@ -2,7 +2,7 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::element::{Order, PlaneStrain, shape, stress};
+use crate::element::{Order, PlaneStrain, SIX_POINTS, shape, stress};
 use crate::geometry::Point;
 use crate::mesh::lattice::Triangle;
 use crate::petsc::Session;
@@ -11,6 +11,9 @@ use crate::system::{Discretisation, Field, SystemError};
 /// How far outside a macro triangle a point may lie (barycentric): as far as on the mesh of the file first; a point that lies as
 /// little outside of that is farther out by the size of its triangles where these are small.
 const OUTSIDE: [f64; 4] = [1e-8, 1e-6, 1e-4, 1e-2];
+
+/// Barycentric coordinates of the middle of a triangle: a stress of P2 is linear, and has its mean there.
+const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
 
 /// Values at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +88,108 @@ fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, 
     let (small, l) = small_triangle(problem, triangle, at);
     let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
     small.nodes::<N>().into_iter().map(|(i, j)| numbers.node(i, j)).zip(shape::<N>(l)).collect()
+}
+
+/// Root mean square of the size of the stress over the triangles of the lattice that hold a point; zero if no body holds it.
+/// **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn stress_around(
+    problem: &Discretisation,
+    u: &Field<2>,
+    body: usize,
+    x: Point,
+    session: &Session,
+) -> Result<f64, SystemError> {
+    let law = problem.scene.bodies[body].material.law();
+    let mut sums = [0.0; 2];
+    let added = holding(problem, body, x, session).into_iter().try_for_each(|(triangle, at)| {
+        match problem.finest().numbering.level.order {
+            Order::P1 => add_squares::<3>(problem, u, triangle, at, &law, &mut sums),
+            Order::P2 => add_squares::<6>(problem, u, triangle, at, &law, &mut sums),
+        }
+    });
+    agreed(session, added)?;
+    session.sum(&mut sums);
+    Ok(if sums[1] > 0.0 { (sums[0] / sums[1]).sqrt() } else { 0.0 })
+}
+
+fn add_squares<const N: usize>(
+    problem: &Discretisation,
+    u: &Field<2>,
+    triangle: usize,
+    at: Point,
+    law: &PlaneStrain,
+    sums: &mut [f64; 2],
+) -> Result<(), SystemError> {
+    let small = small_triangle(problem, triangle, at).0;
+    let x = positions(&problem.scene.mesh, triangle, problem.finest().numbering.level, &small.nodes::<N>());
+    let nodal = nodal::<N>(problem, u, triangle, &small);
+    for &(l, weight) in SIX_POINTS {
+        let s = stress(&x, &nodal, l, law)?;
+        sums[0] += weight * (s[0] * s[0] + s[1] * s[1] + 2.0 * s[2] * s[2]);
+        sums[1] += weight;
+    }
+    Ok(())
+}
+
+/// This rank's macro triangles of a body that hold a point, and its reference coordinates in them.
+fn holding(problem: &Discretisation, body: usize, x: Point, session: &Session) -> Vec<(usize, Point)> {
+    let mesh = &problem.scene.mesh;
+    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
+    let own = own.filter(|&triangle| mesh.triangles[triangle].body as usize == body);
+    own.filter_map(|triangle| Some((triangle, mesh.locate(triangle, x)?))).collect()
+}
+
+/// Nodal forces of the functional `v ↦ s : σ(v)`, mean over the triangles of the lattice that hold a point, where s is the
+/// mean of the stress of `u` on them, of any size: the direction in which it points. All zero if no body holds the point.
+/// **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn stress_forces(
+    problem: &Discretisation,
+    u: &Field<2>,
+    body: usize,
+    x: Point,
+    session: &Session,
+) -> Result<Field<2>, SystemError> {
+    let law = problem.scene.bodies[body].material.law();
+    let mut forces = Field::<2>::zeros(problem, session);
+    let holding = holding(problem, body, x, session);
+    let added = holding.into_iter().try_for_each(|(triangle, at)| match problem.finest().numbering.level.order {
+        Order::P1 => add_stress_forces::<3>(problem, u, triangle, at, &law, &mut forces),
+        Order::P2 => add_stress_forces::<6>(problem, u, triangle, at, &law, &mut forces),
+    });
+    agreed(session, added)?;
+    forces.sum(session)
+}
+
+fn add_stress_forces<const N: usize>(
+    problem: &Discretisation,
+    u: &Field<2>,
+    triangle: usize,
+    at: Point,
+    law: &PlaneStrain,
+    forces: &mut Field<2>,
+) -> Result<(), SystemError> {
+    let small = small_triangle(problem, triangle, at).0;
+    let level = problem.finest().numbering.level;
+    let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
+    let mean = |u: &[Point; N]| stress(&x, u, MIDDLE, law);
+    let pointing = mean(&nodal::<N>(problem, u, triangle, &small))?;
+    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
+    for (k, (i, j)) in small.nodes::<N>().into_iter().enumerate() {
+        let sum = forces.at_mut(numbers.node(i, j));
+        for (c, axis) in [Point::x(), Point::y()].into_iter().enumerate() {
+            let mut moved = [Point::zeros(); N];
+            moved[k] = axis;
+            let found = mean(&moved)?;
+            sum[c] += pointing[0] * found[0] + pointing[1] * found[1] + 2.0 * pointing[2] * found[2];
+        }
+    }
+    Ok(())
 }
 
 /// Displacement and stress at reference coordinates of a macro triangle.
