@@ -28,9 +28,6 @@ const UNBOUNDED: usize = 4;
 /// How much larger a mesh must be after so many, at least, if that is to be said.
 const LARGER: f64 = 4.0;
 
-/// Share of an error that was foreseen, at least, that the next ones are taken for.
-const LEAST_TRUST: f64 = 0.4;
-
 /// Tells what is known before the first mesh is solved; of the rest of a sequence it keeps the times alone.
 struct BeforeTheFirst<'a> {
     observer: &'a dyn Observer,
@@ -144,8 +141,8 @@ impl Procedure<'_> {
                 local = self.gathered(scene, left, falls);
             }
             let error = errors.get(place).copied().flatten().map(|error| error / goal.tolerance);
-            let trust = sequence.foreseen[place].zip(error).map_or(1.0, |(foreseen, error)| error / foreseen);
-            all.push(Indicators { local, error, trust: trust.clamp(LEAST_TRUST, 1.0), is_norm: goal.quantity.is_norm() });
+            let pace = sequence.foreseen[place].zip(error).map_or(1.0, |(foreseen, error)| foreseen.pace(error));
+            all.push(Indicators { local, error, pace, is_norm: goal.quantity.is_norm() });
         }
         Ok(all)
     }

@@ -18,8 +18,14 @@ const MOST_GROWTH: f64 = 4.0;
 /// foreseen to be small enough (the last one: Dörfler, SIAM J. Numer. Anal. 33, 1996).
 const SHARES: [f64; 2] = [0.4, 0.6];
 
+/// Unknowns of the next mesh by those of the present one, at least, where an error is not known.
+const LEAST_GROWTH: f64 = 1.5;
+
 /// Unknowns that a mesh may always have.
 const SMALL: f64 = 4000.0;
+
+/// Largest power of the fall of the indicators that errors are taken to go with.
+const MOST_PACE: f64 = 1.8;
 
 /// Share of what is asked for at which an error that is only foreseen counts as reached.
 const SURELY: f64 = 0.8;
@@ -40,8 +46,8 @@ pub(super) struct Indicators {
     pub local: Vec<LocalIndicator>,
     /// Estimated error by what is asked for; nothing if it is not known.
     pub error: Option<f64>,
-    /// What came of errors that were foreseen before, by what was foreseen.
-    pub trust: f64,
+    /// The power of the fall of the indicators that errors go with, as the mesh before has shown; one, if there is none.
+    pub pace: f64,
     /// Whether the error goes with the root of the sum of the indicators.
     pub is_norm: bool,
 }
@@ -63,13 +69,18 @@ impl Indicators {
     fn on(&self, mesh: &BisectedMesh) -> Self {
         let local: Vec<_> = mesh.origins.iter().map(|part| self.local[part.triangle as usize].of_part(part)).collect();
         let next = Self { local, ..*self };
-        let fall = next.sum() / self.sum();
-        Self { error: self.error.map(|error| error * if self.is_norm { fall.sqrt() } else { fall }), ..next }
+        Self { error: self.error.map(|error| error * self.fall(&next).powf(self.pace)), ..next }
     }
 
-    /// Whether it takes another round, as far as can be told.
-    fn is_foreseen_to_be_missed(&self) -> bool {
-        self.error.is_some_and(|error| self.trust * error > SURELY)
+    /// Factor by which the error falls with the indicators, at a pace of one.
+    fn fall(&self, next: &Self) -> f64 {
+        let fall = next.sum() / self.sum();
+        if self.is_norm { fall.sqrt() } else { fall }
+    }
+
+    /// Whether it takes another round, as far as can be told; `grown` is by how much the mesh has.
+    fn is_foreseen_to_be_missed(&self, grown: f64) -> bool {
+        self.error.map_or(grown < LEAST_GROWTH, |error| error > SURELY)
     }
 
     /// The fewest triangles that hold a share of it.
@@ -78,10 +89,26 @@ impl Indicators {
     }
 }
 
-/// A mesh that is to be solved next, with the error of each goal that is foreseen there, by what is asked for.
+/// A mesh that is to be solved next.
 pub(super) struct NextMesh {
     pub mesh: BisectedMesh,
-    pub errors: Vec<Option<f64>>,
+    /// For each goal, its error on the mesh before and the factor by which it falls at a pace of one.
+    pub foreseen: Vec<Option<Foreseen>>,
+}
+
+/// An error by what is asked for, and the factor by which it was foreseen to fall at a pace of one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Foreseen {
+    error: f64,
+    fall: f64,
+}
+
+impl Foreseen {
+    /// The pace at which the error has fallen to what it is `now`.
+    pub fn pace(self, now: f64) -> f64 {
+        let pace = (now / self.error).ln() / self.fall.ln();
+        if pace.is_finite() { pace.clamp(1.0, MOST_PACE) } else { 1.0 }
+    }
 }
 
 /// The next mesh, by the indicators of all goals that are missed; what lies across a contact of `pairs` from fine edges follows
@@ -95,31 +122,37 @@ pub(super) fn next_mesh(
 ) -> Option<NextMesh> {
     let first = mesh.as_first();
     let (mut left, mut next): (Vec<Indicators>, Option<BisectedMesh>) = (missed.to_vec(), None);
-    let large = (MOST_GROWTH * unknowns(mesh) as f64).max(SMALL);
+    let size = unknowns(mesh) as f64;
+    let grown = |mesh: &BisectedMesh| unknowns(mesh) as f64 / size;
     let fits = |mesh: &BisectedMesh, round: usize| {
         let count = unknowns(mesh);
-        most.is_none_or(|most| count <= most) && (round == 0 || count as f64 <= large)
+        most.is_none_or(|most| count <= most) && (round == 0 || count as f64 <= (MOST_GROWTH * size).max(SMALL))
     };
     for round in 0..ROUNDS {
-        if round > 0 && !left.iter().any(Indicators::is_foreseen_to_be_missed) {
+        let now = next.as_ref().unwrap_or(&first);
+        let open: Vec<&Indicators> =
+            left.iter().filter(|goal| round == 0 || goal.is_foreseen_to_be_missed(grown(now))).collect();
+        if round > 0 && open.is_empty() {
             break;
         }
-        let now = next.as_ref().unwrap_or(&first);
         let candidates = SHARES.iter().map(|share| {
-            let refined = refined(now, pairs, &left, *share, round == 0);
-            let left = missed.iter().map(|goal| goal.on(&refined)).collect();
+            let refined = refined(now, pairs, &open, *share);
+            let left: Vec<Indicators> = missed.iter().map(|goal| goal.on(&refined)).collect();
             (refined, left)
         });
-        let Some(found) = enough(candidates.filter(|(mesh, _)| fits(mesh, round))) else { break };
+        let is_enough = |(mesh, left): &(BisectedMesh, Vec<Indicators>)| {
+            !left.is_empty() && !left.iter().any(|goal| goal.is_foreseen_to_be_missed(grown(mesh)))
+        };
+        let Some(found) = first_or_last(candidates.filter(|(mesh, _)| fits(mesh, round)), is_enough) else { break };
         (next, left) = (Some(found.0), found.1);
     }
-    next.map(|mesh| NextMesh { mesh, errors: left.iter().map(|goal| goal.error).collect() })
+    let foreseen = |(goal, left): (&Indicators, &Indicators)| Some(Foreseen { error: goal.error?, fall: goal.fall(left) });
+    next.map(|mesh| NextMesh { mesh, foreseen: missed.iter().zip(&left).map(foreseen).collect() })
 }
 
 /// A mesh refined where the triangles hold a share of what is left of the errors.
-fn refined(mesh: &BisectedMesh, pairs: &[Pair], left: &[Indicators], share: f64, is_first: bool) -> BisectedMesh {
-    let open = left.iter().filter(|goal| is_first || goal.is_foreseen_to_be_missed());
-    let mut chosen: Vec<u32> = open.flat_map(|goal| goal.marked(share)).collect();
+fn refined(mesh: &BisectedMesh, pairs: &[Pair], open: &[&Indicators], share: f64) -> BisectedMesh {
+    let mut chosen: Vec<u32> = open.iter().flat_map(|goal| goal.marked(share)).collect();
     chosen.extend(across(&mesh.mesh, pairs, &chosen));
     chosen.sort_unstable();
     chosen.dedup();
@@ -129,13 +162,13 @@ fn refined(mesh: &BisectedMesh, pairs: &[Pair], left: &[Indicators], share: f64,
     mesh.refined(chosen.into_iter())
 }
 
-/// The first that is foreseen to be enough, or the last.
-fn enough(candidates: impl Iterator<Item = (BisectedMesh, Vec<Indicators>)>) -> Option<(BisectedMesh, Vec<Indicators>)> {
+/// The first candidate that is enough, or the last.
+fn first_or_last<T>(candidates: impl Iterator<Item = T>, is_enough: impl Fn(&T) -> bool) -> Option<T> {
     let mut last = None;
-    for (mesh, left) in candidates {
-        let is_enough = !left.is_empty() && !left.iter().any(Indicators::is_foreseen_to_be_missed);
-        last = Some((mesh, left));
-        if is_enough {
+    for candidate in candidates {
+        let ends = is_enough(&candidate);
+        last = Some(candidate);
+        if ends {
             break;
         }
     }
@@ -164,7 +197,7 @@ mod tests {
             LocalIndicator { cells, fall: 0.25 }
         };
         let local = (0..mesh.triangles.len()).map(own).collect();
-        Indicators { local, error: Some(error), trust: 1.0, is_norm: true }
+        Indicators { local, error: Some(error), pace: 1.0, is_norm: true }
     }
 
     #[test]
@@ -174,10 +207,10 @@ mod tests {
         let sizes = [1.5, 3.0].map(|error| {
             let next = next_mesh(&first, &[], &[at(&first.mesh, point, error)], unknowns, None).expect("no limit");
             let near = (0..next.mesh.mesh.triangles.len()).filter(|&k| next.mesh.mesh.locate(k, point).is_some());
-            let foreseen = next.errors[0].expect("known");
+            let foreseen = next.foreseen[0].expect("known");
             // Each quartering of what lies at the point halves the error; what keeps the mesh conforming may halve it further.
             let edges = near.flat_map(|k| next.mesh.mesh.triangles[k].edges);
-            (edges.map(|edge| next.mesh.mesh.edge_length(edge)).fold(0.0, f64::max), foreseen / error)
+            (edges.map(|edge| next.mesh.mesh.edge_length(edge)).fold(0.0, f64::max), foreseen.fall)
         });
         for ((length, fall), times) in sizes.iter().zip([1, 2]) {
             assert!((0.4f64.powi(times)..=0.55f64.powi(times)).contains(fall), "{times}: {fall}");
@@ -191,7 +224,7 @@ mod tests {
         let point = Point::new(0.0, 1.0);
         let all = next_mesh(&first, &[], &[], unknowns, None).expect("no limit");
         assert_eq!(all.mesh.mesh.triangles.len(), 4 * first.mesh.triangles.len());
-        let nothing = Indicators { local: vec![LocalIndicator::default(); 6], error: None, trust: 1.0, is_norm: true };
+        let nothing = Indicators { local: vec![LocalIndicator::default(); 6], error: None, pace: 1.0, is_norm: true };
         let once = next_mesh(&first, &[], &[nothing], unknowns, None).expect("no limit");
         assert_eq!(once.mesh.mesh.triangles.len(), all.mesh.mesh.triangles.len());
         assert!(next_mesh(&first, &[], &[at(&first.mesh, point, 9.0)], unknowns, Some(unknowns(&first))).is_none());
@@ -206,10 +239,14 @@ mod tests {
     fn what_came_of_foreseen_errors_counts() {
         let first = BisectedMesh::new(two_blocks());
         let goal = at(&first.mesh, Point::new(0.0, 1.0), 3.0);
-        let count = |trust| {
-            let goal = Indicators { trust, ..goal.clone() };
+        let count = |pace| {
+            let goal = Indicators { pace, ..goal.clone() };
             next_mesh(&first, &[], &[goal], unknowns, None).expect("no limit").mesh.mesh.triangles.len()
         };
-        assert!(count(0.4) < count(1.0), "half of what was foreseen came before");
+        assert!(count(1.8) < count(1.0), "errors fell faster before");
+        let foreseen = Foreseen { error: 8.0, fall: 0.5 };
+        assert!((foreseen.pace(8.0 * 0.5f64.powf(1.5)) - 1.5).abs() < 1e-12);
+        assert_eq!((foreseen.pace(6.0), foreseen.pace(1e-3)), (1.0, MOST_PACE));
+        assert_eq!(Foreseen { error: 8.0, fall: 1.0 }.pace(4.0), 1.0, "nothing was foreseen to fall");
     }
 }

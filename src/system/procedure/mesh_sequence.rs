@@ -1,7 +1,7 @@
 //! A sequence of meshes that is adapted to an accuracy, on its way: what it is refined by, and what becomes of meshes that cannot
 //! be solved.
 
-use super::foreseen::{Indicators, next_mesh};
+use super::foreseen::{Foreseen, Indicators, next_mesh};
 use super::solved::Solved;
 use crate::accuracy::{Accuracy, Adaptation, SequenceEnd};
 use crate::contact::SegmentRule;
@@ -26,8 +26,8 @@ pub(super) struct MeshSequence {
     pub mesh: BisectedMesh,
     /// What was asked for, and every mesh so far.
     pub adaptation: Adaptation,
-    /// Error of each goal that was foreseen for this mesh, by what is asked for.
-    pub foreseen: Vec<Option<f64>>,
+    /// What was foreseen for each goal on this mesh.
+    pub foreseen: Vec<Option<Foreseen>>,
     /// The last mesh that could be solved, and where the triangles of the present one lie in it.
     last: Option<Solved>,
     origins: Vec<Origin>,
@@ -148,7 +148,7 @@ impl MeshSequence {
         self.mesh = next.mesh;
         let places: Vec<usize> = self.adaptation.missed().map(|(place, _)| place).collect();
         self.foreseen.fill(None);
-        places.into_iter().zip(next.errors).for_each(|(place, error)| self.foreseen[place] = error);
+        places.into_iter().zip(next.foreseen).for_each(|(place, foreseen)| self.foreseen[place] = foreseen);
         true
     }
 
