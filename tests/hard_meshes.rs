@@ -57,11 +57,14 @@ fn run(file: &Path, settings: &[(&str, &str)]) -> Run {
     same.iter().chain(settings).fold(Run::file(file), |run, (key, value)| run.set(key, value))
 }
 
+/// Name, mesh, settings beside those of [`run`], strain energy.
+type Scene<'a> = (&'a str, Mesh, &'a [(&'a str, &'a str)], f64);
+
 /// Strain energies are those of runs with estimated errors of 2e-5 to 1e-4 in the energy norm, from good meshes.
 #[test]
 fn hard_meshes_get_the_accuracy() {
     let nearly_incompressible = [("body.lower.poisson", "0.4999"), ("body.upper.poisson", "0.4999")];
-    let scenes: [(&str, Mesh, &[(&str, &str)], f64); 4] = [
+    let scenes: [Scene; 4] = [
         (
             "layers of slivers",
             bars(lower(2, 3, layers), upper(2, 3, layers, None)),
