@@ -130,8 +130,7 @@ pub(super) fn next_mesh(
     };
     for round in 0..ROUNDS {
         let now = next.as_ref().unwrap_or(&first);
-        let open: Vec<&Indicators> =
-            left.iter().filter(|goal| round == 0 || goal.is_foreseen_to_be_missed(grown(now))).collect();
+        let open: Vec<&Indicators> = left.iter().filter(|goal| round == 0 || goal.is_foreseen_to_be_missed(grown(now))).collect();
         if round > 0 && open.is_empty() {
             break;
         }
