@@ -77,9 +77,10 @@ impl ActiveSet {
         change
     }
 
-    /// Gives up the plain rule: from here on sets follow by [`ActiveSet::ascend`].
+    /// Gives up the plain rule: from here on sets follow by [`ActiveSet::ascend`], and those that were tried before count anew.
     pub fn begin_ascent(&mut self) {
         self.ascent = Some(Ascent::new());
+        self.forget();
     }
 
     /// Whether the plain rule has been given up.
@@ -87,13 +88,17 @@ impl ActiveSet {
         self.ascent.is_some()
     }
 
-    /// The next set by rising energy, after [`ActiveSet::begin_ascent`].
+    /// The next set by rising energy, after [`ActiveSet::begin_ascent`]. One that was tried may come back on the way; and, where
+    /// energies differ by no more than the solves can tell, for ever.
     pub fn ascend(&mut self, found: &SetSolution) -> SetChange {
         let Some(ascent) = &mut self.ascent else { return SetChange::Settled };
         let Some(next) = ascent.next(&self.active, &self.bilateral, found) else { return SetChange::Settled };
         let added = next.iter().zip(&self.active).filter(|&(&is, &was)| is && !was).count();
         let released = next.iter().zip(&self.active).filter(|&(&is, &was)| was && !is).count();
         self.active = next;
+        if self.tried.contains(&self.active) {
+            return SetChange::Repeated;
+        }
         self.tried.push(self.active.clone());
         SetChange::Changed { added, released }
     }

@@ -4,7 +4,7 @@ use super::change::relative_change;
 use super::contact_state::ContactState;
 use super::ending::{Ending, Failure, Standing};
 use super::first_set::{carried_set, first_set};
-use super::unsettled::going_on;
+use super::unsettled::{going_on, places};
 use crate::contact::{ActiveSet, SetChange};
 use crate::system::{
     LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held, rigid_start,
@@ -12,6 +12,13 @@ use crate::system::{
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
 const LOOSE: f64 = 1e-4;
+
+/// Share of its residual that a start from a coarser mesh is solved to before its set is looked at: what is wrong with it is
+/// seen by then.
+const LOOK: f64 = 1e-2;
+
+/// Multipliers that may change at such a look before the next solve is the last one.
+const FEW: usize = 2;
 
 /// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
 const FROM_START: f64 = 2e-4;
@@ -77,6 +84,8 @@ enum Next {
     Ascend,
     /// It solves again.
     Go,
+    /// It solves to where the set is looked at again.
+    Look,
 }
 
 /// The set that follows from a solve.
@@ -120,6 +129,8 @@ pub struct ContactLoop<'s, 'a> {
     /// Residual that the last solve goes to, and that of the present one, relative to the whole right-hand side.
     tolerance: f64,
     goal: f64,
+    /// Whether the first set and its solution come from a coarser mesh or another boundary.
+    is_carried: bool,
     /// How often contact was kept that a body needs.
     kept: usize,
     /// Displacements of the pass before.
@@ -137,6 +148,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     ) -> Result<Self, SystemError> {
         let problem = system.problem();
         let mut set = ActiveSet::new(bilateral(&problem.contacts));
+        let is_carried = start.is_some();
         if let Some(start) = start {
             set = set.starting_from(&start.active);
             let carried = carried_set(system, set.active(), &start.displacement);
@@ -150,9 +162,15 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         }
         let share = share(system)?;
         let last = share * last_residual(system, tolerance)?;
-        let goal = if set.may_change() { last.max(share * LOOSE) } else { last };
+        // What is closed all along on a coarser mesh, and what stands on the boundary before, is expected to stand.
+        let is_expected = is_carried && (position.passes > 0 || !set.active().contains(&false));
+        let goal = match set.may_change() && !is_expected {
+            false => last,
+            true if is_carried => last.max(LOOK * system.residual()?.relative()),
+            true => last.max(share * LOOSE),
+        };
         let (before, wanted) = (system.free_displacement(), tolerance.residual());
-        Ok(Self { system, set, position, wanted, share, tolerance: last, goal, kept: 0, before, passes: Vec::new() })
+        Ok(Self { system, set, position, wanted, share, tolerance: last, goal, is_carried, kept: 0, before, passes: Vec::new() })
     }
 
     /// Solves until the active set stands and the last residual is below the tolerance; `report` is called with every pass.
@@ -176,9 +194,12 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
                     self.goal = self.tolerance.min(self.share * TELLING);
                     self.set.begin_ascent();
                 }
-                Next::Go => {}
+                Next::Go | Next::Look => {}
             }
             self.system.set_active(self.set.active())?;
+            if matches!(next, Next::Look) {
+                self.goal = self.tolerance.max(LOOK * self.system.residual()?.relative());
+            }
         }
     }
 
@@ -193,7 +214,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         Ok(match next_set {
             None => Next::End(self.after_failure(solve.ending, &state)),
             Some(NextSet { change: SetChange::Settled, lost }) => self.after_settled(solve.ending, lost, &state),
-            Some(NextSet { change, lost }) => self.after_change(&change, lost),
+            Some(NextSet { change, lost }) => self.after_change(&change, lost, &state),
         })
     }
 
@@ -287,21 +308,40 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         }
     }
 
-    fn after_change(&self, change: &SetChange, lost: Option<String>) -> Next {
+    fn after_change(&self, change: &SetChange, lost: Option<String>, state: &ContactState) -> Next {
         if let Some(words) = lost {
             return Next::End(Ending::NotConverged(Failure::NotHeld(words)));
         }
         let (solves, repeated) = (self.passes.len(), *change == SetChange::Repeated);
-        if solves >= MOST_SETS {
-            let (was, is) = (self.system.active(), self.set.active());
-            let changed: Vec<usize> = (0..was.len()).filter(|&i| was[i] != is[i]).collect();
-            return Next::End(Ending::NotConverged(Failure::SetChanges(going_on(self.system.problem(), solves, &changed))));
+        let goes_on = solves >= MOST_SETS;
+        if (repeated || goes_on) && !self.is_loose() && self.violated(state).is_none() {
+            return Next::End(Ending::Converged(self.round(state)));
         }
-        match repeated {
+        if goes_on {
+            let words = going_on(self.system.problem(), solves, &self.changed());
+            return Next::End(Ending::NotConverged(Failure::SetChanges(words)));
+        }
+        match change {
             _ if !self.set.ascends() && (solves >= MOST_PLAIN || repeated && !self.is_loose()) => Next::Ascend,
-            true => Next::Tighten,
-            false => Next::Go,
+            SetChange::Repeated if !self.set.ascends() => Next::Tighten,
+            SetChange::Changed { added, released } if self.is_carried && self.is_loose() => {
+                // What is left of the wrong ones is seen in the last solve, if it is but a few.
+                if added + released <= FEW { Next::Tighten } else { Next::Look }
+            }
+            _ => Next::Go,
         }
+    }
+
+    /// Multipliers that are to change after the last solve.
+    fn changed(&self) -> Vec<usize> {
+        let (was, is) = (self.system.active(), self.set.active());
+        (0..was.len()).filter(|&i| was[i] != is[i]).collect()
+    }
+
+    /// What stands where sets go round: the one that was solved for, which is as good as any.
+    fn round(&self, state: &ContactState) -> Standing {
+        let problem = self.system.problem();
+        Standing::Round { places: places(problem, &self.changed()), violation: state.violation(problem, self.system.active()) }
     }
 
     /// Whether the present solve is less exact than the last one is to be.

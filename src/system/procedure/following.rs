@@ -3,6 +3,7 @@
 use super::change::relative_change;
 use super::ending::{Failure, HeldEnds, Standing};
 use crate::contact::{Configuration, CurveChoice, End, Known, Meeting, SmoothSide, true_end};
+use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
 use crate::system::{BoundaryMotion, Contact, ContactPressure, Discretisation, Solution, Start, SystemError};
@@ -38,6 +39,9 @@ const AT_THE_END: f64 = 1e-2;
 /// A boundary whose ends move by less than this share of its length is the same.
 const SAME: f64 = 1e-5;
 
+/// Error that the ends have on a mesh anyway, as a share of their way since the coarser one, if it falls by two to four.
+const OWN_ERROR: f64 = 0.35;
+
 /// One boundary of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryStep {
@@ -55,8 +59,9 @@ pub struct BoundaryStep {
 
 /// What follows from a solution.
 pub enum NextBoundary {
-    /// Everything stands: the solution is the one.
-    Stands,
+    /// Everything stands: the solution is the one. Where it stands to what the mesh is exact for, with the share of its length
+    /// by which it would still move.
+    Stands(Option<f64>),
     /// It does not, and will not.
     GivenUp(Failure),
     /// The bodies have moved, and these are the boundaries now.
@@ -79,6 +84,8 @@ pub struct Following {
     last_way: f64,
     /// How far each boundary has reached so far.
     widest: Vec<[f64; 2]>,
+    /// Ends of all boundaries, as the last solution has them.
+    pub found: Vec<[Point; 2]>,
 }
 
 impl Following {
@@ -92,6 +99,7 @@ impl Following {
             ends: vec![[None; 2]; problem.contacts.len()],
             last_way: 0.0,
             widest: vec![[f64::INFINITY, f64::NEG_INFINITY]; problem.contacts.len()],
+            found: Vec::new(),
         }
     }
 
@@ -121,6 +129,7 @@ impl Following {
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
         let moved = way(&problem.contacts, &next);
+        self.found = next.iter().map(Contact::ends).collect();
         let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
         let step = BoundaryStep { iteration: number, length, moved, du, flipped };
         let [still_boundary, still_displacement] = self.tolerances();
@@ -130,8 +139,9 @@ impl Following {
         }
         let next_boundary = match moved {
             // The same boundary has the same solution.
-            Some(0.0) => self.beyond(problem, &motion),
-            Some(way) if way <= still_boundary && still => self.beyond(problem, &motion),
+            Some(0.0) => self.beyond(problem, &motion, None),
+            Some(way) if way <= still_boundary && still => self.beyond(problem, &motion, None),
+            Some(way) if is_exact(&problem.contacts, &next, still_boundary) => self.beyond(problem, &motion, Some(way)),
             _ if number >= MOST_BOUNDARIES => NextBoundary::GivenUp(moves(&step)),
             _ => NextBoundary::Again(next, motion),
         };
@@ -139,7 +149,7 @@ impl Following {
     }
 
     /// What stands must not leave contact out: bodies that penetrate each other beyond the ends of Γ_C.
-    fn beyond(&self, problem: &Discretisation, motion: &BoundaryMotion) -> NextBoundary {
+    fn beyond(&self, problem: &Discretisation, motion: &BoundaryMotion, way: Option<f64>) -> NextBoundary {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let fitted =
@@ -151,7 +161,7 @@ impl Following {
                 return NextBoundary::GivenUp(Failure::Beyond { contact: contact.pair.name.clone(), depth });
             }
         }
-        NextBoundary::Stands
+        NextBoundary::Stands(way)
     }
 
     /// Change of the displacement since the boundary before, relative to its norm. **Collective**
@@ -186,7 +196,7 @@ impl Following {
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
                 if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
-                    all.push(Known { meeting: Some(meeting), ends: None, segments: None });
+                    all.push(Known { meeting: Some(meeting), ends: None, segments: None, ..known });
                     continue;
                 }
             }
@@ -249,6 +259,17 @@ fn multipliers_at(contact: &Contact, end: End) -> Vec<usize> {
     rows[..contact.multipliers.per_segment()].to_vec()
 }
 
+/// Whether no boundary moves by more than the mesh is exact for, by the way of its ends since the coarser mesh, or than what
+/// is `still`, as a share of its length.
+fn is_exact(before: &[Contact], after: &[Contact], still: f64) -> bool {
+    before.iter().zip(after).filter(|(old, _)| old.pair.follows()).all(|(old, new)| {
+        let Some(coarser) = new.known.coarser else { return false };
+        let since = new.ends().iter().zip(&coarser).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        let moved = way(std::slice::from_ref(old), std::slice::from_ref(new));
+        moved.is_some_and(|way| way <= still.max(OWN_ERROR * since / old.boundary.length()))
+    })
+}
+
 /// Largest way of a segment end between two placings of the contacts that follow, relative to the length.
 fn way(before: &[Contact], after: &[Contact]) -> Option<f64> {
     let mut most: f64 = 0.0;
@@ -271,14 +292,15 @@ fn moves(&BoundaryStep { moved, du, flipped, .. }: &BoundaryStep) -> Failure {
     Failure::BoundaryMoves { fits: MOST_BOUNDARIES, moved, du, flipped }
 }
 
-/// What stands after these boundaries of some contacts; `within` is what stands on the last of them.
-pub fn standing(contacts: &[Contact], steps: &[BoundaryStep], within: Standing) -> Standing {
+/// What stands after these boundaries of some contacts: to what the mesh is exact for if there is a `way` left; `within` is
+/// what stands on the last of them.
+pub fn standing(contacts: &[Contact], steps: &[BoundaryStep], way: Option<f64>, within: Standing) -> Standing {
     let may_be_held = contacts.iter().any(|contact| contact.pair.has_free_ends());
     let held = steps.get(HELD - 1).filter(|_| may_be_held).map(|_| {
         let way = steps[HELD - 2].moved;
         HeldEnds { fit: HELD - 1, way, farthest: way.is_some_and(|way| way > MOST_HELD) }
     });
-    Standing::Boundary { fits: steps.len(), held, within: Box::new(within) }
+    Standing::Boundary { fits: steps.len(), held, way, within: Box::new(within) }
 }
 
 /// A start from a solution, on the boundary it was found on.
@@ -297,7 +319,6 @@ pub fn carried(before: &[Contact], after: &[Contact], solution: &Solution) -> Op
 mod tests {
     use super::*;
     use crate::contact::{EndRule, Known, MultiplierSpace, Pair};
-    use crate::geometry::Point;
     use crate::system::samples::{blocks, contact, pair};
 
     /// Between two places of Γ_C on the seam, which is 2 long; the first is 0.5 long.
