@@ -143,6 +143,18 @@ mod tests {
         assert_eq!(set.update(|_| 1.0), SetChange::Repeated);
     }
 
+    /// It pulls when it is closed and penetrates when it is open, each by what the solve leaves.
+    #[test]
+    fn the_search_by_rising_energy_tells_a_set_that_comes_back() {
+        let mut set = ActiveSet::new(vec![false; 2]);
+        set.begin_ascent();
+        let mut next = |lambda: [f64; 2], penetration: [f64; 2]| {
+            set.ascend(&SetSolution { lambda: &lambda, penetration: &penetration, penalty: &[1.0; 2] })
+        };
+        assert_eq!(next([1.0, -1e-9], [0.0, 0.0]), SetChange::Changed { added: 0, released: 1 });
+        assert_eq!(next([1.0, 0.0], [0.0, 1e-9]), SetChange::Repeated);
+    }
+
     #[test]
     fn multipliers_are_kept_once_and_no_second_time() {
         let mut set = ActiveSet::new(vec![false; 3]);

@@ -112,8 +112,9 @@ impl OneMesh<'_> {
         let mut following = Following::new(problem, exact, start.is_some());
         self.begin(Some(following.tolerances()));
         let mut history = MeshHistory::default();
-        // A coarser mesh knows where the boundaries are: the first solve may be the last.
-        let mut is_last = start.is_some();
+        // Where a coarser mesh knows the boundaries, the first solve may be the last, and the next one mostly is.
+        let is_settled = start.is_some();
+        let mut is_last = is_settled;
         for number in 1.. {
             let on_boundary = BoundaryLoop { mesh: self, following: &mut following, history: &mut history, number, exact };
             let found = on_boundary.solve(self.system(problem, bodies, preconditioning)?, start.take(), is_last)?;
@@ -134,7 +135,7 @@ impl OneMesh<'_> {
                 After::Moved { contacts, motion, start: next, is_near } => {
                     let _stage = self.procedure.observer.enter(Work::Contact);
                     problem.replace(contacts, motion, self.procedure.session)?;
-                    (start, is_last) = (next, is_near);
+                    (start, is_last) = (next, is_near || is_settled);
                 }
             }
         }

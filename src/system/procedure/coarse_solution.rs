@@ -13,10 +13,10 @@ use crate::system::{
 
 /// Share of the way of an end from one mesh to the next by which it goes on from there to the one after: its error falls by
 /// two to four.
-const GOES_ON: f64 = 0.35;
+const GOES_ON: f64 = 0.3;
 
 /// That way at most, in segments of the coarser mesh.
-const MOST_FORESEEN: f64 = 0.25;
+const MOST_FORESEEN: f64 = 0.1;
 
 /// Multipliers between an end of contact and an open one that comes from the singularity there.
 const NEAR_AN_END: usize = 8;

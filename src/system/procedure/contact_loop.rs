@@ -5,9 +5,10 @@ use super::contact_state::ContactState;
 use super::ending::{Ending, Failure, Standing};
 use super::first_set::{carried_set, first_set};
 use super::unsettled::{going_on, places};
-use crate::contact::{ActiveSet, SetChange};
+use crate::contact::{ActiveSet, GapChoice, SetChange};
 use crate::system::{
-    LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held, rigid_start,
+    Contact, LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held,
+    rigid_start,
 };
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
@@ -40,6 +41,13 @@ const MOST_SETS: usize = 120;
 
 /// Relative residual of the solves by which sets of rising energy are told, if the tolerance asks for no less.
 const TELLING: f64 = 1e-8;
+
+/// Force that a solve cannot tell from none, as a share of the largest pressure, by its relative residual.
+const DOUBT: f64 = 1e2;
+
+/// Violation of the contact conditions by a set that comes back, as a share of the largest pressure, by the relative residual:
+/// below it the set is as good as any other. Slender bodies change their forces by what is allowed in the end.
+const AS_GOOD: f64 = 1e3;
 
 /// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
 const LEAST_SHARE: f64 = 1e-8;
@@ -162,8 +170,8 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         }
         let share = share(system)?;
         let last = share * last_residual(system, tolerance)?;
-        // What is closed all along on a coarser mesh, and what stands on the boundary before, is expected to stand.
-        let is_expected = is_carried && (position.passes > 0 || !set.active().contains(&false));
+        let is_expected =
+            is_carried && (position.passes > 0 || !set.active().contains(&false) && stays_closed(&problem.contacts));
         let goal = match set.may_change() && !is_expected {
             false => last,
             true if is_carried => last.max(LOOK * system.residual()?.relative()),
@@ -252,13 +260,14 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         Ok(self.goal.min((0.1 * residual.norm / residual.whole).max(self.tolerance)))
     }
 
-    /// The set that follows from the forces. One that lets a body go may do so only because contact was closed where it is
+    /// The set that follows from the forces: nothing changes where they are too small to be told from none. One that lets a body go may do so only because contact was closed where it is
     /// to open, and pulled: the few multipliers that are pulled least, and hold all, stay closed then, so that the rest
     /// comes to rest on them. If that has been tried, the words for the body.
     fn next_set(&mut self, state: &ContactState) -> NextSet {
         let problem = self.system.problem();
-        let force = |i: usize| state.force(i);
-        let change = if self.set.ascends() { self.set.ascend(&state.found()) } else { self.set.update(force) };
+        let told = state.told_from(if self.is_loose() { 0.0 } else { DOUBT * self.goal / self.share });
+        let force = |i: usize| told.force(i);
+        let change = if self.set.ascends() { self.set.ascend(&told.found()) } else { self.set.update(force) };
         let lost = not_held(problem, self.set.active());
         if lost.is_none() || self.kept == MOST_KEPT || !matches!(change, SetChange::Changed { .. }) {
             return NextSet { change, lost };
@@ -314,7 +323,11 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         }
         let (solves, repeated) = (self.passes.len(), *change == SetChange::Repeated);
         let goes_on = solves >= MOST_SETS;
-        if (repeated || goes_on) && !self.is_loose() && self.violated(state).is_none() {
+        let is_as_good = || match goes_on {
+            true => self.violated(state).is_none(),
+            false => repeated && state.violation(self.system.problem(), self.system.active()) <= AS_GOOD * self.goal / self.share,
+        };
+        if !self.is_loose() && is_as_good() {
             return Next::End(Ending::Converged(self.round(state)));
         }
         if goes_on {
@@ -387,6 +400,12 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let then = std::mem::replace(&mut self.before, now);
         relative_change(&self.before, &then, self.system.session())
     }
+}
+
+/// Whether contacts that are closed all along on one mesh will be so on the next: there is no gap, or they end where the
+/// pressure does.
+fn stays_closed(contacts: &[Contact]) -> bool {
+    contacts.iter().all(|contact| contact.pair.has_free_ends() || matches!(contact.pair.gap, GapChoice::Closed))
 }
 
 /// Share of the right-hand side that asks for strain. Displacements prescribed to a stiff body are forces of its own

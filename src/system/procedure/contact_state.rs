@@ -33,6 +33,16 @@ impl ContactState {
         Self { lambda, penetration, penalty: penalties(system.problem()) }
     }
 
+    /// The same without pulls and penetrations that are smaller than a `share` of the largest pressure.
+    pub(super) fn told_from(&self, share: f64) -> Self {
+        let least = share * self.largest_pressure();
+        let mut told = Self { lambda: self.lambda.clone(), penetration: self.penetration.clone(), penalty: self.penalty.clone() };
+        told.lambda.iter_mut().filter(|value| value.abs() <= least).for_each(|value| *value = value.max(0.0));
+        let small = |(value, penalty): &(&mut f64, &f64)| (**value * **penalty).abs() <= least;
+        told.penetration.iter_mut().zip(&self.penalty).filter(small).for_each(|(value, _)| *value = 0.0);
+        told
+    }
+
     /// `λ_i + κ_i (B u - C λ - c)_i`: positive where the next set of the plain rule is active.
     pub(super) fn force(&self, i: usize) -> f64 {
         self.lambda[i] + self.penalty[i] * self.penetration[i]

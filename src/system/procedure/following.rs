@@ -39,8 +39,15 @@ const AT_THE_END: f64 = 1e-2;
 /// A boundary whose ends move by less than this share of its length is the same.
 const SAME: f64 = 1e-5;
 
-/// Error that the ends have on a mesh anyway, as a share of their way since the coarser one, if it falls by two to four.
-const OWN_ERROR: f64 = 0.35;
+/// Error that the ends have on a mesh anyway, as a share of their way since the coarser one: a third, if it falls by four from
+/// mesh to mesh, all of it, if by two.
+const OWN_ERROR: f64 = 0.5;
+
+/// The same by the segment beside them.
+const OF_A_SEGMENT: f64 = 0.03;
+
+/// Share of the length that ends may be left to move, however coarse the mesh is: force and peak feel the square of it.
+const MOST_LEFT: f64 = 3e-3;
 
 /// One boundary of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,11 +144,12 @@ impl Following {
         if let (true, Some(way)) = (number + 1 == HELD, moved) {
             self.last_way = way;
         }
+        let left = left_to_the_mesh(&problem.contacts, &next, still_boundary);
         let next_boundary = match moved {
             // The same boundary has the same solution.
             Some(0.0) => self.beyond(problem, &motion, None),
             Some(way) if way <= still_boundary && still => self.beyond(problem, &motion, None),
-            Some(way) if is_exact(&problem.contacts, &next, still_boundary) => self.beyond(problem, &motion, Some(way)),
+            _ if left.is_some() => self.beyond(problem, &motion, left),
             _ if number >= MOST_BOUNDARIES => NextBoundary::GivenUp(moves(&step)),
             _ => NextBoundary::Again(next, motion),
         };
@@ -259,15 +267,23 @@ fn multipliers_at(contact: &Contact, end: End) -> Vec<usize> {
     rows[..contact.multipliers.per_segment()].to_vec()
 }
 
-/// Whether no boundary moves by more than the mesh is exact for, by the way of its ends since the coarser mesh, or than what
-/// is `still`, as a share of its length.
-fn is_exact(before: &[Contact], after: &[Contact], still: f64) -> bool {
-    before.iter().zip(after).filter(|(old, _)| old.pair.follows()).all(|(old, new)| {
-        let Some(coarser) = new.known.coarser else { return false };
-        let since = new.ends().iter().zip(&coarser).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-        let moved = way(std::slice::from_ref(old), std::slice::from_ref(new));
-        moved.is_some_and(|way| way <= still.max(OWN_ERROR * since / old.boundary.length()))
-    })
+/// By how much the ends of the boundaries would still move, as a share of the length, if that is less than they are exact
+/// for: by their way since the coarser mesh and the segments beside them, or by what is `still`.
+fn left_to_the_mesh(before: &[Contact], after: &[Contact], still: f64) -> Option<f64> {
+    let mut most: f64 = 0.0;
+    for (old, new) in before.iter().zip(after).filter(|(old, _)| old.pair.follows()) {
+        let (boundary, last) = (&old.boundary, old.boundary.segments() - 1);
+        let (now, next, coarser) = (old.ends(), new.ends(), new.known.coarser?);
+        for (k, segment) in [0, last].into_iter().enumerate() {
+            let (way, since) = ((next[k] - now[k]).norm(), (next[k] - coarser[k]).norm());
+            let own = (OWN_ERROR * since).max(OF_A_SEGMENT * boundary.segment_length(segment));
+            if way > own.min(MOST_LEFT * boundary.length()).max(still * boundary.length()) {
+                return None;
+            }
+            most = most.max(way / boundary.length());
+        }
+    }
+    Some(most)
 }
 
 /// Largest way of a segment end between two placings of the contacts that follow, relative to the length.
