@@ -87,6 +87,44 @@ fn a_finer_mesh_begins_with_the_set_of_the_coarser_one() {
     }
 }
 
+/// Two columns of two blocks. One is pressed together; the other is squeezed from the side, and its lid is lifted by just what it
+/// grows: it touches all along without any pressure, and what solves leave would open and close it for ever.
+#[test]
+fn contact_that_touches_without_pressure_comes_to_rest() {
+    let column = |x: f64, y: f64, cells: usize, seed: u64| rectangle([x, y], [1.0, 1.0], [cells, cells], seed);
+    let mesh = Mesh {
+        bodies: vec![
+            ("a", column(0.0, 0.0, 3, 1), ["table", "", "a.top", "wall"]),
+            ("b", column(0.0, 1.0, 4, 2), ["b.bottom", "", "top", "wall"]),
+            ("c", column(2.0, 0.0, 3, 3), ["table", "side", "c.top", "wall"]),
+            ("d", column(2.0, 1.0, 4, 4), ["d.bottom", "side", "lid", "wall"]),
+        ],
+    };
+    let (young, poisson) = (1000.0, 0.3);
+    let lift = 2.0 * poisson * (1.0 + poisson) / young;
+    let mut case = format!(
+        "mesh = {{ file = \"mesh.msh\", refine = 2, order = 2 }}
+         support = {{ table = {{ on = \"table\", uy = 0.0 }}, wall = {{ on = \"wall\", ux = 0.0 }}, lid = {{ on = \"lid\", uy = {lift:?} }} }}
+         load = {{ top = {{ on = \"top\", pressure = 1.0 }}, side = {{ on = \"side\", pressure = 1.0 }} }}
+         contact.pressed = {{ between = [\"a.top\", \"b.bottom\"], curve = \"line\" }}
+         contact.touching = {{ between = [\"c.top\", \"d.bottom\"], curve = \"line\" }}\n"
+    );
+    ["a", "b", "c", "d"]
+        .iter()
+        .for_each(|name| case += &format!("body.{name} = {{ young = {young:?}, poisson = {poisson:?} }}\n"));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), &case);
+    for space in ["p0", "p1-discontinuous", "p1-continuous"] {
+        for ranks in RANKS {
+            let ended =
+                Run::file(&file).ranks(ranks).set("contact.touching.multiplier", space).set("output.fields", false).converged();
+            let [pressed, touching] = ["pressed", "touching"].map(|name| ended.number(&format!("/contact/{name}/force")));
+            assert!((pressed - 1.0).abs() < 1e-7 && touching.abs() < 1e-5, "{space}, {ranks} ranks: {pressed} and {touching}");
+            assert!(passes(&ended) <= 3, "{space}, {ranks} ranks: {} passes", passes(&ended));
+        }
+    }
+}
+
 /// A pin, smaller than its hole by a thousandth, lies in it under a load that strains it by a millionth.
 #[test]
 fn a_pin_under_a_light_load_stays_in_its_hole() {

@@ -77,9 +77,10 @@ impl ActiveSet {
         change
     }
 
-    /// Gives up the plain rule: from here on sets follow by [`ActiveSet::ascend`].
+    /// Gives up the plain rule: from here on sets follow by [`ActiveSet::ascend`], and those that were tried before count anew.
     pub fn begin_ascent(&mut self) {
         self.ascent = Some(Ascent::new());
+        self.forget();
     }
 
     /// Whether the plain rule has been given up.
@@ -87,13 +88,17 @@ impl ActiveSet {
         self.ascent.is_some()
     }
 
-    /// The next set by rising energy, after [`ActiveSet::begin_ascent`].
+    /// The next set by rising energy, after [`ActiveSet::begin_ascent`]. One that was tried may come back on the way; and, where
+    /// energies differ by no more than the solves can tell, for ever.
     pub fn ascend(&mut self, found: &SetSolution) -> SetChange {
         let Some(ascent) = &mut self.ascent else { return SetChange::Settled };
         let Some(next) = ascent.next(&self.active, &self.bilateral, found) else { return SetChange::Settled };
         let added = next.iter().zip(&self.active).filter(|&(&is, &was)| is && !was).count();
         let released = next.iter().zip(&self.active).filter(|&(&is, &was)| was && !is).count();
         self.active = next;
+        if self.tried.contains(&self.active) {
+            return SetChange::Repeated;
+        }
         self.tried.push(self.active.clone());
         SetChange::Changed { added, released }
     }
@@ -136,6 +141,18 @@ mod tests {
         let mut set = ActiveSet::new(vec![false; 3]);
         assert!(matches!(set.update(|i| if i == 2 { -1.0 } else { 1.0 }), SetChange::Changed { .. }));
         assert_eq!(set.update(|_| 1.0), SetChange::Repeated);
+    }
+
+    /// It pulls when it is closed and penetrates when it is open, each by what the solve leaves.
+    #[test]
+    fn the_search_by_rising_energy_tells_a_set_that_comes_back() {
+        let mut set = ActiveSet::new(vec![false; 2]);
+        set.begin_ascent();
+        let mut next = |lambda: [f64; 2], penetration: [f64; 2]| {
+            set.ascend(&SetSolution { lambda: &lambda, penetration: &penetration, penalty: &[1.0; 2] })
+        };
+        assert_eq!(next([1.0, -1e-9], [0.0, 0.0]), SetChange::Changed { added: 0, released: 1 });
+        assert_eq!(next([1.0, 0.0], [0.0, 1e-9]), SetChange::Repeated);
     }
 
     #[test]

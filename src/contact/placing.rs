@@ -25,6 +25,8 @@ pub struct Known {
     pub ends: Option<[f64; 2]>,
     /// Number of its segments.
     pub segments: Option<usize>,
+    /// Its ends as a coarser mesh has found them, if there was one.
+    pub coarser: Option<[Point; 2]>,
 }
 
 /// A contact boundary with what it was placed by.

@@ -40,6 +40,8 @@ pub struct Contact {
     pub jumps: Vec<Jump>,
     /// What it was placed by, to be placed again.
     pub known: Known,
+    /// Where its ends were found to lie after the last solve, if they follow the bodies: beside those it was solved on.
+    pub found: Option<[Point; 2]>,
     /// Parameters of Γ_C beyond which one of the bodies has no boundary.
     pub limits: [f64; 2],
     /// Whether a load acts on the boundary of body 1, and of body 2: its stress is not that of the contact alone.
@@ -116,7 +118,8 @@ impl Contact {
         let segments = Some(boundary.segments());
         Ok(Self {
             pair: pair.clone(),
-            known: Known { meeting: placed.meeting, ends, segments },
+            known: Known { meeting: placed.meeting, ends, segments, coarser: known.coarser },
+            found: None,
             limits: placed.limits,
             loaded: sides.each_ref().map(|edges| is_loaded(scene, edges)),
             boundary,
@@ -142,6 +145,12 @@ impl Contact {
     pub fn edge_length(&self) -> f64 {
         let shortest = (0..self.boundary.segments()).map(|k| self.boundary.segment_length(k)).fold(f64::INFINITY, f64::min);
         shortest / self.segment_ratio
+    }
+
+    /// Both ends of Γ_C, as well as they are known.
+    pub fn ends(&self) -> [Point; 2] {
+        let knots = self.boundary.knots();
+        self.found.unwrap_or_else(|| [knots[0], knots[knots.len() - 1]].map(|t| self.boundary.point(t)))
     }
 
     /// Numbers of its multipliers.

@@ -112,13 +112,16 @@ impl OneMesh<'_> {
         let mut following = Following::new(problem, exact, start.is_some());
         self.begin(Some(following.tolerances()));
         let mut history = MeshHistory::default();
-        let mut is_last = false;
+        // Where a coarser mesh knows the boundaries, the first solve may be the last, and the next one mostly is.
+        let is_settled = start.is_some();
+        let mut is_last = is_settled;
         for number in 1.. {
             let on_boundary = BoundaryLoop { mesh: self, following: &mut following, history: &mut history, number, exact };
             let found = on_boundary.solve(self.system(problem, bodies, preconditioning)?, start.take(), is_last)?;
             preconditioning = found.preconditioning;
             match found.after {
                 After::Ended(ending) => {
+                    problem.contacts.iter_mut().zip(following.found).for_each(|(contact, ends)| contact.found = Some(ends));
                     let MeshHistory { passes, boundaries } = history;
                     return Ok(OnMesh {
                         solution: found.solution,
@@ -132,7 +135,7 @@ impl OneMesh<'_> {
                 After::Moved { contacts, motion, start: next, is_near } => {
                     let _stage = self.procedure.observer.enter(Work::Contact);
                     problem.replace(contacts, motion, self.procedure.session)?;
-                    (start, is_last) = (next, is_near);
+                    (start, is_last) = (next, is_near || is_settled);
                 }
             }
         }
@@ -289,7 +292,7 @@ impl BoundaryLoop<'_, '_> {
             }
             Err(error) => return Err(error),
         };
-        if matches!(next, NextBoundary::Stands) && !is_last {
+        if matches!(next, NextBoundary::Stands(_)) && !is_last {
             return Ok(None);
         }
         if self.mesh.is_last {
@@ -298,8 +301,8 @@ impl BoundaryLoop<'_, '_> {
         let is_near = step.moved.is_some_and(|way| way < NEARLY);
         self.history.boundaries.push(step);
         Ok(Some(match next {
-            NextBoundary::Stands => {
-                After::Ended(Ending::Converged(standing(&problem.contacts, &self.history.boundaries, within)))
+            NextBoundary::Stands(way) => {
+                After::Ended(Ending::Converged(standing(&problem.contacts, &self.history.boundaries, way, within)))
             }
             NextBoundary::GivenUp(failure) => After::Ended(Ending::NotConverged(failure)),
             NextBoundary::Again(contacts, motion) => {

@@ -1,7 +1,7 @@
 //! What the solution on a coarser mesh says of the next finer one: where to start, which multipliers are active, where
 //! contact boundaries lie.
 
-use crate::contact::{Known, Meeting, MultiplierSpace, SmoothSide};
+use crate::contact::{ContactBoundary, Known, Meeting, MultiplierSpace, SmoothSide};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
@@ -10,6 +10,16 @@ use crate::system::{
     BoundaryMotion, Contact, ContactPressure, Discretisation, Field, Preconditioning, Scene, Solution, Space, Start, SystemError,
     spaces,
 };
+
+/// Share of the way of an end from one mesh to the next by which it goes on from there to the one after: its error falls by
+/// two to four.
+const GOES_ON: f64 = 0.3;
+
+/// That way at most, in segments of the coarser mesh.
+const MOST_FORESEEN: f64 = 0.1;
+
+/// Multipliers between an end of contact and an open one that comes from the singularity there.
+const NEAR_AN_END: usize = 8;
 
 /// A solution on one refinement less.
 pub struct CoarseSolution {
@@ -137,6 +147,7 @@ impl ContactSolution {
                 let pressure = ContactPressure::new(old, &self.multipliers, &self.active).value(segment, z);
                 values.push(if carries { pressure } else { 0.0 });
             }
+            carry_single_ones(&self.active[old.range()], &mut active[new.range()]);
         }
         (values, active)
     }
@@ -162,7 +173,7 @@ impl ContactSolution {
                 meeting = Meeting::now(&sides, &old.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", old.pair.name)))?;
             }
-            known.push(Known { meeting, ..Known::default() });
+            known.push(Known { meeting, coarser: Some(old.ends()), ..Known::default() });
         }
         let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         if scene.pairs.iter().any(|pair| pair.follows()) {
@@ -174,7 +185,7 @@ impl ContactSolution {
                 let foot = |k: usize| match ends[k] == old.limits[k] {
                     // Where a body ends, it does so on every mesh.
                     true => new.limits[k],
-                    false => new.boundary.foot(old.boundary.point(ends[k])),
+                    false => foreseen(old, &new.boundary, k),
                 };
                 known.meeting.clone_from(&new.known.meeting);
                 known.ends = Some([foot(0), foot(1)]);
@@ -182,6 +193,36 @@ impl ContactSolution {
             contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         }
         Ok((contacts, motion))
+    }
+}
+
+/// Where an end will lie on the next mesh, as a parameter of its boundary: it goes on as it has from the mesh before.
+fn foreseen(old: &Contact, boundary: &ContactBoundary, end: usize) -> f64 {
+    let here = boundary.foot(old.ends()[end]);
+    let Some(before) = old.known.coarser else { return here };
+    let knots = old.boundary.knots();
+    let segment = if end == 0 { knots[1] - knots[0] } else { knots[knots.len() - 1] - knots[knots.len() - 2] };
+    let most = MOST_FORESEEN * segment.abs();
+    here + (GOES_ON * (here - boundary.foot(before[end]))).clamp(-most, most)
+}
+
+/// Single open multipliers between those that press. They come from the singularity at an end of contact, and keep their
+/// number from there on every mesh: the finer set opens those, and closes what lies at the place of the coarser ones. A gap
+/// of more multipliers is one of the bodies, and stays where it is.
+fn carry_single_ones(old: &[bool], new: &mut [bool]) {
+    let ends = |set: &[bool]| Some([set.iter().position(|&active| active)?, set.iter().rposition(|&active| active)?]);
+    let (Some(old_ends), Some(new_ends)) = (ends(old), ends(new)) else { return };
+    let inner: Vec<usize> = (old_ends[0]..old_ends[1]).filter(|&i| !old[i]).collect();
+    if inner.windows(2).any(|pair| pair[1] == pair[0] + 1) {
+        return;
+    }
+    new[new_ends[0]..=new_ends[1]].fill(true);
+    for i in inner {
+        let [from_first, from_last] = [i - old_ends[0], old_ends[1] - i];
+        let at = if from_first <= from_last { Some(new_ends[0] + from_first) } else { new_ends[1].checked_sub(from_last) };
+        if let Some(at) = at.filter(|&at| from_first.min(from_last) <= NEAR_AN_END && at > new_ends[0] && at < new_ends[1]) {
+            new[at] = false;
+        }
     }
 }
 
@@ -234,6 +275,21 @@ pub(super) fn coarse_values(
 mod tests {
     use super::*;
     use crate::mesh::samples::two_blocks;
+
+    #[test]
+    fn single_open_multipliers_keep_their_number_from_the_end() {
+        let carried = |old: &str, new: &str| {
+            let set = |text: &str| text.chars().map(|c| c == '1').collect::<Vec<_>>();
+            let mut next = set(new);
+            carry_single_ones(&set(old), &mut next);
+            next.iter().map(|&active| if active { '1' } else { '0' }).collect::<String>()
+        };
+        assert_eq!(carried("10111100", "110011111111000"), "101111111111000");
+        assert_eq!(carried("01111010", "001111111100110"), "001111111111010");
+        assert_eq!(carried("11100111", "111111000011111"), "111111000011111", "a gap of the bodies");
+        assert_eq!(carried("1011", "11"), "11", "no room");
+        assert_eq!(carried("0000", "10"), "10");
+    }
 
     #[test]
     fn polynomials_of_the_order_are_carried_exactly() {

@@ -4,14 +4,22 @@ use super::change::relative_change;
 use super::contact_state::ContactState;
 use super::ending::{Ending, Failure, Standing};
 use super::first_set::{carried_set, first_set};
-use super::unsettled::going_on;
-use crate::contact::{ActiveSet, SetChange};
+use super::unsettled::{going_on, places};
+use crate::contact::{ActiveSet, GapChoice, SetChange};
 use crate::system::{
-    LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held, rigid_start,
+    Contact, LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held,
+    rigid_start,
 };
 
 /// Relative residual of the solves inside the loop: enough to find the right set.
 const LOOSE: f64 = 1e-4;
+
+/// Share of its residual that a start from a coarser mesh is solved to before its set is looked at: what is wrong with it is
+/// seen by then.
+const LOOK: f64 = 1e-2;
+
+/// Multipliers that may change at such a look before the next solve is the last one.
+const FEW: usize = 2;
 
 /// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
 const FROM_START: f64 = 2e-4;
@@ -33,6 +41,13 @@ const MOST_SETS: usize = 120;
 
 /// Relative residual of the solves by which sets of rising energy are told, if the tolerance asks for no less.
 const TELLING: f64 = 1e-8;
+
+/// Force that a solve cannot tell from none, as a share of the largest pressure, by its relative residual.
+const DOUBT: f64 = 1e2;
+
+/// Violation of the contact conditions by a set that comes back, as a share of the largest pressure, by the relative residual:
+/// below it the set is as good as any other. Slender bodies change their forces by what is allowed in the end.
+const AS_GOOD: f64 = 1e3;
 
 /// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
 const LEAST_SHARE: f64 = 1e-8;
@@ -77,6 +92,8 @@ enum Next {
     Ascend,
     /// It solves again.
     Go,
+    /// It solves to where the set is looked at again.
+    Look,
 }
 
 /// The set that follows from a solve.
@@ -120,6 +137,8 @@ pub struct ContactLoop<'s, 'a> {
     /// Residual that the last solve goes to, and that of the present one, relative to the whole right-hand side.
     tolerance: f64,
     goal: f64,
+    /// Whether the first set and its solution come from a coarser mesh or another boundary.
+    is_carried: bool,
     /// How often contact was kept that a body needs.
     kept: usize,
     /// Displacements of the pass before.
@@ -137,6 +156,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     ) -> Result<Self, SystemError> {
         let problem = system.problem();
         let mut set = ActiveSet::new(bilateral(&problem.contacts));
+        let is_carried = start.is_some();
         if let Some(start) = start {
             set = set.starting_from(&start.active);
             let carried = carried_set(system, set.active(), &start.displacement);
@@ -150,9 +170,15 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         }
         let share = share(system)?;
         let last = share * last_residual(system, tolerance)?;
-        let goal = if set.may_change() { last.max(share * LOOSE) } else { last };
+        let is_expected =
+            is_carried && (position.passes > 0 || !set.active().contains(&false) && stays_closed(&problem.contacts));
+        let goal = match set.may_change() && !is_expected {
+            false => last,
+            true if is_carried => last.max(LOOK * system.residual()?.relative()),
+            true => last.max(share * LOOSE),
+        };
         let (before, wanted) = (system.free_displacement(), tolerance.residual());
-        Ok(Self { system, set, position, wanted, share, tolerance: last, goal, kept: 0, before, passes: Vec::new() })
+        Ok(Self { system, set, position, wanted, share, tolerance: last, goal, is_carried, kept: 0, before, passes: Vec::new() })
     }
 
     /// Solves until the active set stands and the last residual is below the tolerance; `report` is called with every pass.
@@ -176,9 +202,12 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
                     self.goal = self.tolerance.min(self.share * TELLING);
                     self.set.begin_ascent();
                 }
-                Next::Go => {}
+                Next::Go | Next::Look => {}
             }
             self.system.set_active(self.set.active())?;
+            if matches!(next, Next::Look) {
+                self.goal = self.tolerance.max(LOOK * self.system.residual()?.relative());
+            }
         }
     }
 
@@ -193,7 +222,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         Ok(match next_set {
             None => Next::End(self.after_failure(solve.ending, &state)),
             Some(NextSet { change: SetChange::Settled, lost }) => self.after_settled(solve.ending, lost, &state),
-            Some(NextSet { change, lost }) => self.after_change(&change, lost),
+            Some(NextSet { change, lost }) => self.after_change(&change, lost, &state),
         })
     }
 
@@ -231,13 +260,14 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         Ok(self.goal.min((0.1 * residual.norm / residual.whole).max(self.tolerance)))
     }
 
-    /// The set that follows from the forces. One that lets a body go may do so only because contact was closed where it is
+    /// The set that follows from the forces: nothing changes where they are too small to be told from none. One that lets a body go may do so only because contact was closed where it is
     /// to open, and pulled: the few multipliers that are pulled least, and hold all, stay closed then, so that the rest
     /// comes to rest on them. If that has been tried, the words for the body.
     fn next_set(&mut self, state: &ContactState) -> NextSet {
         let problem = self.system.problem();
-        let force = |i: usize| state.force(i);
-        let change = if self.set.ascends() { self.set.ascend(&state.found()) } else { self.set.update(force) };
+        let told = state.told_from(if self.is_loose() { 0.0 } else { DOUBT * self.goal / self.share });
+        let force = |i: usize| told.force(i);
+        let change = if self.set.ascends() { self.set.ascend(&told.found()) } else { self.set.update(force) };
         let lost = not_held(problem, self.set.active());
         if lost.is_none() || self.kept == MOST_KEPT || !matches!(change, SetChange::Changed { .. }) {
             return NextSet { change, lost };
@@ -287,21 +317,44 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         }
     }
 
-    fn after_change(&self, change: &SetChange, lost: Option<String>) -> Next {
+    fn after_change(&self, change: &SetChange, lost: Option<String>, state: &ContactState) -> Next {
         if let Some(words) = lost {
             return Next::End(Ending::NotConverged(Failure::NotHeld(words)));
         }
         let (solves, repeated) = (self.passes.len(), *change == SetChange::Repeated);
-        if solves >= MOST_SETS {
-            let (was, is) = (self.system.active(), self.set.active());
-            let changed: Vec<usize> = (0..was.len()).filter(|&i| was[i] != is[i]).collect();
-            return Next::End(Ending::NotConverged(Failure::SetChanges(going_on(self.system.problem(), solves, &changed))));
+        let goes_on = solves >= MOST_SETS;
+        let is_as_good = || match goes_on {
+            true => self.violated(state).is_none(),
+            false => repeated && state.violation(self.system.problem(), self.system.active()) <= AS_GOOD * self.goal / self.share,
+        };
+        if !self.is_loose() && is_as_good() {
+            return Next::End(Ending::Converged(self.round(state)));
         }
-        match repeated {
+        if goes_on {
+            let words = going_on(self.system.problem(), solves, &self.changed());
+            return Next::End(Ending::NotConverged(Failure::SetChanges(words)));
+        }
+        match change {
             _ if !self.set.ascends() && (solves >= MOST_PLAIN || repeated && !self.is_loose()) => Next::Ascend,
-            true => Next::Tighten,
-            false => Next::Go,
+            SetChange::Repeated if !self.set.ascends() => Next::Tighten,
+            SetChange::Changed { added, released } if self.is_carried && self.is_loose() => {
+                // What is left of the wrong ones is seen in the last solve, if it is but a few.
+                if added + released <= FEW { Next::Tighten } else { Next::Look }
+            }
+            _ => Next::Go,
         }
+    }
+
+    /// Multipliers that are to change after the last solve.
+    fn changed(&self) -> Vec<usize> {
+        let (was, is) = (self.system.active(), self.set.active());
+        (0..was.len()).filter(|&i| was[i] != is[i]).collect()
+    }
+
+    /// What stands where sets go round: the one that was solved for, which is as good as any.
+    fn round(&self, state: &ContactState) -> Standing {
+        let problem = self.system.problem();
+        Standing::Round { places: places(problem, &self.changed()), violation: state.violation(problem, self.system.active()) }
     }
 
     /// Whether the present solve is less exact than the last one is to be.
@@ -347,6 +400,12 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let then = std::mem::replace(&mut self.before, now);
         relative_change(&self.before, &then, self.system.session())
     }
+}
+
+/// Whether contacts that are closed all along on one mesh will be so on the next: there is no gap, or they end where the
+/// pressure does.
+fn stays_closed(contacts: &[Contact]) -> bool {
+    contacts.iter().all(|contact| contact.pair.has_free_ends() || matches!(contact.pair.gap, GapChoice::Closed))
 }
 
 /// Share of the right-hand side that asks for strain. Displacements prescribed to a stiff body are forces of its own

@@ -33,6 +33,16 @@ impl ContactState {
         Self { lambda, penetration, penalty: penalties(system.problem()) }
     }
 
+    /// The same without pulls and penetrations that are smaller than a `share` of the largest pressure.
+    pub(super) fn told_from(&self, share: f64) -> Self {
+        let least = share * self.largest_pressure();
+        let mut told = Self { lambda: self.lambda.clone(), penetration: self.penetration.clone(), penalty: self.penalty.clone() };
+        told.lambda.iter_mut().filter(|value| value.abs() <= least).for_each(|value| *value = value.max(0.0));
+        let small = |(value, penalty): &(&mut f64, &f64)| (**value * **penalty).abs() <= least;
+        told.penetration.iter_mut().zip(&self.penalty).filter(small).for_each(|(value, _)| *value = 0.0);
+        told
+    }
+
     /// `λ_i + κ_i (B u - C λ - c)_i`: positive where the next set of the plain rule is active.
     pub(super) fn force(&self, i: usize) -> f64 {
         self.lambda[i] + self.penalty[i] * self.penetration[i]
@@ -57,20 +67,11 @@ impl ContactState {
     /// Otherwise words with the figure of the worst.
     pub(super) fn violated(&self, problem: &Discretisation, active: &[bool], residual: f64) -> Option<String> {
         let allowed = MOST_VIOLATED.max(BY_RESIDUAL * residual);
-        let most = self.lambda.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let most = self.largest_pressure();
         let mut worst: Option<(f64, String)> = None;
         for contact in &problem.contacts {
-            let unilateral = contact.pair.law == Law::Unilateral;
             for i in contact.range() {
-                // A gap over next to no length takes the pressure that it would take over a part of an edge.
-                let (own, segment) = (i - contact.first, contact.multipliers.segment_of(i - contact.first));
-                let share = (contact.multipliers.length(own) / (LEAST_LENGTH * contact.edge_lengths[segment])).min(1.0);
-                let apart = share * self.penalty[i] * self.penetration[i];
-                let (off, what) = match (active[i], unilateral) {
-                    (true, true) if self.lambda[i] < 0.0 => (-self.lambda[i], "pulls"),
-                    (true, _) => (apart.abs(), "does not touch"),
-                    (false, _) => (apart, "penetrates"),
-                };
+                let (off, what) = self.off(contact, i, active[i]);
                 // Written so that what is not a number counts.
                 let holds = off <= allowed * most;
                 if !holds && worst.as_ref().is_none_or(|(value, _)| off > *value) {
@@ -81,6 +82,30 @@ impl ContactState {
             }
         }
         worst.map(|(_, words)| words)
+    }
+
+    /// Largest violation of the contact conditions, as a share of the largest pressure.
+    pub(super) fn violation(&self, problem: &Discretisation, active: &[bool]) -> f64 {
+        let of = |contact: &Contact| contact.range().map(|i| self.off(contact, i, active[i]).0).fold(0.0, f64::max);
+        let worst = problem.contacts.iter().map(of).fold(0.0, f64::max);
+        if worst > 0.0 { worst / self.largest_pressure() } else { 0.0 }
+    }
+
+    fn largest_pressure(&self) -> f64 {
+        self.lambda.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
+    }
+
+    /// By how much a multiplier violates the contact conditions (stress), and how.
+    fn off(&self, contact: &Contact, i: usize, is_active: bool) -> (f64, &'static str) {
+        // A gap over next to no length takes the pressure that it would take over a part of an edge.
+        let (own, segment) = (i - contact.first, contact.multipliers.segment_of(i - contact.first));
+        let share = (contact.multipliers.length(own) / (LEAST_LENGTH * contact.edge_lengths[segment])).min(1.0);
+        let apart = share * self.penalty[i] * self.penetration[i];
+        match (is_active, contact.pair.law == Law::Unilateral) {
+            (true, true) if self.lambda[i] < 0.0 => (-self.lambda[i], "pulls"),
+            (true, _) => (apart.abs(), "does not touch"),
+            (false, _) => (apart, "penetrates"),
+        }
     }
 }
 

@@ -41,12 +41,22 @@ pub enum Standing {
         /// What was asked for.
         tolerance: f64,
     },
+    /// Not the active set, which goes round, but each set of the round that meets the contact conditions as well as they are
+    /// asked for; and the residual is below its tolerance.
+    Round {
+        /// Where the sets differ, in words.
+        places: String,
+        /// Largest violation of the contact conditions, as a share of the largest pressure.
+        violation: f64,
+    },
     /// The contact boundary.
     Boundary {
         /// Boundaries that were solved for.
         fits: usize,
         /// Where its ends had to be held.
         held: Option<HeldEnds>,
+        /// Where it stands to what the mesh is exact for: by how much it would still move, as a share of its length.
+        way: Option<f64>,
         /// What stands on the last of them.
         within: Box<Standing>,
     },
@@ -72,8 +82,18 @@ impl Display for Standing {
                 f,
                 "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
             ),
-            Self::Boundary { fits, held, within } => {
+            Self::Round { places, violation } => write!(
+                f,
+                "the active set goes round at {places}, but this set meets the contact conditions to {violation:.0e} of the largest pressure, and the residual is below its tolerance"
+            ),
+            Self::Boundary { fits, held, way, within } => {
                 match held {
+                    None if way.is_some() => write!(
+                        f,
+                        "the contact boundary stands after {fits} fit{} to what the mesh is exact for: it would move by {:.0e} of its length",
+                        if *fits == 1 { "" } else { "s" },
+                        way.unwrap_or_default()
+                    )?,
                     None if *fits == 1 => write!(f, "the contact boundary fits what touches")?,
                     None => write!(f, "the contact boundary stands after {fits} fits, and so does the displacement")?,
                     Some(HeldEnds { fit, way, farthest }) => {

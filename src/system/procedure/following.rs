@@ -3,6 +3,7 @@
 use super::change::relative_change;
 use super::ending::{Failure, HeldEnds, Standing};
 use crate::contact::{Configuration, CurveChoice, End, Known, Meeting, SmoothSide, true_end};
+use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
 use crate::system::{BoundaryMotion, Contact, ContactPressure, Discretisation, Solution, Start, SystemError};
@@ -38,6 +39,16 @@ const AT_THE_END: f64 = 1e-2;
 /// A boundary whose ends move by less than this share of its length is the same.
 const SAME: f64 = 1e-5;
 
+/// Error that the ends have on a mesh anyway, as a share of their way since the coarser one: a third, if it falls by four from
+/// mesh to mesh, all of it, if by two.
+const OWN_ERROR: f64 = 0.5;
+
+/// The same by the segment beside them.
+const OF_A_SEGMENT: f64 = 0.03;
+
+/// Share of the length that ends may be left to move, however coarse the mesh is: force and peak feel the square of it.
+const MOST_LEFT: f64 = 3e-3;
+
 /// One boundary of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryStep {
@@ -55,8 +66,9 @@ pub struct BoundaryStep {
 
 /// What follows from a solution.
 pub enum NextBoundary {
-    /// Everything stands: the solution is the one.
-    Stands,
+    /// Everything stands: the solution is the one. Where it stands to what the mesh is exact for, with the share of its length
+    /// by which it would still move.
+    Stands(Option<f64>),
     /// It does not, and will not.
     GivenUp(Failure),
     /// The bodies have moved, and these are the boundaries now.
@@ -79,6 +91,8 @@ pub struct Following {
     last_way: f64,
     /// How far each boundary has reached so far.
     widest: Vec<[f64; 2]>,
+    /// Ends of all boundaries, as the last solution has them.
+    pub found: Vec<[Point; 2]>,
 }
 
 impl Following {
@@ -92,6 +106,7 @@ impl Following {
             ends: vec![[None; 2]; problem.contacts.len()],
             last_way: 0.0,
             widest: vec![[f64::INFINITY, f64::NEG_INFINITY]; problem.contacts.len()],
+            found: Vec::new(),
         }
     }
 
@@ -121,6 +136,7 @@ impl Following {
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
         let moved = way(&problem.contacts, &next);
+        self.found = next.iter().map(Contact::ends).collect();
         let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
         let step = BoundaryStep { iteration: number, length, moved, du, flipped };
         let [still_boundary, still_displacement] = self.tolerances();
@@ -128,10 +144,12 @@ impl Following {
         if let (true, Some(way)) = (number + 1 == HELD, moved) {
             self.last_way = way;
         }
+        let left = left_to_the_mesh(&problem.contacts, &next, still_boundary);
         let next_boundary = match moved {
             // The same boundary has the same solution.
-            Some(0.0) => self.beyond(problem, &motion),
-            Some(way) if way <= still_boundary && still => self.beyond(problem, &motion),
+            Some(0.0) => self.beyond(problem, &motion, None),
+            Some(way) if way <= still_boundary && still => self.beyond(problem, &motion, None),
+            _ if left.is_some() => self.beyond(problem, &motion, left),
             _ if number >= MOST_BOUNDARIES => NextBoundary::GivenUp(moves(&step)),
             _ => NextBoundary::Again(next, motion),
         };
@@ -139,7 +157,7 @@ impl Following {
     }
 
     /// What stands must not leave contact out: bodies that penetrate each other beyond the ends of Γ_C.
-    fn beyond(&self, problem: &Discretisation, motion: &BoundaryMotion) -> NextBoundary {
+    fn beyond(&self, problem: &Discretisation, motion: &BoundaryMotion, way: Option<f64>) -> NextBoundary {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let fitted =
@@ -151,7 +169,7 @@ impl Following {
                 return NextBoundary::GivenUp(Failure::Beyond { contact: contact.pair.name.clone(), depth });
             }
         }
-        NextBoundary::Stands
+        NextBoundary::Stands(way)
     }
 
     /// Change of the displacement since the boundary before, relative to its norm. **Collective**
@@ -186,7 +204,7 @@ impl Following {
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
                 if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
-                    all.push(Known { meeting: Some(meeting), ends: None, segments: None });
+                    all.push(Known { meeting: Some(meeting), ends: None, segments: None, ..known });
                     continue;
                 }
             }
@@ -249,6 +267,25 @@ fn multipliers_at(contact: &Contact, end: End) -> Vec<usize> {
     rows[..contact.multipliers.per_segment()].to_vec()
 }
 
+/// By how much the ends of the boundaries would still move, as a share of the length, if that is less than they are exact
+/// for: by their way since the coarser mesh and the segments beside them, or by what is `still`.
+fn left_to_the_mesh(before: &[Contact], after: &[Contact], still: f64) -> Option<f64> {
+    let mut most: f64 = 0.0;
+    for (old, new) in before.iter().zip(after).filter(|(old, _)| old.pair.follows()) {
+        let (boundary, last) = (&old.boundary, old.boundary.segments() - 1);
+        let (now, next, coarser) = (old.ends(), new.ends(), new.known.coarser?);
+        for (k, segment) in [0, last].into_iter().enumerate() {
+            let (way, since) = ((next[k] - now[k]).norm(), (next[k] - coarser[k]).norm());
+            let own = (OWN_ERROR * since).max(OF_A_SEGMENT * boundary.segment_length(segment));
+            if way > own.min(MOST_LEFT * boundary.length()).max(still * boundary.length()) {
+                return None;
+            }
+            most = most.max(way / boundary.length());
+        }
+    }
+    Some(most)
+}
+
 /// Largest way of a segment end between two placings of the contacts that follow, relative to the length.
 fn way(before: &[Contact], after: &[Contact]) -> Option<f64> {
     let mut most: f64 = 0.0;
@@ -271,14 +308,15 @@ fn moves(&BoundaryStep { moved, du, flipped, .. }: &BoundaryStep) -> Failure {
     Failure::BoundaryMoves { fits: MOST_BOUNDARIES, moved, du, flipped }
 }
 
-/// What stands after these boundaries of some contacts; `within` is what stands on the last of them.
-pub fn standing(contacts: &[Contact], steps: &[BoundaryStep], within: Standing) -> Standing {
+/// What stands after these boundaries of some contacts: to what the mesh is exact for if there is a `way` left; `within` is
+/// what stands on the last of them.
+pub fn standing(contacts: &[Contact], steps: &[BoundaryStep], way: Option<f64>, within: Standing) -> Standing {
     let may_be_held = contacts.iter().any(|contact| contact.pair.has_free_ends());
     let held = steps.get(HELD - 1).filter(|_| may_be_held).map(|_| {
         let way = steps[HELD - 2].moved;
         HeldEnds { fit: HELD - 1, way, farthest: way.is_some_and(|way| way > MOST_HELD) }
     });
-    Standing::Boundary { fits: steps.len(), held, within: Box::new(within) }
+    Standing::Boundary { fits: steps.len(), held, way, within: Box::new(within) }
 }
 
 /// A start from a solution, on the boundary it was found on.
@@ -297,7 +335,6 @@ pub fn carried(before: &[Contact], after: &[Contact], solution: &Solution) -> Op
 mod tests {
     use super::*;
     use crate::contact::{EndRule, Known, MultiplierSpace, Pair};
-    use crate::geometry::Point;
     use crate::system::samples::{blocks, contact, pair};
 
     /// Between two places of Γ_C on the seam, which is 2 long; the first is 0.5 long.

@@ -21,6 +21,9 @@ const COARSER: usize = 2;
 /// Relative residual of the solves on coarser meshes: below any discretisation error there.
 const COARSE: f64 = 1e-6;
 
+/// The same where boundaries follow: their ends are felt in the third digit of it.
+const COARSE_FOR_BOUNDARIES: f64 = 1e-8;
+
 /// The same where an accuracy is asked for: differences between the meshes are what it is told by.
 const COARSE_FOR_ACCURACY: f64 = 1e-8;
 
@@ -129,6 +132,8 @@ impl Procedure<'_> {
         let preconditioning = coarser.preconditioning(before.as_ref()).max(least);
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
             COARSE_FOR_ACCURACY
+        } else if problem.follows() {
+            COARSE_FOR_BOUNDARIES
         } else {
             COARSE
         }));

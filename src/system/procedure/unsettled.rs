@@ -8,18 +8,23 @@ const NAMED: usize = 4;
 
 /// Words for a set that still changes after so many solves, with the multipliers that did last and what helps.
 pub(super) fn going_on(problem: &Discretisation, solves: usize, changed: &[usize]) -> String {
-    let mut places: Vec<String> = changed.iter().map(|&i| place(problem.contact_of(i), i)).collect();
-    places.dedup();
-    let more = if places.len() > NAMED { format!(" and {} more", places.len() - NAMED) } else { String::new() };
-    places.truncate(NAMED);
     let contacts = problem.contacts.iter().filter(|contact| changed.iter().any(|i| contact.range().contains(i)));
     let mut remedies: Vec<&str> = contacts.map(remedy).collect();
     remedies.dedup();
     format!(
-        "the active set still changes after {solves} solves, the last time at {}{more}; {}",
-        places.join(", "),
+        "the active set still changes after {solves} solves, the last time at {}; {}",
+        places(problem, changed),
         remedies.join("; ")
     )
+}
+
+/// Contacts and segments of multipliers, in words: the first few of them.
+pub(super) fn places(problem: &Discretisation, multipliers: &[usize]) -> String {
+    let mut places: Vec<String> = multipliers.iter().map(|&i| place(problem.contact_of(i), i)).collect();
+    places.dedup();
+    let more = if places.len() > NAMED { format!(" and {} more", places.len() - NAMED) } else { String::new() };
+    places.truncate(NAMED);
+    format!("{}{more}", places.join(", "))
 }
 
 /// What makes sets come to rest: multipliers that the displacements control.
