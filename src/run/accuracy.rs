@@ -146,7 +146,9 @@ fn limits(Adaptation { accuracy, end, .. }: &Adaptation) -> String {
         SequenceEnd::Unknowns if unknowns.is_none() => "; the next mesh would take more than half of the memory that is left",
         SequenceEnd::Stuck => "; an estimate no longer falls, or cannot be had",
         SequenceEnd::Meshes => "; there are no more meshes than that",
-        SequenceEnd::Unbounded => "; a largest λ that is asked for grows without bound towards an end of contact: it has no value, ask for pressure or force instead",
+        SequenceEnd::Unbounded => {
+            "; a largest λ that is asked for grows without bound towards an end of contact: it has no value, ask for pressure or force instead"
+        }
         _ => "",
     };
     allowed + end

@@ -51,7 +51,9 @@ fn error(case: &Case, quantity: &Quantity, found: &Evaluation) -> Result<Option<
             let exact = of_contact(case, name).and_then(|exact| exact.force);
             contact(name).zip(exact).map(|(at, force)| (found.balance.contacts[at].force / force.value - 1.0).abs())
         }
-        Quantity::Pressure(name) => contact(name).zip(formula(name)).and_then(|(at, exact)| found.pressure(at).middle_error(exact)),
+        Quantity::Pressure(name) => {
+            contact(name).zip(formula(name)).and_then(|(at, exact)| found.pressure(at).middle_error(exact))
+        }
         Quantity::Peak(name) => contact(name).zip(formula(name)).map(|(at, exact)| found.pressure(at).peak_error(exact)),
         // A pressure as a formula does not say where it ends.
         Quantity::Ends(_) => None,

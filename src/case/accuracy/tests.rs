@@ -40,7 +40,8 @@ fn a_number_is_short_for_energy() {
 
 #[test]
 fn goals_are_in_the_order_of_the_case() {
-    let all = "[accuracy]\nstress = 0.1\ndisplacement = 0.05\npeak = 0.03\nends = 0.02\npressure = 1e-3\nforce = 1e-2\nenergy = 1e-4";
+    let all =
+        "[accuracy]\nstress = 0.1\ndisplacement = 0.05\npeak = 0.03\nends = 0.02\npressure = 1e-3\nforce = 1e-2\nenergy = 1e-4";
     let expected = [
         "energy - 0.0001",
         "force seam 0.01",
@@ -97,7 +98,11 @@ fn every_error_names_key_value_and_remedy() {
         (SCENE, "accuracy.contact.sam.force=0.1", "accuracy.contact.sam: no such contact; did you mean \"seam\"?"),
         (SCENE, "accuracy.contact.seam={}", "accuracy.contact.seam: asks for nothing; give force, pressure, peak or ends"),
         (SCENE, "accuracy.contact.seam=0.1", "accuracy.contact.seam = 0.1 (--set): must be a table"),
-        (SCENE, "accuracy.contact.seam.energy=0.1", "accuracy.contact.seam.energy: unknown key; there are force, pressure, peak, ends"),
+        (
+            SCENE,
+            "accuracy.contact.seam.energy=0.1",
+            "accuracy.contact.seam.energy: unknown key; there are force, pressure, peak, ends",
+        ),
         (SCENE, "accuracy.contact.glue.ends=0.1", "accuracy.contact.glue.ends = 0.1 (--set): contact.glue is bilateral"),
         (LEAST, "accuracy.force=0.1", "accuracy.force = 0.1 (--set): there is no contact in this case"),
         (

@@ -81,7 +81,8 @@ pub fn write_accuracy(path: &Path, title: &str, goals: &[Sequence]) -> Result<()
     let points = || goals.iter().flat_map(|goal| goal.shown().chain(shown(&goal.errors)));
     let known = goals.iter().any(|goal| shown(&goal.errors).next().is_some());
     let x = axis("unknowns N").spec(points().map(|(n, _)| n));
-    let y = axis(if known { "relative error: estimated, and true (dashed)" } else { "estimated relative error" }).spec(points().map(|(_, error)| error).chain(goals.iter().map(|goal| goal.asked)));
+    let y = axis(if known { "relative error: estimated, and true (dashed)" } else { "estimated relative error" })
+        .spec(points().map(|(_, error)| error).chain(goals.iter().map(|goal| goal.asked)));
     let top = TITLE + ROW * goals.len() as i32 + MARGINS[3];
     let sheet =
         Sheet { width: WIDTH, height: HEIGHT + ROW * goals.len() as i32, margins: [MARGINS[0], MARGINS[1], top, MARGINS[2]] };

@@ -85,7 +85,8 @@ fn an_accuracy_is_told_where_it_was_asked_for() {
     assert_eq!(serde_json::from_value::<Summary>(without).unwrap(), filled());
     let goal = |estimate, asked| Some(GoalSummary { estimate, error: None, asked });
     let first = AccuracyStep { macro_triangles: 8, refine: 2, unknowns: 600, seconds: 0.25, ..AccuracyStep::default() };
-    let seam = ContactGoals { force: goal(Some(1e-3), 1e-2), pressure: goal(None, 1e-3), peak: None, ends: goal(Some(f64::NAN), 0.02) };
+    let seam =
+        ContactGoals { force: goal(Some(1e-3), 1e-2), pressure: goal(None, 1e-3), peak: None, ends: goal(Some(f64::NAN), 0.02) };
     let tip = ProbeGoals { displacement: goal(Some(0.01), 0.05), stress: goal(None, 0.1) };
     let all = AccuracyStep {
         energy: goal(Some(8.1e-5), 1e-4),
@@ -102,8 +103,7 @@ fn an_accuracy_is_told_where_it_was_asked_for() {
         "pressure": {"estimate": null, "error": null, "asked": 1e-3},
         "ends": {"estimate": null, "error": null, "asked": 0.02},
     }});
-    told["probe"] =
-        json!({"tip": {"displacement": {"estimate": 0.01, "error": null, "asked": 0.05}, "stress": {"estimate": null, "error": null, "asked": 0.1}}});
+    told["probe"] = json!({"tip": {"displacement": {"estimate": 0.01, "error": null, "asked": 0.05}, "stress": {"estimate": null, "error": null, "asked": 0.1}}});
     assert_eq!(value["accuracy"], json!([size, told]), "goals that are not asked for are missing");
     let read: Summary = serde_json::from_value(value).unwrap();
     assert_eq!(

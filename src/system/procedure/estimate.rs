@@ -168,8 +168,11 @@ impl Estimate {
             value_left(before.map(|before| before.force[k]), last.force[k], fall, FORCE_SHARES)
         };
         let peak = |k: usize| {
-            if std::env::var("DBG").is_ok() { eprintln!("DBG peak before {:?} last {} above {}", before.map(|b| b.peak[k]), last.peak[k], last.above[k]); }
-            value_left(before.map(|before| before.peak[k]), last.peak[k], PEAK_FALLS, SHARES).map(|error| (error + last.above[k]).max(residual))
+            if std::env::var("DBG").is_ok() {
+                eprintln!("DBG peak before {:?} last {} above {}", before.map(|b| b.peak[k]), last.peak[k], last.above[k]);
+            }
+            value_left(before.map(|before| before.peak[k]), last.peak[k], PEAK_FALLS, SHARES)
+                .map(|error| (error + last.above[k]).max(residual))
         };
         let ends = |k: usize| {
             let (within, is_all) = last.within_segments[k];
