@@ -1,7 +1,7 @@
 //! The pressure on one contact boundary.
 
 use super::{Contact, Solution};
-use crate::contact::{Zone, oscillation, recovered_peak, zone_counts};
+use crate::contact::{Zone, faded_end, oscillation, recovered_peak, zone_counts};
 use crate::geometry::{Formula, Point, gauss_points};
 
 /// λ of one contact, with the set that it was solved for.
@@ -89,6 +89,11 @@ impl<'a> ContactPressure<'a> {
         let zones = self.zones();
         let highest = zones.iter().max_by(|a, b| self.peak_of(a).total_cmp(&self.peak_of(b)))?;
         recovered_peak(&self.contact.boundary, &self.contact.multipliers, self.values, highest)
+    }
+
+    /// Arc length at which the pressure of a zone fades out at one of its ends (0 or 1); nothing where it does not.
+    pub fn faded_end(&self, zone: &Zone, end: usize) -> Option<f64> {
+        faded_end(&self.contact.boundary, &self.contact.multipliers, self.values, zone, end)
     }
 
     /// How much of it is checkerboard; nothing if there is not enough to tell.

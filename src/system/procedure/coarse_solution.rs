@@ -35,6 +35,8 @@ pub(super) struct ContactSolution {
     contacts: Vec<Contact>,
     multipliers: Vec<f64>,
     active: Vec<bool>,
+    /// Whether the other mesh is the next refinement of the same macro triangles: ends of contact go on as they have come.
+    is_refined: bool,
 }
 
 impl CoarseSolution {
@@ -48,7 +50,7 @@ impl CoarseSolution {
         Ok(Self {
             displacement: Field::displacement(&problem, &solution.displacement, session)?,
             numbering: problem.finest().numbering.clone(),
-            contact: ContactSolution::new(problem.contacts, &solution),
+            contact: ContactSolution::new(problem.contacts, &solution, true),
             preconditioning,
         })
     }
@@ -100,9 +102,9 @@ impl CoarseSolution {
 }
 
 impl ContactSolution {
-    /// The contacts with what was found on them.
-    pub fn new(contacts: Vec<Contact>, solution: &Solution) -> Self {
-        Self { contacts, multipliers: solution.multipliers.clone(), active: solution.active.clone() }
+    /// The contacts with what was found on them, for a refinement of the mesh or for another one.
+    pub fn new(contacts: Vec<Contact>, solution: &Solution, is_refined: bool) -> Self {
+        Self { contacts, multipliers: solution.multipliers.clone(), active: solution.active.clone(), is_refined }
     }
 
     /// Another mesh, displaced by `displacement` (this rank's unknowns in the nodes' frames), with the contacts where this
@@ -173,7 +175,7 @@ impl ContactSolution {
                 meeting = Meeting::now(&sides, &old.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", old.pair.name)))?;
             }
-            known.push(Known { meeting, coarser: Some(old.ends()), ..Known::default() });
+            known.push(Known { meeting, coarser: self.is_refined.then(|| old.ends()), ..Known::default() });
         }
         let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         if scene.pairs.iter().any(|pair| pair.follows()) {

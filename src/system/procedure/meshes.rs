@@ -205,7 +205,11 @@ impl Procedure<'_> {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
         }
-        let estimate = Estimate::new(&differences, problem.scene.order, found.solution.residual);
+        let estimate = Estimate::new(&differences, problem.scene.order, found.solution.residual, |own| {
+            let mut sum = [own];
+            self.session.sum(&mut sum);
+            sum[0]
+        });
         let OnMesh { solution, ending, passes, boundaries, preconditioning, solver } = found;
         Ok(Solved {
             problem,

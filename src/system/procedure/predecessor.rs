@@ -24,7 +24,7 @@ impl<'s> Predecessor<'s> {
     pub fn new(solved: &'s Solved, origins: &'s [Origin], session: &Session) -> Result<Self, SystemError> {
         let Solved { problem, solution, preconditioning, .. } = solved;
         let displacement = Field::displacement(problem, &solution.displacement, session)?;
-        let contact = ContactSolution::new(problem.contacts.clone(), solution);
+        let contact = ContactSolution::new(problem.contacts.clone(), solution, false);
         Ok(Self { problem, displacement, contact, preconditioning: *preconditioning, origins })
     }
 
