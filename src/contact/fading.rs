@@ -32,8 +32,7 @@ pub fn faded_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: 
         (off, a - y / slope)
     };
     let (off, inside) = POWERS.map(by_power).into_iter().min_by(|one, other| one.0.total_cmp(&other.0))?;
-    let inside = inside.clamp(-length, length);
-    (off < MOST_OFF).then_some(if end == 0 { zone.arcs[0] + inside } else { zone.arcs[1] - inside })
+    (off < MOST_OFF && inside.abs() <= length).then_some(if end == 0 { zone.arcs[0] + inside } else { zone.arcs[1] - inside })
 }
 
 #[cfg(test)]

@@ -199,6 +199,7 @@ mod tests {
             refine: 2,
             unknowns: problem.unknown_count(),
             errors: vec![Some(1e-2)],
+            true_errors: Vec::new(),
             seconds: 0.0,
         });
         Solved {
