@@ -30,6 +30,8 @@ pub struct CoarseSolution {
     active: Vec<bool>,
     /// The preconditioner it needed.
     pub preconditioning: Preconditioning,
+    /// Whether its active set was hard to find, or that of a mesh before.
+    pub is_hard: bool,
 }
 
 impl CoarseSolution {
@@ -47,6 +49,7 @@ impl CoarseSolution {
             multipliers: solution.multipliers,
             active: solution.active,
             preconditioning,
+            is_hard: false,
         })
     }
 

@@ -47,7 +47,7 @@ const OWN_ERROR: f64 = 0.5;
 const OF_A_SEGMENT: f64 = 0.03;
 
 /// Share of the length that ends may be left to move, however coarse the mesh is: force and peak feel the square of it.
-const MOST_LEFT: f64 = 3e-3;
+const MOST_LEFT: f64 = 1.6e-3;
 
 /// One boundary of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]

@@ -112,6 +112,7 @@ impl Procedure<'_> {
             return Ok(());
         }
         self.say(first);
+        let is_hard = before.as_ref().is_some_and(|before| before.is_hard);
         let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
         let preconditioning = before.as_ref().map_or(least, |before| before.preconditioning.max(least));
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
@@ -121,8 +122,11 @@ impl Procedure<'_> {
         } else {
             COARSE
         }));
-        let found =
-            OneMesh { procedure: self, tolerance, is_last: false, duals: None }.solve(&mut problem, start, preconditioning)?;
+        let found = OneMesh { procedure: self, tolerance, is_last: false, is_hard, duals: None }.solve(
+            &mut problem,
+            start,
+            preconditioning,
+        )?;
         let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
         let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
         coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
@@ -133,7 +137,9 @@ impl Procedure<'_> {
             if let Some(before) = &before {
                 coarser.differences.push(Difference::new(&problem, &found.solution, before, &self.probes(), self.session)?);
             }
-            coarser.found = Some(CoarseSolution::new(problem, found.solution, found.preconditioning, self.session)?);
+            let mut coarse = CoarseSolution::new(problem, found.solution, found.preconditioning, self.session)?;
+            coarse.is_hard = is_hard || found.ascended;
+            coarser.found = Some(coarse);
         }
         Ok(())
     }
@@ -165,9 +171,11 @@ impl Procedure<'_> {
         self.say(&mut first);
         let preconditioning =
             coarse.as_ref().map_or(first.preconditioning, |coarse| coarse.preconditioning.max(first.preconditioning));
+        let is_hard = coarse.as_ref().is_some_and(|coarse| coarse.is_hard);
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
         let duals = self.accuracy.map(|accuracy| Duals { goals: &accuracy.goals, coarse: coarse.as_ref() });
-        let found = OneMesh { procedure: self, tolerance, is_last: true, duals }.solve(&mut problem, start, preconditioning)?;
+        let found =
+            OneMesh { procedure: self, tolerance, is_last: true, is_hard, duals }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, &self.probes(), self.session)?);
