@@ -110,7 +110,7 @@ impl Report {
     fn head(&self, follows: Option<[f64; 2]>) {
         if let Some([boundary, displacement]) = follows {
             self.say(&format!(
-                "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes"
+                "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes; or, after coarser meshes, by less than this one is exact for"
             ));
         }
         self.say("outer  active       +/-  Krylov  residual  penetration     du");

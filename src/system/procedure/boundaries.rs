@@ -26,6 +26,8 @@ pub struct OneMesh<'p> {
     pub tolerance: Tolerance,
     /// Whether it is the mesh of the case: the others are reported when they are solved.
     pub is_last: bool,
+    /// Whether its active set was hard to find on the coarser mesh.
+    pub is_hard: bool,
     /// The goals whose dual problems are solved in the end.
     pub duals: Option<Duals<'p>>,
 }
@@ -36,6 +38,8 @@ pub struct OnMesh {
     pub ending: Ending,
     pub passes: Vec<Pass>,
     pub boundaries: Vec<BoundaryStep>,
+    /// Whether its active set was found by rising energy only.
+    pub ascended: bool,
     /// The preconditioner that it needed.
     pub preconditioning: Preconditioning,
     /// What solved it, in words.
@@ -74,6 +78,7 @@ enum After {
 struct OnBoundary {
     solution: Solution,
     after: After,
+    ascended: bool,
     preconditioning: Preconditioning,
     solver: String,
 }
@@ -93,11 +98,12 @@ impl OneMesh<'_> {
         }
         self.begin(None);
         let mut system = self.system(problem, &bodies, preconditioning)?;
-        let found = self.sets(&mut system, start, self.tolerance, LoopPosition { boundary: 1, passes: 0 })?;
+        let found =
+            self.sets(&mut system, start, self.tolerance, LoopPosition { boundary: 1, passes: 0, is_hard: self.is_hard })?;
         let LoopOutcome { solution, ending, passes, ascended } = found;
         let solution = self.finished(&mut system, solution, &ending, ascended)?;
         let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
-        Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), preconditioning, solver })
+        Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), ascended, preconditioning, solver })
     }
 
     /// Solves, lets the boundaries follow, and solves again, until everything stands. **Collective**
@@ -128,6 +134,7 @@ impl OneMesh<'_> {
                         ending,
                         passes,
                         boundaries,
+                        ascended: found.ascended,
                         preconditioning,
                         solver: found.solver,
                     });
@@ -244,7 +251,7 @@ impl BoundaryLoop<'_, '_> {
         let (mut start, mut is_last) = (start, is_last || self.exact >= ON_THE_WAY);
         loop {
             let tolerance = Tolerance::Residual(if is_last { self.exact } else { ON_THE_WAY });
-            let position = LoopPosition { boundary: self.number, passes: self.history.passes.len() };
+            let position = LoopPosition { boundary: self.number, passes: self.history.passes.len(), is_hard: self.mesh.is_hard };
             let LoopOutcome { solution, ending, passes, ascended } =
                 self.mesh.sets(&mut system, start.take(), tolerance, position)?;
             self.history.passes.extend(passes);
@@ -266,6 +273,7 @@ impl BoundaryLoop<'_, '_> {
             return Ok(OnBoundary {
                 solution,
                 after,
+                ascended,
                 preconditioning: system.preconditioning(),
                 solver: system.solver_name().to_string(),
             });

@@ -28,6 +28,8 @@ pub struct CoarseSolution {
     contact: ContactSolution,
     /// The preconditioner it needed.
     pub preconditioning: Preconditioning,
+    /// Whether its active set was hard to find, or that of a mesh before.
+    pub is_hard: bool,
 }
 
 /// What a solution says of the contacts of another mesh: where they lie, and what presses.
@@ -52,6 +54,7 @@ impl CoarseSolution {
             numbering: problem.finest().numbering.clone(),
             contact: ContactSolution::new(problem.contacts, &solution, true),
             preconditioning,
+            is_hard: false,
         })
     }
 

@@ -110,6 +110,8 @@ pub struct LoopPosition {
     pub boundary: usize,
     /// Passes made on boundaries before.
     pub passes: usize,
+    /// Whether the set was hard to find on the coarser mesh: residuals say little of the forces then, as in slender bodies.
+    pub is_hard: bool,
 }
 
 /// What a loop has found.
@@ -137,7 +139,7 @@ pub struct ContactLoop<'s, 'a> {
     /// Residual that the last solve goes to, and that of the present one, relative to the whole right-hand side.
     tolerance: f64,
     goal: f64,
-    /// Whether the first set and its solution come from a coarser mesh or another boundary.
+    /// Whether the first set and its solution come from a coarser mesh or another boundary, and can be trusted.
     is_carried: bool,
     /// How often contact was kept that a body needs.
     kept: usize,
@@ -156,7 +158,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     ) -> Result<Self, SystemError> {
         let problem = system.problem();
         let mut set = ActiveSet::new(bilateral(&problem.contacts));
-        let is_carried = start.is_some();
+        let is_carried = start.is_some() && !position.is_hard;
         if let Some(start) = start {
             set = set.starting_from(&start.active);
             let carried = carried_set(system, set.active(), &start.displacement);

@@ -41,13 +41,13 @@ const SAME: f64 = 1e-5;
 
 /// Error that the ends have on a mesh anyway, as a share of their way since the coarser one: a third, if it falls by four from
 /// mesh to mesh, all of it, if by two.
-const OWN_ERROR: f64 = 0.5;
+const OWN_ERROR: f64 = 0.45;
 
 /// The same by the segment beside them.
-const OF_A_SEGMENT: f64 = 0.03;
+const OF_A_SEGMENT: f64 = 0.025;
 
 /// Share of the length that ends may be left to move, however coarse the mesh is: force and peak feel the square of it.
-const MOST_LEFT: f64 = 3e-3;
+const MOST_LEFT: f64 = 1.6e-3;
 
 /// One boundary of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]

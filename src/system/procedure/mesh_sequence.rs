@@ -210,6 +210,7 @@ mod tests {
             boundaries: Vec::new(),
             solver: String::new(),
             preconditioning: Preconditioning::Sweep,
+            is_hard: false,
             estimate: Estimate::default(),
             coarse: Vec::new(),
             adaptation: None,

@@ -44,6 +44,11 @@ impl Coarser<'_> {
         let needed = before.map(|before| before.preconditioning).or(self.predecessor.map(|before| before.preconditioning));
         needed.unwrap_or(Preconditioning::Sweep)
     }
+
+    /// Whether the active set was hard to find on the mesh `before`, or on the adapted one before.
+    fn is_hard(&self, before: Option<&CoarseSolution>) -> bool {
+        before.map_or_else(|| self.predecessor.is_some_and(|before| before.is_hard), |before| before.is_hard)
+    }
 }
 
 /// The linear solver to begin with.
@@ -128,6 +133,7 @@ impl Procedure<'_> {
             return Ok(());
         }
         self.say(first);
+        let is_hard = coarser.is_hard(before.as_ref());
         let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
         let preconditioning = coarser.preconditioning(before.as_ref()).max(least);
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
@@ -137,8 +143,11 @@ impl Procedure<'_> {
         } else {
             COARSE
         }));
-        let found =
-            OneMesh { procedure: self, tolerance, is_last: false, duals: None }.solve(&mut problem, start, preconditioning)?;
+        let found = OneMesh { procedure: self, tolerance, is_last: false, is_hard, duals: None }.solve(
+            &mut problem,
+            start,
+            preconditioning,
+        )?;
         let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
         let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
         coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
@@ -149,7 +158,9 @@ impl Procedure<'_> {
             if let Some(before) = &before {
                 coarser.differences.push(Difference::new(&problem, &found.solution, before, self.accuracy, self.session)?);
             }
-            coarser.found = Some(CoarseSolution::new(problem, found.solution, found.preconditioning, self.session)?);
+            let mut coarse = CoarseSolution::new(problem, found.solution, found.preconditioning, self.session)?;
+            coarse.is_hard = is_hard || found.ascended;
+            coarser.found = Some(coarse);
         }
         Ok(())
     }
@@ -197,10 +208,12 @@ impl Procedure<'_> {
     ) -> Result<Solved, SystemError> {
         self.say(&mut first);
         let preconditioning = coarser.preconditioning(coarser.found.as_ref()).max(first.preconditioning);
+        let is_hard = coarser.is_hard(coarser.found.as_ref());
         let Coarser { found: coarse, mut differences, solves, .. } = coarser;
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
         let duals = self.accuracy.map(|accuracy| Duals { goals: &accuracy.goals, coarse: coarse.as_ref() });
-        let found = OneMesh { procedure: self, tolerance, is_last: true, duals }.solve(&mut problem, start, preconditioning)?;
+        let found =
+            OneMesh { procedure: self, tolerance, is_last: true, is_hard, duals }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
@@ -210,7 +223,7 @@ impl Procedure<'_> {
             self.session.sum(&mut sum);
             sum[0]
         });
-        let OnMesh { solution, ending, passes, boundaries, preconditioning, solver } = found;
+        let OnMesh { solution, ending, passes, boundaries, preconditioning, solver, ascended } = found;
         Ok(Solved {
             problem,
             solution,
@@ -219,6 +232,7 @@ impl Procedure<'_> {
             boundaries,
             solver,
             preconditioning,
+            is_hard: is_hard || ascended,
             estimate,
             coarse: solves,
             adaptation: None,
@@ -248,6 +262,7 @@ fn nothing(problem: Discretisation, ending: Ending, coarse: Vec<CoarseSolve>) ->
         boundaries: Vec::new(),
         solver: "none".into(),
         preconditioning: Preconditioning::Sweep,
+        is_hard: false,
         estimate: Estimate::default(),
         coarse,
         adaptation: None,

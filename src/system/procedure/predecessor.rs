@@ -15,6 +15,8 @@ pub(super) struct Predecessor<'s> {
     contact: ContactSolution,
     /// The preconditioner it needed.
     pub preconditioning: Preconditioning,
+    /// Whether its active set was hard to find, or that of a mesh before.
+    pub is_hard: bool,
     /// Where each macro triangle of the next mesh lies.
     origins: &'s [Origin],
 }
@@ -22,10 +24,10 @@ pub(super) struct Predecessor<'s> {
 impl<'s> Predecessor<'s> {
     /// Takes a solution over, for a mesh whose macro triangles have these origins. **Collective**
     pub fn new(solved: &'s Solved, origins: &'s [Origin], session: &Session) -> Result<Self, SystemError> {
-        let Solved { problem, solution, preconditioning, .. } = solved;
+        let Solved { problem, solution, preconditioning, is_hard, .. } = solved;
         let displacement = Field::displacement(problem, &solution.displacement, session)?;
         let contact = ContactSolution::new(problem.contacts.clone(), solution, false);
-        Ok(Self { problem, displacement, contact, preconditioning: *preconditioning, origins })
+        Ok(Self { problem, displacement, contact, preconditioning: *preconditioning, is_hard: *is_hard, origins })
     }
 
     /// The next mesh with the contacts where this solution says, and where to start on it. **Collective**

@@ -34,6 +34,8 @@ pub struct Solved {
     pub solver: String,
     /// The preconditioner that it needed.
     pub preconditioning: Preconditioning,
+    /// Whether its active set was hard to find, or that of a mesh before.
+    pub is_hard: bool,
     /// Estimated errors of discretisation.
     pub estimate: Estimate,
     /// Coarser meshes that were solved first.
