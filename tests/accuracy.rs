@@ -74,6 +74,7 @@ fn bars_get_the_accuracy_on_the_same_meshes_on_all_ranks() {
         let effectivity = estimate / error.sqrt();
         assert!((0.7..=1.5).contains(&effectivity), "{ranks} ranks: estimate {effectivity} times the error");
         assert_eq!(sizes[0][0], 8, "the mesh of the file is the first");
+        assert!(sizes.len() <= 5, "{ranks} ranks: {sizes:?}: what is foreseen saves meshes");
         assert!(sizes.last().is_some_and(|[_, unknowns]| *unknowns <= 16_000), "{ranks} ranks: {sizes:?}");
         assert_eq!(sizes, self::sizes(&runs[0]), "{ranks} ranks");
         let off = (energy(run) / energy(&runs[0]) - 1.0).abs();
@@ -145,6 +146,46 @@ fn displacement_and_stress_at_a_point_are_as_exact_as_asked() {
     println!("{:?}: u off by {:.1e}, stress by {:.1e}", sizes(&ended), errors[0], errors[1]);
     assert!(errors[0] <= 1e-4 && errors[1] <= 1e-3, "{errors:?}");
     assert!(sizes(&ended).last().is_some_and(|[_, unknowns]| *unknowns <= 10_000), "{:?}", sizes(&ended));
+}
+
+/// Stresses and λ of the case are formulas, so that each mesh knows its true errors.
+#[test]
+fn estimates_are_near_the_true_errors() {
+    let run = Run::case("rings_michell").set("mesh.refine", 0).set("output.fields", false);
+    let ended = run.set("accuracy", "{ energy = 1e-3, pressure = 1e-3 }").ranks(2).converged();
+    let last = sizes(&ended).len() - 1;
+    for mesh in [last - 1, last] {
+        for (goal, least, most) in [("energy", 0.7, 1.5), ("contact/seam/pressure", 0.7, 2.5)] {
+            let [estimate, error] = ["estimate", "error"].map(|what| ended.number(&format!("/accuracy/{mesh}/{goal}/{what}")));
+            println!("mesh {}: {goal} {error:.1e}, estimate {estimate:.1e}", mesh + 1);
+            assert!((least..=most).contains(&(estimate / error)), "{goal}: {estimate:e} for {error:e}");
+            assert!(mesh < last || error <= 1e-3, "{goal}: {error:e}");
+        }
+    }
+}
+
+/// The largest pressure lies on the line of symmetry, where Γ_C has to begin: 135.326(3) by hp finite elements of another
+/// program. Each mesh begins where the one before has ended: its coarsest refinement need not find the contact again.
+#[test]
+fn the_largest_pressure_is_as_exact_as_asked() {
+    let run = Run::case("hertz").set("mesh.refine", 0).set("output.fields", false);
+    let ended = run.set("accuracy.peak", "1e-3").ranks(2).converged();
+    let off = (ended.number("/contact/seam/pressure_max") / 135.326 - 1.0).abs();
+    let solves = ended.value("/solver/coarse/0/iterations").as_array().map_or(0, Vec::len);
+    println!("{:?}: largest pressure off by {off:.1e}, {solves} solves on the coarsest refinement", sizes(&ended));
+    assert!(off <= 1e-3, "{off:e}");
+    assert!(sizes(&ended).last().is_some_and(|[_, unknowns]| *unknowns <= 40_000), "{:?}", sizes(&ended));
+    assert_eq!(ended.number("/contact/seam/closed/0/0"), 0.0, "contact begins on the line of symmetry");
+    assert!(solves <= 8, "{solves} solves on the coarsest refinement of the last mesh");
+}
+
+#[test]
+fn a_largest_pressure_that_grows_without_bound_is_never_reached() {
+    let (_folder, file) = bars();
+    let ended = Run::file(&file).set("accuracy.peak", "1e-1").ranks(2).ended();
+    assert_eq!(ended.code, Some(3), "{}", ended.said());
+    let reason = ended.value("/reason").to_string();
+    assert!(reason.contains("grows without bound towards an end of contact"), "{reason}");
 }
 
 /// The order that the best meshes have: the estimate in the energy norm falls like N⁻¹ for P2, N^-½ for P1.

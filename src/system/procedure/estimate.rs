@@ -59,7 +59,7 @@ const FORCE_SLOWEST: f64 = 0.6;
 const SHARES: [f64; 2] = [0.6, 0.0];
 
 /// The same of a force: its errors fall more quickly, but have either sign, so that it may seem to fall more quickly still.
-const FORCE_SHARES: [f64; 2] = [0.3, 0.3];
+const FORCE_SHARES: [f64; 2] = [0.6, 0.3];
 
 /// λ at both ends of a zone, on the mesh before and on the one before that (stress).
 pub(super) type AtEnds = [Option<[f64; 2]>; 2];
