@@ -122,7 +122,7 @@ impl Procedure<'_> {
             let _stage = self.observer.enter(Work::Contact);
             let known = match &before {
                 Some(before) => Some(before.refined(scene.clone(), self.session)?),
-                None => self.from_predecessor(&scene, coarser.predecessor)?,
+                None => self.begun_by_predecessor(&scene, coarser.predecessor)?,
             };
             match known {
                 Some((problem, start)) => (problem, Some(start)),
@@ -175,7 +175,7 @@ impl Procedure<'_> {
         let _stage = self.observer.enter(Work::Contact);
         let known = match &coarser.found {
             Some(coarse) => Some(coarse.refined(scene.clone(), self.session)?),
-            None => self.from_predecessor(&scene, coarser.predecessor)?,
+            None => self.begun_by_predecessor(&scene, coarser.predecessor)?,
         };
         if let Some((problem, start)) = known {
             return Ok((problem, Some(start)));
@@ -185,7 +185,7 @@ impl Procedure<'_> {
     }
 
     /// A mesh with what the adapted mesh before says of it, if that can be had. **Collective**
-    fn from_predecessor(
+    fn begun_by_predecessor(
         &self,
         scene: &Scene,
         predecessor: Option<&Predecessor>,
