@@ -128,6 +128,14 @@ impl Quantity {
         matches!(self, Self::Energy | Self::Pressure(_))
     }
 
+    /// The contact that it is of, if it is of one.
+    pub fn contact(&self) -> Option<&str> {
+        match self {
+            Self::Force(name) | Self::Pressure(name) | Self::Peak(name) | Self::Ends(name) => Some(name),
+            Self::Energy | Self::Displacement(_) | Self::Stress(_) => None,
+        }
+    }
+
     /// The contact or the probe that it is of; nothing for the whole scene.
     pub fn of(&self) -> Option<&str> {
         match self {

@@ -233,3 +233,16 @@ fn a_mesh_that_is_too_large_from_the_start_is_refused() {
     assert_eq!(ended.code, Some(2), "{}", ended.said());
     assert!(ended.said().contains("has 612 unknowns with refine = 2"), "{}", ended.said());
 }
+
+/// The bodies overlap by 2e-5 on a width of .06, between the points that the first meshes look at. A contact on which nothing
+/// presses is not exact.
+#[test]
+fn contact_that_no_mesh_has_seen_is_not_called_exact() {
+    let (_folder, file) = bars();
+    let run = Run::file(&file).set("contact.seam.gap", "\"1e-3 + 0.5*(x-2.3)^2\"").set("load.top.pressure", "0.0");
+    let run = run.set("support.lid", "{ on = \"top\", ux = 0.0, uy = -1.2e-3 }");
+    let ended = run.set("accuracy", "{ force = 1e-2, max_unknowns = 3000 }").ranks(2).ended();
+    println!("{}: {}", ended.value("/status"), ended.value("/reason"));
+    let force = ended.value("/contact/seam/force").as_f64();
+    assert!(ended.code == Some(3) || force.is_some_and(|force| force > 0.0), "no force, and the run says that it is exact");
+}

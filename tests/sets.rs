@@ -185,3 +185,56 @@ fn contact_that_is_narrower_than_a_segment_is_not_passed_over_in_silence() {
     assert!(few.said().contains("penetrate each other within segments"), "{}", few.said());
     assert!(few.number("/contact/c/unresolved_force") > 0.2 * force);
 }
+
+/// Two layers, one on the other, between x = 0 and x = 4, the lower one fixed on a base; a load on the upper one, by a formula.
+fn layers(pressure: &str, gap: &str) -> (tempfile::TempDir, std::path::PathBuf) {
+    let lower = rectangle([0.0, -1.0], [4.0, 1.0], [8, 2], 1);
+    let upper = rectangle([0.0, 0.0], [4.0, 0.5], [7, 1], 2);
+    let mesh = Mesh {
+        bodies: vec![("lower", lower, ["base", "", "lower.seam", ""]), ("upper", upper, ["upper.seam", "", "top", "left"])],
+    };
+    let case = format!(
+        "mesh.file = \"mesh.msh\"
+         body.lower = {{ young = 7000.0, poisson = 0.227 }}
+         body.upper = {{ young = 7000.0, poisson = 0.3 }}
+         support.base = {{ on = \"base\", ux = 0.0, uy = 0.0 }}
+         support.left = {{ on = \"left\", ux = 0.0 }}
+         load.top = {{ on = \"top\", pressure = \"{pressure}\" }}
+         contact.seam = {{ between = [\"lower.seam\", \"upper.seam\"], curve = \"line\", gap = \"{gap}\" }}
+         output.fields = false"
+    );
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), &case);
+    (folder, file)
+}
+
+/// The upper layer lifts off beside its load, however loose the solves are.
+#[test]
+fn a_loose_tolerance_finds_the_same_set() {
+    let (_folder, file) = layers("exp(-((x-1)/0.3)^2)", "closed");
+    let closed = |tolerance: &str| {
+        Run::file(&file)
+            .set("mesh.refine", 2)
+            .set("solver.tolerance", tolerance)
+            .ranks(2)
+            .converged()
+            .value("/contact/seam/closed")
+    };
+    let exact = closed("1e-8");
+    println!("closed: {exact}");
+    assert!(exact[0][1].as_f64().is_some_and(|end| end < 2.5), "the layer lifts off: {exact}");
+    for tolerance in ["1e-2", "1e-3", "1e-4", "\"discretisation\""] {
+        assert_eq!(closed(tolerance), exact, "tolerance {tolerance}");
+    }
+}
+
+/// A bump under the seam, or the top of a shallow hill, is narrower than the first segments: what is asked for is known when the
+/// mesh shows it, not before.
+#[test]
+fn ends_are_not_known_where_the_pressure_is_not() {
+    let (_folder, file) = layers("1.0", "2e-4*exp(-((x-1)/0.1)^2)");
+    let ended = Run::file(&file).set("accuracy", "{ ends = 2e-2, max_unknowns = 60000 }").ranks(2).converged();
+    let closed = ended.value("/contact/seam/closed");
+    println!("closed: {closed}");
+    assert_eq!(closed.as_array().map(Vec::len), Some(2), "both sides of the bump: {closed}");
+}

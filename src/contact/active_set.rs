@@ -111,7 +111,9 @@ impl ActiveSet {
         if self.tried.contains(&next) {
             return false;
         }
-        self.tried.pop();
+        if self.tried.last() == Some(&self.active) {
+            self.tried.pop();
+        }
         self.tried.push(next.clone());
         self.active = next;
         true

@@ -117,7 +117,7 @@ fn words(adaptation: &Adaptation) -> String {
             Some(error) => figure(error),
             None => "an unknown error".into(),
         };
-        let would_take = would_take(adaptation, place).unwrap_or_default();
+        let would_take = would_take(adaptation, place).unwrap_or_else(|| first_mesh_words(adaptation, place).into());
         format!("{} to {reached} (asked {:e}{would_take})", name(&goal.quantity), goal.tolerance)
     };
     let goals = adaptation.accuracy.goals.iter().enumerate().map(goal).collect::<Vec<_>>().join(", ");
@@ -148,6 +148,13 @@ fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
     };
     let refusal = refusal.as_ref().map(|words| format!("; no finer mesh could be solved: {words}")).unwrap_or_default();
     allowed + end + &refusal
+}
+
+/// Why a goal is missed whose estimate is what was asked for: on the first mesh that may be luck.
+fn first_mesh_words(adaptation: &Adaptation, place: usize) -> &'static str {
+    let is_missed = adaptation.missed().any(|(missed, _)| missed == place);
+    let is_small = estimate(adaptation, place).is_some_and(|error| error <= adaptation.accuracy.goals[place].tolerance);
+    if is_missed && is_small { ", and a quarter of it on the first mesh" } else { "" }
 }
 
 /// What a goal that is missed would take: `, which would take some 300 000 unknowns`.

@@ -57,7 +57,8 @@ impl Procedure<'_> {
         loop {
             match one.solve_next(&sequence) {
                 Err(error @ SystemError::Case(_)) => {
-                    if !sequence.goes_on_after(error) {
+                    let late = self.session.any(sequence.is_late());
+                    if late || !sequence.goes_on_after(error) {
                         return sequence.given_up();
                     }
                 }
@@ -166,8 +167,11 @@ fn is_stuck(adaptation: &Adaptation) -> bool {
     let Some(then) = meshes.len().checked_sub(STUCK + 1) else { return false };
     let last = &meshes[meshes.len() - 1];
     // The best of the meshes before, and the best of the last few.
-    let best =
-        |meshes: &[AdaptedMesh], place: usize| meshes.iter().filter_map(|mesh| mesh.errors[place]).fold(f64::INFINITY, f64::min);
+    // An estimate that was small enough then was so by luck.
+    let best = |meshes: &[AdaptedMesh], place: usize| {
+        let tolerance = adaptation.accuracy.goals[place].tolerance;
+        meshes.iter().filter_map(|mesh| mesh.errors[place]).filter(|error| *error > tolerance).fold(f64::INFINITY, f64::min)
+    };
     let stuck = |place: usize| {
         let last = best(&meshes[then + 1..], place);
         last.is_infinite() || last > FALLS * best(&meshes[..=then], place)

@@ -120,11 +120,12 @@ impl OneMesh<'_> {
         let mut history = MeshHistory::default();
         // Where a coarser mesh knows the boundaries, the first solve may be the last, and the next one mostly is.
         let is_settled = start.is_some();
-        let mut is_last = is_settled;
+        let (mut is_last, mut ascended) = (is_settled, false);
         for number in 1.. {
             let on_boundary = BoundaryLoop { mesh: self, following: &mut following, history: &mut history, number, exact };
             let found = on_boundary.solve(self.system(problem, bodies, preconditioning)?, start.take(), is_last)?;
             preconditioning = found.preconditioning;
+            ascended |= found.ascended;
             match found.after {
                 After::Ended(ending) => {
                     problem.contacts.iter_mut().zip(following.found).for_each(|(contact, ends)| contact.found = Some(ends));
@@ -134,7 +135,7 @@ impl OneMesh<'_> {
                         ending,
                         passes,
                         boundaries,
-                        ascended: found.ascended,
+                        ascended,
                         preconditioning,
                         solver: found.solver,
                     });

@@ -152,7 +152,9 @@ impl ContactSolution {
                 let pressure = ContactPressure::new(old, &self.multipliers, &self.active).value(segment, z);
                 values.push(if carries { pressure } else { 0.0 });
             }
-            carry_single_ones(&self.active[old.range()], &mut active[new.range()]);
+            if self.is_refined {
+                carry_single_ones(&self.active[old.range()], &mut active[new.range()]);
+            }
         }
         (values, active)
     }

@@ -45,9 +45,15 @@ const TELLING: f64 = 1e-8;
 /// Force that a solve cannot tell from none, as a share of the largest pressure, by its relative residual.
 const DOUBT: f64 = 1e2;
 
+/// That share at most, however loose the solve is: a set that is wrong is no matter of the residual.
+const MOST_DOUBT: f64 = 1e-5;
+
 /// Violation of the contact conditions by a set that comes back, as a share of the largest pressure, by the relative residual:
 /// below it the set is as good as any other. Slender bodies change their forces by what is allowed in the end.
 const AS_GOOD: f64 = 1e3;
+
+/// That share at most.
+const MOST_AS_GOOD: f64 = 1e-3;
 
 /// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
 const LEAST_SHARE: f64 = 1e-8;
@@ -262,16 +268,19 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         Ok(self.goal.min((0.1 * residual.norm / residual.whole).max(self.tolerance)))
     }
 
-    /// The set that follows from the forces: nothing changes where they are too small to be told from none. One that lets a body go may do so only because contact was closed where it is
-    /// to open, and pulled: the few multipliers that are pulled least, and hold all, stay closed then, so that the rest
-    /// comes to rest on them. If that has been tried, the words for the body.
+    /// The set that follows from the forces: nothing changes where they are too small to be told from none. One that lets a
+    /// body go may do so only because contact was closed where it is to open, and pulled: the few multipliers that are pulled
+    /// least, and hold all, stay closed then, so that the rest comes to rest on them. If that has been tried, the words for the
+    /// body.
     fn next_set(&mut self, state: &ContactState) -> NextSet {
         let problem = self.system.problem();
-        let told = state.told_from(if self.is_loose() { 0.0 } else { DOUBT * self.goal / self.share });
+        let doubt = if self.is_loose() { 0.0 } else { (DOUBT * self.goal / self.share).min(MOST_DOUBT) };
+        let told = state.told_from(problem, doubt);
         let force = |i: usize| told.force(i);
         let change = if self.set.ascends() { self.set.ascend(&told.found()) } else { self.set.update(force) };
         let lost = not_held(problem, self.set.active());
-        if lost.is_none() || self.kept == MOST_KEPT || !matches!(change, SetChange::Changed { .. }) {
+        let is_new = matches!(change, SetChange::Changed { .. }) || self.set.ascends() && change == SetChange::Repeated;
+        if lost.is_none() || self.kept == MOST_KEPT || !is_new {
             return NextSet { change, lost };
         }
         if !self.set.keep(&few_that_hold(problem, self.set.active(), force)) {
@@ -327,7 +336,10 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let goes_on = solves >= MOST_SETS;
         let is_as_good = || match goes_on {
             true => self.violated(state).is_none(),
-            false => repeated && state.violation(self.system.problem(), self.system.active()) <= AS_GOOD * self.goal / self.share,
+            false => {
+                let good = (AS_GOOD * self.goal / self.share).min(MOST_AS_GOOD);
+                repeated && state.violation(self.system.problem(), self.system.active()) <= good
+            }
         };
         if !self.is_loose() && is_as_good() {
             return Next::End(Ending::Converged(self.round(state)));

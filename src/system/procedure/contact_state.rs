@@ -33,13 +33,20 @@ impl ContactState {
         Self { lambda, penetration, penalty: penalties(system.problem()) }
     }
 
-    /// The same without pulls and penetrations that are smaller than a `share` of the largest pressure.
-    pub(super) fn told_from(&self, share: f64) -> Self {
-        let least = share * self.largest_pressure();
+    /// The same without pulls and penetrations that are smaller than a `share` of the largest pressure of their contact.
+    pub(super) fn told_from(&self, problem: &Discretisation, share: f64) -> Self {
         let mut told = Self { lambda: self.lambda.clone(), penetration: self.penetration.clone(), penalty: self.penalty.clone() };
-        told.lambda.iter_mut().filter(|value| value.abs() <= least).for_each(|value| *value = value.max(0.0));
-        let small = |(value, penalty): &(&mut f64, &f64)| (**value * **penalty).abs() <= least;
-        told.penetration.iter_mut().zip(&self.penalty).filter(small).for_each(|(value, _)| *value = 0.0);
+        for contact in &problem.contacts {
+            let least = share * self.lambda[contact.range()].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            for i in contact.range() {
+                if self.lambda[i].abs() <= least {
+                    told.lambda[i] = self.lambda[i].max(0.0);
+                }
+                if (self.penetration[i] * self.penalty[i]).abs() <= least {
+                    told.penetration[i] = 0.0;
+                }
+            }
+        }
         told
     }
 
@@ -86,9 +93,11 @@ impl ContactState {
 
     /// Largest violation of the contact conditions, as a share of the largest pressure.
     pub(super) fn violation(&self, problem: &Discretisation, active: &[bool]) -> f64 {
-        let of = |contact: &Contact| contact.range().map(|i| self.off(contact, i, active[i]).0).fold(0.0, f64::max);
-        let worst = problem.contacts.iter().map(of).fold(0.0, f64::max);
-        if worst > 0.0 { worst / self.largest_pressure() } else { 0.0 }
+        // What is not a number is the worst.
+        let larger = |worst: f64, off: f64| if off <= worst { worst } else { off };
+        let of = |contact: &Contact| contact.range().map(|i| self.off(contact, i, active[i]).0).fold(0.0, larger);
+        let worst = problem.contacts.iter().map(of).fold(0.0, larger);
+        if worst == 0.0 { 0.0 } else { worst / self.largest_pressure() }
     }
 
     fn largest_pressure(&self) -> f64 {

@@ -46,7 +46,7 @@ const WITHIN_A_SEGMENT: [f64; 2] = [0.5, 0.03];
 const FADED: f64 = 0.1;
 
 /// The same by how far that place moved from the mesh before.
-const FADED_MOVES: f64 = 0.25;
+const FADED_MOVES: f64 = 0.5;
 
 /// Factors by which errors of displacement and of stress at a point fall on a smooth solution, P1 and P2; none for the stress of
 /// P1, which is constant on each triangle.
@@ -141,8 +141,10 @@ impl Difference {
             let now = pressure.force();
             force.push(share((now - before).abs(), now.abs()));
             let [now, before] = [pressure.recovered_peak(), coarse.pressure(at).recovered_peak()];
-            peak.push(now.zip(before).map_or(f64::NAN, |(now, before)| (before / now - 1.0).abs()));
-            above.push(now.map_or(f64::NAN, |now| (pressure.largest() / now - 1.0).abs()));
+            let is_open = pressure.zones().is_empty() && coarse.pressure(at).zones().is_empty();
+            let unknown = if is_open { 0.0 } else { f64::NAN };
+            peak.push(now.zip(before).map_or(unknown, |(now, before)| (before / now - 1.0).abs()));
+            above.push(now.map_or(unknown, |now| (pressure.largest() / now - 1.0).abs()));
             ends.push(way_of_ends(&pressure, &coarse.pressure(at)));
             within_segments.push(ends_within_segments(&pressure, &coarse.pressure(at)));
             let before = |x| coarse.pressure(at).at_foot(x);
@@ -337,7 +339,10 @@ fn ends_within_segments(pressure: &ContactPressure, before: &ContactPressure) ->
     };
     let pressing = zones.iter().enumerate().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
     let all = pressing.flat_map(|((z, zone), _)| [0, 1].map(|end| (off(z, zone, end), zone.length())));
-    all.fold((0.0, true), |(most, is_all), ((off, tells), width)| (most.max(off / width), is_all && tells))
+    // Other zones than on the mesh before say nothing of where these end.
+    all.fold((0.0, zones.len() == zones_before.len()), |(most, is_all), ((off, tells), width)| {
+        (most.max(off / width), is_all && tells)
+    })
 }
 
 /// What is left of an additive error, from two successive differences of it.

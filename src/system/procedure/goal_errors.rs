@@ -8,6 +8,9 @@ use crate::contact::Zone;
 use crate::system::recovery::trace_points;
 use crate::system::{Discretisation, Field, SystemError};
 
+/// Error of λ above which it is not known where it presses.
+const MOST_UNKNOWN: f64 = 0.08;
+
 /// Differences in the energy norm that say that the solution was there before.
 const ROUNDING: f64 = 1e-6;
 
@@ -20,6 +23,11 @@ impl Procedure<'_> {
     /// Of one goal. **Collective**
     fn goal_error(&self, quantity: &Quantity, solved: &Solved) -> Result<Option<f64>, SystemError> {
         let Solved { problem, estimate, .. } = solved;
+        if let Some(at) = quantity.contact().and_then(|name| contact_called(problem, name))
+            && !self.presses_or_is_clear(solved, at)?
+        {
+            return Ok(None);
+        }
         Ok(match quantity {
             // Where everything is found on the mesh before, rounding is all that the differences tell.
             Quantity::Energy => estimate.energy.or_else(|| rounded(solved)),
@@ -32,7 +40,10 @@ impl Procedure<'_> {
                 Some(at) if !has_unbounded_peak(solved, at) => estimate.peak.get(at).copied().flatten(),
                 _ => None,
             },
-            Quantity::Ends(name) => contact_called(problem, name).and_then(|at| estimate.ends.get(at).copied().flatten()),
+            Quantity::Ends(name) => match contact_called(problem, name) {
+                Some(at) if self.presses_throughout(solved, at)? => estimate.ends.get(at).copied().flatten(),
+                _ => None,
+            },
             Quantity::Displacement(probe) => self.probe_errors(solved, probe)[0],
             Quantity::Stress(probe) => self.probe_errors(solved, probe)[1],
         })
@@ -59,6 +70,37 @@ impl Procedure<'_> {
             return Ok(estimate.force.get(at).copied().flatten());
         }
         Ok(errors.and_then(|errors| errors.into_iter().reduce(f64::max)))
+    }
+
+    /// Whether something presses on a contact, or nothing does for sure: nothing moves, or its bodies are farther apart than that
+    /// distance changes from one point to the next, so that they do not meet in between. **Collective**
+    fn presses_or_is_clear(&self, solved: &Solved, at: usize) -> Result<bool, SystemError> {
+        let Solved { problem, solution, estimate, .. } = solved;
+        let pressure = solution.pressure(&problem.contacts[at]);
+        if !pressure.zones().is_empty() || estimate.difference == Some(0.0) {
+            return Ok(true);
+        }
+        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let points = trace_points(problem, &pressure, &u, self.session)?;
+        let gaps: Vec<f64> = points.iter().filter(|point| point.is_complete()).map(|point| point.gap).collect();
+        let change = gaps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+        Ok(gaps.iter().all(|gap| *gap > change))
+    }
+
+    /// Whether λ of a contact is known well enough that its zones cannot be open in their middle: its error is smaller than the
+    /// smallest value there is, or nothing presses. **Collective**
+    fn presses_throughout(&self, solved: &Solved, at: usize) -> Result<bool, SystemError> {
+        let pressure = solved.solution.pressure(&solved.problem.contacts[at]);
+        let arcs = pressure.contact.boundary.arcs();
+        let smallest = |zone: &Zone| {
+            let middle = zone.segments.clone().filter(|&k| zone.has_in_its_middle(0.5 * (arcs[k] + arcs[k + 1])));
+            let least = middle.map(|k| pressure.value(k, 0.5)).fold(f64::INFINITY, f64::min);
+            least / pressure.peak_of(zone)
+        };
+        let zones = pressure.zones();
+        let counting = zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
+        let Some(smallest) = counting.map(|(zone, _)| smallest(zone)).reduce(f64::min) else { return Ok(true) };
+        Ok(self.pressure_error(solved, at)?.is_some_and(|error| error < smallest.min(MOST_UNKNOWN)))
     }
 
     /// Whether λ of a contact grows without bound towards an end of it, as far as this mesh tells.

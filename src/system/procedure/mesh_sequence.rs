@@ -79,7 +79,7 @@ impl MeshSequence {
     /// solved: then gives what there is.
     pub fn go_on(&mut self, solved: Solved, end: Option<SequenceEnd>, missed: &[Indicators]) -> Option<Solved> {
         if let Some(end) = end {
-            return Some(self.ended(solved, end));
+            return Some(self.ended_or_last(solved, end));
         }
         if solved.ending.is_converged() {
             (self.failed, self.refusal) = (0, None);
@@ -88,14 +88,11 @@ impl MeshSequence {
             self.failed += 1;
             self.refusal.get_or_insert(SystemError::Case(solved.ending.to_string()));
             if self.failed == MOST_FAILED {
-                return Some(match self.last.take() {
-                    Some(last) => self.without_later(last),
-                    None => self.ended(solved, SequenceEnd::Unsolved),
-                });
+                return Some(self.ended_or_last(solved, SequenceEnd::Unsolved));
             }
         }
         if !self.refine(missed) {
-            return Some(self.ended(solved, SequenceEnd::Unknowns));
+            return Some(self.ended_or_last(solved, SequenceEnd::Unknowns));
         }
         if solved.ending.is_converged() {
             self.last = Some(solved);
@@ -122,6 +119,22 @@ impl MeshSequence {
                 self.refusal = refusal;
                 Ok(self.without_later(last))
             }
+        }
+    }
+
+    /// Whether the seconds that the case allows are over, by this rank's clock.
+    pub fn is_late(&self) -> bool {
+        self.adaptation.accuracy.most_seconds.is_some_and(|most| self.started.elapsed().as_secs_f64() > most)
+    }
+
+    /// A solution as the result of the sequence, unless it did not converge and an earlier one did.
+    fn ended_or_last(&mut self, solved: Solved, end: SequenceEnd) -> Solved {
+        match self.last.take().filter(|_| !solved.ending.is_converged()) {
+            Some(last) => {
+                self.refusal.get_or_insert(SystemError::Case(solved.ending.to_string()));
+                self.without_later(last)
+            }
+            None => self.ended(solved, end),
         }
     }
 
