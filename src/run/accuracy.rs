@@ -26,7 +26,8 @@ pub fn limited(accuracy: &Accuracy, session: &Session) -> Accuracy {
     Accuracy { most_unknowns: accuracy.most_unknowns.or(Some(most as usize)), ..accuracy.clone() }
 }
 
-/// How the mesh was adapted, with true errors of the goals on each mesh, if an accuracy was asked for; without any mesh if the run ended before.
+/// How the mesh was adapted, with true errors of the goals on each mesh, if an accuracy was asked for; without any mesh if the
+/// run ended before.
 pub fn adaptation(case: &Case, solved: &Solved, true_errors: &[Vec<Option<f64>>]) -> Option<Adaptation> {
     let accuracy = case.accuracy.clone()?;
     // The limit by memory is none of the case.

@@ -26,7 +26,7 @@ const FACTORS: [f64; 2] = [1.0 / 80.0, 0.75];
 /// The same on one macro triangle, as far as the next mesh is foreseen: from P2 on a smooth solution to P1 at a corner.
 const LOCAL_FACTORS: [f64; 2] = [1.0 / 16.0, 0.5];
 
-/// The same by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
+/// Factors by which errors in the energy norm fall, by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
 const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 
 /// Factors by which errors of a force fall on a smooth solution, P1 and P2.
@@ -45,7 +45,7 @@ const WITHIN_A_SEGMENT: [f64; 2] = [0.5, 0.03];
 /// Error of the place where a pressure fades out, by the segment there.
 const FADED: f64 = 0.1;
 
-/// The same by how far that place moved from the mesh before.
+/// The same by how far that place has moved since the mesh before.
 const FADED_MOVES: f64 = 0.5;
 
 /// Factors by which errors of displacement and of stress at a point fall on a smooth solution, P1 and P2; none for the stress of

@@ -46,7 +46,8 @@ pub(super) struct Indicators {
     pub local: Vec<LocalIndicator>,
     /// Estimated error by what is asked for; nothing if it is not known.
     pub error: Option<f64>,
-    /// The power of the fall of the indicators that errors go with, as the mesh before has shown; one, if there is none.
+    /// The power of the fall of the indicators that errors go with, as this mesh has shown of what was foreseen on the one before;
+    /// one, if there is none.
     pub pace: f64,
     /// Whether the error goes with the root of the sum of the indicators.
     pub is_norm: bool,
