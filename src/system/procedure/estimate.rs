@@ -58,8 +58,11 @@ const FORCE_SLOWEST: f64 = 0.6;
 /// Share of the last difference of a value that is left: where it says nothing of how it falls, and at least.
 const SHARES: [f64; 2] = [0.6, 0.0];
 
-/// The same of a force: its errors fall more quickly, but have either sign, so that it may seem to fall more quickly still.
+/// The same of a force, whose errors have either sign, so that they may seem to fall more quickly than they do.
 const FORCE_SHARES: [f64; 2] = [0.6, 0.3];
+
+/// The same where the energy norm tells that it falls more slowly than on a smooth solution.
+const FORCE_SLOW_SHARES: [f64; 2] = [0.3, 0.3];
 
 /// λ at both ends of a zone, on the mesh before and on the one before that (stress).
 pub(super) type AtEnds = [Option<[f64; 2]>; 2];
@@ -194,8 +197,9 @@ impl Estimate {
         // The error of a value is a product of two in the energy norm, and falls as the square of that does.
         let slow = before.map_or(0.0, |before| (last.energy / before.energy).min(FORCE_SLOWEST));
         let force = |k: usize| {
-            let fall = FORCE_FALLS[order.degree() - 1].max(slow);
-            value_left(before.map(|before| before.force[k]), last.force[k], fall, FORCE_SHARES)
+            let smooth = FORCE_FALLS[order.degree() - 1];
+            let left = |fall: f64, shares| value_left(before.map(|before| before.force[k]), last.force[k], fall, shares);
+            Some(left(smooth, FORCE_SHARES)?.max(left(smooth.max(slow), FORCE_SLOW_SHARES)?))
         };
         let peak = |k: usize| {
             value_left(before.map(|before| before.peak[k]), last.peak[k], PEAK_FALLS, SHARES)
