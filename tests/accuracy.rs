@@ -78,7 +78,7 @@ fn bars_get_the_accuracy_on_the_same_meshes_on_all_ranks() {
         assert!(sizes.last().is_some_and(|[_, unknowns]| *unknowns <= 16_000), "{ranks} ranks: {sizes:?}");
         assert_eq!(sizes, self::sizes(&runs[0]), "{ranks} ranks");
         let off = (energy(run) / energy(&runs[0]) - 1.0).abs();
-        assert!(off <= 1e-7, "{ranks} ranks: U is off by {off:e} from that of 1 rank");
+        assert!(off <= 1e-8, "{ranks} ranks: U is off by {off:e} from that of 1 rank");
     }
 }
 

@@ -7,6 +7,7 @@
 //! lie on its curve.
 
 use super::edge_shape::EdgeShape;
+use super::origin::Origin;
 use super::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
 use crate::geometry::Point;
 use std::collections::HashMap;
@@ -32,43 +33,9 @@ pub struct BisectedMesh {
     pub origins: Vec<Origin>,
 }
 
-/// Where a triangle lies in a mesh that is coarser.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Origin {
-    /// The triangle that it is a part of.
-    pub triangle: u32,
-    /// Its corners in the barycentric coordinates of that triangle.
-    pub corners: [[f64; 3]; 3],
-}
-
 /// A part of a triangle: its corners, the newest one first.
 #[derive(Clone, Copy)]
 struct TrianglePart([u32; 3]);
-
-impl Origin {
-    /// Where it lies in a mesh that is coarser still, from where that one's triangles do.
-    pub fn within(&self, coarser: &[Self]) -> Self {
-        let outer = &coarser[self.triangle as usize];
-        Self { triangle: outer.triangle, corners: self.corners.map(|l| outer.point(l)) }
-    }
-
-    /// All of a triangle.
-    fn whole(triangle: usize) -> Self {
-        Self { triangle: triangle as u32, corners: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
-    }
-
-    /// A point of the part, by the barycentric coordinates of both.
-    pub fn point(&self, l: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|k| (0..3).map(|corner| l[corner] * self.corners[corner][k]).sum())
-    }
-
-    /// Its area, as a share of the triangle's.
-    pub fn area(&self) -> f64 {
-        let [a, b, c] = self.corners;
-        let [u, v] = [b, c].map(|x| [x[1] - a[1], x[2] - a[2]]);
-        (u[0] * v[1] - u[1] * v[0]).abs()
-    }
-}
 
 impl BisectedMesh {
     /// A mesh of a file: its triangles are halved at their longest sides first.

@@ -1,6 +1,6 @@
 //! Macro triangles cut into cells, all alike, so that something can be told to lie in one part of them or another.
 
-use super::bisection::Origin;
+use super::origin::Origin;
 
 /// Cells along each side.
 const INTERVALS: usize = 8;

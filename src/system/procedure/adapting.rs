@@ -22,7 +22,7 @@ const MOST_MESHES: usize = 40;
 const STUCK: usize = 4;
 const FALLS: f64 = 0.8;
 
-/// Meshes in a row that tell that λ grows without bound.
+/// Meshes in a row on which a largest λ is unknown, before it is asked whether it grows without bound.
 const UNBOUNDED: usize = 4;
 
 /// How much larger a mesh must be after so many, at least, if that is to be said.
@@ -117,7 +117,7 @@ impl Procedure<'_> {
         all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end)
     }
 
-    /// Whether the largest λ of a contact is asked for, and grows without bound, as some meshes in a row have told.
+    /// Whether the largest λ of a contact is asked for, was unknown on some meshes in a row, and grows without bound on the last.
     fn is_unbounded(&self, adaptation: &Adaptation, solved: &Solved) -> bool {
         let Some(then) = adaptation.meshes.len().checked_sub(UNBOUNDED) else { return false };
         let never = |place: usize| adaptation.meshes[then..].iter().all(|mesh| mesh.errors[place].is_none());

@@ -1,10 +1,11 @@
 //! One mesh: one contact boundary after the other, until everything stands.
 
-use super::contact_loop::{ContactLoop, LoopOutcome, LoopPosition, Pass};
+use super::contact_loop::{ContactLoop, LoopOutcome, LoopPosition};
 use super::duals::Duals;
 use super::ending::{Ending, Failure, Standing};
 use super::following::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
 use super::observer::{Event, Work};
+use super::pass::Pass;
 use super::settings::Procedure;
 use crate::petsc::Matrix;
 use crate::system::{

@@ -4,15 +4,13 @@ use super::change::relative_change;
 use super::contact_state::ContactState;
 use super::ending::{Ending, Failure, Standing};
 use super::first_set::{carried_set, first_set};
+use super::pass::Pass;
+use super::residual_scale::{LOOSE, last_residual, share};
 use super::unsettled::{going_on, places};
 use crate::contact::{ActiveSet, GapChoice, SetChange};
 use crate::system::{
     Contact, LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held,
-    rigid_start,
 };
-
-/// Relative residual of the solves inside the loop: enough to find the right set.
-const LOOSE: f64 = 1e-4;
 
 /// Share of its residual that a start from a coarser mesh is solved to before its set is looked at: what is wrong with it is
 /// seen by then.
@@ -20,12 +18,6 @@ const LOOK: f64 = 1e-2;
 
 /// Multipliers that may change at such a look before the next solve is the last one.
 const FEW: usize = 2;
-
-/// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
-const FROM_START: f64 = 2e-4;
-
-/// Relative residual that is small enough for any discretisation error.
-const SMALL: f64 = 1e-10;
 
 /// Relative residual that no solve goes below.
 const LEAST: f64 = 1e-13;
@@ -55,36 +47,8 @@ const AS_GOOD: f64 = 1e3;
 /// That share at most.
 const MOST_AS_GOOD: f64 = 1e-3;
 
-/// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
-const LEAST_SHARE: f64 = 1e-8;
-
 /// How often contact that a body needs is kept against its forces.
 const MOST_KEPT: usize = 3;
-
-/// One pass of the loop, in figures.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pass {
-    /// Number of the pass, from 1.
-    pub iteration: usize,
-    /// Number of the contact boundary it was made on, from 1.
-    pub boundary: usize,
-    /// Active multipliers of the solve.
-    pub active: usize,
-    /// Multipliers that became active after it.
-    pub added: usize,
-    /// Multipliers that were released after it.
-    pub released: usize,
-    /// Krylov iterations of its linear solve.
-    pub krylov_iterations: usize,
-    /// Its relative residual.
-    pub residual: f64,
-    /// Largest mean penetration over a multiplier (length).
-    pub max_penetration: f64,
-    /// Change of the displacement, relative to its norm.
-    pub du: f64,
-    /// The stronger preconditioner that the linear solver went over to, in words.
-    pub fallback: Option<String>,
-}
 
 /// What the loop does next.
 enum Next {
@@ -420,23 +384,4 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
 /// pressure does.
 fn stays_closed(contacts: &[Contact]) -> bool {
     contacts.iter().all(|contact| contact.pair.has_free_ends() || matches!(contact.pair.gap, GapChoice::Closed))
-}
-
-/// Share of the right-hand side that asks for strain. Displacements prescribed to a stiff body are forces of its own
-/// modulus there, however little they strain it: beside them the forces of contact with a soft one are small, and a
-/// residual relative to all of it says nothing of these. So the part that moves the bodies rigidly does not count.
-/// **Collective**
-fn share(system: &System) -> Result<f64, SystemError> {
-    let Some(displacement) = rigid_start(system.problem(), system.session().rank()) else { return Ok(1.0) };
-    let share = system.residual_of_displacement(displacement)?.relative();
-    Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
-}
-
-/// Relative residual that the last solve is to reach. A start from a coarser mesh is off by the discretisation error of
-/// that mesh; this share of its residual leaves less than a tenth of this mesh's, in λ too. **Collective**
-fn last_residual(system: &System, tolerance: Tolerance) -> Result<f64, SystemError> {
-    match tolerance {
-        Tolerance::Residual(residual) => Ok(residual),
-        Tolerance::Discretisation => Ok((FROM_START * system.residual()?.relative()).clamp(SMALL, LOOSE)),
-    }
 }

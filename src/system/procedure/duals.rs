@@ -11,7 +11,7 @@ use crate::contact::Zone;
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::{Cells, lattice};
 use crate::petsc::Session;
-use crate::system::recovery::{cell_energies, shapes_at, stress_forces};
+use crate::system::recovery::{cell_energies, holding, shapes_at, stress_forces};
 use crate::system::{ContactPressure, Discretisation, Field, Solution, Space, System, SystemError};
 
 /// Relative residual of dual solutions: they weigh errors, and are no results.
@@ -174,9 +174,7 @@ fn point_force(
     let u = Field::displacement(problem, &solution.displacement, session)?;
     let mut force = Field::<2>::zeros(problem, session);
     let body = problem.scene.bodies.iter().position(|body| body.name == point.body);
-    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
-    for triangle in own.filter(|&triangle| Some(problem.scene.mesh.triangles[triangle].body as usize) == body) {
-        let Some(at) = problem.scene.mesh.locate(triangle, point.point) else { continue };
+    for (triangle, at) in body.map_or_else(Vec::new, |body| holding(problem, body, point.point, session)) {
         let shapes = shapes_at(problem, triangle, at);
         let moved: Point = shapes.iter().fold(Point::zeros(), |sum, (node, value)| sum + *value * u.point(*node));
         let direction = moved.try_normalize(0.0).unwrap_or(Point::y());

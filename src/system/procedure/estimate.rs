@@ -7,12 +7,12 @@
 //! left. Where active sets or contact boundaries change from mesh to mesh the spaces are not nested, and this is heuristic.
 
 use super::coarse_solution::CoarseSolution;
+use super::end_estimate::{ends_within_segments, way_of_ends};
 use super::zone_estimate::ZoneDifference;
 use super::zone_estimate::ZoneEstimate;
 use crate::accuracy::{Accuracy, ProbePoint};
 use crate::contact::Zone;
 use crate::element::Order;
-use crate::geometry::Point;
 use crate::mesh::Cells;
 use crate::petsc::Session;
 use crate::system::recovery::{
@@ -26,7 +26,7 @@ const FACTORS: [f64; 2] = [1.0 / 80.0, 0.75];
 /// The same on one macro triangle, as far as the next mesh is foreseen: from P2 on a smooth solution to P1 at a corner.
 const LOCAL_FACTORS: [f64; 2] = [1.0 / 16.0, 0.5];
 
-/// Factors by which errors in the energy norm fall, by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
+/// Error in the energy norm by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
 const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 
 /// Factors by which errors of a force fall on a smooth solution, P1 and P2.
@@ -37,16 +37,6 @@ const PEAK_FALLS: f64 = 0.25;
 
 /// Factor by which errors of the ends of contact fall: they lie at ends of segments.
 const ENDS_FALL: f64 = 0.5;
-
-/// Error of an end of contact by the segment next to it, at least: where the set of active multipliers decides at which end of a
-/// segment it lies, and where the boundary ends with the pressure (from .01 to .06 on contacts whose ends are known).
-const WITHIN_A_SEGMENT: [f64; 2] = [0.5, 0.03];
-
-/// Error of the place where a pressure fades out, by the segment there.
-const FADED: f64 = 0.1;
-
-/// The same by how far that place has moved since the mesh before.
-const FADED_MOVES: f64 = 0.5;
 
 /// Factors by which errors of displacement and of stress at a point fall on a smooth solution, P1 and P2; none for the stress of
 /// P1, which is constant on each triangle.
@@ -155,18 +145,7 @@ impl Difference {
         }
         let of_triangles = of_triangles.into_iter().map(|part| share(part, whole)).collect();
         let cells = cells.into_iter().map(|part| part.scaled(if whole == 0.0 { 0.0 } else { 1.0 / whole })).collect();
-        Ok(Self {
-            energy: share(apart.iter().sum::<f64>(), whole),
-            of_triangles,
-            cells,
-            force,
-            peak,
-            above,
-            ends,
-            within_segments,
-            probes,
-            zones,
-        })
+        Ok(Self { energy: share(apart[0], whole), of_triangles, cells, force, peak, above, ends, within_segments, probes, zones })
     }
 }
 
@@ -294,59 +273,6 @@ fn at_probe(
     let around = stress_around(problem, apart, body, point.point, session)?;
     let size = |stress: [f64; 4]| (stress[0].powi(2) + stress[1].powi(2) + 2.0 * stress[2].powi(2)).sqrt();
     Ok([part.displacement.norm() / whole.displacement.norm(), size(part.stress).max(around) / size(whole.stress)])
-}
-
-/// Largest way of an end of a zone that presses from where it was on the mesh before, by the width of the zone; one where there
-/// are other zones.
-fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f64 {
-    let ends = |pressure: &ContactPressure| -> Vec<[Point; 2]> {
-        let boundary = &pressure.contact.boundary;
-        let end = |arc: f64| boundary.point(boundary.parameter_at(arc));
-        let zones = pressure.zones();
-        zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts).map(|(zone, _)| zone.arcs.map(end)).collect()
-    };
-    let (now, before) = (ends(now), ends(before));
-    if now.is_empty() {
-        return if before.is_empty() { 0.0 } else { f64::NAN };
-    }
-    if now.len() != before.len() {
-        return 1.0;
-    }
-    let way = |(a, b): (&[Point; 2], &[Point; 2])| (a[0] - b[0]).norm().max((a[1] - b[1]).norm()) / (a[1] - a[0]).norm();
-    now.iter().zip(&before).map(way).fold(0.0, f64::max)
-}
-
-/// How far an end of a zone that presses may be off within the segment next to it, by the width of the zone: none where a body
-/// ends and presses to its end. Where the active set decides, and the pressure fades out, it tells how far; then this is all of
-/// the error, and the second value is true.
-fn ends_within_segments(pressure: &ContactPressure, before: &ContactPressure) -> (f64, bool) {
-    let contact = pressure.contact;
-    let (arcs, knots) = (contact.boundary.arcs(), contact.boundary.knots());
-    let is_of_a_body = [knots[0] <= contact.limits[0], knots[knots.len() - 1] >= contact.limits[1]];
-    let (zones, zones_before) = (pressure.zones(), before.zones());
-    let off = |z: usize, zone: &Zone, end: usize| {
-        let segment = [zone.segments.start, zone.segments.end - 1][end];
-        let length = arcs[segment + 1] - arcs[segment];
-        let presses_to_its_end = pressure.active[contact.multipliers.on_segment(segment, 0.0).0[end]];
-        if zone.is_at_end[end] && presses_to_its_end {
-            let is_free = contact.pair.has_free_ends() && !is_of_a_body[end];
-            return if is_free { (WITHIN_A_SEGMENT[1] * length, false) } else { (0.0, true) };
-        }
-        let earlier = zones_before.get(z).filter(|_| zones_before.len() == zones.len());
-        match (pressure.faded_end(zone, end), earlier.and_then(|zone| before.faded_end(zone, end))) {
-            (Some(now), Some(then)) => {
-                let moved = then * contact.boundary.length() / before.contact.boundary.length() - now;
-                ((now - zone.arcs[end]).abs() + (FADED * length).max(moved.abs() * FADED_MOVES), true)
-            }
-            _ => (WITHIN_A_SEGMENT[0] * length, false),
-        }
-    };
-    let pressing = zones.iter().enumerate().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
-    let all = pressing.flat_map(|((z, zone), _)| [0, 1].map(|end| (off(z, zone, end), zone.length())));
-    // Other zones than on the mesh before say nothing of where these end.
-    all.fold((0.0, zones.len() == zones_before.len()), |(most, is_all), ((off, tells), width)| {
-        (most.max(off / width), is_all && tells)
-    })
 }
 
 /// What is left of an additive error, from two successive differences of it.

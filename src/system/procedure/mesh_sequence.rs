@@ -189,9 +189,8 @@ mod tests {
     use crate::contact::MultiplierSpace;
     use crate::geometry::Point;
     use crate::system::procedure::ending::{Ending, Failure, Standing};
-    use crate::system::procedure::estimate::Estimate;
     use crate::system::samples::{blocks, pair};
-    use crate::system::{BoundaryMotion, Coupling, Discretisation, Preconditioning, Solution, spaces};
+    use crate::system::{BoundaryMotion, Coupling, Discretisation, spaces};
 
     fn sequence() -> MeshSequence {
         let scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new());
@@ -204,7 +203,6 @@ mod tests {
         let scene = sequence.scene.clone();
         let spaces = spaces(&scene, 0).expect("a small mesh");
         let coupling = Coupling { rows: Vec::new(), gap: Vec::new(), owners: Vec::new(), lost: Vec::new() };
-        let solution = Solution::nothing(&spaces[spaces.len() - 1], &[]);
         let problem = Discretisation { scene, spaces, contacts: Vec::new(), coupling, motion: BoundaryMotion::default() };
         sequence.adaptation.meshes.push(AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,
@@ -215,19 +213,7 @@ mod tests {
             true_errors: Vec::new(),
             seconds: 0.0,
         });
-        Solved {
-            problem,
-            solution,
-            ending,
-            passes: Vec::new(),
-            boundaries: Vec::new(),
-            solver: String::new(),
-            preconditioning: Preconditioning::Sweep,
-            is_hard: false,
-            estimate: Estimate::default(),
-            coarse: Vec::new(),
-            adaptation: None,
-        }
+        Solved::nothing(problem, ending, Vec::new())
     }
 
     /// The next scene, on one rank.

@@ -11,8 +11,8 @@ use super::predecessor::Predecessor;
 use super::settings::Procedure;
 use super::solved::{CoarseSolve, Solved};
 use crate::system::{
-    BoundaryMotion, Contact, Discretisation, Preconditioning, Scene, Solution, SolverChoice, Start, SystemError, Tolerance,
-    not_held, spaces,
+    BoundaryMotion, Contact, Discretisation, Preconditioning, Scene, SolverChoice, Start, SystemError, Tolerance, not_held,
+    spaces,
 };
 
 /// Refinements that are solved before the case's own.
@@ -92,7 +92,7 @@ impl Procedure<'_> {
         }
         let (problem, start) = self.refine(scene, at_rest.contacts, &coarser)?;
         if let (None, Some(words)) = (&start, not_held_at_all(&problem)) {
-            return Ok(nothing(problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
+            return Ok(Solved::nothing(problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
         }
         self.solve_last(problem, start, first, coarser)
     }
@@ -249,22 +249,4 @@ impl Procedure<'_> {
 /// Words for a body that can move though all contact is closed.
 fn not_held_at_all(problem: &Discretisation) -> Option<String> {
     not_held(problem, &vec![true; problem.multiplier_count()])
-}
-
-/// A scene that cannot be solved.
-fn nothing(problem: Discretisation, ending: Ending, coarse: Vec<CoarseSolve>) -> Solved {
-    let solution = Solution::nothing(problem.finest(), &vec![true; problem.multiplier_count()]);
-    Solved {
-        problem,
-        solution,
-        ending,
-        passes: Vec::new(),
-        boundaries: Vec::new(),
-        solver: "none".into(),
-        preconditioning: Preconditioning::Sweep,
-        is_hard: false,
-        estimate: Estimate::default(),
-        coarse,
-        adaptation: None,
-    }
 }

@@ -1,8 +1,8 @@
 //! What a run is told of the procedure while it works.
 
 use super::at_rest::AtRest;
-use super::contact_loop::Pass;
 use super::following::BoundaryStep;
+use super::pass::Pass;
 use super::solved::Solved;
 use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::petsc::StageGuard;

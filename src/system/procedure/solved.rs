@@ -1,9 +1,9 @@
 //! A scene solved.
 
-use super::contact_loop::Pass;
 use super::ending::Ending;
 use super::estimate::Estimate;
 use super::following::BoundaryStep;
+use super::pass::Pass;
 use crate::accuracy::Adaptation;
 use crate::system::{Discretisation, Preconditioning, Solution};
 
@@ -45,6 +45,24 @@ pub struct Solved {
 }
 
 impl Solved {
+    /// A scene that cannot be solved: nothing moves.
+    pub fn nothing(problem: Discretisation, ending: Ending, coarse: Vec<CoarseSolve>) -> Self {
+        let solution = Solution::nothing(problem.finest(), &vec![true; problem.multiplier_count()]);
+        Self {
+            problem,
+            solution,
+            ending,
+            passes: Vec::new(),
+            boundaries: Vec::new(),
+            solver: "none".into(),
+            preconditioning: Preconditioning::Sweep,
+            is_hard: false,
+            estimate: Estimate::default(),
+            coarse,
+            adaptation: None,
+        }
+    }
+
     /// Whether there are displacements to look at.
     pub fn is_solved(&self) -> bool {
         !self.passes.is_empty() && self.solution.residual.is_finite()

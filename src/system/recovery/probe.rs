@@ -135,7 +135,7 @@ fn add_squares<const N: usize>(
 }
 
 /// This rank's macro triangles of a body that hold a point, and its reference coordinates in them.
-fn holding(problem: &Discretisation, body: usize, x: Point, session: &Session) -> Vec<(usize, Point)> {
+pub fn holding(problem: &Discretisation, body: usize, x: Point, session: &Session) -> Vec<(usize, Point)> {
     let mesh = &problem.scene.mesh;
     let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
     let own = own.filter(|&triangle| mesh.triangles[triangle].body as usize == body);

@@ -1,0 +1,34 @@
+//! What residuals are measured by, and how far the last solve goes.
+
+use crate::system::{System, SystemError, Tolerance, rigid_start};
+
+/// Relative residual of the solves inside the loop: enough to find the right set.
+pub(super) const LOOSE: f64 = 1e-4;
+
+/// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
+const LEAST_SHARE: f64 = 1e-8;
+
+/// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
+const FROM_START: f64 = 2e-4;
+
+/// Relative residual that is small enough for any discretisation error.
+const SMALL: f64 = 1e-10;
+
+/// Share of the right-hand side that asks for strain. Displacements prescribed to a stiff body are forces of its own
+/// modulus there, however little they strain it: beside them the forces of contact with a soft one are small, and a
+/// residual relative to all of it says nothing of these. So the part that moves the bodies rigidly does not count.
+/// **Collective**
+pub(super) fn share(system: &System) -> Result<f64, SystemError> {
+    let Some(displacement) = rigid_start(system.problem(), system.session().rank()) else { return Ok(1.0) };
+    let share = system.residual_of_displacement(displacement)?.relative();
+    Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
+}
+
+/// Relative residual that the last solve is to reach. A start from a coarser mesh is off by the discretisation error of
+/// that mesh; this share of its residual leaves less than a tenth of this mesh's, in λ too. **Collective**
+pub(super) fn last_residual(system: &System, tolerance: Tolerance) -> Result<f64, SystemError> {
+    match tolerance {
+        Tolerance::Residual(residual) => Ok(residual),
+        Tolerance::Discretisation => Ok((FROM_START * system.residual()?.relative()).clamp(SMALL, LOOSE)),
+    }
+}
