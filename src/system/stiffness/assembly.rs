@@ -2,7 +2,8 @@
 
 use super::lattice_operator::Strips;
 use super::preallocation::{ContactNeighbours, Counts};
-use super::strips::{StripNodes, stencil};
+use super::strip_kernel::Precision;
+use super::strips::{Couplings, StripNodes};
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};
 use crate::geometry::Point;
@@ -136,13 +137,22 @@ impl<'a> Assembly<'a> {
     fn add_strips(&self, triangle: usize, stiffness: &MacroStiffness, strips: &mut Strips) {
         let order = self.space.numbering.level.order;
         let mut known = BTreeMap::new();
+        let first = strips.alike.len();
         for strip in self.strips_of(triangle) {
-            let stencil = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
-                strips.stencils.push(stencil(stiffness, order, strip));
-                strips.stencils.len() - 1
+            let kind = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
+                strips.couplings.push(Couplings::new(stiffness, order, strip));
+                strips.kernels.push(f64::kernel(&strips.couplings[strips.couplings.len() - 1]));
+                strips.couplings.len() - 1
             });
-            strips.nodes.push((self.strip_nodes(triangle, strip), stencil));
+            let at = strips.nodes.len();
+            strips.nodes.push(self.strip_nodes(triangle, strip));
+            let part = strips.alike.len();
+            match strips.alike.last_mut().filter(|(_, last)| part > first && *last == kind) {
+                Some((alike, _)) => alike.end = at + 1,
+                None => strips.alike.push((at..at + 1, kind)),
+            }
         }
+        strips.triangles.push(first..strips.alike.len());
     }
 
     fn strips_of(&self, triangle: usize) -> &[Strip] {

@@ -1,21 +1,61 @@
 //! The stiffness of a level with most of its rows as strips: what PETSc's solvers see of it.
 
 use super::stored_rows::{StoredRows, far_columns};
-use super::strips::{Stencil, StripNodes};
+use super::strip_kernel::{Precision, StripKernel};
+use super::strips::{Couplings, StripNodes};
 use crate::element::Block;
 use crate::petsc::{Gather, Matrix, Operator, Result, Session, Vector};
 use crate::system::space::Components;
-use std::cell::{Cell, Ref, RefCell};
+use std::cell::{Ref, RefCell};
 use std::ops::Range;
 use std::rc::Rc;
 
 /// Strips of this rank, with what they have in common.
 #[derive(Default)]
-pub struct Strips {
+pub struct Strips<T = f64> {
     /// Couplings; few strips have their own.
-    pub stencils: Vec<Box<dyn Stencil>>,
-    /// The nodes of each strip, and which stencil it has.
-    pub nodes: Vec<(StripNodes, usize)>,
+    pub couplings: Vec<Couplings>,
+    /// The work on each of these.
+    pub kernels: Vec<Box<dyn StripKernel<T>>>,
+    /// The nodes of each strip.
+    pub nodes: Vec<StripNodes>,
+    /// Consecutive strips with the same couplings, and these.
+    pub alike: Vec<(Range<usize>, usize)>,
+    /// Parts of `alike` in one macro triangle, which couple to each other and to stored rows alone.
+    pub triangles: Vec<Range<usize>>,
+}
+
+impl<T: Precision> Strips<T> {
+    /// `y = K x` at their nodes.
+    pub fn multiply(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
+        self.alike.iter().for_each(|(strips, kind)| self.kernels[*kind].multiply(&self.nodes[strips.clone()], x, y));
+    }
+
+    /// `r = b - K x` at their nodes.
+    pub fn residual(&self, b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]]) {
+        self.alike.iter().for_each(|(strips, kind)| self.kernels[*kind].residual(&self.nodes[strips.clone()], b, x, r));
+    }
+
+    /// A symmetric Gauss-Seidel sweep, forward and backward in one macro triangle after the other: as they do not couple, the
+    /// result is that of both ways through all of them, and nodes are still in the cache on the way back.
+    pub fn relax(&self, b: &[[T; 2]], x: &mut [[T; 2]]) {
+        for triangle in &self.triangles {
+            let parts = &self.alike[triangle.clone()];
+            parts.iter().for_each(|(strips, kind)| self.kernels[*kind].forward(&self.nodes[strips.clone()], b, x));
+            parts.iter().rev().for_each(|(strips, kind)| self.kernels[*kind].backward(&self.nodes[strips.clone()], b, x));
+        }
+    }
+
+    /// The same in another precision.
+    pub fn converted<U: Precision>(&self) -> Strips<U> {
+        Strips {
+            kernels: self.couplings.iter().map(U::kernel).collect(),
+            couplings: self.couplings.clone(),
+            nodes: self.nodes.clone(),
+            alike: self.alike.clone(),
+            triangles: self.triangles.clone(),
+        }
+    }
 }
 
 /// Stored rows and strips together.
@@ -35,7 +75,7 @@ impl LatticeOperator {
     /// From the stored rows, assembled: those of nodes in strips are empty. **Collective**
     pub fn new(stored: Matrix, own: &Range<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
         let mut in_strip = vec![false; own.len()];
-        strips.nodes.iter().for_each(|(nodes, _)| in_strip[nodes.range()].fill(true));
+        strips.nodes.iter().for_each(|nodes| in_strip[nodes.range()].fill(true));
         let nodes: Vec<u32> = (0..own.len()).filter(|&node| !in_strip[node]).map(|node| node as u32).collect();
         let far = far_columns(&stored, own, &nodes)?;
         let gather = match session.size() {
@@ -46,11 +86,11 @@ impl LatticeOperator {
             }
         };
         let rows = RefCell::new(StoredRows::read(&stored, own, &nodes, &far)?);
-        let couplings = |&(nodes, stencil): &(StripNodes, usize)| {
-            let [even, odd] = strips.stencils[stencil].couplings(nodes.width).map(|kind| kind.len());
-            0.5 * (nodes.count * (even + odd)) as f64
+        let couplings = |(alike, kind): &(Range<usize>, usize)| {
+            let [even, odd] = [0, 1].map(|k| strips.couplings[*kind].of(k).len());
+            strips.nodes[alike.clone()].iter().map(|nodes| 0.5 * (nodes.count * (even + odd)) as f64).sum::<f64>()
         };
-        let in_strips = strips.nodes.iter().map(couplings).sum();
+        let in_strips = strips.alike.iter().map(couplings).sum();
         Ok(Self { in_strips, own: own.clone(), strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
     }
 
@@ -85,14 +125,14 @@ impl LatticeOperator {
 
     /// Shows the rows of all nodes in strips: couplings as distances in node numbers.
     pub fn each_row(&self, mut show: impl FnMut(usize, &[(isize, Block)])) {
-        for (nodes, stencil) in self.each_strip() {
-            let kinds = stencil.couplings(nodes.width);
-            (0..nodes.count).for_each(|k| show(nodes.first + k, &kinds[k % 2]));
+        for (strips, kind) in &self.strips.alike {
+            for nodes in &self.strips.nodes[strips.clone()] {
+                let couplings = &self.strips.couplings[*kind];
+                let distances = |k| couplings.of(k).iter().map(|&(step, block)| (nodes.distance(step), block)).collect();
+                let kinds: [Vec<(isize, Block)>; 2] = [0, 1].map(distances);
+                (0..nodes.count).for_each(|k| show(nodes.first + k, &kinds[k % 2]));
+            }
         }
-    }
-
-    fn each_strip(&self) -> impl DoubleEndedIterator<Item = (StripNodes, &dyn Stencil)> {
-        self.strips.nodes.iter().map(|&(nodes, stencil)| (nodes, self.strips.stencils[stencil].as_ref()))
     }
 
     /// Calls `with` with the values of other ranks' nodes that the stored rows want. **Collective**
@@ -110,7 +150,7 @@ impl Operator for Rc<LatticeOperator> {
             let (x, mut y) = (x.values(), y.values_mut());
             let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
             self.rows.borrow().multiply(x, far, y);
-            self.each_strip().for_each(|(nodes, stencil)| stencil.multiply(nodes, x, &mut y[nodes.range()]));
+            self.strips.multiply(x, y);
         })
     }
 
@@ -119,18 +159,17 @@ impl Operator for Rc<LatticeOperator> {
             let (b, x, mut r) = (b.values(), x.values(), r.values_mut());
             let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
             self.rows.borrow().residual(b, x, far, r);
-            self.each_strip().for_each(|(nodes, stencil)| stencil.residual(nodes, &b[nodes.range()], x, &mut r[nodes.range()]));
+            self.strips.residual(b, x, r);
         })
     }
 
     fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()> {
         let sweep = |far: &[Components], b: &Vector, x: &mut Vector| {
             let (b, mut x) = (b.values(), x.values_mut());
-            let (b, x) = (b.as_chunks().0, Cell::from_mut(x.as_chunks_mut().0).as_slice_of_cells());
+            let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
             let rows = self.rows.borrow();
             rows.forward(b, x, far);
-            self.each_strip().for_each(|(nodes, stencil)| stencil.forward(nodes, &b[nodes.range()], x));
-            self.each_strip().rev().for_each(|(nodes, stencil)| stencil.backward(nodes, &b[nodes.range()], x));
+            self.strips.relax(b, x);
             rows.backward(b, x, far);
         };
         if from_zero {
@@ -155,7 +194,7 @@ impl Operator for Rc<LatticeOperator> {
 
     fn norm_infinity(&self) -> Result<f64> {
         let stored = self.stored.borrow().norm_infinity()?;
-        Ok(self.strips.stencils.iter().map(|stencil| stencil.norm_infinity()).fold(stored, f64::max))
+        Ok(self.strips.couplings.iter().map(Couplings::norm_infinity).fold(stored, f64::max))
     }
 
     fn work(&self) -> f64 {

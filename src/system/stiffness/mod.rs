@@ -3,10 +3,12 @@
 mod assembly;
 mod elastic;
 mod expanded;
+mod lanes;
 mod lattice_operator;
 mod matrices;
 mod preallocation;
 mod stored_rows;
+mod strip_kernel;
 mod strips;
 
 pub use elastic::Elastic;

@@ -1,54 +1,53 @@
 //! The rows of a stiffness that are stored, as blocks of two by two.
 
-use super::strips::{inverse, subtract};
+use super::strips::inverse;
 use crate::element::Block;
 use crate::petsc::{Matrix, Result};
-use crate::system::space::Components;
-use std::cell::Cell;
+use crate::system::space::Real;
 use std::ops::Range;
 
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
 /// their own.
 #[derive(Default)]
-pub struct StoredRows {
+pub struct StoredRows<T = f64> {
     nodes: Vec<u32>,
     /// Inverses of the diagonal blocks.
-    inverses: Vec<Block>,
-    near: Part,
-    far: Part,
+    inverses: Vec<[[T; 2]; 2]>,
+    near: Part<T>,
+    far: Part<T>,
 }
 
 /// One part of all rows: that of row `k` lies in `starts[k]..starts[k + 1]`.
-struct Part {
+struct Part<T> {
     starts: Vec<u32>,
     columns: Vec<u32>,
-    blocks: Vec<Block>,
+    blocks: Vec<[[T; 2]; 2]>,
 }
 
-impl Default for Part {
+impl<T> Default for Part<T> {
     fn default() -> Self {
         Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() }
     }
 }
 
-impl Part {
+impl<T: Real> Part<T> {
     /// `sum - Σ K x` of a row, in two parts that do not wait for each other.
     #[inline(always)]
-    fn subtract(&self, k: usize, sum: Components, x: impl Fn(usize) -> Components) -> Components {
+    fn subtract(&self, k: usize, sum: [T; 2], x: &[[T; 2]]) -> [T; 2] {
         let range = self.starts[k] as usize..self.starts[k + 1] as usize;
         let (columns, blocks) = (self.columns[range.clone()].as_chunks::<2>(), self.blocks[range].as_chunks::<2>());
-        let (mut sum, mut other) = (sum, [0.0; 2]);
+        let (mut sum, mut other) = (sum, [T::default(); 2]);
         for (columns, blocks) in columns.0.iter().zip(blocks.0) {
-            subtract(&mut sum, &blocks[0], x(columns[0] as usize));
-            subtract(&mut other, &blocks[1], x(columns[1] as usize));
+            subtract(&mut sum, &blocks[0], x[columns[0] as usize]);
+            subtract(&mut other, &blocks[1], x[columns[1] as usize]);
         }
         if let ([column], [block]) = (columns.1, blocks.1) {
-            subtract(&mut sum, block, x(*column as usize));
+            subtract(&mut sum, block, x[*column as usize]);
         }
         [sum[0] + other[0], sum[1] + other[1]]
     }
 
-    fn push(&mut self, column: usize, block: Block) {
+    fn push(&mut self, column: usize, block: [[T; 2]; 2]) {
         self.columns.push(column as u32);
         self.blocks.push(block);
     }
@@ -139,44 +138,53 @@ impl StoredRows {
     pub fn nodes(&self) -> &[u32] {
         &self.nodes
     }
+}
 
+impl<T: Real> StoredRows<T> {
     /// `y = K x` in these rows, `far` the values of the columns of other ranks.
-    pub fn multiply(&self, x: &[Components], far: &[Components], y: &mut [Components]) {
+    pub fn multiply(&self, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
         self.each(x, far, |node, sum| y[node] = sum.map(|v| -v));
     }
 
     /// `r = b - K x` in these rows.
-    pub fn residual(&self, b: &[Components], x: &[Components], far: &[Components], r: &mut [Components]) {
+    pub fn residual(&self, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
         self.each(x, far, |node, sum| r[node] = [b[node][0] + sum[0], b[node][1] + sum[1]]);
     }
 
     /// Shows `-K x` row by row.
-    fn each(&self, x: &[Components], far: &[Components], mut show: impl FnMut(usize, Components)) {
+    #[inline(always)]
+    fn each(&self, x: &[[T; 2]], far: &[[T; 2]], mut show: impl FnMut(usize, [T; 2])) {
         for (k, &node) in self.nodes.iter().enumerate() {
-            let sum = self.near.subtract(k, [0.0; 2], |column| x[column]);
-            show(node as usize, self.far.subtract(k, sum, |column| far[column]));
+            let sum = self.near.subtract(k, [T::default(); 2], x);
+            show(node as usize, self.far.subtract(k, sum, far));
         }
     }
 
-    /// Relaxes the nodes in their order, `far` staying as it is.
-    pub fn forward(&self, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
+    /// Relaxes the nodes in their order, `far` staying as it is; no `far` stands for zeros.
+    pub fn forward(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         (0..self.nodes.len()).for_each(|k| self.relax(k, b, x, far));
     }
 
     /// The same in the opposite order.
-    pub fn backward(&self, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
+    pub fn backward(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         (0..self.nodes.len()).rev().for_each(|k| self.relax(k, b, x, far));
     }
 
     #[inline(always)]
-    fn relax(&self, k: usize, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
+    fn relax(&self, k: usize, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         let node = self.nodes[k] as usize;
-        let mut sum = self.near.subtract(k, b[node], |column| x[column].get());
+        let mut sum = self.near.subtract(k, b[node], x);
         if !far.is_empty() {
-            sum = self.far.subtract(k, sum, |column| far[column]);
+            sum = self.far.subtract(k, sum, far);
         }
-        let [u, v] = x[node].get();
-        let inverse = &self.inverses[k];
-        x[node].set([u + inverse[0][0] * sum[0] + inverse[0][1] * sum[1], v + inverse[1][0] * sum[0] + inverse[1][1] * sum[1]]);
+        let ([u, v], inverse) = (x[node], &self.inverses[k]);
+        x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
     }
+}
+
+/// `sum -= k x`.
+#[inline(always)]
+fn subtract<T: Real>(sum: &mut [T; 2], k: &[[T; 2]; 2], x: [T; 2]) {
+    sum[0] = sum[0] - (k[0][0] * x[0] + k[0][1] * x[1]);
+    sum[1] = sum[1] - (k[1][0] * x[0] + k[1][1] * x[1]);
 }
