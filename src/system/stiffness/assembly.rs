@@ -2,7 +2,7 @@
 
 use super::lattice_operator::Strips;
 use super::preallocation::{ContactNeighbours, Counts};
-use super::strip_kernel::Precision;
+use super::precision::Precision;
 use super::strips::{Couplings, StripNodes};
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};

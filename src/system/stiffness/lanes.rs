@@ -50,8 +50,14 @@ pub trait Lanes: Copy + 'static {
     /// The nodes `step` places behind those of `a`; `after` are the nodes that follow them.
     fn later<const STEP: usize>(self, a: Self::Register, after: Self::Register) -> Self::Register;
 
-    /// Runs work with the instructions of these registers.
-    fn run<Work: FnOnce()>(self, work: Work);
+    /// Does work with the instructions of these registers.
+    fn run<W: Work>(self, work: W);
+}
+
+/// Work on registers. All that it calls must be inlined: only so do instructions that not all processors have come to be.
+pub trait Work {
+    /// Does it.
+    fn work(self);
 }
 
 /// Arrays of two nodes, for processors without the instructions of the others.
@@ -120,15 +126,15 @@ impl<T: Real> Lanes for Plain<T> {
     }
 
     #[inline(always)]
-    fn run<Work: FnOnce()>(self, work: Work) {
-        work();
+    fn run<W: Work>(self, work: W) {
+        work.work();
     }
 }
 
 /// Registers of x86 processors.
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::Lanes;
+    use super::{Lanes, Work};
     use pulp::x86::{V3, V4};
     use pulp::{NullaryFnOnce, cast, f32x8, f32x16, f64x4, f64x8};
 
@@ -149,14 +155,14 @@ mod x86 {
     pub struct WideSingle(pub V4);
 
     /// Work for one kind of processor.
-    struct Call<Work>(Work);
+    struct Call<W>(W);
 
-    impl<Work: FnOnce()> NullaryFnOnce for Call<Work> {
+    impl<W: Work> NullaryFnOnce for Call<W> {
         type Output = ();
 
         #[inline(always)]
         fn call(self) {
-            (self.0)();
+            self.0.work();
         }
     }
 
@@ -189,7 +195,7 @@ mod x86 {
             }
 
             #[inline(always)]
-            fn run<Work: FnOnce()>(self, work: Work) {
+            fn run<W: Work>(self, work: W) {
                 self.0.vectorize(Call(work));
             }
         };

@@ -1,10 +1,11 @@
 //! The stiffness of a level with most of its rows as strips: what PETSc's solvers see of it.
 
 use super::stored_rows::{StoredRows, far_columns};
-use super::strip_kernel::{Precision, StripKernel};
+use super::precision::Precision;
+use super::strip_kernel::StripKernel;
 use super::strips::{Couplings, StripNodes};
 use crate::element::Block;
-use crate::petsc::{Gather, Matrix, Operator, Result, Session, Vector};
+use crate::petsc::{Gather, Halo, Matrix, Operator, Result, Session, Vector};
 use crate::system::space::Components;
 use std::cell::{Ref, RefCell};
 use std::ops::Range;
@@ -63,12 +64,13 @@ pub struct LatticeOperator {
     own: Range<usize>,
     strips: Rc<Strips>,
     stored: RefCell<Matrix>,
-    rows: RefCell<StoredRows>,
+    rows: Rc<RefCell<StoredRows>>,
     /// Couplings of all nodes in strips.
     in_strips: f64,
     /// Columns of other ranks, and what fetches their values.
     far: Vec<usize>,
     gather: Option<RefCell<Gather>>,
+    halo: Rc<Halo>,
 }
 
 impl LatticeOperator {
@@ -85,13 +87,14 @@ impl LatticeOperator {
                 Some(RefCell::new(Gather::new(&stored.create_vectors()?.0, &wanted)?))
             }
         };
-        let rows = RefCell::new(StoredRows::read(&stored, own, &nodes, &far)?);
+        let rows = Rc::new(RefCell::new(StoredRows::read(&stored, own, &nodes, &far)?));
         let couplings = |(alike, kind): &(Range<usize>, usize)| {
             let [even, odd] = [0, 1].map(|k| strips.couplings[*kind].of(k).len());
             strips.nodes[alike.clone()].iter().map(|nodes| 0.5 * (nodes.count * (even + odd)) as f64).sum::<f64>()
         };
         let in_strips = strips.alike.iter().map(couplings).sum();
-        Ok(Self { in_strips, own: own.clone(), strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
+        let halo = Rc::new(Halo::new(session, own, &far));
+        Ok(Self { in_strips, own: own.clone(), halo, strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
     }
 
     /// Adds a block to the couplings of two nodes. Holds after [`LatticeOperator::assemble`].
@@ -116,6 +119,45 @@ impl LatticeOperator {
     /// The nodes whose rows are stored.
     pub fn stored_nodes(&self) -> Vec<u32> {
         self.rows.borrow().nodes().to_vec()
+    }
+
+    /// The stored rows.
+    pub fn rows(&self) -> &Rc<RefCell<StoredRows>> {
+        &self.rows
+    }
+
+    /// What brings the values of other ranks' nodes.
+    pub fn halo(&self) -> &Rc<Halo> {
+        &self.halo
+    }
+
+    /// Nodes of this rank.
+    pub fn node_count(&self) -> usize {
+        self.own.len()
+    }
+
+    /// Nodes of other ranks that the rows here couple to.
+    pub fn far_count(&self) -> usize {
+        self.far.len()
+    }
+
+    /// The rows of all ranks, on every rank. **Collective**
+    pub fn gathered(&self, session: &Session) -> StoredRows {
+        let (mut columns, mut values) = (Vec::new(), Vec::new());
+        let mut add = |node: usize, couplings: &[(usize, Block)]| {
+            columns.extend([(self.own.start + node) as u32, couplings.len() as u32]);
+            columns.extend(couplings.iter().map(|c| c.0 as u32));
+            values.extend(couplings.iter().flat_map(|c| c.1.as_flattened()));
+        };
+        self.each_row(|node, couplings| {
+            let columns = couplings.iter().map(|&(distance, block)| ((self.own.start + node).wrapping_add_signed(distance), block));
+            add(node, &columns.collect::<Vec<_>>());
+        });
+        self.rows.borrow().each_row(|node, near, far| {
+            let near = near.map(|(column, block)| (self.own.start + column, block));
+            add(node, &near.chain(far.map(|(column, block)| (self.far[column], block))).collect::<Vec<_>>());
+        });
+        StoredRows::of_all(&session.gather_all(&columns), &session.gather_all(&values))
     }
 
     /// The strips.

@@ -52,6 +52,12 @@ impl<T: Real> Part<T> {
         self.blocks.push(block);
     }
 
+    /// Columns and blocks of row `k`.
+    fn row(&self, k: usize) -> impl Iterator<Item = (usize, [[T; 2]; 2])> {
+        let range = self.starts[k] as usize..self.starts[k + 1] as usize;
+        self.columns[range.clone()].iter().map(|&column| column as usize).zip(self.blocks[range].iter().copied())
+    }
+
     fn end_row(&mut self) {
         self.starts.push(self.columns.len() as u32);
     }
@@ -127,6 +133,74 @@ impl StoredRows {
             *at += 1;
         }
         Ok(())
+    }
+
+    /// From the rows of all nodes, in any order: for each its node, how many columns, and these; and all blocks. All columns are
+    /// near.
+    ///
+    /// # Panics
+    /// As [`StoredRows::read`].
+    pub fn of_all(numbers: &[u32], values: &[f64]) -> Self {
+        let blocks: &[[[f64; 2]; 2]] = values.as_chunks::<2>().0.as_chunks().0;
+        let (mut rows, mut at, mut start) = (Vec::new(), 0, 0);
+        while at < numbers.len() {
+            let count = numbers[at + 1] as usize;
+            rows.push((numbers[at], at + 2..at + 2 + count, start));
+            (at, start) = (at + 2 + count, start + count);
+        }
+        rows.sort_unstable_by_key(|row| row.0);
+        let mut all = Self::default();
+        for (node, columns, start) in rows {
+            for (k, &column) in numbers[columns].iter().enumerate() {
+                if column == node {
+                    all.inverses.push(inverse(&blocks[start + k]).expect("a stiffness has a diagonal"));
+                }
+                all.near.push(column as usize, blocks[start + k]);
+            }
+            all.nodes.push(node);
+            all.near.end_row();
+            all.far.end_row();
+        }
+        all
+    }
+
+    /// Shows each row: its node, and its near and far columns with their blocks.
+    pub fn each_row(
+        &self,
+        mut show: impl FnMut(usize, &mut dyn Iterator<Item = (usize, Block)>, &mut dyn Iterator<Item = (usize, Block)>),
+    ) {
+        for (k, &node) in self.nodes.iter().enumerate() {
+            show(node as usize, &mut self.near.row(k), &mut self.far.row(k));
+        }
+    }
+
+    /// The rows of single unknowns, if these are those of all nodes: columns and values.
+    pub fn scalar_rows(&self) -> Vec<(Vec<i32>, Vec<f64>)> {
+        let mut rows = Vec::with_capacity(2 * self.nodes.len());
+        self.each_row(|_, near, _| {
+            let row: Vec<(usize, Block)> = near.collect();
+            for a in 0..2 {
+                let columns = row.iter().flat_map(|(column, _)| [2 * *column as i32, 2 * *column as i32 + 1]).collect();
+                rows.push((columns, row.iter().flat_map(|(_, block)| block[a]).collect()));
+            }
+        });
+        rows
+    }
+
+    /// The same in another precision.
+    pub fn converted<U: Real>(&self) -> StoredRows<U> {
+        let blocks = |blocks: &[Block]| blocks.iter().map(|block| block.map(|row| row.map(U::of))).collect();
+        let part = |part: &Part<f64>| Part {
+            starts: part.starts.clone(),
+            columns: part.columns.clone(),
+            blocks: blocks(&part.blocks),
+        };
+        StoredRows {
+            nodes: self.nodes.clone(),
+            inverses: blocks(&self.inverses),
+            near: part(&self.near),
+            far: part(&self.far),
+        }
     }
 
     /// Blocks in all rows.

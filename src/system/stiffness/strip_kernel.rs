@@ -5,9 +5,7 @@
 //! registers wait for each other, and nodes do not (Hillis, Steele 1986). Rows of P2 with corners of triangles reach two
 //! nodes back: there the recurrence is one of pairs of nodes. Opposite couplings are alike, so neighbours are added first.
 
-use super::lanes::{Lanes, Plain};
-#[cfg(target_arch = "x86_64")]
-use super::lanes::{Double, Single, WideDouble, WideSingle};
+use super::lanes::{Lanes, Work};
 use super::strips::{Couplings, Step, StripNodes, inverse};
 use crate::element::Block;
 use crate::system::space::Real;
@@ -26,42 +24,6 @@ pub trait StripKernel<T> {
 
     /// The same from the last to the first.
     fn backward(&self, strips: &[StripNodes], b: &[[T; 2]], x: &mut [[T; 2]]);
-}
-
-/// Numbers for which there are kernels.
-pub trait Precision: Real {
-    /// The kernel of some couplings that suits the processor best.
-    fn kernel(couplings: &Couplings) -> Box<dyn StripKernel<Self>>;
-}
-
-impl Precision for f64 {
-    fn kernel(couplings: &Couplings) -> Box<dyn StripKernel<Self>> {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if let Some(simd) = pulp::x86::V4::try_new() {
-                return kernel(WideDouble(simd), couplings);
-            }
-            if let Some(simd) = pulp::x86::V3::try_new() {
-                return kernel(Double(simd), couplings);
-            }
-        }
-        kernel(Plain::<f64>::default(), couplings)
-    }
-}
-
-impl Precision for f32 {
-    fn kernel(couplings: &Couplings) -> Box<dyn StripKernel<Self>> {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if let Some(simd) = pulp::x86::V4::try_new() {
-                return kernel(WideSingle(simd), couplings);
-            }
-            if let Some(simd) = pulp::x86::V3::try_new() {
-                return kernel(Single(simd), couplings);
-            }
-        }
-        kernel(Plain::<f32>::default(), couplings)
-    }
 }
 
 /// The kernel with given registers.
@@ -232,7 +194,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
 
     /// `r -= K x` at the nodes of a strip, which `r` holds alone.
     #[inline(always)]
-    fn residual_of(&self, nodes: StripNodes, x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
+    fn residual(&self, nodes: StripNodes, x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
         let (lanes, product) = (self.lanes, &self.product);
         let registers = nodes.count / L::COUNT;
         let chunks = |start: usize| &L::chunks(&x[start..])[..registers];
@@ -302,7 +264,8 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
         let above = |start: usize| &L::chunks(&next[start - first - count - Self::REACH..])[..registers];
         let up: [[&[L::Nodes]; 2]; UP] = starts.map(|[up, down]| [above(up), &L::chunks(&before[down..])[..registers]]);
         let b = &L::chunks(&b[first..])[..registers];
-        let mut relax = |k: usize| {
+        for turn in 0..registers {
+            let k = if way == Way::Forward { turn } else { registers - 1 - turn };
             let mut sum = Sum::of(lanes, &half.right_hand_side, lanes.load(b[k]));
             for reach in 1..=Self::REACH {
                 let at = if way == Way::Forward { Self::REACH + reach } else { Self::REACH - reach };
@@ -315,10 +278,6 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
             }
             let relaxed = state.next::<SECOND>(lanes, way, &half.chain, sum.total(lanes));
             L::chunks_mut(&mut own[Self::REACH + k * L::COUNT..][..L::COUNT])[0] = lanes.store(relaxed);
-        };
-        match way {
-            Way::Forward => (0..registers).for_each(&mut relax),
-            Way::Backward => (0..registers).rev().for_each(&mut relax),
         }
     }
 }
@@ -421,44 +380,76 @@ fn square(pair: &[[Block; 2]; 2]) -> [[Block; 2]; 2] {
     std::array::from_fn(|i| std::array::from_fn(|j| std::array::from_fn(|a| std::array::from_fn(|b| matrix[(2 * i + a, 2 * j + b)]))))
 }
 
+/// What is to be done with the nodes of strips.
+enum Task<'a, T> {
+    Multiply { x: &'a [[T; 2]], y: &'a mut [[T; 2]] },
+    Residual { b: &'a [[T; 2]], x: &'a [[T; 2]], r: &'a mut [[T; 2]] },
+    Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+    Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+}
+
+/// A task on some strips.
+struct OnStrips<'a, L: Lanes, const UP: usize, const SECOND: bool> {
+    kernel: &'a Kernel<L, UP, SECOND>,
+    strips: &'a [StripNodes],
+    task: Task<'a, L::Real>,
+}
+
+impl<L: Lanes, const UP: usize, const SECOND: bool> Work for OnStrips<'_, L, UP, SECOND> {
+    #[inline(always)]
+    fn work(self) {
+        let Self { kernel, strips, task } = self;
+        match task {
+            Task::Multiply { x, y } => {
+                for &nodes in strips {
+                    let y = &mut y[nodes.range()];
+                    y.fill(Default::default());
+                    kernel.residual(nodes, x, y);
+                    y.iter_mut().for_each(|y| *y = [-y[0], -y[1]]);
+                }
+            }
+            Task::Residual { b, x, r } => {
+                for &nodes in strips {
+                    let r = &mut r[nodes.range()];
+                    r.copy_from_slice(&b[nodes.range()]);
+                    kernel.residual(nodes, x, r);
+                }
+            }
+            Task::Forward { b, x } => {
+                for &nodes in strips {
+                    kernel.sweep(Way::Forward, nodes, b, x);
+                    for k in Kernel::<L, UP, SECOND>::rest(nodes) {
+                        kernel.relax(nodes, k, b, x);
+                    }
+                }
+            }
+            Task::Backward { b, x } => {
+                for &nodes in strips.iter().rev() {
+                    for k in Kernel::<L, UP, SECOND>::rest(nodes).rev() {
+                        kernel.relax(nodes, k, b, x);
+                    }
+                    kernel.sweep(Way::Backward, nodes, b, x);
+                }
+            }
+        }
+    }
+}
+
 impl<L: Lanes, const UP: usize, const SECOND: bool> StripKernel<L::Real> for Kernel<L, UP, SECOND> {
     fn multiply(&self, strips: &[StripNodes], x: &[[L::Real; 2]], y: &mut [[L::Real; 2]]) {
-        self.lanes.run(|| {
-            for &nodes in strips {
-                let y = &mut y[nodes.range()];
-                y.fill(Default::default());
-                self.residual_of(nodes, x, y);
-                y.iter_mut().for_each(|y| *y = y.map(|v| -v));
-            }
-        });
+        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Multiply { x, y } });
     }
 
     fn residual(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
-        self.lanes.run(|| {
-            for &nodes in strips {
-                let r = &mut r[nodes.range()];
-                r.copy_from_slice(&b[nodes.range()]);
-                self.residual_of(nodes, x, r);
-            }
-        });
+        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Residual { b, x, r } });
     }
 
     fn forward(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
-        self.lanes.run(|| {
-            for &nodes in strips {
-                self.sweep(Way::Forward, nodes, b, x);
-                Self::rest(nodes).for_each(|k| self.relax(nodes, k, b, x));
-            }
-        });
+        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Forward { b, x } });
     }
 
     fn backward(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
-        self.lanes.run(|| {
-            for &nodes in strips.iter().rev() {
-                Self::rest(nodes).rev().for_each(|k| self.relax(nodes, k, b, x));
-                self.sweep(Way::Backward, nodes, b, x);
-            }
-        });
+        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Backward { b, x } });
     }
 }
 
