@@ -2,7 +2,7 @@
 
 use crate::petsc::{Datum, Halo, Session};
 use crate::system::interpolation::NodeInterpolation;
-use crate::system::stiffness::{LatticeOperator, Precision, StoredRows, Strips};
+use crate::system::stiffness::{LatticeOperator, LatticeRows, Precision, StoredRows, Strips};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -79,15 +79,17 @@ impl<T: Precision + Datum> Level<T> {
 
     /// The same from this one's residual. **Collective**
     pub fn restrict_residual(&mut self, below: &mut Self) {
-        let Self { rows, halo, b, x, r, far, .. } = self;
+        let Self { lattice, rows, halo, b, x, r, far, .. } = self;
         match rows {
-            Rows::All(rows) => rows.residual(b, x, far, r),
+            Rows::All(rows) => rows.residual(0..rows.nodes().len(), b, x, far, r),
             Rows::Own { strips, stored } => {
+                let stored = stored.borrow();
+                let rows = LatticeRows { strips, stored: &*stored, order: lattice.order() };
                 match halo {
-                    Some(halo) => halo.fetch(x, far, || strips.residual(b, x, r)),
-                    None => strips.residual(b, x, r),
+                    Some(halo) => halo.fetch(x, far, || rows.residual_in_strips(b, x, r)),
+                    None => rows.residual_in_strips(b, x, r),
                 }
-                stored.borrow().residual(b, x, far, r);
+                stored.residual(0..stored.nodes().len(), b, x, far, r);
             }
         }
         self.restrict(&self.r, below);
@@ -115,7 +117,7 @@ impl<T: Precision + Datum> Level<T> {
     /// A symmetric Gauss-Seidel sweep over the nodes here, from `x` or from zero; those of other ranks stay as they are.
     /// **Collective**
     pub fn relax(&mut self, from_zero: bool) {
-        let Self { rows, halo, b, x, far, .. } = self;
+        let Self { lattice, rows, halo, b, x, far, .. } = self;
         let mut elsewhere: &[[T; 2]] = &[];
         if from_zero {
             x.fill([T::default(); 2]);
@@ -125,14 +127,11 @@ impl<T: Precision + Datum> Level<T> {
         }
         match rows {
             Rows::All(rows) => {
-                rows.forward(b, x, elsewhere);
-                rows.backward(b, x, elsewhere);
+                rows.forward(0..rows.nodes().len(), b, x, elsewhere);
+                rows.backward(0..rows.nodes().len(), b, x, elsewhere);
             }
             Rows::Own { strips, stored } => {
-                let stored = stored.borrow();
-                stored.forward(b, x, elsewhere);
-                strips.relax(b, x);
-                stored.backward(b, x, elsewhere);
+                LatticeRows { strips, stored: &*stored.borrow(), order: lattice.order() }.relax(b, x, elsewhere);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Assembly of the stiffness of one level: counts and entries, for whoever makes a matrix of them.
 
-use super::lattice_operator::Strips;
+use super::lattice_operator::{Strips, TriangleStrips};
 use super::preallocation::{ContactNeighbours, Counts};
 use super::precision::Precision;
 use super::strips::{Couplings, StripNodes};
@@ -152,7 +152,11 @@ impl<'a> Assembly<'a> {
                 None => strips.alike.push((at..at + 1, kind)),
             }
         }
-        strips.triangles.push(first..strips.alike.len());
+        let numbers = self.space.numbering.triangle(&self.scene.mesh, triangle);
+        let n = self.space.numbering.level.intervals;
+        let start = if n < 3 { 0 } else { numbers.node(1, 1) - self.space.own.start };
+        let nodes = start..start + lattice::inner_count(n);
+        strips.triangles.push(TriangleStrips { nodes, alike: first..strips.alike.len() });
     }
 
     fn strips_of(&self, triangle: usize) -> &[Strip] {

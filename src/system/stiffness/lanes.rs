@@ -136,11 +136,15 @@ impl<T: Real> Lanes for Plain<T> {
 mod x86 {
     use super::{Lanes, Work};
     use pulp::x86::{V3, V4};
-    use pulp::{NullaryFnOnce, cast, f32x8, f32x16, f64x4, f64x8};
+    use pulp::{NullaryFnOnce, cast, f32x4, f32x8, f32x16, f64x4, f64x8};
 
     /// Two nodes in double precision, AVX2.
     #[derive(Clone, Copy)]
     pub struct Double(pub V3);
+
+    /// Two nodes in single precision, AVX2.
+    #[derive(Clone, Copy)]
+    pub struct Pair(pub V3);
 
     /// Four nodes in single precision, AVX2.
     #[derive(Clone, Copy)]
@@ -246,6 +250,33 @@ mod x86 {
         }
     }
 
+    impl Lanes for Pair {
+        memory!(f32, f32x4, 2);
+        arithmetic!(_mm_add_ps, _mm_mul_ps, _mm_fmadd_ps, sse, fma);
+
+        #[inline(always)]
+        fn turned(self, a: f32x4) -> f32x4 {
+            let f32x4(a, b, c, d) = a;
+            f32x4(b, a, d, c)
+        }
+
+        #[inline(always)]
+        fn crossed(self, a: f32x4) -> f32x4 {
+            let f32x4(a, b, c, d) = a;
+            f32x4(c, d, a, b)
+        }
+
+        #[inline(always)]
+        fn earlier<const STEP: usize>(self, before: f32x4, a: f32x4) -> f32x4 {
+            f32x4(before.2, before.3, a.0, a.1)
+        }
+
+        #[inline(always)]
+        fn later<const STEP: usize>(self, a: f32x4, after: f32x4) -> f32x4 {
+            f32x4(a.2, a.3, after.0, after.1)
+        }
+    }
+
     impl Lanes for Single {
         memory!(f32, f32x8, 4);
         arithmetic!(_mm256_add_ps, _mm256_mul_ps, _mm256_fmadd_ps, avx, fma);
@@ -337,4 +368,4 @@ mod x86 {
 }
 
 #[cfg(target_arch = "x86_64")]
-pub use x86::{Double, Single, WideDouble, WideSingle};
+pub use x86::{Double, Pair, Single, WideDouble, WideSingle};

@@ -1,6 +1,7 @@
 //! The stiffness of a level with most of its rows as strips: what PETSc's solvers see of it.
 
 use super::stored_rows::{StoredRows, far_columns};
+use super::lattice_rows::{LatticeRows, Order};
 use super::precision::Precision;
 use super::strip_kernel::StripKernel;
 use super::strips::{Couplings, StripNodes};
@@ -22,31 +23,20 @@ pub struct Strips<T = f64> {
     pub nodes: Vec<StripNodes>,
     /// Consecutive strips with the same couplings, and these.
     pub alike: Vec<(Range<usize>, usize)>,
-    /// Parts of `alike` in one macro triangle, which couple to each other and to stored rows alone.
-    pub triangles: Vec<Range<usize>>,
+    /// Those of each macro triangle.
+    pub triangles: Vec<TriangleStrips>,
+}
+
+/// The inner nodes of a macro triangle, which couple to each other and to nodes on its sides alone.
+#[derive(Clone, Debug)]
+pub struct TriangleStrips {
+    /// All of them.
+    pub nodes: Range<usize>,
+    /// Those of [`Strips::alike`] that lie in it.
+    pub alike: Range<usize>,
 }
 
 impl<T: Precision> Strips<T> {
-    /// `y = K x` at their nodes.
-    pub fn multiply(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
-        self.alike.iter().for_each(|(strips, kind)| self.kernels[*kind].multiply(&self.nodes[strips.clone()], x, y));
-    }
-
-    /// `r = b - K x` at their nodes.
-    pub fn residual(&self, b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]]) {
-        self.alike.iter().for_each(|(strips, kind)| self.kernels[*kind].residual(&self.nodes[strips.clone()], b, x, r));
-    }
-
-    /// A symmetric Gauss-Seidel sweep, forward and backward in one macro triangle after the other: as they do not couple, the
-    /// result is that of both ways through all of them, and nodes are still in the cache on the way back.
-    pub fn relax(&self, b: &[[T; 2]], x: &mut [[T; 2]]) {
-        for triangle in &self.triangles {
-            let parts = &self.alike[triangle.clone()];
-            parts.iter().for_each(|(strips, kind)| self.kernels[*kind].forward(&self.nodes[strips.clone()], b, x));
-            parts.iter().rev().for_each(|(strips, kind)| self.kernels[*kind].backward(&self.nodes[strips.clone()], b, x));
-        }
-    }
-
     /// The same in another precision.
     pub fn converted<U: Precision>(&self) -> Strips<U> {
         Strips {
@@ -71,6 +61,7 @@ pub struct LatticeOperator {
     far: Vec<usize>,
     gather: Option<RefCell<Gather>>,
     halo: Rc<Halo>,
+    order: Order,
 }
 
 impl LatticeOperator {
@@ -93,8 +84,9 @@ impl LatticeOperator {
             strips.nodes[alike.clone()].iter().map(|nodes| 0.5 * (nodes.count * (even + odd)) as f64).sum::<f64>()
         };
         let in_strips = strips.alike.iter().map(couplings).sum();
+        let order = Order::new(&rows.borrow(), strips);
         let halo = Rc::new(Halo::new(session, own, &far));
-        Ok(Self { in_strips, own: own.clone(), halo, strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
+        Ok(Self { in_strips, own: own.clone(), halo, order, strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
     }
 
     /// Adds a block to the couplings of two nodes. Holds after [`LatticeOperator::assemble`].
@@ -119,6 +111,15 @@ impl LatticeOperator {
     /// The nodes whose rows are stored.
     pub fn stored_nodes(&self) -> Vec<u32> {
         self.rows.borrow().nodes().to_vec()
+    }
+
+    /// In which order rows are worked on.
+    pub fn order(&self) -> &Order {
+        &self.order
+    }
+
+    fn lattice_rows<'a>(&'a self, stored: &'a StoredRows) -> LatticeRows<'a, f64> {
+        LatticeRows { strips: &self.strips, stored, order: &self.order }
     }
 
     /// The stored rows.
@@ -191,8 +192,9 @@ impl Operator for Rc<LatticeOperator> {
         self.with_far(x, |far| {
             let (x, mut y) = (x.values(), y.values_mut());
             let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
-            self.rows.borrow().multiply(x, far, y);
-            self.strips.multiply(x, y);
+            let stored = self.rows.borrow();
+            stored.multiply(0..stored.nodes().len(), x, far, y);
+            self.lattice_rows(&stored).multiply_in_strips(x, y);
         })
     }
 
@@ -200,8 +202,9 @@ impl Operator for Rc<LatticeOperator> {
         self.with_far(x, |far| {
             let (b, x, mut r) = (b.values(), x.values(), r.values_mut());
             let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
-            self.rows.borrow().residual(b, x, far, r);
-            self.strips.residual(b, x, r);
+            let stored = self.rows.borrow();
+            stored.residual(0..stored.nodes().len(), b, x, far, r);
+            self.lattice_rows(&stored).residual_in_strips(b, x, r);
         })
     }
 
@@ -209,10 +212,7 @@ impl Operator for Rc<LatticeOperator> {
         let sweep = |far: &[Components], b: &Vector, x: &mut Vector| {
             let (b, mut x) = (b.values(), x.values_mut());
             let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
-            let rows = self.rows.borrow();
-            rows.forward(b, x, far);
-            self.strips.relax(b, x);
-            rows.backward(b, x, far);
+            self.lattice_rows(&self.rows.borrow()).relax(b, x, far);
         };
         if from_zero {
             x.set(0.0)?;

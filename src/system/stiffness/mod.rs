@@ -5,6 +5,7 @@ mod elastic;
 mod expanded;
 mod lanes;
 mod lattice_operator;
+mod lattice_rows;
 mod matrices;
 mod preallocation;
 mod precision;
@@ -14,6 +15,7 @@ mod strips;
 
 pub use elastic::Elastic;
 pub use lattice_operator::{LatticeOperator, Strips};
+pub use lattice_rows::LatticeRows;
 pub use preallocation::ContactNeighbours;
 pub use precision::Precision;
 pub use stored_rows::StoredRows;

@@ -1,10 +1,10 @@
 //! What the cycle works with in double and in single precision: kernels, strips, stored rows.
 
-use super::lanes::Plain;
+use super::lanes::{Lanes, Plain, Work};
 #[cfg(target_arch = "x86_64")]
-use super::lanes::{Double, Single, WideDouble, WideSingle};
+use super::lanes::{Double, Pair, Single, WideDouble, WideSingle};
 use super::lattice_operator::Strips;
-use super::stored_rows::StoredRows;
+use super::stored_rows::{OnRows, StoredRows};
 use super::strip_kernel::{StripKernel, kernel};
 use super::strips::Couplings;
 use crate::system::space::Real;
@@ -24,6 +24,25 @@ pub trait Precision: Real {
 
     /// Takes over changed values.
     fn refresh(rows: &Rc<RefCell<StoredRows>>, own: &Rc<RefCell<StoredRows<Self>>>);
+
+    /// Does work on stored rows.
+    fn on_rows(work: OnRows<Self>);
+}
+
+/// Work on stored rows with some registers.
+struct RowsWith<'a, L: Lanes>(L, OnRows<'a, L::Real>);
+
+impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> RowsWith<'_, L> {
+    fn run(self) {
+        self.0.run(self);
+    }
+}
+
+impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> Work for RowsWith<'_, L> {
+    #[inline(always)]
+    fn work(self) {
+        self.1.work(self.0);
+    }
 }
 
 impl Precision for f64 {
@@ -49,6 +68,14 @@ impl Precision for f64 {
     }
 
     fn refresh(_: &Rc<RefCell<StoredRows>>, _: &Rc<RefCell<StoredRows>>) {}
+
+    fn on_rows(work: OnRows<f64>) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            return RowsWith(Double(simd), work).run();
+        }
+        RowsWith(Plain::default(), work).run();
+    }
 }
 
 impl Precision for f32 {
@@ -75,5 +102,13 @@ impl Precision for f32 {
 
     fn refresh(rows: &Rc<RefCell<StoredRows>>, own: &Rc<RefCell<StoredRows<f32>>>) {
         *own.borrow_mut() = rows.borrow().converted();
+    }
+
+    fn on_rows(work: OnRows<f32>) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            return RowsWith(Pair(simd), work).run();
+        }
+        RowsWith(Plain::default(), work).run();
     }
 }

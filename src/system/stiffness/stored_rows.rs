@@ -1,5 +1,7 @@
 //! The rows of a stiffness that are stored, as blocks of two by two.
 
+use super::lanes::Lanes;
+use super::precision::Precision;
 use super::strips::inverse;
 use crate::element::Block;
 use crate::petsc::{Matrix, Result};
@@ -31,20 +33,23 @@ impl<T> Default for Part<T> {
 }
 
 impl<T: Real> Part<T> {
-    /// `sum - Σ K x` of a row, in two parts that do not wait for each other.
+    /// `sum - Σ K x` of a row. A block fills a register, whose four products come together at the end.
     #[inline(always)]
-    fn subtract(&self, k: usize, sum: [T; 2], x: &[[T; 2]]) -> [T; 2] {
+    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(&self, lanes: L, k: usize, sum: [T; 2], x: &[[T; 2]]) -> [T; 2] {
         let range = self.starts[k] as usize..self.starts[k + 1] as usize;
         let (columns, blocks) = (self.columns[range.clone()].as_chunks::<2>(), self.blocks[range].as_chunks::<2>());
-        let (mut sum, mut other) = (sum, [T::default(); 2]);
+        let zero = lanes.load([[T::default(); 2]; 2]);
+        let node = |column: u32| lanes.load([x[column as usize]; 2]);
+        let (mut one, mut other) = (zero, zero);
         for (columns, blocks) in columns.0.iter().zip(blocks.0) {
-            subtract(&mut sum, &blocks[0], x[columns[0] as usize]);
-            subtract(&mut other, &blocks[1], x[columns[1] as usize]);
+            one = lanes.multiply_add(lanes.load(blocks[0]), node(columns[0]), one);
+            other = lanes.multiply_add(lanes.load(blocks[1]), node(columns[1]), other);
         }
         if let ([column], [block]) = (columns.1, blocks.1) {
-            subtract(&mut sum, block, x[*column as usize]);
+            one = lanes.multiply_add(lanes.load(*block), node(*column), one);
         }
-        [sum[0] + other[0], sum[1] + other[1]]
+        let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
+        [sum[0] - (a + b), sum[1] - (c + d)]
     }
 
     fn push(&mut self, column: usize, block: [[T; 2]; 2]) {
@@ -208,57 +213,109 @@ impl StoredRows {
         self.near.blocks.len() + self.far.blocks.len()
     }
 
-    /// The nodes whose rows these are.
-    pub fn nodes(&self) -> &[u32] {
-        &self.nodes
+}
+
+/// Work on the rows of a range.
+enum Task<'a, T> {
+    Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
+    Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
+    Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+    Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+}
+
+/// A task with what it works on; `far` are the values of columns of other ranks, none stands for zeros.
+pub struct OnRows<'a, T> {
+    rows: &'a StoredRows<T>,
+    range: Range<usize>,
+    far: &'a [[T; 2]],
+    task: Task<'a, T>,
+}
+
+impl<T: Real> OnRows<'_, T> {
+    /// Does it.
+    #[inline(always)]
+    pub fn work<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(self, lanes: L) {
+        let Self { rows, range, far, task } = self;
+        match task {
+            Task::Multiply { y, x } => {
+                for k in range {
+                    let sum = rows.subtract(lanes, k, [T::default(); 2], x, far);
+                    y[rows.nodes[k] as usize] = [-sum[0], -sum[1]];
+                }
+            }
+            Task::Residual { r, b, x } => {
+                for k in range {
+                    let node = rows.nodes[k] as usize;
+                    r[node] = rows.subtract(lanes, k, b[node], x, far);
+                }
+            }
+            Task::Forward { b, x } => {
+                for k in range {
+                    rows.relax(lanes, k, b, x, far);
+                }
+            }
+            Task::Backward { b, x } => {
+                for k in range.rev() {
+                    rows.relax(lanes, k, b, x, far);
+                }
+            }
+        }
+    }
+}
+
+impl<T: Precision> StoredRows<T> {
+    /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
+    pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Multiply { y, x } });
+    }
+
+    /// `r = b - K x` in the rows of a range.
+    pub fn residual(&self, range: Range<usize>, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Residual { r, b, x } });
+    }
+
+    /// Relaxes the nodes of a range in their order, `far` staying as it is; no `far` stands for zeros.
+    pub fn forward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Forward { b, x } });
+    }
+
+    /// The same in the opposite order.
+    pub fn backward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Backward { b, x } });
     }
 }
 
 impl<T: Real> StoredRows<T> {
-    /// `y = K x` in these rows, `far` the values of the columns of other ranks.
-    pub fn multiply(&self, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
-        self.each(x, far, |node, sum| y[node] = sum.map(|v| -v));
-    }
-
-    /// `r = b - K x` in these rows.
-    pub fn residual(&self, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
-        self.each(x, far, |node, sum| r[node] = [b[node][0] + sum[0], b[node][1] + sum[1]]);
-    }
-
-    /// Shows `-K x` row by row.
-    #[inline(always)]
-    fn each(&self, x: &[[T; 2]], far: &[[T; 2]], mut show: impl FnMut(usize, [T; 2])) {
-        for (k, &node) in self.nodes.iter().enumerate() {
-            let sum = self.near.subtract(k, [T::default(); 2], x);
-            show(node as usize, self.far.subtract(k, sum, far));
-        }
-    }
-
-    /// Relaxes the nodes in their order, `far` staying as it is; no `far` stands for zeros.
-    pub fn forward(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        (0..self.nodes.len()).for_each(|k| self.relax(k, b, x, far));
-    }
-
-    /// The same in the opposite order.
-    pub fn backward(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        (0..self.nodes.len()).rev().for_each(|k| self.relax(k, b, x, far));
+    /// The nodes whose rows these are.
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes
     }
 
     #[inline(always)]
-    fn relax(&self, k: usize, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
+        &self,
+        lanes: L,
+        k: usize,
+        sum: [T; 2],
+        x: &[[T; 2]],
+        far: &[[T; 2]],
+    ) -> [T; 2] {
+        let sum = self.near.subtract(lanes, k, sum, x);
+        if far.is_empty() { sum } else { self.far.subtract(lanes, k, sum, far) }
+    }
+
+    #[inline(always)]
+    fn relax<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
+        &self,
+        lanes: L,
+        k: usize,
+        b: &[[T; 2]],
+        x: &mut [[T; 2]],
+        far: &[[T; 2]],
+    ) {
         let node = self.nodes[k] as usize;
-        let mut sum = self.near.subtract(k, b[node], x);
-        if !far.is_empty() {
-            sum = self.far.subtract(k, sum, far);
-        }
+        let sum = self.subtract(lanes, k, b[node], x, far);
         let ([u, v], inverse) = (x[node], &self.inverses[k]);
         x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
     }
-}
-
-/// `sum -= k x`.
-#[inline(always)]
-fn subtract<T: Real>(sum: &mut [T; 2], k: &[[T; 2]; 2], x: [T; 2]) {
-    sum[0] = sum[0] - (k[0][0] * x[0] + k[0][1] * x[1]);
-    sum[1] = sum[1] - (k[1][0] * x[0] + k[1][1] * x[1]);
 }
