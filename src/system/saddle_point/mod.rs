@@ -134,13 +134,17 @@ impl SaddlePoint {
     /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it; `None` if they are.
     /// **Collective**
     pub fn stored_nest(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
-        if self.multipliers.scale.is_empty() {
-            // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
-            return Ok(Some(self.nest.convert_aij()?));
-        }
-        let Some(stiffness) = self.finest_stiffness().expanded(session)? else { return Ok(None) };
         let blocks = &self.multipliers;
-        Ok(Some(Matrix::nest(session, [[&stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?))
+        let expanded = self.finest_stiffness().expanded(session)?;
+        let stored = match &expanded {
+            Some(stiffness) => Some(Matrix::nest(session, [[stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?),
+            None => None,
+        };
+        if blocks.scale.is_empty() {
+            // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
+            return Ok(Some(stored.as_ref().unwrap_or(&self.nest).convert_aij()?));
+        }
+        Ok(stored)
     }
 
     /// `K + Bᵀ D B` on the finest level.

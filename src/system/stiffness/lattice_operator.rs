@@ -1,11 +1,12 @@
-//! The stiffness of a level with most of its rows as strips: what PETSc's solvers see of it.
+//! The stiffness of a level, its rows stored or in strips: what PETSc's solvers see of it.
 
-use super::stored_rows::{StoredRows, far_columns};
+use super::ContactNeighbours;
+use super::stored_rows::{Column, StoredRows};
 use super::strips::{Stencil, StripNodes};
 use crate::element::Block;
-use crate::petsc::{Gather, Matrix, Operator, Result, Session, Vector};
+use crate::petsc::{Gather, Operator, Result, Session, Vector};
 use crate::system::space::Components;
-use std::cell::{Cell, Ref, RefCell};
+use std::cell::{Cell, RefCell};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -20,67 +21,66 @@ pub struct Strips {
 
 /// Stored rows and strips together.
 pub struct LatticeOperator {
-    own: Range<usize>,
-    strips: Rc<Strips>,
-    stored: RefCell<Matrix>,
-    rows: RefCell<StoredRows>,
+    /// The nodes of this rank.
+    pub(in crate::system) own: Range<usize>,
+    pub(in crate::system) strips: Rc<Strips>,
+    pub(in crate::system) rows: RefCell<StoredRows>,
+    /// Columns of other ranks, ascending.
+    pub(in crate::system) far: Vec<usize>,
     /// Couplings of all nodes in strips.
     in_strips: f64,
-    /// Columns of other ranks, and what fetches their values.
-    far: Vec<usize>,
+    /// What fetches the values of the columns of other ranks; nothing on one rank.
     gather: Option<RefCell<Gather>>,
 }
 
 impl LatticeOperator {
-    /// From the stored rows, assembled: those of nodes in strips are empty. **Collective**
-    pub fn new(stored: Matrix, own: &Range<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
-        let mut in_strip = vec![false; own.len()];
-        strips.nodes.iter().for_each(|(nodes, _)| in_strip[nodes.range()].fill(true));
-        let nodes: Vec<u32> = (0..own.len()).filter(|&node| !in_strip[node]).map(|node| node as u32).collect();
-        let far = far_columns(&stored, own, &nodes)?;
+    /// From the stored rows and the others; `far` are the columns of other ranks. **Collective**
+    pub fn new(
+        rows: StoredRows,
+        own: &Range<usize>,
+        far: Vec<usize>,
+        strips: &Rc<Strips>,
+        session: &Session,
+    ) -> Result<Self> {
         let gather = match session.size() {
             1 => None,
             _ => {
                 let wanted: Vec<i32> = far.iter().flat_map(|&node| [2 * node as i32, 2 * node as i32 + 1]).collect();
-                Some(RefCell::new(Gather::new(&stored.create_vectors()?.0, &wanted)?))
+                Some(RefCell::new(Gather::new(&Vector::new(session, 2 * own.len())?, &wanted)?))
             }
         };
-        let rows = RefCell::new(StoredRows::read(&stored, own, &nodes, &far)?);
         let couplings = |&(nodes, stencil): &(StripNodes, usize)| {
             let [even, odd] = strips.stencils[stencil].couplings(nodes.width).map(|kind| kind.len());
             0.5 * (nodes.count * (even + odd)) as f64
         };
         let in_strips = strips.nodes.iter().map(couplings).sum();
-        Ok(Self { in_strips, own: own.clone(), strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
+        Ok(Self { own: own.clone(), strips: strips.clone(), rows: RefCell::new(rows), far, in_strips, gather })
     }
 
-    /// Adds a block to the couplings of two nodes. Holds after [`LatticeOperator::assemble`].
-    pub fn add_block(&self, row: usize, column: usize, block: &[f64; 4]) -> Result<()> {
-        self.stored.borrow_mut().add_blocks(&[row as i32], &[column as i32], block)
+    /// A copy with places for the couplings of a contact boundary; the strips are the same. **Collective**
+    pub fn with_places(&self, contact: &ContactNeighbours, session: &Session) -> Result<Self> {
+        let (rows, far) = self.rows.borrow().with_places(contact, &self.own, &self.far);
+        Self::new(rows, &self.own, far, &self.strips, session)
     }
 
-    /// Brings added blocks to their ranks, and reads the rows of these nodes again (ascending): the others have not changed.
-    /// **Collective**
-    pub fn assemble(&self, changed: impl Iterator<Item = usize>) -> Result<()> {
-        let mut stored = self.stored.borrow_mut();
-        stored.assemble()?;
+    /// Adds a block to the couplings of two nodes, the row being one of this rank's. Holds after
+    /// [`LatticeOperator::assemble`].
+    ///
+    /// # Panics
+    /// If there is no place for it: rows of contact have places.
+    pub fn add_block(&self, row: usize, column: usize, block: &Block) {
         let mut rows = self.rows.borrow_mut();
-        changed.into_iter().try_for_each(|node| rows.read_again(&stored, &self.own, node, &self.far))
+        let k = rows.place(row - self.own.start).expect("rows of contact are stored");
+        rows.add(k, Column::of(column, &self.own, &self.far), block);
     }
 
-    /// The matrix of the stored rows; those of nodes in strips are empty.
-    pub fn stored(&self) -> Ref<'_, Matrix> {
-        self.stored.borrow()
-    }
-
-    /// The nodes whose rows are stored.
-    pub fn stored_nodes(&self) -> Vec<u32> {
-        self.rows.borrow().nodes().to_vec()
-    }
-
-    /// The strips.
-    pub fn strips(&self) -> &Rc<Strips> {
-        &self.strips
+    /// Makes blocks hold that were added to the rows of these nodes.
+    pub fn assemble(&self, changed: impl Iterator<Item = usize>) {
+        let mut rows = self.rows.borrow_mut();
+        for row in changed {
+            let k = rows.place(row - self.own.start).expect("rows of contact are stored");
+            rows.invert(k);
+        }
     }
 
     /// Shows the rows of all nodes in strips: couplings as distances in node numbers.
@@ -146,15 +146,19 @@ impl Operator for Rc<LatticeOperator> {
     }
 
     fn diagonal(&self, diagonal: &mut Vector) -> Result<()> {
-        self.stored.borrow().diagonal(diagonal)?;
         let mut values = diagonal.values_mut();
         let pairs = values.as_chunks_mut::<2>().0;
+        let rows = self.rows.borrow();
+        for (k, &node) in rows.nodes.iter().enumerate() {
+            let block = rows.diagonal(k);
+            pairs[node as usize] = [block[0][0], block[1][1]];
+        }
         self.each_row(|node, couplings| pairs[node] = [couplings[0].1[0][0], couplings[0].1[1][1]]);
         Ok(())
     }
 
     fn norm_infinity(&self) -> Result<f64> {
-        let stored = self.stored.borrow().norm_infinity()?;
+        let stored = self.rows.borrow().norm_infinity();
         Ok(self.strips.stencils.iter().map(|stencil| stencil.norm_infinity()).fold(stored, f64::max))
     }
 

@@ -2,27 +2,53 @@
 
 use super::strips::{inverse, subtract};
 use crate::element::Block;
-use crate::petsc::{Matrix, Result};
 use crate::system::space::Components;
 use std::cell::Cell;
 use std::ops::Range;
 
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
 /// their own.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct StoredRows {
-    nodes: Vec<u32>,
+    /// The nodes, ascending, counted from this rank's first.
+    pub(in crate::system) nodes: Vec<u32>,
     /// Inverses of the diagonal blocks.
-    inverses: Vec<Block>,
-    near: Part,
-    far: Part,
+    pub(in crate::system) inverses: Vec<Block>,
+    /// Columns of this rank.
+    pub(in crate::system) near: Part,
+    /// Columns of other ranks.
+    pub(in crate::system) far: Part,
 }
 
-/// One part of all rows: that of row `k` lies in `starts[k]..starts[k + 1]`.
-struct Part {
-    starts: Vec<u32>,
-    columns: Vec<u32>,
-    blocks: Vec<Block>,
+/// One part of all rows: that of row `k` lies in `starts[k]..starts[k + 1]`, its columns ascending.
+#[derive(Clone)]
+pub struct Part {
+    pub(in crate::system) starts: Vec<u32>,
+    pub(in crate::system) columns: Vec<u32>,
+    pub(in crate::system) blocks: Vec<Block>,
+}
+
+/// A column of the stored rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// A node of this rank, counted from its first.
+    Near(u32),
+    /// A place in the list of nodes of other ranks.
+    Far(u32),
+}
+
+impl Column {
+    /// The column of a node of any rank, `far` being the list, ascending.
+    ///
+    /// # Panics
+    /// If neither this rank nor the list has the node.
+    #[inline]
+    pub fn of(node: usize, own: &Range<usize>, far: &[usize]) -> Self {
+        match own.contains(&node) {
+            true => Self::Near((node - own.start) as u32),
+            false => Self::Far(far.binary_search(&node).expect("a known column") as u32),
+        }
+    }
 }
 
 impl Default for Part {
@@ -32,6 +58,27 @@ impl Default for Part {
 }
 
 impl Part {
+    /// Places of row `k`.
+    #[inline]
+    pub fn row(&self, k: usize) -> Range<usize> {
+        self.starts[k] as usize..self.starts[k + 1] as usize
+    }
+
+    /// Couplings of row `k`.
+    pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &Block)> {
+        self.columns[self.row(k)].iter().copied().zip(&self.blocks[self.row(k)])
+    }
+
+    /// The block of row `k` in a column.
+    ///
+    /// # Panics
+    /// If the row has no such column.
+    #[inline]
+    fn at(&self, k: usize, column: u32) -> usize {
+        let row = self.row(k);
+        row.start + self.columns[row].binary_search(&column).expect("the pattern of a stiffness stays")
+    }
+
     /// `sum - Σ K x` of a row, in two parts that do not wait for each other.
     #[inline(always)]
     fn subtract(&self, k: usize, sum: Components, x: impl Fn(usize) -> Components) -> Components {
@@ -47,97 +94,53 @@ impl Part {
         }
         [sum[0] + other[0], sum[1] + other[1]]
     }
-
-    fn push(&mut self, column: usize, block: Block) {
-        self.columns.push(column as u32);
-        self.blocks.push(block);
-    }
-
-    fn end_row(&mut self) {
-        self.starts.push(self.columns.len() as u32);
-    }
-}
-
-/// Columns of other ranks in the rows of `nodes`, ascending.
-pub fn far_columns(matrix: &Matrix, own: &Range<usize>, nodes: &[u32]) -> Result<Vec<usize>> {
-    let mut found = Vec::new();
-    for &node in nodes {
-        matrix.row(2 * (own.start + node as usize), |columns, _| {
-            found.extend(columns.iter().step_by(2).map(|&c| c as usize / 2).filter(|column| !own.contains(column)));
-        })?;
-    }
-    found.sort_unstable();
-    found.dedup();
-    Ok(found)
-}
-
-/// Blocks of a node's two rows, with their column nodes.
-fn blocks_of(matrix: &Matrix, node: usize) -> Result<Vec<(usize, Block)>> {
-    let mut blocks: Vec<(usize, Block)> = Vec::new();
-    matrix.row(2 * node, |columns, values| {
-        let columns = columns.iter().step_by(2).map(|&c| c as usize / 2);
-        blocks.extend(columns.zip(values.as_chunks().0).map(|(column, &upper)| (column, [upper, [0.0; 2]])));
-    })?;
-    matrix.row(2 * node + 1, |_, values| {
-        blocks.iter_mut().zip(values.as_chunks().0).for_each(|((_, block), &lower)| block[1] = lower);
-    })?;
-    Ok(blocks)
 }
 
 impl StoredRows {
-    /// Reads the rows of `nodes`, which hold whole blocks, from an assembled matrix; `far` are the columns of other ranks.
+    /// Adds a block to row `k`. Its inverse is that of before until [`StoredRows::invert`].
     ///
     /// # Panics
-    /// If a diagonal block has no inverse: a stiffness has one.
-    pub fn read(matrix: &Matrix, own: &Range<usize>, nodes: &[u32], far: &[usize]) -> Result<Self> {
-        let mut rows = Self { nodes: nodes.to_vec(), ..Self::default() };
-        for &node in nodes {
-            let row = own.start + node as usize;
-            for (column, block) in blocks_of(matrix, row)? {
-                if column == row {
-                    rows.inverses.push(inverse(&block).expect("a stiffness has a diagonal"));
-                }
-                match own.contains(&column) {
-                    true => rows.near.push(column - own.start, block),
-                    false => rows.far.push(far.binary_search(&column).expect("a known column"), block),
-                }
-            }
-            rows.near.end_row();
-            rows.far.end_row();
-        }
-        Ok(rows)
+    /// If the row has no such column.
+    #[inline]
+    pub fn add(&mut self, k: usize, column: Column, block: &Block) {
+        let (part, column) = match column {
+            Column::Near(column) => (&mut self.near, column),
+            Column::Far(column) => (&mut self.far, column),
+        };
+        let at = part.at(k, column);
+        let sum = &mut part.blocks[at];
+        *sum = [0, 1].map(|a| [0, 1].map(|b| sum[a][b] + block[a][b]));
     }
 
-    /// Reads the row of one node again, after its values have changed; nothing happens if it is not among these.
+    /// The row of a node, if it is stored; the node is counted from this rank's first.
+    pub fn place(&self, node: usize) -> Option<usize> {
+        place(&self.nodes, node)
+    }
+
+    /// Inverts the diagonal block of row `k`.
     ///
     /// # Panics
-    /// As [`StoredRows::read`].
-    pub fn read_again(&mut self, matrix: &Matrix, own: &Range<usize>, row: usize, far: &[usize]) -> Result<()> {
-        let Ok(k) = self.nodes.binary_search(&((row - own.start) as u32)) else { return Ok(()) };
-        let [mut near, mut other] = [&self.near, &self.far].map(|part| part.starts[k] as usize);
-        for (column, block) in blocks_of(matrix, row)? {
-            if column == row {
-                self.inverses[k] = inverse(&block).expect("a stiffness has a diagonal");
-            }
-            let (part, at, place) = match own.contains(&column) {
-                true => (&mut self.near, &mut near, column - own.start),
-                false => (&mut self.far, &mut other, far.binary_search(&column).expect("a known column")),
-            };
-            assert_eq!(part.columns[*at] as usize, place, "the pattern of a stiffness stays");
-            part.blocks[*at] = block;
-            *at += 1;
-        }
-        Ok(())
+    /// If it has no inverse: that of a stiffness has one.
+    pub fn invert(&mut self, k: usize) {
+        self.inverses[k] = inverse(self.diagonal(k)).expect("a stiffness has a diagonal");
+    }
+
+    /// The diagonal block of row `k`.
+    pub fn diagonal(&self, k: usize) -> &Block {
+        &self.near.blocks[self.near.at(k, self.nodes[k])]
+    }
+
+    /// Largest sum of magnitudes in a row.
+    pub fn norm_infinity(&self) -> f64 {
+        let of_row = |k: usize, a: usize| -> f64 {
+            self.near.couplings(k).chain(self.far.couplings(k)).map(|(_, block)| block[a][0].abs() + block[a][1].abs()).sum()
+        };
+        (0..self.nodes.len()).map(|k| of_row(k, 0).max(of_row(k, 1))).fold(0.0, f64::max)
     }
 
     /// Blocks in all rows.
     pub fn block_count(&self) -> usize {
         self.near.blocks.len() + self.far.blocks.len()
-    }
-
-    /// The nodes whose rows these are.
-    pub fn nodes(&self) -> &[u32] {
-        &self.nodes
     }
 
     /// `y = K x` in these rows, `far` the values of the columns of other ranks.
@@ -179,4 +182,12 @@ impl StoredRows {
         let inverse = &self.inverses[k];
         x[node].set([u + inverse[0][0] * sum[0] + inverse[0][1] * sum[1], v + inverse[1][0] * sum[0] + inverse[1][1] * sum[1]]);
     }
+}
+
+/// Place of a node among ascending ones.
+#[inline]
+pub fn place(nodes: &[u32], node: usize) -> Option<usize> {
+    let is_it = |at: &usize| nodes.get(*at) == Some(&(node as u32));
+    // Where none is missing before it, its place is its number.
+    Some(node).filter(is_it).or_else(|| nodes.binary_search(&(node as u32)).ok())
 }
