@@ -64,11 +64,7 @@ impl<'a> Assembly<'a> {
     ///
     /// # Errors
     /// That of a triangle that is turned inside out.
-    pub fn assemble(
-        &self,
-        contact: &ContactNeighbours,
-        mut lift: impl FnMut(usize, Point),
-    ) -> Result<Assembled, BadJacobian> {
+    pub fn assemble(&self, contact: &ContactNeighbours, mut lift: impl FnMut(usize, Point)) -> Result<Assembled, BadJacobian> {
         let laws = self.scene.laws();
         let (mut rows, far) = self.pattern(contact);
         let mut strips = Strips::default();

@@ -35,13 +35,7 @@ pub struct LatticeOperator {
 
 impl LatticeOperator {
     /// From the stored rows and the others; `far` are the columns of other ranks. **Collective**
-    pub fn new(
-        rows: StoredRows,
-        own: &Range<usize>,
-        far: Vec<usize>,
-        strips: &Rc<Strips>,
-        session: &Session,
-    ) -> Result<Self> {
+    pub fn new(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
         let gather = match session.size() {
             1 => None,
             _ => {

@@ -114,8 +114,11 @@ impl Part {
     /// A copy with zeros in these columns of some rows (both ascending), where there is nothing yet.
     fn widened(&self, wanted: &[(usize, Vec<u32>)]) -> Self {
         let most = self.columns.len() + wanted.iter().map(|(_, columns)| columns.len()).sum::<usize>();
-        let mut wide =
-            Self { starts: Vec::with_capacity(self.starts.len()), columns: Vec::with_capacity(most), blocks: Vec::with_capacity(most) };
+        let mut wide = Self {
+            starts: Vec::with_capacity(self.starts.len()),
+            columns: Vec::with_capacity(most),
+            blocks: Vec::with_capacity(most),
+        };
         wide.starts.push(0);
         let mut next = 0;
         for (k, columns) in wanted {
