@@ -33,9 +33,9 @@ impl<T: Precision + Datum> FullCycle<T> {
         interpolations: &[Interpolation],
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
-        let rows: Option<Vec<_>> = stiffness.iter().map(|stiffness| stiffness.lattice().cloned()).collect();
+        let rows: Vec<_> = stiffness.iter().map(|stiffness| stiffness.lattice().clone()).collect();
         let steps: Option<Vec<Rc<NodeInterpolation>>> = interpolations.iter().map(|step| step.nodes.clone()).collect();
-        let (Some(rows), Some(steps)) = (rows, steps) else { return Ok(None) };
+        let Some(steps) = steps else { return Ok(None) };
         if rows.len() < 2 || steps.len() + 1 != rows.len() {
             return Ok(None);
         }
