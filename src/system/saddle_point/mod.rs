@@ -37,6 +37,8 @@ pub struct SaddlePoint {
     pub multipliers: MultiplierBlocks,
     /// All four blocks.
     pub nest: Matrix,
+    /// What they do to a vector, with as few messages as can be.
+    pub product: Matrix,
     /// `c - B u_D` (length squared).
     gap: Vec<f64>,
     /// The set that all blocks are those of.
@@ -81,10 +83,10 @@ impl SaddlePoint {
         let change = augmentation.change(&groups, &problem.contacts, &active);
         let multipliers = MultiplierBlocks::new(problem, &rows[rows.len() - 1], &augmentation, form, session)?;
         let finest = &stiffness[stiffness.len() - 1];
-        let nest =
-            Matrix::nest(session, [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]])?;
+        let blocks = [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]];
+        let (nest, product) = (Matrix::nest(session, blocks)?, Matrix::nest_product(session, blocks)?);
         let (gap, load) = (moved_gap(problem), Load::new(load));
-        let mut system = Self { stiffness, multipliers, nest, gap, active, augmentation, rows, form, load };
+        let mut system = Self { stiffness, multipliers, nest, product, gap, active, augmentation, rows, form, load };
         system.augment(problem, &change)?;
         system.fill(problem, &all)?;
         Ok(system)
