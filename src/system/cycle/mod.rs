@@ -28,7 +28,7 @@ pub struct FullCycle<T> {
 impl<T: Precision + Datum> FullCycle<T> {
     /// On the levels of a stiffness; `None` if some are not made of strips and stored rows, or there is but one.
     /// **Collective**
-    pub fn new(
+    fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
         session: &Session,
@@ -52,7 +52,7 @@ impl<T: Precision + Datum> FullCycle<T> {
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
-    pub fn refresh(&mut self, session: &Session) -> std::result::Result<(), SystemError> {
+    fn refresh(&mut self, session: &Session) -> std::result::Result<(), SystemError> {
         self.coarsest.refresh(&self.levels[0].lattice, session)?;
         self.levels.iter_mut().for_each(|level| level.refresh(session));
         Ok(())
@@ -92,8 +92,50 @@ impl<T: Precision + Datum> FullCycle<T> {
     }
 }
 
+type Shared<T> = Rc<RefCell<FullCycle<T>>>;
+
+/// A cycle in one of the precisions, shared with the preconditioner of PETSc's that it stands behind.
+pub enum Cycle {
+    /// In double precision.
+    Double(Shared<f64>),
+    /// In single precision.
+    Single(Shared<f32>),
+}
+
+impl Cycle {
+    /// On the levels of a system; none where there are none, or not all are mezha's own. **Collective**
+    pub fn new(
+        stiffness: &[Stiffness],
+        interpolations: &[Interpolation],
+        is_single: bool,
+        session: &Session,
+    ) -> std::result::Result<Option<Self>, SystemError> {
+        Ok(if is_single {
+            FullCycle::new(stiffness, interpolations, session)?.map(|cycle| Self::Single(Rc::new(RefCell::new(cycle))))
+        } else {
+            FullCycle::new(stiffness, interpolations, session)?.map(|cycle| Self::Double(Rc::new(RefCell::new(cycle))))
+        })
+    }
+
+    /// What PETSc's preconditioner does.
+    pub fn action(&self) -> Box<dyn Action> {
+        match self {
+            Self::Double(cycle) => Box::new(CycleAction(cycle.clone())),
+            Self::Single(cycle) => Box::new(CycleAction(cycle.clone())),
+        }
+    }
+
+    /// Takes over the values of the stiffness, which have changed. **Collective**
+    pub fn refresh(&self, session: &Session) -> std::result::Result<(), SystemError> {
+        match self {
+            Self::Double(cycle) => cycle.borrow_mut().refresh(session),
+            Self::Single(cycle) => cycle.borrow_mut().refresh(session),
+        }
+    }
+}
+
 /// The cycle as PETSc's preconditioner.
-pub struct CycleAction<T>(pub Rc<RefCell<FullCycle<T>>>);
+struct CycleAction<T>(Shared<T>);
 
 impl<T: Precision + Datum> Action for CycleAction<T> {
     fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
