@@ -18,7 +18,7 @@ use mezha::geometry::Point;
 use mezha::mesh::parse_gmsh;
 use mezha::petsc::{Matrix, Session, Vector};
 use mezha::system::{
-    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Preconditioning, SaddlePoint, SolverChoice, Start, System,
+    Interpolation,    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Preconditioning, SaddlePoint, SolverChoice, Start, System,
     interpolations, load, nodal_forces,
 };
 use std::collections::BTreeMap;
@@ -61,10 +61,10 @@ fn problems(session: &Session) -> Vec<Discretisation> {
     scenes.into_iter().map(|scene| Discretisation::new(scene, session).expect("a discretisation")).collect()
 }
 
-fn system<'a>(problem: &'a Discretisation, choice: SolverChoice, session: &Session) -> (System<'a>, Rc<[Matrix]>) {
+fn system<'a>(problem: &'a Discretisation, choice: SolverChoice, session: &Session) -> (System<'a>, Rc<[Interpolation]>) {
     let load = load(problem, &nodal_forces(problem, session).expect("loads"));
     let blocks = SaddlePoint::new(problem, load, choice.form(), session).expect("blocks");
-    let interpolations: Rc<[Matrix]> = match choice.form() {
+    let interpolations: Rc<[Interpolation]> = match choice.form() {
         Form::Augmented => interpolations(problem, session).expect("interpolations").into(),
         Form::Plain => Rc::new([]),
     };

@@ -47,6 +47,8 @@ struct Kernel<L: Lanes, const UP: usize, const SECOND: bool> {
     single: [NodeRow<L::Real, UP>; 2],
     /// Ones at the nodes that a strip reaches before its first and behind its last one, zeros elsewhere.
     ends: [L::Register; 2],
+    /// Minus one everywhere.
+    minus: L::Register,
 }
 
 /// A block for each node of a register: what it does to the component of the same name, and to the other one.
@@ -186,6 +188,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
                 beside: [1, 2].map(|step| Factor::of_sum(lanes, &negative((step, 0)))),
             },
             single: [row(0), row(1)],
+            minus: lanes.load(L::chunks(&vec![[L::Real::of(-1.0); 2]; L::COUNT])[0]),
             ends: [L::COUNT - Self::REACH..L::COUNT, 0..Self::REACH].map(|ones| {
                 let one = |node: usize| [L::Real::of(if ones.contains(&node) { 1.0 } else { 0.0 }); 2];
                 lanes.load(L::chunks(&(0..L::COUNT).map(one).collect::<Vec<_>>())[0])
@@ -200,19 +203,28 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
         self.up.map(|(di, dj)| [start((di, dj)), start((-di, -dj))])
     }
 
-    /// `r -= K x` at the nodes of a strip, which `r` holds alone.
+    /// `r = b - K x` or `r = K x` at the nodes of a strip, which `b` and `r` hold alone.
     #[inline(always)]
-    fn residual(&self, nodes: StripNodes, x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
+    fn product<const RESIDUAL: bool>(
+        &self,
+        nodes: StripNodes,
+        b: &[[L::Real; 2]],
+        x: &[[L::Real; 2]],
+        r: &mut [[L::Real; 2]],
+    ) {
         let (lanes, product) = (self.lanes, &self.product);
         let registers = nodes.count / L::COUNT;
         let chunks = |start: usize| &L::chunks(&x[start..])[..registers];
         let up = self.runs(nodes).map(|starts| starts.map(chunks));
         let own = chunks(nodes.first);
         let beside = [1, Self::REACH].map(|reach| [chunks(nodes.first - reach), chunks(nodes.first + reach)]);
+        let forces = if RESIDUAL { &L::chunks(b)[..registers] } else { own };
         let sums = &mut L::chunks_mut(r)[..registers];
         for k in 0..registers {
             let mut sum = Sum::of(lanes, &product.own, lanes.load(own[k]));
-            sum.same = lanes.add(sum.same, lanes.load(sums[k]));
+            if RESIDUAL {
+                sum.same = lanes.add(sum.same, lanes.load(forces[k]));
+            }
             for (factor, run) in product.beside.iter().zip(&beside).take(Self::REACH) {
                 let [left, right] = run.map(|run| lanes.load(run[k]));
                 sum.add(lanes, factor, lanes.add(left, right));
@@ -221,12 +233,14 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
                 let [next, before] = run.map(|run| lanes.load(run[k]));
                 sum.add(lanes, factor, lanes.add(next, before));
             }
-            sums[k] = lanes.store(sum.total(lanes));
+            let sum = sum.total(lanes);
+            sums[k] = lanes.store(if RESIDUAL { sum } else { lanes.multiply(self.minus, sum) });
         }
         for k in Self::rest(nodes) {
             let row = &self.single[k % 2];
             let own = times(&row.diagonal, x[nodes.first + k]).map(|v| -v);
-            r[k] = sum2(r[k], sum2(own, self.without_diagonal(nodes, k, x)));
+            let sum = sum2(own, self.without_diagonal(nodes, k, x));
+            r[k] = if RESIDUAL { sum2(b[k], sum) } else { sum.map(|v| -v) };
         }
     }
 
@@ -422,17 +436,12 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Work for OnStrips<'_, L, UP,
         match task {
             Task::Multiply { x, y } => {
                 for &nodes in strips {
-                    let y = &mut y[nodes.range()];
-                    y.fill(Default::default());
-                    kernel.residual(nodes, x, y);
-                    y.iter_mut().for_each(|y| *y = [-y[0], -y[1]]);
+                    kernel.product::<false>(nodes, &[], x, &mut y[nodes.range()]);
                 }
             }
             Task::Residual { b, x, r } => {
                 for &nodes in strips {
-                    let r = &mut r[nodes.range()];
-                    r.copy_from_slice(&b[nodes.range()]);
-                    kernel.residual(nodes, x, r);
+                    kernel.product::<true>(nodes, &b[nodes.range()], x, &mut r[nodes.range()]);
                 }
             }
             Task::Forward { b, x } => {
