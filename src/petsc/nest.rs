@@ -48,10 +48,10 @@ impl Matrix {
     /// of its vectors. It shares the blocks. **Collective**
     pub fn nest_product(session: &Session, blocks: [[&Matrix; 2]; 2]) -> Result<Self> {
         let [upper, lower] = [blocks[0][0], blocks[1][1]].map(|block| block.local_size().0);
-        let parts = [[Window::new(session, upper)?, Window::new(session, upper)?], [
-            Window::new(session, lower)?,
-            Window::new(session, lower)?,
-        ]];
+        let parts = [
+            [Window::new(session, upper)?, Window::new(session, upper)?],
+            [Window::new(session, lower)?, Window::new(session, lower)?],
+        ];
         let [[a, b], [c, d]] = blocks;
         let blocks = [[a.share()?, b.share()?], [c.share()?, d.share()?]];
         Matrix::product(session, upper + lower, Box::new(NestProduct { blocks, upper, parts: RefCell::new(parts) }))

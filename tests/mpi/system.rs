@@ -18,8 +18,8 @@ use mezha::geometry::Point;
 use mezha::mesh::parse_gmsh;
 use mezha::petsc::{Matrix, Session, Vector};
 use mezha::system::{
-    Interpolation,    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Preconditioning, SaddlePoint, SolverChoice, Start, System,
-    interpolations, load, nodal_forces,
+    Contact, Coupled, Discretisation, Elastic, Form, Interpolation, LinearEnding, Preconditioning, SaddlePoint, SolverChoice,
+    Start, System, interpolations, load, nodal_forces,
 };
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -8,9 +8,9 @@
 mod coarsest;
 mod level;
 
+use super::SystemError;
 use super::interpolation::{GATHERED, Interpolation, NodeInterpolation};
 use super::stiffness::{Precision, Stiffness};
-use super::SystemError;
 use crate::petsc::{Action, Datum, Result, Session, Vector};
 use coarsest::Coarsest;
 use level::Level;
@@ -46,10 +46,8 @@ impl<T: Precision + Datum> FullCycle<T> {
         }
         let coarsest = Coarsest::new(&rows[0], session)?;
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
-        let gathered: Vec<bool> = rows
-            .iter()
-            .map(|rows| 2 * session.gather_counts(rows.node_count()).iter().sum::<usize>() <= GATHERED)
-            .collect();
+        let gathered: Vec<bool> =
+            rows.iter().map(|rows| 2 * session.gather_counts(rows.node_count()).iter().sum::<usize>() <= GATHERED).collect();
         let below = |l: usize| gathered[l.saturating_sub(1)];
         let levels = rows.into_iter().zip(steps).enumerate();
         let levels = levels.map(|(l, (rows, step))| Level::new(rows, step, [gathered[l], below(l)], session));

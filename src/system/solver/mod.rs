@@ -148,7 +148,18 @@ impl LinearSolver {
         let own = kind == "mg" || kind == "shell" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
         let name = if own { field_split_name(preconditioning) } else { format!("fieldsplit ({kind})") };
         let (session, form) = (session.clone(), Form::Augmented);
-        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, cycle, preconditioning, name, is_set_up: true })
+        Ok(Self {
+            krylov,
+            session,
+            form,
+            converted: None,
+            interpolations,
+            auxiliary,
+            cycle,
+            preconditioning,
+            name,
+            is_set_up: true,
+        })
     }
 
     fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {

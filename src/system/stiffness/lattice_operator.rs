@@ -133,7 +133,8 @@ impl LatticeOperator {
             values.extend(couplings.iter().flat_map(|c| c.1.as_flattened()));
         };
         self.each_row(|node, couplings| {
-            let columns = couplings.iter().map(|&(distance, block)| ((self.own.start + node).wrapping_add_signed(distance), block));
+            let columns =
+                couplings.iter().map(|&(distance, block)| ((self.own.start + node).wrapping_add_signed(distance), block));
             add(node, &columns.collect::<Vec<_>>());
         });
         let rows = self.rows.borrow();

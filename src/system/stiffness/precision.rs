@@ -1,8 +1,8 @@
 //! What the cycle works with in double and in single precision: kernels, strips, stored rows.
 
-use super::lanes::{Lanes, Plain, Work};
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Double, Pair, Single, WideDouble, WideSingle};
+use super::lanes::{Lanes, Plain, Work};
 use super::lattice_operator::Strips;
 use super::row_kernel::OnRows;
 use super::stored_rows::StoredRows;

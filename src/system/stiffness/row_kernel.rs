@@ -113,14 +113,7 @@ impl<T: Real> StoredRows<T> {
     }
 
     #[inline(always)]
-    fn relax<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
-        &self,
-        lanes: L,
-        k: usize,
-        b: &[[T; 2]],
-        x: &mut [[T; 2]],
-        far: &[[T; 2]],
-    ) {
+    fn relax<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(&self, lanes: L, k: usize, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         let node = self.nodes[k] as usize;
         let sum = self.subtract(lanes, k, b[node], x, far);
         let ([u, v], inverse) = (x[node], self.inverse(k));

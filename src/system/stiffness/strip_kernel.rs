@@ -205,13 +205,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
 
     /// `r = b - K x` or `r = K x` at the nodes of a strip, which `b` and `r` hold alone.
     #[inline(always)]
-    fn product<const RESIDUAL: bool>(
-        &self,
-        nodes: StripNodes,
-        b: &[[L::Real; 2]],
-        x: &[[L::Real; 2]],
-        r: &mut [[L::Real; 2]],
-    ) {
+    fn product<const RESIDUAL: bool>(&self, nodes: StripNodes, b: &[[L::Real; 2]], x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
         let (lanes, product) = (self.lanes, &self.product);
         let registers = nodes.count / L::COUNT;
         let chunks = |start: usize| &L::chunks(&x[start..])[..registers];
@@ -411,7 +405,9 @@ fn square(pair: &[[Block; 2]; 2]) -> [[Block; 2]; 2] {
     let entry = |i: usize, j: usize| pair[i / 2][j / 2][i % 2][j % 2];
     let matrix = Matrix4::from_fn(entry);
     let matrix = matrix * matrix;
-    std::array::from_fn(|i| std::array::from_fn(|j| std::array::from_fn(|a| std::array::from_fn(|b| matrix[(2 * i + a, 2 * j + b)]))))
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| std::array::from_fn(|a| std::array::from_fn(|b| matrix[(2 * i + a, 2 * j + b)])))
+    })
 }
 
 /// What is to be done with the nodes of strips.
