@@ -1,6 +1,9 @@
-//! How much memory a run may take: what its machines have left, and what control groups and `ulimit` leave of that.
+//! How much memory a run may take: what its machines have left, and what control groups and `ulimit` leave of that; and whether
+//! it will do with that.
 
+use super::RunError;
 use crate::petsc::Session;
+use crate::system::{Scene, SolverChoice, finest_numbering, memory_need};
 use std::path::{Path, PathBuf};
 
 /// Where nothing tells (bytes).
@@ -12,11 +15,74 @@ type Read<'a> = &'a dyn Fn(&Path) -> Option<String>;
 /// Bytes that all ranks together may still take. Ranks of one machine share what it has left; every rank gets as much as the
 /// one that can have least. **Collective**
 pub fn left(session: &Session) -> f64 {
-    let read: Read = &|path| std::fs::read_to_string(path).ok();
-    let of_rank = (of_machine(read) / session.ranks_here() as f64).min(of_process(read));
-    let mut least = [-of_rank];
+    let left = Left::now(session);
+    let mut least = [-left.of_machine.min(left.of_process)];
     session.max(&mut least);
     -least[0] * session.size() as f64
+}
+
+/// Refuses a scene that takes more memory than there is, before any of it is taken. **Collective**
+///
+/// # Errors
+/// [`RunError::Key`] with what is needed, what is left, and the refinement that fits.
+pub fn refuse_too_large(scene: &Scene, choice: SolverChoice, session: &Session) -> Result<(), RunError> {
+    let unknowns = 2 * finest_numbering(scene)?.node_count();
+    let left = Left::now(session);
+    let taken = |refine: usize| left.taken(memory_need(scene, refine, choice, session.rank()), session);
+    let whole = taken(scene.refine);
+    if whole.share <= 1.0 {
+        return Ok(());
+    }
+    let fitting = (0..scene.refine).rev().map(|refine| (refine, taken(refine))).find(|(_, taken)| taken.share <= 1.0);
+    let remedy = match fitting {
+        Some((refine, taken)) => format!("mesh.refine = {refine} fits, with {}", size(taken.need)),
+        None => "no refinement of this mesh fits; take a coarser mesh, or a machine with more memory".into(),
+    };
+    let words = format!(
+        "mesh.refine = {}: {unknowns} unknowns take some {} of memory, and {} are left; {remedy}",
+        scene.refine,
+        size(whole.need),
+        size(whole.need / whole.share)
+    );
+    Err(RunError::Key(words))
+}
+
+/// A size as people say it.
+fn size(bytes: f64) -> String {
+    if bytes < 1e9 { format!("{:.0} MB", 1e-6 * bytes) } else { format!("{:.1} GB", 1e-9 * bytes) }
+}
+
+/// Bytes that this rank may still take.
+struct Left {
+    /// Its share of what the machine has left. Others of the machine may take less than theirs.
+    of_machine: f64,
+    of_process: f64,
+}
+
+/// What all ranks take together.
+struct Taken {
+    /// Bytes.
+    need: f64,
+    /// As a share of what is left, where that is shortest.
+    share: f64,
+}
+
+impl Left {
+    /// **Collective**
+    fn now(session: &Session) -> Self {
+        let read: Read = &|path| std::fs::read_to_string(path).ok();
+        Self { of_machine: of_machine(read) / session.ranks_here() as f64, of_process: of_process(read) }
+    }
+
+    /// What it means that this rank is to take so many bytes, and the others what they say. **Collective**
+    fn taken(&self, bytes: f64, session: &Session) -> Taken {
+        let mut sum = [bytes];
+        session.sum(&mut sum);
+        let mean = sum[0] / session.size() as f64;
+        let mut share = [(mean / self.of_machine).max(bytes / self.of_process)];
+        session.max(&mut share);
+        Taken { need: sum[0], share: share[0] }
+    }
 }
 
 /// What is left of the machine, or of the control groups that this process is in.

@@ -1,0 +1,62 @@
+//! How much memory a run will take, before it takes it.
+//!
+//! Rows of the stiffness are counted, since bent macro triangles store all of theirs and even ones next to none; all else goes
+//! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are
+//! there already when this is asked.
+
+use super::{Form, Scene, SolverChoice};
+use crate::element::Order;
+use crate::mesh::{Level, Numbering, levels};
+
+/// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve of some ten
+/// iterations; on one rank, and on several. Measured on example 1 at 4.2 million unknowns with P1 on one rank, 2.1 million with
+/// P2 on two, without fields (all blocks on the heap of rank 0, less those of stored rows).
+const BY_UNKNOWN: [f64; 2] = [265.0, 290.0];
+
+/// Bytes for each macro triangle on every rank: the mesh, its partition, the lists of assembly. Measured at 369 thousand of them
+/// with P2, `refine` 0 and 2.
+const BY_MACRO_TRIANGLE: f64 = 500.0;
+
+/// A block with its column, and what a row has besides: its node, its inverse, its beginnings.
+const BY_BLOCK: f64 = 36.0;
+const BY_ROW: f64 = 44.0;
+
+/// Mean number of blocks in a stored row, P1 and P2.
+const BLOCKS: [f64; 2] = [7.0, 11.5];
+
+/// Bytes for each unknown in a factorisation of the plain system at a million unknowns, P1 and P2, and by how much that grows
+/// with four times the unknowns. Measured on example 1 at 66 thousand to 1.1 million unknowns.
+const BY_FACTOR: [[f64; 2]; 2] = [[2000.0, 150.0], [2500.0, 200.0]];
+
+/// Bytes that a scene takes on a rank with so many refinements.
+pub fn memory_need(scene: &Scene, refine: usize, choice: SolverChoice, rank: usize) -> f64 {
+    let levels = levels(scene.order, refine);
+    let finest = levels[levels.len() - 1];
+    let nodes = |level: Level| Numbering::new(level, &scene.partition);
+    let unknowns = 2.0 * nodes(finest).range(rank).len() as f64;
+    let of_macro_mesh = BY_MACRO_TRIANGLE * scene.mesh.triangles.len() as f64;
+    // Where boundaries follow the solution, each has its own copy.
+    let copies = if scene.pairs.iter().any(|pair| pair.follows()) { 2.0 } else { 1.0 };
+    let rows =
+        |level: Level, count: usize| copies * count as f64 * (BY_ROW + BY_BLOCK * BLOCKS[usize::from(level.order == Order::P2)]);
+    match choice.form() {
+        Form::Augmented => {
+            let of_levels = |&level: &Level| rows(level, nodes(level).range(rank).len() - nodes_in_strips(scene, level, rank));
+            let by_unknown = BY_UNKNOWN[usize::from(scene.partition.size() > 1)];
+            of_macro_mesh + by_unknown * unknowns + levels.iter().map(of_levels).sum::<f64>()
+        }
+        Form::Plain => {
+            let [at_a_million, growth] = BY_FACTOR[usize::from(scene.order == Order::P2)];
+            let all = 2.0 * nodes(finest).node_count() as f64;
+            let by_unknown = (at_a_million + growth * (all / 1e6).ln() / 4f64.ln()).max(0.5 * at_a_million);
+            of_macro_mesh + by_unknown * unknowns + rows(finest, nodes(finest).range(rank).len())
+        }
+    }
+}
+
+/// Nodes of a rank whose rows are not stored.
+fn nodes_in_strips(scene: &Scene, level: Level, rank: usize) -> usize {
+    let own = scene.partition.triangles_of(rank).iter();
+    let even = level.nodes_in_strips();
+    own.map(|&triangle| scene.mesh.nodes_in_strips(triangle as usize, level, even)).sum()
+}
