@@ -3,7 +3,6 @@
 
 use super::RunError;
 use crate::petsc::Session;
-use crate::system::{Scene, SolverChoice, finest_numbering, memory_need};
 use std::path::{Path, PathBuf};
 
 /// Where nothing tells (bytes).
@@ -21,30 +20,31 @@ pub fn left(session: &Session) -> f64 {
     -least[0] * session.size() as f64
 }
 
-/// Refuses a scene that takes more memory than there is, before any of it is taken. **Collective**
+/// Refuses a scene that takes more memory than there is, before any of it is taken; `need` tells the unknowns with so many
+/// refinements, and what this rank takes for them. **Collective**
 ///
 /// # Errors
-/// [`RunError::Key`] with what is needed, what is left, and the refinement that fits.
-pub fn refuse_too_large(scene: &Scene, choice: SolverChoice, session: &Session) -> Result<(), RunError> {
-    let unknowns = 2 * finest_numbering(scene)?.node_count();
+/// Those of `need`, and [`RunError::Key`] with what is needed, what is left, and the refinement that fits.
+pub fn refuse_too_large<E: Into<RunError>>(
+    refine: usize,
+    need: impl Fn(usize) -> Result<(usize, f64), E>,
+    session: &Session,
+) -> Result<(), RunError> {
     let left = Left::now(session);
-    let taken = |refine: usize| left.taken(memory_need(scene, refine, choice, session.rank()), session);
-    let whole = taken(scene.refine);
+    let taken = |refine: usize| need(refine).map(|(unknowns, bytes)| (unknowns, left.taken(bytes, session)));
+    let (unknowns, whole) = taken(refine).map_err(E::into)?;
     if whole.share <= 1.0 {
         return Ok(());
     }
-    let fitting = (0..scene.refine).rev().map(|refine| (refine, taken(refine))).find(|(_, taken)| taken.share <= 1.0);
-    let remedy = match fitting {
+    let coarser = (0..refine).rev().filter_map(|refine| Some((refine, taken(refine).ok()?.1)));
+    let remedy = match coarser.into_iter().find(|(_, taken)| taken.share <= 1.0) {
         Some((refine, taken)) => format!("mesh.refine = {refine} fits, with {}", size(taken.need)),
         None => "no refinement of this mesh fits; take a coarser mesh, or a machine with more memory".into(),
     };
-    let words = format!(
-        "mesh.refine = {}: {unknowns} unknowns take some {} of memory, and {} are left; {remedy}",
-        scene.refine,
-        size(whole.need),
-        size(whole.need / whole.share)
-    );
-    Err(RunError::Key(words))
+    let [need, left] = [whole.need, whole.need / whole.share].map(size);
+    Err(RunError::Key(format!(
+        "mesh.refine = {refine}: {unknowns} unknowns take some {need} of memory, and {left} are left; {remedy}"
+    )))
 }
 
 /// A size as people say it.

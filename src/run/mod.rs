@@ -50,9 +50,6 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let run = Run { case, options, session, stages: Stages::new(session)?, report, files, true_errors: RefCell::default() };
     run.report.start(case);
     let scene = run.read_scene()?;
-    if case.accuracy.is_none() {
-        memory::refuse_too_large(&scene, case.solver.choice, session)?;
-    }
     let solved = run.solve(scene)?;
     run.write(&solved, folder)
 }

@@ -43,7 +43,7 @@ pub use error::SystemError;
 pub use field::Field;
 pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};
 pub use interpolation::interpolations;
-pub use need::memory_need;
+use need::memory_need;
 pub use nodal_force::{load, nodal_forces};
 pub use procedure::{
     AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,

@@ -9,9 +9,9 @@ use crate::element::Order;
 use crate::mesh::{Level, Numbering, levels};
 
 /// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve of some ten
-/// iterations; on one rank, and on several. Measured on example 1 at 4.2 million unknowns with P1 on one rank, 2.1 million with
-/// P2 on two, without fields (all blocks on the heap of rank 0, less those of stored rows).
-const BY_UNKNOWN: [f64; 2] = [265.0, 290.0];
+/// iterations; on one rank, and on several. Measured on example 1 at 16.8 million unknowns with P1, without fields: resident memory
+/// less that of stored rows and of the process itself.
+const BY_UNKNOWN: [f64; 2] = [270.0, 295.0];
 
 /// Bytes for each macro triangle on every rank: the mesh, its partition, the lists of assembly. Measured at 369 thousand of them
 /// with P2, `refine` 0 and 2.
@@ -20,6 +20,9 @@ const BY_MACRO_TRIANGLE: f64 = 500.0;
 /// A block with its column, and what a row has besides: its node, its inverse, its beginnings.
 const BY_BLOCK: f64 = 36.0;
 const BY_ROW: f64 = 44.0;
+
+/// A block of the coarsest level in a matrix of PETSc's, which has all of its rows.
+const BY_ENTRIES: f64 = 48.0;
 
 /// Mean number of blocks in a stored row, P1 and P2.
 const BLOCKS: [f64; 2] = [7.0, 11.5];
@@ -43,7 +46,8 @@ pub fn memory_need(scene: &Scene, refine: usize, choice: SolverChoice, rank: usi
         Form::Augmented => {
             let of_levels = |&level: &Level| rows(level, nodes(level).range(rank).len() - nodes_in_strips(scene, level, rank));
             let by_unknown = BY_UNKNOWN[usize::from(scene.partition.size() > 1)];
-            of_macro_mesh + by_unknown * unknowns + levels.iter().map(of_levels).sum::<f64>()
+            let coarsest = nodes(levels[0]).range(rank).len() as f64 * BLOCKS[0] * BY_ENTRIES;
+            of_macro_mesh + by_unknown * unknowns + coarsest + levels.iter().map(of_levels).sum::<f64>()
         }
         Form::Plain => {
             let [at_a_million, growth] = BY_FACTOR[usize::from(scene.order == Order::P2)];

@@ -1,7 +1,7 @@
 //! The stiffness of a level, its rows stored or in strips: what PETSc's solvers see of it.
 
 use super::ContactNeighbours;
-use super::stored_rows::{Column, StoredRows};
+use super::stored_rows::{BlockColumn, StoredRows};
 use super::strips::{Stencil, StripNodes};
 use crate::element::Block;
 use crate::petsc::{Gather, Operator, Result, Session, Vector};
@@ -65,7 +65,7 @@ impl LatticeOperator {
     pub fn add_block(&self, row: usize, column: usize, block: &Block) {
         let mut rows = self.rows.borrow_mut();
         let k = rows.place(row - self.own.start).expect("rows of contact are stored");
-        rows.add(k, Column::of(column, &self.own, &self.far), block);
+        rows.add(k, BlockColumn::of(column, &self.own, &self.far), block);
     }
 
     /// Makes blocks hold that were added to the rows of these nodes.
