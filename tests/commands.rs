@@ -400,6 +400,32 @@ fn what_a_killed_run_has_left_is_cleared_away() {
     assert_eq!((code, names_in(folder.path())), (Some(0), vec!["result".into()]), "{errors}");
 }
 
+/// Under a limit to the memory of each process a mesh that is too fine is refused before anything large is taken, with the
+/// refinement that fits; nothing is left of the run. One that fits is solved.
+#[test]
+fn a_mesh_that_memory_is_too_small_for_is_refused_with_the_refinement_that_fits() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = format!("{}/cases/bars_inclined/even.toml", env!("CARGO_MANIFEST_DIR"));
+    let limited = |ranks: usize, order: usize, refine: usize| {
+        let mezha = env!("CARGO_BIN_EXE_mezha");
+        let settings = "--set contact.seam.segments=auto --set exact.must_hold=false --set output.fields=false --quiet --force";
+        let line = format!("run {file} --out result --set mesh.refine={refine} --set mesh.order={order} {settings}");
+        let mpirun = format!("mpirun -n {ranks} --oversubscribe --bind-to none {mezha} {line}");
+        let mut command = std::process::Command::new("sh");
+        command.args(["-c", &format!("ulimit -v 2500000 && exec {mpirun}")]).current_dir(folder.path());
+        support::process::finish(command)
+    };
+    for (ranks, order) in [(1, 1), (2, 2)] {
+        let (code, _, errors) = limited(ranks, order, 9 + 2 - order);
+        assert_eq!(code, Some(2), "{errors}");
+        let told = ["even.toml: mesh.refine = ", "unknowns take some", " GB of memory, and ", " fits, with "];
+        assert!(told.iter().all(|words| errors.contains(words)), "{errors}");
+        assert_eq!(names_in(folder.path()), Vec::<String>::new(), "nothing is left");
+    }
+    let (code, _, errors) = limited(2, 1, 4);
+    assert_eq!(code, Some(0), "{errors}");
+}
+
 /// Nobody listens: the exit code is what it would be.
 #[test]
 fn words_that_nobody_can_read_change_nothing() {

@@ -1,5 +1,7 @@
-//! How much memory a run may take: what its machines have left, and what control groups and `ulimit` leave of that.
+//! How much memory a run may take: what its machines have left, and what control groups and `ulimit` leave of that; and whether
+//! it will do with that.
 
+use super::RunError;
 use crate::petsc::Session;
 use std::path::{Path, PathBuf};
 
@@ -12,11 +14,75 @@ type Read<'a> = &'a dyn Fn(&Path) -> Option<String>;
 /// Bytes that all ranks together may still take. Ranks of one machine share what it has left; every rank gets as much as the
 /// one that can have least. **Collective**
 pub fn left(session: &Session) -> f64 {
-    let read: Read = &|path| std::fs::read_to_string(path).ok();
-    let of_rank = (of_machine(read) / session.ranks_here() as f64).min(of_process(read));
-    let mut least = [-of_rank];
+    let left = Left::now(session);
+    let mut least = [-left.of_machine.min(left.of_process)];
     session.max(&mut least);
     -least[0] * session.size() as f64
+}
+
+/// Refuses a scene that takes more memory than there is, before any of it is taken; `need` tells the unknowns with so many
+/// refinements, and what this rank takes for them. **Collective**
+///
+/// # Errors
+/// Those of `need`, and [`RunError::Key`] with what is needed, what is left, and the refinement that fits.
+pub fn refuse_too_large<E: Into<RunError>>(
+    refine: usize,
+    need: impl Fn(usize) -> Result<(usize, f64), E>,
+    session: &Session,
+) -> Result<(), RunError> {
+    let left = Left::now(session);
+    let taken = |refine: usize| need(refine).map(|(unknowns, bytes)| (unknowns, left.taken(bytes, session)));
+    let (unknowns, whole) = taken(refine).map_err(E::into)?;
+    if whole.share <= 1.0 {
+        return Ok(());
+    }
+    let coarser = (0..refine).rev().filter_map(|refine| Some((refine, taken(refine).ok()?.1)));
+    let remedy = match coarser.into_iter().find(|(_, taken)| taken.share <= 1.0) {
+        Some((refine, taken)) => format!("mesh.refine = {refine} fits, with {}", size(taken.need)),
+        None => "no refinement of this mesh fits; take a coarser mesh, or a machine with more memory".into(),
+    };
+    let [need, left] = [whole.need, whole.need / whole.share].map(size);
+    Err(RunError::Key(format!(
+        "mesh.refine = {refine}: {unknowns} unknowns take some {need} of memory, and {left} are left; {remedy}"
+    )))
+}
+
+/// A size as people say it.
+fn size(bytes: f64) -> String {
+    if bytes < 1e9 { format!("{:.0} MB", 1e-6 * bytes) } else { format!("{:.1} GB", 1e-9 * bytes) }
+}
+
+/// Bytes that this rank may still take.
+struct Left {
+    /// Its share of what the machine has left. Others of the machine may take less than theirs.
+    of_machine: f64,
+    of_process: f64,
+}
+
+/// What all ranks take together.
+struct Taken {
+    /// Bytes.
+    need: f64,
+    /// As a share of what is left, where that is shortest.
+    share: f64,
+}
+
+impl Left {
+    /// **Collective**
+    fn now(session: &Session) -> Self {
+        let read: Read = &|path| std::fs::read_to_string(path).ok();
+        Self { of_machine: of_machine(read) / session.ranks_here() as f64, of_process: of_process(read) }
+    }
+
+    /// What it means that this rank is to take so many bytes, and the others what they say. **Collective**
+    fn taken(&self, bytes: f64, session: &Session) -> Taken {
+        let mut sum = [bytes];
+        session.sum(&mut sum);
+        let mean = sum[0] / session.size() as f64;
+        let mut share = [(mean / self.of_machine).max(bytes / self.of_process)];
+        session.max(&mut share);
+        Taken { need: sum[0], share: share[0] }
+    }
 }
 
 /// What is left of the machine, or of the control groups that this process is in.

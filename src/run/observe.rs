@@ -1,7 +1,7 @@
 //! What a run does with the events of the solution procedure: it prints them, and times the work.
 
 use super::true_errors::true_errors;
-use super::{Run, RunError, Stages, accuracy};
+use super::{Run, RunError, Stages, accuracy, memory};
 use crate::contact::SegmentRule;
 use crate::petsc::StageGuard;
 use crate::system::{Event, Observer, Procedure, Scene, Solved, Work};
@@ -17,7 +17,12 @@ impl Run<'_> {
         for pair in given.filter(|_| accuracy.is_some()) {
             self.report.say(&format!("contact {}: `segments` and `grading` of the case are not used; with an accuracy the segments follow the edges of each mesh", pair.name));
         }
-        Ok(Procedure { choice, tolerance, inf_sup, accuracy, session: self.session, observer: self }.solve(scene)?)
+        let procedure = Procedure { choice, tolerance, inf_sup, accuracy, session: self.session, observer: self };
+        // An accuracy has a limit to its meshes.
+        if accuracy.is_none() {
+            memory::refuse_too_large(scene.refine, |refine| procedure.need(&scene, refine), self.session)?;
+        }
+        Ok(procedure.solve(scene)?)
     }
 }
 

@@ -18,6 +18,7 @@ mod error;
 mod field;
 mod held;
 mod interpolation;
+mod need;
 mod nodal_force;
 mod procedure;
 pub mod recovery;
@@ -43,6 +44,7 @@ pub use error::SystemError;
 pub use field::Field;
 pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};
 pub use interpolation::{Interpolation, interpolations};
+use need::memory_need;
 pub use nodal_force::{load, nodal_forces};
 pub use procedure::{
     AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,

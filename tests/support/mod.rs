@@ -4,7 +4,7 @@
 #![allow(dead_code)] // Each test program uses a part of it.
 
 pub mod mesh;
-mod process;
+pub mod process;
 
 use serde_json::Value;
 use std::fmt::Display;

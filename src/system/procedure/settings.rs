@@ -3,7 +3,7 @@
 use super::observer::Observer;
 use crate::accuracy::{Accuracy, ProbePoint};
 use crate::petsc::Session;
-use crate::system::{Discretisation, Form, SolverChoice, Tolerance};
+use crate::system::{Discretisation, Form, Scene, SolverChoice, SystemError, Tolerance, finest_numbering, memory_need};
 
 /// Displacement unknowns up to which a solve that failed, or whose active set was hard to find, is looked into.
 const LARGE_INF_SUP: usize = 200_000;
@@ -28,6 +28,15 @@ pub struct Procedure<'a> {
 }
 
 impl Procedure<'_> {
+    /// Unknowns of the displacement of a scene with so many refinements, and the bytes that this rank will take for it.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if the mesh is too fine to be counted.
+    pub fn need(&self, scene: &Scene, refine: usize) -> Result<(usize, f64), SystemError> {
+        let unknowns = 2 * finest_numbering(&Scene { refine, ..scene.clone() })?.node_count();
+        Ok((unknowns, memory_need(scene, refine, self.choice, self.session.rank())))
+    }
+
     /// The points that goals are set for.
     pub(super) fn probes(&self) -> Vec<ProbePoint> {
         self.accuracy.map_or_else(Vec::new, Accuracy::probes)

@@ -4,14 +4,14 @@
 const FEW: f64 = 0.3;
 
 /// Nodal forces of this rank's unknowns.
-pub enum Load {
+pub enum KeptLoad {
     /// All of them.
     All(Vec<f64>),
     /// Those that are not zero, each with its unknown.
     Few(Vec<(u32, f64)>),
 }
 
-impl Load {
+impl KeptLoad {
     /// Of all forces.
     pub fn new(forces: Vec<f64>) -> Self {
         let count = forces.iter().filter(|force| **force != 0.0).count();
@@ -40,8 +40,8 @@ mod tests {
     fn few_forces_and_many_are_the_same_forces() {
         let all = |few: usize| (0..100).map(|k| if k % few == 0 { 1.0 + f64::from(k as u32) } else { 0.0 }).collect::<Vec<_>>();
         for few in [1, 2, 5, 50] {
-            let load = Load::new(all(few));
-            assert_eq!(matches!(load, Load::Few(_)), few > 3);
+            let load = KeptLoad::new(all(few));
+            assert_eq!(matches!(load, KeptLoad::Few(_)), few > 3);
             let mut values = vec![0.0; 100];
             load.put(&mut values);
             assert_eq!(values, all(few));

@@ -26,7 +26,7 @@ use crate::mesh::EdgeNode;
 use crate::petsc::{Matrix, Session, Vector};
 use augmentation::Augmentation;
 use coupling_rows::CouplingRows;
-use load::Load;
+use load::KeptLoad;
 use multiplier_blocks::MultiplierBlocks;
 
 /// The blocks and their levels for one active set at a time.
@@ -47,7 +47,7 @@ pub struct SaddlePoint {
     augmentation: Augmentation,
     rows: Vec<CouplingRows>,
     form: Form,
-    load: Load,
+    load: KeptLoad,
 }
 
 impl SaddlePoint {
@@ -85,7 +85,7 @@ impl SaddlePoint {
         let finest = &stiffness[stiffness.len() - 1];
         let blocks = [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]];
         let (nest, product) = (Matrix::nest(session, blocks)?, Matrix::nest_product(session, blocks)?);
-        let (gap, load) = (moved_gap(problem), Load::new(load));
+        let (gap, load) = (moved_gap(problem), KeptLoad::new(load));
         let mut system = Self { stiffness, multipliers, nest, product, gap, active, augmentation, rows, form, load };
         system.augment(problem, &change)?;
         system.fill(problem, &all)?;

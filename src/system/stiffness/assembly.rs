@@ -4,7 +4,7 @@ use super::ContactNeighbours;
 use super::lattice_operator::{Strips, TriangleStrips};
 use super::pattern::RowColumns;
 use super::precision::Precision;
-use super::stored_rows::{Column, StoredRows, place};
+use super::stored_rows::{BlockColumn, StoredRows, place};
 use super::strips::{Couplings, StripNodes};
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};
@@ -18,13 +18,13 @@ pub struct Assembly<'a> {
     scene: &'a Scene,
     space: &'a Space,
     /// Macro triangles with nodes of this rank, ascending: every sum is made in this order, whatever the ranks.
-    parts: Vec<TrianglePart>,
+    parts: Vec<AssemblyPart>,
     /// Nodes whose rows are stored, ascending, counted from this rank's first.
     nodes: Vec<u32>,
 }
 
 /// What a macro triangle has of this rank's nodes.
-struct TrianglePart {
+struct AssemblyPart {
     triangle: usize,
     numbers: TriangleNumbers,
     /// Whether it is this rank's own; of those of others only nodes on the sides are.
@@ -51,7 +51,7 @@ impl<'a> Assembly<'a> {
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
             let is_own = scene.partition.owner(triangle as u32) == rank;
             let strips = if is_own && with_strips { scene.mesh.strips(triangle, level) } else { Vec::new() };
-            (is_own || touches(level.intervals, space, &numbers)).then_some(TrianglePart { triangle, numbers, is_own, strips })
+            (is_own || touches(level.intervals, space, &numbers)).then_some(AssemblyPart { triangle, numbers, is_own, strips })
         };
         let parts = (0..scene.mesh.triangles.len()).filter_map(part).collect();
         let mut assembly = Self { scene, space, parts, nodes: Vec::new() };
@@ -131,7 +131,7 @@ impl<'a> Assembly<'a> {
 
     /// Shows the stored rows of this rank that a macro triangle has a part in: place and lattice node.
     #[inline]
-    fn each_row(&self, part: &TrianglePart, mut show: impl FnMut(usize, (usize, usize))) {
+    fn each_row(&self, part: &AssemblyPart, mut show: impl FnMut(usize, (usize, usize))) {
         let n = self.space.numbering.level.intervals;
         // Inner nodes come in the order of their numbers: the place of the first one tells the others.
         let mut next = None;
@@ -153,7 +153,7 @@ impl<'a> Assembly<'a> {
     /// Adds the part that a macro triangle has in the stored rows.
     fn add_rows(
         &self,
-        part: &TrianglePart,
+        part: &AssemblyPart,
         stiffness: &MacroStiffness,
         far: &[usize],
         rows: &mut StoredRows,
@@ -174,13 +174,13 @@ impl<'a> Assembly<'a> {
                     (None, None) => *block,
                     (left, right) => constrained(block, left, right, row == node, |force| lift(row, force)),
                 };
-                rows.add(place, Column::of(node, &self.space.own, far), &block);
+                rows.add(place, BlockColumn::of(node, &self.space.own, far), &block);
             }
         });
     }
 
     /// Adds the strips of a macro triangle: one stencil for each shape, and for P2 for even and odd rows.
-    fn add_strips(&self, part: &TrianglePart, stiffness: &MacroStiffness, strips: &mut Strips) {
+    fn add_strips(&self, part: &AssemblyPart, stiffness: &MacroStiffness, strips: &mut Strips) {
         let order = self.space.numbering.level.order;
         let mut known = BTreeMap::new();
         let first = strips.alike.len();
@@ -204,7 +204,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// Where a strip lies among the nodes of this rank.
-    fn strip_nodes(&self, part: &TrianglePart, strip: &Strip) -> StripNodes {
+    fn strip_nodes(&self, part: &AssemblyPart, strip: &Strip) -> StripNodes {
         let first = part.numbers.node(strip.i.start, strip.j) - self.space.own.start;
         StripNodes { first, count: strip.i.len(), width: self.space.numbering.level.intervals - 1 - strip.j }
     }

@@ -1,7 +1,7 @@
 //! The bodies without contact: what no contact boundary and no active set changes.
 
 use super::assembly::{Assembled, Assembly};
-use super::{ContactNeighbours, LatticeOperator, Seen, Stiffness};
+use super::{ContactNeighbours, LatticeOperator, SolverView, Stiffness};
 use crate::geometry::Point;
 use crate::petsc::Session;
 use crate::system::user_options::want_entries;
@@ -37,7 +37,8 @@ impl Elastic {
                 }
             };
             let assembly = Assembly::new(&problem.scene, space, form == Form::Augmented, session.rank());
-            let assembled = session.agree(assembly.assemble(&neighbours[l], lift)).map_err(SystemError::Case)?;
+            let assembled = assembly.assemble(&neighbours[l], lift).map_err(SystemError::from);
+            let assembled = session.agree(assembled).map_err(SystemError::Case)?;
             let Assembled { rows, far, strips } = assembled;
             let lattice = LatticeOperator::new(rows, &space.own, far, &Rc::new(strips), session)?;
             stiffness.push(Stiffness::new(lattice, seen(l, form, session), session)?);
@@ -65,8 +66,8 @@ impl Elastic {
 
 /// What solvers see of level `l`: all rows of the coarsest, which is factorised or multiplied with auxiliary interpolations, and
 /// of every level where something else than products and sweeps may be wanted.
-fn seen(l: usize, form: Form, session: &Session) -> Seen {
-    if l == 0 || form == Form::Plain || want_entries(session) { Seen::Entries } else { Seen::Action }
+fn seen(l: usize, form: Form, session: &Session) -> SolverView {
+    if l == 0 || form == Form::Plain || want_entries(session) { SolverView::Entries } else { SolverView::Action }
 }
 
 fn first_level(problem: &Discretisation, form: Form) -> usize {

@@ -1,9 +1,9 @@
 //! The stiffness of a level, its rows stored or in strips: what PETSc's solvers see of it.
 
 use super::ContactNeighbours;
-use super::lattice_rows::{LatticeRows, Order};
+use super::lattice_rows::{LatticeRows, SweepOrder};
 use super::precision::Precision;
-use super::stored_rows::{Column, StoredRows};
+use super::stored_rows::{BlockColumn, StoredRows};
 use super::strip_kernel::StripKernel;
 use super::strips::{Couplings, StripNodes};
 use crate::element::Block;
@@ -62,7 +62,7 @@ pub struct LatticeOperator {
     in_strips: f64,
     /// What brings the values of the columns of other ranks.
     halo: Rc<Halo>,
-    order: Order,
+    order: SweepOrder,
 }
 
 impl LatticeOperator {
@@ -73,7 +73,7 @@ impl LatticeOperator {
             strips.nodes[alike.clone()].iter().map(|nodes| 0.5 * (nodes.count * (even + odd)) as f64).sum::<f64>()
         };
         let in_strips = strips.alike.iter().map(couplings).sum();
-        let (order, halo) = (Order::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
+        let (order, halo) = (SweepOrder::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
         let rows = Rc::new(RefCell::new(rows));
         Ok(Self { own: own.clone(), strips: strips.clone(), rows, far, in_strips, halo, order })
     }
@@ -92,11 +92,11 @@ impl LatticeOperator {
     pub fn add_block(&self, row: usize, column: usize, block: &Block) {
         let mut rows = self.rows.borrow_mut();
         let k = rows.place(row - self.own.start).expect("rows of contact are stored");
-        rows.add(k, Column::of(column, &self.own, &self.far), block);
+        rows.add(k, BlockColumn::of(column, &self.own, &self.far), block);
     }
 
     /// In which order rows are worked on.
-    pub fn order(&self) -> &Order {
+    pub fn order(&self) -> &SweepOrder {
         &self.order
     }
 

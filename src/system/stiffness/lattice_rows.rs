@@ -11,14 +11,14 @@ use std::ops::Range;
 /// through the sides. Macro triangles do not couple to each other: so this is one symmetric sweep through all nodes, and on the
 /// way back those of a triangle are still in the cache.
 #[derive(Clone, Debug, Default)]
-pub struct Order {
+pub struct SweepOrder {
     /// Stored rows on sides.
     sides: Vec<Range<usize>>,
     /// Stored rows inside of each macro triangle.
     inside: Vec<Range<usize>>,
 }
 
-impl Order {
+impl SweepOrder {
     /// Of the stored rows of some nodes.
     pub fn new(rows: &StoredRows, strips: &Strips) -> Self {
         let at = |node: usize| rows.nodes().partition_point(|&stored| (stored as usize) < node);
@@ -33,7 +33,7 @@ impl Order {
 pub struct LatticeRows<'a, T> {
     pub strips: &'a Strips<T>,
     pub stored: &'a StoredRows<T>,
-    pub order: &'a Order,
+    pub order: &'a SweepOrder,
 }
 
 impl<T: Precision> LatticeRows<'_, T> {
@@ -51,7 +51,7 @@ impl<T: Precision> LatticeRows<'_, T> {
 
     /// A symmetric Gauss-Seidel sweep; `far` are the values of other ranks, none stands for zeros.
     pub fn relax(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        let (stored, Order { sides, inside }) = (self.stored, self.order);
+        let (stored, SweepOrder { sides, inside }) = (self.stored, self.order);
         sides.iter().for_each(|range| stored.forward(range.clone(), b, x, far));
         for (triangle, rows) in self.strips.triangles.iter().zip(inside) {
             let parts = &self.strips.alike[triangle.alike.clone()];

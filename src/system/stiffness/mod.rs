@@ -29,7 +29,7 @@ pub type ContactNeighbours = BTreeMap<usize, BTreeSet<usize>>;
 
 /// What solvers of PETSc's see of a stiffness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Seen {
+enum SolverView {
     /// What it does: a shell.
     Action,
     /// All its rows, in a matrix of PETSc's.
@@ -40,18 +40,18 @@ enum Seen {
 pub struct Stiffness {
     lattice: Rc<LatticeOperator>,
     matrix: Matrix,
-    seen: Seen,
+    seen: SolverView,
     /// Nodes of this rank whose rows have been added to since they were assembled.
     changed: BTreeSet<usize>,
 }
 
 impl Stiffness {
     /// From its rows. **Collective**
-    fn new(lattice: LatticeOperator, seen: Seen, session: &Session) -> Result<Self, SystemError> {
+    fn new(lattice: LatticeOperator, seen: SolverView, session: &Session) -> Result<Self, SystemError> {
         let lattice = Rc::new(lattice);
         let mut matrix = match seen {
-            Seen::Action => Matrix::operator(session, 2 * lattice.own.len(), Box::new(lattice.clone()))?,
-            Seen::Entries => lattice.expanded(session)?,
+            SolverView::Action => Matrix::operator(session, 2 * lattice.own.len(), Box::new(lattice.clone()))?,
+            SolverView::Entries => lattice.expanded(session)?,
         };
         matrix.set_positive_definite(true)?;
         Ok(Self { lattice, matrix, seen, changed: BTreeSet::new() })
@@ -69,7 +69,7 @@ impl Stiffness {
 
     /// The matrix of all rows, if there is one.
     pub fn into_stored(self) -> Option<Matrix> {
-        (self.seen == Seen::Entries).then_some(self.matrix)
+        (self.seen == SolverView::Entries).then_some(self.matrix)
     }
 
     /// Whether some rows of this rank lie in strips.
@@ -82,7 +82,7 @@ impl Stiffness {
     pub fn add_block(&mut self, row: usize, column: usize, block: &[f64; 4]) -> Result<(), SystemError> {
         self.changed.insert(row);
         self.lattice.add_block(row, column, &[[block[0], block[1]], [block[2], block[3]]]);
-        if self.seen == Seen::Entries {
+        if self.seen == SolverView::Entries {
             self.matrix.add_blocks(&[row as i32], &[column as i32], block)?;
         }
         Ok(())
@@ -104,8 +104,8 @@ impl Stiffness {
     /// With all its rows in a matrix of PETSc's, as factorisations want it; `None` if that is what solvers see. **Collective**
     pub fn expanded(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
         match self.seen {
-            Seen::Entries => Ok(None),
-            Seen::Action => Ok(Some(self.lattice.expanded(session)?)),
+            SolverView::Entries => Ok(None),
+            SolverView::Action => Ok(Some(self.lattice.expanded(session)?)),
         }
     }
 }

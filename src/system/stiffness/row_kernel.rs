@@ -7,7 +7,7 @@ use crate::system::space::Real;
 use std::ops::Range;
 
 /// Work on the rows of a range.
-enum Task<'a, T> {
+enum RowTask<'a, T> {
     Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
     Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
     Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
@@ -19,7 +19,7 @@ pub struct OnRows<'a, T> {
     rows: &'a StoredRows<T>,
     range: Range<usize>,
     far: &'a [[T; 2]],
-    task: Task<'a, T>,
+    task: RowTask<'a, T>,
 }
 
 impl<T: Real> OnRows<'_, T> {
@@ -28,24 +28,24 @@ impl<T: Real> OnRows<'_, T> {
     pub fn work<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(self, lanes: L) {
         let Self { rows, range, far, task } = self;
         match task {
-            Task::Multiply { y, x } => {
+            RowTask::Multiply { y, x } => {
                 for k in range {
                     let sum = rows.subtract(lanes, k, [T::default(); 2], x, far);
                     y[rows.nodes[k] as usize] = [-sum[0], -sum[1]];
                 }
             }
-            Task::Residual { r, b, x } => {
+            RowTask::Residual { r, b, x } => {
                 for k in range {
                     let node = rows.nodes[k] as usize;
                     r[node] = rows.subtract(lanes, k, b[node], x, far);
                 }
             }
-            Task::Forward { b, x } => {
+            RowTask::Forward { b, x } => {
                 for k in range {
                     rows.relax(lanes, k, b, x, far);
                 }
             }
-            Task::Backward { b, x } => {
+            RowTask::Backward { b, x } => {
                 for k in range.rev() {
                     rows.relax(lanes, k, b, x, far);
                 }
@@ -57,22 +57,22 @@ impl<T: Real> OnRows<'_, T> {
 impl<T: Precision> StoredRows<T> {
     /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
     pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: Task::Multiply { y, x } });
+        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Multiply { y, x } });
     }
 
     /// `r = b - K x` in the rows of a range.
     pub fn residual(&self, range: Range<usize>, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: Task::Residual { r, b, x } });
+        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Residual { r, b, x } });
     }
 
     /// Relaxes the nodes of a range in their order, `far` staying as it is; no `far` stands for zeros.
     pub fn forward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: Task::Forward { b, x } });
+        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Forward { b, x } });
     }
 
     /// The same in the opposite order.
     pub fn backward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: Task::Backward { b, x } });
+        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Backward { b, x } });
     }
 }
 

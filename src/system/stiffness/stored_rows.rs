@@ -34,14 +34,14 @@ pub struct Part<T = f64> {
 
 /// A column of the stored rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Column {
+pub enum BlockColumn {
     /// A node of this rank, counted from its first.
     Near(u32),
     /// A place in the list of nodes of other ranks.
     Far(u32),
 }
 
-impl Column {
+impl BlockColumn {
     /// The column of a node of any rank, `far` being the list, ascending.
     ///
     /// # Panics
@@ -218,10 +218,10 @@ impl StoredRows {
     /// # Panics
     /// If the row has no such column.
     #[inline]
-    pub fn add(&mut self, k: usize, column: Column, block: &Block) {
+    pub fn add(&mut self, k: usize, column: BlockColumn, block: &Block) {
         let (part, column) = match column {
-            Column::Near(column) => (&mut self.near, column),
-            Column::Far(column) => (&mut self.far, column),
+            BlockColumn::Near(column) => (&mut self.near, column),
+            BlockColumn::Far(column) => (&mut self.far, column),
         };
         let at = part.at(k, column);
         let sum = &mut part.blocks[at];

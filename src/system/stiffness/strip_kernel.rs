@@ -29,22 +29,22 @@ pub trait StripKernel<T> {
 /// The kernel with given registers.
 pub fn kernel<L: Lanes>(lanes: L, couplings: &Couplings) -> Box<dyn StripKernel<L::Real>> {
     match (couplings.up.len(), couplings.second) {
-        (2, false) => Box::new(Kernel::<L, 2, false>::new(lanes, couplings)),
-        (4, false) => Box::new(Kernel::<L, 4, false>::new(lanes, couplings)),
-        (7, true) => Box::new(Kernel::<L, 7, true>::new(lanes, couplings)),
+        (2, false) => Box::new(UnrolledKernel::<L, 2, false>::new(lanes, couplings)),
+        (4, false) => Box::new(UnrolledKernel::<L, 4, false>::new(lanes, couplings)),
+        (7, true) => Box::new(UnrolledKernel::<L, 7, true>::new(lanes, couplings)),
         (up, _) => panic!("a strip has 2, 4 or 7 steps to the next rows, not {up}"),
     }
 }
 
 /// A kernel for `UP` steps to the next rows; `SECOND` as in [`Couplings`].
-struct Kernel<L: Lanes, const UP: usize, const SECOND: bool> {
+struct UnrolledKernel<L: Lanes, const UP: usize, const SECOND: bool> {
     lanes: L,
     up: [Step; UP],
     forward: Half<L, UP>,
     backward: Half<L, UP>,
     product: Product<L, UP>,
     /// For nodes at the end of a strip that fill no register.
-    single: [NodeRow<L::Real, UP>; 2],
+    single: [EndNode<L::Real, UP>; 2],
     /// Ones at the nodes that a strip reaches before its first and behind its last one, zeros elsewhere.
     ends: [L::Register; 2],
     /// Minus one everywhere.
@@ -81,7 +81,7 @@ struct Product<L: Lanes, const UP: usize> {
 }
 
 /// Couplings of one node to others, that with itself and its inverse.
-struct NodeRow<T, const UP: usize> {
+struct EndNode<T, const UP: usize> {
     up: [[[T; 2]; 2]; UP],
     beside: [[[T; 2]; 2]; 2],
     diagonal: [[T; 2]; 2],
@@ -148,7 +148,7 @@ enum Way {
     Backward,
 }
 
-impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
+impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND> {
     /// Nodes beside a strip that it reaches.
     const REACH: usize = if SECOND { 2 } else { 1 };
 
@@ -171,7 +171,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
                 Chain::of_nodes(lanes, &scaled((1, 0)))
             },
         };
-        let row = |kind: usize| NodeRow {
+        let row = |kind: usize| EndNode {
             up: up.map(|step| rounded(&couplings.block(kind, step))),
             beside: [1, 2].map(|step| rounded(&couplings.block(kind, (step, 0)))),
             diagonal: rounded(&couplings.block(kind, (0, 0))),
@@ -411,7 +411,7 @@ fn square(pair: &[[Block; 2]; 2]) -> [[Block; 2]; 2] {
 }
 
 /// What is to be done with the nodes of strips.
-enum Task<'a, T> {
+enum StripTask<'a, T> {
     Multiply { x: &'a [[T; 2]], y: &'a mut [[T; 2]] },
     Residual { b: &'a [[T; 2]], x: &'a [[T; 2]], r: &'a mut [[T; 2]] },
     Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
@@ -420,9 +420,9 @@ enum Task<'a, T> {
 
 /// A task on some strips.
 struct OnStrips<'a, L: Lanes, const UP: usize, const SECOND: bool> {
-    kernel: &'a Kernel<L, UP, SECOND>,
+    kernel: &'a UnrolledKernel<L, UP, SECOND>,
     strips: &'a [StripNodes],
-    task: Task<'a, L::Real>,
+    task: StripTask<'a, L::Real>,
 }
 
 impl<L: Lanes, const UP: usize, const SECOND: bool> Work for OnStrips<'_, L, UP, SECOND> {
@@ -430,27 +430,27 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Work for OnStrips<'_, L, UP,
     fn work(self) {
         let Self { kernel, strips, task } = self;
         match task {
-            Task::Multiply { x, y } => {
+            StripTask::Multiply { x, y } => {
                 for &nodes in strips {
                     kernel.product::<false>(nodes, &[], x, &mut y[nodes.range()]);
                 }
             }
-            Task::Residual { b, x, r } => {
+            StripTask::Residual { b, x, r } => {
                 for &nodes in strips {
                     kernel.product::<true>(nodes, &b[nodes.range()], x, &mut r[nodes.range()]);
                 }
             }
-            Task::Forward { b, x } => {
+            StripTask::Forward { b, x } => {
                 for &nodes in strips {
                     kernel.sweep(Way::Forward, nodes, b, x);
-                    for k in Kernel::<L, UP, SECOND>::rest(nodes) {
+                    for k in UnrolledKernel::<L, UP, SECOND>::rest(nodes) {
                         kernel.relax(nodes, k, b, x);
                     }
                 }
             }
-            Task::Backward { b, x } => {
+            StripTask::Backward { b, x } => {
                 for &nodes in strips.iter().rev() {
-                    for k in Kernel::<L, UP, SECOND>::rest(nodes).rev() {
+                    for k in UnrolledKernel::<L, UP, SECOND>::rest(nodes).rev() {
                         kernel.relax(nodes, k, b, x);
                     }
                     kernel.sweep(Way::Backward, nodes, b, x);
@@ -460,21 +460,21 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Work for OnStrips<'_, L, UP,
     }
 }
 
-impl<L: Lanes, const UP: usize, const SECOND: bool> StripKernel<L::Real> for Kernel<L, UP, SECOND> {
+impl<L: Lanes, const UP: usize, const SECOND: bool> StripKernel<L::Real> for UnrolledKernel<L, UP, SECOND> {
     fn multiply(&self, strips: &[StripNodes], x: &[[L::Real; 2]], y: &mut [[L::Real; 2]]) {
-        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Multiply { x, y } });
+        self.lanes.run(OnStrips { kernel: self, strips, task: StripTask::Multiply { x, y } });
     }
 
     fn residual(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
-        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Residual { b, x, r } });
+        self.lanes.run(OnStrips { kernel: self, strips, task: StripTask::Residual { b, x, r } });
     }
 
     fn forward(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
-        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Forward { b, x } });
+        self.lanes.run(OnStrips { kernel: self, strips, task: StripTask::Forward { b, x } });
     }
 
     fn backward(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
-        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Backward { b, x } });
+        self.lanes.run(OnStrips { kernel: self, strips, task: StripTask::Backward { b, x } });
     }
 }
 

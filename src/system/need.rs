@@ -1,0 +1,100 @@
+//! How much memory a run will take, before it takes it.
+//!
+//! Rows of the stiffness are counted, since bent macro triangles store all of theirs and even ones next to none; all else goes
+//! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are
+//! there already when this is asked.
+
+use super::{Form, Preconditioning, Scene, SolverChoice};
+use crate::element::Order;
+use crate::mesh::{Level, Numbering, levels};
+
+/// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve of some ten
+/// iterations; on one rank, and on several. Measured on example 1 at 16.8 million unknowns with P1, without fields: resident memory
+/// less that of stored rows and of the process itself.
+const BY_UNKNOWN: [f64; 2] = [270.0, 295.0];
+
+/// What flat triangles add to that: flexible GMRES keeps two vectors for each iteration, and CG on the levels its own. Measured
+/// on graded meshes of example 1 at 0.9 million unknowns.
+const BY_UNKNOWN_IF_FLAT: f64 = 270.0;
+
+/// Bytes for each macro triangle on every rank: the mesh, its partition, the lists of assembly. Measured at 369 thousand of them
+/// with P2, `refine` 0 and 2.
+const BY_MACRO_TRIANGLE: f64 = 500.0;
+
+/// A block with its column, and what a row has besides: its node, its inverse, its beginnings.
+const BY_BLOCK: f64 = 36.0;
+const BY_ROW: f64 = 44.0;
+
+/// A block of the coarsest level in a matrix of PETSc's, which has all of its rows.
+const BY_ENTRIES: f64 = 48.0;
+
+/// Mean number of blocks in a stored row, P1 and P2.
+const BLOCKS: [f64; 2] = [7.0, 11.5];
+
+/// Bytes for each unknown in a factorisation of the plain system at a million unknowns, P1 and P2, and by how much that grows
+/// with four times the unknowns. Measured on example 1 at 66 thousand to 1.1 million unknowns.
+const BY_FACTOR: [[f64; 2]; 2] = [[2000.0, 150.0], [2500.0, 200.0]];
+
+/// Bytes that a scene takes on a rank with so many refinements.
+pub fn memory_need(scene: &Scene, refine: usize, choice: SolverChoice, rank: usize) -> f64 {
+    let levels = levels(scene.order, refine);
+    let finest = levels[levels.len() - 1];
+    let nodes = |level: Level| Numbering::new(level, &scene.partition);
+    let unknowns = 2.0 * nodes(finest).range(rank).len() as f64;
+    let of_macro_mesh = BY_MACRO_TRIANGLE * scene.mesh.triangles.len() as f64;
+    // Where boundaries follow the solution, each has its own copy.
+    let copies = if scene.pairs.iter().any(|pair| pair.follows()) { 2.0 } else { 1.0 };
+    let rows =
+        |level: Level, count: usize| copies * count as f64 * (BY_ROW + BY_BLOCK * BLOCKS[usize::from(level.order == Order::P2)]);
+    match choice.form() {
+        Form::Augmented => {
+            let of_levels = |&level: &Level| rows(level, nodes(level).range(rank).len() - nodes_in_strips(scene, level, rank));
+            let flat = Preconditioning::of(refine + 1, &scene.mesh.ratios) != Preconditioning::Sweep;
+            let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
+            let by_unknown = more + BY_UNKNOWN[usize::from(scene.partition.size() > 1)];
+            let coarsest = nodes(levels[0]).range(rank).len() as f64 * BLOCKS[0] * BY_ENTRIES;
+            of_macro_mesh + by_unknown * unknowns + coarsest + levels.iter().map(of_levels).sum::<f64>()
+        }
+        Form::Plain => {
+            let [at_a_million, growth] = BY_FACTOR[usize::from(scene.order == Order::P2)];
+            let all = 2.0 * nodes(finest).node_count() as f64;
+            let by_unknown = (at_a_million + growth * (all / 1e6).ln() / 4f64.ln()).max(0.5 * at_a_million);
+            of_macro_mesh + by_unknown * unknowns + rows(finest, nodes(finest).range(rank).len())
+        }
+    }
+}
+
+/// Nodes of a rank whose rows are not stored.
+fn nodes_in_strips(scene: &Scene, level: Level, rank: usize) -> usize {
+    let own = scene.partition.triangles_of(rank).iter();
+    let even = level.nodes_in_strips();
+    own.map(|&triangle| scene.mesh.nodes_in_strips(triangle as usize, level, even)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::MultiplierSpace;
+    use crate::geometry::{Curve, Point};
+    use crate::system::samples::{blocks, pair};
+    use std::rc::Rc;
+
+    /// Each refinement takes four times as much, in the end, a bent mesh more than a straight one, and a factor more than both.
+    #[test]
+    fn need_grows_with_the_unknowns_and_with_what_is_stored() {
+        let scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new());
+        let need = |scene: &Scene, refine, choice| memory_need(scene, refine, choice, 0);
+        let growth = need(&scene, 10, SolverChoice::Auto) / need(&scene, 9, SolverChoice::Auto);
+        assert!((3.9..4.0).contains(&growth), "{growth}");
+        let mut mesh = (*scene.mesh).clone();
+        let circle = Curve::Circle { centre: [1.0, -2.0], radius: 10f64.sqrt() };
+        mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
+        let bent = Scene { mesh: Rc::new(mesh), ..scene.clone() };
+        let [straight, bent] = [scene, bent].map(|scene| {
+            let [split, direct] = [SolverChoice::FieldSplit, SolverChoice::Direct].map(|choice| need(&scene, 9, choice));
+            assert!(direct > 2.0 * split, "{direct} {split}");
+            split
+        });
+        assert!(bent > 1.05 * straight, "{bent} {straight}");
+    }
+}
