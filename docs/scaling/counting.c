@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <time.h>
 
 enum { MESSAGE, REDUCTION, GATHERING, BROADCAST, BARRIER, OTHER, KINDS };
 static const char *NAMES[KINDS] = {"messages", "reductions", "gatherings", "broadcasts", "barriers", "others"};
@@ -33,10 +34,11 @@ static void start(void) {
     delay = text ? atof(text) : 0.0;
 }
 
+/* Sleeps: ranks that share a core do not hold each other up. */
 static void hold(double seconds) {
     if (seconds <= 0.0) return;
-    double end = PMPI_Wtime() + seconds;
-    while (PMPI_Wtime() < end) {}
+    struct timespec rest = {(time_t)seconds, (long)(1e9 * (seconds - floor(seconds)))};
+    nanosleep(&rest, NULL);
 }
 
 static void waited(void) {
