@@ -22,7 +22,7 @@ const FUNCTIONS: &[&str] = &[
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|GetDiagonal|CreateVecs)",
     "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange|GetOwnershipRangeColumn)",
     "MatXAIJSetPreallocation|MatPtAP|MatDiagonalSet|MatCreateNest|MatNestGetISs",
-    "MatCreateShell|MatShell(SetOperation|GetContext|SetContextDestroy)",
+    "MatCreateShell|MatShell(SetOperation|GetContext|SetContextDestroy)|PCShell(SetContext|GetContext|SetApply|SetDestroy|SetName)",
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",
     "KSP(SetInitialGuessNonzero|Solve|GetConvergedReason|GetConvergedReasonString|GetIterationNumber|GetResidualNorm)",
@@ -30,6 +30,8 @@ const FUNCTIONS: &[&str] = &[
     "PC(Destroy|SetType|GetType|SetFromOptions|SetUp|SetReusePreconditioner|GetOptionsPrefix|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
     "PCMG(SetLevels|SetType|SetInterpolation|GetSmoother)",
+    // factor
+    "MatCreateSeqAIJ|MatGetOrdering|MatGetFactor|MatFactorInfoInitialize|MatFactorGetError|MatSolve|MatLUFactor(Symbolic|Numeric)",
     // partition
     "MatCreateMPIAdj|MatPartitioning(Create|Destroy|SetAdjacency|SetType|SetNParts|SetVertexWeights)",
     "MatPartitioning(SetUseEdgeWeights|Apply)",

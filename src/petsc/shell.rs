@@ -3,6 +3,7 @@
 use super::error::{Result, petsc};
 use super::ffi;
 use super::matrix::Matrix;
+use super::preconditioner::Preconditioner;
 use super::session::Session;
 use super::vector::{Lent, Vector, length};
 use std::ffi::{CString, c_void};
@@ -44,6 +45,12 @@ pub trait Transfer {
 
     /// Floating-point operations of a product on this rank, for PETSc's log.
     fn work(&self) -> f64;
+}
+
+/// What a preconditioner does. **Collective**; an error must be one on all ranks.
+pub trait Action {
+    /// `y = M⁻¹ x`.
+    fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
 }
 
 /// What PETSc keeps of a shell.
@@ -102,14 +109,52 @@ type Three = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec, ffi::Vec) -> Cod
 type Norm = unsafe extern "C" fn(ffi::Mat, ffi::NormType, *mut f64) -> Code;
 type Sweep = unsafe extern "C" fn(ffi::Mat, ffi::Vec, f64, ffi::MatSORType, f64, i32, i32, ffi::Vec) -> Code;
 
-/// Runs an action on the context of a shell. No panic crosses into C, even where the hook that ends all ranks is replaced.
+impl Preconditioner {
+    /// Makes this an action; `name` is what PETSc shows of it. **Collective**
+    pub fn set_action(&self, name: &str, action: Box<dyn Action>) -> Result<()> {
+        self.set_kind("shell")?;
+        let name = CString::new(name).expect("a name has no zero byte");
+        petsc!(PCShellSetName(self.raw(), name.as_ptr()))?;
+        let context = Box::into_raw(Box::new(Context::<dyn Action> { action, session: self.session().clone() }));
+        petsc!(PCShellSetContext(self.raw(), context.cast()))?;
+        petsc!(PCShellSetDestroy(self.raw(), Some(drop_action)))?;
+        petsc!(PCShellSetApply(self.raw(), Some(apply)))
+    }
+}
+
+/// Drops the action with the preconditioner.
+unsafe extern "C" fn drop_action(preconditioner: ffi::PC) -> Code {
+    let mut context = ptr::null_mut::<c_void>();
+    let code = unsafe { ffi::PCShellGetContext(preconditioner, ptr::from_mut(&mut context).cast()) };
+    if code == 0 {
+        drop(unsafe { Box::from_raw(context.cast::<Context<dyn Action>>()) });
+    }
+    code
+}
+
+/// [`Action`] as PETSc calls it.
+unsafe extern "C" fn apply(preconditioner: ffi::PC, x: ffi::Vec, y: ffi::Vec) -> Code {
+    report(|| {
+        let mut context = ptr::null_mut::<c_void>();
+        petsc!(PCShellGetContext(preconditioner, ptr::from_mut(&mut context).cast()))?;
+        let context = unsafe { &*context.cast::<Context<dyn Action>>() };
+        context.action.apply(&Lent::new(&context.session, x), &mut Lent::new(&context.session, y))
+    })
+}
+
+/// Runs an action on the context of a shell.
 fn act<T: ?Sized>(matrix: ffi::Mat, action: impl FnOnce(&T, &Session) -> Result<()>) -> Code {
-    let outcome = catch_unwind(AssertUnwindSafe(|| {
+    report(|| {
         let mut context = ptr::null_mut::<c_void>();
         petsc!(MatShellGetContext(matrix, ptr::from_mut(&mut context).cast()))?;
         let context = unsafe { &*context.cast::<Context<T>>() };
         action(&context.action, &context.session)
-    }));
+    })
+}
+
+/// The outcome of an action as PETSc wants it. No panic crosses into C, even where the hook that ends all ranks is replaced.
+fn report(action: impl FnOnce() -> Result<()>) -> Code {
+    let outcome = catch_unwind(AssertUnwindSafe(action));
     let message = match outcome {
         Ok(Ok(())) => return 0,
         Ok(Err(error)) => error.to_string(),

@@ -1,7 +1,7 @@
 //! The system of one contact boundary with its state: the active set, the unknowns, and what solves it.
 
 use super::stiffness::Stiffness;
-use super::{Discretisation, LinearSolve, LinearSolver, Preconditioning, SaddlePoint, SolverChoice, Space, SystemError, inf_sup};
+use super::{Discretisation, Interpolation, LinearSolve, LinearSolver, Preconditioning, SaddlePoint, SolverChoice, Space, SystemError, inf_sup};
 use crate::petsc::{Matrix, Session, Vector};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -54,7 +54,7 @@ impl<'a> System<'a> {
     pub fn new(
         problem: &'a Discretisation,
         blocks: SaddlePoint,
-        interpolations: &Rc<[Matrix]>,
+        interpolations: &Rc<[Interpolation]>,
         choice: SolverChoice,
         preconditioning: Preconditioning,
         session: &Session,

@@ -12,6 +12,7 @@ mod contact;
 mod contact_pressure;
 mod contact_system;
 mod coupling;
+mod cycle;
 mod discretisation;
 mod error;
 mod field;
@@ -41,7 +42,7 @@ pub use discretisation::{Discretisation, finest_numbering, node_count, spaces};
 pub use error::SystemError;
 pub use field::Field;
 pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};
-pub use interpolation::interpolations;
+pub use interpolation::{Interpolation, interpolations};
 pub use nodal_force::{load, nodal_forces};
 pub use procedure::{
     AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,

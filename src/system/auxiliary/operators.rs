@@ -16,7 +16,7 @@ pub struct GalerkinLevels {
 
 impl GalerkinLevels {
     /// Below `finest`; the interpolations lead from the coarsest level up to it. **Collective**
-    pub fn new(finest: &Matrix, interpolations: &[Matrix]) -> Result<Self> {
+    pub fn new(finest: &Matrix, interpolations: &[&Matrix]) -> Result<Self> {
         let mut operators: Vec<Matrix> = Vec::new();
         for interpolation in interpolations.iter().rev() {
             let mut operator = operators.last().unwrap_or(finest).galerkin(interpolation)?;
@@ -28,7 +28,7 @@ impl GalerkinLevels {
     }
 
     /// The same of a matrix with other values. **Collective**
-    pub fn refresh(&mut self, finest: &Matrix, interpolations: &[Matrix]) -> Result<()> {
+    pub fn refresh(&mut self, finest: &Matrix, interpolations: &[&Matrix]) -> Result<()> {
         for (level, interpolation) in interpolations.iter().enumerate().take(self.operators.len()).rev() {
             let (coarser, finer) = self.operators.split_at_mut(level + 1);
             finer.first().unwrap_or(finest).galerkin_into(interpolation, &mut coarser[level])?;

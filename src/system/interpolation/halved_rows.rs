@@ -1,15 +1,15 @@
 //! Interpolation inside macro triangles: every second node has a coarse twin, the others are the mean of two coarse nodes.
 
 use crate::mesh::lattice;
-use crate::petsc::{Matrix, Result, Session, Transfer, Vector};
-use crate::system::space::Components;
+use crate::system::space::Real;
 use crate::system::{Scene, Space};
 use std::ops::Range;
 
-/// Consecutive nodes of a fine lattice row whose parents are inner nodes of the same macro triangle, all of this rank; the
-/// first one has an even place in its row.
+/// Consecutive nodes of a fine lattice row whose parents are inner nodes of the same macro triangle; the first one has an even
+/// place in its row.
+#[derive(Clone, Copy, Debug)]
 pub struct HalvedRow {
-    /// The first node, counted from this rank's first.
+    /// The first node, counted from the first of a range.
     first: usize,
     /// How many.
     pub count: usize,
@@ -22,77 +22,80 @@ impl HalvedRow {
     pub fn places(n: usize, j: usize) -> Range<usize> {
         if j < 2 || j + 4 > n { 0..0 } else { 2..n - 1 - j }
     }
-}
 
-/// All rows of this rank.
-pub fn halved_rows(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Vec<HalvedRow> {
-    let n = fine.numbering.level.intervals;
-    let of_triangle = |&triangle: &u32| {
-        let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
-        let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
-        (0..=n).filter(move |&j| !HalvedRow::places(n, j).is_empty()).map(move |j| HalvedRow {
-            first: numbers.node(2, j) - fine.own.start,
-            count: HalvedRow::places(n, j).len(),
-            parents: lattice::parents(2, j).map(|(i, j)| below.node(i, j) - coarse.own.start),
-        })
-    };
-    scene.partition.triangles_of(session.rank()).iter().flat_map(of_triangle).collect()
-}
-
-/// Stored and halved rows together.
-pub struct LatticeInterpolation {
-    stored: Matrix,
-    halved: Vec<HalvedRow>,
-}
-
-impl LatticeInterpolation {
-    /// From stored rows that are empty where rows are halved.
-    pub fn new(stored: Matrix, halved: Vec<HalvedRow>) -> Self {
-        Self { stored, halved }
+    /// Adds the interpolated values of `x` to `y`.
+    #[inline]
+    fn prolong<T: Real>(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
+        let (half, [a, b]) = (T::of(0.5), self.parents);
+        let mean = |sum: &mut [T; 2], x: [T; 2], y: [T; 2]| (0..2).for_each(|k| sum[k] += half * (x[k] + y[k]));
+        let (pairs, last) = y[self.first..][..self.count].as_chunks_mut::<2>();
+        let n = pairs.len();
+        // The second node of each two lies between a coarse node and the next, or right of the one below.
+        let next = if a == b { [a, a + 1] } else { [a + 1, b] };
+        let (even, odd) = ([a, b].map(|start| &x[start..][..n]), next.map(|start| &x[start..][..n]));
+        for (k, pair) in pairs.iter_mut().enumerate() {
+            mean(&mut pair[0], even[0][k], even[1][k]);
+            mean(&mut pair[1], odd[0][k], odd[1][k]);
+        }
+        last.iter_mut().for_each(|last| mean(last, x[a + n], x[b + n]));
     }
 
-    /// Shows each fine node in halved rows with its parents; those of a twin are the same node twice.
-    #[inline(always)]
-    fn each(&self, mut show: impl FnMut(usize, [usize; 2])) {
-        for &HalvedRow { first, count, parents: [a, b] } in &self.halved {
-            // The second node of each two lies between a coarse node and the next, or right of the one below.
-            let next = if a == b { [a, a + 1] } else { [a + 1, b] };
-            for k in 0..count / 2 {
-                show(first + 2 * k, [a + k, b + k]);
-                show(first + 2 * k + 1, next.map(|node| node + k));
+    /// Adds what the transposed interpolation makes of `y` to `x`. Each coarse node is met once.
+    #[inline]
+    fn restrict<T: Real>(&self, y: &[[T; 2]], x: &mut [[T; 2]]) {
+        let (half, zero, [a, b]) = (T::of(0.5), [T::default(); 2], self.parents);
+        let (pairs, last) = y[self.first..][..self.count].as_chunks::<2>();
+        let (n, last) = (pairs.len(), last.first().copied().unwrap_or(zero));
+        let mut before = zero;
+        let ends = pairs.iter().map(|[even, odd]| (*even, *odd)).chain([(last, zero)]);
+        if a == b {
+            for ((even, odd), sum) in ends.zip(&mut x[a..=a + n]) {
+                (0..2).for_each(|k| sum[k] += even[k] + half * (before[k] + odd[k]));
+                before = odd;
             }
-            if count % 2 == 1 {
-                show(first + count - 1, [a + count / 2, b + count / 2]);
+        } else {
+            for ((even, odd), sum) in ends.clone().zip(&mut x[a..=a + n]) {
+                (0..2).for_each(|k| sum[k] += half * (before[k] + even[k]));
+                before = odd;
+            }
+            for ((even, odd), sum) in ends.zip(&mut x[b..][..self.count.div_ceil(2)]) {
+                (0..2).for_each(|k| sum[k] += half * (even[k] + odd[k]));
             }
         }
     }
 }
 
-impl Transfer for LatticeInterpolation {
-    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        self.stored.multiply(x, y)?;
-        let (x, mut y) = (x.values(), y.values_mut());
-        let (x, y): (&[Components], &mut [Components]) = (x.as_chunks().0, y.as_chunks_mut().0);
-        self.each(|node, [a, b]| y[node] = [0, 1].map(|k| 0.5 * (x[a][k] + x[b][k])));
-        Ok(())
+/// Halved rows of some macro triangles.
+pub struct HalvedRows(Vec<HalvedRow>);
+
+impl HalvedRows {
+    /// Of these triangles, whose inner nodes lie in both ranges of nodes.
+    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, triangles: &[u32], ranges: [&Range<usize>; 2]) -> Self {
+        let n = fine.numbering.level.intervals;
+        let of_triangle = |&triangle: &u32| {
+            let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
+            let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
+            (0..=n).filter(move |&j| !HalvedRow::places(n, j).is_empty()).map(move |j| HalvedRow {
+                first: numbers.node(2, j) - ranges[0].start,
+                count: HalvedRow::places(n, j).len(),
+                parents: lattice::parents(2, j).map(|(i, j)| below.node(i, j) - ranges[1].start),
+            })
+        };
+        Self(triangles.iter().flat_map(of_triangle).collect())
     }
 
-    fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        self.stored.multiply_add(x, y)?;
-        let (x, mut y) = (x.values(), y.values_mut());
-        let (x, y): (&[Components], &mut [Components]) = (x.as_chunks().0, y.as_chunks_mut().0);
-        self.each(|node, [a, b]| (0..2).for_each(|k| y[node][k] += 0.5 * (x[a][k] + x[b][k])));
-        Ok(())
+    /// Adds the interpolated values of `x` to `y`.
+    pub fn prolong<T: Real>(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
+        self.0.iter().for_each(|row| row.prolong(x, y));
     }
 
-    fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        self.stored.multiply_transpose(x, y)?;
-        let (x, mut y) = (x.values(), y.values_mut());
-        let (x, y): (&[Components], &mut [Components]) = (x.as_chunks().0, y.as_chunks_mut().0);
-        self.each(|node, parents| parents.into_iter().for_each(|p| (0..2).for_each(|k| y[p][k] += 0.5 * x[node][k])));
-        Ok(())
+    /// Adds what the transposed interpolation makes of `y` to `x`.
+    pub fn restrict<T: Real>(&self, y: &[[T; 2]], x: &mut [[T; 2]]) {
+        self.0.iter().for_each(|row| row.restrict(y, x));
     }
-    fn work(&self) -> f64 {
-        self.halved.iter().map(|row| 4.0 * row.count as f64).sum()
+
+    /// How many nodes they have.
+    pub fn count(&self) -> usize {
+        self.0.iter().map(|row| row.count).sum()
     }
 }

@@ -1,46 +1,73 @@
-//! Interpolation of displacements from one level to the next finer one: stored rows, and halved rows that need not be.
+//! Interpolation of displacements from one level to the next finer one.
 
 mod halved_rows;
+mod node_interpolation;
+mod parents;
+
+pub use node_interpolation::NodeInterpolation;
 
 use super::auxiliary::auxiliary_interpolations;
 use super::user_options::want_entries;
 use super::{Discretisation, Scene, Space, SystemError};
 use crate::geometry::Point;
-use crate::mesh::lattice::{self, Place};
 use crate::petsc::{Matrix, Session};
-use halved_rows::{HalvedRow, LatticeInterpolation, halved_rows};
-use std::collections::HashMap;
+use node_interpolation::{Here, InterpolationShell};
+use parents::NodeParents;
+use std::rc::Rc;
+
+/// Unknowns up to which a level is brought together on every rank, and worked on by each of them for itself: its messages
+/// would take longer than its work.
+pub const GATHERED: usize = 3000;
+
+/// The interpolation to a level from the next coarser one.
+pub struct Interpolation {
+    /// As PETSc's multigrid uses it (fine unknowns x coarse unknowns), with the unknowns of each rank.
+    pub matrix: Matrix,
+    /// As mezha's own cycle does, with levels that are on every rank as a whole; none between auxiliary levels, or where
+    /// options of the user's ask for entries.
+    pub nodes: Option<Rc<NodeInterpolation>>,
+}
+
+/// Whether a level is brought together on every rank.
+pub fn is_gathered(space: &Space) -> bool {
+    2 * space.numbering.node_count() <= GATHERED
+}
 
 /// Interpolations between all levels, auxiliary ones among them: the first leads from the coarsest level to the next.
 /// **Collective**
-pub fn interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Matrix>, SystemError> {
-    let mut all = auxiliary_interpolations(problem, session)?;
+pub fn interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Interpolation>, SystemError> {
+    let auxiliary = auxiliary_interpolations(problem, session)?.into_iter().map(|matrix| Interpolation { matrix, nodes: None });
+    let mut all: Vec<Interpolation> = auxiliary.collect();
     for pair in problem.spaces.windows(2) {
         all.push(interpolation(&problem.scene, &pair[1], &pair[0], session)?);
     }
     Ok(all)
 }
 
-/// Weights of the parents of most nodes.
-const EVEN: [f64; 2] = [0.5; 2];
-
-/// Linear interpolation `P` (fine unknowns x coarse unknowns): a node takes over the value of its coarse twin, or the
-/// weighted mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns of
-/// prescribed coarse ones are zero. **Collective**
-fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Matrix, SystemError> {
-    let halved = halved_rows(scene, fine, coarse, session);
-    let count: usize = halved.iter().map(|row| row.count).sum();
-    if !session.any(2 * count > fine.own.len()) || want_entries(session) {
-        return stored_rows(scene, fine, coarse, false, session);
+/// Of the nodes between two levels. **Collective**
+fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Interpolation, SystemError> {
+    let own = scene.partition.triangles_of(session.rank());
+    let mut here = Here { triangles: own, fine: fine.own.clone(), coarse: coarse.own.clone() };
+    if want_entries(session) {
+        return Ok(Interpolation { matrix: stored_rows(scene, fine, coarse, &here, session)?, nodes: None });
     }
-    let stored = stored_rows(scene, fine, coarse, true, session)?;
+    let nodes = Rc::new(NodeInterpolation::new(scene, fine, coarse, &here, session));
     let (rows, columns) = (fine.local_unknowns(), coarse.local_unknowns());
-    Ok(Matrix::transfer(session, rows, columns, Box::new(LatticeInterpolation::new(stored, halved)))?)
+    let matrix = Matrix::transfer(session, rows, columns, Box::new(InterpolationShell(nodes.clone())))?;
+    if session.size() == 1 || !is_gathered(coarse) {
+        return Ok(Interpolation { matrix, nodes: Some(nodes) });
+    }
+    here.coarse = 0..coarse.numbering.node_count();
+    let all: Vec<u32> = (0..scene.mesh.triangles.len() as u32).collect();
+    if is_gathered(fine) {
+        (here.triangles, here.fine) = (&all, 0..fine.numbering.node_count());
+    }
+    Ok(Interpolation { matrix, nodes: Some(Rc::new(NodeInterpolation::new(scene, fine, coarse, &here, session))) })
 }
 
-/// The rows that are stored: all, or those that are not `halved`. **Collective**
-fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, session: &Session) -> Result<Matrix, SystemError> {
-    let rows = NodeParents::new(scene, fine, coarse, halved, session);
+/// With all its rows stored. **Collective**
+fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, here: &Here, session: &Session) -> Result<Matrix, SystemError> {
+    let rows = NodeParents::new(scene, fine, coarse, here, |_| 0..0);
     let mut diagonal = vec![0; fine.local_unknowns()];
     let mut off_diagonal = vec![0; fine.local_unknowns()];
     for (node, parents) in rows.iter() {
@@ -53,15 +80,12 @@ fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, sessio
         }
     }
     let mut matrix = Matrix::aij(session, fine.local_unknowns(), coarse.local_unknowns(), 1, &diagonal, &off_diagonal)?;
-    if halved {
-        matrix.expect_empty_rows()?;
-    }
     for (node, [a, b]) in rows.iter() {
         if a == b {
             insert(&mut matrix, fine, coarse, node, a, 1.0)?;
             continue;
         }
-        for (parent, weight) in [a, b].into_iter().zip(rows.parent_weights(node)) {
+        for (parent, weight) in [a, b].into_iter().zip(rows.weights(node)) {
             insert(&mut matrix, fine, coarse, node, parent, weight)?;
         }
     }
@@ -89,53 +113,4 @@ fn insert(matrix: &mut Matrix, fine: &Space, coarse: &Space, node: usize, parent
     let (x, y) = (image(0), image(1));
     matrix.insert(&[row, row + 1], &[column, column + 1], &[x.x, y.x, x.y, y.y])?;
     Ok(())
-}
-
-/// Owned fine nodes with their coarse parents, each node once; without those in halved rows if there are such rows.
-struct NodeParents {
-    nodes: Vec<[u32; 3]>,
-    /// Weights of the parents, for the few nodes that are not in their middle.
-    graded: HashMap<usize, [f64; 2]>,
-}
-
-impl NodeParents {
-    fn new(scene: &Scene, fine: &Space, coarse: &Space, halved: bool, session: &Session) -> Self {
-        let n = fine.numbering.level.intervals;
-        let mut seen = vec![false; fine.own.len()];
-        let mut rows = Self { nodes: Vec::new(), graded: HashMap::new() };
-        // Nodes of row j that stay out.
-        let left_out = |j: usize| if halved { HalvedRow::places(n, j) } else { 0..0 };
-        for &triangle in scene.partition.triangles_of(session.rank()) {
-            let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
-            let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
-            let rest = (0..=n).flat_map(|j| {
-                let out = left_out(j);
-                (0..out.start).chain(out.end..=n - j).map(move |i| (i, j))
-            });
-            for (i, j) in rest {
-                let node = numbers.node(i, j);
-                if !matches!(lattice::place(n, i, j), Place::Inside(_)) {
-                    if !fine.own.contains(&node) || seen[node - fine.own.start] {
-                        continue;
-                    }
-                    seen[node - fine.own.start] = true;
-                    let weights = scene.mesh.parent_weights(triangle as usize, fine.numbering.level, (i, j));
-                    if weights != EVEN {
-                        rows.graded.insert(node, weights);
-                    }
-                }
-                let [a, b] = lattice::parents(i, j).map(|(i, j)| below.node(i, j) as u32);
-                rows.nodes.push([node as u32, a, b]);
-            }
-        }
-        rows
-    }
-
-    fn parent_weights(&self, node: usize) -> [f64; 2] {
-        self.graded.get(&node).copied().unwrap_or(EVEN)
-    }
-
-    fn iter(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
-        self.nodes.iter().map(|&[node, a, b]| (node as usize, [a as usize, b as usize]))
-    }
 }

@@ -7,9 +7,8 @@ use super::following::{BoundaryStep, Following, NextBoundary, carried, standing,
 use super::observer::{Event, Work};
 use super::pass::Pass;
 use super::settings::Procedure;
-use crate::petsc::Matrix;
 use crate::system::{
-    BoundaryMotion, Contact, Discretisation, Elastic, Form, Preconditioning, SaddlePoint, Solution, Start, System, SystemError,
+    Interpolation,    BoundaryMotion, Contact, Discretisation, Elastic, Form, Preconditioning, SaddlePoint, Solution, Start, System, SystemError,
     Tolerance, interpolations, load, nodal_forces,
 };
 use std::rc::Rc;
@@ -51,7 +50,7 @@ pub struct OnMesh {
 struct Bodies {
     /// The bodies without contact; only where boundaries follow the solution, otherwise the system holds them.
     elastic: Option<Elastic>,
-    interpolations: Rc<[Matrix]>,
+    interpolations: Rc<[Interpolation]>,
 }
 
 /// What was done on a mesh so far.

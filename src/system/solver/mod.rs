@@ -13,12 +13,15 @@ mod options;
 pub use fallback::Preconditioning;
 pub use inf_sup::inf_sup;
 
-use self::options::{CoarseSolver, FIELD_SPLIT, is_chosen, lambda_options, preconditioning_options};
+use self::options::{CoarseSolver, FIELD_SPLIT, is_changed, is_chosen, lambda_options, preconditioning_options};
 use super::auxiliary::GalerkinLevels;
+use super::cycle::{CycleAction, FullCycle};
+use super::interpolation::Interpolation;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
 use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, Session, Vector};
 use fallback::needed;
+use std::cell::RefCell;
 use std::rc::Rc;
 
 /// Iterations after which a solve has failed.
@@ -34,8 +37,10 @@ pub struct LinearSolver {
     form: Form,
     /// The converted system of the direct solver.
     converted: Option<Matrix>,
-    interpolations: Rc<[Matrix]>,
+    interpolations: Rc<[Interpolation]>,
     auxiliary: GalerkinLevels,
+    /// The cycle, if it is mezha's own.
+    cycle: Option<Rc<RefCell<FullCycle<f64>>>>,
     /// What preconditions the displacement block, from the next solve on.
     pub preconditioning: Preconditioning,
     /// The same in words.
@@ -87,7 +92,7 @@ impl LinearSolver {
     /// **Collective**
     pub fn new(
         system: &SaddlePoint,
-        interpolations: &Rc<[Matrix]>,
+        interpolations: &Rc<[Interpolation]>,
         choice: SolverChoice,
         preconditioning: Preconditioning,
         session: &Session,
@@ -100,12 +105,12 @@ impl LinearSolver {
 
     fn field_split(
         system: &SaddlePoint,
-        interpolations: Rc<[Matrix]>,
+        interpolations: Rc<[Interpolation]>,
         preconditioning: Preconditioning,
         session: &Session,
     ) -> Result<Self, SystemError> {
         let preconditioning = if interpolations.is_empty() { Preconditioning::Factor } else { preconditioning };
-        let coarsest = interpolations.first().map_or(0, |interpolation| interpolation.size().1);
+        let coarsest = interpolations.first().map_or(0, |interpolation| interpolation.matrix.size().1);
         let coarse = CoarseSolver::of(coarsest, session.size());
         let lambda = lambda_options(system.multipliers.pattern, session.size());
         for (name, value) in
@@ -120,23 +125,32 @@ impl LinearSolver {
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
         krylov.set_from_options()?;
         krylov.set_up()?;
-        let mut auxiliary = GalerkinLevels::default();
+        let (mut auxiliary, mut cycle) = (GalerkinLevels::default(), None);
         if preconditioning != Preconditioning::Factor {
-            auxiliary = GalerkinLevels::new(system.stiffness[0].operator(), below(&interpolations, system))?;
+            auxiliary = GalerkinLevels::new(system.stiffness[0].operator(), &below(&interpolations, system))?;
             let solvers = preconditioner.field_split_solvers()?;
-            let steps = std::iter::once(None).chain(interpolations.iter().map(Some));
+            let steps = std::iter::once(None).chain(interpolations.iter().map(|step| Some(&step.matrix)));
             let operators = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::operator));
             let levels: Vec<MultigridLevel> =
                 operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
-            solvers[0].preconditioner().multigrid(&levels)?;
+            if preconditioning == Preconditioning::Sweep && !is_changed(session) {
+                cycle = FullCycle::new(&system.stiffness, &interpolations, session)?.map(|cycle| Rc::new(RefCell::new(cycle)));
+            }
+            match &cycle {
+                Some(cycle) => {
+                    let action = Box::new(CycleAction(cycle.clone()));
+                    solvers[0].preconditioner().set_action("multigrid F-cycle on strips and stored rows", action)?;
+                }
+                None => solvers[0].preconditioner().multigrid(&levels)?,
+            }
             solvers[0].set_up()?;
         }
         let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
-        let own = kind == "mg" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
+        let own = kind == "mg" || kind == "shell" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
         let name = if own { field_split_name(preconditioning) } else { format!("fieldsplit ({kind})") };
         let (session, form) = (session.clone(), Form::Augmented);
-        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, preconditioning, name, is_set_up: true })
+        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, cycle, preconditioning, name, is_set_up: true })
     }
 
     fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {
@@ -162,6 +176,7 @@ impl LinearSolver {
             converted: None,
             interpolations: Rc::new([]),
             auxiliary: GalerkinLevels::default(),
+            cycle: None,
             preconditioning: Preconditioning::Factor,
             name,
             is_set_up: true,
@@ -182,7 +197,10 @@ impl LinearSolver {
         } else if !self.is_set_up {
             self.set_up(system)?;
         } else {
-            self.auxiliary.refresh(system.stiffness[0].operator(), below(&self.interpolations, system))?;
+            self.auxiliary.refresh(system.stiffness[0].operator(), &below(&self.interpolations, system))?;
+            if let Some(cycle) = &self.cycle {
+                cycle.borrow_mut().refresh(&self.session)?;
+            }
             set_operators(&self.krylov, system, self.preconditioning, &self.session)?;
         }
         Ok(())
@@ -328,6 +346,6 @@ fn set_operators(
 }
 
 /// Those interpolations that lead to auxiliary levels, or up from them.
-fn below<'a>(interpolations: &'a [Matrix], system: &SaddlePoint) -> &'a [Matrix] {
-    &interpolations[..interpolations.len() + 1 - system.stiffness.len()]
+fn below<'a>(interpolations: &'a [Interpolation], system: &SaddlePoint) -> Vec<&'a Matrix> {
+    interpolations[..interpolations.len() + 1 - system.stiffness.len()].iter().map(|step| &step.matrix).collect()
 }

@@ -28,6 +28,11 @@ pub(super) fn is_chosen(session: &Session) -> bool {
     options::any_of_user(session, |name| name == "-fieldsplit_u_pc_type")
 }
 
+/// Whether the user has changed anything about it: then it is PETSc's own multigrid, which has options.
+pub(super) fn is_changed(session: &Session) -> bool {
+    options::any_of_user(session, |name| name.starts_with("-fieldsplit_u_"))
+}
+
 /// The outer method and the smoother of each preconditioning.
 pub(super) fn preconditioning_options(preconditioning: Preconditioning) -> Options {
     match preconditioning {

@@ -1,8 +1,9 @@
 //! Assembly of the stiffness of one level: counts and entries, for whoever makes a matrix of them.
 
-use super::lattice_operator::Strips;
+use super::lattice_operator::{Strips, TriangleStrips};
 use super::preallocation::{ContactNeighbours, Counts};
-use super::strips::{StripNodes, stencil};
+use super::precision::Precision;
+use super::strips::{Couplings, StripNodes};
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};
 use crate::geometry::Point;
@@ -136,13 +137,26 @@ impl<'a> Assembly<'a> {
     fn add_strips(&self, triangle: usize, stiffness: &MacroStiffness, strips: &mut Strips) {
         let order = self.space.numbering.level.order;
         let mut known = BTreeMap::new();
+        let first = strips.alike.len();
         for strip in self.strips_of(triangle) {
-            let stencil = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
-                strips.stencils.push(stencil(stiffness, order, strip));
-                strips.stencils.len() - 1
+            let kind = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
+                strips.couplings.push(Couplings::new(stiffness, order, strip));
+                strips.kernels.push(f64::kernel(&strips.couplings[strips.couplings.len() - 1]));
+                strips.couplings.len() - 1
             });
-            strips.nodes.push((self.strip_nodes(triangle, strip), stencil));
+            let at = strips.nodes.len();
+            strips.nodes.push(self.strip_nodes(triangle, strip));
+            let part = strips.alike.len();
+            match strips.alike.last_mut().filter(|(_, last)| part > first && *last == kind) {
+                Some((alike, _)) => alike.end = at + 1,
+                None => strips.alike.push((at..at + 1, kind)),
+            }
         }
+        let numbers = self.space.numbering.triangle(&self.scene.mesh, triangle);
+        let n = self.space.numbering.level.intervals;
+        let start = if n < 3 { 0 } else { numbers.node(1, 1) - self.space.own.start };
+        let nodes = start..start + lattice::inner_count(n);
+        strips.triangles.push(TriangleStrips { nodes, alike: first..strips.alike.len() });
     }
 
     fn strips_of(&self, triangle: usize) -> &[Strip] {

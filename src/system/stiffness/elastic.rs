@@ -65,15 +65,12 @@ impl Elastic {
     }
 }
 
-/// What is to be assembled of a level: with strips, if they hold most nodes of some rank and no option of the user's wants
-/// entries. **Collective**
+/// What is to be assembled of a level: with strips, if no option of the user's wants entries.
 fn assembly<'a>(problem: &'a Discretisation, space: &'a Space, form: Form, session: &Session) -> Assembly<'a> {
     let (scene, rank) = (&problem.scene, session.rank());
-    if form == Form::Augmented {
-        let strips = Assembly::with_strips(scene, space, rank);
-        if session.any(strips.is_mostly_strips()) && !want_entries(session) {
-            return strips;
-        }
+    let is_small = 2 * problem.spaces[0].numbering.node_count() <= 3000;
+    if form == Form::Augmented && is_small && !want_entries(session) {
+        return Assembly::with_strips(scene, space, rank);
     }
     Assembly::stored(scene, space, rank)
 }

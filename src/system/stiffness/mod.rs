@@ -3,18 +3,25 @@
 mod assembly;
 mod elastic;
 mod expanded;
+mod lanes;
 mod lattice_operator;
+mod lattice_rows;
 mod matrices;
 mod preallocation;
+mod precision;
 mod stored_rows;
+mod strip_kernel;
 mod strips;
 
 pub use elastic::Elastic;
+pub use lattice_operator::{LatticeOperator, Strips};
+pub use lattice_rows::LatticeRows;
 pub use preallocation::ContactNeighbours;
+pub use precision::Precision;
+pub use stored_rows::StoredRows;
 
 use super::{Space, SystemError};
 use crate::petsc::{Matrix, Session};
-use lattice_operator::{LatticeOperator, Strips};
 use matrices::contact_places;
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -54,6 +61,14 @@ impl Stiffness {
         match &self.rows {
             Rows::Stored(matrix) => matrix,
             Rows::Lattice { shell, .. } => shell,
+        }
+    }
+
+    /// Its strips and stored rows, if it is made of these.
+    pub fn lattice(&self) -> Option<&Rc<LatticeOperator>> {
+        match &self.rows {
+            Rows::Stored(_) => None,
+            Rows::Lattice { lattice, .. } => Some(lattice),
         }
     }
 

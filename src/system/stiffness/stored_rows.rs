@@ -1,56 +1,66 @@
 //! The rows of a stiffness that are stored, as blocks of two by two.
 
-use super::strips::{inverse, subtract};
+use super::lanes::Lanes;
+use super::precision::Precision;
+use super::strips::inverse;
 use crate::element::Block;
 use crate::petsc::{Matrix, Result};
-use crate::system::space::Components;
-use std::cell::Cell;
+use crate::system::space::Real;
 use std::ops::Range;
 
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
 /// their own.
 #[derive(Default)]
-pub struct StoredRows {
+pub struct StoredRows<T = f64> {
     nodes: Vec<u32>,
     /// Inverses of the diagonal blocks.
-    inverses: Vec<Block>,
-    near: Part,
-    far: Part,
+    inverses: Vec<[[T; 2]; 2]>,
+    near: Part<T>,
+    far: Part<T>,
 }
 
 /// One part of all rows: that of row `k` lies in `starts[k]..starts[k + 1]`.
-struct Part {
+struct Part<T> {
     starts: Vec<u32>,
     columns: Vec<u32>,
-    blocks: Vec<Block>,
+    blocks: Vec<[[T; 2]; 2]>,
 }
 
-impl Default for Part {
+impl<T> Default for Part<T> {
     fn default() -> Self {
         Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() }
     }
 }
 
-impl Part {
-    /// `sum - Σ K x` of a row, in two parts that do not wait for each other.
+impl<T: Real> Part<T> {
+    /// `sum - Σ K x` of a row. A block fills a register, whose four products come together at the end.
     #[inline(always)]
-    fn subtract(&self, k: usize, sum: Components, x: impl Fn(usize) -> Components) -> Components {
+    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(&self, lanes: L, k: usize, sum: [T; 2], x: &[[T; 2]]) -> [T; 2] {
         let range = self.starts[k] as usize..self.starts[k + 1] as usize;
         let (columns, blocks) = (self.columns[range.clone()].as_chunks::<2>(), self.blocks[range].as_chunks::<2>());
-        let (mut sum, mut other) = (sum, [0.0; 2]);
+        let zero = lanes.load([[T::default(); 2]; 2]);
+        let node = |column: u32| lanes.load([x[column as usize]; 2]);
+        let (mut one, mut other) = (zero, zero);
         for (columns, blocks) in columns.0.iter().zip(blocks.0) {
-            subtract(&mut sum, &blocks[0], x(columns[0] as usize));
-            subtract(&mut other, &blocks[1], x(columns[1] as usize));
+            one = lanes.multiply_add(lanes.load(blocks[0]), node(columns[0]), one);
+            other = lanes.multiply_add(lanes.load(blocks[1]), node(columns[1]), other);
         }
         if let ([column], [block]) = (columns.1, blocks.1) {
-            subtract(&mut sum, block, x(*column as usize));
+            one = lanes.multiply_add(lanes.load(*block), node(*column), one);
         }
-        [sum[0] + other[0], sum[1] + other[1]]
+        let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
+        [sum[0] - (a + b), sum[1] - (c + d)]
     }
 
-    fn push(&mut self, column: usize, block: Block) {
+    fn push(&mut self, column: usize, block: [[T; 2]; 2]) {
         self.columns.push(column as u32);
         self.blocks.push(block);
+    }
+
+    /// Columns and blocks of row `k`.
+    fn row(&self, k: usize) -> impl Iterator<Item = (usize, [[T; 2]; 2])> {
+        let range = self.starts[k] as usize..self.starts[k + 1] as usize;
+        self.columns[range.clone()].iter().map(|&column| column as usize).zip(self.blocks[range].iter().copied())
     }
 
     fn end_row(&mut self) {
@@ -130,53 +140,182 @@ impl StoredRows {
         Ok(())
     }
 
+    /// From the rows of all nodes, in any order: for each its node, how many columns, and these; and all blocks. All columns are
+    /// near.
+    ///
+    /// # Panics
+    /// As [`StoredRows::read`].
+    pub fn of_all(numbers: &[u32], values: &[f64]) -> Self {
+        let blocks: &[[[f64; 2]; 2]] = values.as_chunks::<2>().0.as_chunks().0;
+        let (mut rows, mut at, mut start) = (Vec::new(), 0, 0);
+        while at < numbers.len() {
+            let count = numbers[at + 1] as usize;
+            rows.push((numbers[at], at + 2..at + 2 + count, start));
+            (at, start) = (at + 2 + count, start + count);
+        }
+        rows.sort_unstable_by_key(|row| row.0);
+        let mut all = Self::default();
+        for (node, columns, start) in rows {
+            for (k, &column) in numbers[columns].iter().enumerate() {
+                if column == node {
+                    all.inverses.push(inverse(&blocks[start + k]).expect("a stiffness has a diagonal"));
+                }
+                all.near.push(column as usize, blocks[start + k]);
+            }
+            all.nodes.push(node);
+            all.near.end_row();
+            all.far.end_row();
+        }
+        all
+    }
+
+    /// Shows each row: its node, and its near and far columns with their blocks.
+    pub fn each_row(
+        &self,
+        mut show: impl FnMut(usize, &mut dyn Iterator<Item = (usize, Block)>, &mut dyn Iterator<Item = (usize, Block)>),
+    ) {
+        for (k, &node) in self.nodes.iter().enumerate() {
+            show(node as usize, &mut self.near.row(k), &mut self.far.row(k));
+        }
+    }
+
+    /// The rows of single unknowns, if these are those of all nodes: columns and values.
+    pub fn scalar_rows(&self) -> Vec<(Vec<i32>, Vec<f64>)> {
+        let mut rows = Vec::with_capacity(2 * self.nodes.len());
+        self.each_row(|_, near, _| {
+            let row: Vec<(usize, Block)> = near.collect();
+            for a in 0..2 {
+                let columns = row.iter().flat_map(|(column, _)| [2 * *column as i32, 2 * *column as i32 + 1]).collect();
+                rows.push((columns, row.iter().flat_map(|(_, block)| block[a]).collect()));
+            }
+        });
+        rows
+    }
+
+    /// The same in another precision.
+    pub fn converted<U: Real>(&self) -> StoredRows<U> {
+        let blocks = |blocks: &[Block]| blocks.iter().map(|block| block.map(|row| row.map(U::of))).collect();
+        let part = |part: &Part<f64>| Part {
+            starts: part.starts.clone(),
+            columns: part.columns.clone(),
+            blocks: blocks(&part.blocks),
+        };
+        StoredRows {
+            nodes: self.nodes.clone(),
+            inverses: blocks(&self.inverses),
+            near: part(&self.near),
+            far: part(&self.far),
+        }
+    }
+
     /// Blocks in all rows.
     pub fn block_count(&self) -> usize {
         self.near.blocks.len() + self.far.blocks.len()
     }
 
+}
+
+/// Work on the rows of a range.
+enum Task<'a, T> {
+    Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
+    Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
+    Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+    Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+}
+
+/// A task with what it works on; `far` are the values of columns of other ranks, none stands for zeros.
+pub struct OnRows<'a, T> {
+    rows: &'a StoredRows<T>,
+    range: Range<usize>,
+    far: &'a [[T; 2]],
+    task: Task<'a, T>,
+}
+
+impl<T: Real> OnRows<'_, T> {
+    /// Does it.
+    #[inline(always)]
+    pub fn work<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(self, lanes: L) {
+        let Self { rows, range, far, task } = self;
+        match task {
+            Task::Multiply { y, x } => {
+                for k in range {
+                    let sum = rows.subtract(lanes, k, [T::default(); 2], x, far);
+                    y[rows.nodes[k] as usize] = [-sum[0], -sum[1]];
+                }
+            }
+            Task::Residual { r, b, x } => {
+                for k in range {
+                    let node = rows.nodes[k] as usize;
+                    r[node] = rows.subtract(lanes, k, b[node], x, far);
+                }
+            }
+            Task::Forward { b, x } => {
+                for k in range {
+                    rows.relax(lanes, k, b, x, far);
+                }
+            }
+            Task::Backward { b, x } => {
+                for k in range.rev() {
+                    rows.relax(lanes, k, b, x, far);
+                }
+            }
+        }
+    }
+}
+
+impl<T: Precision> StoredRows<T> {
+    /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
+    pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Multiply { y, x } });
+    }
+
+    /// `r = b - K x` in the rows of a range.
+    pub fn residual(&self, range: Range<usize>, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Residual { r, b, x } });
+    }
+
+    /// Relaxes the nodes of a range in their order, `far` staying as it is; no `far` stands for zeros.
+    pub fn forward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Forward { b, x } });
+    }
+
+    /// The same in the opposite order.
+    pub fn backward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Backward { b, x } });
+    }
+}
+
+impl<T: Real> StoredRows<T> {
     /// The nodes whose rows these are.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes
     }
 
-    /// `y = K x` in these rows, `far` the values of the columns of other ranks.
-    pub fn multiply(&self, x: &[Components], far: &[Components], y: &mut [Components]) {
-        self.each(x, far, |node, sum| y[node] = sum.map(|v| -v));
-    }
-
-    /// `r = b - K x` in these rows.
-    pub fn residual(&self, b: &[Components], x: &[Components], far: &[Components], r: &mut [Components]) {
-        self.each(x, far, |node, sum| r[node] = [b[node][0] + sum[0], b[node][1] + sum[1]]);
-    }
-
-    /// Shows `-K x` row by row.
-    fn each(&self, x: &[Components], far: &[Components], mut show: impl FnMut(usize, Components)) {
-        for (k, &node) in self.nodes.iter().enumerate() {
-            let sum = self.near.subtract(k, [0.0; 2], |column| x[column]);
-            show(node as usize, self.far.subtract(k, sum, |column| far[column]));
-        }
-    }
-
-    /// Relaxes the nodes in their order, `far` staying as it is.
-    pub fn forward(&self, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
-        (0..self.nodes.len()).for_each(|k| self.relax(k, b, x, far));
-    }
-
-    /// The same in the opposite order.
-    pub fn backward(&self, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
-        (0..self.nodes.len()).rev().for_each(|k| self.relax(k, b, x, far));
+    #[inline(always)]
+    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
+        &self,
+        lanes: L,
+        k: usize,
+        sum: [T; 2],
+        x: &[[T; 2]],
+        far: &[[T; 2]],
+    ) -> [T; 2] {
+        let sum = self.near.subtract(lanes, k, sum, x);
+        if far.is_empty() { sum } else { self.far.subtract(lanes, k, sum, far) }
     }
 
     #[inline(always)]
-    fn relax(&self, k: usize, b: &[Components], x: &[Cell<Components>], far: &[Components]) {
+    fn relax<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
+        &self,
+        lanes: L,
+        k: usize,
+        b: &[[T; 2]],
+        x: &mut [[T; 2]],
+        far: &[[T; 2]],
+    ) {
         let node = self.nodes[k] as usize;
-        let mut sum = self.near.subtract(k, b[node], |column| x[column].get());
-        if !far.is_empty() {
-            sum = self.far.subtract(k, sum, |column| far[column]);
-        }
-        let [u, v] = x[node].get();
-        let inverse = &self.inverses[k];
-        x[node].set([u + inverse[0][0] * sum[0] + inverse[0][1] * sum[1], v + inverse[1][0] * sum[0] + inverse[1][1] * sum[1]]);
+        let sum = self.subtract(lanes, k, b[node], x, far);
+        let ([u, v], inverse) = (x[node], &self.inverses[k]);
+        x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
     }
 }

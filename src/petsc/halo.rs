@@ -1,0 +1,104 @@
+//! Values at nodes of other ranks, from neighbour to neighbour, while this rank goes on with its own.
+
+use super::collective::Datum;
+use super::session::Session;
+use mpi::request::multiple_scope;
+use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
+use std::ops::Range;
+
+/// Nodes of other ranks that this one needs, and nodes of its own that others need. Vectors have two values for each node.
+pub struct Halo {
+    session: Session,
+    /// Ranks that own what this one needs, and how many nodes of each: in their order.
+    from: Vec<(i32, usize)>,
+    /// Ranks that need nodes of this one, and which of `sent` these are.
+    to: Vec<(i32, Range<usize>)>,
+    /// Nodes of this rank, counted from its first.
+    sent: Vec<u32>,
+}
+
+impl Halo {
+    /// For the nodes `far` (global numbers, ascending) of other ranks, each of which owns a range. **Collective**
+    pub fn new(session: &Session, own: &Range<usize>, far: &[usize]) -> Self {
+        let (size, world) = (session.size(), session.world());
+        if size == 1 {
+            return Self { session: session.clone(), from: Vec::new(), to: Vec::new(), sent: Vec::new() };
+        }
+        let mut ends = session.gather_counts(own.len());
+        (1..size).for_each(|rank| ends[rank] += ends[rank - 1]);
+        let owner = |node: &usize| ends.partition_point(|end| end <= node);
+        let from: Vec<(i32, usize)> =
+            far.chunk_by(|a, b| owner(a) == owner(b)).map(|part| (owner(&part[0]) as i32, part.len())).collect();
+        let (mut wanted, mut asked) = (vec![0u64; size], vec![0u64; size]);
+        from.iter().for_each(|&(rank, count)| wanted[rank as usize] = count as u64);
+        world.all_to_all_into(&wanted[..], &mut asked[..]);
+        let mut end = 0;
+        let to: Vec<(i32, Range<usize>)> = (0..size)
+            .filter(|&rank| asked[rank] > 0)
+            .map(|rank| {
+                end += asked[rank] as usize;
+                (rank as i32, end - asked[rank] as usize..end)
+            })
+            .collect();
+        let numbers: Vec<u64> = far.iter().map(|&node| node as u64).collect();
+        let mut sent = vec![0u64; end];
+        multiple_scope(from.len() + to.len(), |scope, requests| {
+            let mut rest = &mut sent[..];
+            for (rank, range) in &to {
+                let (part, next) = rest.split_at_mut(range.len());
+                requests.add(world.process_at_rank(*rank).immediate_receive_into(scope, part));
+                rest = next;
+            }
+            let mut start = 0;
+            for &(rank, count) in &from {
+                requests.add(world.process_at_rank(rank).immediate_send(scope, &numbers[start..start + count]));
+                start += count;
+            }
+            requests.wait_all(&mut Vec::new());
+        });
+        let sent = sent.into_iter().map(|node| (node as usize - own.start) as u32).collect();
+        Self { session: session.clone(), from, to, sent }
+    }
+
+    /// Brings the values of the far nodes, in their order, and does `meanwhile` what needs none of them. **Collective**
+    pub fn fetch<T: Datum>(&self, x: &[[T; 2]], far: &mut [[T; 2]], meanwhile: impl FnOnce()) {
+        let sent: Vec<[T; 2]> = self.sent.iter().map(|&node| x[node as usize]).collect();
+        let world = self.session.world();
+        multiple_scope(self.from.len() + self.to.len(), |scope, requests| {
+            let mut rest = far;
+            for &(rank, count) in &self.from {
+                let (part, next) = rest.split_at_mut(count);
+                requests.add(world.process_at_rank(rank).immediate_receive_into(scope, part.as_flattened_mut()));
+                rest = next;
+            }
+            for (rank, range) in &self.to {
+                requests.add(world.process_at_rank(*rank).immediate_send(scope, sent[range.clone()].as_flattened()));
+            }
+            meanwhile();
+            requests.wait_all(&mut Vec::new());
+        });
+    }
+
+    /// Adds what this rank has for the far nodes to the values of their owners. **Collective**
+    pub fn give<T: Datum + std::ops::AddAssign>(&self, far: &[[T; 2]], y: &mut [[T; 2]]) {
+        let mut arrived = vec![[T::default(); 2]; self.sent.len()];
+        let world = self.session.world();
+        multiple_scope(self.from.len() + self.to.len(), |scope, requests| {
+            let mut rest = &mut arrived[..];
+            for (rank, range) in &self.to {
+                let (part, next) = rest.split_at_mut(range.len());
+                requests.add(world.process_at_rank(*rank).immediate_receive_into(scope, part.as_flattened_mut()));
+                rest = next;
+            }
+            let mut start = 0;
+            for &(rank, count) in &self.from {
+                requests.add(world.process_at_rank(rank).immediate_send(scope, far[start..start + count].as_flattened()));
+                start += count;
+            }
+            requests.wait_all(&mut Vec::new());
+        });
+        for (&node, value) in self.sent.iter().zip(arrived) {
+            (0..2).for_each(|k| y[node as usize][k] += value[k]);
+        }
+    }
+}

@@ -1,0 +1,371 @@
+//! Vector registers as sweeps use them: a few nodes side by side, two components each. Which instructions the processor has
+//! is asked at run time; one without any of these works on short arrays.
+//!
+//! All operations are those of single numbers, but that vector instructions round a product and a sum together.
+
+use crate::system::space::Real;
+
+/// A kind of register that holds nodes side by side.
+pub trait Lanes: Copy + 'static {
+    /// Numbers.
+    type Real: Real;
+    /// The register.
+    type Register: Copy;
+    /// The same in memory.
+    type Nodes: Copy;
+    /// How many nodes: two, or a multiple.
+    const COUNT: usize;
+
+    /// Nodes in memory, as many as fill registers.
+    fn chunks(nodes: &[[Self::Real; 2]]) -> &[Self::Nodes];
+
+    /// The same to write to.
+    fn chunks_mut(nodes: &mut [[Self::Real; 2]]) -> &mut [Self::Nodes];
+
+    /// A register from memory.
+    fn load(self, nodes: Self::Nodes) -> Self::Register;
+
+    /// A register to memory.
+    fn store(self, register: Self::Register) -> Self::Nodes;
+
+    /// `a + b`.
+    fn add(self, a: Self::Register, b: Self::Register) -> Self::Register;
+
+    /// `a b`, number by number.
+    fn multiply(self, a: Self::Register, b: Self::Register) -> Self::Register;
+
+    /// `a b + c`, number by number.
+    fn multiply_add(self, a: Self::Register, b: Self::Register, c: Self::Register) -> Self::Register;
+
+    /// The components of each node in the other order.
+    fn turned(self, a: Self::Register) -> Self::Register;
+
+    /// The first and the second node of each two in the other order.
+    fn crossed(self, a: Self::Register) -> Self::Register;
+
+    /// The nodes `step` places before those of `a`; `before` are the nodes in front of them. `step` is a power of two below
+    /// the count.
+    fn earlier<const STEP: usize>(self, before: Self::Register, a: Self::Register) -> Self::Register;
+
+    /// The nodes `step` places behind those of `a`; `after` are the nodes that follow them.
+    fn later<const STEP: usize>(self, a: Self::Register, after: Self::Register) -> Self::Register;
+
+    /// Does work with the instructions of these registers.
+    fn run<W: Work>(self, work: W);
+}
+
+/// Work on registers. All that it calls must be inlined: only so do instructions that not all processors have come to be.
+pub trait Work {
+    /// Does it.
+    fn work(self);
+}
+
+/// Arrays of two nodes, for processors without the instructions of the others.
+#[derive(Clone, Copy, Default)]
+pub struct Plain<T>(std::marker::PhantomData<T>);
+
+impl<T: Real> Lanes for Plain<T> {
+    type Real = T;
+    type Register = [T; 4];
+    type Nodes = [[T; 2]; 2];
+    const COUNT: usize = 2;
+
+    #[inline(always)]
+    fn chunks(nodes: &[[T; 2]]) -> &[Self::Nodes] {
+        nodes.as_chunks().0
+    }
+
+    #[inline(always)]
+    fn chunks_mut(nodes: &mut [[T; 2]]) -> &mut [Self::Nodes] {
+        nodes.as_chunks_mut().0
+    }
+
+    #[inline(always)]
+    fn load(self, [a, b]: Self::Nodes) -> Self::Register {
+        [a[0], a[1], b[0], b[1]]
+    }
+
+    #[inline(always)]
+    fn store(self, [a, b, c, d]: Self::Register) -> Self::Nodes {
+        [[a, b], [c, d]]
+    }
+
+    #[inline(always)]
+    fn add(self, a: Self::Register, b: Self::Register) -> Self::Register {
+        std::array::from_fn(|i| a[i] + b[i])
+    }
+
+    #[inline(always)]
+    fn multiply(self, a: Self::Register, b: Self::Register) -> Self::Register {
+        std::array::from_fn(|i| a[i] * b[i])
+    }
+
+    #[inline(always)]
+    fn multiply_add(self, a: Self::Register, b: Self::Register, c: Self::Register) -> Self::Register {
+        std::array::from_fn(|i| a[i] * b[i] + c[i])
+    }
+
+    #[inline(always)]
+    fn turned(self, [a, b, c, d]: Self::Register) -> Self::Register {
+        [b, a, d, c]
+    }
+
+    #[inline(always)]
+    fn crossed(self, [a, b, c, d]: Self::Register) -> Self::Register {
+        [c, d, a, b]
+    }
+
+    #[inline(always)]
+    fn earlier<const STEP: usize>(self, before: Self::Register, a: Self::Register) -> Self::Register {
+        [before[2], before[3], a[0], a[1]]
+    }
+
+    #[inline(always)]
+    fn later<const STEP: usize>(self, a: Self::Register, after: Self::Register) -> Self::Register {
+        [a[2], a[3], after[0], after[1]]
+    }
+
+    #[inline(always)]
+    fn run<W: Work>(self, work: W) {
+        work.work();
+    }
+}
+
+/// Registers of x86 processors.
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::{Lanes, Work};
+    use pulp::x86::{V3, V4};
+    use pulp::{NullaryFnOnce, cast, f32x4, f32x8, f32x16, f64x4, f64x8};
+
+    /// Two nodes in double precision, AVX2.
+    #[derive(Clone, Copy)]
+    pub struct Double(pub V3);
+
+    /// Two nodes in single precision, AVX2.
+    #[derive(Clone, Copy)]
+    pub struct Pair(pub V3);
+
+    /// Four nodes in single precision, AVX2.
+    #[derive(Clone, Copy)]
+    pub struct Single(pub V3);
+
+    /// Four nodes in double precision, AVX-512.
+    #[derive(Clone, Copy)]
+    pub struct WideDouble(pub V4);
+
+    /// Eight nodes in single precision, AVX-512.
+    #[derive(Clone, Copy)]
+    pub struct WideSingle(pub V4);
+
+    /// Work for one kind of processor.
+    struct Call<W>(W);
+
+    impl<W: Work> NullaryFnOnce for Call<W> {
+        type Output = ();
+
+        #[inline(always)]
+        fn call(self) {
+            self.0.work();
+        }
+    }
+
+    /// What is alike for all registers: numbers, sizes, memory.
+    macro_rules! memory {
+        ($real:ty, $register:ty, $count:literal) => {
+            type Real = $real;
+            type Register = $register;
+            type Nodes = [[$real; 2]; $count];
+            const COUNT: usize = $count;
+
+            #[inline(always)]
+            fn chunks(nodes: &[[$real; 2]]) -> &[Self::Nodes] {
+                nodes.as_chunks().0
+            }
+
+            #[inline(always)]
+            fn chunks_mut(nodes: &mut [[$real; 2]]) -> &mut [Self::Nodes] {
+                nodes.as_chunks_mut().0
+            }
+
+            #[inline(always)]
+            fn load(self, nodes: Self::Nodes) -> Self::Register {
+                cast(nodes)
+            }
+
+            #[inline(always)]
+            fn store(self, register: Self::Register) -> Self::Nodes {
+                cast(register)
+            }
+
+            #[inline(always)]
+            fn run<W: Work>(self, work: W) {
+                self.0.vectorize(Call(work));
+            }
+        };
+    }
+
+    /// Sums and products, by the names of the instructions.
+    macro_rules! arithmetic {
+        ($add:ident, $multiply:ident, $fused:ident, $sums:ident, $fma:ident) => {
+            #[inline(always)]
+            fn add(self, a: Self::Register, b: Self::Register) -> Self::Register {
+                cast(self.0.$sums.$add(cast(a), cast(b)))
+            }
+
+            #[inline(always)]
+            fn multiply(self, a: Self::Register, b: Self::Register) -> Self::Register {
+                cast(self.0.$sums.$multiply(cast(a), cast(b)))
+            }
+
+            #[inline(always)]
+            fn multiply_add(self, a: Self::Register, b: Self::Register, c: Self::Register) -> Self::Register {
+                cast(self.0.$fma.$fused(cast(a), cast(b), cast(c)))
+            }
+        };
+    }
+
+    impl Lanes for Double {
+        memory!(f64, f64x4, 2);
+        arithmetic!(_mm256_add_pd, _mm256_mul_pd, _mm256_fmadd_pd, avx, fma);
+
+        #[inline(always)]
+        fn turned(self, a: f64x4) -> f64x4 {
+            cast(self.0.avx._mm256_permute_pd::<0b0101>(cast(a)))
+        }
+
+        #[inline(always)]
+        fn crossed(self, a: f64x4) -> f64x4 {
+            cast(self.0.avx._mm256_permute2f128_pd::<0x01>(cast(a), cast(a)))
+        }
+
+        #[inline(always)]
+        fn earlier<const STEP: usize>(self, before: f64x4, a: f64x4) -> f64x4 {
+            cast(self.0.avx._mm256_permute2f128_pd::<0x21>(cast(before), cast(a)))
+        }
+
+        #[inline(always)]
+        fn later<const STEP: usize>(self, a: f64x4, after: f64x4) -> f64x4 {
+            cast(self.0.avx._mm256_permute2f128_pd::<0x21>(cast(a), cast(after)))
+        }
+    }
+
+    impl Lanes for Pair {
+        memory!(f32, f32x4, 2);
+        arithmetic!(_mm_add_ps, _mm_mul_ps, _mm_fmadd_ps, sse, fma);
+
+        #[inline(always)]
+        fn turned(self, a: f32x4) -> f32x4 {
+            let f32x4(a, b, c, d) = a;
+            f32x4(b, a, d, c)
+        }
+
+        #[inline(always)]
+        fn crossed(self, a: f32x4) -> f32x4 {
+            let f32x4(a, b, c, d) = a;
+            f32x4(c, d, a, b)
+        }
+
+        #[inline(always)]
+        fn earlier<const STEP: usize>(self, before: f32x4, a: f32x4) -> f32x4 {
+            f32x4(before.2, before.3, a.0, a.1)
+        }
+
+        #[inline(always)]
+        fn later<const STEP: usize>(self, a: f32x4, after: f32x4) -> f32x4 {
+            f32x4(a.2, a.3, after.0, after.1)
+        }
+    }
+
+    impl Lanes for Single {
+        memory!(f32, f32x8, 4);
+        arithmetic!(_mm256_add_ps, _mm256_mul_ps, _mm256_fmadd_ps, avx, fma);
+
+        #[inline(always)]
+        fn turned(self, a: f32x8) -> f32x8 {
+            cast(self.0.avx._mm256_permute_ps::<0b1011_0001>(cast(a)))
+        }
+
+        #[inline(always)]
+        fn crossed(self, a: f32x8) -> f32x8 {
+            cast(self.0.avx._mm256_permute_pd::<0b0101>(cast(a)))
+        }
+
+        #[inline(always)]
+        fn earlier<const STEP: usize>(self, before: f32x8, a: f32x8) -> f32x8 {
+            let two = self.0.avx._mm256_permute2f128_pd::<0x21>(cast(before), cast(a));
+            if STEP == 2 { cast(two) } else { cast(self.0.avx._mm256_shuffle_pd::<0b0101>(two, cast(a))) }
+        }
+
+        #[inline(always)]
+        fn later<const STEP: usize>(self, a: f32x8, after: f32x8) -> f32x8 {
+            let two = self.0.avx._mm256_permute2f128_pd::<0x21>(cast(a), cast(after));
+            if STEP == 2 { cast(two) } else { cast(self.0.avx._mm256_shuffle_pd::<0b0101>(cast(a), two)) }
+        }
+    }
+
+    impl Lanes for WideDouble {
+        memory!(f64, f64x8, 4);
+        arithmetic!(_mm512_add_pd, _mm512_mul_pd, _mm512_fmadd_pd, avx512f, avx512f);
+
+        #[inline(always)]
+        fn turned(self, a: f64x8) -> f64x8 {
+            cast(self.0.avx512f._mm512_permute_pd::<0b0101_0101>(cast(a)))
+        }
+
+        #[inline(always)]
+        fn crossed(self, a: f64x8) -> f64x8 {
+            cast(self.0.avx512f._mm512_permutex_pd::<0b0100_1110>(cast(a)))
+        }
+
+        #[inline(always)]
+        fn earlier<const STEP: usize>(self, before: f64x8, a: f64x8) -> f64x8 {
+            let (before, a, simd) = (cast(before), cast(a), self.0.avx512f);
+            cast(if STEP == 1 { simd._mm512_alignr_epi64::<6>(a, before) } else { simd._mm512_alignr_epi64::<4>(a, before) })
+        }
+
+        #[inline(always)]
+        fn later<const STEP: usize>(self, a: f64x8, after: f64x8) -> f64x8 {
+            let (a, after, simd) = (cast(a), cast(after), self.0.avx512f);
+            cast(if STEP == 1 { simd._mm512_alignr_epi64::<2>(after, a) } else { simd._mm512_alignr_epi64::<4>(after, a) })
+        }
+    }
+
+    impl Lanes for WideSingle {
+        memory!(f32, f32x16, 8);
+        arithmetic!(_mm512_add_ps, _mm512_mul_ps, _mm512_fmadd_ps, avx512f, avx512f);
+
+        #[inline(always)]
+        fn turned(self, a: f32x16) -> f32x16 {
+            cast(self.0.avx512f._mm512_permute_ps::<0b1011_0001>(cast(a)))
+        }
+
+        #[inline(always)]
+        fn crossed(self, a: f32x16) -> f32x16 {
+            cast(self.0.avx512f._mm512_permute_pd::<0b0101_0101>(cast(a)))
+        }
+
+        #[inline(always)]
+        fn earlier<const STEP: usize>(self, before: f32x16, a: f32x16) -> f32x16 {
+            let (before, a, simd) = (cast(before), cast(a), self.0.avx512f);
+            cast(match STEP {
+                1 => simd._mm512_alignr_epi64::<7>(a, before),
+                2 => simd._mm512_alignr_epi64::<6>(a, before),
+                _ => simd._mm512_alignr_epi64::<4>(a, before),
+            })
+        }
+
+        #[inline(always)]
+        fn later<const STEP: usize>(self, a: f32x16, after: f32x16) -> f32x16 {
+            let (a, after, simd) = (cast(a), cast(after), self.0.avx512f);
+            cast(match STEP {
+                1 => simd._mm512_alignr_epi64::<1>(after, a),
+                2 => simd._mm512_alignr_epi64::<2>(after, a),
+                _ => simd._mm512_alignr_epi64::<4>(after, a),
+            })
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+pub use x86::{Double, Pair, Single, WideDouble, WideSingle};

@@ -1,0 +1,66 @@
+//! Strips and stored rows of a rank together, in some precision.
+
+use super::lattice_operator::Strips;
+use super::precision::Precision;
+use super::stored_rows::StoredRows;
+use std::ops::Range;
+
+/// Which stored rows belong to nodes on sides of macro triangles, and which lie inside of one.
+///
+/// A sweep goes forward through the sides, then forward and backward through one macro triangle after the other, and backward
+/// through the sides. Macro triangles do not couple to each other: so this is one symmetric sweep through all nodes, and on the
+/// way back those of a triangle are still in the cache.
+#[derive(Clone, Debug, Default)]
+pub struct Order {
+    /// Stored rows on sides.
+    sides: Vec<Range<usize>>,
+    /// Stored rows inside of each macro triangle.
+    inside: Vec<Range<usize>>,
+}
+
+impl Order {
+    /// Of the stored rows of some nodes.
+    pub fn new(rows: &StoredRows, strips: &Strips) -> Self {
+        let at = |node: usize| rows.nodes().partition_point(|&stored| (stored as usize) < node);
+        let inside: Vec<Range<usize>> = strips.triangles.iter().map(|t| at(t.nodes.start)..at(t.nodes.end)).collect();
+        let starts = std::iter::once(0).chain(inside.iter().map(|range| range.end));
+        let ends = inside.iter().map(|range| range.start).chain([rows.nodes().len()]);
+        Self { sides: starts.zip(ends).map(|(start, end)| start..end).filter(|range| !range.is_empty()).collect(), inside }
+    }
+}
+
+/// Rows to work on.
+pub struct LatticeRows<'a, T> {
+    pub strips: &'a Strips<T>,
+    pub stored: &'a StoredRows<T>,
+    pub order: &'a Order,
+}
+
+impl<T: Precision> LatticeRows<'_, T> {
+    /// `y = K x` at nodes in strips.
+    pub fn multiply_in_strips(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
+        let Strips { alike, kernels, nodes, .. } = self.strips;
+        alike.iter().for_each(|(strips, kind)| kernels[*kind].multiply(&nodes[strips.clone()], x, y));
+    }
+
+    /// `r = b - K x` at nodes in strips.
+    pub fn residual_in_strips(&self, b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]]) {
+        let Strips { alike, kernels, nodes, .. } = self.strips;
+        alike.iter().for_each(|(strips, kind)| kernels[*kind].residual(&nodes[strips.clone()], b, x, r));
+    }
+
+    /// A symmetric Gauss-Seidel sweep; `far` are the values of other ranks, none stands for zeros.
+    pub fn relax(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        let (stored, Order { sides, inside }) = (self.stored, self.order);
+        sides.iter().for_each(|range| stored.forward(range.clone(), b, x, far));
+        for (triangle, rows) in self.strips.triangles.iter().zip(inside) {
+            let parts = &self.strips.alike[triangle.alike.clone()];
+            let (kernels, nodes) = (&self.strips.kernels, &self.strips.nodes);
+            stored.forward(rows.clone(), b, x, far);
+            parts.iter().for_each(|(strips, kind)| kernels[*kind].forward(&nodes[strips.clone()], b, x));
+            parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
+            stored.backward(rows.clone(), b, x, far);
+        }
+        sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
+    }
+}

@@ -1,0 +1,114 @@
+//! What the cycle works with in double and in single precision: kernels, strips, stored rows.
+
+use super::lanes::{Lanes, Plain, Work};
+#[cfg(target_arch = "x86_64")]
+use super::lanes::{Double, Pair, Single, WideDouble, WideSingle};
+use super::lattice_operator::Strips;
+use super::stored_rows::{OnRows, StoredRows};
+use super::strip_kernel::{StripKernel, kernel};
+use super::strips::Couplings;
+use crate::system::space::Real;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// A precision to work in. Double precision shares what the matrix has, single precision has copies.
+pub trait Precision: Real {
+    /// The kernel of some couplings that suits the processor best.
+    fn kernel(couplings: &Couplings) -> Box<dyn StripKernel<Self>>;
+
+    /// Strips in this precision.
+    fn strips(strips: &Rc<Strips>) -> Rc<Strips<Self>>;
+
+    /// Stored rows in this precision.
+    fn stored(rows: &Rc<RefCell<StoredRows>>) -> Rc<RefCell<StoredRows<Self>>>;
+
+    /// Takes over changed values.
+    fn refresh(rows: &Rc<RefCell<StoredRows>>, own: &Rc<RefCell<StoredRows<Self>>>);
+
+    /// Does work on stored rows.
+    fn on_rows(work: OnRows<Self>);
+}
+
+/// Work on stored rows with some registers.
+struct RowsWith<'a, L: Lanes>(L, OnRows<'a, L::Real>);
+
+impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> RowsWith<'_, L> {
+    fn run(self) {
+        self.0.run(self);
+    }
+}
+
+impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> Work for RowsWith<'_, L> {
+    #[inline(always)]
+    fn work(self) {
+        self.1.work(self.0);
+    }
+}
+
+impl Precision for f64 {
+    fn kernel(couplings: &Couplings) -> Box<dyn StripKernel<Self>> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = pulp::x86::V4::try_new() {
+                return kernel(WideDouble(simd), couplings);
+            }
+            if let Some(simd) = pulp::x86::V3::try_new() {
+                return kernel(Double(simd), couplings);
+            }
+        }
+        kernel(Plain::<f64>::default(), couplings)
+    }
+
+    fn strips(strips: &Rc<Strips>) -> Rc<Strips> {
+        strips.clone()
+    }
+
+    fn stored(rows: &Rc<RefCell<StoredRows>>) -> Rc<RefCell<StoredRows>> {
+        rows.clone()
+    }
+
+    fn refresh(_: &Rc<RefCell<StoredRows>>, _: &Rc<RefCell<StoredRows>>) {}
+
+    fn on_rows(work: OnRows<f64>) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            return RowsWith(Double(simd), work).run();
+        }
+        RowsWith(Plain::default(), work).run();
+    }
+}
+
+impl Precision for f32 {
+    fn kernel(couplings: &Couplings) -> Box<dyn StripKernel<Self>> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = pulp::x86::V4::try_new() {
+                return kernel(WideSingle(simd), couplings);
+            }
+            if let Some(simd) = pulp::x86::V3::try_new() {
+                return kernel(Single(simd), couplings);
+            }
+        }
+        kernel(Plain::<f32>::default(), couplings)
+    }
+
+    fn strips(strips: &Rc<Strips>) -> Rc<Strips<f32>> {
+        Rc::new(strips.converted())
+    }
+
+    fn stored(rows: &Rc<RefCell<StoredRows>>) -> Rc<RefCell<StoredRows<f32>>> {
+        Rc::new(RefCell::new(rows.borrow().converted()))
+    }
+
+    fn refresh(rows: &Rc<RefCell<StoredRows>>, own: &Rc<RefCell<StoredRows<f32>>>) {
+        *own.borrow_mut() = rows.borrow().converted();
+    }
+
+    fn on_rows(work: OnRows<f32>) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            return RowsWith(Pair(simd), work).run();
+        }
+        RowsWith(Plain::default(), work).run();
+    }
+}

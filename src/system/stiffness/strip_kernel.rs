@@ -1,0 +1,477 @@
+//! Sweeps, residuals and products over strips, several nodes at once in registers.
+//!
+//! Of a sweep, all that does not depend on the node before is done for several nodes together. What remains is a
+//! recurrence, `x_k = t_k + P x_(k-1)`: in a register it is summed up by doubling steps, `x_k = s_k + P⁴ x_(k-4)`, so that
+//! registers wait for each other, and nodes do not (Hillis, Steele 1986). Rows of P2 with corners of triangles reach two
+//! nodes back: there the recurrence is one of pairs of nodes. Opposite couplings are alike, so neighbours are added first.
+
+use super::lanes::{Lanes, Work};
+use super::strips::{Couplings, Step, StripNodes, inverse};
+use crate::element::Block;
+use crate::system::space::Real;
+use nalgebra::Matrix4;
+
+/// Work on strips with the same couplings. Vectors hold all nodes of the rank.
+pub trait StripKernel<T> {
+    /// `y = K x` at the nodes of strips.
+    fn multiply(&self, strips: &[StripNodes], x: &[[T; 2]], y: &mut [[T; 2]]);
+
+    /// `r = b - K x` at the nodes of strips.
+    fn residual(&self, strips: &[StripNodes], b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]]);
+
+    /// Relaxes strip after strip, the nodes of each one after the other.
+    fn forward(&self, strips: &[StripNodes], b: &[[T; 2]], x: &mut [[T; 2]]);
+
+    /// The same from the last to the first.
+    fn backward(&self, strips: &[StripNodes], b: &[[T; 2]], x: &mut [[T; 2]]);
+}
+
+/// The kernel with given registers.
+pub fn kernel<L: Lanes>(lanes: L, couplings: &Couplings) -> Box<dyn StripKernel<L::Real>> {
+    match (couplings.up.len(), couplings.second) {
+        (2, false) => Box::new(Kernel::<L, 2, false>::new(lanes, couplings)),
+        (4, false) => Box::new(Kernel::<L, 4, false>::new(lanes, couplings)),
+        (7, true) => Box::new(Kernel::<L, 7, true>::new(lanes, couplings)),
+        (up, _) => panic!("a strip has 2, 4 or 7 steps to the next rows, not {up}"),
+    }
+}
+
+/// A kernel for `UP` steps to the next rows; `SECOND` as in [`Couplings`].
+struct Kernel<L: Lanes, const UP: usize, const SECOND: bool> {
+    lanes: L,
+    up: [Step; UP],
+    forward: Half<L, UP>,
+    backward: Half<L, UP>,
+    product: Product<L, UP>,
+    /// For nodes at the end of a strip that fill no register.
+    single: [NodeRow<L::Real>; 2],
+}
+
+/// A block for each node of a register: what it does to the component of the same name, and to the other one.
+struct Factor<L: Lanes> {
+    same: L::Register,
+    other: L::Register,
+}
+
+/// Half a sweep, all of it times `D⁻¹`.
+struct Half<L: Lanes, const UP: usize> {
+    right_hand_side: Factor<L>,
+    up: [Factor<L>; UP],
+    /// First and second neighbour on the side that is still to come.
+    beside: [Factor<L>; 2],
+    chain: Chain<L>,
+}
+
+/// The recurrence: steps that double, the last one of a whole register.
+struct Chain<L: Lanes> {
+    steps: [Factor<L>; 4],
+    /// Of pairs: what one node gets from the other kind.
+    crossed: [Factor<L>; 4],
+}
+
+/// `-K`.
+struct Product<L: Lanes, const UP: usize> {
+    own: Factor<L>,
+    up: [Factor<L>; UP],
+    beside: [Factor<L>; 2],
+}
+
+/// Couplings of one node to others, that with itself and its inverse.
+struct NodeRow<T> {
+    couplings: Vec<(Step, [[T; 2]; 2])>,
+    diagonal: [[T; 2]; 2],
+    inverse: [[T; 2]; 2],
+}
+
+impl<L: Lanes> Factor<L> {
+    /// For a sum: the components change places at its end.
+    fn of_sum(lanes: L, blocks: &[Block; 2]) -> Self {
+        Self::new(lanes, &blocks.map(|k| [[k[0][0], k[1][0]], [k[0][1], k[1][1]]]))
+    }
+
+    /// Blocks of even and odd nodes.
+    fn new(lanes: L, blocks: &[Block; 2]) -> Self {
+        let at = |k: usize, turned: bool| {
+            let (a, block) = (k % 2, &blocks[k / 2 % 2]);
+            L::Real::of(block[a][if turned { 1 - a } else { a }])
+        };
+        let register = |turned: bool| {
+            let nodes: Vec<[L::Real; 2]> = (0..L::COUNT).map(|node| [at(2 * node, turned), at(2 * node + 1, turned)]).collect();
+            lanes.load(L::chunks(&nodes)[0])
+        };
+        Self { same: register(false), other: register(true) }
+    }
+
+    /// `sum + M x`.
+    #[inline(always)]
+    fn add(&self, lanes: L, x: L::Register, sum: L::Register) -> L::Register {
+        lanes.multiply_add(self.other, lanes.turned(x), lanes.multiply_add(self.same, x, sum))
+    }
+}
+
+/// A sum of products with blocks. The parts for the other components are brought there once, at the end: their factors are
+/// those of transposed blocks ([`Factor::of_sum`]).
+struct Sum<L: Lanes> {
+    same: L::Register,
+    other: L::Register,
+}
+
+impl<L: Lanes> Sum<L> {
+    /// Of one product.
+    #[inline(always)]
+    fn of(lanes: L, factor: &Factor<L>, x: L::Register) -> Self {
+        Self { same: lanes.multiply(factor.same, x), other: lanes.multiply(factor.other, x) }
+    }
+
+    /// One product more.
+    #[inline(always)]
+    fn add(&mut self, lanes: L, factor: &Factor<L>, x: L::Register) {
+        self.same = lanes.multiply_add(factor.same, x, self.same);
+        self.other = lanes.multiply_add(factor.other, x, self.other);
+    }
+
+    #[inline(always)]
+    fn total(self, lanes: L) -> L::Register {
+        lanes.add(self.same, lanes.turned(self.other))
+    }
+}
+
+/// The way through a strip.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Forward,
+    Backward,
+}
+
+impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
+    /// Nodes beside a strip that it reaches.
+    const REACH: usize = if SECOND { 2 } else { 1 };
+
+    fn new(lanes: L, couplings: &Couplings) -> Self {
+        let up: [Step; UP] = couplings.up.as_slice().try_into().expect("as many steps");
+        let blocks = |step: Step| [0, 1].map(|kind| couplings.block(kind, step));
+        let inverses = blocks((0, 0)).map(|block| inverse(&block).expect("a stiffness has a diagonal"));
+        let negative = |step: Step| blocks(step).map(|block| block.map(|row| row.map(|v| -v)));
+        let scaled = |step: Step| {
+            let blocks = negative(step);
+            [0, 1].map(|kind| product(&inverses[kind], &blocks[kind]))
+        };
+        let half = |way: Way| Half {
+            right_hand_side: Factor::of_sum(lanes, &inverses),
+            up: up.map(|step| Factor::of_sum(lanes, &scaled(step))),
+            beside: [1, 2].map(|step| Factor::of_sum(lanes, &scaled((step, 0)))),
+            chain: if SECOND {
+                Chain::of_pairs(lanes, way, &scaled((1, 0)), &scaled((2, 0)))
+            } else {
+                Chain::of_nodes(lanes, &scaled((1, 0)))
+            },
+        };
+        let row = |kind: usize| NodeRow {
+            couplings: couplings.of(kind)[1..].iter().map(|(step, block)| (*step, rounded(block))).collect(),
+            diagonal: rounded(&couplings.of(kind)[0].1),
+            inverse: rounded(&inverses[kind]),
+        };
+        Self {
+            lanes,
+            up,
+            forward: half(Way::Forward),
+            backward: half(Way::Backward),
+            product: Product {
+                own: Factor::of_sum(lanes, &negative((0, 0))),
+                up: up.map(|step| Factor::of_sum(lanes, &negative(step))),
+                beside: [1, 2].map(|step| Factor::of_sum(lanes, &negative((step, 0)))),
+            },
+            single: [row(0), row(1)],
+        }
+    }
+
+    /// First nodes of the runs of the neighbours in the next rows and in those before.
+    #[inline(always)]
+    fn runs(&self, nodes: StripNodes) -> [[usize; 2]; UP] {
+        let start = |step: Step| nodes.first.wrapping_add_signed(nodes.distance(step));
+        self.up.map(|(di, dj)| [start((di, dj)), start((-di, -dj))])
+    }
+
+    /// `r -= K x` at the nodes of a strip, which `r` holds alone.
+    #[inline(always)]
+    fn residual(&self, nodes: StripNodes, x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
+        let (lanes, product) = (self.lanes, &self.product);
+        let registers = nodes.count / L::COUNT;
+        let chunks = |start: usize| &L::chunks(&x[start..])[..registers];
+        let up = self.runs(nodes).map(|starts| starts.map(chunks));
+        let own = chunks(nodes.first);
+        let beside = [1, Self::REACH].map(|reach| [chunks(nodes.first - reach), chunks(nodes.first + reach)]);
+        let sums = &mut L::chunks_mut(r)[..registers];
+        for k in 0..registers {
+            let mut sum = Sum::of(lanes, &product.own, lanes.load(own[k]));
+            sum.same = lanes.add(sum.same, lanes.load(sums[k]));
+            for (factor, run) in product.beside.iter().zip(&beside).take(Self::REACH) {
+                let [left, right] = run.map(|run| lanes.load(run[k]));
+                sum.add(lanes, factor, lanes.add(left, right));
+            }
+            for (factor, run) in product.up.iter().zip(&up) {
+                let [next, before] = run.map(|run| lanes.load(run[k]));
+                sum.add(lanes, factor, lanes.add(next, before));
+            }
+            sums[k] = lanes.store(sum.total(lanes));
+        }
+        for k in Self::rest(nodes) {
+            let row = &self.single[k % 2];
+            let own = times(&row.diagonal, x[nodes.first + k]).map(|v| -v);
+            r[k] = sum2(r[k], sum2(own, self.without_diagonal(nodes, k, x)));
+        }
+    }
+
+    /// Nodes of a strip that fill no register.
+    #[inline(always)]
+    fn rest(nodes: StripNodes) -> std::ops::Range<usize> {
+        nodes.count / L::COUNT * L::COUNT..nodes.count
+    }
+
+    /// `-(K - D) x` of one node.
+    #[inline(always)]
+    fn without_diagonal(&self, nodes: StripNodes, k: usize, x: &[[L::Real; 2]]) -> [L::Real; 2] {
+        let mut sum = [L::Real::default(); 2];
+        for (step, block) in &self.single[k % 2].couplings {
+            let y = x[(nodes.first + k).wrapping_add_signed(nodes.distance(*step))];
+            sum = sum2(sum, times(block, y).map(|v| -v));
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn relax(&self, nodes: StripNodes, k: usize, b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+        let sum = sum2(b[nodes.first + k], self.without_diagonal(nodes, k, x));
+        x[nodes.first + k] = times(&self.single[k % 2].inverse, sum);
+    }
+
+    /// The registers of a strip, one way.
+    #[inline(always)]
+    fn sweep(&self, way: Way, nodes: StripNodes, b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+        let (lanes, half) = (self.lanes, if way == Way::Forward { &self.forward } else { &self.backward });
+        let (first, registers) = (nodes.first, nodes.count / L::COUNT);
+        let count = registers * L::COUNT;
+        if registers == 0 {
+            return;
+        }
+        let starts = self.runs(nodes);
+        let mut state = State::<L>::new(lanes, way, match way {
+            Way::Forward => &x[first - Self::REACH..first],
+            Way::Backward => &x[first + count..][..Self::REACH],
+        });
+        let (before, rest) = x.split_at_mut(first - Self::REACH);
+        let (own, next) = rest.split_at_mut(count + 2 * Self::REACH);
+        let above = |start: usize| &L::chunks(&next[start - first - count - Self::REACH..])[..registers];
+        let up: [[&[L::Nodes]; 2]; UP] = starts.map(|[up, down]| [above(up), &L::chunks(&before[down..])[..registers]]);
+        let b = &L::chunks(&b[first..])[..registers];
+        for turn in 0..registers {
+            let k = if way == Way::Forward { turn } else { registers - 1 - turn };
+            let mut sum = Sum::of(lanes, &half.right_hand_side, lanes.load(b[k]));
+            for reach in 1..=Self::REACH {
+                let at = if way == Way::Forward { Self::REACH + reach } else { Self::REACH - reach };
+                let run = &own[at + k * L::COUNT..][..L::COUNT];
+                sum.add(lanes, &half.beside[reach - 1], lanes.load(L::chunks(run)[0]));
+            }
+            for (factor, run) in half.up.iter().zip(&up) {
+                let [next, before] = run.map(|run| lanes.load(run[k]));
+                sum.add(lanes, factor, lanes.add(next, before));
+            }
+            let relaxed = state.next::<SECOND>(lanes, way, &half.chain, sum.total(lanes));
+            L::chunks_mut(&mut own[Self::REACH + k * L::COUNT..][..L::COUNT])[0] = lanes.store(relaxed);
+        }
+    }
+}
+
+/// Where the recurrence stands: the last register before and after each step.
+struct State<L: Lanes> {
+    steps: [L::Register; 3],
+    relaxed: L::Register,
+}
+
+impl<L: Lanes> State<L> {
+    /// Beside a strip: `x` are the nodes that come before it on the way, as many as it reaches.
+    #[inline(always)]
+    fn new(lanes: L, way: Way, x: &[[L::Real; 2]]) -> Self {
+        let mut nodes = [[L::Real::default(); 2]; 8];
+        match way {
+            Way::Forward => nodes[L::COUNT - x.len()..L::COUNT].copy_from_slice(x),
+            Way::Backward => nodes[..x.len()].copy_from_slice(x),
+        }
+        let known = lanes.load(L::chunks(&nodes)[0]);
+        Self { steps: [known; 3], relaxed: known }
+    }
+
+    /// The next register on the way; `t` is what does not depend on the nodes before.
+    #[inline(always)]
+    fn next<const SECOND: bool>(&mut self, lanes: L, way: Way, chain: &Chain<L>, t: L::Register) -> L::Register {
+        let shifted = |step: usize, before: L::Register, a: L::Register| match (way, step) {
+            (Way::Forward, 0) => lanes.earlier::<1>(before, a),
+            (Way::Forward, 1) => lanes.earlier::<2>(before, a),
+            (Way::Forward, _) => lanes.earlier::<4>(before, a),
+            (Way::Backward, 0) => lanes.later::<1>(a, before),
+            (Way::Backward, 1) => lanes.later::<2>(a, before),
+            (Way::Backward, _) => lanes.later::<4>(a, before),
+        };
+        let mut sum = t;
+        let last = L::COUNT.trailing_zeros() as usize;
+        for step in 0..last {
+            let from = shifted(step, self.steps[step], sum);
+            self.steps[step] = sum;
+            sum = chain.steps[step].add(lanes, from, sum);
+            if SECOND && step > 0 {
+                sum = chain.crossed[step].add(lanes, lanes.crossed(from), sum);
+            }
+        }
+        let far = if SECOND { chain.crossed[last].add(lanes, lanes.crossed(self.relaxed), sum) } else { sum };
+        self.relaxed = chain.steps[last].add(lanes, self.relaxed, far);
+        self.relaxed
+    }
+}
+
+impl<L: Lanes> Chain<L> {
+    /// `x_k = t_k + P_k x_(k-1)`, `P` being that of even and odd nodes.
+    fn of_nodes(lanes: L, before: &[Block; 2]) -> Self {
+        // Over a step of one the nodes differ in kind, over longer ones they do not.
+        let mut power = [product(&before[0], &before[1]), product(&before[1], &before[0])];
+        let steps = std::array::from_fn(|step| match step {
+            0 => Factor::new(lanes, before),
+            _ => {
+                let factor = Factor::new(lanes, &power);
+                power = power.map(|block| product(&block, &block));
+                factor
+            }
+        });
+        Self { steps, crossed: std::array::from_fn(|_| Factor::new(lanes, &[[[0.0; 2]; 2]; 2])) }
+    }
+
+    /// The same where nodes that are even also reach the second one before: first inside of pairs, then from pair to pair by a
+    /// matrix `M`, then by `M²` and so on. On the way back the odd node of a pair comes first.
+    fn of_pairs(lanes: L, way: Way, one: &[Block; 2], two: &[Block; 2]) -> Self {
+        let zero = [[0.0; 2]; 2];
+        let [even, odd] = one;
+        // Blocks of a pair: from (even, odd) to (even, odd).
+        let (inside, mut pair) = match way {
+            Way::Forward => {
+                let (a, b) = (*even, two[0]);
+                ([zero, *odd], [[b, a], [product(odd, &b), product(odd, &a)]])
+            }
+            Way::Backward => {
+                let through = product(even, odd);
+                ([*even, zero], [[sum4(&through, &two[0]), zero], [*odd, zero]])
+            }
+        };
+        let mut steps = vec![Factor::new(lanes, &inside)];
+        let mut crossed = vec![Factor::new(lanes, &[zero, zero])];
+        for _ in 1..4 {
+            steps.push(Factor::new(lanes, &[pair[0][0], pair[1][1]]));
+            crossed.push(Factor::new(lanes, &[pair[0][1], pair[1][0]]));
+            pair = square(&pair);
+        }
+        let all = |factors: Vec<Factor<L>>| factors.try_into().unwrap_or_else(|_| unreachable!("four steps"));
+        Self { steps: all(steps), crossed: all(crossed) }
+    }
+}
+
+/// The square of a matrix of two by two blocks.
+fn square(pair: &[[Block; 2]; 2]) -> [[Block; 2]; 2] {
+    let entry = |i: usize, j: usize| pair[i / 2][j / 2][i % 2][j % 2];
+    let matrix = Matrix4::from_fn(entry);
+    let matrix = matrix * matrix;
+    std::array::from_fn(|i| std::array::from_fn(|j| std::array::from_fn(|a| std::array::from_fn(|b| matrix[(2 * i + a, 2 * j + b)]))))
+}
+
+/// What is to be done with the nodes of strips.
+enum Task<'a, T> {
+    Multiply { x: &'a [[T; 2]], y: &'a mut [[T; 2]] },
+    Residual { b: &'a [[T; 2]], x: &'a [[T; 2]], r: &'a mut [[T; 2]] },
+    Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+    Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+}
+
+/// A task on some strips.
+struct OnStrips<'a, L: Lanes, const UP: usize, const SECOND: bool> {
+    kernel: &'a Kernel<L, UP, SECOND>,
+    strips: &'a [StripNodes],
+    task: Task<'a, L::Real>,
+}
+
+impl<L: Lanes, const UP: usize, const SECOND: bool> Work for OnStrips<'_, L, UP, SECOND> {
+    #[inline(always)]
+    fn work(self) {
+        let Self { kernel, strips, task } = self;
+        match task {
+            Task::Multiply { x, y } => {
+                for &nodes in strips {
+                    let y = &mut y[nodes.range()];
+                    y.fill(Default::default());
+                    kernel.residual(nodes, x, y);
+                    y.iter_mut().for_each(|y| *y = [-y[0], -y[1]]);
+                }
+            }
+            Task::Residual { b, x, r } => {
+                for &nodes in strips {
+                    let r = &mut r[nodes.range()];
+                    r.copy_from_slice(&b[nodes.range()]);
+                    kernel.residual(nodes, x, r);
+                }
+            }
+            Task::Forward { b, x } => {
+                for &nodes in strips {
+                    kernel.sweep(Way::Forward, nodes, b, x);
+                    for k in Kernel::<L, UP, SECOND>::rest(nodes) {
+                        kernel.relax(nodes, k, b, x);
+                    }
+                }
+            }
+            Task::Backward { b, x } => {
+                for &nodes in strips.iter().rev() {
+                    for k in Kernel::<L, UP, SECOND>::rest(nodes).rev() {
+                        kernel.relax(nodes, k, b, x);
+                    }
+                    kernel.sweep(Way::Backward, nodes, b, x);
+                }
+            }
+        }
+    }
+}
+
+impl<L: Lanes, const UP: usize, const SECOND: bool> StripKernel<L::Real> for Kernel<L, UP, SECOND> {
+    fn multiply(&self, strips: &[StripNodes], x: &[[L::Real; 2]], y: &mut [[L::Real; 2]]) {
+        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Multiply { x, y } });
+    }
+
+    fn residual(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
+        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Residual { b, x, r } });
+    }
+
+    fn forward(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Forward { b, x } });
+    }
+
+    fn backward(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+        self.lanes.run(OnStrips { kernel: self, strips, task: Task::Backward { b, x } });
+    }
+}
+
+fn product(a: &Block, b: &Block) -> Block {
+    a.map(|row| [0, 1].map(|j| row[0] * b[0][j] + row[1] * b[1][j]))
+}
+
+fn sum4(a: &Block, b: &Block) -> Block {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
+}
+
+/// A block in another precision.
+fn rounded<T: Real>(block: &Block) -> [[T; 2]; 2] {
+    block.map(|row| row.map(T::of))
+}
+
+#[inline(always)]
+fn times<T: Real>(block: &[[T; 2]; 2], x: [T; 2]) -> [T; 2] {
+    block.map(|row| row[0] * x[0] + row[1] * x[1])
+}
+
+#[inline(always)]
+fn sum2<T: Real>(a: [T; 2], b: [T; 2]) -> [T; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
