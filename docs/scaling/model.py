@@ -21,12 +21,13 @@ ASSUMED = {
 # Name, words, unit.
 MEASURED = [
     ("unknown", "time t of an unknown and iteration, two ranks", "s"),
-    ("iterations", "iterations to 1e-12, most ranks", ""),
+    ("iterations", "iterations to 1e-8, most ranks, between those to 1e-6 and to 1e-12", ""),
     ("collectives", "reductions and gatherings c of an iteration", ""),
     ("waits", "latencies v on the critical path of an iteration, collectives apart", ""),
     ("messages", "messages of the busiest rank in an iteration, P → 0", ""),
     ("growth", "the same for each further rank", ""),
     ("bytes", "bytes that the busiest rank sends in an iteration, at the N/P below", "B"),
+    ("gathered", "bytes G that a rank hands to collectives in an iteration", "B"),
     ("share", "unknowns N/P of a rank there", ""),
     ("imbalance", "imbalance w of the work, 10 000 ranks", ""),
     ("memory", "memory for each unknown, two ranks", "B"),
@@ -46,12 +47,13 @@ def parameters(measured):
     dealt = max((line for line in measured["partitions"] if line["order"] == 1), key=lambda line: line["triangles"])
     return {
         "unknown": speed["iteration_s"] * speed["ranks"] / speed["unknowns"],
-        "iterations": last["iterations"],
+        "iterations": last["iterations"] - 2 / 3 * last["more"],
         "collectives": collectives,
         "waits": max(latency["latencies"] - collectives * steps, 0.0),
         "messages": y - growth * x,
         "growth": max(growth, 0.0),
-        "bytes": last["most"]["messages_bytes"] + last["most"]["gatherings_bytes"],
+        "bytes": last["most"]["messages_bytes"],
+        "gathered": last["most"]["reductions_bytes"] + last["most"]["gatherings_bytes"],
         "share": last["unknowns"] / last["ranks"],
         "imbalance": dealt["work"]["most"] / dealt["work"]["mean"],
         "memory": speed["bytes_per_unknown"],
@@ -75,8 +77,8 @@ def seconds(found, unknowns, ranks):
     work = found["unknown"] * share * value["socket"] * found["imbalance"]
     waits = value["latency"] * (found["collectives"] * math.log2(ranks) + visits * found["waits"])
     messages = value["overhead"] * visits * (found["messages"] + found["growth"] * ranks)
-    halo = found["bytes"] * math.sqrt(share / found["share"]) / value["bandwidth"]
-    return found["iterations"] * (work + waits + messages + halo)
+    carried = found["bytes"] * math.sqrt(share / found["share"]) + 2.0 * found["gathered"]
+    return found["iterations"] * (work + waits + messages + carried / value["bandwidth"])
 
 
 def words(found, unknowns, ranks):

@@ -33,10 +33,9 @@ def number(value, digits=3):
     """So many digits; thousands apart."""
     if value == 0:
         return "0"
-    text = f"{value:.{digits}g}"
-    if "e" in text or abs(value) >= 10**digits:
-        text = f"{round(value):,}".replace(",", " ")
-    return text
+    if abs(value) >= 10**(digits - 1):
+        return f"{round(value):,}".replace(",", " ")
+    return f"{value:.{digits}g}"
 
 
 def fit(points):
@@ -61,12 +60,13 @@ def counts_section(lines):
     ]
     for order in sorted({line["order"] for line in lines}):
         own = [line for line in lines if line["order"] == order]
-        head = ["ranks", "iterations to 1e-12", "reductions", "gatherings", "messages of a rank, mean", "most", "KiB sent by a rank, most", "neighbours, most"]
+        head = ["ranks", "iterations to 1e-12", "reductions", "gatherings", "messages of a rank, mean", "most", "KiB sent by a rank, most", "KiB in collectives", "neighbours, most"]
         rows = [
             [
                 line["ranks"], line["iterations"], number(line["most"]["reductions"], 2), number(line["most"]["gatherings"], 2),
                 number(line["mean"]["messages"]), number(line["most"]["messages"]),
-                number((line["most"]["messages_bytes"] + line["most"]["gatherings_bytes"]) / 1024), line["neighbours"],
+                number(line["most"]["messages_bytes"] / 1024),
+                number((line["most"]["reductions_bytes"] + line["most"]["gatherings_bytes"]) / 1024), round(line["neighbours"]),
             ]
             for line in own
         ]
@@ -86,7 +86,7 @@ def messages_fit(lines):
     each = [line["mean"]["messages"] / max(line["neighbours"], 1) for line in (first, last)]
     return (
         f"From {first['ranks']} to {last['ranks']} ranks P, by least squares: {texts[0]}, {texts[1]} in an iteration. A part of the "
-        f"growth is that of the neighbours, from {first['neighbours']} to {last['neighbours']} at most: a few ranks have few sides. "
+        f"growth is that of the neighbours, from {first['neighbours']:.0f} to {last['neighbours']:.0f} at most: a few ranks have few sides. "
         f"For each of those a rank sends {number(each[0])} messages on {first['ranks']} ranks, {number(each[1])} on {last['ranks']}."
     )
 
@@ -170,11 +170,11 @@ def model_section(measured):
     return "\n\n".join([
         "## What follows for larger machines",
         "A model, not a measurement. An iteration on N unknowns and P ranks takes",
-        "    T = t N/P s w  +  α (c log₂ P + v)  +  o m  +  B/β",
+        "    T = t N/P s w  +  α (c log₂ P + v)  +  o m  +  (B + 2 G)/β",
         "with the time t of an unknown, the slowdown s of a full socket, the imbalance w, the collectives c, the waits v, the messages m "
-        "and the bytes B of a rank. Waits and messages were counted on a hierarchy of L₀ levels; on L levels they are "
+        "and the bytes B of a rank, and the bytes G that it hands to collectives. Waits and messages were counted on a hierarchy of L₀ levels; on L levels they are "
         "L(L+1)/(L₀(L₀+1)) times as many, as often as an F-cycle comes to a level. Halos grow as the root of N/P. Levels below the "
-        "gathered size are worked on by every rank and cost no messages. A solve makes the iterations that were counted. "
+        "gathered size are worked on by every rank and cost no messages. A solve, to 1e-8, makes as many iterations as one here. "
         "What grows with P beyond that in the counts above is in the model, too.",
         "Measured (P1):",
         table(["what", "value", "unit"], shown),
