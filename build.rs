@@ -15,7 +15,7 @@ const FUNCTIONS: &[&str] = &[
     // vector, gather, index_set
     "Vec(Create|SetSizes|SetType|SetOption|Duplicate|Destroy|GetArray|RestoreArray|GetArrayRead|RestoreArrayRead)",
     "Vec(GetLocalSize|GetSize|GetOwnershipRange|SetValues|AssemblyBegin|AssemblyEnd|Set|Norm|Dot|AXPY|Copy|Scale)",
-    "VecCreateSeq|VecScatter(Create|Begin|End|Destroy)",
+    "VecCreate(Seq|SeqWithArray|MPIWithArray)|Vec(Place|Reset)Array|VecScatter(Create|Begin|End|Destroy)",
     "IS(CreateStride|CreateGeneral|Destroy|GetLocalSize|GetIndices|RestoreIndices)",
     // matrix, nest, shell
     "Mat(Create|SetSizes|SetType|Duplicate|AXPY|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",

@@ -50,6 +50,8 @@ pub struct MacroStiffness {
     /// Lattice intervals of the stored rows.
     stored: usize,
     order: Order,
+    /// Whether the rows are those of the nodes on the sides alone.
+    sides: bool,
     rows: Vec<Block>,
 }
 
@@ -60,7 +62,18 @@ impl MacroStiffness {
     /// [`BadJacobian`] if one of its triangles is turned inside out.
     pub fn new(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneStrain) -> Result<Self, BadJacobian> {
         let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
-        Self::of_shapes(mesh, triangle, level, law, shapes)
+        Self::of_shapes(mesh, triangle, level, law, shapes, false)
+    }
+
+    /// The rows of the nodes on the sides alone, for work and memory that grow with their number. Of the triangles that are
+    /// turned inside out it finds those with a node there.
+    ///
+    /// # Errors
+    /// As [`MacroStiffness::new`].
+    pub fn of_sides(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneStrain) -> Result<Self, BadJacobian> {
+        let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
+        let few = shapes.as_ref().is_some_and(Shapes::is_one);
+        Self::of_shapes(mesh, triangle, level, law, shapes, !few)
     }
 
     /// The same from the shapes of its triangles; without them each is integrated by itself.
@@ -70,13 +83,14 @@ impl MacroStiffness {
         level: Level,
         law: &PlaneStrain,
         shapes: Option<Shapes>,
+        sides: bool,
     ) -> Result<Self, BadJacobian> {
         let n = level.intervals;
         let even = shapes.as_ref().is_some_and(Shapes::is_one);
         let stored = if even { n.min(3 * level.order.degree()) } else { n };
         let width = 2 * level.order.degree() + 1;
-        let rows = vec![[[0.0; 2]; 2]; lattice::node_count(stored) * width * width];
-        let mut all = Self { n, stored, order: level.order, rows };
+        let count = if sides { 3 * n } else { lattice::node_count(stored) };
+        let mut all = Self { n, stored, order: level.order, sides, rows: vec![[[0.0; 2]; 2]; count * width * width] };
         match (level.order, shapes) {
             (Order::P1, Some(shapes)) => all.repeat::<3>(mesh, triangle, law, &shapes)?,
             (Order::P2, Some(shapes)) => all.repeat::<6>(mesh, triangle, law, &shapes)?,
@@ -89,7 +103,7 @@ impl MacroStiffness {
     /// Each triangle by itself.
     fn integrate<const N: usize>(&mut self, mesh: &MacroMesh, triangle: usize, law: &PlaneStrain) -> Result<(), BadJacobian> {
         let level = Level { intervals: self.n, order: self.order };
-        for small in lattice::triangles(self.n, self.order) {
+        for small in self.triangles() {
             let nodes = small.nodes::<N>();
             self.add(&nodes, &stiffness::<N>(&positions(mesh, triangle, level, &nodes), law, false)?);
         }
@@ -105,7 +119,7 @@ impl MacroStiffness {
         shapes: &Shapes,
     ) -> Result<(), BadJacobian> {
         let mut known: [Option<[[Block; N]; N]>; Shapes::COUNT] = [None; Shapes::COUNT];
-        for small in lattice::triangles(self.stored, self.order) {
+        for small in self.triangles() {
             let shape = shapes.of(small.nodes::<3>());
             let k = match known[shape] {
                 Some(k) => k,
@@ -120,10 +134,31 @@ impl MacroStiffness {
         Ok(())
     }
 
+    /// The triangles of the stored rows.
+    fn triangles(&self) -> impl Iterator<Item = lattice::Triangle> + use<> {
+        let sides = self.sides.then(|| lattice::side_triangles(self.stored, self.order));
+        let all = (!self.sides).then(|| lattice::triangles(self.stored, self.order));
+        sides.into_iter().flatten().chain(all.into_iter().flatten())
+    }
+
+    /// Place of a node's first block; nothing if its row is not stored.
+    #[inline]
+    fn start(&self, i: usize, j: usize) -> Option<usize> {
+        let index = match self.sides {
+            false => lattice::index(self.stored, i, j),
+            true => match lattice::place(self.n, i, j) {
+                lattice::Place::Corner(corner) => self.n * corner,
+                lattice::Place::Side { side, position } => self.n * side + position,
+                lattice::Place::Inside(_) => return None,
+            },
+        };
+        Some(index * self.width() * self.width())
+    }
+
     /// Adds the stiffness of one triangle to the rows of its nodes.
     fn add<const N: usize>(&mut self, nodes: &[(usize, usize); N], k: &[[Block; N]; N]) {
         for (a, row) in nodes.iter().zip(k) {
-            let start = lattice::index(self.stored, a.0, a.1) * self.width() * self.width();
+            let Some(start) = self.start(a.0, a.1) else { continue };
             for (b, block) in nodes.iter().zip(row) {
                 let slot = self.slot(b.0 as isize - a.0 as isize, b.1 as isize - a.1 as isize);
                 let sum = &mut self.rows[start + slot];
@@ -145,11 +180,14 @@ impl MacroStiffness {
         ((dj + reach) * (2 * reach + 1) + di + reach) as usize
     }
 
-    /// Couplings of node `(i, j)`: `(steps to the other node, block)`; only nodes of the lattice.
+    /// Couplings of node `(i, j)`: `(the other node, block)`; only nodes of the lattice.
+    ///
+    /// # Panics
+    /// If the rows are those of the sides and the node lies on none.
     #[inline]
     pub fn row(&self, i: usize, j: usize) -> impl Iterator<Item = ((usize, usize), &Block)> {
         let (ri, rj) = self.representative(i, j);
-        let start = lattice::index(self.stored, ri, rj) * self.width() * self.width();
+        let start = self.start(ri, rj).expect("a row that is stored");
         neighbours(self.order, i, j).iter().filter_map(move |&(di, dj)| {
             let (i, j) = (i.wrapping_add_signed(di), j.wrapping_add_signed(dj));
             let inside = i <= self.n && j <= self.n && i + j <= self.n;
@@ -195,7 +233,7 @@ mod tests {
     /// Rows of a macro triangle, once as they are made and once with every triangle integrated by itself.
     fn both(mesh: &MacroMesh, triangle: usize, level: Level) -> [MacroStiffness; 2] {
         [Some(mesh.shapes(triangle, level)), None]
-            .map(|shapes| MacroStiffness::of_shapes(mesh, triangle, level, &LAW, shapes).expect("a good triangle"))
+            .map(|shapes| MacroStiffness::of_shapes(mesh, triangle, level, &LAW, shapes, false).expect("a good triangle"))
     }
 
     fn check_rows([few, all]: [MacroStiffness; 2], words: &str) {
@@ -229,6 +267,24 @@ mod tests {
                 let level = Level { intervals: order.degree() << refine, order };
                 for triangle in (0..mesh.triangles.len()).filter(|&triangle| mesh.is_graded(triangle)) {
                     check_rows(both(&mesh, triangle, level), &format!("{graded:?}, triangle {triangle}, {level:?}"));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rows_of_the_sides_are_those_of_the_whole() {
+        let mut mesh = two_blocks();
+        let circle = Curve::Circle { centre: [1.0, -2.0], radius: 10f64.sqrt() };
+        mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
+        mesh.grade([2.0, 2.0].into(), 0.2).expect("a vertex");
+        for (order, n) in [(Order::P1, 1), (Order::P1, 2), (Order::P1, 8), (Order::P2, 2), (Order::P2, 4), (Order::P2, 16)] {
+            let level = Level { intervals: n, order };
+            for triangle in 0..mesh.triangles.len() {
+                let all = MacroStiffness::new(&mesh, triangle, level, &LAW).expect("a good triangle");
+                let sides = MacroStiffness::of_sides(&mesh, triangle, level, &LAW).expect("a good triangle");
+                for (i, j) in lattice::nodes(n).filter(|&(i, j)| !matches!(lattice::place(n, i, j), lattice::Place::Inside(_))) {
+                    assert!(all.row(i, j).eq(sides.row(i, j)), "triangle {triangle}, {level:?}, node ({i}, {j})");
                 }
             }
         }

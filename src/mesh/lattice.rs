@@ -95,6 +95,22 @@ pub fn triangles(n: usize, order: Order) -> impl Iterator<Item = Triangle> {
     })
 }
 
+/// Those triangles of the lattice that have a node on one of its sides, in the order of [`triangles`].
+pub fn side_triangles(n: usize, order: Order) -> impl Iterator<Item = Triangle> {
+    let step = order.degree();
+    let count = n / step;
+    (0..count).flat_map(move |j| {
+        // The first of a row, and the last two: the hypotenuses of the others lie inside.
+        let last = (count - j).saturating_sub(2).max(1);
+        let middle = if j == 0 { 1..last } else { last..last };
+        (0..1).chain(middle).chain(last..count - j).flat_map(move |i| {
+            let up = Triangle { i: step * i, j: step * j, step, down: false };
+            let down = Triangle { i: step * (i + 1), j: step * (j + 1), step, down: true };
+            [Some(up), (i + j + 2 <= count).then_some(down)].into_iter().flatten()
+        })
+    })
+}
+
 /// One triangle of a lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Triangle {
@@ -183,6 +199,20 @@ mod tests {
                 let d = |p: (usize, usize)| (p.0 as i64 - a.0 as i64, p.1 as i64 - a.1 as i64);
                 let (b, c) = (d(b), d(c));
                 assert_eq!(b.0 * c.1 - b.1 * c.0, (order.degree() * order.degree()) as i64, "counter-clockwise");
+            }
+        }
+    }
+
+    #[test]
+    fn triangles_at_the_sides_are_those_with_a_node_there() {
+        let on_side = |n, (i, j)| !matches!(place(n, i, j), Place::Inside(_));
+        for (order, counts) in [(Order::P1, 1..10), (Order::P2, 1..7)] {
+            for n in counts.map(|count| count * order.degree()) {
+                let found: HashSet<_> = side_triangles(n, order).map(|t| t.nodes::<3>()).collect();
+                let all = triangles(n, order).map(|t| t.nodes::<3>());
+                let wanted: HashSet<_> = all.filter(|nodes| nodes.iter().any(|&node| on_side(n, node))).collect();
+                assert!(wanted.is_subset(&found), "n = {n}");
+                assert!(found.len() == side_triangles(n, order).count() && found.len() <= wanted.len() + n, "n = {n}: each once");
             }
         }
     }

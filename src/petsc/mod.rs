@@ -28,6 +28,7 @@ mod shell;
 mod stage;
 mod vector;
 pub mod versions;
+mod window;
 
 pub use collective::Datum;
 pub use error::{Error, Result, errors_are_final};
@@ -41,6 +42,7 @@ pub use multigrid::MultigridLevel;
 pub use partition::partition;
 pub use preconditioner::Preconditioner;
 pub use session::{Session, end_all_ranks};
-pub use shell::{Action, Operator, Transfer};
+pub use shell::{Action, Operator, Product, Transfer};
 pub use stage::{Stage, StageGuard};
 pub use vector::Vector;
+pub use window::Window;

@@ -47,6 +47,12 @@ pub trait Transfer {
     fn work(&self) -> f64;
 }
 
+/// A square matrix by its products alone. **Collective**; an error must be one on all ranks.
+pub trait Product {
+    /// `y = A x`.
+    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
+}
+
 /// What a preconditioner does. **Collective**; an error must be one on all ranks.
 pub trait Action {
     /// `y = M⁻¹ x`.
@@ -61,6 +67,7 @@ struct Context<T: ?Sized> {
 
 type Square = dyn Operator;
 type Rectangular = dyn Transfer;
+type Multiplied = dyn Product;
 type Code = ffi::PetscErrorCode;
 
 impl Matrix {
@@ -76,6 +83,14 @@ impl Matrix {
             set(ffi::MatOperation::MATOP_GET_DIAGONAL, mem::transmute::<One, Plain>(operator::diagonal))?;
             set(ffi::MatOperation::MATOP_NORM, mem::transmute::<Norm, Plain>(operator::norm))?;
         }
+        Ok(matrix)
+    }
+
+    /// A square matrix with `rows` rows and columns on this rank that knows its products alone. **Collective**
+    pub fn product(session: &Session, rows: usize, action: Box<dyn Product>) -> Result<Self> {
+        let matrix = Self::shell(session, rows, rows, action)?;
+        let multiply = unsafe { mem::transmute::<Two, Plain>(product) };
+        petsc!(MatShellSetOperation(matrix.raw(), ffi::MatOperation::MATOP_MULT, Some(multiply)))?;
         Ok(matrix)
     }
 
@@ -168,6 +183,11 @@ fn report(action: impl FnOnce() -> Result<()>) -> Code {
 unsafe extern "C" fn drop_context<T: ?Sized>(context: *mut c_void) -> Code {
     drop(unsafe { Box::from_raw(context.cast::<Context<T>>()) });
     0
+}
+
+/// [`Product`] as PETSc calls it.
+unsafe extern "C" fn product(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
+    act(matrix, |action: &Multiplied, session| action.multiply(&Lent::new(session, x), &mut Lent::new(session, y)))
 }
 
 /// [`Operator`] as PETSc calls it.

@@ -1,7 +1,10 @@
 //! The system of one contact boundary with its state: the active set, the unknowns, and what solves it.
 
 use super::stiffness::Stiffness;
-use super::{Discretisation, Interpolation, LinearSolve, LinearSolver, Preconditioning, SaddlePoint, SolverChoice, Space, SystemError, inf_sup};
+use super::{
+    Discretisation, Interpolation, LinearSolve, LinearSolver, Preconditioning, SaddlePoint, SolverChoice, Space, SystemError,
+    inf_sup,
+};
 use crate::petsc::{Matrix, Session, Vector};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -165,21 +168,21 @@ impl<'a> System<'a> {
         Ok((r, norms))
     }
 
-    /// Relative residual of the plain system, without augmentation. **Collective**
-    pub fn plain_residual(&self) -> Result<f64, SystemError> {
-        let (r, _) = self.residual_of(&self.unknowns)?;
-        self.blocks.plain_residual(&r, self.right_hand_side()?, self.space(), &self.session)
+    /// Residual of the unknowns, and the relative one of the plain system, without augmentation. **Collective**
+    pub fn both_residuals(&self) -> Result<(Residual, f64), SystemError> {
+        let (r, residual) = self.residual_of(&self.unknowns)?;
+        Ok((residual, self.blocks.plain_residual(r, self.right_hand_side()?, self.space(), &self.session)?))
     }
 
-    /// This rank's displacements in the nodes' frames, zero where they are prescribed.
-    pub fn free_displacement(&self) -> Vec<f64> {
-        self.unknowns.values()[..self.space().local_unknowns()].to_vec()
+    /// Shows this rank's displacements in the nodes' frames, zero where they are prescribed.
+    pub fn with_free_displacement<T>(&self, with: impl FnOnce(&[f64]) -> T) -> T {
+        with(&self.unknowns.values()[..self.space().local_unknowns()])
     }
 
-    /// The same with those that are prescribed.
+    /// This rank's displacements in the nodes' frames, with those that are prescribed.
     pub fn displacement(&self) -> Vec<f64> {
         let space = self.space();
-        let mut displacement = self.free_displacement();
+        let mut displacement = self.with_free_displacement(<[f64]>::to_vec);
         for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
             for k in (0..2).filter(|&k| constraint.fixed[k]) {
                 displacement[2 * (node - space.own.start) + k] = constraint.value[k];

@@ -11,7 +11,15 @@ pub type Components = [f64; 2];
 
 /// Numbers that a preconditioner may work with: in double or in single precision.
 pub trait Real:
-    Copy + Default + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> + AddAssign + 'static
+    Copy
+    + Default
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + 'static
 {
     /// Rounded to this precision.
     fn of(value: f64) -> Self;

@@ -5,10 +5,13 @@ mod bars;
 mod launch;
 
 use launch::{Suite, named};
+use mezha::body::Support;
 use mezha::element::Order;
+use mezha::geometry::{Curve, Formula};
 use mezha::mesh::lattice;
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
-use mezha::system::{Discretisation, Elastic, Form, Space, interpolations};
+use mezha::system::recovery::strain_energy;
+use mezha::system::{Discretisation, Elastic, Field, Form, Space, interpolations};
 
 fn main() -> std::process::ExitCode {
     Suite {
@@ -16,6 +19,7 @@ fn main() -> std::process::ExitCode {
         checks: named![
             strips_act_like_stored_rows,
             expanded_strips_are_the_stored_matrix,
+            the_energy_of_a_product_is_that_of_the_triangles,
             a_sweep_is_symmetric_and_reduces_the_error,
             solvers_of_petsc_take_strips,
             halved_rows_interpolate_linear_motions_exactly,
@@ -98,6 +102,52 @@ fn expanded_strips_are_the_stored_matrix(session: &Session) {
         assert_eq!(expanded.nonzeros().expect("counted"), stored.nonzeros().expect("counted"));
         let x = erratic(&problem, stored, 0.1);
         assert!(apart(product(&expanded, &x), &product(stored, &x)) < 1e-14);
+    }
+}
+
+/// The bars with a bent top, which is pressed down, and a corner towards which they are refined.
+fn bent(session: &Session, order: Order, refine: usize) -> Discretisation {
+    let mut scene = bars::scene(session, order, refine, true);
+    let mut mesh = (*scene.mesh).clone();
+    let (rise, half) = (0.08, 3.0);
+    let radius = (half * half + rise * rise) / (2.0 * rise);
+    let circle = Curve::Circle { centre: [half, 6.0 + rise - radius], radius };
+    mesh.bend("arc", &["top".into()], &circle).expect("the vertices lie near it");
+    let down = Some(Formula::constant(-0.25));
+    scene.supports.push(Support { name: "press".into(), on: vec!["top".into()], ux: None, uy: None, normal: down });
+    scene.mesh = std::rc::Rc::new(mesh);
+    Discretisation::new(scene, session).expect("a discretisation")
+}
+
+/// A rank that left out what triangles of others add to its rows would have another energy, and other forces.
+fn the_energy_of_a_product_is_that_of_the_triangles(session: &Session) {
+    for (order, refine) in [(Order::P1, 0), (Order::P1, 1), (Order::P1, 4), (Order::P2, 0), (Order::P2, 1), (Order::P2, 3)] {
+        let problem = bent(session, order, refine);
+        let elastic = both(&problem, session);
+        let x = erratic(&problem, finest(&elastic[0]), 0.6);
+        let energy = |x: &Vector| {
+            let u = Field::displacement(&problem, &x.values(), session).expect("displacements");
+            strain_energy(&problem, &u, session).expect("an energy")
+        };
+        // With what is prescribed: ½ (u + p)·K (u + p) = ½ u·K u - u·f + E(p), f being the forces of p.
+        let mut prescribed = x.duplicate().expect("a vector");
+        let space = problem.finest();
+        for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
+            let at = 2 * (node - space.own.start);
+            prescribed.values_mut()[at..at + 2].copy_from_slice(constraint.prescribed().as_slice());
+        }
+        let mut sum = x.duplicate().expect("a vector");
+        sum.values_mut().copy_from_slice(&x.values());
+        sum.axpy(1.0, &prescribed).expect("of one layout");
+        for elastic in &elastic {
+            let whole = 0.5 * product(finest(elastic), &x).dot(&x).expect("an inner product");
+            let mut work = [elastic.load.iter().zip(x.values().iter()).map(|(force, u)| force * u).sum::<f64>()];
+            session.sum(&mut work);
+            assert!((whole / energy(&x) - 1.0).abs() < 1e-12, "{order:?}, refine = {refine}: {whole} {}", energy(&x));
+            let expected = energy(&sum) - energy(&prescribed) - energy(&x);
+            assert!((work[0] + expected).abs() < 1e-10 * whole, "{order:?}, refine = {refine}: {} {expected}", work[0]);
+            assert!(expected.abs() > 1e-6 * whole, "there is something to compare");
+        }
     }
 }
 

@@ -8,9 +8,9 @@
 mod coarsest;
 mod level;
 
+use super::SystemError;
 use super::interpolation::{GATHERED, Interpolation, NodeInterpolation};
 use super::stiffness::{Precision, Stiffness};
-use super::SystemError;
 use crate::petsc::{Action, Datum, Result, Session, Vector};
 use coarsest::Coarsest;
 use level::Level;
@@ -33,18 +33,16 @@ impl<T: Precision + Datum> FullCycle<T> {
         interpolations: &[Interpolation],
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
-        let rows: Option<Vec<_>> = stiffness.iter().map(|stiffness| stiffness.lattice().cloned()).collect();
+        let rows: Vec<_> = stiffness.iter().map(|stiffness| stiffness.lattice().clone()).collect();
         let steps: Option<Vec<Rc<NodeInterpolation>>> = interpolations.iter().map(|step| step.nodes.clone()).collect();
-        let (Some(rows), Some(steps)) = (rows, steps) else { return Ok(None) };
+        let Some(steps) = steps else { return Ok(None) };
         if rows.len() < 2 || steps.len() + 1 != rows.len() {
             return Ok(None);
         }
         let coarsest = Coarsest::new(&rows[0], session)?;
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
-        let gathered: Vec<bool> = rows
-            .iter()
-            .map(|rows| 2 * session.gather_counts(rows.node_count()).iter().sum::<usize>() <= GATHERED)
-            .collect();
+        let gathered: Vec<bool> =
+            rows.iter().map(|rows| 2 * session.gather_counts(rows.node_count()).iter().sum::<usize>() <= GATHERED).collect();
         let below = |l: usize| gathered[l.saturating_sub(1)];
         let levels = rows.into_iter().zip(steps).enumerate();
         let levels = levels.map(|(l, (rows, step))| Level::new(rows, step, [gathered[l], below(l)], session)).collect();

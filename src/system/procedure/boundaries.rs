@@ -8,8 +8,8 @@ use super::observer::{Event, Work};
 use super::pass::Pass;
 use super::settings::Procedure;
 use crate::system::{
-    Interpolation,    BoundaryMotion, Contact, Discretisation, Elastic, Form, Preconditioning, SaddlePoint, Solution, Start, System, SystemError,
-    Tolerance, interpolations, load, nodal_forces,
+    BoundaryMotion, Contact, Discretisation, Elastic, Form, Interpolation, Preconditioning, SaddlePoint, Solution, Start, System,
+    SystemError, Tolerance, interpolations, load, nodal_forces,
 };
 use std::rc::Rc;
 

@@ -264,9 +264,10 @@ pub(super) fn coarse_values(
     };
     let corners = [node(0, 0), node(half, 0), node(0, half)];
     let l = mesh.place_in_parent(triangle, level.intervals / 2, corners, l);
+    let nothing = ((0, 0), 0.0);
     let all = match order {
-        Order::P1 => vec![(node(0, 0), l[0]), (node(1, 0), l[1]), (node(0, 1), l[2])],
-        Order::P2 => vec![
+        Order::P1 => [(node(0, 0), l[0]), (node(1, 0), l[1]), (node(0, 1), l[2]), nothing, nothing, nothing],
+        Order::P2 => [
             (node(0, 0), l[0] * (2.0 * l[0] - 1.0)),
             (node(2, 0), l[1] * (2.0 * l[1] - 1.0)),
             (node(0, 2), l[2] * (2.0 * l[2] - 1.0)),

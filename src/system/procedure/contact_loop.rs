@@ -149,7 +149,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             true if is_carried => last.max(LOOK * system.residual()?.relative()),
             true => last.max(share * LOOSE),
         };
-        let (before, wanted) = (system.free_displacement(), tolerance.residual());
+        let (before, wanted) = (system.with_free_displacement(<[f64]>::to_vec), tolerance.residual());
         Ok(Self { system, set, position, wanted, share, tolerance: last, goal, is_carried, kept: 0, before, passes: Vec::new() })
     }
 
@@ -357,15 +357,17 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
 
     /// The solution of the last pass. **Collective**
     fn finish(self, ending: Ending) -> Result<LoopOutcome, SystemError> {
-        let Self { system, share, .. } = self;
-        let residual = system.residual()?;
+        let Self { system, share, before, .. } = self;
+        // Its memory is what the solution takes.
+        drop(before);
+        let (residual, plain_residual) = system.both_residuals()?;
         let whole = share * residual.whole;
         let solution = Solution {
             displacement: system.displacement(),
             multipliers: system.pressures(),
             active: system.active().to_vec(),
             residual: if whole == 0.0 { 0.0 } else { residual.norm / whole },
-            plain_residual: system.plain_residual()? / share,
+            plain_residual: plain_residual / share,
             inf_sup: Vec::new(),
             duals: Vec::new(),
         };
@@ -374,9 +376,11 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
 
     /// Change of the displacement since the last call, relative to its norm. **Collective**
     fn change(&mut self) -> f64 {
-        let now = self.system.free_displacement();
-        let then = std::mem::replace(&mut self.before, now);
-        relative_change(&self.before, &then, self.system.session())
+        self.system.with_free_displacement(|now| {
+            let change = relative_change(now, &self.before, self.system.session());
+            self.before.copy_from_slice(now);
+            change
+        })
     }
 }
 

@@ -28,7 +28,7 @@ impl ContactState {
         let mut lambda = system.pressures();
         lambda.iter_mut().zip(system.active()).filter(|(_, active)| !**active).for_each(|(value, _)| *value = 0.0);
         let jumps = system.jump_term(&lambda);
-        let mut penetration = system.penetration(&system.free_displacement());
+        let mut penetration = system.with_free_displacement(|u| system.penetration(u));
         penetration.iter_mut().zip(&jumps).for_each(|(sum, jump)| *sum -= jump);
         Self { lambda, penetration, penalty: penalties(system.problem()) }
     }

@@ -13,7 +13,9 @@
 
 mod augmentation;
 mod coupling_rows;
+mod load;
 mod multiplier_blocks;
+mod transposed;
 
 pub use multiplier_blocks::SchurPattern;
 
@@ -24,6 +26,7 @@ use crate::mesh::EdgeNode;
 use crate::petsc::{Matrix, Session, Vector};
 use augmentation::Augmentation;
 use coupling_rows::CouplingRows;
+use load::Load;
 use multiplier_blocks::MultiplierBlocks;
 
 /// The blocks and their levels for one active set at a time.
@@ -34,6 +37,8 @@ pub struct SaddlePoint {
     pub multipliers: MultiplierBlocks,
     /// All four blocks.
     pub nest: Matrix,
+    /// What they do to a vector, with as few messages as can be.
+    pub product: Matrix,
     /// `c - B u_D` (length squared).
     gap: Vec<f64>,
     /// The set that all blocks are those of.
@@ -42,7 +47,7 @@ pub struct SaddlePoint {
     augmentation: Augmentation,
     rows: Vec<CouplingRows>,
     form: Form,
-    load: Vec<f64>,
+    load: Load,
 }
 
 impl SaddlePoint {
@@ -74,12 +79,12 @@ impl SaddlePoint {
         let mut augmentation = Augmentation::new(&problem.contacts);
         let groups = if form == Form::Augmented { augmentation.groups_of(all.iter().copied()) } else { Default::default() };
         let change = augmentation.change(&groups, &problem.contacts, &active);
-        let multipliers = MultiplierBlocks::new(problem, &rows[rows.len() - 1], &augmentation, session)?;
+        let multipliers = MultiplierBlocks::new(problem, &rows[rows.len() - 1], &augmentation, form, session)?;
         let finest = &stiffness[stiffness.len() - 1];
-        let nest =
-            Matrix::nest(session, [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]])?;
-        let gap = moved_gap(problem);
-        let mut system = Self { stiffness, multipliers, nest, gap, active, augmentation, rows, form, load };
+        let blocks = [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]];
+        let (nest, product) = (Matrix::nest(session, blocks)?, Matrix::nest_product(session, blocks)?);
+        let (gap, load) = (moved_gap(problem), Load::new(load));
+        let mut system = Self { stiffness, multipliers, nest, product, gap, active, augmentation, rows, form, load };
         system.augment(problem, &change)?;
         system.fill(problem, &all)?;
         Ok(system)
@@ -132,13 +137,17 @@ impl SaddlePoint {
     /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it; `None` if they are.
     /// **Collective**
     pub fn stored_nest(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
-        if self.multipliers.scale.is_empty() {
-            // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
-            return Ok(Some(self.nest.convert_aij()?));
-        }
-        let Some(stiffness) = self.finest_stiffness().expanded(session)? else { return Ok(None) };
         let blocks = &self.multipliers;
-        Ok(Some(Matrix::nest(session, [[&stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?))
+        let expanded = self.finest_stiffness().expanded(session)?;
+        let stored = match &expanded {
+            Some(stiffness) => Some(Matrix::nest(session, [[stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?),
+            None => None,
+        };
+        if blocks.scale.is_empty() {
+            // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
+            return Ok(Some(stored.as_ref().unwrap_or(&self.nest).convert_aij()?));
+        }
+        Ok(stored)
     }
 
     /// `K + Bᵀ D B` on the finest level.
@@ -167,15 +176,21 @@ impl SaddlePoint {
 
     /// Right-hand side: `f + Bᵀ D c`, and `ĉ` on active multipliers. **Collective**
     pub fn right_hand_side(&self, space: &Space) -> Result<Vector, SystemError> {
-        self.right_hand_side_of(&self.load, &self.gap, space)
+        self.right_hand_side_with(|values| self.load.put(values), &self.gap, space)
     }
 
     /// The same for other nodal forces of this rank, and other gaps. **Collective**
     pub fn right_hand_side_of(&self, load: &[f64], gap: &[f64], space: &Space) -> Result<Vector, SystemError> {
+        self.right_hand_side_with(|values| values.copy_from_slice(load), gap, space)
+    }
+
+    /// The same with nodal forces that are put where zeros were. **Collective**
+    fn right_hand_side_with(&self, load: impl FnOnce(&mut [f64]), gap: &[f64], space: &Space) -> Result<Vector, SystemError> {
         let (_, mut b) = self.nest.create_vectors()?;
+        b.set(0.0)?;
         let mut values = b.values_mut();
         let unknowns = space.local_unknowns();
-        values[..unknowns].copy_from_slice(load);
+        load(&mut values[..unknowns]);
         if self.form == Form::Augmented {
             self.add_weighted(gap, 1.0, &mut values[..unknowns], space);
         }
@@ -186,20 +201,18 @@ impl SaddlePoint {
         Ok(b)
     }
 
-    /// Relative residual of the plain system, from the residual `r` of this one: `r_u - Bᵀ D r_λ`. **Collective**
-    pub fn plain_residual(&self, r: &Vector, b: &Vector, space: &Space, session: &Session) -> Result<f64, SystemError> {
-        let values = r.values();
-        let unknowns = space.local_unknowns();
-        let mut upper = values[..unknowns].to_vec();
+    /// Relative residual of the plain system, from the residual `r` of this one, which becomes that: `r_u - Bᵀ D r_λ`.
+    /// **Collective**
+    pub fn plain_residual(&self, mut r: Vector, b: &Vector, space: &Space, session: &Session) -> Result<f64, SystemError> {
         if self.form == Form::Augmented {
-            let lower = self.multipliers.collect(&values[unknowns..], session);
+            let mut values = r.values_mut();
+            let (upper, lower) = values.split_at_mut(space.local_unknowns());
+            let lower = self.multipliers.collect(lower, session);
             let unscaled: Vec<f64> = lower.iter().zip(&self.multipliers.scale).map(|(r, s)| r / s).collect();
-            self.add_weighted(&unscaled, -1.0, &mut upper, space);
+            self.add_weighted(&unscaled, -1.0, upper, space);
         }
-        let mut square = [upper.iter().chain(&values[unknowns..]).map(|v| v * v).sum::<f64>()];
-        session.sum(&mut square);
-        let norm = b.norm()?;
-        Ok(if norm > 0.0 { square[0].sqrt() / norm } else { 0.0 })
+        let (residual, norm) = (r.norm()?, b.norm()?);
+        Ok(if norm > 0.0 { residual / norm } else { 0.0 })
     }
 
     /// Adds `factor Bᵀ D r` to this rank's displacement entries.

@@ -2,11 +2,13 @@
 
 use super::augmentation::Augmentation;
 use super::coupling_rows::CouplingRows;
+use super::transposed::TransposedCoupling;
 use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::geometry::Point;
 use crate::petsc::{Matrix, Session};
-use crate::system::{Contact, Discretisation, Space, SystemError};
+use crate::system::{Contact, Discretisation, Form, Space, SystemError};
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// What the approximate Schur complement couples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +50,8 @@ pub struct MultiplierBlocks {
     pub coupling: Matrix,
     /// `B̂ᵀ (I - D̂ Ĉ)`; without a jump term `B̂ᵀ` but for inactive multipliers, whose columns are zero either way.
     pub transpose: Matrix,
+    /// Its columns, if it is known by what it does alone.
+    transposed: Option<Rc<TransposedCoupling>>,
     /// `-Ĉ`.
     pub corner: Matrix,
     /// `-(D̂⁻¹ + Ĉ)`.
@@ -68,11 +72,13 @@ pub struct MultiplierBlocks {
 
 impl MultiplierBlocks {
     /// Empty blocks with exact preallocation; `rows` are those of `B` on the finest level, `all` are the weights of all
-    /// multipliers. **Collective**
+    /// multipliers. The plain form, and a system without multipliers, are made into one matrix, so that all entries are wanted.
+    /// **Collective**
     pub fn new(
         problem: &Discretisation,
         rows: &CouplingRows,
         all: &Augmentation,
+        form: Form,
         session: &Session,
     ) -> Result<Self, SystemError> {
         let owners = &problem.coupling.owners;
@@ -92,9 +98,17 @@ impl MultiplierBlocks {
         let own_nodes = |j: usize| corrected(rows, all, &jumps, j).range(space.own.clone()).map(|(&node, _)| node).collect();
         let columns: Vec<Vec<usize>> = (0..owners.len()).map(own_nodes).collect();
         let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
+        let (transpose, transposed) = if form == Form::Plain || owners.is_empty() {
+            (transpose_matrix(&columns, owners, own.len(), space, session)?, None)
+        } else {
+            let transposed = TransposedCoupling::new(&columns, &number, own.len(), space, session)?;
+            let action = Box::new(transposed.clone());
+            (Matrix::transfer(session, space.local_unknowns(), own.len(), action)?, Some(transposed))
+        };
         Ok(Self {
             coupling: coupling_matrix(rows, &own, space, session)?,
-            transpose: transpose_matrix(&columns, owners, own.len(), space, session)?,
+            transpose,
+            transposed,
             corner: corner.matrix(own.len(), session)?,
             schur: pattern.matrix(own.len(), session)?,
             pattern,
@@ -126,7 +140,10 @@ impl MultiplierBlocks {
                 self.coupling.insert(&at, &columns, &[value.x * scale, value.y * scale])?;
             }
             let column = corrected(rows, augmentation, &self.jumps, i);
-            for node in &self.columns[i] {
+            if let Some(transposed) = &self.transposed {
+                transposed.set(i, &column, scale, problem.finest());
+            }
+            for node in self.columns[i].iter().filter(|_| self.transposed.is_none()) {
                 let value = column.get(node).copied().unwrap_or_default() * scale;
                 self.transpose.insert(&[2 * *node as i32, 2 * *node as i32 + 1], &at, &[value.x, value.y])?;
             }

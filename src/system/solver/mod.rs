@@ -150,7 +150,18 @@ impl LinearSolver {
         let own = kind == "mg" || kind == "shell" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
         let name = if own { field_split_name(preconditioning) } else { format!("fieldsplit ({kind})") };
         let (session, form) = (session.clone(), Form::Augmented);
-        Ok(Self { krylov, session, form, converted: None, interpolations, auxiliary, cycle, preconditioning, name, is_set_up: true })
+        Ok(Self {
+            krylov,
+            session,
+            form,
+            converted: None,
+            interpolations,
+            auxiliary,
+            cycle,
+            preconditioning,
+            name,
+            is_set_up: true,
+        })
     }
 
     fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {
@@ -333,7 +344,7 @@ fn field_split_name(preconditioning: Preconditioning) -> String {
     format!("fieldsplit ({})", preconditioning.words("multigrid F-cycle"))
 }
 
-/// The nest, or for a factor the one with all rows stored. **Collective**
+/// The product of the nest and the nest, or for a factor the one with all rows stored. **Collective**
 fn set_operators(
     krylov: &Krylov,
     system: &SaddlePoint,
@@ -341,8 +352,11 @@ fn set_operators(
     session: &Session,
 ) -> Result<(), SystemError> {
     let stored = if preconditioning == Preconditioning::Factor { system.stored_nest(session)? } else { None };
-    let nest = stored.as_ref().unwrap_or(&system.nest);
-    Ok(krylov.set_operators(nest, nest)?)
+    match &stored {
+        Some(nest) => krylov.set_operators(nest, nest)?,
+        None => krylov.set_operators(&system.product, &system.nest)?,
+    }
+    Ok(())
 }
 
 /// Those interpolations that lead to auxiliary levels, or up from them.

@@ -1,8 +1,10 @@
-//! Assembly of the stiffness of one level: counts and entries, for whoever makes a matrix of them.
+//! Assembly of the stiffness of one level: each rank makes the whole rows of its own nodes, without a word to the others.
 
+use super::ContactNeighbours;
 use super::lattice_operator::{Strips, TriangleStrips};
-use super::preallocation::{ContactNeighbours, Counts};
+use super::pattern::RowColumns;
 use super::precision::Precision;
+use super::stored_rows::{Column, StoredRows, place};
 use super::strips::{Couplings, StripNodes};
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};
@@ -11,186 +13,200 @@ use crate::mesh::{Strip, TriangleNumbers, lattice};
 use crate::system::{Scene, Space};
 use std::collections::BTreeMap;
 
-/// A level to assemble, and what need not be: the strips of each macro triangle of this rank.
+/// A level to assemble, and what need not be.
 pub struct Assembly<'a> {
     scene: &'a Scene,
     space: &'a Space,
-    rank: usize,
-    strips: BTreeMap<usize, Vec<Strip>>,
-    has_strips: bool,
+    /// Macro triangles with nodes of this rank, ascending: every sum is made in this order, whatever the ranks.
+    parts: Vec<TrianglePart>,
+    /// Nodes whose rows are stored, ascending, counted from this rank's first.
+    nodes: Vec<u32>,
+}
+
+/// What a macro triangle has of this rank's nodes.
+struct TrianglePart {
+    triangle: usize,
+    numbers: TriangleNumbers,
+    /// Whether it is this rank's own; of those of others only nodes on the sides are.
+    is_own: bool,
+    /// Row by row.
+    strips: Vec<Strip>,
+}
+
+/// The stiffness of a level on this rank.
+pub struct Assembled {
+    /// Rows that are stored, with zeros at those couplings of contact that are none of the bodies'.
+    pub rows: StoredRows,
+    /// Columns of other ranks, ascending.
+    pub far: Vec<usize>,
+    /// The other rows.
+    pub strips: Strips,
 }
 
 impl<'a> Assembly<'a> {
-    /// With all rows stored.
-    pub fn stored(scene: &'a Scene, space: &'a Space, rank: usize) -> Self {
-        Self { scene, space, rank, strips: BTreeMap::new(), has_strips: false }
-    }
-
-    /// With strips.
-    pub fn with_strips(scene: &'a Scene, space: &'a Space, rank: usize) -> Self {
-        let own = scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize);
+    /// With strips, or with all rows stored.
+    pub fn new(scene: &'a Scene, space: &'a Space, with_strips: bool, rank: usize) -> Self {
         let level = space.numbering.level;
-        let strips = own.map(|triangle| (triangle, scene.mesh.strips(triangle, level))).collect();
-        Self { scene, space, rank, strips, has_strips: true }
-    }
-
-    /// Whether rows are left to strips, on this rank or another.
-    pub fn has_strips(&self) -> bool {
-        self.has_strips
-    }
-
-    /// Whether strips hold most nodes of this rank.
-    pub fn is_mostly_strips(&self) -> bool {
-        2 * self.strips.values().flatten().map(|strip| strip.i.len()).sum::<usize>() > self.space.own.len()
-    }
-
-    /// The space of the level.
-    pub fn space(&self) -> &Space {
-        self.space
-    }
-
-    /// Exact numbers of blocks in the rows that are stored, the couplings of contact among them: those in this rank's own
-    /// columns, and those in others'.
-    pub fn counts(&self, contact: &ContactNeighbours) -> (Vec<i32>, Vec<i32>) {
-        let (scene, space) = (self.scene, self.space);
-        let mut counts = Counts::new(space, contact);
-        for (&triangle, strips) in &self.strips {
-            for nodes in strips.iter().map(|strip| self.strip_nodes(triangle, strip)) {
-                counts.leave_out(nodes.range());
-            }
-        }
-        let n = space.numbering.level.intervals;
-        for triangle in 0..scene.mesh.triangles.len() {
+        let part = |triangle: usize| {
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
-            if scene.partition.owner(triangle as u32) == self.rank {
-                let rows = outside(n, self.strips_of(triangle));
-                rows.for_each(|node| count_row(scene, space, triangle, node, &mut counts));
-            } else if touches(n, space, &numbers) {
-                sides(n).for_each(|node| count_row(scene, space, triangle, node, &mut counts));
-            }
-        }
-        counts.finish()
+            let is_own = scene.partition.owner(triangle as u32) == rank;
+            let strips = if is_own && with_strips { scene.mesh.strips(triangle, level) } else { Vec::new() };
+            (is_own || touches(level.intervals, space, &numbers)).then_some(TrianglePart { triangle, numbers, is_own, strips })
+        };
+        let parts = (0..scene.mesh.triangles.len()).filter_map(part).collect();
+        let mut assembly = Self { scene, space, parts, nodes: Vec::new() };
+        assembly.nodes = assembly.stored_nodes();
+        assembly
     }
 
-    /// Hands the stiffness of the macro triangles that this rank owns to `add(row node, column nodes, their blocks row by row)`,
-    /// to be summed. Rows and columns of prescribed components are zero but for the diagonal; what their displacement does to
-    /// free rows goes to `lift(node, force in the node's frame)`. Gives the rows that are not stored.
+    /// Makes the rows of this rank's nodes, with places for the couplings of contact. Rows and columns of prescribed components
+    /// are zero but for the diagonal; what their displacement does to free rows of this rank goes to
+    /// `lift(node, force in the node's frame)`.
     ///
     /// # Errors
-    /// That of a triangle that is turned inside out, and those of `add`.
-    pub fn entries<E: From<BadJacobian>>(
-        &self,
-        mut add: impl FnMut(usize, &[usize], &[f64]) -> Result<(), E>,
-        mut lift: impl FnMut(usize, Point),
-    ) -> Result<Strips, E> {
+    /// That of a triangle that is turned inside out.
+    pub fn assemble(&self, contact: &ContactNeighbours, mut lift: impl FnMut(usize, Point)) -> Result<Assembled, BadJacobian> {
         let laws = self.scene.laws();
+        let (mut rows, far) = self.pattern(contact);
         let mut strips = Strips::default();
-        for &triangle in self.scene.partition.triangles_of(self.rank) {
-            let law = &laws[self.scene.mesh.triangles[triangle as usize].body as usize];
-            let level = self.space.numbering.level;
-            let stiffness = MacroStiffness::new(&self.scene.mesh, triangle as usize, level, law)?;
-            self.add_triangle(triangle as usize, &stiffness, &mut add, &mut lift)?;
-            self.add_strips(triangle as usize, &stiffness, &mut strips);
+        for part in &self.parts {
+            let (mesh, level) = (&self.scene.mesh, self.space.numbering.level);
+            let law = &laws[mesh.triangles[part.triangle].body as usize];
+            let made = if part.is_own { MacroStiffness::new } else { MacroStiffness::of_sides };
+            let stiffness = made(mesh, part.triangle, level, law)?;
+            self.add_rows(part, &stiffness, &far, &mut rows, &mut lift);
+            if part.is_own {
+                self.add_strips(part, &stiffness, &mut strips);
+            }
         }
-        Ok(strips)
+        (0..rows.nodes.len()).for_each(|k| rows.invert(k));
+        rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
+        strips.triangles.sort_unstable_by_key(|triangle| triangle.nodes.start);
+        Ok(Assembled { rows, far, strips })
     }
 
-    fn add_triangle<E>(
-        &self,
-        triangle: usize,
-        stiffness: &MacroStiffness,
-        add: &mut impl FnMut(usize, &[usize], &[f64]) -> Result<(), E>,
-        lift: &mut impl FnMut(usize, Point),
-    ) -> Result<(), E> {
+    /// The stored rows with zeros, and their columns of other ranks.
+    fn pattern(&self, contact: &ContactNeighbours) -> (StoredRows, Vec<usize>) {
+        let (level, own) = (self.space.numbering.level, &self.space.own);
+        let of_contact = || {
+            let place = |row: usize| place(&self.nodes, row - own.start).expect("nodes of contact lie on sides");
+            contact.range(own.clone()).map(move |(&row, others)| (place(row), others))
+        };
+        let mut counts = vec![0; self.nodes.len()];
+        for part in &self.parts {
+            self.each_row(part, |k, (i, j)| counts[k] += neighbours(level.order, i, j).len() as u32);
+        }
+        of_contact().for_each(|(k, others)| counts[k] += others.len() as u32);
+        let mut couplings = RowColumns::new(&counts);
+        for part in &self.parts {
+            let n = level.intervals;
+            self.each_row(part, |k, (i, j)| {
+                for &(di, dj) in neighbours(level.order, i, j) {
+                    let (a, b) = (i.wrapping_add_signed(di), j.wrapping_add_signed(dj));
+                    if a <= n && b <= n && a + b <= n {
+                        couplings.push(k, part.numbers.node(a, b));
+                    }
+                }
+            });
+        }
+        for (k, others) in of_contact() {
+            others.iter().for_each(|&other| couplings.push(k, other));
+        }
+        couplings.into_rows(self.nodes.clone(), own)
+    }
+
+    /// Nodes of this rank outside of strips, ascending.
+    fn stored_nodes(&self) -> Vec<u32> {
+        let strips = self.parts.iter().flat_map(|part| part.strips.iter().map(move |strip| (part, strip)));
+        let mut strips: Vec<_> = strips.map(|(part, strip)| self.strip_nodes(part, strip).range()).collect();
+        strips.sort_unstable_by_key(|nodes| nodes.start);
+        let count = self.space.own.len();
+        let mut nodes = Vec::with_capacity(count - strips.iter().map(|nodes| nodes.len()).sum::<usize>());
+        let starts = std::iter::once(0).chain(strips.iter().map(|nodes| nodes.end));
+        for (start, end) in starts.zip(strips.iter().map(|nodes| nodes.start).chain([count])) {
+            nodes.extend(start as u32..end as u32);
+        }
+        nodes
+    }
+
+    /// Shows the stored rows of this rank that a macro triangle has a part in: place and lattice node.
+    #[inline]
+    fn each_row(&self, part: &TrianglePart, mut show: impl FnMut(usize, (usize, usize))) {
         let n = self.space.numbering.level.intervals;
-        let numbers = self.space.numbering.triangle(&self.scene.mesh, triangle);
+        // Inner nodes come in the order of their numbers: the place of the first one tells the others.
+        let mut next = None;
+        let mut show = |(i, j): (usize, usize)| {
+            let node = part.numbers.node(i, j);
+            if !self.space.own.contains(&node) {
+                return;
+            }
+            let place = || place(&self.nodes, node - self.space.own.start).expect("a stored row");
+            let k = match lattice::place(n, i, j) {
+                lattice::Place::Inside(_) => *next.insert(next.map_or_else(place, |k| k + 1)),
+                _ => place(),
+            };
+            show(k, (i, j));
+        };
+        if part.is_own { outside(n, &part.strips).for_each(&mut show) } else { sides(n).for_each(&mut show) }
+    }
+
+    /// Adds the part that a macro triangle has in the stored rows.
+    fn add_rows(
+        &self,
+        part: &TrianglePart,
+        stiffness: &MacroStiffness,
+        far: &[usize],
+        rows: &mut StoredRows,
+        lift: &mut impl FnMut(usize, Point),
+    ) {
+        let n = self.space.numbering.level.intervals;
         let constraint = |i: usize, j: usize, node: usize| match lattice::place(n, i, j) {
             lattice::Place::Inside(_) => None,
             _ => self.space.constraints.get(node),
         };
-        let supported = sides(n).any(|(i, j)| constraint(i, j, numbers.node(i, j)).is_some());
-        let mut columns: Vec<usize> = Vec::with_capacity(19);
-        let mut values: Vec<f64> = vec![0.0; 4 * 19];
-        for (i, j) in outside(n, self.strips_of(triangle)) {
-            let row = numbers.node(i, j);
-            let held = if supported { constraint(i, j, row) } else { None };
-            columns.clear();
-            let count = stiffness.row(i, j).count();
-            for (slot, ((k, l), block)) in stiffness.row(i, j).enumerate() {
-                let column = numbers.node(k, l);
-                let block = match (held, if supported { constraint(k, l, column) } else { None }) {
+        let is_supported = sides(n).any(|(i, j)| constraint(i, j, part.numbers.node(i, j)).is_some());
+        self.each_row(part, |place, (i, j)| {
+            let row = part.numbers.node(i, j);
+            let held = if is_supported { constraint(i, j, row) } else { None };
+            for ((k, l), block) in stiffness.row(i, j) {
+                let node = part.numbers.node(k, l);
+                let block = match (held, if is_supported { constraint(k, l, node) } else { None }) {
                     (None, None) => *block,
-                    (left, right) => constrained(block, left, right, row == column, |force| lift(row, force)),
+                    (left, right) => constrained(block, left, right, row == node, |force| lift(row, force)),
                 };
-                columns.push(column);
-                for (a, parts) in block.iter().enumerate() {
-                    values[2 * (a * count + slot)] = parts[0];
-                    values[2 * (a * count + slot) + 1] = parts[1];
-                }
+                rows.add(place, Column::of(node, &self.space.own, far), &block);
             }
-            add(row, &columns, &values[..4 * count])?;
-        }
-        Ok(())
+        });
     }
 
     /// Adds the strips of a macro triangle: one stencil for each shape, and for P2 for even and odd rows.
-    fn add_strips(&self, triangle: usize, stiffness: &MacroStiffness, strips: &mut Strips) {
+    fn add_strips(&self, part: &TrianglePart, stiffness: &MacroStiffness, strips: &mut Strips) {
         let order = self.space.numbering.level.order;
         let mut known = BTreeMap::new();
         let first = strips.alike.len();
-        for strip in self.strips_of(triangle) {
+        for strip in &part.strips {
             let kind = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
                 strips.couplings.push(Couplings::new(stiffness, order, strip));
                 strips.kernels.push(f64::kernel(&strips.couplings[strips.couplings.len() - 1]));
                 strips.couplings.len() - 1
             });
             let at = strips.nodes.len();
-            strips.nodes.push(self.strip_nodes(triangle, strip));
-            let part = strips.alike.len();
-            match strips.alike.last_mut().filter(|(_, last)| part > first && *last == kind) {
+            strips.nodes.push(self.strip_nodes(part, strip));
+            let begun = strips.alike.len() > first;
+            match strips.alike.last_mut().filter(|(_, last)| begun && *last == kind) {
                 Some((alike, _)) => alike.end = at + 1,
                 None => strips.alike.push((at..at + 1, kind)),
             }
         }
-        let numbers = self.space.numbering.triangle(&self.scene.mesh, triangle);
         let n = self.space.numbering.level.intervals;
-        let start = if n < 3 { 0 } else { numbers.node(1, 1) - self.space.own.start };
-        let nodes = start..start + lattice::inner_count(n);
-        strips.triangles.push(TriangleStrips { nodes, alike: first..strips.alike.len() });
-    }
-
-    fn strips_of(&self, triangle: usize) -> &[Strip] {
-        self.strips.get(&triangle).map_or(&[], Vec::as_slice)
+        let start = if n < 3 { 0 } else { part.numbers.node(1, 1) - self.space.own.start };
+        strips.triangles.push(TriangleStrips { nodes: start..start + lattice::inner_count(n), alike: first..strips.alike.len() });
     }
 
     /// Where a strip lies among the nodes of this rank.
-    fn strip_nodes(&self, triangle: usize, strip: &Strip) -> StripNodes {
-        let numbers = self.space.numbering.triangle(&self.scene.mesh, triangle);
-        let first = numbers.node(strip.i.start, strip.j) - self.space.own.start;
+    fn strip_nodes(&self, part: &TrianglePart, strip: &Strip) -> StripNodes {
+        let first = part.numbers.node(strip.i.start, strip.j) - self.space.own.start;
         StripNodes { first, count: strip.i.len(), width: self.space.numbering.level.intervals - 1 - strip.j }
-    }
-}
-
-/// Counts the couplings of an owned node within one macro triangle; those along an edge with its first triangle alone.
-fn count_row(scene: &Scene, space: &Space, triangle: usize, (i, j): (usize, usize), counts: &mut Counts) {
-    let level = space.numbering.level;
-    let n = level.intervals;
-    let numbers = space.numbering.triangle(&scene.mesh, triangle);
-    let row = numbers.node(i, j);
-    if !space.own.contains(&row) {
-        return;
-    }
-    let on_sides = [0, 1, 2].map(|side| on_side(n, side, i, j));
-    let counted = |k: usize, l: usize| {
-        let edges = scene.mesh.triangles[triangle].edges;
-        let first = |side: usize| scene.mesh.edges[edges[side] as usize].triangles[0] == Some(triangle as u32);
-        (0..3).any(|side| on_sides[side] && on_side(n, side, k, l) && !first(side))
-    };
-    for &(di, dj) in neighbours(level.order, i, j) {
-        let (k, l) = (i.wrapping_add_signed(di), j.wrapping_add_signed(dj));
-        if (di, dj) != (0, 0) && k <= n && l <= n && k + l <= n && !counted(k, l) {
-            counts.add(row, numbers.node(k, l));
-        }
     }
 }
 
@@ -216,15 +232,6 @@ fn outside(n: usize, strips: &[Strip]) -> impl Iterator<Item = (usize, usize)> +
         let ends = strips[of_row].iter().map(|strip| strip.i.start).chain([n + 1 - j]);
         starts.zip(ends).flat_map(move |(start, end)| (start..end).map(move |i| (i, j)))
     })
-}
-
-/// Whether a lattice node lies on a side, corners included.
-fn on_side(n: usize, side: usize, i: usize, j: usize) -> bool {
-    match side {
-        0 => j == 0,
-        1 => i + j == n,
-        _ => i == 0,
-    }
 }
 
 /// A block in the frames of its nodes, without the couplings of prescribed components.

@@ -1,13 +1,11 @@
 //! The bodies without contact: what no contact boundary and no active set changes.
 
-use super::assembly::Assembly;
-use super::matrices::assembled;
-use super::{ContactNeighbours, Stiffness};
+use super::assembly::{Assembled, Assembly};
+use super::{ContactNeighbours, LatticeOperator, Seen, Stiffness};
 use crate::geometry::Point;
-use crate::petsc::{Session, Vector};
+use crate::petsc::Session;
 use crate::system::user_options::want_entries;
-use crate::system::{Discretisation, Form, Space, SystemError};
-use std::collections::HashMap;
+use crate::system::{Discretisation, Form, SystemError};
 use std::rc::Rc;
 
 /// Stiffness and load of the bodies.
@@ -29,21 +27,21 @@ impl Elastic {
         neighbours: &[ContactNeighbours],
         session: &Session,
     ) -> Result<Self, SystemError> {
-        let mut lifted = HashMap::new();
         let mut stiffness = Vec::new();
         for (l, space) in problem.spaces.iter().enumerate().skip(first_level(problem, form)) {
-            let assembly = assembly(problem, space, form, session);
             let last = l + 1 == problem.spaces.len();
-            let lift = |node, force| {
+            let lift = |node, force: Point| {
+                let at = 2 * (node - space.own.start);
                 if last {
-                    *lifted.entry(node).or_insert(Point::zeros()) += force;
+                    (load[at], load[at + 1]) = (load[at] - force.x, load[at + 1] - force.y);
                 }
             };
-            let (stored, strips) = assembled(&assembly, &neighbours[l], lift, session)?;
-            let strips = assembly.has_strips().then(|| Rc::new(strips));
-            stiffness.push(Stiffness::new(stored, strips.as_ref(), space, session)?);
+            let assembly = Assembly::new(&problem.scene, space, form == Form::Augmented, session.rank());
+            let assembled = session.agree(assembly.assemble(&neighbours[l], lift)).map_err(SystemError::Case)?;
+            let Assembled { rows, far, strips } = assembled;
+            let lattice = LatticeOperator::new(rows, &space.own, far, &Rc::new(strips), session)?;
+            stiffness.push(Stiffness::new(lattice, seen(l, form, session), session)?);
         }
-        subtract(&mut load, &lifted, problem.finest(), session)?;
         Ok(Self { stiffness, load })
     }
 
@@ -60,19 +58,15 @@ impl Elastic {
         neighbours: &[ContactNeighbours],
         session: &Session,
     ) -> Result<Vec<Stiffness>, SystemError> {
-        let levels = problem.spaces.iter().zip(neighbours).skip(first_level(problem, form)).zip(&self.stiffness);
-        levels.map(|((space, neighbours), stiffness)| stiffness.with_places(space, neighbours, session)).collect()
+        let levels = neighbours.iter().skip(first_level(problem, form)).zip(&self.stiffness);
+        levels.map(|(neighbours, stiffness)| stiffness.with_places(neighbours, session)).collect()
     }
 }
 
-/// What is to be assembled of a level: with strips, if no option of the user's wants entries.
-fn assembly<'a>(problem: &'a Discretisation, space: &'a Space, form: Form, session: &Session) -> Assembly<'a> {
-    let (scene, rank) = (&problem.scene, session.rank());
-    let is_small = 2 * problem.spaces[0].numbering.node_count() <= 3000;
-    if form == Form::Augmented && is_small && !want_entries(session) {
-        return Assembly::with_strips(scene, space, rank);
-    }
-    Assembly::stored(scene, space, rank)
+/// What solvers see of level `l`: all rows of the coarsest, which is factorised or multiplied with auxiliary interpolations, and
+/// of every level where something else than products and sweeps may be wanted.
+fn seen(l: usize, form: Form, session: &Session) -> Seen {
+    if l == 0 || form == Form::Plain || want_entries(session) { Seen::Entries } else { Seen::Action }
 }
 
 fn first_level(problem: &Discretisation, form: Form) -> usize {
@@ -80,18 +74,4 @@ fn first_level(problem: &Discretisation, form: Form) -> usize {
         Form::Augmented => 0,
         Form::Plain => problem.spaces.len() - 1,
     }
-}
-
-/// Takes the forces of prescribed displacements off the load, wherever their nodes live.
-fn subtract(load: &mut [f64], lifted: &HashMap<usize, Point>, space: &Space, session: &Session) -> Result<(), SystemError> {
-    if !session.any(!lifted.is_empty()) {
-        return Ok(());
-    }
-    let mut forces = Vector::new(session, space.local_unknowns())?;
-    for (&node, force) in lifted {
-        forces.add(&[2 * node as i32, 2 * node as i32 + 1], &[-force.x, -force.y])?;
-    }
-    forces.assemble()?;
-    load.iter_mut().zip(forces.values().iter()).for_each(|(sum, force)| *sum += force);
-    Ok(())
 }

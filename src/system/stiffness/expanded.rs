@@ -1,40 +1,57 @@
-//! Strips made into stored rows, as factorisations want them.
+//! All rows made into a matrix of PETSc's, as factorisations and Galerkin products want it.
 
 use super::lattice_operator::LatticeOperator;
+use crate::element::Block;
 use crate::petsc::{Matrix, Result, Session};
 
 impl LatticeOperator {
     /// The same with all rows stored. **Collective**
     pub fn expanded(&self, session: &Session) -> Result<Matrix> {
-        let stored = self.stored();
-        let range = stored.row_range();
-        let first = range.start / 2;
-        let (mut near, mut far) = (vec![0; range.len() / 2], vec![0; range.len() / 2]);
-        for node in self.stored_nodes().into_iter().map(|node| node as usize) {
-            stored.row(2 * (first + node), |columns, _| {
-                let own = columns.iter().filter(|&&column| range.contains(&(column as usize))).count();
-                (near[node], far[node]) = (own as i32 / 2, (columns.len() - own) as i32 / 2);
-            })?;
+        let rows = self.rows.borrow();
+        let (mut near, mut far) = (vec![0; self.own.len()], vec![0; self.own.len()]);
+        for (k, &node) in rows.nodes.iter().enumerate() {
+            (near[node as usize], far[node as usize]) = (rows.near.row(k).len() as i32, rows.far.row(k).len() as i32);
         }
         self.each_row(|node, couplings| near[node] = couplings.len() as i32);
-        let mut matrix = Matrix::aij(session, range.len(), range.len(), 2, &near, &far)?;
-        for row in self.stored_nodes().into_iter().flat_map(|node| [0, 1].map(|a| range.start + 2 * node as usize + a)) {
-            let mut inserted = Ok(());
-            stored.row(row, |columns, values| inserted = matrix.insert(&[row as i32], columns, values))?;
-            inserted?;
+        let unknowns = 2 * self.own.len();
+        let mut matrix = Matrix::aij(session, unknowns, unknowns, 2, &near, &far)?;
+        let mut row = BlockRow::default();
+        for (k, &node) in rows.nodes.iter().enumerate() {
+            let here = rows.near.couplings(k).map(|(column, block)| (self.own.start + column as usize, *block));
+            let there = rows.far.couplings(k).map(|(column, block)| (self.far[column as usize], *block));
+            row.insert(&mut matrix, self.own.start + node as usize, here.chain(there))?;
         }
         let mut inserted = Ok(());
         self.each_row(|node, couplings| {
-            let row = (range.start + 2 * node) as i32;
-            for &(distance, block) in couplings {
-                let column = (range.start + 2 * node.wrapping_add_signed(distance)) as i32;
-                let outcome = matrix.insert(&[row, row + 1], &[column, column + 1], block.as_flattened());
-                inserted = inserted.clone().and(outcome);
-            }
+            let node = self.own.start + node;
+            let couplings = couplings.iter().map(|&(distance, block)| (node.wrapping_add_signed(distance), block));
+            inserted = inserted.clone().and(row.insert(&mut matrix, node, couplings));
         });
         inserted?;
         matrix.assemble()?;
         matrix.set_positive_definite(true)?;
         Ok(matrix)
+    }
+}
+
+/// One row of blocks on its way to a matrix.
+#[derive(Default)]
+struct BlockRow {
+    columns: Vec<i32>,
+    blocks: Vec<Block>,
+    values: Vec<f64>,
+}
+
+impl BlockRow {
+    fn insert(&mut self, matrix: &mut Matrix, row: usize, couplings: impl Iterator<Item = (usize, Block)>) -> Result<()> {
+        self.columns.clear();
+        self.blocks.clear();
+        couplings.for_each(|(column, block)| {
+            self.columns.push(column as i32);
+            self.blocks.push(block);
+        });
+        self.values.clear();
+        (0..2).for_each(|a| self.values.extend(self.blocks.iter().flat_map(|block| block[a])));
+        matrix.add_blocks(&[row as i32], &self.columns, &self.values)
     }
 }

@@ -1,14 +1,15 @@
-//! The stiffness of a level with most of its rows as strips: what PETSc's solvers see of it.
+//! The stiffness of a level, its rows stored or in strips: what PETSc's solvers see of it.
 
-use super::stored_rows::{StoredRows, far_columns};
+use super::ContactNeighbours;
 use super::lattice_rows::{LatticeRows, Order};
 use super::precision::Precision;
+use super::stored_rows::{Column, StoredRows};
 use super::strip_kernel::StripKernel;
 use super::strips::{Couplings, StripNodes};
 use crate::element::Block;
-use crate::petsc::{Gather, Halo, Matrix, Operator, Result, Session, Vector};
+use crate::petsc::{Halo, Operator, Result, Session, Vector};
 use crate::system::space::Components;
-use std::cell::{Ref, RefCell};
+use std::cell::RefCell;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -51,66 +52,47 @@ impl<T: Precision> Strips<T> {
 
 /// Stored rows and strips together.
 pub struct LatticeOperator {
-    own: Range<usize>,
-    strips: Rc<Strips>,
-    stored: RefCell<Matrix>,
-    rows: Rc<RefCell<StoredRows>>,
+    /// The nodes of this rank.
+    pub(in crate::system) own: Range<usize>,
+    pub(in crate::system) strips: Rc<Strips>,
+    pub(in crate::system) rows: Rc<RefCell<StoredRows>>,
+    /// Columns of other ranks, ascending.
+    pub(in crate::system) far: Vec<usize>,
     /// Couplings of all nodes in strips.
     in_strips: f64,
-    /// Columns of other ranks, and what fetches their values.
-    far: Vec<usize>,
-    gather: Option<RefCell<Gather>>,
+    /// What brings the values of the columns of other ranks.
     halo: Rc<Halo>,
     order: Order,
 }
 
 impl LatticeOperator {
-    /// From the stored rows, assembled: those of nodes in strips are empty. **Collective**
-    pub fn new(stored: Matrix, own: &Range<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
-        let mut in_strip = vec![false; own.len()];
-        strips.nodes.iter().for_each(|nodes| in_strip[nodes.range()].fill(true));
-        let nodes: Vec<u32> = (0..own.len()).filter(|&node| !in_strip[node]).map(|node| node as u32).collect();
-        let far = far_columns(&stored, own, &nodes)?;
-        let gather = match session.size() {
-            1 => None,
-            _ => {
-                let wanted: Vec<i32> = far.iter().flat_map(|&node| [2 * node as i32, 2 * node as i32 + 1]).collect();
-                Some(RefCell::new(Gather::new(&stored.create_vectors()?.0, &wanted)?))
-            }
-        };
-        let rows = Rc::new(RefCell::new(StoredRows::read(&stored, own, &nodes, &far)?));
+    /// From the stored rows and the others; `far` are the columns of other ranks. **Collective**
+    pub fn new(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
         let couplings = |(alike, kind): &(Range<usize>, usize)| {
             let [even, odd] = [0, 1].map(|k| strips.couplings[*kind].of(k).len());
             strips.nodes[alike.clone()].iter().map(|nodes| 0.5 * (nodes.count * (even + odd)) as f64).sum::<f64>()
         };
         let in_strips = strips.alike.iter().map(couplings).sum();
-        let order = Order::new(&rows.borrow(), strips);
-        let halo = Rc::new(Halo::new(session, own, &far));
-        Ok(Self { in_strips, own: own.clone(), halo, order, strips: strips.clone(), stored: RefCell::new(stored), rows, far, gather })
+        let (order, halo) = (Order::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
+        let rows = Rc::new(RefCell::new(rows));
+        Ok(Self { own: own.clone(), strips: strips.clone(), rows, far, in_strips, halo, order })
     }
 
-    /// Adds a block to the couplings of two nodes. Holds after [`LatticeOperator::assemble`].
-    pub fn add_block(&self, row: usize, column: usize, block: &[f64; 4]) -> Result<()> {
-        self.stored.borrow_mut().add_blocks(&[row as i32], &[column as i32], block)
+    /// A copy with places for the couplings of a contact boundary; the strips are the same. **Collective**
+    pub fn with_places(&self, contact: &ContactNeighbours, session: &Session) -> Result<Self> {
+        let (rows, far) = self.rows.borrow().with_places(contact, &self.own, &self.far);
+        Self::new(rows, &self.own, far, &self.strips, session)
     }
 
-    /// Brings added blocks to their ranks, and reads the rows of these nodes again (ascending): the others have not changed.
-    /// **Collective**
-    pub fn assemble(&self, changed: impl Iterator<Item = usize>) -> Result<()> {
-        let mut stored = self.stored.borrow_mut();
-        stored.assemble()?;
+    /// Adds a block to the couplings of two nodes, the row being one of this rank's. Holds after
+    /// [`LatticeOperator::assemble`].
+    ///
+    /// # Panics
+    /// If there is no place for it: rows of contact have places.
+    pub fn add_block(&self, row: usize, column: usize, block: &Block) {
         let mut rows = self.rows.borrow_mut();
-        changed.into_iter().try_for_each(|node| rows.read_again(&stored, &self.own, node, &self.far))
-    }
-
-    /// The matrix of the stored rows; those of nodes in strips are empty.
-    pub fn stored(&self) -> Ref<'_, Matrix> {
-        self.stored.borrow()
-    }
-
-    /// The nodes whose rows are stored.
-    pub fn stored_nodes(&self) -> Vec<u32> {
-        self.rows.borrow().nodes().to_vec()
+        let k = rows.place(row - self.own.start).expect("rows of contact are stored");
+        rows.add(k, Column::of(column, &self.own, &self.far), block);
     }
 
     /// In which order rows are worked on.
@@ -151,19 +133,31 @@ impl LatticeOperator {
             values.extend(couplings.iter().flat_map(|c| c.1.as_flattened()));
         };
         self.each_row(|node, couplings| {
-            let columns = couplings.iter().map(|&(distance, block)| ((self.own.start + node).wrapping_add_signed(distance), block));
+            let columns =
+                couplings.iter().map(|&(distance, block)| ((self.own.start + node).wrapping_add_signed(distance), block));
             add(node, &columns.collect::<Vec<_>>());
         });
-        self.rows.borrow().each_row(|node, near, far| {
-            let near = near.map(|(column, block)| (self.own.start + column, block));
-            add(node, &near.chain(far.map(|(column, block)| (self.far[column], block))).collect::<Vec<_>>());
-        });
+        let rows = self.rows.borrow();
+        for (k, &node) in rows.nodes.iter().enumerate() {
+            let near = rows.near.couplings(k).map(|(column, block)| (self.own.start + column as usize, *block));
+            let far = rows.far.couplings(k).map(|(column, block)| (self.far[column as usize], *block));
+            add(node as usize, &near.chain(far).collect::<Vec<_>>());
+        }
         StoredRows::of_all(&session.gather_all(&columns), &session.gather_all(&values))
     }
 
     /// The strips.
     pub fn strips(&self) -> &Rc<Strips> {
         &self.strips
+    }
+
+    /// Makes blocks hold that were added to the rows of these nodes.
+    pub fn assemble(&self, changed: impl Iterator<Item = usize>) {
+        let mut rows = self.rows.borrow_mut();
+        for row in changed {
+            let k = rows.place(row - self.own.start).expect("rows of contact are stored");
+            rows.invert(k);
+        }
     }
 
     /// Shows the rows of all nodes in strips: couplings as distances in node numbers.
@@ -178,64 +172,56 @@ impl LatticeOperator {
         }
     }
 
-    /// Calls `with` with the values of other ranks' nodes that the stored rows want. **Collective**
-    fn with_far<T>(&self, x: &Vector, with: impl FnOnce(&[Components]) -> T) -> Result<T> {
-        Ok(match &self.gather {
-            Some(gather) => with(gather.borrow_mut().read(x)?.as_chunks().0),
-            None => with(&[]),
-        })
+    /// The values of the columns of other ranks, while `meanwhile` works on rows that need none of them. **Collective**
+    fn fetch(&self, x: &[Components], meanwhile: impl FnOnce()) -> Vec<Components> {
+        let mut far = vec![[0.0; 2]; self.far.len()];
+        self.halo.fetch(x, &mut far, meanwhile);
+        far
     }
 }
 
 impl Operator for Rc<LatticeOperator> {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        self.with_far(x, |far| {
-            let (x, mut y) = (x.values(), y.values_mut());
-            let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
-            let stored = self.rows.borrow();
-            stored.multiply(0..stored.nodes().len(), x, far, y);
-            self.lattice_rows(&stored).multiply_in_strips(x, y);
-        })
+        let (x, mut y, stored) = (x.values(), y.values_mut(), self.rows.borrow());
+        let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
+        let far = self.fetch(x, || self.lattice_rows(&stored).multiply_in_strips(x, y));
+        stored.multiply(0..stored.nodes().len(), x, &far, y);
+        Ok(())
     }
 
     fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()> {
-        self.with_far(x, |far| {
-            let (b, x, mut r) = (b.values(), x.values(), r.values_mut());
-            let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
-            let stored = self.rows.borrow();
-            stored.residual(0..stored.nodes().len(), b, x, far, r);
-            self.lattice_rows(&stored).residual_in_strips(b, x, r);
-        })
+        let (b, x, mut r, stored) = (b.values(), x.values(), r.values_mut(), self.rows.borrow());
+        let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
+        let far = self.fetch(x, || self.lattice_rows(&stored).residual_in_strips(b, x, r));
+        stored.residual(0..stored.nodes().len(), b, x, &far, r);
+        Ok(())
     }
 
     fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()> {
-        let sweep = |far: &[Components], b: &Vector, x: &mut Vector| {
-            let (b, mut x) = (b.values(), x.values_mut());
-            let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
-            self.lattice_rows(&self.rows.borrow()).relax(b, x, far);
-        };
+        let (b, mut x, stored) = (b.values(), x.values_mut(), self.rows.borrow());
+        let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
+        let far = if from_zero { Vec::new() } else { self.fetch(x, || ()) };
         if from_zero {
-            x.set(0.0)?;
-            sweep(&[], b, x);
-            return Ok(());
+            x.fill([0.0; 2]);
         }
-        match &self.gather {
-            Some(gather) => sweep(gather.borrow_mut().read(x)?.as_chunks().0, b, x),
-            None => sweep(&[], b, x),
-        }
+        self.lattice_rows(&stored).relax(b, x, &far);
         Ok(())
     }
 
     fn diagonal(&self, diagonal: &mut Vector) -> Result<()> {
-        self.stored.borrow().diagonal(diagonal)?;
         let mut values = diagonal.values_mut();
         let pairs = values.as_chunks_mut::<2>().0;
+        let rows = self.rows.borrow();
+        for (k, &node) in rows.nodes.iter().enumerate() {
+            let block = rows.diagonal(k);
+            pairs[node as usize] = [block[0][0], block[1][1]];
+        }
         self.each_row(|node, couplings| pairs[node] = [couplings[0].1[0][0], couplings[0].1[1][1]]);
         Ok(())
     }
 
     fn norm_infinity(&self) -> Result<f64> {
-        let stored = self.stored.borrow().norm_infinity()?;
+        let stored = self.rows.borrow().norm_infinity();
         Ok(self.strips.couplings.iter().map(Couplings::norm_infinity).fold(stored, f64::max))
     }
 

@@ -1,10 +1,11 @@
 //! What the cycle works with in double and in single precision: kernels, strips, stored rows.
 
-use super::lanes::{Lanes, Plain, Work};
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Double, Pair, Single, WideDouble, WideSingle};
+use super::lanes::{Lanes, Plain, Work};
 use super::lattice_operator::Strips;
-use super::stored_rows::{OnRows, StoredRows};
+use super::row_kernel::OnRows;
+use super::stored_rows::StoredRows;
 use super::strip_kernel::{StripKernel, kernel};
 use super::strips::Couplings;
 use crate::system::space::Real;

@@ -1,321 +1,269 @@
 //! The rows of a stiffness that are stored, as blocks of two by two.
 
-use super::lanes::Lanes;
-use super::precision::Precision;
 use super::strips::inverse;
 use crate::element::Block;
-use crate::petsc::{Matrix, Result};
 use crate::system::space::Real;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
-/// their own.
-#[derive(Default)]
+/// their own. Rows with the same couplings share them: along an edge of the macro mesh, or inside along its sides, most are.
+#[derive(Clone, Default)]
 pub struct StoredRows<T = f64> {
-    nodes: Vec<u32>,
-    /// Inverses of the diagonal blocks.
-    inverses: Vec<[[T; 2]; 2]>,
-    near: Part<T>,
-    far: Part<T>,
+    /// The nodes, ascending, counted from this rank's first.
+    pub(in crate::system) nodes: Vec<u32>,
+    /// Inverses of diagonal blocks.
+    pub(in crate::system) inverses: Vec<[[T; 2]; 2]>,
+    /// The inverse of each row.
+    pub(in crate::system) inverse_of: Vec<u32>,
+    /// Columns of this rank.
+    pub(in crate::system) near: Part<T>,
+    /// Columns of other ranks.
+    pub(in crate::system) far: Part<T>,
 }
 
-/// One part of all rows: that of row `k` lies in `starts[k]..starts[k + 1]`.
-struct Part<T> {
-    starts: Vec<u32>,
-    columns: Vec<u32>,
-    blocks: Vec<[[T; 2]; 2]>,
+/// One part of all rows: the columns of row `k` are `starts[k]..starts[k + 1]`, ascending, and its blocks are as many from
+/// `firsts[k]` on.
+#[derive(Clone)]
+pub struct Part<T = f64> {
+    pub(in crate::system) starts: Vec<u32>,
+    pub(in crate::system) columns: Vec<u32>,
+    pub(in crate::system) firsts: Vec<u32>,
+    pub(in crate::system) blocks: Vec<[[T; 2]; 2]>,
+}
+
+/// A column of the stored rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// A node of this rank, counted from its first.
+    Near(u32),
+    /// A place in the list of nodes of other ranks.
+    Far(u32),
+}
+
+impl Column {
+    /// The column of a node of any rank, `far` being the list, ascending.
+    ///
+    /// # Panics
+    /// If neither this rank nor the list has the node.
+    #[inline]
+    pub fn of(node: usize, own: &Range<usize>, far: &[usize]) -> Self {
+        match own.contains(&node) {
+            true => Self::Near((node - own.start) as u32),
+            false => Self::Far(far.binary_search(&node).expect("a known column") as u32),
+        }
+    }
 }
 
 impl<T> Default for Part<T> {
     fn default() -> Self {
-        Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() }
+        Self { starts: vec![0], columns: Vec::new(), firsts: Vec::new(), blocks: Vec::new() }
     }
 }
 
-impl<T: Real> Part<T> {
-    /// `sum - Σ K x` of a row. A block fills a register, whose four products come together at the end.
+impl<T> Part<T> {
+    /// Places of the columns of row `k`.
+    #[inline]
+    pub fn row(&self, k: usize) -> Range<usize> {
+        self.starts[k] as usize..self.starts[k + 1] as usize
+    }
+
+    /// Couplings of row `k`.
+    pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &[[T; 2]; 2])> {
+        let row = self.row(k);
+        let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
+        self.columns[row].iter().copied().zip(blocks)
+    }
+
+    /// The block of row `k` in a column.
+    ///
+    /// # Panics
+    /// If the row has no such column.
+    #[inline]
+    fn at(&self, k: usize, column: u32) -> usize {
+        let place = self.columns[self.row(k)].binary_search(&column).expect("the pattern of a stiffness stays");
+        self.firsts[k] as usize + place
+    }
+}
+
+impl Part {
+    /// Shares the blocks of rows that have the same ones, but for those that are to keep their own.
+    fn share(&mut self, keeps: &[bool]) {
+        let mut known: HashMap<u64, Vec<(u32, usize)>> = HashMap::new();
+        let mut blocks: Vec<Block> = Vec::new();
+        for (k, keeps) in keeps.iter().enumerate() {
+            let row = &self.blocks[self.firsts[k] as usize..][..self.row(k).len()];
+            let alike = known.entry(fingerprint(row)).or_default();
+            let found = alike.iter().find(|&&(first, count)| blocks[first as usize..][..count] == *row).filter(|_| !keeps);
+            let first = found.map_or(blocks.len() as u32, |found| found.0);
+            if found.is_none() {
+                blocks.extend_from_slice(row);
+                if !keeps {
+                    alike.push((first, row.len()));
+                }
+            }
+            self.firsts[k] = first;
+        }
+        blocks.shrink_to_fit();
+        self.blocks = blocks;
+    }
+}
+
+/// A number that is the same for the same blocks.
+fn fingerprint(blocks: &[Block]) -> u64 {
+    let mix = |sum: u64, value: &f64| (sum.rotate_left(5) ^ value.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    blocks.as_flattened().as_flattened().iter().fold(0, mix)
+}
+
+impl<T> StoredRows<T> {
+    /// The nodes whose rows these are.
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    /// Inverse of the diagonal block of row `k`.
     #[inline(always)]
-    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(&self, lanes: L, k: usize, sum: [T; 2], x: &[[T; 2]]) -> [T; 2] {
-        let range = self.starts[k] as usize..self.starts[k + 1] as usize;
-        let (columns, blocks) = (self.columns[range.clone()].as_chunks::<2>(), self.blocks[range].as_chunks::<2>());
-        let zero = lanes.load([[T::default(); 2]; 2]);
-        let node = |column: u32| lanes.load([x[column as usize]; 2]);
-        let (mut one, mut other) = (zero, zero);
-        for (columns, blocks) in columns.0.iter().zip(blocks.0) {
-            one = lanes.multiply_add(lanes.load(blocks[0]), node(columns[0]), one);
-            other = lanes.multiply_add(lanes.load(blocks[1]), node(columns[1]), other);
-        }
-        if let ([column], [block]) = (columns.1, blocks.1) {
-            one = lanes.multiply_add(lanes.load(*block), node(*column), one);
-        }
-        let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
-        [sum[0] - (a + b), sum[1] - (c + d)]
+    pub fn inverse(&self, k: usize) -> &[[T; 2]; 2] {
+        &self.inverses[self.inverse_of[k] as usize]
     }
-
-    fn push(&mut self, column: usize, block: [[T; 2]; 2]) {
-        self.columns.push(column as u32);
-        self.blocks.push(block);
-    }
-
-    /// Columns and blocks of row `k`.
-    fn row(&self, k: usize) -> impl Iterator<Item = (usize, [[T; 2]; 2])> {
-        let range = self.starts[k] as usize..self.starts[k + 1] as usize;
-        self.columns[range.clone()].iter().map(|&column| column as usize).zip(self.blocks[range].iter().copied())
-    }
-
-    fn end_row(&mut self) {
-        self.starts.push(self.columns.len() as u32);
-    }
-}
-
-/// Columns of other ranks in the rows of `nodes`, ascending.
-pub fn far_columns(matrix: &Matrix, own: &Range<usize>, nodes: &[u32]) -> Result<Vec<usize>> {
-    let mut found = Vec::new();
-    for &node in nodes {
-        matrix.row(2 * (own.start + node as usize), |columns, _| {
-            found.extend(columns.iter().step_by(2).map(|&c| c as usize / 2).filter(|column| !own.contains(column)));
-        })?;
-    }
-    found.sort_unstable();
-    found.dedup();
-    Ok(found)
-}
-
-/// Blocks of a node's two rows, with their column nodes.
-fn blocks_of(matrix: &Matrix, node: usize) -> Result<Vec<(usize, Block)>> {
-    let mut blocks: Vec<(usize, Block)> = Vec::new();
-    matrix.row(2 * node, |columns, values| {
-        let columns = columns.iter().step_by(2).map(|&c| c as usize / 2);
-        blocks.extend(columns.zip(values.as_chunks().0).map(|(column, &upper)| (column, [upper, [0.0; 2]])));
-    })?;
-    matrix.row(2 * node + 1, |_, values| {
-        blocks.iter_mut().zip(values.as_chunks().0).for_each(|((_, block), &lower)| block[1] = lower);
-    })?;
-    Ok(blocks)
 }
 
 impl StoredRows {
-    /// Reads the rows of `nodes`, which hold whole blocks, from an assembled matrix; `far` are the columns of other ranks.
-    ///
-    /// # Panics
-    /// If a diagonal block has no inverse: a stiffness has one.
-    pub fn read(matrix: &Matrix, own: &Range<usize>, nodes: &[u32], far: &[usize]) -> Result<Self> {
-        let mut rows = Self { nodes: nodes.to_vec(), ..Self::default() };
-        for &node in nodes {
-            let row = own.start + node as usize;
-            for (column, block) in blocks_of(matrix, row)? {
-                if column == row {
-                    rows.inverses.push(inverse(&block).expect("a stiffness has a diagonal"));
-                }
-                match own.contains(&column) {
-                    true => rows.near.push(column - own.start, block),
-                    false => rows.far.push(far.binary_search(&column).expect("a known column"), block),
-                }
+    /// Shares what rows have in common, but for rows of these nodes (counted from this rank's first, ascending): contact adds
+    /// to them.
+    pub fn share(&mut self, contact: impl Iterator<Item = usize>) {
+        let mut keeps = vec![false; self.nodes.len()];
+        contact.filter_map(|node| self.place(node)).for_each(|k| keeps[k] = true);
+        self.near.share(&keeps);
+        self.far.share(&keeps);
+        let mut known: HashMap<u64, u32> = HashMap::new();
+        let mut inverses: Vec<Block> = Vec::new();
+        for (k, keeps) in keeps.iter().enumerate() {
+            let own = self.inverses[self.inverse_of[k] as usize];
+            let next = inverses.len() as u32;
+            let place = if *keeps { next } else { *known.entry(fingerprint(&[own])).or_insert(next) };
+            // Two inverses with one fingerprint are told apart.
+            let place = if place < next && inverses[place as usize] != own { next } else { place };
+            if place == next {
+                inverses.push(own);
             }
-            rows.near.end_row();
-            rows.far.end_row();
+            self.inverse_of[k] = place;
         }
-        Ok(rows)
-    }
-
-    /// Reads the row of one node again, after its values have changed; nothing happens if it is not among these.
-    ///
-    /// # Panics
-    /// As [`StoredRows::read`].
-    pub fn read_again(&mut self, matrix: &Matrix, own: &Range<usize>, row: usize, far: &[usize]) -> Result<()> {
-        let Ok(k) = self.nodes.binary_search(&((row - own.start) as u32)) else { return Ok(()) };
-        let [mut near, mut other] = [&self.near, &self.far].map(|part| part.starts[k] as usize);
-        for (column, block) in blocks_of(matrix, row)? {
-            if column == row {
-                self.inverses[k] = inverse(&block).expect("a stiffness has a diagonal");
-            }
-            let (part, at, place) = match own.contains(&column) {
-                true => (&mut self.near, &mut near, column - own.start),
-                false => (&mut self.far, &mut other, far.binary_search(&column).expect("a known column")),
-            };
-            assert_eq!(part.columns[*at] as usize, place, "the pattern of a stiffness stays");
-            part.blocks[*at] = block;
-            *at += 1;
-        }
-        Ok(())
+        inverses.shrink_to_fit();
+        self.inverses = inverses;
     }
 
     /// From the rows of all nodes, in any order: for each its node, how many columns, and these; and all blocks. All columns are
     /// near.
     ///
     /// # Panics
-    /// As [`StoredRows::read`].
+    /// As [`StoredRows::invert`].
     pub fn of_all(numbers: &[u32], values: &[f64]) -> Self {
-        let blocks: &[[[f64; 2]; 2]] = values.as_chunks::<2>().0.as_chunks().0;
-        let (mut rows, mut at, mut start) = (Vec::new(), 0, 0);
+        let blocks: &[Block] = values.as_chunks::<2>().0.as_chunks().0;
+        let (mut rows, mut at, mut first) = (Vec::new(), 0, 0);
         while at < numbers.len() {
             let count = numbers[at + 1] as usize;
-            rows.push((numbers[at], at + 2..at + 2 + count, start));
-            (at, start) = (at + 2 + count, start + count);
+            rows.push((numbers[at], at + 2..at + 2 + count, first));
+            (at, first) = (at + 2 + count, first + count);
         }
         rows.sort_unstable_by_key(|row| row.0);
         let mut all = Self::default();
-        for (node, columns, start) in rows {
-            for (k, &column) in numbers[columns].iter().enumerate() {
-                if column == node {
-                    all.inverses.push(inverse(&blocks[start + k]).expect("a stiffness has a diagonal"));
-                }
-                all.near.push(column as usize, blocks[start + k]);
-            }
+        for (node, columns, first) in rows {
+            let mut row: Vec<(u32, Block)> = numbers[columns].iter().copied().zip(blocks[first..].iter().copied()).collect();
+            row.sort_unstable_by_key(|coupling| coupling.0);
             all.nodes.push(node);
-            all.near.end_row();
-            all.far.end_row();
+            all.near.firsts.push(all.near.blocks.len() as u32);
+            all.near.columns.extend(row.iter().map(|coupling| coupling.0));
+            all.near.blocks.extend(row.iter().map(|coupling| coupling.1));
+            all.near.starts.push(all.near.columns.len() as u32);
+            all.far.firsts.push(0);
+            all.far.starts.push(0);
+            all.inverse_of.push(all.inverse_of.len() as u32);
+            all.inverses.push([[0.0; 2]; 2]);
         }
+        (0..all.nodes.len()).for_each(|k| all.invert(k));
+        all.share(std::iter::empty());
         all
-    }
-
-    /// Shows each row: its node, and its near and far columns with their blocks.
-    pub fn each_row(
-        &self,
-        mut show: impl FnMut(usize, &mut dyn Iterator<Item = (usize, Block)>, &mut dyn Iterator<Item = (usize, Block)>),
-    ) {
-        for (k, &node) in self.nodes.iter().enumerate() {
-            show(node as usize, &mut self.near.row(k), &mut self.far.row(k));
-        }
     }
 
     /// The rows of single unknowns, if these are those of all nodes: columns and values.
     pub fn scalar_rows(&self) -> Vec<(Vec<i32>, Vec<f64>)> {
-        let mut rows = Vec::with_capacity(2 * self.nodes.len());
-        self.each_row(|_, near, _| {
-            let row: Vec<(usize, Block)> = near.collect();
-            for a in 0..2 {
-                let columns = row.iter().flat_map(|(column, _)| [2 * *column as i32, 2 * *column as i32 + 1]).collect();
-                rows.push((columns, row.iter().flat_map(|(_, block)| block[a]).collect()));
-            }
-        });
-        rows
+        let row = |k: usize, a: usize| {
+            let columns = self.near.couplings(k).flat_map(|(column, _)| [2 * column as i32, 2 * column as i32 + 1]);
+            (columns.collect(), self.near.couplings(k).flat_map(|(_, block)| block[a]).collect())
+        };
+        (0..self.nodes.len()).flat_map(|k| [row(k, 0), row(k, 1)]).collect()
     }
 
     /// The same in another precision.
     pub fn converted<U: Real>(&self) -> StoredRows<U> {
         let blocks = |blocks: &[Block]| blocks.iter().map(|block| block.map(|row| row.map(U::of))).collect();
-        let part = |part: &Part<f64>| Part {
+        let part = |part: &Part| Part {
             starts: part.starts.clone(),
             columns: part.columns.clone(),
+            firsts: part.firsts.clone(),
             blocks: blocks(&part.blocks),
         };
         StoredRows {
             nodes: self.nodes.clone(),
             inverses: blocks(&self.inverses),
+            inverse_of: self.inverse_of.clone(),
             near: part(&self.near),
             far: part(&self.far),
         }
     }
 
+    /// Adds a block to row `k`, which shares its blocks with none. Its inverse is that of before until [`StoredRows::invert`].
+    ///
+    /// # Panics
+    /// If the row has no such column.
+    #[inline]
+    pub fn add(&mut self, k: usize, column: Column, block: &Block) {
+        let (part, column) = match column {
+            Column::Near(column) => (&mut self.near, column),
+            Column::Far(column) => (&mut self.far, column),
+        };
+        let at = part.at(k, column);
+        let sum = &mut part.blocks[at];
+        *sum = [0, 1].map(|a| [0, 1].map(|b| sum[a][b] + block[a][b]));
+    }
+
+    /// The row of a node, if it is stored; the node is counted from this rank's first.
+    pub fn place(&self, node: usize) -> Option<usize> {
+        place(&self.nodes, node)
+    }
+
+    /// Inverts the diagonal block of row `k`.
+    ///
+    /// # Panics
+    /// If it has no inverse: that of a stiffness has one.
+    pub fn invert(&mut self, k: usize) {
+        self.inverses[self.inverse_of[k] as usize] = inverse(self.diagonal(k)).expect("a stiffness has a diagonal");
+    }
+
+    /// The diagonal block of row `k`.
+    pub fn diagonal(&self, k: usize) -> &Block {
+        &self.near.blocks[self.near.at(k, self.nodes[k])]
+    }
+
+    /// Largest sum of magnitudes in a row.
+    pub fn norm_infinity(&self) -> f64 {
+        let of_row = |k: usize, a: usize| -> f64 {
+            self.near.couplings(k).chain(self.far.couplings(k)).map(|(_, block)| block[a][0].abs() + block[a][1].abs()).sum()
+        };
+        (0..self.nodes.len()).map(|k| of_row(k, 0).max(of_row(k, 1))).fold(0.0, f64::max)
+    }
+
     /// Blocks in all rows.
     pub fn block_count(&self) -> usize {
-        self.near.blocks.len() + self.far.blocks.len()
-    }
-
-}
-
-/// Work on the rows of a range.
-enum Task<'a, T> {
-    Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
-    Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
-    Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
-    Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
-}
-
-/// A task with what it works on; `far` are the values of columns of other ranks, none stands for zeros.
-pub struct OnRows<'a, T> {
-    rows: &'a StoredRows<T>,
-    range: Range<usize>,
-    far: &'a [[T; 2]],
-    task: Task<'a, T>,
-}
-
-impl<T: Real> OnRows<'_, T> {
-    /// Does it.
-    #[inline(always)]
-    pub fn work<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(self, lanes: L) {
-        let Self { rows, range, far, task } = self;
-        match task {
-            Task::Multiply { y, x } => {
-                for k in range {
-                    let sum = rows.subtract(lanes, k, [T::default(); 2], x, far);
-                    y[rows.nodes[k] as usize] = [-sum[0], -sum[1]];
-                }
-            }
-            Task::Residual { r, b, x } => {
-                for k in range {
-                    let node = rows.nodes[k] as usize;
-                    r[node] = rows.subtract(lanes, k, b[node], x, far);
-                }
-            }
-            Task::Forward { b, x } => {
-                for k in range {
-                    rows.relax(lanes, k, b, x, far);
-                }
-            }
-            Task::Backward { b, x } => {
-                for k in range.rev() {
-                    rows.relax(lanes, k, b, x, far);
-                }
-            }
-        }
+        self.near.columns.len() + self.far.columns.len()
     }
 }
 
-impl<T: Precision> StoredRows<T> {
-    /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
-    pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: Task::Multiply { y, x } });
-    }
-
-    /// `r = b - K x` in the rows of a range.
-    pub fn residual(&self, range: Range<usize>, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: Task::Residual { r, b, x } });
-    }
-
-    /// Relaxes the nodes of a range in their order, `far` staying as it is; no `far` stands for zeros.
-    pub fn forward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: Task::Forward { b, x } });
-    }
-
-    /// The same in the opposite order.
-    pub fn backward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: Task::Backward { b, x } });
-    }
-}
-
-impl<T: Real> StoredRows<T> {
-    /// The nodes whose rows these are.
-    pub fn nodes(&self) -> &[u32] {
-        &self.nodes
-    }
-
-    #[inline(always)]
-    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
-        &self,
-        lanes: L,
-        k: usize,
-        sum: [T; 2],
-        x: &[[T; 2]],
-        far: &[[T; 2]],
-    ) -> [T; 2] {
-        let sum = self.near.subtract(lanes, k, sum, x);
-        if far.is_empty() { sum } else { self.far.subtract(lanes, k, sum, far) }
-    }
-
-    #[inline(always)]
-    fn relax<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
-        &self,
-        lanes: L,
-        k: usize,
-        b: &[[T; 2]],
-        x: &mut [[T; 2]],
-        far: &[[T; 2]],
-    ) {
-        let node = self.nodes[k] as usize;
-        let sum = self.subtract(lanes, k, b[node], x, far);
-        let ([u, v], inverse) = (x[node], &self.inverses[k]);
-        x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
-    }
+/// Place of a node among ascending ones.
+#[inline]
+pub fn place(nodes: &[u32], node: usize) -> Option<usize> {
+    let is_it = |at: &usize| nodes.get(*at) == Some(&(node as u32));
+    // Where none is missing before it, its place is its number.
+    Some(node).filter(is_it).or_else(|| nodes.binary_search(&(node as u32)).ok())
 }

@@ -255,10 +255,14 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
             return;
         }
         let starts = self.runs(nodes);
-        let mut state = State::<L>::new(lanes, way, match way {
-            Way::Forward => &x[first - Self::REACH..first],
-            Way::Backward => &x[first + count..][..Self::REACH],
-        });
+        let mut state = State::<L>::new(
+            lanes,
+            way,
+            match way {
+                Way::Forward => &x[first - Self::REACH..first],
+                Way::Backward => &x[first + count..][..Self::REACH],
+            },
+        );
         let (before, rest) = x.split_at_mut(first - Self::REACH);
         let (own, next) = rest.split_at_mut(count + 2 * Self::REACH);
         let above = |start: usize| &L::chunks(&next[start - first - count - Self::REACH..])[..registers];
@@ -377,7 +381,9 @@ fn square(pair: &[[Block; 2]; 2]) -> [[Block; 2]; 2] {
     let entry = |i: usize, j: usize| pair[i / 2][j / 2][i % 2][j % 2];
     let matrix = Matrix4::from_fn(entry);
     let matrix = matrix * matrix;
-    std::array::from_fn(|i| std::array::from_fn(|j| std::array::from_fn(|a| std::array::from_fn(|b| matrix[(2 * i + a, 2 * j + b)]))))
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| std::array::from_fn(|a| std::array::from_fn(|b| matrix[(2 * i + a, 2 * j + b)])))
+    })
 }
 
 /// What is to be done with the nodes of strips.

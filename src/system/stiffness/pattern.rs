@@ -1,0 +1,164 @@
+//! Which blocks the stored rows have.
+
+use super::ContactNeighbours;
+use super::stored_rows::{Part, StoredRows};
+use std::ops::Range;
+
+/// Columns of rows, each perhaps several times, before they are sorted. Nodes have their numbers among all ranks.
+pub struct RowColumns {
+    /// Where the columns of each row begin.
+    starts: Vec<usize>,
+    /// Where the next column of each row goes.
+    ends: Vec<usize>,
+    columns: Vec<usize>,
+}
+
+impl RowColumns {
+    /// Room for so many columns in each row.
+    pub fn new(counts: &[u32]) -> Self {
+        let mut all = 0;
+        let mut starts = Vec::with_capacity(counts.len());
+        for &count in counts {
+            starts.push(all);
+            all += count as usize;
+        }
+        Self { ends: starts.clone(), starts, columns: vec![0; all] }
+    }
+
+    /// One more column of row `k`.
+    ///
+    /// # Panics
+    /// If there is no room in the last row.
+    #[inline]
+    pub fn push(&mut self, k: usize, column: usize) {
+        self.columns[self.ends[k]] = column;
+        self.ends[k] += 1;
+    }
+
+    /// Rows of these nodes with zeros at their couplings, each once and ascending, and the nodes of other ranks among the
+    /// columns; `own` are the nodes of this rank.
+    pub fn into_rows(mut self, nodes: Vec<u32>, own: &Range<usize>) -> (StoredRows, Vec<usize>) {
+        let mut far = Vec::new();
+        // What is left of each row moves to the front of all columns.
+        let mut at = 0;
+        for k in 0..nodes.len() {
+            let (start, end) = (self.starts[k], self.ends[k]);
+            self.columns[start..end].sort_unstable();
+            self.starts[k] = at;
+            for from in start..end {
+                let column = self.columns[from];
+                if at == self.starts[k] || self.columns[at - 1] != column {
+                    self.columns[at] = column;
+                    at += 1;
+                }
+            }
+            self.ends[k] = at;
+            far.extend(self.columns[self.starts[k]..at].iter().filter(|column| !own.contains(column)));
+        }
+        far.sort_unstable();
+        far.dedup();
+        let near = self.part(|column| own.contains(&column).then(|| (column - own.start) as u32));
+        let others = self.part(|column| match own.contains(&column) {
+            true => None,
+            false => Some(far.binary_search(&column).expect("a column of another rank") as u32),
+        });
+        let inverses = vec![[[0.0; 2]; 2]; nodes.len()];
+        let inverse_of = (0..nodes.len() as u32).collect();
+        (StoredRows { nodes, inverses, inverse_of, near, far: others }, far)
+    }
+
+    /// The columns that `place` has a place for, in their order, with zeros.
+    fn part(&self, place: impl Fn(usize) -> Option<u32>) -> Part {
+        let count = self.starts.iter().zip(&self.ends).flat_map(|(&start, &end)| &self.columns[start..end]);
+        let count = count.filter(|column| place(**column).is_some()).count();
+        let (mut starts, mut columns) = (Vec::with_capacity(self.starts.len() + 1), Vec::with_capacity(count));
+        starts.push(0);
+        for (&start, &end) in self.starts.iter().zip(&self.ends) {
+            columns.extend(self.columns[start..end].iter().filter_map(|&column| place(column)));
+            starts.push(columns.len() as u32);
+        }
+        let firsts = starts[..starts.len() - 1].to_vec();
+        Part { starts, firsts, blocks: vec![[[0.0; 2]; 2]; columns.len()], columns }
+    }
+}
+
+impl StoredRows {
+    /// A copy with places for the couplings of contact, and its nodes of other ranks; `far` are those of this one. Rows that
+    /// contact does not touch are copied whole.
+    pub fn with_places(&self, contact: &ContactNeighbours, own: &Range<usize>, far: &[usize]) -> (Self, Vec<usize>) {
+        let rows = || contact.range(own.clone());
+        let mut all: Vec<usize> = far.to_vec();
+        all.extend(rows().flat_map(|(_, columns)| columns).filter(|column| !own.contains(column)));
+        all.sort_unstable();
+        all.dedup();
+        let moved: Vec<u32> = far.iter().map(|node| all.binary_search(node).expect("it is among all") as u32).collect();
+        let of = |is_near: bool| {
+            let wanted = rows().map(|(row, columns)| {
+                let k = self.place(row - own.start).expect("rows of contact are stored");
+                let columns = columns.iter().filter(|column| own.contains(column) == is_near);
+                let place = |&column: &usize| match is_near {
+                    true => (column - own.start) as u32,
+                    false => all.binary_search(&column).expect("it is among all") as u32,
+                };
+                (k, columns.map(place).collect())
+            });
+            wanted.collect::<Vec<(usize, Vec<u32>)>>()
+        };
+        let near = self.near.widened(&of(true));
+        let mut other = self.far.clone();
+        other.columns.iter_mut().for_each(|column| *column = moved[*column as usize]);
+        let other = other.widened(&of(false));
+        let (mut inverses, mut inverse_of) = (self.inverses.clone(), self.inverse_of.clone());
+        for k in rows().filter_map(|(row, _)| self.place(row - own.start)) {
+            inverses.push(*self.inverse(k));
+            inverse_of[k] = inverses.len() as u32 - 1;
+        }
+        (Self { nodes: self.nodes.clone(), inverses, inverse_of, near, far: other }, all)
+    }
+}
+
+impl Part {
+    /// A copy with zeros in these columns of some rows (both ascending), where there is nothing yet. These rows have blocks of
+    /// their own.
+    fn widened(&self, wanted: &[(usize, Vec<u32>)]) -> Self {
+        let most = self.columns.len() + wanted.iter().map(|(_, columns)| columns.len()).sum::<usize>();
+        let mut wide = Self {
+            starts: Vec::with_capacity(self.starts.len()),
+            columns: Vec::with_capacity(most),
+            firsts: Vec::with_capacity(self.firsts.len()),
+            blocks: self.blocks.clone(),
+        };
+        wide.starts.push(0);
+        let mut next = 0;
+        for (k, columns) in wanted {
+            wide.copy(self, next..*k);
+            wide.firsts.push(wide.blocks.len() as u32);
+            let mut columns = columns.as_slice();
+            for (column, block) in self.couplings(*k) {
+                let before = columns.partition_point(|&wanted| wanted < column);
+                columns[..before].iter().for_each(|&wanted| wide.push(wanted, [[0.0; 2]; 2]));
+                wide.push(column, *block);
+                columns = &columns[before + usize::from(columns.get(before) == Some(&column))..];
+            }
+            columns.iter().for_each(|&wanted| wide.push(wanted, [[0.0; 2]; 2]));
+            wide.starts.push(wide.columns.len() as u32);
+            next = k + 1;
+        }
+        wide.copy(self, next..self.starts.len() - 1);
+        wide
+    }
+
+    /// Appends rows of another one, which has the same blocks.
+    fn copy(&mut self, other: &Self, rows: Range<usize>) {
+        let places = other.starts[rows.start] as usize..other.starts[rows.end] as usize;
+        let (first, now) = (other.starts[rows.start], self.columns.len() as u32);
+        self.starts.extend(other.starts[rows.start + 1..=rows.end].iter().map(|end| end - first + now));
+        self.columns.extend_from_slice(&other.columns[places]);
+        self.firsts.extend_from_slice(&other.firsts[rows]);
+    }
+
+    fn push(&mut self, column: u32, block: crate::element::Block) {
+        self.columns.push(column);
+        self.blocks.push(block);
+    }
+}

@@ -1,0 +1,122 @@
+//! Sweeps, residuals and products of stored rows.
+
+use super::lanes::Lanes;
+use super::precision::Precision;
+use super::stored_rows::{Part, StoredRows};
+use crate::system::space::Real;
+use std::ops::Range;
+
+/// Work on the rows of a range.
+enum Task<'a, T> {
+    Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
+    Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
+    Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+    Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+}
+
+/// A task with what it works on; `far` are the values of columns of other ranks, none stands for zeros.
+pub struct OnRows<'a, T> {
+    rows: &'a StoredRows<T>,
+    range: Range<usize>,
+    far: &'a [[T; 2]],
+    task: Task<'a, T>,
+}
+
+impl<T: Real> OnRows<'_, T> {
+    /// Does it.
+    #[inline(always)]
+    pub fn work<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(self, lanes: L) {
+        let Self { rows, range, far, task } = self;
+        match task {
+            Task::Multiply { y, x } => {
+                for k in range {
+                    let sum = rows.subtract(lanes, k, [T::default(); 2], x, far);
+                    y[rows.nodes[k] as usize] = [-sum[0], -sum[1]];
+                }
+            }
+            Task::Residual { r, b, x } => {
+                for k in range {
+                    let node = rows.nodes[k] as usize;
+                    r[node] = rows.subtract(lanes, k, b[node], x, far);
+                }
+            }
+            Task::Forward { b, x } => {
+                for k in range {
+                    rows.relax(lanes, k, b, x, far);
+                }
+            }
+            Task::Backward { b, x } => {
+                for k in range.rev() {
+                    rows.relax(lanes, k, b, x, far);
+                }
+            }
+        }
+    }
+}
+
+impl<T: Precision> StoredRows<T> {
+    /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
+    pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Multiply { y, x } });
+    }
+
+    /// `r = b - K x` in the rows of a range.
+    pub fn residual(&self, range: Range<usize>, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Residual { r, b, x } });
+    }
+
+    /// Relaxes the nodes of a range in their order, `far` staying as it is; no `far` stands for zeros.
+    pub fn forward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Forward { b, x } });
+    }
+
+    /// The same in the opposite order.
+    pub fn backward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: Task::Backward { b, x } });
+    }
+}
+
+impl<T: Real> Part<T> {
+    /// `sum - Σ K x` of a row. A block fills a register, whose four products come together at the end.
+    #[inline(always)]
+    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(&self, lanes: L, k: usize, sum: [T; 2], x: &[[T; 2]]) -> [T; 2] {
+        let row = self.row(k);
+        let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
+        let (columns, blocks) = (self.columns[row].as_chunks::<2>(), blocks.as_chunks::<2>());
+        let zero = lanes.load([[T::default(); 2]; 2]);
+        let (mut one, mut other) = (zero, zero);
+        for (columns, blocks) in columns.0.iter().zip(blocks.0) {
+            let [a, b] = columns.map(|column| lanes.load([x[column as usize]; 2]));
+            one = lanes.multiply_add(lanes.load(blocks[0]), a, one);
+            other = lanes.multiply_add(lanes.load(blocks[1]), b, other);
+        }
+        if let ([column], [block]) = (columns.1, blocks.1) {
+            one = lanes.multiply_add(lanes.load(*block), lanes.load([x[*column as usize]; 2]), one);
+        }
+        let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
+        [sum[0] - (a + b), sum[1] - (c + d)]
+    }
+}
+
+impl<T: Real> StoredRows<T> {
+    #[inline(always)]
+    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
+        &self,
+        lanes: L,
+        k: usize,
+        sum: [T; 2],
+        x: &[[T; 2]],
+        far: &[[T; 2]],
+    ) -> [T; 2] {
+        let sum = self.near.subtract(lanes, k, sum, x);
+        if far.is_empty() { sum } else { self.far.subtract(lanes, k, sum, far) }
+    }
+
+    #[inline(always)]
+    fn relax<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(&self, lanes: L, k: usize, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        let node = self.nodes[k] as usize;
+        let sum = self.subtract(lanes, k, b[node], x, far);
+        let ([u, v], inverse) = (x[node], self.inverse(k));
+        x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
+    }
+}
