@@ -61,6 +61,8 @@ fn counted(folder: &Path, layer: &Path, ranks: usize, tolerance: &str) -> Counte
         let words: Vec<&str> = text.split_whitespace().collect();
         words.chunks_exact(2).map(|pair| (pair[0].to_string(), pair[1].parse().expect("a number"))).collect()
     };
+    let solver = summary["solver"]["krylov"].as_str().expect("words");
+    assert_eq!(solver, "fieldsplit (multigrid F-cycle)", "{ranks} ranks: no mesh of the sequence was left to a factor");
     let iterations = summary["solver"]["iterations"].as_array().expect("a list");
     assert_eq!(iterations.len(), 1, "one pass on the finest mesh");
     ((0..ranks).map(of_rank).collect(), iterations[0].as_u64().expect("a number"))

@@ -4,6 +4,7 @@ use crate::petsc::{Datum, Halo, Session};
 use crate::system::interpolation::NodeInterpolation;
 use crate::system::stiffness::{LatticeOperator, LatticeRows, Precision, StoredRows, Strips};
 use std::cell::RefCell;
+use std::ops::Range;
 use std::rc::Rc;
 
 /// A level with the vectors of the cycle. One with few unknowns is on every rank as a whole.
@@ -62,14 +63,29 @@ impl<T: Precision + Datum> Level<T> {
         }
     }
 
-    /// Sets the right-hand side.
-    pub fn set(&mut self, b: &[[f64; 2]]) {
-        self.b.iter_mut().zip(b).for_each(|(to, from)| *to = from.map(T::of));
+    /// Sets the right-hand side, from that of this rank's nodes. **Collective**
+    pub fn set(&mut self, b: &[[f64; 2]], session: &Session) {
+        let own = self.own_nodes();
+        self.b[own].iter_mut().zip(b).for_each(|(to, from)| *to = from.map(T::of));
+        if let Rows::All(_) = self.rows {
+            let others = self.lattice.own.clone();
+            self.b[..others.start].fill([T::default(); 2]);
+            self.b[others.end..].fill([T::default(); 2]);
+            session.add_up(self.b.as_flattened_mut());
+        }
     }
 
-    /// Gives the solution.
+    /// Gives the solution at this rank's nodes.
     pub fn get(&self, x: &mut [[f64; 2]]) {
-        x.iter_mut().zip(&self.x).for_each(|(to, from)| *to = from.map(T::double));
+        x.iter_mut().zip(&self.x[self.own_nodes()]).for_each(|(to, from)| *to = from.map(T::double));
+    }
+
+    /// Places of this rank's nodes.
+    fn own_nodes(&self) -> Range<usize> {
+        match self.rows {
+            Rows::Own { .. } => 0..self.x.len(),
+            Rows::All(_) => self.lattice.own.clone(),
+        }
     }
 
     /// The right-hand side of the next coarser level from this one's. **Collective**

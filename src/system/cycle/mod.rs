@@ -23,6 +23,7 @@ pub struct FullCycle<T> {
     coarsest: Coarsest,
     /// The coarsest first; that one has no sweeps.
     levels: Vec<Level<T>>,
+    session: Session,
 }
 
 impl<T: Precision + Datum> FullCycle<T> {
@@ -46,7 +47,7 @@ impl<T: Precision + Datum> FullCycle<T> {
         let below = |l: usize| gathered[l.saturating_sub(1)];
         let levels = rows.into_iter().zip(steps).enumerate();
         let levels = levels.map(|(l, (rows, step))| Level::new(rows, step, [gathered[l], below(l)], session)).collect();
-        Ok(Some(Self { coarsest, levels }))
+        Ok(Some(Self { coarsest, levels, session: session.clone() }))
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
@@ -59,7 +60,7 @@ impl<T: Precision + Datum> FullCycle<T> {
     /// `x = M⁻¹ b` for the nodes of this rank. **Collective**
     fn apply(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) -> Result<()> {
         let top = self.levels.len() - 1;
-        self.levels[top].set(b);
+        self.levels[top].set(b, &self.session);
         for l in (1..=top).rev() {
             let (below, level) = self.levels.split_at_mut(l);
             level[0].restrict_right_hand_side(&mut below[l - 1]);
