@@ -18,8 +18,10 @@
 #include <sys/resource.h>
 #include <time.h>
 
-enum { MESSAGE, REDUCTION, GATHERING, BROADCAST, BARRIER, OTHER, KINDS };
-static const char *NAMES[KINDS] = {"messages", "reductions", "gatherings", "broadcasts", "barriers", "others"};
+enum { MESSAGE, REDUCTION, SUM, GATHERING, BROADCAST, BARRIER, OTHER, KINDS };
+static const char *NAMES[KINDS] = {"messages", "reductions", "sums", "gatherings", "broadcasts", "barriers", "others"};
+
+enum { SMALL = 1024 };
 
 static long long calls[KINDS], bytes[KINDS], waits;
 static double delay;
@@ -54,9 +56,11 @@ static void count(int kind, long long n, MPI_Datatype type) {
 }
 
 static void together(int kind, long long n, MPI_Datatype type, MPI_Comm comm) {
-    int size = 1;
+    int size = 1, each = 0;
     PMPI_Comm_size(comm, &size);
     if (size < 2) return;
+    PMPI_Type_size(type, &each);
+    if (kind == REDUCTION && n * each > SMALL) kind = SUM;
     count(kind, n, type);
     hold(delay * ceil(log2((double)size)));
 }

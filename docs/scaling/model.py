@@ -9,20 +9,22 @@ LEAST = 1000
 # Levels of the hierarchy on which messages and waits are counted: see `counts` and `latency` in make.
 LEVELS = 5
 
+COLLECTIVES = ["reductions", "sums", "gatherings"]
+
 # Value, words, unit.
 ASSUMED = {
     "latency": (2e-6, "latency α of a message, and of each step of a collective", "s"),
     "overhead": (0.5e-6, "time o of a processor for a message", "s"),
     "bandwidth": (4e8, "bandwidth β of a rank: 25 GB/s of a node, shared by 64", "B/s"),
     "socket": (2.0, "slowdown s of a rank on a full socket, whose cores share its memory, against the two ranks here", ""),
-    "gathered": (3000.0, "unknowns of the largest level that every rank holds whole", ""),
+    "gathered": (3000.0, "unknowns of the largest level that every rank holds whole (GATHERED in the source)", ""),
 }
 
 # Name, words, unit.
 MEASURED = [
     ("unknown", "time t of an unknown and iteration, two ranks", "s"),
     ("iterations", "iterations to 1e-8, most ranks, between those to 1e-6 and to 1e-12", ""),
-    ("collectives", "reductions and gatherings c of an iteration", ""),
+    ("collectives", "reductions, sums and gatherings c of an iteration", ""),
     ("waits", "latencies v on the critical path of an iteration, collectives apart", ""),
     ("messages", "messages of the busiest rank in an iteration, P → 0", ""),
     ("growth", "the same for each further rank", ""),
@@ -42,7 +44,7 @@ def parameters(measured):
     x, y = (sum(f(line) for line in many) / len(many) for f in (ranks_of, messages_of))
     growth = sum((ranks_of(l) - x) * (messages_of(l) - y) for l in many) / sum((ranks_of(l) - x) ** 2 for l in many)
     latency = measured["latency"][-1]
-    collectives = last["most"]["reductions"] + last["most"]["gatherings"]
+    collectives = sum(last["most"][kind] for kind in COLLECTIVES)
     steps = math.ceil(math.log2(latency["ranks"]))
     dealt = max((line for line in measured["partitions"] if line["order"] == 1), key=lambda line: line["triangles"])
     return {
@@ -53,7 +55,7 @@ def parameters(measured):
         "messages": y - growth * x,
         "growth": max(growth, 0.0),
         "bytes": last["most"]["messages_bytes"],
-        "gathered": last["most"]["reductions_bytes"] + last["most"]["gatherings_bytes"],
+        "gathered": sum(last["most"][f"{kind}_bytes"] for kind in COLLECTIVES),
         "share": last["unknowns"] / last["ranks"],
         "imbalance": dealt["work"]["most"] / dealt["work"]["mean"],
         "memory": speed["bytes_per_unknown"],

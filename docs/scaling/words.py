@@ -3,6 +3,7 @@
 import model
 
 SMALL = "**A first version, from few ranks and small meshes.**"
+COLLECTIVES = model.COLLECTIVES
 SPACES = {1: "P1/P0", 2: "P2/P1 discontinuous"}
 
 
@@ -56,17 +57,19 @@ def counts_section(lines):
         "the other, pressed together by a load that varies along them. A layer of MPI's profiling interface "
         "([counting.c](scaling/counting.c)) counts what each rank does. The figures are those of one Krylov iteration on the finest "
         "mesh: the difference of two solves, to 1e-6 and to 1e-12, which are equal up to the last iterations of the first. "
-        "Collectives are reductions and gatherings of all ranks, which all of them wait for. A message goes from one rank to another.",
+        "Reductions, sums and gatherings are collectives: all ranks wait for them. A reduction is one of a few numbers, as the Krylov "
+        "method wants them; a sum brings a vector of more than 1 KiB together on every rank, as the cycle does with the level below "
+        "which there are no messages. A message goes from one rank to another.",
     ]
     for order in sorted({line["order"] for line in lines}):
         own = [line for line in lines if line["order"] == order]
-        head = ["ranks", "iterations to 1e-12", "reductions", "gatherings", "messages of a rank, mean", "most", "KiB sent by a rank, most", "KiB in collectives", "neighbours, most"]
+        head = ["ranks", "iterations to 1e-12", "reductions", "sums", "gatherings", "messages of a rank, mean", "most", "KiB sent by a rank, most", "KiB in collectives", "neighbours, most"]
         rows = [
             [
-                line["ranks"], line["iterations"], number(line["most"]["reductions"], 2), number(line["most"]["gatherings"], 2),
+                line["ranks"], line["iterations"], number(line["most"]["reductions"], 2), number(line["most"]["sums"], 2), number(line["most"]["gatherings"], 2),
                 number(line["mean"]["messages"]), number(line["most"]["messages"]),
                 number(line["most"]["messages_bytes"] / 1024),
-                number((line["most"]["reductions_bytes"] + line["most"]["gatherings_bytes"]) / 1024), round(line["neighbours"]),
+                number(sum(line["most"][f"{kind}_bytes"] for kind in COLLECTIVES) / 1024), round(line["neighbours"]),
             ]
             for line in own
         ]
@@ -95,7 +98,7 @@ def latency_section(lines, counts):
     rows = []
     for line in lines:
         of_count = next((c for c in counts if c["order"] == 1 and c["ranks"] == line["ranks"]), None)
-        both = of_count["most"]["reductions"] + of_count["most"]["gatherings"] if of_count else 0
+        both = sum(of_count["most"][kind] for kind in COLLECTIVES) if of_count else 0
         rows.append([line["ranks"], number(line["latencies"]), number(line["waits"]), number(both, 2)])
     return "\n\n".join([
         "## Latencies on the critical path",
