@@ -23,7 +23,7 @@ ASSUMED = {
 # Name, words, unit.
 MEASURED = [
     ("unknown", "time t of an unknown and iteration, two ranks", "s"),
-    ("iterations", "iterations to 1e-8, most ranks, between those to 1e-6 and to 1e-12", ""),
+    ("iterations", "iterations to 1e-8, most ranks, half-way between those to 1e-6 and to 1e-10", ""),
     ("collectives", "reductions, sums and gatherings c of an iteration", ""),
     ("waits", "latencies v on the critical path of an iteration, collectives apart", ""),
     ("messages", "messages of the busiest rank in an iteration, P → 0", ""),
@@ -49,7 +49,7 @@ def parameters(measured):
     dealt = max((line for line in measured["partitions"] if line["order"] == 1), key=lambda line: line["triangles"])
     return {
         "unknown": speed["iteration_s"] * speed["ranks"] / speed["unknowns"],
-        "iterations": last["iterations"] - 2 / 3 * last["more"],
+        "iterations": last["iterations"] - 0.5 * last["more"],
         "collectives": collectives,
         "waits": max(latency["latencies"] - collectives * steps, 0.0),
         "messages": y - growth * x,
