@@ -26,8 +26,7 @@ MEASURED = [
     ("iterations", "iterations to 1e-8, most ranks, half-way between those to 1e-6 and to 1e-10", ""),
     ("collectives", "reductions, sums and gatherings c of an iteration", ""),
     ("waits", "latencies v on the critical path of an iteration, collectives apart", ""),
-    ("messages", "messages of the busiest rank in an iteration, P → 0", ""),
-    ("growth", "the same for each further rank", ""),
+    ("messages", "messages of the busiest rank in an iteration, most ranks", ""),
     ("bytes", "bytes that the busiest rank sends in an iteration, at the N/P below", "B"),
     ("gathered", "bytes G that a rank hands to collectives in an iteration", "B"),
     ("share", "unknowns N/P of a rank there", ""),
@@ -39,10 +38,8 @@ MEASURED = [
 def parameters(measured):
     """The measured parameters, of P1."""
     counts = [line for line in measured["counts"] if line["order"] == 1]
-    last, many = counts[-1], [line for line in counts if line["ranks"] >= 8]
+    last = counts[-1]
     speed = max((line for line in measured["speed"] if line["order"] == 1 and line["ranks"] == 2), key=lambda line: line["unknowns"])
-    x, y = (sum(f(line) for line in many) / len(many) for f in (ranks_of, messages_of))
-    growth = sum((ranks_of(l) - x) * (messages_of(l) - y) for l in many) / sum((ranks_of(l) - x) ** 2 for l in many)
     latency = measured["latency"][-1]
     collectives = sum(last["most"][kind] for kind in COLLECTIVES)
     steps = math.ceil(math.log2(latency["ranks"]))
@@ -52,22 +49,13 @@ def parameters(measured):
         "iterations": last["iterations"] - 0.5 * last["more"],
         "collectives": collectives,
         "waits": max(latency["latencies"] - collectives * steps, 0.0),
-        "messages": y - growth * x,
-        "growth": max(growth, 0.0),
+        "messages": last["most"]["messages"],
         "bytes": last["most"]["messages_bytes"],
         "gathered": sum(last["most"][f"{kind}_bytes"] for kind in COLLECTIVES),
         "share": last["unknowns"] / last["ranks"],
         "imbalance": dealt["work"]["most"] / dealt["work"]["mean"],
         "memory": speed["bytes_per_unknown"],
     }
-
-
-def ranks_of(line):
-    return line["ranks"]
-
-
-def messages_of(line):
-    return line["most"]["messages"]
 
 
 def seconds(found, unknowns, ranks):
@@ -78,7 +66,7 @@ def seconds(found, unknowns, ranks):
     share = unknowns / ranks
     work = found["unknown"] * share * value["socket"] * found["imbalance"]
     waits = value["latency"] * (found["collectives"] * math.log2(ranks) + visits * found["waits"])
-    messages = value["overhead"] * visits * (found["messages"] + found["growth"] * ranks)
+    messages = value["overhead"] * visits * found["messages"]
     carried = found["bytes"] * math.sqrt(share / found["share"]) + 2.0 * found["gathered"]
     return found["iterations"] * (work + waits + messages + carried / value["bandwidth"])
 
