@@ -2,8 +2,11 @@
 
 use super::{ContactBoundary, MultiplierSpace, Pair, SegmentRule};
 use crate::element::Order;
-use crate::geometry::Point;
+use crate::geometry::{Disc, Point, overlapping_discs};
 use crate::mesh::BoundaryEdge;
+
+/// Edge ends closer than this share of the edge are the same.
+const SAME: f64 = 1e-6;
 
 /// Segment ends of a pair by its rule, as fractions of the length; `edges` are those of both bodies. The automatic rule
 /// keeps the number of segments that is `known`.
@@ -179,11 +182,18 @@ pub fn safe_ratio_of(order: Order, space: MultiplierSpace, edges: &[Vec<Boundary
 
 /// Whether every edge end of body 2 coincides with one of body 1.
 fn matching(edges: &[Vec<BoundaryEdge>; 2]) -> bool {
+    if edges[0].len() != edges[1].len() {
+        return false;
+    }
     let near = |a: &BoundaryEdge, b: &BoundaryEdge| {
-        let close = |p: Point, q: Point| (p - q).norm() < 1e-6 * a.length();
+        let close = |p: Point, q: Point| (p - q).norm() < SAME * a.length();
         close(a.points[0], b.points[1]) && close(a.points[1], b.points[0])
     };
-    edges[0].len() == edges[1].len() && edges[0].iter().all(|a| edges[1].iter().any(|b| near(a, b)))
+    let disc = |edge: &BoundaryEdge| Disc { middle: 0.5 * (edge.points[0] + edge.points[1]), radius: SAME * edge.length() };
+    let discs = edges.each_ref().map(|edges| edges.iter().map(disc).collect::<Vec<_>>());
+    let mut has_partner = vec![false; edges[0].len()];
+    overlapping_discs(&discs[0], &discs[1], |a, b| has_partner[a] |= near(&edges[0][a], &edges[1][b]));
+    !has_partner.contains(&false)
 }
 
 #[cfg(test)]

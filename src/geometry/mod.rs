@@ -3,11 +3,13 @@
 mod curve;
 mod formula;
 mod gauss;
+mod nearness;
 mod spline;
 
 pub use curve::Curve;
 pub use formula::{Formula, FormulaError};
 pub use gauss::gauss_points;
+pub use nearness::{Disc, overlapping_discs};
 pub use spline::{Spline, chord_lengths};
 
 /// A point, or a vector, of the plane (length).

@@ -3,7 +3,7 @@
 use super::MeshError;
 use super::edge_shape::EdgeShape;
 use crate::geometry::{Point, cross};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// What a mesh file says, before it is checked. Lines are those of the file.
@@ -105,8 +105,9 @@ impl MacroMesh {
         mesh.check_bodies_are_apart()?;
         mesh.find_pieces()?;
         mesh.check_overlap()?;
+        let mut placed = HashSet::new();
         for (name, ends, line) in raw.lines {
-            mesh.add_line(name, ends, line, &known)?;
+            mesh.add_line(name, ends, line, &known, &mut placed)?;
         }
         Ok(mesh)
     }
@@ -199,7 +200,15 @@ impl MacroMesh {
         Ok(())
     }
 
-    fn add_line(&mut self, name: String, ends: [usize; 2], line: usize, known: &HashMap<[u32; 2], u32>) -> Result<(), MeshError> {
+    /// Puts a line onto its boundary, once; `placed` are the boundaries, by their indices, and edges that have been.
+    fn add_line(
+        &mut self,
+        name: String,
+        ends: [usize; 2],
+        line: usize,
+        known: &HashMap<[u32; 2], u32>,
+        placed: &mut HashSet<(usize, u32)>,
+    ) -> Result<(), MeshError> {
         let [a, b] = ends.map(|end| end as u32);
         let edge = match known.get(&[a.min(b), a.max(b)]) {
             Some(&edge) if self.edges[edge as usize].triangles[1].is_none() => edge,
@@ -211,10 +220,13 @@ impl MacroMesh {
                 ));
             }
         };
-        match self.boundaries.iter_mut().find(|boundary| boundary.name == name) {
-            Some(boundary) if boundary.edges.contains(&edge) => {}
-            Some(boundary) => boundary.edges.push(edge),
-            None => self.boundaries.push(Boundary { name, edges: vec![edge] }),
+        let known = self.boundaries.iter().position(|boundary| boundary.name == name);
+        let at = known.unwrap_or_else(|| {
+            self.boundaries.push(Boundary { name, edges: Vec::new() });
+            self.boundaries.len() - 1
+        });
+        if placed.insert((at, edge)) {
+            self.boundaries[at].edges.push(edge);
         }
         Ok(())
     }

@@ -26,6 +26,7 @@ mod shape;
 mod smooth_normal;
 mod spline_shape;
 mod strip;
+mod work;
 
 pub use bisection::BisectedMesh;
 pub use cells::Cells;

@@ -1,7 +1,7 @@
 //! Which rank owns what: data made of the macro mesh, the same on every rank.
 
 use super::MacroMesh;
-use crate::geometry::Point;
+use crate::geometry::{Disc, Point, overlapping_discs};
 
 /// The graph that is partitioned: one vertex per macro triangle, compressed rows.
 pub struct Graph {
@@ -24,11 +24,12 @@ impl Graph {
             }
         }
         for [first, second] in pairs {
-            for &a in *first {
-                for &b in second.iter().filter(|&&b| face(mesh, a, b)) {
-                    connect(mesh.beside(a).0, mesh.beside(b).0);
+            let discs = [first, second].map(|edges| edges.iter().map(|&edge| reach(mesh, edge)).collect::<Vec<_>>());
+            overlapping_discs(&discs[0], &discs[1], |a, b| {
+                if face(mesh, first[a], second[b]) {
+                    connect(mesh.beside(first[a]).0, mesh.beside(second[b]).0);
                 }
-            }
+            });
         }
         connections.sort_unstable();
         let mut graph = Self { offsets: vec![0], neighbours: Vec::new(), connection_weights: Vec::new() };
@@ -44,6 +45,13 @@ impl Graph {
         }
         graph
     }
+}
+
+/// Two edges that face each other have discs that overlap: along the first their middles are half their lengths apart at most,
+/// across it the longer one's length.
+fn reach(mesh: &MacroMesh, edge: u32) -> Disc {
+    let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+    Disc { middle: 0.5 * (a + b), radius: 1.25 * (b - a).norm() }
 }
 
 /// Whether two boundary edges face each other: seen along the first, they overlap, no farther apart than the longer is long.

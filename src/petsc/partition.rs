@@ -8,7 +8,7 @@ use super::session::Session;
 use super::vector::length;
 use std::ptr;
 
-/// Divides a graph into `parts` of about equal size with few edges between them; the part of each vertex.
+/// Divides a graph into `parts` of about equal weight with few edges between them; the part of each vertex.
 /// The whole graph is given, the same on every rank, and so is the result; it depends on the
 /// arguments and the number of ranks alone. **Collective**
 ///
@@ -17,15 +17,24 @@ use std::ptr;
 /// | `offsets` | vertices + 1 | neighbours of vertex v stand at `offsets[v] .. offsets[v + 1]` |
 /// | `neighbours` | `offsets[vertices]` | without v itself; each edge stands at both of its ends |
 /// | `edge_weights` | same | > 0, equal at both ends |
+/// | `vertex_weights` | vertices | > 0; their sum is less than 2³¹ |
 ///
 /// # Panics
 /// If a length is wrong.
-pub fn partition(session: &Session, parts: usize, offsets: &[i32], neighbours: &[i32], edge_weights: &[i32]) -> Result<Vec<i32>> {
+pub fn partition(
+    session: &Session,
+    parts: usize,
+    offsets: &[i32],
+    neighbours: &[i32],
+    edge_weights: &[i32],
+    vertex_weights: &[i32],
+) -> Result<Vec<i32>> {
     let vertices = offsets.len().checked_sub(1).expect("offsets has vertices + 1 entries");
     assert!(
         neighbours.len() == offsets[vertices] as usize && edge_weights.len() == neighbours.len(),
         "neighbours end at the last offset"
     );
+    assert_eq!(vertex_weights.len(), vertices, "each vertex has a weight");
     if parts == 1 {
         return Ok(vec![0; vertices]);
     }
@@ -45,6 +54,9 @@ pub fn partition(session: &Session, parts: usize, offsets: &[i32], neighbours: &
     petsc!(MatPartitioningSetAdjacency(partitioning.0, graph.raw()))?;
     petsc!(MatPartitioningSetType(partitioning.0, c"ptscotch".as_ptr()))?;
     petsc!(MatPartitioningSetNParts(partitioning.0, length(parts)))?;
+    if vertex_weights.iter().any(|weight| *weight != 1) {
+        petsc!(MatPartitioningSetVertexWeights(partitioning.0, handed_over(&vertex_weights[first..end])?))?;
+    }
     petsc!(MatPartitioningSetUseEdgeWeights(partitioning.0, ffi::PetscBool::PETSC_TRUE))?;
     // Scotch draws random numbers: from the same start, so that a partition does not depend on earlier ones.
     unsafe { ffi::mezha_restart_scotch() };

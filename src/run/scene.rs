@@ -58,7 +58,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
 
 /// A scene with its macro triangles spread over the ranks. **Collective**
 pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, RunError> {
-    let partition = system::spread(&mesh, &case.contacts, session)?;
+    let partition = system::spread(&mesh, &case.contacts, case.mesh.order, case.mesh.refine, session)?;
     Ok(assemble(case, mesh, partition))
 }
 

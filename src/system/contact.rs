@@ -7,6 +7,8 @@ use crate::contact::{
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};
+use std::cmp::Ordering;
+use std::collections::HashSet;
 
 /// Segments are short if they miss the safe ratio by more than rounding to a whole number can.
 const SHORT: f64 = 0.95;
@@ -174,20 +176,44 @@ impl Contact {
             .iter()
             .map(|&edge| scene.mesh.edges[edge as usize].vertices.map(|v| self.boundary.foot(scene.mesh.vertices[v as usize])))
             .collect();
-        let away = |t: f64, [a, b]: [f64; 2]| (a.min(b) - t).max(t - a.max(b)).max(0.0);
+        let places = Places::new(feet);
         let owner = |ends: &[f64]| {
-            let t = 0.5 * (ends[0] + ends[1]);
-            let nearest = (0..edges.len()).min_by(|&a, &b| away(t, feet[a]).total_cmp(&away(t, feet[b])));
+            let nearest = places.nearest(0.5 * (ends[0] + ends[1]));
             nearest.map_or(0, |k| scene.partition.owner(scene.mesh.beside(edges[k]).0))
         };
         self.boundary.knots().windows(2).map(owner).collect()
     }
 }
 
+/// Edges of a boundary by the parameters of Γ_C that they lie at, one after the other.
+struct Places {
+    /// Lower and upper parameter, and number of the edge; by their middles.
+    ranges: Vec<([f64; 2], usize)>,
+}
+
+impl Places {
+    fn new(feet: Vec<[f64; 2]>) -> Self {
+        let mut ranges: Vec<_> = feet.into_iter().map(|[a, b]| [a.min(b), a.max(b)]).zip(0..).collect();
+        ranges.sort_by(|(a, _), (b, _)| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
+        Self { ranges }
+    }
+
+    /// The edge at a parameter, or the nearest one. Edges do not overlap, but for one that goes across the end of a closed Γ_C and
+    /// seems to be as long as that: of two the shorter one counts.
+    fn nearest(&self, t: f64) -> Option<usize> {
+        let away = |[low, high]: [f64; 2]| (low - t).max(t - high).max(0.0);
+        let after = self.ranges.partition_point(|(range, _)| range[0] + range[1] < 2.0 * t);
+        let near = &self.ranges[after.saturating_sub(2)..(after + 2).min(self.ranges.len())];
+        let key = |range: [f64; 2]| (away(range), range[1] - range[0]);
+        near.iter().min_by(|(a, _), (b, _)| key(*a).partial_cmp(&key(*b)).unwrap_or(Ordering::Equal)).map(|(_, edge)| *edge)
+    }
+}
+
 /// Whether a load acts on one of these edges.
 fn is_loaded(scene: &Scene, edges: &[u32]) -> bool {
+    let own: HashSet<u32> = edges.iter().copied().collect();
     let names = scene.loads.iter().flat_map(|load| &load.on);
-    names.filter_map(|name| scene.mesh.boundary(name)).flat_map(|boundary| &boundary.edges).any(|edge| edges.contains(edge))
+    names.filter_map(|name| scene.mesh.boundary(name)).flat_map(|boundary| &boundary.edges).any(|edge| own.contains(edge))
 }
 
 /// Whether a contact gets the jump term: as the case asks, or where its segments are short.

@@ -41,7 +41,7 @@ impl Scene {
     /// # Errors
     /// What PETSc says.
     pub fn on(&self, mesh: MacroMesh, session: &Session) -> petsc::Result<Self> {
-        let partition = Rc::new(spread(&mesh, &self.pairs, session)?);
+        let partition = Rc::new(spread(&mesh, &self.pairs, self.order, self.refine, session)?);
         Ok(Self { mesh: Rc::new(mesh), partition, ..self.clone() })
     }
 
@@ -57,15 +57,16 @@ impl Scene {
     }
 }
 
-/// Spreads macro triangles over the ranks: those that share an edge, or face each other in a contact, lie together if they can.
-/// **Collective**
+/// Spreads macro triangles over the ranks: each has about the same work at this order and refinement, and those that share an
+/// edge, or face each other in a contact, lie together if they can. **Collective**
 ///
 /// # Errors
 /// What PETSc says.
-pub fn spread(mesh: &MacroMesh, pairs: &[Pair], session: &Session) -> petsc::Result<Partition> {
+pub fn spread(mesh: &MacroMesh, pairs: &[Pair], order: Order, refine: usize, session: &Session) -> petsc::Result<Partition> {
     let side = |name: &String| mesh.boundary(name).map(|found| found.edges.as_slice()).unwrap_or(&[]);
     let sides: Vec<[&[u32]; 2]> = pairs.iter().map(|pair| pair.between.each_ref().map(side)).collect();
     let graph = Graph::new(mesh, &sides);
-    let ranks = partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.connection_weights)?;
+    let (size, work) = (session.size(), mesh.work(order, refine));
+    let ranks = partition(session, size, &graph.offsets, &graph.neighbours, &graph.connection_weights, &work)?;
     Ok(Partition::new(mesh, &ranks, session.size()))
 }

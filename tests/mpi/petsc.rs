@@ -509,22 +509,22 @@ fn partition_is_balanced_and_cheap(session: &Session) {
             .sum::<usize>()
             / 2
     };
-    let light = vec![1; neighbours.len()];
-    assert_eq!(partition(session, 1, &offsets, &neighbours, &light).unwrap(), vec![0; nx * ny]);
+    let (light, even) = (vec![1; neighbours.len()], vec![1; nx * ny]);
+    assert_eq!(partition(session, 1, &offsets, &neighbours, &light, &even).unwrap(), vec![0; nx * ny]);
     for parts in 2..4 {
-        let part = partition(session, parts, &offsets, &neighbours, &light).unwrap();
+        let part = partition(session, parts, &offsets, &neighbours, &light, &even).unwrap();
         let counts: Vec<usize> = (0..parts as i32).map(|p| part.iter().filter(|q| **q == p).count()).collect();
         assert!(counts.iter().all(|count| count.abs_diff(nx * ny / parts) <= nx * ny / 10), "{counts:?}");
         assert!(cut(&part) <= 6 * (parts - 1), "{}", cut(&part));
         let all = session.gather_all(&part);
         assert!(all.chunks(part.len()).all(|other| other == part), "the same on every rank");
-        assert_eq!(partition(session, parts, &offsets, &neighbours, &light).unwrap(), part);
+        assert_eq!(partition(session, parts, &offsets, &neighbours, &light, &even).unwrap(), part);
     }
     // Two vertices, fewer than there may be ranks; and one that has no neighbour.
-    let mut part = partition(session, 2, &[0, 1, 2], &[1, 0], &[1, 1]).unwrap();
+    let mut part = partition(session, 2, &[0, 1, 2], &[1, 0], &[1, 1], &[1; 2]).unwrap();
     part.sort();
     assert_eq!(part, [0, 1]);
-    assert_eq!(partition(session, 2, &[0, 0, 1, 2], &[2, 1], &[1, 1]).unwrap().len(), 3);
+    assert_eq!(partition(session, 2, &[0, 0, 1, 2], &[2, 1], &[1, 1], &[1, 2, 1]).unwrap().len(), 3);
 
     // Heavy edges along x: the cut goes along the strip, where a plain one goes across.
     let across: Vec<i32> = (0..nx * ny)
@@ -534,8 +534,17 @@ fn partition_is_balanced_and_cheap(session: &Session) {
                 .map(move |w| if v.abs_diff(*w as usize) == 1 { 50 } else { 1 })
         })
         .collect();
-    let part = partition(session, 2, &offsets, &neighbours, &across).unwrap();
+    let part = partition(session, 2, &offsets, &neighbours, &across, &even).unwrap();
     assert!((0..nx * ny).all(|v| part[v] == part[v / nx * nx]), "rows stay whole: {part:?}");
+
+    // The left quarter weighs nine times as much as the rest, three quarters of the whole: parts are equal by weight.
+    let weights: Vec<i32> = (0..nx * ny).map(|v| if v % nx < nx / 4 { 9 } else { 1 }).collect();
+    for parts in 2..4 {
+        let part = partition(session, parts, &offsets, &neighbours, &light, &weights).unwrap();
+        let weight = |p: i32| (0..nx * ny).filter(|&v| part[v] == p).map(|v| weights[v]).sum::<i32>();
+        let share = weights.iter().sum::<i32>() / parts as i32;
+        assert!((0..parts as i32).all(|p| (weight(p) - share).abs() <= share / 5), "{part:?}");
+    }
 }
 
 fn stages_add_up(session: &Session) {

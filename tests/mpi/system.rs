@@ -14,9 +14,9 @@ use contact::with_contact;
 use launch::{Suite, named};
 use mezha::contact::{MultiplierSpace, Stabilise, jump_matrix};
 use mezha::element::Order;
-use mezha::geometry::Point;
-use mezha::mesh::parse_gmsh;
-use mezha::petsc::{Matrix, Session, Vector};
+use mezha::geometry::{Curve, Formula, Point};
+use mezha::mesh::{Graph, parse_gmsh};
+use mezha::petsc::{Matrix, Session, Vector, partition};
 use mezha::system::{
     Contact, Coupled, Discretisation, Elastic, Form, Interpolation, LinearEnding, Preconditioning, SaddlePoint, SolverChoice,
     Start, System, interpolations, load, nodal_forces,
@@ -35,6 +35,7 @@ fn main() -> std::process::ExitCode {
             the_plain_residual_is_that_of_the_system_without_augmentation,
             responses_are_those_of_load_and_gap_and_reciprocal,
             multipliers_live_where_body_one_does,
+            ranks_are_dealt_equal_work,
         ],
         outside: &[],
         scenarios: &[],
@@ -426,4 +427,31 @@ fn multipliers_live_where_body_one_does(session: &Session) {
         }
     }
     assert!(session.size() == 1 || elsewhere > 0, "all multipliers belong to the first rank");
+}
+
+/// The lower bar between bent sides, the upper one straight.
+fn ranks_are_dealt_equal_work(session: &Session) {
+    let text = meshes::Mesh::inclined_bars(1).text();
+    let mut mesh = parse_gmsh(text.as_bytes(), "bars.msh".as_ref()).expect("a mesh");
+    for (name, slope, start) in [("bottom", 0.0, 0.0), ("lower.seam", 1.0 / 6.0, 3.0)] {
+        let formula = format!("{start} + {slope} * t + 0.002 * t * (6 - t)");
+        let read = |text: &str| Formula::parse(text, &["t"]).expect("a formula");
+        let curve = Curve::Parametric { x: read("t"), y: read(&formula), range: [0.0, 6.0] };
+        mesh.bend("arc", &[name.into()], &curve).expect("the ends of the edges lie near it");
+    }
+    let graph = Graph::new(&mesh, &[]);
+    for order in [Order::P1, Order::P2] {
+        let work = mesh.work(order, 6);
+        let most = |weights: &[i32]| {
+            let (offsets, neighbours) = (&graph.offsets, &graph.neighbours);
+            let ranks = partition(session, session.size(), offsets, neighbours, &graph.connection_weights, weights);
+            let mut sums = vec![0; session.size()];
+            ranks.expect("a partition").into_iter().zip(&work).for_each(|(rank, work)| sums[rank as usize] += work);
+            let mean = f64::from(sums.iter().sum::<i32>()) / session.size() as f64;
+            f64::from(sums.into_iter().max().expect("a rank")) / mean
+        };
+        let [weighed, counted] = [most(&work), most(&vec![1; work.len()])];
+        assert!(weighed < 1.05, "{order:?}: a rank has {weighed} times the mean work");
+        assert!(session.size() == 1 || counted > 1.08, "{order:?}: equal numbers would do as well: {counted}");
+    }
 }

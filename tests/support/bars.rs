@@ -3,9 +3,9 @@
 use mezha::body::{Body, Material, Support};
 use mezha::element::Order;
 use mezha::geometry::Formula;
-use mezha::mesh::{Graph, MacroMesh, Partition, read_gmsh};
-use mezha::petsc::{Session, partition};
-use mezha::system::Scene;
+use mezha::mesh::{MacroMesh, read_gmsh};
+use mezha::petsc::Session;
+use mezha::system::{Scene, spread};
 use std::path::Path;
 use std::rc::Rc;
 
@@ -21,9 +21,7 @@ pub fn scene(session: &Session, order: Order, refine: usize, graded: bool) -> Sc
 
 /// The same scene on a mesh of its own.
 pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Scene {
-    let graph = Graph::new(&mesh, &[]);
-    let ranks =
-        partition(session, session.size(), &graph.offsets, &graph.neighbours, &graph.connection_weights).expect("a partition");
+    let partition = spread(&mesh, &[], order, refine, session).expect("a partition");
     let body = |name: &String| Body {
         name: name.clone(),
         material: Material { young: 7000.0, poisson: 0.227 },
@@ -33,7 +31,7 @@ pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Sc
     let wall = Support { name: "wall".into(), on: vec!["left".into()], ux: zero, uy: None, normal: None };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),
-        partition: Rc::new(Partition::new(&mesh, &ranks, session.size())),
+        partition: Rc::new(partition),
         order,
         refine,
         supports: vec![wall],

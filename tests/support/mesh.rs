@@ -80,6 +80,20 @@ impl Mesh {
         }
     }
 
+    /// Two bars, `columns` long and 1 high each, below and above y = 1, with one edge for each unit of length below and nine tenths
+    /// as many above.
+    pub fn long_seam(columns: usize) -> Self {
+        let length = columns as f64;
+        let lower = grid(columns, 1, 1, |u, v| [length * u, v]);
+        let upper = grid(9 * columns / 10, 1, 2, |u, v| [length * u, 1.0 + v]);
+        Self {
+            bodies: vec![
+                ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
+                ("upper", upper, ["upper.seam", "right", "top", "left"]),
+            ],
+        }
+    }
+
     /// Moves every point.
     pub fn map(mut self, f: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
         self.bodies.iter_mut().flat_map(|(_, block, _)| &mut block.points).for_each(|x| *x = f(*x));

@@ -44,10 +44,12 @@ impl<T: Precision + Datum> FullCycle<T> {
         if rows.len() < 2 || steps.len() + 1 != rows.len() {
             return Ok(None);
         }
-        let coarsest = Coarsest::new(&rows[0], session)?;
+        let (coarsest, top) = (Coarsest::new(&rows[0], session)?, rows.len() - 1);
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
-        let gathered: Vec<bool> =
+        let mut gathered: Vec<bool> =
             rows.iter().map(|rows| 2 * session.gather_counts(rows.node_count()).iter().sum::<usize>() <= GATHERED).collect();
+        // The finest level works on the vectors of PETSc's, which are those of each rank.
+        gathered[top] = false;
         let below = |l: usize| gathered[l.saturating_sub(1)];
         let levels = rows.into_iter().zip(steps).enumerate();
         let levels = levels.map(|(l, (rows, step))| Level::new(rows, step, [gathered[l], below(l)], session));

@@ -38,14 +38,21 @@ pub fn is_gathered(space: &Space) -> bool {
 pub fn interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Interpolation>, SystemError> {
     let auxiliary = auxiliary_interpolations(problem, session)?.into_iter().map(|matrix| Interpolation { matrix, nodes: None });
     let mut all: Vec<Interpolation> = auxiliary.collect();
-    for pair in problem.spaces.windows(2) {
-        all.push(interpolation(&problem.scene, &pair[1], &pair[0], session)?);
+    for (l, pair) in problem.spaces.windows(2).enumerate() {
+        let is_finest = l + 2 == problem.spaces.len();
+        all.push(interpolation(&problem.scene, &pair[1], &pair[0], is_finest, session)?);
     }
     Ok(all)
 }
 
-/// Of the nodes between two levels. **Collective**
-fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Interpolation, SystemError> {
+/// Of the nodes between two levels; the finest of all is on every rank only in part. **Collective**
+fn interpolation(
+    scene: &Scene,
+    fine: &Space,
+    coarse: &Space,
+    is_finest: bool,
+    session: &Session,
+) -> Result<Interpolation, SystemError> {
     let own = scene.partition.triangles_of(session.rank());
     let mut here = Here { triangles: own, fine: fine.own.clone(), coarse: coarse.own.clone() };
     if want_entries(session) {
@@ -59,7 +66,7 @@ fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session)
     }
     here.coarse = 0..coarse.numbering.node_count();
     let all: Vec<u32> = (0..scene.mesh.triangles.len() as u32).collect();
-    if is_gathered(fine) {
+    if is_gathered(fine) && !is_finest {
         (here.triangles, here.fine) = (&all, 0..fine.numbering.node_count());
     }
     Ok(Interpolation { matrix, nodes: Some(Rc::new(NodeInterpolation::new(scene, fine, coarse, &here, session))) })

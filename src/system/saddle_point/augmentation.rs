@@ -76,3 +76,32 @@ impl Augmentation {
         self.blocks.iter().flatten()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Known, MultiplierSpace};
+    use crate::geometry::Point;
+    use crate::system::Scene;
+    use crate::system::samples::{blocks, contact, pair};
+
+    #[test]
+    fn a_change_of_the_set_hands_over_the_blocks_that_change_and_no_others() {
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
+            let scene = Scene { refine: 11, ..blocks(pair(space, 50_000), |_| Point::zeros(), Vec::new()) };
+            let contacts = [contact(&scene, Known::default())];
+            let mut active = vec![true; contacts[0].multipliers.count()];
+            let mut augmentation = Augmentation::new(&contacts);
+            let all = augmentation.groups_of(0..active.len());
+            assert_eq!(augmentation.change(&all, &contacts, &active).len(), augmentation.members().len());
+            let changed = [7, 20_000, 20_001, 40_000];
+            changed.iter().for_each(|&i| active[i] = false);
+            let groups = augmentation.groups_of(changed);
+            assert!(groups.len() <= changed.len());
+            let change = augmentation.change(&groups, &contacts, &active);
+            assert!(change.len() <= 2 * changed.len(), "{space:?}: {} blocks", change.len());
+            let touched = change.iter().flat_map(|block| &block.rows).all(|&i| groups.contains(&augmentation.group[i]));
+            assert!(touched && augmentation.change(&groups, &contacts, &active).is_empty());
+        }
+    }
+}

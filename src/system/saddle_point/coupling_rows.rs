@@ -3,68 +3,124 @@
 use crate::contact::DiagonalBlock;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh};
-use crate::system::{Coupling, Space};
+use crate::system::{Coupled, Discretisation, Space};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// Rows of `B` at one level: for each multiplier, node numbers with their two entries. Columns of prescribed
-/// components are zero. The same on every rank.
+/// components are zero. A rank has those that it needs, whole: of its own multipliers, and of groups that couple to a node of its
+/// own on any level. The others are empty.
 #[derive(Clone, Debug)]
 pub struct CouplingRows {
-    rows: Vec<Vec<(usize, Point)>>,
+    /// Where the entries of each row begin, and the end.
+    starts: Vec<u32>,
+    entries: Vec<(usize, Point)>,
 }
 
-/// Entries of one row at one level: by node number the node, which finds its parents on the next coarser level, and its entry.
-type NodeEntries = BTreeMap<usize, (EdgeNode, Point)>;
+/// An entry of a row at one level: the node, which finds its parents on the next coarser level, with its number.
+#[derive(Clone, Copy)]
+struct NodeEntry {
+    number: usize,
+    node: EdgeNode,
+    value: Point,
+}
+
+/// All rows of one level with their nodes.
+struct NodeRows {
+    starts: Vec<u32>,
+    entries: Vec<NodeEntry>,
+}
+
+impl NodeRows {
+    fn new() -> Self {
+        Self { starts: vec![0], entries: Vec::new() }
+    }
+
+    /// Ends a row with these entries: those of one node are summed, in their order.
+    fn push(&mut self, row: &mut Vec<NodeEntry>, space: &Space) {
+        row.sort_by_key(|entry| entry.number);
+        for of_node in row.chunk_by(|a, b| a.number == b.number) {
+            let sum = of_node.iter().map(|entry| entry.value).sum();
+            let value = space.free_part(of_node[0].number, sum);
+            self.entries.push(NodeEntry { value, ..of_node[0] });
+        }
+        self.starts.push(self.entries.len() as u32);
+        row.clear();
+    }
+
+    /// One level down: each node hands its entries to its parents, by their weights.
+    fn restricted(&self, mesh: &MacroMesh, fine: &Space, coarse: &Space) -> Self {
+        let (mut rows, mut row) = (Self::new(), Vec::new());
+        for ends in self.starts.windows(2) {
+            for entry in &self.entries[ends[0] as usize..ends[1] as usize] {
+                let global = fine.to_global(entry.number, entry.value);
+                for (node, weight) in entry.node.parents(mesh, fine.numbering.level) {
+                    row.push(NodeEntry { number: node.number(mesh, &coarse.numbering), node, value: weight * global });
+                }
+            }
+            rows.push(&mut row, coarse);
+        }
+        rows
+    }
+
+    fn without_nodes(&self) -> CouplingRows {
+        let entries = self.entries.iter().map(|entry| (entry.number, entry.value)).collect();
+        CouplingRows { starts: self.starts.clone(), entries }
+    }
+}
+
+/// The rows that a rank needs; `groups` are the multipliers that `D` couples.
+fn wanted(problem: &Discretisation, groups: &[Vec<usize>], rank: usize) -> Vec<bool> {
+    let (mesh, space) = (&problem.scene.mesh, problem.finest());
+    let own_vertex = |&vertex: &u32| space.own.contains(&space.numbering.vertex(vertex));
+    // On coarser levels a node hands its entries to nodes of its macro edge, or to the ends of that.
+    let is_near = |coupled: &Coupled| {
+        let node = coupled.node;
+        space.own.contains(&node.number(mesh, &space.numbering)) || mesh.edges[node.edge as usize].vertices.iter().any(own_vertex)
+    };
+    let (coupling, mut wanted) = (&problem.coupling, vec![false; problem.multiplier_count()]);
+    for group in groups {
+        let is_wanted = group.iter().any(|&i| coupling.owners[i] == rank || coupling.rows[i].iter().any(is_near));
+        group.iter().for_each(|&i| wanted[i] = is_wanted);
+    }
+    wanted
+}
 
 impl CouplingRows {
-    /// Rows of every level of `spaces` (coarsest first); the finest are those of `coupling`, the others follow by the
-    /// transposed interpolation, each level dropping its own prescribed components.
-    pub fn of_levels(mesh: &MacroMesh, coupling: &Coupling, spaces: &[Space]) -> Vec<Self> {
-        let finest = &spaces[spaces.len() - 1];
-        let mut rows: Vec<NodeEntries> = coupling
-            .rows
-            .iter()
-            .map(|row| {
-                let mut nodes = NodeEntries::new();
-                for coupled in row {
-                    let number = coupled.node.number(mesh, &finest.numbering);
-                    nodes.entry(number).or_insert((coupled.node, Point::zeros())).1 += coupled.value;
-                }
-                nodes.iter_mut().for_each(|(&number, (_, value))| *value = finest.free_part(number, *value));
-                nodes
-            })
-            .collect();
-        let mut levels = vec![Self::from_nodes(&rows)];
+    /// Rows of every level, coarsest first, as far as a rank needs them; the finest are those of the coupling, the others follow
+    /// by the transposed interpolation, each level dropping its own prescribed components. `groups` are the multipliers that `D`
+    /// couples, each in one of them.
+    pub fn of_levels(problem: &Discretisation, groups: &[Vec<usize>], rank: usize) -> Vec<Self> {
+        let (mesh, spaces, finest) = (&problem.scene.mesh, &problem.spaces, problem.finest());
+        let (mut rows, mut row) = (NodeRows::new(), Vec::new());
+        for (coupled, is_wanted) in problem.coupling.rows.iter().zip(wanted(problem, groups, rank)) {
+            let entry = |coupled: &Coupled| {
+                let number = coupled.node.number(mesh, &finest.numbering);
+                NodeEntry { number, node: coupled.node, value: coupled.value }
+            };
+            row.extend(coupled.iter().filter(|_| is_wanted).map(entry));
+            rows.push(&mut row, finest);
+        }
+        let mut levels = vec![rows.without_nodes()];
         for pair in spaces.windows(2).rev() {
-            let (coarse, fine) = (&pair[0], &pair[1]);
-            rows = rows.iter().map(|nodes| restrict(mesh, nodes, fine, coarse)).collect();
-            levels.push(Self::from_nodes(&rows));
+            rows = rows.restricted(mesh, &pair[1], &pair[0]);
+            levels.push(rows.without_nodes());
         }
         levels.reverse();
         levels
     }
 
-    fn from_nodes(rows: &[NodeEntries]) -> Self {
-        let row = |nodes: &NodeEntries| nodes.iter().map(|(&number, &(_, value))| (number, value)).collect();
-        Self { rows: rows.iter().map(row).collect() }
-    }
-
     /// Entries of one multiplier, by ascending node number.
     pub fn row(&self, multiplier: usize) -> &[(usize, Point)] {
-        &self.rows[multiplier]
+        &self.entries[self.starts[multiplier] as usize..self.starts[multiplier + 1] as usize]
     }
 
-    /// Number of multipliers.
-    pub fn count(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// Nodes coupled to each node by `BᵀDB`, whatever the active set; `groups` are the multipliers that `D` couples.
-    pub fn neighbours(&self, groups: &[Vec<usize>]) -> BTreeMap<usize, BTreeSet<usize>> {
+    /// Nodes coupled to each of the `own` nodes by `BᵀDB`, whatever the active set; `groups` are the multipliers that `D` couples.
+    pub fn neighbours(&self, groups: &[Vec<usize>], own: &Range<usize>) -> BTreeMap<usize, BTreeSet<usize>> {
         let mut neighbours: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         for group in groups {
-            let nodes: BTreeSet<usize> = group.iter().flat_map(|&i| self.rows[i].iter().map(|&(node, _)| node)).collect();
-            for &node in &nodes {
+            let nodes: BTreeSet<usize> = group.iter().flat_map(|&i| self.row(i).iter().map(|&(node, _)| node)).collect();
+            for &node in nodes.range(own.clone()) {
                 neighbours.entry(node).or_default().extend(&nodes);
             }
         }
@@ -76,8 +132,8 @@ impl CouplingRows {
         for block in weights {
             for (p, &i) in block.rows.iter().enumerate() {
                 for (q, &j) in block.rows.iter().enumerate() {
-                    for &(a, left) in &self.rows[i] {
-                        for &(b, right) in &self.rows[j] {
+                    for &(a, left) in self.row(i) {
+                        for &(b, right) in self.row(j) {
                             let d = block.values[p][q];
                             add(a, b, [d * left.x * right.x, d * left.x * right.y, d * left.y * right.x, d * left.y * right.y]);
                         }
@@ -88,16 +144,67 @@ impl CouplingRows {
     }
 }
 
-/// One level down: each node hands its entries to its parents, by their weights.
-fn restrict(mesh: &MacroMesh, nodes: &NodeEntries, fine: &Space, coarse: &Space) -> NodeEntries {
-    let mut sums = NodeEntries::new();
-    for (&number, &(node, value)) in nodes {
-        let global = fine.to_global(number, value);
-        for (parent, weight) in node.parents(mesh, fine.numbering.level) {
-            let number = parent.number(mesh, &coarse.numbering);
-            sums.entry(number).or_insert((parent, Point::zeros())).1 += weight * global;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{MultiplierSpace, Side};
+    use crate::geometry::Point;
+    use crate::mesh::{Numbering, Partition};
+    use crate::system::saddle_point::augmentation::Augmentation;
+    use crate::system::samples::{blocks, pair};
+    use crate::system::{BoundaryMotion, Contact, Coupling, spaces};
+    use std::rc::Rc;
+
+    const RANKS: usize = 6;
+
+    /// Two blocks of three macro edges on the seam, a rank for each macro triangle; multipliers couple to the nodes whose edges
+    /// have their middle in their segment.
+    fn problem(space: MultiplierSpace, rank: usize) -> Discretisation {
+        let mut scene = blocks(pair(space, 20), |_| Point::zeros(), Vec::new());
+        let ranks: Vec<i32> = (0..RANKS as i32).collect();
+        scene.partition = Rc::new(Partition::new(&scene.mesh, &ranks, RANKS));
+        let spaces = spaces(&scene, rank).expect("a small mesh");
+        let numbering: &Numbering = &spaces[spaces.len() - 1].numbering;
+        let contacts: Vec<Vec<Contact>> =
+            (0..RANKS).map(|rank| Contact::all(&scene, numbering, rank).expect("they face each other")).collect();
+        let count = contacts[0][0].multipliers.count();
+        let mut rows = vec![Vec::new(); count];
+        for edge in contacts.iter().flatten().flat_map(|contact| contact.edges.iter().flatten()) {
+            let i = ((0.25 * (edge.points[0].x + edge.points[1].x)) * count as f64) as usize;
+            let value = Point::new(0.1 + i as f64, edge.points[0].x);
+            rows[i].extend(edge.nodes.iter().map(|&node| Coupled { node, body: 0, side: Side::First, value }));
+        }
+        let owners = (0..count).map(|i| i * RANKS / count).collect();
+        let coupling = Coupling { rows, gap: vec![0.0; count], owners, lost: vec![0] };
+        let contacts = contacts.into_iter().next().expect("rank 0");
+        Discretisation { scene, spaces, contacts, coupling, motion: BoundaryMotion::default() }
+    }
+
+    #[test]
+    fn a_rank_has_whole_what_touches_its_nodes_on_any_level_and_little_else() {
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
+            let everything = {
+                let problem = problem(space, 0);
+                let all = vec![(0..problem.multiplier_count()).collect()];
+                CouplingRows::of_levels(&problem, &all, 0)
+            };
+            let mut kept = 0;
+            for rank in 0..RANKS {
+                let problem = problem(space, rank);
+                let groups = Augmentation::new(&problem.contacts);
+                let own = CouplingRows::of_levels(&problem, groups.members(), rank);
+                for ((own, all), space) in own.iter().zip(&everything).zip(&problem.spaces) {
+                    for i in 0..problem.multiplier_count() {
+                        let needed = problem.coupling.owners[i] == rank || all.row(i).iter().any(|(n, _)| space.own.contains(n));
+                        assert!(own.row(i) == all.row(i) || own.row(i).is_empty() && !needed, "rank {rank}, row {i}");
+                    }
+                    assert!(own.neighbours(groups.members(), &space.own).keys().all(|node| space.own.contains(node)));
+                }
+                let finest = &own[own.len() - 1];
+                kept += (0..problem.multiplier_count()).filter(|&i| !finest.row(i).is_empty()).count();
+            }
+            let rows = problem(space, 0).multiplier_count();
+            assert!(2 * kept < RANKS * rows, "{space:?}: {kept} of {RANKS} times {rows} rows");
         }
     }
-    sums.iter_mut().for_each(|(&number, (_, value))| *value = coarse.free_part(number, *value));
-    sums
 }

@@ -54,16 +54,14 @@ impl SaddlePoint {
     /// Assembles all blocks, with every multiplier active. `load` are the nodal forces of this rank's unknowns, in the nodes'
     /// frames, zero where displacement is prescribed; what prescribed displacements add is put in here. **Collective**
     pub fn new(problem: &Discretisation, load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
-        let rows = CouplingRows::of_levels(&problem.scene.mesh, &problem.coupling, &problem.spaces);
-        let neighbours = neighbours(problem, &rows, form);
+        let (rows, neighbours) = rows_and_neighbours(problem, form, session.rank());
         let elastic = Elastic::new(problem, load, form, &neighbours, session)?;
         Self::with(problem, rows, elastic.stiffness, elastic.load, form, session)
     }
 
     /// Assembles the blocks of contact around the stiffness of the bodies, which is kept. **Collective**
     pub fn around(problem: &Discretisation, elastic: &Elastic, form: Form, session: &Session) -> Result<Self, SystemError> {
-        let rows = CouplingRows::of_levels(&problem.scene.mesh, &problem.coupling, &problem.spaces);
-        let neighbours = neighbours(problem, &rows, form);
+        let (rows, neighbours) = rows_and_neighbours(problem, form, session.rank());
         let stiffness = elastic.with_places(problem, form, &neighbours, session)?;
         Self::with(problem, rows, stiffness, elastic.load.clone(), form, session)
     }
@@ -232,11 +230,13 @@ impl SaddlePoint {
     }
 }
 
-/// Nodes that contact couples, on every level.
-fn neighbours(problem: &Discretisation, rows: &[CouplingRows], form: Form) -> Vec<ContactNeighbours> {
+/// Rows of `B` that a rank needs, and the nodes that contact couples to its own, on every level.
+fn rows_and_neighbours(problem: &Discretisation, form: Form, rank: usize) -> (Vec<CouplingRows>, Vec<ContactNeighbours>) {
     let augmentation = Augmentation::new(&problem.contacts);
+    let rows = CouplingRows::of_levels(problem, augmentation.members(), rank);
     let groups = if form == Form::Augmented { augmentation.members() } else { &[] };
-    rows.iter().map(|rows| rows.neighbours(groups)).collect()
+    let neighbours = rows.iter().zip(&problem.spaces).map(|(rows, space)| rows.neighbours(groups, &space.own)).collect();
+    (rows, neighbours)
 }
 
 /// `c - B u_D`.

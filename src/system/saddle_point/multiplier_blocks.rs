@@ -64,8 +64,8 @@ pub struct MultiplierBlocks {
     pub own: Vec<usize>,
     /// Number of each multiplier: by rank, along the boundaries within a rank.
     number: Vec<usize>,
-    /// Nodes in each column of the transpose, whatever the active set.
-    columns: Vec<BTreeSet<usize>>,
+    /// Nodes of this rank in each column of the transpose, whatever the active set.
+    columns: Vec<Vec<usize>>,
     /// `C`, unscaled.
     jumps: SparseRows,
 }
@@ -94,12 +94,12 @@ impl MultiplierBlocks {
         };
         let pattern = SchurPattern::of(&problem.contacts);
         let jumps = jump_matrix(problem.jumps(), owners.len());
-        let columns: Vec<BTreeSet<usize>> =
-            (0..owners.len()).map(|j| corrected(rows, all, &jumps, j).into_keys().collect()).collect();
-        let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
         let space = problem.finest();
+        let own_nodes = |j: usize| corrected(rows, all, &jumps, j).range(space.own.clone()).map(|(&node, _)| node).collect();
+        let columns: Vec<Vec<usize>> = (0..owners.len()).map(own_nodes).collect();
+        let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
         let (transpose, transposed) = if form == Form::Plain || owners.is_empty() {
-            (transpose_matrix(&columns, &own, space, session)?, None)
+            (transpose_matrix(&columns, owners, own.len(), space, session)?, None)
         } else {
             let transposed = TransposedCoupling::new(&columns, &number, own.len(), space, session)?;
             let action = Box::new(transposed.clone());
@@ -130,7 +130,7 @@ impl MultiplierBlocks {
         augmentation: &Augmentation,
         changed: &[usize],
     ) -> Result<(), SystemError> {
-        let (own_rows, own_nodes) = (self.coupling.row_range(), &problem.finest().own);
+        let own_rows = self.coupling.row_range();
         for i in self.touched(augmentation, changed) {
             let at = [self.number[i] as i32];
             let here = own_rows.contains(&self.number[i]);
@@ -143,7 +143,7 @@ impl MultiplierBlocks {
             if let Some(transposed) = &self.transposed {
                 transposed.set(i, &column, scale, problem.finest());
             }
-            for node in self.columns[i].range(own_nodes.clone()).filter(|_| self.transposed.is_none()) {
+            for node in self.columns[i].iter().filter(|_| self.transposed.is_none()) {
                 let value = column.get(node).copied().unwrap_or_default() * scale;
                 self.transpose.insert(&[2 * *node as i32, 2 * *node as i32 + 1], &at, &[value.x, value.y])?;
             }
@@ -239,18 +239,23 @@ fn coupling_matrix(rows: &CouplingRows, own: &[usize], space: &Space, session: &
     Ok(Matrix::aij(session, own.len(), space.local_unknowns(), 1, &diagonal, &off_diagonal)?)
 }
 
-/// Empty `B̂ᵀ (I - D̂ Ĉ)` with exact preallocation for the given columns.
-fn transpose_matrix(columns: &[BTreeSet<usize>], own: &[usize], space: &Space, session: &Session) -> Result<Matrix, SystemError> {
+/// Empty `B̂ᵀ (I - D̂ Ĉ)` with exact preallocation for this rank's nodes in each column; `own` multipliers are this rank's.
+fn transpose_matrix(
+    columns: &[Vec<usize>],
+    owners: &[usize],
+    own: usize,
+    space: &Space,
+    session: &Session,
+) -> Result<Matrix, SystemError> {
     let unknowns = space.local_unknowns();
     let mut counts = [vec![0; unknowns], vec![0; unknowns]];
-    let mine: BTreeSet<usize> = own.iter().copied().collect();
-    for (i, column) in columns.iter().enumerate() {
-        for node in column.range(space.own.clone()) {
+    for (nodes, &owner) in columns.iter().zip(owners) {
+        let counts = &mut counts[if owner == session.rank() { 0 } else { 1 }];
+        for node in nodes {
             let row = 2 * (node - space.own.start);
-            let counts = &mut counts[if mine.contains(&i) { 0 } else { 1 }];
             counts[row] += 1;
             counts[row + 1] += 1;
         }
     }
-    Ok(Matrix::aij(session, unknowns, own.len(), 1, &counts[0], &counts[1])?)
+    Ok(Matrix::aij(session, unknowns, own, 1, &counts[0], &counts[1])?)
 }

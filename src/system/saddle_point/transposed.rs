@@ -5,7 +5,7 @@ use crate::petsc::{Gather, Result, Session, Transfer, Vector};
 use crate::system::Space;
 use crate::system::space::Components;
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Columns of those multipliers, of any rank, that have entries at nodes of this rank.
@@ -25,12 +25,12 @@ pub struct TransposedCoupling {
 }
 
 impl TransposedCoupling {
-    /// Zeros at the given nodes of each column; `number` are those of the multipliers, of which `own` are this rank's.
+    /// Zeros at the given nodes of each column, ascending and all of this rank; `number` are those of the multipliers, of which `own` are this rank's.
     /// **Collective**
-    pub fn new(columns: &[BTreeSet<usize>], number: &[usize], own: usize, space: &Space, session: &Session) -> Result<Rc<Self>> {
+    pub fn new(columns: &[Vec<usize>], number: &[usize], own: usize, space: &Space, session: &Session) -> Result<Rc<Self>> {
         let layout = Vector::new(session, own)?;
-        let here = |column: &BTreeSet<usize>| -> Vec<(u32, Point)> {
-            column.range(space.own.clone()).map(|&node| ((node - space.own.start) as u32, Point::zeros())).collect()
+        let here = |column: &Vec<usize>| -> Vec<(u32, Point)> {
+            column.iter().map(|&node| ((node - space.own.start) as u32, Point::zeros())).collect()
         };
         let all = columns.iter().map(here).enumerate().filter(|(_, column)| !column.is_empty());
         let (multipliers, columns): (Vec<usize>, Vec<_>) = all.unzip();
