@@ -8,6 +8,9 @@ use std::ptr;
 /// Beginnings of options that PETSc reads only at its end, and of those of a later solver.
 const READ_LATER: [&str; 7] = ["-log_", "-malloc_", "-objects_", "-options_", "-memory_", "-no_signal_handler", "-inf_sup_"];
 
+/// An option of mezha's own: its multigrid cycle works in single precision.
+pub const SINGLE_CYCLE: &str = "-fieldsplit_u_cycle_single";
+
 /// Parts of options that PETSc reads only in a solve.
 const READ_IN_SOLVES: [&str; 2] = ["converged_reason", "_view"];
 
@@ -62,7 +65,7 @@ pub fn unused(session: &Session) -> Result<Vec<String>> {
     Ok(left
         .into_iter()
         .filter(|(name, _)| !defaults.contains(&name.to_lowercase()))
-        .filter(|(name, _)| !is_read_later(name))
+        .filter(|(name, _)| !is_read_later(name) && !name.eq_ignore_ascii_case(SINGLE_CYCLE))
         .map(|(name, value)| format!("{name} {value}").trim_end().to_owned())
         .collect())
 }

@@ -272,13 +272,13 @@ fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
             assert_eq!(levels.len(), interpolations.len() + 1);
             most = most.max(levels.len());
             for (l, interpolation) in interpolations.iter().enumerate() {
-                let (mut x, mut fine) = interpolation.create_vectors().expect("vectors");
+                let (mut x, mut fine) = interpolation.matrix.create_vectors().expect("vectors");
                 let first = x.range().start;
                 x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = erratic(first + at, 0.3));
                 // What is prescribed on the coarse level moves nothing on the fine one.
-                interpolation.multiply(&x, &mut fine).expect("a product");
+                interpolation.matrix.multiply(&x, &mut fine).expect("a product");
                 let mut reached = x.duplicate().expect("a vector");
-                interpolation.multiply_transpose(&fine, &mut reached).expect("a product");
+                interpolation.matrix.multiply_transpose(&fine, &mut reached).expect("a product");
                 x.values_mut()
                     .iter_mut()
                     .zip(reached.values().iter())
@@ -287,7 +287,7 @@ fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
                 let (mut product, mut coarse, mut found) =
                     (fine.duplicate().expect("a vector"), x.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
                 levels[l + 1].multiply(&fine, &mut product).expect("a product");
-                interpolation.multiply_transpose(&product, &mut coarse).expect("a product");
+                interpolation.matrix.multiply_transpose(&product, &mut coarse).expect("a product");
                 levels[l].multiply(&x, &mut found).expect("a product");
                 assert!(apart(session, &found.values(), &coarse.values()) < 1e-8, "level {l} of {}", levels.len());
             }

@@ -13,7 +13,7 @@ mod options;
 pub use fallback::Preconditioning;
 pub use inf_sup::inf_sup;
 
-use self::options::{CoarseSolver, FIELD_SPLIT, is_changed, is_chosen, lambda_options, preconditioning_options};
+use self::options::{CoarseSolver, FIELD_SPLIT, is_changed, is_chosen, lambda_options, preconditioning_options, wants_single};
 use super::auxiliary::GalerkinLevels;
 use super::cycle::Cycle;
 use super::interpolation::Interpolation;
@@ -25,6 +25,10 @@ use std::rc::Rc;
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
+
+/// Iterations to 1e-8 up to which the cycle may stay in single precision: where double precision needs 9 to 12, single
+/// precision needs one more.
+const MOST_IN_SINGLE: f64 = 14.0;
 
 /// Relative residual above which rounding is no excuse.
 const MOST_ROUNDING: f64 = 1e-6;
@@ -40,6 +44,8 @@ pub struct LinearSolver {
     auxiliary: GalerkinLevels,
     /// The cycle, if it is mezha's own.
     cycle: Option<Cycle>,
+    /// Whether the cycle works in single precision.
+    is_single: bool,
     /// What preconditions the displacement block, from the next solve on.
     pub preconditioning: Preconditioning,
     /// The same in words.
@@ -97,7 +103,10 @@ impl LinearSolver {
         session: &Session,
     ) -> Result<Self, SystemError> {
         match choice.form() {
-            Form::Augmented => Self::field_split(system, interpolations.clone(), preconditioning, session),
+            Form::Augmented => {
+                let single = wants_single(session);
+                Self::field_split(system, interpolations.clone(), preconditioning, single, session)
+            }
             Form::Plain => Self::direct(system, session),
         }
     }
@@ -106,6 +115,7 @@ impl LinearSolver {
         system: &SaddlePoint,
         interpolations: Rc<[Interpolation]>,
         preconditioning: Preconditioning,
+        is_single: bool,
         session: &Session,
     ) -> Result<Self, SystemError> {
         let preconditioning = if interpolations.is_empty() { Preconditioning::Factor } else { preconditioning };
@@ -134,7 +144,7 @@ impl LinearSolver {
                 operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             if preconditioning == Preconditioning::Sweep && !is_changed(session) {
-                cycle = Cycle::new(&system.stiffness, &interpolations, std::env::var("MEZHA_F32").is_ok(), session)?;
+                cycle = Cycle::new(&system.stiffness, &interpolations, is_single, session)?;
             }
             match &cycle {
                 Some(cycle) => {
@@ -146,7 +156,8 @@ impl LinearSolver {
         }
         let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
         let own = kind == "mg" || kind == "shell" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
-        let name = if own { field_split_name(preconditioning) } else { format!("fieldsplit ({kind})") };
+        let is_single = is_single && cycle.is_some();
+        let name = if own { field_split_name(preconditioning, is_single) } else { format!("fieldsplit ({kind})") };
         let (session, form) = (session.clone(), Form::Augmented);
         Ok(Self {
             krylov,
@@ -157,6 +168,7 @@ impl LinearSolver {
             auxiliary,
             cycle,
             preconditioning,
+            is_single,
             name,
             is_set_up: true,
         })
@@ -187,6 +199,7 @@ impl LinearSolver {
             auxiliary: GalerkinLevels::default(),
             cycle: None,
             preconditioning: Preconditioning::Factor,
+            is_single: false,
             name,
             is_set_up: true,
         };
@@ -217,7 +230,7 @@ impl LinearSolver {
 
     /// Sets the preconditioning up that a solve has fallen back on. **Collective**
     fn set_up(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
-        *self = Self::field_split(system, self.interpolations.clone(), self.preconditioning, &self.session)?;
+        *self = Self::field_split(system, self.interpolations.clone(), self.preconditioning, self.is_single, &self.session)?;
         Ok(())
     }
 
@@ -264,6 +277,12 @@ impl LinearSolver {
             solve.iterations += solved.iterations;
             system.nest.residual(b, x, &mut r)?;
             solve.residual = r.norm()? / norm;
+            if self.is_single && !(solve.residual <= tolerance && needed <= MOST_IN_SINGLE) {
+                self.go_over_to_double(&mut solve, x)?;
+                if solve.residual > tolerance && solve.iterations < MOST_ITERATIONS {
+                    continue;
+                }
+            }
             if solve.residual <= tolerance {
                 if self.form == Form::Augmented && self.preconditioning.is_too_weak(needed) {
                     self.fall_back(system, needed, &mut solve);
@@ -281,6 +300,18 @@ impl LinearSolver {
                 before = solve.residual;
             }
         }
+    }
+
+    /// Single precision costs more than it saves, or is not enough: from the next solve on the cycle works in double precision.
+    fn go_over_to_double(&mut self, solve: &mut LinearSolve, x: &mut Vector) -> Result<(), SystemError> {
+        (self.is_single, self.is_set_up) = (false, false);
+        self.name = field_split_name(self.preconditioning, false);
+        solve.fallback = Some(self.name.clone());
+        if !solve.residual.is_finite() {
+            x.set(0.0)?;
+            solve.residual = f64::INFINITY;
+        }
+        Ok(())
     }
 
     /// Iterations before it is asked whether to fall back.
@@ -306,7 +337,7 @@ impl LinearSolver {
         }
         let unknowns = system.finest_stiffness().operator().size().0;
         let Some(preconditioning) = self.preconditioning.fallback(needed, unknowns) else { return false };
-        (self.preconditioning, self.name, self.is_set_up) = (preconditioning, field_split_name(preconditioning), false);
+        (self.preconditioning, self.name, self.is_set_up) = (preconditioning, field_split_name(preconditioning, false), false);
         solve.fallback = Some(self.name.clone());
         true
     }
@@ -338,8 +369,9 @@ impl LinearSolver {
 }
 
 /// The solver with a preconditioning, in words.
-fn field_split_name(preconditioning: Preconditioning) -> String {
-    format!("fieldsplit ({})", preconditioning.words("multigrid F-cycle"))
+fn field_split_name(preconditioning: Preconditioning, is_single: bool) -> String {
+    let cycle = if is_single { "multigrid F-cycle in single precision" } else { "multigrid F-cycle" };
+    format!("fieldsplit ({})", preconditioning.words(cycle))
 }
 
 /// The product of the nest and the nest, or for a factor the one with all rows stored. **Collective**

@@ -30,7 +30,12 @@ pub(super) fn is_chosen(session: &Session) -> bool {
 
 /// Whether the user has changed anything about it: then it is PETSc's own multigrid, which has options.
 pub(super) fn is_changed(session: &Session) -> bool {
-    options::any_of_user(session, |name| name.starts_with("-fieldsplit_u_"))
+    options::any_of_user(session, |name| name.starts_with("-fieldsplit_u_") && name != options::SINGLE_CYCLE)
+}
+
+/// Whether the user wants the cycle in single precision.
+pub(super) fn wants_single(session: &Session) -> bool {
+    options::any_of_user(session, |name| name == options::SINGLE_CYCLE)
 }
 
 /// The outer method and the smoother of each preconditioning.
