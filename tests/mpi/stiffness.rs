@@ -221,7 +221,7 @@ fn halved_rows_interpolate_linear_motions_exactly(session: &Session) {
         let motion = |space: &Space| linear_motion(&problem, space, session);
         let (x, expected) = (motion(coarse), motion(fine));
         let mut found = expected.duplicate().expect("a vector");
-        all[all.len() - 1].multiply(&x, &mut found).expect("interpolated");
+        all[all.len() - 1].matrix.multiply(&x, &mut found).expect("interpolated");
         assert!(apart(found, &expected) < 1e-14);
     }
 }
@@ -229,7 +229,7 @@ fn halved_rows_interpolate_linear_motions_exactly(session: &Session) {
 fn halved_rows_are_transposed(session: &Session) {
     for problem in problems(session) {
         let all = interpolations(&problem, session).expect("interpolations");
-        let last = &all[all.len() - 1];
+        let last = &all[all.len() - 1].matrix;
         let (mut x, mut y) = last.create_vectors().expect("vectors");
         x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = (at as f64).cos());
         y.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = (at as f64).sin());

@@ -18,8 +18,8 @@ use mezha::geometry::{Curve, Formula, Point};
 use mezha::mesh::{Graph, parse_gmsh};
 use mezha::petsc::{Matrix, Session, Vector, partition};
 use mezha::system::{
-    Contact, Coupled, Discretisation, Elastic, Form, LinearEnding, Preconditioning, SaddlePoint, SolverChoice, Start, System,
-    interpolations, load, nodal_forces,
+    Contact, Coupled, Discretisation, Elastic, Form, Interpolation, LinearEnding, Preconditioning, SaddlePoint, SolverChoice,
+    Start, System, interpolations, load, nodal_forces,
 };
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -62,10 +62,10 @@ fn problems(session: &Session) -> Vec<Discretisation> {
     scenes.into_iter().map(|scene| Discretisation::new(scene, session).expect("a discretisation")).collect()
 }
 
-fn system<'a>(problem: &'a Discretisation, choice: SolverChoice, session: &Session) -> (System<'a>, Rc<[Matrix]>) {
+fn system<'a>(problem: &'a Discretisation, choice: SolverChoice, session: &Session) -> (System<'a>, Rc<[Interpolation]>) {
     let load = load(problem, &nodal_forces(problem, session).expect("loads"));
     let blocks = SaddlePoint::new(problem, load, choice.form(), session).expect("blocks");
-    let interpolations: Rc<[Matrix]> = match choice.form() {
+    let interpolations: Rc<[Interpolation]> = match choice.form() {
         Form::Augmented => interpolations(problem, session).expect("interpolations").into(),
         Form::Plain => Rc::new([]),
     };

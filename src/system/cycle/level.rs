@@ -18,11 +18,12 @@ pub struct Level<T> {
     step: Option<Rc<NodeInterpolation>>,
     /// Ranks whose sums come together on the next coarser level, which is on every rank; none if this one is, too.
     session: Option<Session>,
-    /// Right-hand side, solution, residual.
+    /// Right-hand side and solution, but for the finest level, which works on those that it is given.
     pub b: Vec<[T; 2]>,
     pub x: Vec<[T; 2]>,
-    r: Vec<[T; 2]>,
     far: Vec<[T; 2]>,
+    /// Nodes that are here.
+    pub nodes: usize,
 }
 
 /// The rows that are worked on.
@@ -51,8 +52,19 @@ impl<T: Precision + Datum> Level<T> {
             (rows, (!alone).then(|| lattice.halo().clone()), lattice.node_count(), lattice.far_count())
         };
         let session = (gathered[1] && !gathered[0] && !alone).then(|| session.clone());
-        let vector = |nodes: usize| vec![[T::default(); 2]; nodes];
-        Self { lattice, rows, halo, step, session, b: vector(nodes), x: vector(nodes), r: vector(nodes), far: vector(far) }
+        Self { lattice, rows, halo, step, session, b: Vec::new(), x: Vec::new(), far: vec![[T::default(); 2]; far], nodes }
+    }
+
+    /// This rank's nodes among those of all ranks, if all are here and there are other ranks.
+    pub fn own_among_all(&self) -> Option<Range<usize>> {
+        matches!(self.rows, Rows::All(_)).then(|| self.lattice.own.clone())
+    }
+
+    /// Makes its vectors.
+    pub fn with_vectors(mut self) -> Self {
+        self.b = vec![[T::default(); 2]; self.nodes];
+        self.x = self.b.clone();
+        self
     }
 
     /// Takes over changed values. **Collective**
@@ -63,39 +75,10 @@ impl<T: Precision + Datum> Level<T> {
         }
     }
 
-    /// Sets the right-hand side, from that of this rank's nodes. **Collective**
-    pub fn set(&mut self, b: &[[f64; 2]], session: &Session) {
-        let own = self.own_nodes();
-        self.b[own].iter_mut().zip(b).for_each(|(to, from)| *to = from.map(T::of));
-        if let Rows::All(_) = self.rows {
-            let others = self.lattice.own.clone();
-            self.b[..others.start].fill([T::default(); 2]);
-            self.b[others.end..].fill([T::default(); 2]);
-            session.add_up(self.b.as_flattened_mut());
-        }
-    }
-
-    /// Gives the solution at this rank's nodes.
-    pub fn get(&self, x: &mut [[f64; 2]]) {
-        x.iter_mut().zip(&self.x[self.own_nodes()]).for_each(|(to, from)| *to = from.map(T::double));
-    }
-
-    /// Places of this rank's nodes.
-    fn own_nodes(&self) -> Range<usize> {
-        match self.rows {
-            Rows::Own { .. } => 0..self.x.len(),
-            Rows::All(_) => self.lattice.own.clone(),
-        }
-    }
-
-    /// The right-hand side of the next coarser level from this one's. **Collective**
-    pub fn restrict_right_hand_side(&self, below: &mut Self) {
-        self.restrict(&self.b, below);
-    }
-
-    /// The same from this one's residual. **Collective**
-    pub fn restrict_residual(&mut self, below: &mut Self) {
-        let Self { lattice, rows, halo, b, x, r, far, .. } = self;
+    /// Restricts the residual `b - K x` to the next coarser level; `r` has room for it. **Collective**
+    pub fn restrict_residual(&mut self, b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]], below: &mut [[T; 2]]) {
+        let Self { lattice, rows, halo, far, nodes, .. } = self;
+        let r = &mut r[..*nodes];
         match rows {
             Rows::All(rows) => rows.residual(0..rows.nodes().len(), b, x, far, r),
             Rows::Own { strips, stored } => {
@@ -108,32 +91,26 @@ impl<T: Precision + Datum> Level<T> {
                 stored.residual(0..stored.nodes().len(), b, x, far, r);
             }
         }
-        self.restrict(&self.r, below);
+        self.restrict(r, below);
     }
 
-    fn restrict(&self, fine: &[[T; 2]], below: &mut Self) {
-        self.step().restrict(fine, &mut below.b);
+    /// Restricts forces to the next coarser level. **Collective**
+    pub fn restrict(&self, fine: &[[T; 2]], below: &mut [[T; 2]]) {
+        self.step.as_ref().expect("a way down").restrict(fine, below);
         if let Some(session) = &self.session {
-            session.add_up(below.b.as_flattened_mut());
+            session.add_up(below.as_flattened_mut());
         }
     }
 
-    /// Begins with what the next coarser level has found. **Collective**
-    pub fn begin(&mut self, below: &Self) {
-        self.x.fill([T::default(); 2]);
-        self.correct(below);
-    }
-
     /// Adds what the next coarser level has found. **Collective**
-    pub fn correct(&mut self, below: &Self) {
-        let step = self.step.as_ref().expect("a way up");
-        step.prolong(&below.x, &mut self.x);
+    pub fn correct(&mut self, below: &[[T; 2]], x: &mut [[T; 2]]) {
+        self.step.as_ref().expect("a way up").prolong(below, x);
     }
 
     /// A symmetric Gauss-Seidel sweep over the nodes here, from `x` or from zero; those of other ranks stay as they are.
     /// **Collective**
-    pub fn relax(&mut self, from_zero: bool) {
-        let Self { lattice, rows, halo, b, x, far, .. } = self;
+    pub fn relax(&mut self, b: &[[T; 2]], x: &mut [[T; 2]], from_zero: bool) {
+        let Self { lattice, rows, halo, far, .. } = self;
         let mut elsewhere: &[[T; 2]] = &[];
         if from_zero {
             x.fill([T::default(); 2]);
@@ -150,9 +127,5 @@ impl<T: Precision + Datum> Level<T> {
                 LatticeRows { strips, stored: &*stored.borrow(), order: lattice.order() }.relax(b, x, elsewhere);
             }
         }
-    }
-
-    fn step(&self) -> &NodeInterpolation {
-        self.step.as_ref().expect("a way down")
     }
 }

@@ -15,6 +15,7 @@ use crate::petsc::{Action, Datum, Result, Session, Vector};
 use coarsest::Coarsest;
 use level::Level;
 use std::cell::RefCell;
+use std::mem::take;
 use std::rc::Rc;
 
 /// Full multigrid: on each level, from the coarsest one up, a V-cycle with one symmetric Gauss-Seidel sweep before and one
@@ -23,13 +24,17 @@ pub struct FullCycle<T> {
     coarsest: Coarsest,
     /// The coarsest first; that one has no sweeps.
     levels: Vec<Level<T>>,
+    /// A residual, of one level at a time.
+    r: Vec<[T; 2]>,
+    /// Right-hand side and solution in this precision, if they are given in another.
+    finest: [Vec<[T; 2]>; 2],
     session: Session,
 }
 
 impl<T: Precision + Datum> FullCycle<T> {
     /// On the levels of a stiffness; `None` if some are not made of strips and stored rows, or there is but one.
     /// **Collective**
-    pub fn new(
+    fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
         session: &Session,
@@ -46,12 +51,18 @@ impl<T: Precision + Datum> FullCycle<T> {
             rows.iter().map(|rows| 2 * session.gather_counts(rows.node_count()).iter().sum::<usize>() <= GATHERED).collect();
         let below = |l: usize| gathered[l.saturating_sub(1)];
         let levels = rows.into_iter().zip(steps).enumerate();
-        let levels = levels.map(|(l, (rows, step))| Level::new(rows, step, [gathered[l], below(l)], session)).collect();
-        Ok(Some(Self { coarsest, levels, session: session.clone() }))
+        let levels = levels.map(|(l, (rows, step))| Level::new(rows, step, [gathered[l], below(l)], session));
+        let mut levels: Vec<Level<T>> = levels.collect();
+        let last = levels.pop().expect("two levels at least");
+        let mut levels: Vec<Level<T>> = levels.into_iter().map(Level::with_vectors).collect();
+        let most = levels.iter().map(|level| level.b.len()).chain([last.nodes]).max();
+        levels.push(last);
+        let r = vec![[T::default(); 2]; most.unwrap_or(0)];
+        Ok(Some(Self { coarsest, levels, r, finest: Default::default(), session: session.clone() }))
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
-    pub fn refresh(&mut self, session: &Session) -> std::result::Result<(), SystemError> {
+    fn refresh(&mut self, session: &Session) -> std::result::Result<(), SystemError> {
         self.coarsest.refresh(&self.levels[0].lattice, session)?;
         self.levels.iter_mut().for_each(|level| level.refresh(session));
         Ok(())
@@ -59,40 +70,126 @@ impl<T: Precision + Datum> FullCycle<T> {
 
     /// `x = M⁻¹ b` for the nodes of this rank. **Collective**
     fn apply(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) -> Result<()> {
-        let top = self.levels.len() - 1;
-        self.levels[top].set(b, &self.session);
-        for l in (1..=top).rev() {
-            let (below, level) = self.levels.split_at_mut(l);
-            level[0].restrict_right_hand_side(&mut below[l - 1]);
-        }
-        self.coarsest.solve(&mut self.levels[0])?;
-        for l in 1..=top {
-            let (below, level) = self.levels.split_at_mut(l);
-            level[0].begin(&below[l - 1]);
-            self.v_cycle(l, false)?;
-        }
-        self.levels[top].get(x);
+        let finest = &self.levels[self.levels.len() - 1];
+        let Some(own) = finest.own_among_all() else { return self.apply_here(b, x) };
+        let mut all = vec![[0.0; 2]; finest.nodes];
+        all[own.clone()].copy_from_slice(b);
+        self.session.sum(all.as_flattened_mut());
+        let mut found = vec![[0.0; 2]; all.len()];
+        self.apply_here(&all, &mut found)?;
+        x.copy_from_slice(&found[own]);
         Ok(())
     }
 
-    /// A V-cycle on level `l` and those below, from its `x` or from zero. **Collective**
-    fn v_cycle(&mut self, l: usize, from_zero: bool) -> Result<()> {
-        if l == 0 {
-            return self.coarsest.solve(&mut self.levels[0]);
+    /// The same for all nodes of the finest level that are here. **Collective**
+    fn apply_here(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) -> Result<()> {
+        let mut finest = std::mem::take(&mut self.finest);
+        let outcome = T::on(b, x, &mut finest, |b, x| self.full_cycle(b, x));
+        self.finest = finest;
+        outcome
+    }
+
+    fn full_cycle(&mut self, b: &[[T; 2]], x: &mut [[T; 2]]) -> Result<()> {
+        let Self { coarsest, levels, r, .. } = self;
+        let top = levels.len() - 1;
+        for l in (1..=top).rev() {
+            let (below, level) = levels.split_at_mut(l);
+            let fine = if l == top { b } else { &level[0].b };
+            level[0].restrict(fine, &mut below[l - 1].b);
         }
-        let (below, level) = self.levels.split_at_mut(l);
-        level[0].relax(from_zero);
-        level[0].restrict_residual(&mut below[l - 1]);
-        self.v_cycle(l - 1, true)?;
-        let (below, level) = self.levels.split_at_mut(l);
-        level[0].correct(&below[l - 1]);
-        level[0].relax(false);
-        Ok(())
+        coarsest.solve(&mut levels[0])?;
+        for l in 1..top {
+            let (b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
+            begin(&mut levels[..=l], coarsest, &b, &mut x, r)?;
+            (levels[l].b, levels[l].x) = (b, x);
+        }
+        begin(levels, coarsest, b, x, r)
+    }
+}
+
+/// A V-cycle from what the next coarser level has found. **Collective**
+fn begin<T: Precision + Datum>(
+    levels: &mut [Level<T>],
+    coarsest: &mut Coarsest,
+    b: &[[T; 2]],
+    x: &mut [[T; 2]],
+    r: &mut [[T; 2]],
+) -> Result<()> {
+    let (level, below) = levels.split_last_mut().expect("a level");
+    x.fill([T::default(); 2]);
+    level.correct(&below[below.len() - 1].x, x);
+    v_cycle(levels, coarsest, b, x, r, false)
+}
+
+/// A V-cycle on the last of these levels and those below, from its `x` or from zero. **Collective**
+fn v_cycle<T: Precision + Datum>(
+    levels: &mut [Level<T>],
+    coarsest: &mut Coarsest,
+    b: &[[T; 2]],
+    x: &mut [[T; 2]],
+    r: &mut [[T; 2]],
+    from_zero: bool,
+) -> Result<()> {
+    let (level, below) = levels.split_last_mut().expect("a level");
+    level.relax(b, x, from_zero);
+    let last = below.len() - 1;
+    level.restrict_residual(b, x, r, &mut below[last].b);
+    if last == 0 {
+        coarsest.solve(&mut below[0])?;
+    } else {
+        let (next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
+        v_cycle(below, coarsest, &next, &mut correction, r, true)?;
+        (below[last].b, below[last].x) = (next, correction);
+    }
+    level.correct(&below[last].x, x);
+    level.relax(b, x, false);
+    Ok(())
+}
+
+type Shared<T> = Rc<RefCell<FullCycle<T>>>;
+
+/// A cycle in one of the precisions, shared with the preconditioner of PETSc's that it stands behind.
+pub enum Cycle {
+    /// In double precision.
+    Double(Shared<f64>),
+    /// In single precision.
+    Single(Shared<f32>),
+}
+
+impl Cycle {
+    /// On the levels of a system; none where there are none, or not all are mezha's own. **Collective**
+    pub fn new(
+        stiffness: &[Stiffness],
+        interpolations: &[Interpolation],
+        is_single: bool,
+        session: &Session,
+    ) -> std::result::Result<Option<Self>, SystemError> {
+        Ok(if is_single {
+            FullCycle::new(stiffness, interpolations, session)?.map(|cycle| Self::Single(Rc::new(RefCell::new(cycle))))
+        } else {
+            FullCycle::new(stiffness, interpolations, session)?.map(|cycle| Self::Double(Rc::new(RefCell::new(cycle))))
+        })
+    }
+
+    /// What PETSc's preconditioner does.
+    pub fn action(&self) -> Box<dyn Action> {
+        match self {
+            Self::Double(cycle) => Box::new(CycleAction(cycle.clone())),
+            Self::Single(cycle) => Box::new(CycleAction(cycle.clone())),
+        }
+    }
+
+    /// Takes over the values of the stiffness, which have changed. **Collective**
+    pub fn refresh(&self, session: &Session) -> std::result::Result<(), SystemError> {
+        match self {
+            Self::Double(cycle) => cycle.borrow_mut().refresh(session),
+            Self::Single(cycle) => cycle.borrow_mut().refresh(session),
+        }
     }
 }
 
 /// The cycle as PETSc's preconditioner.
-pub struct CycleAction<T>(pub Rc<RefCell<FullCycle<T>>>);
+struct CycleAction<T>(Shared<T>);
 
 impl<T: Precision + Datum> Action for CycleAction<T> {
     fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {

@@ -15,13 +15,12 @@ pub use inf_sup::inf_sup;
 
 use self::options::{CoarseSolver, FIELD_SPLIT, is_changed, is_chosen, lambda_options, preconditioning_options};
 use super::auxiliary::GalerkinLevels;
-use super::cycle::{CycleAction, FullCycle};
+use super::cycle::Cycle;
 use super::interpolation::Interpolation;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
 use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, Session, Vector};
 use fallback::needed;
-use std::cell::RefCell;
 use std::rc::Rc;
 
 /// Iterations after which a solve has failed.
@@ -40,7 +39,7 @@ pub struct LinearSolver {
     interpolations: Rc<[Interpolation]>,
     auxiliary: GalerkinLevels,
     /// The cycle, if it is mezha's own.
-    cycle: Option<Rc<RefCell<FullCycle<f64>>>>,
+    cycle: Option<Cycle>,
     /// What preconditions the displacement block, from the next solve on.
     pub preconditioning: Preconditioning,
     /// The same in words.
@@ -135,12 +134,11 @@ impl LinearSolver {
                 operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             if preconditioning == Preconditioning::Sweep && !is_changed(session) {
-                cycle = FullCycle::new(&system.stiffness, &interpolations, session)?.map(|cycle| Rc::new(RefCell::new(cycle)));
+                cycle = Cycle::new(&system.stiffness, &interpolations, std::env::var("MEZHA_F32").is_ok(), session)?;
             }
             match &cycle {
                 Some(cycle) => {
-                    let action = Box::new(CycleAction(cycle.clone()));
-                    solvers[0].preconditioner().set_action("multigrid F-cycle on strips and stored rows", action)?;
+                    solvers[0].preconditioner().set_action("multigrid F-cycle on strips and stored rows", cycle.action())?;
                 }
                 None => solvers[0].preconditioner().multigrid(&levels)?,
             }
@@ -210,7 +208,7 @@ impl LinearSolver {
         } else {
             self.auxiliary.refresh(system.stiffness[0].operator(), &below(&self.interpolations, system))?;
             if let Some(cycle) = &self.cycle {
-                cycle.borrow_mut().refresh(&self.session)?;
+                cycle.refresh(&self.session)?;
             }
             set_operators(&self.krylov, system, self.preconditioning, &self.session)?;
         }

@@ -56,10 +56,11 @@ impl<T: Precision> LatticeRows<'_, T> {
         for (triangle, rows) in self.strips.triangles.iter().zip(inside) {
             let parts = &self.strips.alike[triangle.alike.clone()];
             let (kernels, nodes) = (&self.strips.kernels, &self.strips.nodes);
-            stored.forward(rows.clone(), b, x, far);
+            // Strips come first: what they bring into the cache the stored rows find there.
             parts.iter().for_each(|(strips, kind)| kernels[*kind].forward(&nodes[strips.clone()], b, x));
-            parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
+            stored.forward(rows.clone(), b, x, far);
             stored.backward(rows.clone(), b, x, far);
+            parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
         }
         sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
     }

@@ -28,6 +28,14 @@ pub trait Precision: Real {
 
     /// Does work on stored rows.
     fn on_rows(work: OnRows<Self>);
+
+    /// Does work on a right-hand side and a solution in double precision; `own` holds them in this one, if need be.
+    fn on<R>(
+        b: &[[f64; 2]],
+        x: &mut [[f64; 2]],
+        own: &mut [Vec<[Self; 2]>; 2],
+        work: impl FnOnce(&[[Self; 2]], &mut [[Self; 2]]) -> R,
+    ) -> R;
 }
 
 /// Work on stored rows with some registers.
@@ -77,6 +85,15 @@ impl Precision for f64 {
         }
         RowsWith(Plain::default(), work).run();
     }
+
+    fn on<R>(
+        b: &[[f64; 2]],
+        x: &mut [[f64; 2]],
+        _: &mut [Vec<[f64; 2]>; 2],
+        work: impl FnOnce(&[[f64; 2]], &mut [[f64; 2]]) -> R,
+    ) -> R {
+        work(b, x)
+    }
 }
 
 impl Precision for f32 {
@@ -111,5 +128,19 @@ impl Precision for f32 {
             return RowsWith(Pair(simd), work).run();
         }
         RowsWith(Plain::default(), work).run();
+    }
+
+    fn on<R>(
+        b: &[[f64; 2]],
+        x: &mut [[f64; 2]],
+        [own_b, own_x]: &mut [Vec<[f32; 2]>; 2],
+        work: impl FnOnce(&[[f32; 2]], &mut [[f32; 2]]) -> R,
+    ) -> R {
+        own_b.clear();
+        own_b.extend(b.iter().map(|node| node.map(|v| v as f32)));
+        own_x.resize(x.len(), [0.0; 2]);
+        let outcome = work(own_b, own_x);
+        x.iter_mut().zip(own_x).for_each(|(to, from)| *to = from.map(f64::from));
+        outcome
     }
 }

@@ -44,7 +44,11 @@ struct Kernel<L: Lanes, const UP: usize, const SECOND: bool> {
     backward: Half<L, UP>,
     product: Product<L, UP>,
     /// For nodes at the end of a strip that fill no register.
-    single: [NodeRow<L::Real>; 2],
+    single: [NodeRow<L::Real, UP>; 2],
+    /// Ones at the nodes that a strip reaches before its first and behind its last one, zeros elsewhere.
+    ends: [L::Register; 2],
+    /// Minus one everywhere.
+    minus: L::Register,
 }
 
 /// A block for each node of a register: what it does to the component of the same name, and to the other one.
@@ -77,8 +81,9 @@ struct Product<L: Lanes, const UP: usize> {
 }
 
 /// Couplings of one node to others, that with itself and its inverse.
-struct NodeRow<T> {
-    couplings: Vec<(Step, [[T; 2]; 2])>,
+struct NodeRow<T, const UP: usize> {
+    up: [[[T; 2]; 2]; UP],
+    beside: [[[T; 2]; 2]; 2],
     diagonal: [[T; 2]; 2],
     inverse: [[T; 2]; 2],
 }
@@ -167,8 +172,9 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
             },
         };
         let row = |kind: usize| NodeRow {
-            couplings: couplings.of(kind)[1..].iter().map(|(step, block)| (*step, rounded(block))).collect(),
-            diagonal: rounded(&couplings.of(kind)[0].1),
+            up: up.map(|step| rounded(&couplings.block(kind, step))),
+            beside: [1, 2].map(|step| rounded(&couplings.block(kind, (step, 0)))),
+            diagonal: rounded(&couplings.block(kind, (0, 0))),
             inverse: rounded(&inverses[kind]),
         };
         Self {
@@ -182,6 +188,11 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
                 beside: [1, 2].map(|step| Factor::of_sum(lanes, &negative((step, 0)))),
             },
             single: [row(0), row(1)],
+            minus: lanes.load(L::chunks(&vec![[L::Real::of(-1.0); 2]; L::COUNT])[0]),
+            ends: [L::COUNT - Self::REACH..L::COUNT, 0..Self::REACH].map(|ones| {
+                let one = |node: usize| [L::Real::of(if ones.contains(&node) { 1.0 } else { 0.0 }); 2];
+                lanes.load(L::chunks(&(0..L::COUNT).map(one).collect::<Vec<_>>())[0])
+            }),
         }
     }
 
@@ -192,19 +203,22 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
         self.up.map(|(di, dj)| [start((di, dj)), start((-di, -dj))])
     }
 
-    /// `r -= K x` at the nodes of a strip, which `r` holds alone.
+    /// `r = b - K x` or `r = K x` at the nodes of a strip, which `b` and `r` hold alone.
     #[inline(always)]
-    fn residual(&self, nodes: StripNodes, x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
+    fn product<const RESIDUAL: bool>(&self, nodes: StripNodes, b: &[[L::Real; 2]], x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
         let (lanes, product) = (self.lanes, &self.product);
         let registers = nodes.count / L::COUNT;
         let chunks = |start: usize| &L::chunks(&x[start..])[..registers];
         let up = self.runs(nodes).map(|starts| starts.map(chunks));
         let own = chunks(nodes.first);
         let beside = [1, Self::REACH].map(|reach| [chunks(nodes.first - reach), chunks(nodes.first + reach)]);
+        let forces = if RESIDUAL { &L::chunks(b)[..registers] } else { own };
         let sums = &mut L::chunks_mut(r)[..registers];
         for k in 0..registers {
             let mut sum = Sum::of(lanes, &product.own, lanes.load(own[k]));
-            sum.same = lanes.add(sum.same, lanes.load(sums[k]));
+            if RESIDUAL {
+                sum.same = lanes.add(sum.same, lanes.load(forces[k]));
+            }
             for (factor, run) in product.beside.iter().zip(&beside).take(Self::REACH) {
                 let [left, right] = run.map(|run| lanes.load(run[k]));
                 sum.add(lanes, factor, lanes.add(left, right));
@@ -213,12 +227,14 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
                 let [next, before] = run.map(|run| lanes.load(run[k]));
                 sum.add(lanes, factor, lanes.add(next, before));
             }
-            sums[k] = lanes.store(sum.total(lanes));
+            let sum = sum.total(lanes);
+            sums[k] = lanes.store(if RESIDUAL { sum } else { lanes.multiply(self.minus, sum) });
         }
         for k in Self::rest(nodes) {
             let row = &self.single[k % 2];
             let own = times(&row.diagonal, x[nodes.first + k]).map(|v| -v);
-            r[k] = sum2(r[k], sum2(own, self.without_diagonal(nodes, k, x)));
+            let sum = sum2(own, self.without_diagonal(nodes, k, x));
+            r[k] = if RESIDUAL { sum2(b[k], sum) } else { sum.map(|v| -v) };
         }
     }
 
@@ -231,18 +247,45 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
     /// `-(K - D) x` of one node.
     #[inline(always)]
     fn without_diagonal(&self, nodes: StripNodes, k: usize, x: &[[L::Real; 2]]) -> [L::Real; 2] {
+        let (node, row) = (nodes.first + k, &self.single[k % 2]);
         let mut sum = [L::Real::default(); 2];
-        for (step, block) in &self.single[k % 2].couplings {
-            let y = x[(nodes.first + k).wrapping_add_signed(nodes.distance(*step))];
-            sum = sum2(sum, times(block, y).map(|v| -v));
+        let mut add = |block: &[[L::Real; 2]; 2], a: usize, b: usize| sum = sum2(sum, times(block, sum2(x[a], x[b])));
+        for ((di, dj), block) in self.up.into_iter().zip(&row.up) {
+            let [next, before] = [(di, dj), (-di, -dj)].map(|step| node.wrapping_add_signed(nodes.distance(step)));
+            add(block, next, before);
         }
-        sum
+        for (reach, block) in (1..=Self::REACH).zip(&row.beside) {
+            add(block, node - reach, node + reach);
+        }
+        sum.map(|v| -v)
     }
 
     #[inline(always)]
     fn relax(&self, nodes: StripNodes, k: usize, b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
         let sum = sum2(b[nodes.first + k], self.without_diagonal(nodes, k, x));
         x[nodes.first + k] = times(&self.single[k % 2].inverse, sum);
+    }
+
+    /// The nodes that come before those of a strip on the way.
+    #[inline(always)]
+    fn beside(&self, way: Way, first: usize, count: usize, x: &[[L::Real; 2]]) -> State<L> {
+        let (run, ends) = match way {
+            Way::Forward => (x[..first].len().checked_sub(L::COUNT).map(|start| &x[start..first]), self.ends[0]),
+            Way::Backward => (x[first + count..].get(..L::COUNT), self.ends[1]),
+        };
+        let known = match run {
+            Some(run) => self.lanes.multiply(ends, self.lanes.load(L::chunks(run)[0])),
+            // At the first and the last nodes of a rank.
+            None => {
+                let mut nodes = [[L::Real::default(); 2]; 8];
+                match way {
+                    Way::Forward => nodes[L::COUNT - Self::REACH..L::COUNT].copy_from_slice(&x[first - Self::REACH..first]),
+                    Way::Backward => nodes[..Self::REACH].copy_from_slice(&x[first + count..][..Self::REACH]),
+                }
+                self.lanes.load(L::chunks(&nodes)[0])
+            }
+        };
+        State { steps: [known; 3], relaxed: known }
     }
 
     /// The registers of a strip, one way.
@@ -255,14 +298,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Kernel<L, UP, SECOND> {
             return;
         }
         let starts = self.runs(nodes);
-        let mut state = State::<L>::new(
-            lanes,
-            way,
-            match way {
-                Way::Forward => &x[first - Self::REACH..first],
-                Way::Backward => &x[first + count..][..Self::REACH],
-            },
-        );
+        let mut state = self.beside(way, first, count, x);
         let (before, rest) = x.split_at_mut(first - Self::REACH);
         let (own, next) = rest.split_at_mut(count + 2 * Self::REACH);
         let above = |start: usize| &L::chunks(&next[start - first - count - Self::REACH..])[..registers];
@@ -293,18 +329,6 @@ struct State<L: Lanes> {
 }
 
 impl<L: Lanes> State<L> {
-    /// Beside a strip: `x` are the nodes that come before it on the way, as many as it reaches.
-    #[inline(always)]
-    fn new(lanes: L, way: Way, x: &[[L::Real; 2]]) -> Self {
-        let mut nodes = [[L::Real::default(); 2]; 8];
-        match way {
-            Way::Forward => nodes[L::COUNT - x.len()..L::COUNT].copy_from_slice(x),
-            Way::Backward => nodes[..x.len()].copy_from_slice(x),
-        }
-        let known = lanes.load(L::chunks(&nodes)[0]);
-        Self { steps: [known; 3], relaxed: known }
-    }
-
     /// The next register on the way; `t` is what does not depend on the nodes before.
     #[inline(always)]
     fn next<const SECOND: bool>(&mut self, lanes: L, way: Way, chain: &Chain<L>, t: L::Register) -> L::Register {
@@ -408,17 +432,12 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> Work for OnStrips<'_, L, UP,
         match task {
             Task::Multiply { x, y } => {
                 for &nodes in strips {
-                    let y = &mut y[nodes.range()];
-                    y.fill(Default::default());
-                    kernel.residual(nodes, x, y);
-                    y.iter_mut().for_each(|y| *y = [-y[0], -y[1]]);
+                    kernel.product::<false>(nodes, &[], x, &mut y[nodes.range()]);
                 }
             }
             Task::Residual { b, x, r } => {
                 for &nodes in strips {
-                    let r = &mut r[nodes.range()];
-                    r.copy_from_slice(&b[nodes.range()]);
-                    kernel.residual(nodes, x, r);
+                    kernel.product::<true>(nodes, &b[nodes.range()], x, &mut r[nodes.range()]);
                 }
             }
             Task::Forward { b, x } => {
