@@ -117,15 +117,19 @@ def latency_section(lines, counts):
 
 
 def memory_section(lines):
-    rows = [
-        [line["name"], number(line["unknowns"], 9), number(line["max_rank"]), number(line["sum"] / 1024), number(line["max_rank"] - lines[0]["max_rank"])]
-        for line in lines
-    ]
+    rows, least = [], 0.0
+    for line in lines:
+        if "small mesh" in line["name"]:
+            least = line["max_rank"]
+        rows.append([
+            line["name"], line["ranks"], number(line["unknowns"], 9), number(line["max_rank"]), number(line["sum"] / 1024),
+            number(line["max_rank"] - least) if line["max_rank"] != least else "",
+        ])
     return "\n\n".join([
-        f"## Memory of a rank, {lines[0]['ranks']} ranks",
+        "## Memory of a rank",
         "Every rank holds the macro mesh, Γ_C and its multipliers; of the rows of B it holds those that it needs. What remains on "
         "every rank shows where these are large. Resident memory; pages of libraries count on every rank.",
-        table(["scene", "unknowns", "MiB of the largest rank", "GiB in all", "MiB more than the small mesh"], rows),
+        table(["scene", "ranks", "unknowns", "MiB of the largest rank", "GiB in all", "MiB more than the small mesh"], rows),
     ])
 
 

@@ -1,6 +1,6 @@
 //! The coarsest level, which every rank solves for itself.
 
-use super::level::Level;
+use super::level::CycleLevel;
 use crate::petsc::{Datum, Factor, Result, Session};
 use crate::system::stiffness::{LatticeOperator, Precision};
 
@@ -21,8 +21,8 @@ impl Coarsest {
     }
 
     /// Solves with the right-hand side of a level.
-    pub fn solve<T: Precision + Datum>(&mut self, level: &mut Level<T>) -> Result<()> {
-        let Level { b, x, .. } = level;
+    pub fn solve<T: Precision + Datum>(&mut self, level: &mut CycleLevel<T>) -> Result<()> {
+        let CycleLevel { b, x, .. } = level;
         let set = |to: &mut [f64]| to.iter_mut().zip(b.as_flattened()).for_each(|(to, from)| *to = from.double());
         let get = |from: &[f64]| x.as_flattened_mut().iter_mut().zip(from).for_each(|(to, &from)| *to = T::of(from));
         self.0.solve(set, get)

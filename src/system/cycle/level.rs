@@ -7,10 +7,10 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 /// A level with the vectors of the cycle. One with few unknowns is on every rank as a whole.
-pub struct Level<T> {
+pub struct CycleLevel<T> {
     /// Where its values come from.
     pub lattice: Rc<LatticeOperator>,
-    rows: Rows<T>,
+    rows: LevelRows<T>,
     /// Brings values of other ranks; none where all nodes are here.
     halo: Option<Rc<Halo>>,
     /// Interpolation from the next coarser level.
@@ -26,14 +26,14 @@ pub struct Level<T> {
 }
 
 /// The rows that are worked on.
-enum Rows<T> {
+enum LevelRows<T> {
     /// Those of this rank.
     Own { strips: Rc<Strips<T>>, stored: Rc<RefCell<StoredRows<T>>> },
     /// Those of all ranks.
     All(StoredRows<T>),
 }
 
-impl<T: Precision + Datum> Level<T> {
+impl<T: Precision + Datum> CycleLevel<T> {
     /// `gathered` says whether this level and the next coarser one are on every rank as a whole. **Collective**
     pub fn new(
         lattice: Rc<LatticeOperator>,
@@ -45,9 +45,9 @@ impl<T: Precision + Datum> Level<T> {
         let (rows, halo, nodes, far) = if gathered[0] && !alone {
             let all = lattice.gathered(session);
             let nodes = all.nodes().len();
-            (Rows::All(all.converted()), None, nodes, 0)
+            (LevelRows::All(all.converted()), None, nodes, 0)
         } else {
-            let rows = Rows::Own { strips: T::strips(lattice.strips()), stored: T::stored(lattice.rows()) };
+            let rows = LevelRows::Own { strips: T::strips(lattice.strips()), stored: T::stored(lattice.rows()) };
             (rows, (!alone).then(|| lattice.halo().clone()), lattice.node_count(), lattice.far_count())
         };
         let session = (gathered[1] && !gathered[0] && !alone).then(|| session.clone());
@@ -64,8 +64,8 @@ impl<T: Precision + Datum> Level<T> {
     /// Takes over changed values. **Collective**
     pub fn refresh(&mut self, session: &Session) {
         match &mut self.rows {
-            Rows::Own { stored, .. } => T::refresh(self.lattice.rows(), stored),
-            Rows::All(rows) => *rows = self.lattice.gathered(session).converted(),
+            LevelRows::Own { stored, .. } => T::refresh(self.lattice.rows(), stored),
+            LevelRows::All(rows) => *rows = self.lattice.gathered(session).converted(),
         }
     }
 
@@ -74,8 +74,8 @@ impl<T: Precision + Datum> Level<T> {
         let Self { lattice, rows, halo, far, nodes, .. } = self;
         let r = &mut r[..*nodes];
         match rows {
-            Rows::All(rows) => rows.residual(0..rows.nodes().len(), b, x, far, r),
-            Rows::Own { strips, stored } => {
+            LevelRows::All(rows) => rows.residual(0..rows.nodes().len(), b, x, far, r),
+            LevelRows::Own { strips, stored } => {
                 let stored = stored.borrow();
                 let rows = LatticeRows { strips, stored: &*stored, order: lattice.order() };
                 match halo {
@@ -113,11 +113,11 @@ impl<T: Precision + Datum> Level<T> {
             elsewhere = far;
         }
         match rows {
-            Rows::All(rows) => {
+            LevelRows::All(rows) => {
                 rows.forward(0..rows.nodes().len(), b, x, elsewhere);
                 rows.backward(0..rows.nodes().len(), b, x, elsewhere);
             }
-            Rows::Own { strips, stored } => {
+            LevelRows::Own { strips, stored } => {
                 LatticeRows { strips, stored: &*stored.borrow(), order: lattice.order() }.relax(b, x, elsewhere);
             }
         }

@@ -13,7 +13,7 @@ use super::interpolation::{GATHERED, Interpolation, NodeInterpolation};
 use super::stiffness::{Precision, Stiffness};
 use crate::petsc::{Action, Datum, Result, Session, Vector};
 use coarsest::Coarsest;
-use level::Level;
+use level::CycleLevel;
 use std::cell::RefCell;
 use std::mem::take;
 use std::rc::Rc;
@@ -23,7 +23,7 @@ use std::rc::Rc;
 pub struct FullCycle<T> {
     coarsest: Coarsest,
     /// The coarsest first; that one has no sweeps.
-    levels: Vec<Level<T>>,
+    levels: Vec<CycleLevel<T>>,
     /// A residual, of one level at a time.
     r: Vec<[T; 2]>,
     /// Right-hand side and solution in this precision, if they are given in another.
@@ -52,10 +52,10 @@ impl<T: Precision + Datum> FullCycle<T> {
         gathered[top] = false;
         let below = |l: usize| gathered[l.saturating_sub(1)];
         let levels = rows.into_iter().zip(steps).enumerate();
-        let levels = levels.map(|(l, (rows, step))| Level::new(rows, step, [gathered[l], below(l)], session));
-        let mut levels: Vec<Level<T>> = levels.collect();
+        let levels = levels.map(|(l, (rows, step))| CycleLevel::new(rows, step, [gathered[l], below(l)], session));
+        let mut levels: Vec<CycleLevel<T>> = levels.collect();
         let last = levels.pop().expect("two levels at least");
-        let mut levels: Vec<Level<T>> = levels.into_iter().map(Level::with_vectors).collect();
+        let mut levels: Vec<CycleLevel<T>> = levels.into_iter().map(CycleLevel::with_vectors).collect();
         let most = levels.iter().map(|level| level.b.len()).chain([last.nodes]).max();
         levels.push(last);
         let r = vec![[T::default(); 2]; most.unwrap_or(0)];
@@ -97,7 +97,7 @@ impl<T: Precision + Datum> FullCycle<T> {
 
 /// A V-cycle from what the next coarser level has found. **Collective**
 fn begin<T: Precision + Datum>(
-    levels: &mut [Level<T>],
+    levels: &mut [CycleLevel<T>],
     coarsest: &mut Coarsest,
     b: &[[T; 2]],
     x: &mut [[T; 2]],
@@ -111,7 +111,7 @@ fn begin<T: Precision + Datum>(
 
 /// A V-cycle on the last of these levels and those below, from its `x` or from zero. **Collective**
 fn v_cycle<T: Precision + Datum>(
-    levels: &mut [Level<T>],
+    levels: &mut [CycleLevel<T>],
     coarsest: &mut Coarsest,
     b: &[[T; 2]],
     x: &mut [[T; 2]],

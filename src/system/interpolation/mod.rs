@@ -11,8 +11,8 @@ use super::user_options::want_entries;
 use super::{Discretisation, Scene, Space, SystemError};
 use crate::geometry::Point;
 use crate::petsc::{Matrix, Session};
-use node_interpolation::{Here, InterpolationShell};
-use parents::NodeParents;
+use node_interpolation::InterpolationShell;
+use parents::{Here, NodeParents};
 use std::rc::Rc;
 
 /// Unknowns up to which a level is brought together on every rank, and worked on by each of them for itself: its messages

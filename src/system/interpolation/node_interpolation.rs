@@ -1,13 +1,12 @@
 //! Interpolation by nodes: halved rows inside macro triangles, and a list of the other nodes.
 
 use super::halved_rows::{HalvedRow, HalvedRows};
-use super::parents::NodeParents;
+use super::parents::{Here, NodeParents};
 use crate::element::Block;
 use crate::geometry::Point;
 use crate::petsc::{Datum, Halo, Result, Session, Transfer, Vector};
 use crate::system::space::Real;
 use crate::system::{Scene, Space};
-use std::ops::Range;
 
 /// Linear interpolation from a coarse level to the next finer one. A node takes over the value of its coarse twin, or the
 /// weighted mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns
@@ -22,17 +21,6 @@ pub struct NodeInterpolation {
     coarse: usize,
     halo: Option<Halo>,
     far: usize,
-}
-
-/// Which nodes of a fine and a coarse level are here: those of this rank, or all of them.
-#[derive(Clone)]
-pub struct Here<'a> {
-    /// Macro triangles whose inner nodes are.
-    pub triangles: &'a [u32],
-    /// Fine nodes.
-    pub fine: Range<usize>,
-    /// Coarse nodes.
-    pub coarse: Range<usize>,
 }
 
 impl NodeInterpolation {

@@ -1,10 +1,20 @@
 //! Fine nodes with their coarse parents.
 
-use super::node_interpolation::Here;
 use crate::mesh::lattice::{self, Place};
 use crate::system::{Scene, Space};
 use std::collections::HashMap;
 use std::ops::Range;
+
+/// Which nodes of a fine and a coarse level are here: those of this rank, or all of them.
+#[derive(Clone)]
+pub struct Here<'a> {
+    /// Macro triangles whose inner nodes are.
+    pub triangles: &'a [u32],
+    /// Fine nodes.
+    pub fine: Range<usize>,
+    /// Coarse nodes.
+    pub coarse: Range<usize>,
+}
 
 /// Weights of the parents of most nodes.
 const EVEN: [f64; 2] = [0.5; 2];

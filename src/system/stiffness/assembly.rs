@@ -1,10 +1,10 @@
 //! Assembly of the stiffness of one level: each rank makes the whole rows of its own nodes, without a word to the others.
 
 use super::ContactNeighbours;
-use super::lattice_operator::{Strips, TriangleStrips};
 use super::pattern::RowColumns;
 use super::precision::Precision;
 use super::stored_rows::{BlockColumn, StoredRows, place};
+use super::strip_set::{Strips, TriangleStrips};
 use super::strips::{Couplings, StripNodes};
 use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};

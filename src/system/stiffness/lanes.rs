@@ -51,20 +51,20 @@ pub trait Lanes: Copy + 'static {
     fn later<const STEP: usize>(self, a: Self::Register, after: Self::Register) -> Self::Register;
 
     /// Does work with the instructions of these registers.
-    fn run<W: Work>(self, work: W);
+    fn run<W: LaneWork>(self, work: W);
 }
 
-/// Work on registers. All that it calls must be inlined: only so do instructions that not all processors have come to be.
-pub trait Work {
+/// LaneWork on registers. All that it calls must be inlined: only so do instructions that not all processors have come to be.
+pub trait LaneWork {
     /// Does it.
     fn work(self);
 }
 
 /// Arrays of two nodes, for processors without the instructions of the others.
 #[derive(Clone, Copy, Default)]
-pub struct Plain<T>(std::marker::PhantomData<T>);
+pub struct PlainLanes<T>(std::marker::PhantomData<T>);
 
-impl<T: Real> Lanes for Plain<T> {
+impl<T: Real> Lanes for PlainLanes<T> {
     type Real = T;
     type Register = [T; 4];
     type Nodes = [[T; 2]; 2];
@@ -126,7 +126,7 @@ impl<T: Real> Lanes for Plain<T> {
     }
 
     #[inline(always)]
-    fn run<W: Work>(self, work: W) {
+    fn run<W: LaneWork>(self, work: W) {
         work.work();
     }
 }
@@ -134,34 +134,34 @@ impl<T: Real> Lanes for Plain<T> {
 /// Registers of x86 processors.
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{Lanes, Work};
+    use super::{LaneWork, Lanes};
     use pulp::x86::{V3, V4};
     use pulp::{NullaryFnOnce, cast, f32x4, f32x8, f32x16, f64x4, f64x8};
 
     /// Two nodes in double precision, AVX2.
     #[derive(Clone, Copy)]
-    pub struct Double(pub V3);
+    pub struct DoubleLanes(pub V3);
 
     /// Two nodes in single precision, AVX2.
     #[derive(Clone, Copy)]
-    pub struct Pair(pub V3);
+    pub struct NarrowLanes(pub V3);
 
     /// Four nodes in single precision, AVX2.
     #[derive(Clone, Copy)]
-    pub struct Single(pub V3);
+    pub struct SingleLanes(pub V3);
 
     /// Four nodes in double precision, AVX-512.
     #[derive(Clone, Copy)]
-    pub struct WideDouble(pub V4);
+    pub struct WideDoubleLanes(pub V4);
 
     /// Eight nodes in single precision, AVX-512.
     #[derive(Clone, Copy)]
-    pub struct WideSingle(pub V4);
+    pub struct WideSingleLanes(pub V4);
 
-    /// Work for one kind of processor.
+    /// LaneWork for one kind of processor.
     struct Call<W>(W);
 
-    impl<W: Work> NullaryFnOnce for Call<W> {
+    impl<W: LaneWork> NullaryFnOnce for Call<W> {
         type Output = ();
 
         #[inline(always)]
@@ -199,7 +199,7 @@ mod x86 {
             }
 
             #[inline(always)]
-            fn run<W: Work>(self, work: W) {
+            fn run<W: LaneWork>(self, work: W) {
                 self.0.vectorize(Call(work));
             }
         };
@@ -225,7 +225,7 @@ mod x86 {
         };
     }
 
-    impl Lanes for Double {
+    impl Lanes for DoubleLanes {
         memory!(f64, f64x4, 2);
         arithmetic!(_mm256_add_pd, _mm256_mul_pd, _mm256_fmadd_pd, avx, fma);
 
@@ -250,7 +250,7 @@ mod x86 {
         }
     }
 
-    impl Lanes for Pair {
+    impl Lanes for NarrowLanes {
         memory!(f32, f32x4, 2);
         arithmetic!(_mm_add_ps, _mm_mul_ps, _mm_fmadd_ps, sse, fma);
 
@@ -277,7 +277,7 @@ mod x86 {
         }
     }
 
-    impl Lanes for Single {
+    impl Lanes for SingleLanes {
         memory!(f32, f32x8, 4);
         arithmetic!(_mm256_add_ps, _mm256_mul_ps, _mm256_fmadd_ps, avx, fma);
 
@@ -304,7 +304,7 @@ mod x86 {
         }
     }
 
-    impl Lanes for WideDouble {
+    impl Lanes for WideDoubleLanes {
         memory!(f64, f64x8, 4);
         arithmetic!(_mm512_add_pd, _mm512_mul_pd, _mm512_fmadd_pd, avx512f, avx512f);
 
@@ -331,7 +331,7 @@ mod x86 {
         }
     }
 
-    impl Lanes for WideSingle {
+    impl Lanes for WideSingleLanes {
         memory!(f32, f32x16, 8);
         arithmetic!(_mm512_add_ps, _mm512_mul_ps, _mm512_fmadd_ps, avx512f, avx512f);
 
@@ -368,4 +368,4 @@ mod x86 {
 }
 
 #[cfg(target_arch = "x86_64")]
-pub use x86::{Double, Pair, Single, WideDouble, WideSingle};
+pub use x86::{DoubleLanes, NarrowLanes, SingleLanes, WideDoubleLanes, WideSingleLanes};

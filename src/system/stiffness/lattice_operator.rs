@@ -2,53 +2,15 @@
 
 use super::ContactNeighbours;
 use super::lattice_rows::{LatticeRows, SweepOrder};
-use super::precision::Precision;
 use super::stored_rows::{BlockColumn, StoredRows};
-use super::strip_kernel::StripKernel;
-use super::strips::{Couplings, StripNodes};
+use super::strip_set::Strips;
+use super::strips::Couplings;
 use crate::element::Block;
 use crate::petsc::{Halo, Operator, Result, Session, Vector};
 use crate::system::space::Components;
 use std::cell::RefCell;
 use std::ops::Range;
 use std::rc::Rc;
-
-/// Strips of this rank, with what they have in common.
-#[derive(Default)]
-pub struct Strips<T = f64> {
-    /// Couplings; few strips have their own.
-    pub couplings: Vec<Couplings>,
-    /// The work on each of these.
-    pub kernels: Vec<Box<dyn StripKernel<T>>>,
-    /// The nodes of each strip.
-    pub nodes: Vec<StripNodes>,
-    /// Consecutive strips with the same couplings, and these.
-    pub alike: Vec<(Range<usize>, usize)>,
-    /// Those of each macro triangle.
-    pub triangles: Vec<TriangleStrips>,
-}
-
-/// The inner nodes of a macro triangle, which couple to each other and to nodes on its sides alone.
-#[derive(Clone, Debug)]
-pub struct TriangleStrips {
-    /// All of them.
-    pub nodes: Range<usize>,
-    /// Those of [`Strips::alike`] that lie in it.
-    pub alike: Range<usize>,
-}
-
-impl<T: Precision> Strips<T> {
-    /// The same in another precision.
-    pub fn converted<U: Precision>(&self) -> Strips<U> {
-        Strips {
-            kernels: self.couplings.iter().map(U::kernel).collect(),
-            couplings: self.couplings.clone(),
-            nodes: self.nodes.clone(),
-            alike: self.alike.clone(),
-            triangles: self.triangles.clone(),
-        }
-    }
-}
 
 /// Stored rows and strips together.
 pub struct LatticeOperator {

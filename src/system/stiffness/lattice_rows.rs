@@ -1,8 +1,9 @@
 //! Strips and stored rows of a rank together, in some precision.
 
-use super::lattice_operator::Strips;
 use super::precision::Precision;
+use super::row_kernel::{OnRows, RowTask};
 use super::stored_rows::StoredRows;
+use super::strip_set::Strips;
 use std::ops::Range;
 
 /// Which stored rows belong to nodes on sides of macro triangles, and which lie inside of one.
@@ -63,5 +64,27 @@ impl<T: Precision> LatticeRows<'_, T> {
             parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
         }
         sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
+    }
+}
+
+impl<T: Precision> StoredRows<T> {
+    /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
+    pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Multiply { y, x } });
+    }
+
+    /// `r = b - K x` in the rows of a range.
+    pub fn residual(&self, range: Range<usize>, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Residual { r, b, x } });
+    }
+
+    /// Relaxes the nodes of a range in their order, `far` staying as it is; no `far` stands for zeros.
+    pub fn forward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Forward { b, x } });
+    }
+
+    /// The same in the opposite order.
+    pub fn backward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Backward { b, x } });
     }
 }

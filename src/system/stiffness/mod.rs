@@ -11,13 +11,15 @@ mod precision;
 mod row_kernel;
 mod stored_rows;
 mod strip_kernel;
+mod strip_set;
 mod strips;
 
 pub use elastic::Elastic;
-pub use lattice_operator::{LatticeOperator, Strips};
+pub use lattice_operator::LatticeOperator;
 pub use lattice_rows::LatticeRows;
 pub use precision::Precision;
 pub use stored_rows::StoredRows;
+pub use strip_set::Strips;
 
 use super::SystemError;
 use crate::petsc::{Matrix, Session};

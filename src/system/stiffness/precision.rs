@@ -1,18 +1,18 @@
 //! What the cycle works with in double and in single precision: kernels, strips, stored rows.
 
 #[cfg(target_arch = "x86_64")]
-use super::lanes::{Double, Pair, Single, WideDouble, WideSingle};
-use super::lanes::{Lanes, Plain, Work};
-use super::lattice_operator::Strips;
+use super::lanes::{DoubleLanes, NarrowLanes, SingleLanes, WideDoubleLanes, WideSingleLanes};
+use super::lanes::{LaneWork, Lanes, PlainLanes};
 use super::row_kernel::OnRows;
 use super::stored_rows::StoredRows;
 use super::strip_kernel::{StripKernel, kernel};
+use super::strip_set::Strips;
 use super::strips::Couplings;
 use crate::system::space::Real;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// A precision to work in. Double precision shares what the matrix has, single precision has copies.
+/// A precision to work in. DoubleLanes precision shares what the matrix has, single precision has copies.
 pub trait Precision: Real {
     /// The kernel of some couplings that suits the processor best.
     fn kernel(couplings: &Couplings) -> Box<dyn StripKernel<Self>>;
@@ -38,7 +38,7 @@ pub trait Precision: Real {
     ) -> R;
 }
 
-/// Work on stored rows with some registers.
+/// LaneWork on stored rows with some registers.
 struct RowsWith<'a, L: Lanes>(L, OnRows<'a, L::Real>);
 
 impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> RowsWith<'_, L> {
@@ -47,7 +47,7 @@ impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> RowsWith<'_, L> {
     }
 }
 
-impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> Work for RowsWith<'_, L> {
+impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> LaneWork for RowsWith<'_, L> {
     #[inline(always)]
     fn work(self) {
         self.1.work(self.0);
@@ -59,13 +59,13 @@ impl Precision for f64 {
         #[cfg(target_arch = "x86_64")]
         {
             if let Some(simd) = pulp::x86::V4::try_new() {
-                return kernel(WideDouble(simd), couplings);
+                return kernel(WideDoubleLanes(simd), couplings);
             }
             if let Some(simd) = pulp::x86::V3::try_new() {
-                return kernel(Double(simd), couplings);
+                return kernel(DoubleLanes(simd), couplings);
             }
         }
-        kernel(Plain::<f64>::default(), couplings)
+        kernel(PlainLanes::<f64>::default(), couplings)
     }
 
     fn strips(strips: &Rc<Strips>) -> Rc<Strips> {
@@ -81,9 +81,9 @@ impl Precision for f64 {
     fn on_rows(work: OnRows<f64>) {
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = pulp::x86::V3::try_new() {
-            return RowsWith(Double(simd), work).run();
+            return RowsWith(DoubleLanes(simd), work).run();
         }
-        RowsWith(Plain::default(), work).run();
+        RowsWith(PlainLanes::default(), work).run();
     }
 
     fn on<R>(
@@ -101,17 +101,23 @@ impl Precision for f32 {
         #[cfg(target_arch = "x86_64")]
         {
             if let Some(simd) = pulp::x86::V4::try_new() {
-                return kernel(WideSingle(simd), couplings);
+                return kernel(WideSingleLanes(simd), couplings);
             }
             if let Some(simd) = pulp::x86::V3::try_new() {
-                return kernel(Single(simd), couplings);
+                return kernel(SingleLanes(simd), couplings);
             }
         }
-        kernel(Plain::<f32>::default(), couplings)
+        kernel(PlainLanes::<f32>::default(), couplings)
     }
 
     fn strips(strips: &Rc<Strips>) -> Rc<Strips<f32>> {
-        Rc::new(strips.converted())
+        Rc::new(Strips {
+            kernels: strips.couplings.iter().map(f32::kernel).collect(),
+            couplings: strips.couplings.clone(),
+            nodes: strips.nodes.clone(),
+            alike: strips.alike.clone(),
+            triangles: strips.triangles.clone(),
+        })
     }
 
     fn stored(rows: &Rc<RefCell<StoredRows>>) -> Rc<RefCell<StoredRows<f32>>> {
@@ -125,9 +131,9 @@ impl Precision for f32 {
     fn on_rows(work: OnRows<f32>) {
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = pulp::x86::V3::try_new() {
-            return RowsWith(Pair(simd), work).run();
+            return RowsWith(NarrowLanes(simd), work).run();
         }
-        RowsWith(Plain::default(), work).run();
+        RowsWith(PlainLanes::default(), work).run();
     }
 
     fn on<R>(

@@ -1,13 +1,12 @@
 //! Sweeps, residuals and products of stored rows.
 
 use super::lanes::Lanes;
-use super::precision::Precision;
 use super::stored_rows::{Part, StoredRows};
 use crate::system::space::Real;
 use std::ops::Range;
 
-/// Work on the rows of a range.
-enum RowTask<'a, T> {
+/// Work on the rows of a range. Vectors hold all nodes of the rank.
+pub enum RowTask<'a, T> {
     Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
     Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
     Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
@@ -16,10 +15,10 @@ enum RowTask<'a, T> {
 
 /// A task with what it works on; `far` are the values of columns of other ranks, none stands for zeros.
 pub struct OnRows<'a, T> {
-    rows: &'a StoredRows<T>,
-    range: Range<usize>,
-    far: &'a [[T; 2]],
-    task: RowTask<'a, T>,
+    pub rows: &'a StoredRows<T>,
+    pub range: Range<usize>,
+    pub far: &'a [[T; 2]],
+    pub task: RowTask<'a, T>,
 }
 
 impl<T: Real> OnRows<'_, T> {
@@ -51,28 +50,6 @@ impl<T: Real> OnRows<'_, T> {
                 }
             }
         }
-    }
-}
-
-impl<T: Precision> StoredRows<T> {
-    /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
-    pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Multiply { y, x } });
-    }
-
-    /// `r = b - K x` in the rows of a range.
-    pub fn residual(&self, range: Range<usize>, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Residual { r, b, x } });
-    }
-
-    /// Relaxes the nodes of a range in their order, `far` staying as it is; no `far` stands for zeros.
-    pub fn forward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Forward { b, x } });
-    }
-
-    /// The same in the opposite order.
-    pub fn backward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far, task: RowTask::Backward { b, x } });
     }
 }
 

@@ -5,13 +5,13 @@
 //! registers wait for each other, and nodes do not (Hillis, Steele 1986). Rows of P2 with corners of triangles reach two
 //! nodes back: there the recurrence is one of pairs of nodes. Opposite couplings are alike, so neighbours are added first.
 
-use super::lanes::{Lanes, Work};
+use super::lanes::{LaneWork, Lanes};
 use super::strips::{Couplings, Step, StripNodes, inverse};
 use crate::element::Block;
 use crate::system::space::Real;
 use nalgebra::Matrix4;
 
-/// Work on strips with the same couplings. Vectors hold all nodes of the rank.
+/// LaneWork on strips with the same couplings. Vectors hold all nodes of the rank.
 pub trait StripKernel<T> {
     /// `y = K x` at the nodes of strips.
     fn multiply(&self, strips: &[StripNodes], x: &[[T; 2]], y: &mut [[T; 2]]);
@@ -42,7 +42,7 @@ struct UnrolledKernel<L: Lanes, const UP: usize, const SECOND: bool> {
     up: [Step; UP],
     forward: Half<L, UP>,
     backward: Half<L, UP>,
-    product: Product<L, UP>,
+    product: Stencil<L, UP>,
     /// For nodes at the end of a strip that fill no register.
     single: [EndNode<L::Real, UP>; 2],
     /// Ones at the nodes that a strip reaches before its first and behind its last one, zeros elsewhere.
@@ -52,32 +52,32 @@ struct UnrolledKernel<L: Lanes, const UP: usize, const SECOND: bool> {
 }
 
 /// A block for each node of a register: what it does to the component of the same name, and to the other one.
-struct Factor<L: Lanes> {
+struct BlockLanes<L: Lanes> {
     same: L::Register,
     other: L::Register,
 }
 
 /// Half a sweep, all of it times `D⁻¹`.
 struct Half<L: Lanes, const UP: usize> {
-    right_hand_side: Factor<L>,
-    up: [Factor<L>; UP],
+    right_hand_side: BlockLanes<L>,
+    up: [BlockLanes<L>; UP],
     /// First and second neighbour on the side that is still to come.
-    beside: [Factor<L>; 2],
+    beside: [BlockLanes<L>; 2],
     chain: Chain<L>,
 }
 
 /// The recurrence: steps that double, the last one of a whole register.
 struct Chain<L: Lanes> {
-    steps: [Factor<L>; 4],
+    steps: [BlockLanes<L>; 4],
     /// Of pairs: what one node gets from the other kind.
-    crossed: [Factor<L>; 4],
+    crossed: [BlockLanes<L>; 4],
 }
 
 /// `-K`.
-struct Product<L: Lanes, const UP: usize> {
-    own: Factor<L>,
-    up: [Factor<L>; UP],
-    beside: [Factor<L>; 2],
+struct Stencil<L: Lanes, const UP: usize> {
+    own: BlockLanes<L>,
+    up: [BlockLanes<L>; UP],
+    beside: [BlockLanes<L>; 2],
 }
 
 /// Couplings of one node to others, that with itself and its inverse.
@@ -88,7 +88,7 @@ struct EndNode<T, const UP: usize> {
     inverse: [[T; 2]; 2],
 }
 
-impl<L: Lanes> Factor<L> {
+impl<L: Lanes> BlockLanes<L> {
     /// For a sum: the components change places at its end.
     fn of_sum(lanes: L, blocks: &[Block; 2]) -> Self {
         Self::new(lanes, &blocks.map(|k| [[k[0][0], k[1][0]], [k[0][1], k[1][1]]]))
@@ -115,7 +115,7 @@ impl<L: Lanes> Factor<L> {
 }
 
 /// A sum of products with blocks. The parts for the other components are brought there once, at the end: their factors are
-/// those of transposed blocks ([`Factor::of_sum`]).
+/// those of transposed blocks ([`BlockLanes::of_sum`]).
 struct Sum<L: Lanes> {
     same: L::Register,
     other: L::Register,
@@ -124,13 +124,13 @@ struct Sum<L: Lanes> {
 impl<L: Lanes> Sum<L> {
     /// Of one product.
     #[inline(always)]
-    fn of(lanes: L, factor: &Factor<L>, x: L::Register) -> Self {
+    fn of(lanes: L, factor: &BlockLanes<L>, x: L::Register) -> Self {
         Self { same: lanes.multiply(factor.same, x), other: lanes.multiply(factor.other, x) }
     }
 
     /// One product more.
     #[inline(always)]
-    fn add(&mut self, lanes: L, factor: &Factor<L>, x: L::Register) {
+    fn add(&mut self, lanes: L, factor: &BlockLanes<L>, x: L::Register) {
         self.same = lanes.multiply_add(factor.same, x, self.same);
         self.other = lanes.multiply_add(factor.other, x, self.other);
     }
@@ -162,9 +162,9 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
             [0, 1].map(|kind| product(&inverses[kind], &blocks[kind]))
         };
         let half = |way: Way| Half {
-            right_hand_side: Factor::of_sum(lanes, &inverses),
-            up: up.map(|step| Factor::of_sum(lanes, &scaled(step))),
-            beside: [1, 2].map(|step| Factor::of_sum(lanes, &scaled((step, 0)))),
+            right_hand_side: BlockLanes::of_sum(lanes, &inverses),
+            up: up.map(|step| BlockLanes::of_sum(lanes, &scaled(step))),
+            beside: [1, 2].map(|step| BlockLanes::of_sum(lanes, &scaled((step, 0)))),
             chain: if SECOND {
                 Chain::of_pairs(lanes, way, &scaled((1, 0)), &scaled((2, 0)))
             } else {
@@ -182,10 +182,10 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
             up,
             forward: half(Way::Forward),
             backward: half(Way::Backward),
-            product: Product {
-                own: Factor::of_sum(lanes, &negative((0, 0))),
-                up: up.map(|step| Factor::of_sum(lanes, &negative(step))),
-                beside: [1, 2].map(|step| Factor::of_sum(lanes, &negative((step, 0)))),
+            product: Stencil {
+                own: BlockLanes::of_sum(lanes, &negative((0, 0))),
+                up: up.map(|step| BlockLanes::of_sum(lanes, &negative(step))),
+                beside: [1, 2].map(|step| BlockLanes::of_sum(lanes, &negative((step, 0)))),
             },
             single: [row(0), row(1)],
             minus: lanes.load(L::chunks(&vec![[L::Real::of(-1.0); 2]; L::COUNT])[0]),
@@ -362,14 +362,14 @@ impl<L: Lanes> Chain<L> {
         // Over a step of one the nodes differ in kind, over longer ones they do not.
         let mut power = [product(&before[0], &before[1]), product(&before[1], &before[0])];
         let steps = std::array::from_fn(|step| match step {
-            0 => Factor::new(lanes, before),
+            0 => BlockLanes::new(lanes, before),
             _ => {
-                let factor = Factor::new(lanes, &power);
+                let factor = BlockLanes::new(lanes, &power);
                 power = power.map(|block| product(&block, &block));
                 factor
             }
         });
-        Self { steps, crossed: std::array::from_fn(|_| Factor::new(lanes, &[[[0.0; 2]; 2]; 2])) }
+        Self { steps, crossed: std::array::from_fn(|_| BlockLanes::new(lanes, &[[[0.0; 2]; 2]; 2])) }
     }
 
     /// The same where nodes that are even also reach the second one before: first inside of pairs, then from pair to pair by a
@@ -388,14 +388,14 @@ impl<L: Lanes> Chain<L> {
                 ([*even, zero], [[sum4(&through, &two[0]), zero], [*odd, zero]])
             }
         };
-        let mut steps = vec![Factor::new(lanes, &inside)];
-        let mut crossed = vec![Factor::new(lanes, &[zero, zero])];
+        let mut steps = vec![BlockLanes::new(lanes, &inside)];
+        let mut crossed = vec![BlockLanes::new(lanes, &[zero, zero])];
         for _ in 1..4 {
-            steps.push(Factor::new(lanes, &[pair[0][0], pair[1][1]]));
-            crossed.push(Factor::new(lanes, &[pair[0][1], pair[1][0]]));
+            steps.push(BlockLanes::new(lanes, &[pair[0][0], pair[1][1]]));
+            crossed.push(BlockLanes::new(lanes, &[pair[0][1], pair[1][0]]));
             pair = square(&pair);
         }
-        let all = |factors: Vec<Factor<L>>| factors.try_into().unwrap_or_else(|_| unreachable!("four steps"));
+        let all = |factors: Vec<BlockLanes<L>>| factors.try_into().unwrap_or_else(|_| unreachable!("four steps"));
         Self { steps: all(steps), crossed: all(crossed) }
     }
 }
@@ -425,7 +425,7 @@ struct OnStrips<'a, L: Lanes, const UP: usize, const SECOND: bool> {
     task: StripTask<'a, L::Real>,
 }
 
-impl<L: Lanes, const UP: usize, const SECOND: bool> Work for OnStrips<'_, L, UP, SECOND> {
+impl<L: Lanes, const UP: usize, const SECOND: bool> LaneWork for OnStrips<'_, L, UP, SECOND> {
     #[inline(always)]
     fn work(self) {
         let Self { kernel, strips, task } = self;
