@@ -4,14 +4,15 @@
 //! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are
 //! there already when this is asked.
 
+use super::solver::MANY;
 use super::{Form, Preconditioning, Scene, SolverChoice};
 use crate::element::Order;
 use crate::mesh::{Level, Numbering, levels};
 
-/// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve of some ten
-/// iterations; on one rank, and on several. Measured on example 1 at 16.8 million unknowns with P1, without fields: resident memory
-/// less that of stored rows and of the process itself.
-const BY_UNKNOWN: [f64; 2] = [270.0, 295.0];
+/// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve: with GMRES, of
+/// some ten iterations, and with BiCGStab, which has so many unknowns to itself. Measured on example 1 with P1 and P2, on one rank
+/// and on two, at 1.05 and 16.8 million unknowns, without fields: resident memory less that of the processes themselves.
+const BY_UNKNOWN: [f64; 2] = [220.0, 165.0];
 
 /// What flat triangles add to that: flexible GMRES keeps two vectors for each iteration, and CG on the levels its own. Measured
 /// on graded meshes of example 1 at 0.9 million unknowns.
@@ -51,7 +52,8 @@ pub fn memory_need(scene: &Scene, refine: usize, choice: SolverChoice, rank: usi
             let of_levels = |&level: &Level| rows(level, nodes(level).range(rank).len() - nodes_in_strips(scene, level, rank));
             let flat = Preconditioning::of(refine + 1, &scene.mesh.ratios) != Preconditioning::Sweep;
             let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
-            let by_unknown = more + BY_UNKNOWN[usize::from(scene.partition.size() > 1)];
+            let is_large = !flat && 2 * nodes(finest).node_count() > MANY;
+            let by_unknown = more + BY_UNKNOWN[usize::from(is_large)];
             let coarsest = nodes(levels[0]).range(rank).len() as f64 * BLOCKS[0] * BY_ENTRIES;
             of_macro_mesh + by_unknown * unknowns + coarsest + levels.iter().map(of_levels).sum::<f64>()
         }

@@ -23,6 +23,14 @@ pub(super) const FIELD_SPLIT: Options = &[
     ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
 ];
 
+/// The outer method of many unknowns.
+pub(super) const SHORT_RECURRENCE: Options = &[("-ksp_type", "bcgs")];
+
+/// Whether the user has chosen the outer method.
+pub(super) fn is_method_chosen(session: &Session) -> bool {
+    options::any_of_user(session, |name| name == "-ksp_type")
+}
+
 /// Whether the user has chosen what preconditions the displacements.
 pub(super) fn is_chosen(session: &Session) -> bool {
     options::any_of_user(session, |name| name == "-fieldsplit_u_pc_type")
