@@ -30,7 +30,7 @@ enum LevelRows<T> {
     /// Those of this rank.
     Own { strips: Rc<Strips<T>>, stored: Rc<RefCell<StoredRows<T>>> },
     /// Those of all ranks.
-    All(StoredRows<T>),
+    All(Box<StoredRows<T>>),
 }
 
 impl<T: Precision + Datum> CycleLevel<T> {
@@ -45,7 +45,7 @@ impl<T: Precision + Datum> CycleLevel<T> {
         let (rows, halo, nodes, far) = if gathered[0] && !alone {
             let all = lattice.gathered(session);
             let nodes = all.nodes().len();
-            (LevelRows::All(all.converted()), None, nodes, 0)
+            (LevelRows::All(Box::new(all.converted())), None, nodes, 0)
         } else {
             let rows = LevelRows::Own { strips: T::strips(lattice.strips()), stored: T::stored(lattice.rows()) };
             (rows, (!alone).then(|| lattice.halo().clone()), lattice.node_count(), lattice.far_count())
@@ -65,7 +65,7 @@ impl<T: Precision + Datum> CycleLevel<T> {
     pub fn refresh(&mut self, session: &Session) {
         match &mut self.rows {
             LevelRows::Own { stored, .. } => T::refresh(self.lattice.rows(), stored),
-            LevelRows::All(rows) => *rows = self.lattice.gathered(session).converted(),
+            LevelRows::All(rows) => **rows = self.lattice.gathered(session).converted(),
         }
     }
 

@@ -8,10 +8,12 @@
 
 mod fallback;
 mod inf_sup;
+mod linear_solve;
 mod options;
 
 pub use fallback::Preconditioning;
 pub use inf_sup::inf_sup;
+pub use linear_solve::{LinearEnding, LinearSolve};
 
 use self::options::{
     CoarseSolver, FIELD_SPLIT, Options, SHORT_RECURRENCE, is_changed, is_chosen, is_method_chosen, lambda_options,
@@ -61,42 +63,6 @@ pub struct LinearSolver {
     pub name: String,
     /// Whether it is set up. A stronger one that a solve falls back on waits for the next solve: there may be none.
     is_set_up: bool,
-}
-
-/// How a linear solve ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LinearEnding {
-    /// The tolerance is reached.
-    Converged,
-    /// Rounding allows no smaller residual.
-    Rounding {
-        /// The relative residual.
-        residual: f64,
-        /// What was asked for.
-        tolerance: f64,
-    },
-    /// The residual stays too large.
-    Failed {
-        /// Why the solver gave up.
-        reason: String,
-        /// Krylov iterations.
-        iterations: usize,
-        /// The relative residual.
-        residual: f64,
-    },
-}
-
-/// A linear solve in figures.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LinearSolve {
-    /// How it ended.
-    pub ending: LinearEnding,
-    /// Krylov iterations.
-    pub iterations: usize,
-    /// True residual of the augmented system, relative to the right-hand side.
-    pub residual: f64,
-    /// The stronger preconditioner that it, or the next one, went over to; in words.
-    pub fallback: Option<String>,
 }
 
 impl LinearSolver {

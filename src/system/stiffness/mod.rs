@@ -1,6 +1,7 @@
 //! The stiffness of the bodies on each level: rows that are stored, and strips that need not be.
 
 mod assembly;
+mod block_lanes;
 mod elastic;
 mod expanded;
 mod lanes;
@@ -8,6 +9,7 @@ mod lattice_operator;
 mod lattice_rows;
 mod pattern;
 mod precision;
+mod recurrence;
 mod row_kernel;
 mod stored_rows;
 mod strip_kernel;

@@ -1,17 +1,16 @@
 //! Sweeps, residuals and products over strips, several nodes at once in registers.
 //!
-//! Of a sweep, all that does not depend on the node before is done for several nodes together. What remains is a
-//! recurrence, `x_k = t_k + P x_(k-1)`: in a register it is summed up by doubling steps, `x_k = s_k + P⁴ x_(k-4)`, so that
-//! registers wait for each other, and nodes do not (Hillis, Steele 1986). Rows of P2 with corners of triangles reach two
-//! nodes back: there the recurrence is one of pairs of nodes. Opposite couplings are alike, so neighbours are added first.
+//! Of a sweep, all that does not depend on the node before is done for several nodes together; what remains is a recurrence
+//! ([`super::recurrence`]). Opposite couplings are alike, so neighbours are added before they are multiplied.
 
+use super::block_lanes::{BlockLanes, Sum, product};
 use super::lanes::{LaneWork, Lanes};
+use super::recurrence::{Chain, State, Way};
 use super::strips::{Couplings, Step, StripNodes, inverse};
 use crate::element::Block;
 use crate::system::space::Real;
-use nalgebra::Matrix4;
 
-/// LaneWork on strips with the same couplings. Vectors hold all nodes of the rank.
+/// Work on strips with the same couplings. Vectors hold all nodes of the rank.
 pub trait StripKernel<T> {
     /// `y = K x` at the nodes of strips.
     fn multiply(&self, strips: &[StripNodes], x: &[[T; 2]], y: &mut [[T; 2]]);
@@ -51,12 +50,6 @@ struct UnrolledKernel<L: Lanes, const UP: usize, const SECOND: bool> {
     minus: L::Register,
 }
 
-/// A block for each node of a register: what it does to the component of the same name, and to the other one.
-struct BlockLanes<L: Lanes> {
-    same: L::Register,
-    other: L::Register,
-}
-
 /// Half a sweep, all of it times `D⁻¹`.
 struct Half<L: Lanes, const UP: usize> {
     right_hand_side: BlockLanes<L>,
@@ -64,13 +57,6 @@ struct Half<L: Lanes, const UP: usize> {
     /// First and second neighbour on the side that is still to come.
     beside: [BlockLanes<L>; 2],
     chain: Chain<L>,
-}
-
-/// The recurrence: steps that double, the last one of a whole register.
-struct Chain<L: Lanes> {
-    steps: [BlockLanes<L>; 4],
-    /// Of pairs: what one node gets from the other kind.
-    crossed: [BlockLanes<L>; 4],
 }
 
 /// `-K`.
@@ -86,66 +72,6 @@ struct EndNode<T, const UP: usize> {
     beside: [[[T; 2]; 2]; 2],
     diagonal: [[T; 2]; 2],
     inverse: [[T; 2]; 2],
-}
-
-impl<L: Lanes> BlockLanes<L> {
-    /// For a sum: the components change places at its end.
-    fn of_sum(lanes: L, blocks: &[Block; 2]) -> Self {
-        Self::new(lanes, &blocks.map(|k| [[k[0][0], k[1][0]], [k[0][1], k[1][1]]]))
-    }
-
-    /// Blocks of even and odd nodes.
-    fn new(lanes: L, blocks: &[Block; 2]) -> Self {
-        let at = |k: usize, turned: bool| {
-            let (a, block) = (k % 2, &blocks[k / 2 % 2]);
-            L::Real::of(block[a][if turned { 1 - a } else { a }])
-        };
-        let register = |turned: bool| {
-            let nodes: Vec<[L::Real; 2]> = (0..L::COUNT).map(|node| [at(2 * node, turned), at(2 * node + 1, turned)]).collect();
-            lanes.load(L::chunks(&nodes)[0])
-        };
-        Self { same: register(false), other: register(true) }
-    }
-
-    /// `sum + M x`.
-    #[inline(always)]
-    fn add(&self, lanes: L, x: L::Register, sum: L::Register) -> L::Register {
-        lanes.multiply_add(self.other, lanes.turned(x), lanes.multiply_add(self.same, x, sum))
-    }
-}
-
-/// A sum of products with blocks. The parts for the other components are brought there once, at the end: their factors are
-/// those of transposed blocks ([`BlockLanes::of_sum`]).
-struct Sum<L: Lanes> {
-    same: L::Register,
-    other: L::Register,
-}
-
-impl<L: Lanes> Sum<L> {
-    /// Of one product.
-    #[inline(always)]
-    fn of(lanes: L, factor: &BlockLanes<L>, x: L::Register) -> Self {
-        Self { same: lanes.multiply(factor.same, x), other: lanes.multiply(factor.other, x) }
-    }
-
-    /// One product more.
-    #[inline(always)]
-    fn add(&mut self, lanes: L, factor: &BlockLanes<L>, x: L::Register) {
-        self.same = lanes.multiply_add(factor.same, x, self.same);
-        self.other = lanes.multiply_add(factor.other, x, self.other);
-    }
-
-    #[inline(always)]
-    fn total(self, lanes: L) -> L::Register {
-        lanes.add(self.same, lanes.turned(self.other))
-    }
-}
-
-/// The way through a strip.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Way {
-    Forward,
-    Backward,
 }
 
 impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND> {
@@ -322,94 +248,6 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
     }
 }
 
-/// Where the recurrence stands: the last register before and after each step.
-struct State<L: Lanes> {
-    steps: [L::Register; 3],
-    relaxed: L::Register,
-}
-
-impl<L: Lanes> State<L> {
-    /// The next register on the way; `t` is what does not depend on the nodes before.
-    #[inline(always)]
-    fn next<const SECOND: bool>(&mut self, lanes: L, way: Way, chain: &Chain<L>, t: L::Register) -> L::Register {
-        let shifted = |step: usize, before: L::Register, a: L::Register| match (way, step) {
-            (Way::Forward, 0) => lanes.earlier::<1>(before, a),
-            (Way::Forward, 1) => lanes.earlier::<2>(before, a),
-            (Way::Forward, _) => lanes.earlier::<4>(before, a),
-            (Way::Backward, 0) => lanes.later::<1>(a, before),
-            (Way::Backward, 1) => lanes.later::<2>(a, before),
-            (Way::Backward, _) => lanes.later::<4>(a, before),
-        };
-        let mut sum = t;
-        let last = L::COUNT.trailing_zeros() as usize;
-        for step in 0..last {
-            let from = shifted(step, self.steps[step], sum);
-            self.steps[step] = sum;
-            sum = chain.steps[step].add(lanes, from, sum);
-            if SECOND && step > 0 {
-                sum = chain.crossed[step].add(lanes, lanes.crossed(from), sum);
-            }
-        }
-        let far = if SECOND { chain.crossed[last].add(lanes, lanes.crossed(self.relaxed), sum) } else { sum };
-        self.relaxed = chain.steps[last].add(lanes, self.relaxed, far);
-        self.relaxed
-    }
-}
-
-impl<L: Lanes> Chain<L> {
-    /// `x_k = t_k + P_k x_(k-1)`, `P` being that of even and odd nodes.
-    fn of_nodes(lanes: L, before: &[Block; 2]) -> Self {
-        // Over a step of one the nodes differ in kind, over longer ones they do not.
-        let mut power = [product(&before[0], &before[1]), product(&before[1], &before[0])];
-        let steps = std::array::from_fn(|step| match step {
-            0 => BlockLanes::new(lanes, before),
-            _ => {
-                let factor = BlockLanes::new(lanes, &power);
-                power = power.map(|block| product(&block, &block));
-                factor
-            }
-        });
-        Self { steps, crossed: std::array::from_fn(|_| BlockLanes::new(lanes, &[[[0.0; 2]; 2]; 2])) }
-    }
-
-    /// The same where nodes that are even also reach the second one before: first inside of pairs, then from pair to pair by a
-    /// matrix `M`, then by `M²` and so on. On the way back the odd node of a pair comes first.
-    fn of_pairs(lanes: L, way: Way, one: &[Block; 2], two: &[Block; 2]) -> Self {
-        let zero = [[0.0; 2]; 2];
-        let [even, odd] = one;
-        // Blocks of a pair: from (even, odd) to (even, odd).
-        let (inside, mut pair) = match way {
-            Way::Forward => {
-                let (a, b) = (*even, two[0]);
-                ([zero, *odd], [[b, a], [product(odd, &b), product(odd, &a)]])
-            }
-            Way::Backward => {
-                let through = product(even, odd);
-                ([*even, zero], [[sum4(&through, &two[0]), zero], [*odd, zero]])
-            }
-        };
-        let mut steps = vec![BlockLanes::new(lanes, &inside)];
-        let mut crossed = vec![BlockLanes::new(lanes, &[zero, zero])];
-        for _ in 1..4 {
-            steps.push(BlockLanes::new(lanes, &[pair[0][0], pair[1][1]]));
-            crossed.push(BlockLanes::new(lanes, &[pair[0][1], pair[1][0]]));
-            pair = square(&pair);
-        }
-        let all = |factors: Vec<BlockLanes<L>>| factors.try_into().unwrap_or_else(|_| unreachable!("four steps"));
-        Self { steps: all(steps), crossed: all(crossed) }
-    }
-}
-
-/// The square of a matrix of two by two blocks.
-fn square(pair: &[[Block; 2]; 2]) -> [[Block; 2]; 2] {
-    let entry = |i: usize, j: usize| pair[i / 2][j / 2][i % 2][j % 2];
-    let matrix = Matrix4::from_fn(entry);
-    let matrix = matrix * matrix;
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| std::array::from_fn(|a| std::array::from_fn(|b| matrix[(2 * i + a, 2 * j + b)])))
-    })
-}
-
 /// What is to be done with the nodes of strips.
 enum StripTask<'a, T> {
     Multiply { x: &'a [[T; 2]], y: &'a mut [[T; 2]] },
@@ -478,14 +316,6 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> StripKernel<L::Real> for Unr
     }
 }
 
-fn product(a: &Block, b: &Block) -> Block {
-    a.map(|row| [0, 1].map(|j| row[0] * b[0][j] + row[1] * b[1][j]))
-}
-
-fn sum4(a: &Block, b: &Block) -> Block {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
-}
-
 /// A block in another precision.
 fn rounded<T: Real>(block: &Block) -> [[T; 2]; 2] {
     block.map(|row| row.map(T::of))
@@ -500,3 +330,6 @@ fn times<T: Real>(block: &[[T; 2]; 2], x: [T; 2]) -> [T; 2] {
 fn sum2<T: Real>(a: [T; 2], b: [T; 2]) -> [T; 2] {
     [a[0] + b[0], a[1] + b[1]]
 }
+
+#[cfg(test)]
+mod tests;

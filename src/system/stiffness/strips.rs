@@ -63,7 +63,7 @@ impl Couplings {
         up.extend(kinds.iter().flatten().map(|c| c.0).filter(|&(_, dj)| dj < 0).map(|(di, dj)| (-di, -dj)));
         up.sort_unstable_by_key(|&(di, dj)| (dj, di));
         up.dedup();
-        Self { kinds, second: order == Order::P2 && strip.j % 2 == 0, up }
+        Self { kinds, second: order == Order::P2 && strip.j.is_multiple_of(2), up }
     }
 
     /// Couplings of node `k` of a strip.

@@ -1,0 +1,37 @@
+//! What came of a linear solve.
+
+/// How a linear solve ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LinearEnding {
+    /// The tolerance is reached.
+    Converged,
+    /// Rounding allows no smaller residual.
+    Rounding {
+        /// The relative residual.
+        residual: f64,
+        /// What was asked for.
+        tolerance: f64,
+    },
+    /// The residual stays too large.
+    Failed {
+        /// Why the solver gave up.
+        reason: String,
+        /// Krylov iterations.
+        iterations: usize,
+        /// The relative residual.
+        residual: f64,
+    },
+}
+
+/// A linear solve in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearSolve {
+    /// How it ended.
+    pub ending: LinearEnding,
+    /// Krylov iterations.
+    pub iterations: usize,
+    /// True residual of the augmented system, relative to the right-hand side.
+    pub residual: f64,
+    /// The stronger preconditioner that it, or the next one, went over to; in words.
+    pub fallback: Option<String>,
+}

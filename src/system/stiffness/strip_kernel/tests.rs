@@ -1,0 +1,107 @@
+//! Every kind of register against one node after the other.
+
+use super::*;
+use crate::body::MacroStiffness;
+use crate::element::{Order, PlaneStrain};
+use crate::mesh::Level;
+use crate::mesh::samples::two_blocks;
+use crate::system::stiffness::lanes::PlainLanes;
+use crate::system::stiffness::strips::inverse;
+
+const LAW: PlaneStrain = PlaneStrain { lambda: 3.0, mu: 2.0 };
+
+/// Strips of one macro triangle, its inner nodes being all nodes of a rank: couplings, and the strips that have them.
+fn strips(order: Order, intervals: usize) -> (usize, Vec<(Couplings, StripNodes)>) {
+    let (mesh, level) = (two_blocks(), Level { intervals, order });
+    let stiffness = MacroStiffness::new(&mesh, 1, level, &LAW).expect("a good triangle");
+    let row_start = |j: usize| crate::mesh::lattice::row_start(intervals, j);
+    let strip = |strip: &crate::mesh::Strip| {
+        let nodes =
+            StripNodes { first: row_start(strip.j) + strip.i.start - 1, count: strip.i.len(), width: intervals - 1 - strip.j };
+        (Couplings::new(&stiffness, order, strip), nodes)
+    };
+    (crate::mesh::lattice::inner_count(intervals), mesh.strips(1, level).iter().map(strip).collect())
+}
+
+/// Numbers between 0 and 1 that repeat late.
+fn vector<T: Real>(nodes: usize, seed: usize) -> Vec<[T; 2]> {
+    let value = |at: usize| T::of(((at + seed) * 7919 % 1009) as f64 / 1009.0);
+    (0..nodes).map(|node| [value(2 * node), value(2 * node + 1)]).collect()
+}
+
+/// `b - K x` of node `k` of a strip, with or without its coupling to itself.
+fn residual<T: Real>(couplings: &Couplings, nodes: StripNodes, k: usize, b: &[[T; 2]], x: &[[T; 2]], own: bool) -> [f64; 2] {
+    let mut sum = b[nodes.first + k].map(T::double);
+    for (step, block) in couplings.of(k).iter().filter(|(step, _)| own || *step != (0, 0)) {
+        let y = x[(nodes.first + k).wrapping_add_signed(nodes.distance(*step))].map(T::double);
+        (0..2).for_each(|a| sum[a] -= block[a][0] * y[0] + block[a][1] * y[1]);
+    }
+    sum
+}
+
+/// Relaxes a node as its equation says.
+fn relax<T: Real>(couplings: &Couplings, nodes: StripNodes, k: usize, b: &[[T; 2]], x: &mut [[T; 2]]) {
+    let sum = residual(couplings, nodes, k, b, x, false);
+    let inverse = inverse(&couplings.of(k)[0].1).expect("a diagonal");
+    x[nodes.first + k] = [0, 1].map(|a| T::of(inverse[a][0] * sum[0] + inverse[a][1] * sum[1]));
+}
+
+fn check<L: Lanes>(lanes: L, tolerance: f64) {
+    for (order, intervals) in
+        [(Order::P1, 16), (Order::P1, 23), (Order::P1, 32), (Order::P2, 16), (Order::P2, 32), (Order::P2, 38)]
+    {
+        let (count, strips) = strips(order, intervals);
+        assert!(strips.len() > 3);
+        let (b, start) = (vector::<L::Real>(count, 5), vector::<L::Real>(count, 99));
+        let near = |words: &str, found: &[[L::Real; 2]], expected: &[[L::Real; 2]]| {
+            for (node, (found, expected)) in found.iter().zip(expected).enumerate() {
+                let apart = (0..2).map(|a| (found[a].double() - expected[a].double()).abs()).fold(0.0, f64::max);
+                assert!(apart < tolerance, "{order:?}, n = {intervals}, {words}, node {node}: {apart:e}");
+            }
+        };
+        let (mut x, mut expected) = (start.clone(), start.clone());
+        for (couplings, nodes) in &strips {
+            kernel(lanes, couplings).forward(&[*nodes], &b, &mut x);
+            (0..nodes.count).for_each(|k| relax(couplings, *nodes, k, &b, &mut expected));
+        }
+        near("forward", &x, &expected);
+        for (couplings, nodes) in strips.iter().rev() {
+            kernel(lanes, couplings).backward(&[*nodes], &b, &mut x);
+            (0..nodes.count).rev().for_each(|k| relax(couplings, *nodes, k, &b, &mut expected));
+        }
+        near("backward", &x, &expected);
+        let (zero, mut r, mut y) = (vec![[L::Real::default(); 2]; count], start.clone(), start.clone());
+        let (mut difference, mut minus) = (start.clone(), start.clone());
+        for (couplings, nodes) in &strips {
+            kernel(lanes, couplings).residual(&[*nodes], &b, &start, &mut r);
+            kernel(lanes, couplings).multiply(&[*nodes], &start, &mut y);
+            for k in 0..nodes.count {
+                difference[nodes.first + k] = residual(couplings, *nodes, k, &b, &start, true).map(L::Real::of);
+                minus[nodes.first + k] = residual(couplings, *nodes, k, &zero, &start, true).map(|v| L::Real::of(-v));
+            }
+        }
+        near("residual", &r, &difference);
+        near("product", &y, &minus);
+    }
+}
+
+#[test]
+fn arrays_do_what_one_node_after_the_other_does() {
+    check(PlainLanes::<f64>::default(), 1e-13);
+    check(PlainLanes::<f32>::default(), 1e-4);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn registers_that_this_processor_has_do_what_one_node_after_the_other_does() {
+    use crate::system::stiffness::lanes::{DoubleLanes, NarrowLanes, SingleLanes, WideDoubleLanes, WideSingleLanes};
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        check(DoubleLanes(simd), 1e-13);
+        check(NarrowLanes(simd), 1e-4);
+        check(SingleLanes(simd), 1e-4);
+    }
+    if let Some(simd) = pulp::x86::V4::try_new() {
+        check(WideDoubleLanes(simd), 1e-13);
+        check(WideSingleLanes(simd), 1e-4);
+    }
+}
