@@ -111,3 +111,35 @@ fn the_direct_solver_nearly_incompressible() {
         }
     }
 }
+
+/// In single precision the cycle takes few iterations more, and goes over to double precision where numbers are too large for
+/// it: both are told, and change nothing in what is found.
+#[test]
+fn a_cycle_in_single_precision_finds_the_same() {
+    for ranks in [1, 2] {
+        let run = || bars().ranks(ranks).set("mesh.order", 2).set("mesh.refine", 4);
+        let double = run().converged();
+        let single = run().petsc("-fieldsplit_u_cycle_single").converged();
+        assert!(single.value("/solver/krylov").to_string().contains("in single precision"), "{}", single.said());
+        assert!(single.iterations() <= double.iterations() + 2, "{} and {}", single.iterations(), double.iterations());
+        let forces = [&double, &single].map(|ended| ended.number("/contact/seam/force"));
+        assert!((forces[0] / forces[1] - 1.0).abs() < 1e-7, "{forces:?}");
+        let large = |run: Run| run.set("body.lower.young", 7e42).set("body.upper.young", 7e42);
+        let fallen = large(run()).petsc("-fieldsplit_u_cycle_single").converged();
+        assert!(!fallen.value("/solver/krylov").to_string().contains("single"), "{}", fallen.said());
+        let force = fallen.number("/contact/seam/force");
+        assert!((force / forces[0] - 1.0).abs() < 1e-7, "{force} and {}", forces[0]);
+    }
+}
+
+/// What large systems are solved with, on a small one: BiCGStab has two cycles in an iteration.
+#[test]
+fn a_short_recurrence_finds_the_same() {
+    for ranks in [1, 2] {
+        let run = || bars().ranks(ranks).set("mesh.order", 1).set("mesh.refine", 5);
+        let (long, short) = (run().converged(), run().petsc("-ksp_type bcgs").converged());
+        assert!(short.iterations() <= long.iterations(), "{} and {}", short.iterations(), long.iterations());
+        let forces = [&long, &short].map(|ended| ended.number("/contact/seam/force"));
+        assert!((forces[0] / forces[1] - 1.0).abs() < 1e-7, "{forces:?}");
+    }
+}

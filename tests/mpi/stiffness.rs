@@ -8,10 +8,11 @@ use launch::{Suite, named};
 use mezha::body::Support;
 use mezha::element::Order;
 use mezha::geometry::{Curve, Formula};
-use mezha::mesh::lattice;
+use mezha::mesh::{Partition, lattice};
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
 use mezha::system::recovery::strain_energy;
 use mezha::system::{Discretisation, Elastic, Field, Form, Space, interpolations};
+use std::rc::Rc;
 
 fn main() -> std::process::ExitCode {
     Suite {
@@ -38,6 +39,24 @@ fn problems(session: &Session) -> Vec<Discretisation> {
         Discretisation::new(bars::scene(session, order, refine, graded), session).expect("a discretisation")
     };
     cases.into_iter().map(problem).collect()
+}
+
+/// Bars whose last rank has one macro triangle, all vertices of which are nodes of the first rank: that one has all nodes of the
+/// coarsest level.
+fn lopsided(session: &Session) -> Discretisation {
+    let mut scene = bars::scene(session, Order::P1, 4, false);
+    let shared = |triangle: usize| {
+        let others = |vertex: &u32| {
+            let all = scene.mesh.triangles.iter().enumerate();
+            all.filter(|(other, of)| *other != triangle && of.vertices.contains(vertex)).count() > 0
+        };
+        scene.mesh.triangles[triangle].vertices.iter().all(others)
+    };
+    let one = (0..scene.mesh.triangles.len()).find(|&triangle| shared(triangle)).expect("a triangle inside");
+    let mut ranks = vec![0; scene.mesh.triangles.len()];
+    ranks[one] = session.size() as i32 - 1;
+    scene.partition = Rc::new(Partition::new(&scene.mesh, &ranks, session.size()));
+    Discretisation::new(scene, session).expect("a discretisation")
 }
 
 /// The finest stiffness with strips, and with all rows stored.
@@ -227,7 +246,7 @@ fn halved_rows_interpolate_linear_motions_exactly(session: &Session) {
 }
 
 fn halved_rows_are_transposed(session: &Session) {
-    for problem in problems(session) {
+    for problem in problems(session).into_iter().chain([lopsided(session)]) {
         let all = interpolations(&problem, session).expect("interpolations");
         let last = &all[all.len() - 1].matrix;
         let (mut x, mut y) = last.create_vectors().expect("vectors");

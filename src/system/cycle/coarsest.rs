@@ -20,10 +20,13 @@ impl Coarsest {
         Ok(())
     }
 
-    /// Solves with the right-hand side of a level.
+    /// Solves with the right-hand side of a level, which has all nodes.
     pub fn solve<T: Precision + Datum>(&mut self, level: &mut CycleLevel<T>) -> Result<()> {
         let CycleLevel { b, x, .. } = level;
-        let set = |to: &mut [f64]| to.iter_mut().zip(b.as_flattened()).for_each(|(to, from)| *to = from.double());
+        let set = |to: &mut [f64]| {
+            assert_eq!(to.len(), 2 * b.len(), "all nodes of the coarsest level are here");
+            to.iter_mut().zip(b.as_flattened()).for_each(|(to, from)| *to = from.double());
+        };
         let get = |from: &[f64]| x.as_flattened_mut().iter_mut().zip(from).for_each(|(to, &from)| *to = T::of(from));
         self.0.solve(set, get)
     }

@@ -31,8 +31,8 @@ pub struct FullCycle<T> {
 }
 
 impl<T: Precision + Datum> FullCycle<T> {
-    /// On the levels of a stiffness; `None` if some are not made of strips and stored rows, or there is but one.
-    /// **Collective**
+    /// On the levels of a stiffness; `None` if there is but one, if some are auxiliary, or if the coarsest is too large for every
+    /// rank. **Collective**
     fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
@@ -44,10 +44,13 @@ impl<T: Precision + Datum> FullCycle<T> {
         if rows.len() < 2 || steps.len() + 1 != rows.len() {
             return Ok(None);
         }
-        let (coarsest, top) = (Coarsest::new(&rows[0], session)?, rows.len() - 1);
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
         let mut gathered: Vec<bool> =
             rows.iter().map(|rows| 2 * session.gather_counts(rows.node_count()).iter().sum::<usize>() <= GATHERED).collect();
+        if !gathered[0] {
+            return Ok(None);
+        }
+        let (coarsest, top) = (Coarsest::new(&rows[0], session)?, rows.len() - 1);
         // The finest level works on the vectors of PETSc's, which are those of each rank.
         gathered[top] = false;
         let below = |l: usize| gathered[l.saturating_sub(1)];

@@ -6,7 +6,7 @@ mod parents;
 
 pub use node_interpolation::NodeInterpolation;
 
-use super::auxiliary::auxiliary_interpolations;
+use super::auxiliary::{SMALL, auxiliary_interpolations};
 use super::user_options::want_entries;
 use super::{Discretisation, Scene, Space, SystemError};
 use crate::geometry::Point;
@@ -16,8 +16,8 @@ use parents::{Here, NodeParents};
 use std::rc::Rc;
 
 /// Unknowns up to which a level is brought together on every rank, and worked on by each of them for itself: its messages
-/// would take longer than its work.
-pub const GATHERED: usize = 3000;
+/// would take longer than its work. The coarsest level of a cycle is one of these: larger ones get auxiliary levels.
+pub const GATHERED: usize = SMALL;
 
 /// The interpolation to a level from the next coarser one.
 pub struct Interpolation {
@@ -54,7 +54,7 @@ fn interpolation(
     session: &Session,
 ) -> Result<Interpolation, SystemError> {
     let own = scene.partition.triangles_of(session.rank());
-    let mut here = Here { triangles: own, fine: fine.own.clone(), coarse: coarse.own.clone() };
+    let mut here = Here { triangles: own, fine: fine.own.clone(), coarse: coarse.own.clone(), is_gathered: false };
     if want_entries(session) {
         return Ok(Interpolation { matrix: stored_rows(scene, fine, coarse, &here, session)?, nodes: None });
     }
@@ -64,7 +64,7 @@ fn interpolation(
     if session.size() == 1 || !is_gathered(coarse) {
         return Ok(Interpolation { matrix, nodes: Some(nodes) });
     }
-    here.coarse = 0..coarse.numbering.node_count();
+    (here.coarse, here.is_gathered) = (0..coarse.numbering.node_count(), true);
     let all: Vec<u32> = (0..scene.mesh.triangles.len() as u32).collect();
     if is_gathered(fine) && !is_finest {
         (here.triangles, here.fine) = (&all, 0..fine.numbering.node_count());

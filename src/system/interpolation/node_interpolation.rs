@@ -49,8 +49,9 @@ impl NodeInterpolation {
                 weighted.push((at, place(parent), turned(fine, coarse, node, parent, weight)));
             }
         }
-        let shared = here.coarse.len() < coarse.numbering.node_count();
-        let halo = shared.then(|| Halo::new(session, &here.coarse, &far));
+        // All ranks take the same way here, whatever they own: a halo is made by all of them together.
+        let is_shared = session.size() > 1 && !here.is_gathered;
+        let halo = is_shared.then(|| Halo::new(session, &here.coarse, &far));
         Self { halved, even, weighted, coarse: here.coarse.len(), halo, far: far.len() }
     }
 

@@ -14,6 +14,8 @@ pub struct Here<'a> {
     pub fine: Range<usize>,
     /// Coarse nodes.
     pub coarse: Range<usize>,
+    /// Whether these are those of all ranks, on each of them. That they are all of them may happen on one rank alone.
+    pub is_gathered: bool,
 }
 
 /// Weights of the parents of most nodes.

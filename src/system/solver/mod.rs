@@ -55,6 +55,8 @@ pub struct LinearSolver {
     cycle: Option<Cycle>,
     /// Whether the cycle works in single precision.
     is_single: bool,
+    /// Whether it did at first.
+    had_single: bool,
     /// Whether BiCGStab stands in the place of GMRES, to save memory. What it cannot solve GMRES gets.
     is_short: bool,
     /// What preconditions the displacement block, from the next solve on.
@@ -147,6 +149,7 @@ impl LinearSolver {
             cycle,
             preconditioning,
             is_single,
+            had_single: is_single,
             is_short,
             name,
             is_set_up: true,
@@ -179,6 +182,7 @@ impl LinearSolver {
             cycle: None,
             preconditioning: Preconditioning::Factor,
             is_single: false,
+            had_single: false,
             is_short: false,
             name,
             is_set_up: true,
@@ -212,7 +216,9 @@ impl LinearSolver {
     fn set_up(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
         let many = if self.is_short { MANY } else { usize::MAX };
         let interpolations = self.interpolations.clone();
+        let had_single = self.had_single;
         *self = Self::field_split(system, interpolations, self.preconditioning, self.is_single, many, &self.session)?;
+        self.had_single |= had_single;
         Ok(())
     }
 
@@ -223,7 +229,11 @@ impl LinearSolver {
 
     /// Options that the user gave and no object of this solver has asked for.
     pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
-        Ok(petsc::options::unused(&self.session)?)
+        let mut unused = petsc::options::unused(&self.session)?;
+        if wants_single(&self.session) && !self.had_single {
+            unused.push(format!("{} (the cycle of this run is PETSc's, or there is none)", petsc::options::SINGLE_CYCLE));
+        }
+        Ok(unused)
     }
 
     /// Solves from the `x` that is given, until the residual is below `tolerance |b|` or rounding stops it; a solve that

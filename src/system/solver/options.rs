@@ -43,7 +43,8 @@ pub(super) fn is_changed(session: &Session) -> bool {
 
 /// Whether the user wants the cycle in single precision.
 pub(super) fn wants_single(session: &Session) -> bool {
-    options::any_of_user(session, |name| name == options::SINGLE_CYCLE)
+    let value = options::get(session, options::SINGLE_CYCLE);
+    value.is_some_and(|value| !["0", "false", "no", "off"].contains(&value.to_lowercase().as_str()))
 }
 
 /// The outer method and the smoother of each preconditioning.
