@@ -117,15 +117,14 @@ fn the_direct_solver_nearly_incompressible() {
 #[test]
 fn a_cycle_in_single_precision_finds_the_same() {
     for ranks in [1, 2] {
-        // To 1e-8 the rounding of its last cycle would send GMRES back.
-        let run = || bars().ranks(ranks).set("mesh.order", 2).set("mesh.refine", 4).set("solver.tolerance", 1e-6);
+        let run = || bars().ranks(ranks).set("mesh.order", 2).set("mesh.refine", 4).set("solver.tolerance", "1e-6");
         let double = run().converged();
         let single = run().petsc("-fieldsplit_u_cycle_single").converged();
         assert!(single.value("/solver/krylov").to_string().contains("in single precision"), "{}", single.said());
-        assert!(single.iterations() <= double.iterations() + 2, "{} and {}", single.iterations(), double.iterations());
+        assert!(single.iterations() <= double.iterations() + 4, "{} and {}", single.iterations(), double.iterations());
         let forces = [&double, &single].map(|ended| ended.number("/contact/seam/force"));
         assert!((forces[0] / forces[1] - 1.0).abs() < 1e-5, "{forces:?}");
-        let large = |run: Run| run.set("body.lower.young", 7e42).set("body.upper.young", 7e42);
+        let large = |run: Run| run.set("body.lower.young", "7e42").set("body.upper.young", "7e42");
         let fallen = large(run()).petsc("-fieldsplit_u_cycle_single").converged();
         assert!(!fallen.value("/solver/krylov").to_string().contains("single"), "{}", fallen.said());
         let force = fallen.number("/contact/seam/force");
