@@ -18,7 +18,7 @@ const FUNCTIONS: &[&str] = &[
     "VecCreate(Seq|SeqWithArray|MPIWithArray)|Vec(Place|Reset)Array|VecScatter(Create|Begin|End|Destroy)",
     "IS(CreateStride|CreateGeneral|Destroy|GetLocalSize|GetIndices|RestoreIndices)",
     // matrix, nest, shell
-    "Mat(Create|SetSizes|SetType|Duplicate|AXPY|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
+    "Mat(Create|SetSizes|SetType|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|GetDiagonal|CreateVecs)",
     "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange|GetOwnershipRangeColumn)",
     "MatXAIJSetPreallocation|MatPtAP|MatDiagonalSet|MatCreateNest|MatNestGetISs",

@@ -215,11 +215,6 @@ impl Matrix {
         Ok(information)
     }
 
-    /// Says that few rows will have entries: PETSc then looks for these, not for rows alike. Before it is filled.
-    pub fn expect_empty_rows(&mut self) -> Result<()> {
-        self.set_option(ffi::MatOption::MAT_USE_INODES, false)
-    }
-
     /// Tells solvers that the matrix is symmetric, or not.
     pub fn set_symmetric(&mut self, holds: bool) -> Result<()> {
         self.set_option(ffi::MatOption::MAT_SYMMETRIC, holds)
@@ -242,17 +237,6 @@ impl Matrix {
         let right = Vector::from_raw(&self.session, right);
         let left = Vector::from_raw(&self.session, left);
         Ok((right?, left?))
-    }
-
-    /// The sum with a matrix of the same layout and any pattern, in a matrix of its own that has room for both patterns.
-    /// **Collective**
-    pub fn sum(&self, other: &Self) -> Result<Self> {
-        let mut raw = ptr::null_mut();
-        petsc!(MatDuplicate(self.raw, ffi::MatDuplicateOption::MAT_COPY_VALUES, &mut raw))?;
-        let sum = Self { raw, session: self.session.clone(), block: self.block };
-        petsc!(MatAXPY(sum.raw, 1.0, other.raw, ffi::MatStructure::DIFFERENT_NONZERO_PATTERN))?;
-        sum.set_option(ffi::MatOption::MAT_NEW_NONZERO_ALLOCATION_ERR, true)?;
-        Ok(sum)
     }
 
     /// The Galerkin product `Pᵀ A P`, in a matrix of its own. **Collective**
