@@ -16,7 +16,7 @@ const FUNCTIONS: &[&str] = &[
     "Vec(Create|SetSizes|SetType|SetOption|Duplicate|Destroy|GetArray|RestoreArray|GetArrayRead|RestoreArrayRead)",
     "Vec(GetLocalSize|GetSize|GetOwnershipRange|SetValues|AssemblyBegin|AssemblyEnd|Set|Norm|Dot|AXPY|Copy|Scale)",
     "VecCreate(Seq|SeqWithArray|MPIWithArray)|Vec(Place|Reset)Array|VecScatter(Create|Begin|End|Destroy)",
-    "IS(CreateStride|CreateGeneral|Destroy|GetLocalSize|GetIndices|RestoreIndices)",
+    "IS(CreateGeneral|Destroy|GetLocalSize|GetIndices|RestoreIndices)",
     // matrix, nest, shell
     "Mat(Create|SetSizes|SetType|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|GetDiagonal|CreateVecs)",

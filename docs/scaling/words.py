@@ -221,16 +221,16 @@ for k in 1 2; do
 done
 
 # mpirun reaches a host by this instead of ssh: its first word that is no option is the address.
-cat > /tmp/enter <<'SCRIPT'
+cat > enter <<'SCRIPT'
 #!/bin/sh
 while [ "${1#-}" != "$1" ]; do shift; done
 host=host${1##*.}; shift
 exec ip netns exec "$host" sh -c "$*"
 SCRIPT
-chmod +x /tmp/enter
+chmod +x enter
 
 ip netns exec host1 mpirun --host 10.77.0.1:1,10.77.0.2:1 -n 2 \\
-    --mca plm_rsh_agent /tmp/enter --mca orte_keep_fqdn_hostnames 1 \\
+    --mca plm_rsh_agent "$PWD/enter" --mca orte_keep_fqdn_hostnames 1 \\
     --mca btl tcp,self --mca btl_tcp_if_include 10.77.0.0/24 --mca oob_tcp_if_include 10.77.0.0/24 \\
     target/release/mezha run cases/bars_inclined/even.toml --out out/delayed
 

@@ -32,30 +32,13 @@ impl Halo {
         let (mut wanted, mut asked) = (vec![0u64; size], vec![0u64; size]);
         from.iter().for_each(|&(rank, count)| wanted[rank as usize] = count as u64);
         world.all_to_all_into(&wanted[..], &mut asked[..]);
-        let mut end = 0;
-        let to: Vec<(i32, Range<usize>)> = (0..size)
-            .filter(|&rank| asked[rank] > 0)
-            .map(|rank| {
-                end += asked[rank] as usize;
-                (rank as i32, end - asked[rank] as usize..end)
-            })
-            .collect();
+        let asked: Vec<(i32, usize)> =
+            asked.iter().enumerate().filter(|asked| *asked.1 > 0).map(|(rank, &count)| (rank as i32, count as usize)).collect();
+        let to: Vec<(i32, Range<usize>)> = parts(&asked).collect();
         let numbers: Vec<u64> = far.iter().map(|&node| node as u64).collect();
-        let mut sent = vec![0u64; end];
-        multiple_scope(from.len() + to.len(), |scope, requests| {
-            let mut rest = &mut sent[..];
-            for (rank, range) in &to {
-                let (part, next) = rest.split_at_mut(range.len());
-                requests.add(world.process_at_rank(*rank).immediate_receive_into(scope, part));
-                rest = next;
-            }
-            let mut start = 0;
-            for &(rank, count) in &from {
-                requests.add(world.process_at_rank(rank).immediate_send(scope, &numbers[start..start + count]));
-                start += count;
-            }
-            requests.wait_all(&mut Vec::new());
-        });
+        let mut sent = vec![0u64; to.last().map_or(0, |(_, range)| range.end)];
+        let asking: Vec<(i32, Range<usize>)> = parts(&from).collect();
+        exchange(session, (&numbers, &asking), (&mut sent, &to), || ());
         let sent = sent.into_iter().map(|node| (node as usize - own.start) as u32).collect();
         Self { session: session.clone(), from, to, sent }
     }
@@ -63,42 +46,55 @@ impl Halo {
     /// Brings the values of the far nodes, in their order, and does `meanwhile` what needs none of them. **Collective**
     pub fn fetch<T: Datum>(&self, x: &[[T; 2]], far: &mut [[T; 2]], meanwhile: impl FnOnce()) {
         let sent: Vec<[T; 2]> = self.sent.iter().map(|&node| x[node as usize]).collect();
-        let world = self.session.world();
-        multiple_scope(self.from.len() + self.to.len(), |scope, requests| {
-            let mut rest = far;
-            for &(rank, count) in &self.from {
-                let (part, next) = rest.split_at_mut(count);
-                requests.add(world.process_at_rank(rank).immediate_receive_into(scope, part.as_flattened_mut()));
-                rest = next;
-            }
-            for (rank, range) in &self.to {
-                requests.add(world.process_at_rank(*rank).immediate_send(scope, sent[range.clone()].as_flattened()));
-            }
-            meanwhile();
-            requests.wait_all(&mut Vec::new());
-        });
+        let from: Vec<(i32, Range<usize>)> = parts(&self.from).collect();
+        exchange(&self.session, (sent.as_flattened(), &twice(&self.to)), (far.as_flattened_mut(), &twice(&from)), meanwhile);
     }
 
     /// Adds what this rank has for the far nodes to the values of their owners. **Collective**
     pub fn give<T: Datum + std::ops::AddAssign>(&self, far: &[[T; 2]], y: &mut [[T; 2]]) {
         let mut arrived = vec![[T::default(); 2]; self.sent.len()];
-        let world = self.session.world();
-        multiple_scope(self.from.len() + self.to.len(), |scope, requests| {
-            let mut rest = &mut arrived[..];
-            for (rank, range) in &self.to {
-                let (part, next) = rest.split_at_mut(range.len());
-                requests.add(world.process_at_rank(*rank).immediate_receive_into(scope, part.as_flattened_mut()));
-                rest = next;
-            }
-            let mut start = 0;
-            for &(rank, count) in &self.from {
-                requests.add(world.process_at_rank(rank).immediate_send(scope, far[start..start + count].as_flattened()));
-                start += count;
-            }
-            requests.wait_all(&mut Vec::new());
-        });
+        let from: Vec<(i32, Range<usize>)> = parts(&self.from).collect();
+        exchange(&self.session, (far.as_flattened(), &twice(&from)), (arrived.as_flattened_mut(), &twice(&self.to)), || ());
         for (&node, value) in self.sent.iter().zip(arrived) {
             (0..2).for_each(|k| y[node as usize][k] += value[k]);
         }
     }
+}
+
+/// Consecutive parts of a list for some ranks, from how many entries each has.
+fn parts(counts: &[(i32, usize)]) -> impl Iterator<Item = (i32, Range<usize>)> {
+    let mut end = 0;
+    counts.iter().map(move |&(rank, count)| {
+        end += count;
+        (rank, end - count..end)
+    })
+}
+
+/// The same parts of the two values of each node.
+fn twice(parts: &[(i32, Range<usize>)]) -> Vec<(i32, Range<usize>)> {
+    parts.iter().map(|(rank, range)| (*rank, 2 * range.start..2 * range.end)).collect()
+}
+
+/// Sends parts of a list and receives those of another, which follow each other in it; does `meanwhile` while they are under way.
+/// **Collective** among the ranks that are named.
+fn exchange<T: Datum>(
+    session: &Session,
+    (sent, to): (&[T], &[(i32, Range<usize>)]),
+    (received, from): (&mut [T], &[(i32, Range<usize>)]),
+    meanwhile: impl FnOnce(),
+) {
+    let world = session.world();
+    multiple_scope(from.len() + to.len(), |scope, requests| {
+        let mut rest = received;
+        for (rank, range) in from {
+            let (part, next) = rest.split_at_mut(range.len());
+            requests.add(world.process_at_rank(*rank).immediate_receive_into(scope, part));
+            rest = next;
+        }
+        for (rank, range) in to {
+            requests.add(world.process_at_rank(*rank).immediate_send(scope, &sent[range.clone()]));
+        }
+        meanwhile();
+        requests.wait_all(&mut Vec::new());
+    });
 }

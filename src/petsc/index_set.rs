@@ -3,7 +3,6 @@
 use super::error::{Result, give_back, petsc};
 use super::ffi;
 use super::session::Session;
-use super::vector::length;
 use std::ptr;
 
 /// A distributed set of global numbers, such as the unknowns of one field.
@@ -13,13 +12,6 @@ pub struct IndexSet {
 }
 
 impl IndexSet {
-    /// The numbers `first .. first + count` on this rank. **Collective**
-    pub fn stride(session: &Session, first: usize, count: usize) -> Result<Self> {
-        let mut raw = ptr::null_mut();
-        petsc!(ISCreateStride(session.raw(), length(count), length(first), 1, &mut raw))?;
-        Ok(Self::from_raw(session, raw))
-    }
-
     /// Takes over one reference to an index set of PETSc's.
     pub(super) fn from_raw(session: &Session, raw: ffi::IS) -> Self {
         Self { raw, _session: session.clone() }

@@ -9,7 +9,7 @@ mod coarsest;
 mod level;
 
 use super::SystemError;
-use super::interpolation::{GATHERED, Interpolation, NodeInterpolation};
+use super::interpolation::{Interpolation, NodeInterpolation, is_gathered};
 use super::stiffness::{Precision, Stiffness};
 use crate::petsc::{Action, Datum, Result, Session, Vector};
 use coarsest::Coarsest;
@@ -46,7 +46,7 @@ impl<T: Precision + Datum> FullCycle<T> {
         }
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
         let mut gathered: Vec<bool> =
-            rows.iter().map(|rows| 2 * session.gather_counts(rows.node_count()).iter().sum::<usize>() <= GATHERED).collect();
+            rows.iter().map(|rows| is_gathered(session.gather_counts(rows.node_count()).iter().sum())).collect();
         if !gathered[0] {
             return Ok(None);
         }

@@ -9,15 +9,14 @@ pub use node_interpolation::NodeInterpolation;
 use super::auxiliary::{SMALL, auxiliary_interpolations};
 use super::user_options::want_entries;
 use super::{Discretisation, Scene, Space, SystemError};
-use crate::geometry::Point;
 use crate::petsc::{Matrix, Session};
-use node_interpolation::InterpolationShell;
+use node_interpolation::{InterpolationShell, turned};
 use parents::{Here, NodeParents};
 use std::rc::Rc;
 
 /// Unknowns up to which a level is brought together on every rank, and worked on by each of them for itself: its messages
 /// would take longer than its work. The coarsest level of a cycle is one of these: larger ones get auxiliary levels.
-pub const GATHERED: usize = SMALL;
+const GATHERED: usize = SMALL;
 
 /// The interpolation to a level from the next coarser one.
 pub struct Interpolation {
@@ -28,9 +27,9 @@ pub struct Interpolation {
     pub nodes: Option<Rc<NodeInterpolation>>,
 }
 
-/// Whether a level is brought together on every rank.
-pub fn is_gathered(space: &Space) -> bool {
-    2 * space.numbering.node_count() <= GATHERED
+/// Whether a level of so many nodes is brought together on every rank.
+pub fn is_gathered(nodes: usize) -> bool {
+    2 * nodes <= GATHERED
 }
 
 /// Interpolations between all levels, auxiliary ones among them: the first leads from the coarsest level to the next.
@@ -61,12 +60,12 @@ fn interpolation(
     let nodes = Rc::new(NodeInterpolation::new(scene, fine, coarse, &here, session));
     let (rows, columns) = (fine.local_unknowns(), coarse.local_unknowns());
     let matrix = Matrix::transfer(session, rows, columns, Box::new(InterpolationShell(nodes.clone())))?;
-    if session.size() == 1 || !is_gathered(coarse) {
+    if session.size() == 1 || !is_gathered(coarse.numbering.node_count()) {
         return Ok(Interpolation { matrix, nodes: Some(nodes) });
     }
     (here.coarse, here.is_gathered) = (0..coarse.numbering.node_count(), true);
     let all: Vec<u32> = (0..scene.mesh.triangles.len() as u32).collect();
-    if is_gathered(fine) && !is_finest {
+    if is_gathered(fine.numbering.node_count()) && !is_finest {
         (here.triangles, here.fine) = (&all, 0..fine.numbering.node_count());
     }
     Ok(Interpolation { matrix, nodes: Some(Rc::new(NodeInterpolation::new(scene, fine, coarse, &here, session))) })
@@ -106,18 +105,12 @@ fn distinct([a, b]: [usize; 2]) -> impl Iterator<Item = usize> {
 
 fn insert(matrix: &mut Matrix, fine: &Space, coarse: &Space, node: usize, parent: usize, weight: f64) -> Result<(), SystemError> {
     let (row, column) = (2 * node as i32, 2 * parent as i32);
-    let constraint = coarse.constraints.get(parent);
-    if constraint.is_none() && fine.constraints.get(node).is_none() {
+    if coarse.constraints.get(parent).is_none() && fine.constraints.get(node).is_none() {
         matrix.insert(&[row], &[column], &[weight])?;
         matrix.insert(&[row + 1], &[column + 1], &[weight])?;
         return Ok(());
     }
-    let image = |k: usize| {
-        let axis = Point::new(if k == 0 { 1.0 } else { 0.0 }, if k == 1 { 1.0 } else { 0.0 });
-        let free = constraint.map_or(axis, |c| c.free_part(axis));
-        fine.free_part(node, coarse.to_global(parent, free)) * weight
-    };
-    let (x, y) = (image(0), image(1));
-    matrix.insert(&[row, row + 1], &[column, column + 1], &[x.x, y.x, x.y, y.y])?;
+    let block = turned(fine, coarse, node, parent, weight);
+    matrix.insert(&[row, row + 1], &[column, column + 1], block.as_flattened())?;
     Ok(())
 }

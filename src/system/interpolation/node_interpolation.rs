@@ -7,6 +7,7 @@ use crate::geometry::Point;
 use crate::petsc::{Datum, Halo, Result, Session, Transfer, Vector};
 use crate::system::space::Real;
 use crate::system::{Scene, Space};
+use std::rc::Rc;
 
 /// Linear interpolation from a coarse level to the next finer one. A node takes over the value of its coarse twin, or the
 /// weighted mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns
@@ -105,7 +106,7 @@ impl NodeInterpolation {
 }
 
 /// What a coarse node hands to a fine one, in their frames.
-fn turned(fine: &Space, coarse: &Space, node: usize, parent: usize, weight: f64) -> Block {
+pub fn turned(fine: &Space, coarse: &Space, node: usize, parent: usize, weight: f64) -> Block {
     let image = |k: usize| {
         let axis = Point::new(if k == 0 { 1.0 } else { 0.0 }, if k == 1 { 1.0 } else { 0.0 });
         let free = coarse.constraints.get(parent).map_or(axis, |constraint| constraint.free_part(axis));
@@ -116,7 +117,7 @@ fn turned(fine: &Space, coarse: &Space, node: usize, parent: usize, weight: f64)
 }
 
 /// An interpolation as PETSc's multigrid uses it.
-pub struct InterpolationShell(pub std::rc::Rc<NodeInterpolation>);
+pub struct InterpolationShell(pub Rc<NodeInterpolation>);
 
 impl Transfer for InterpolationShell {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
