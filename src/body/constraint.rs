@@ -1,6 +1,6 @@
 //! Supports at the nodes of one level: which displacement components are prescribed, in which frame.
 
-use super::Support;
+use super::{MOTIONS, Motion, RigidSet, Support};
 use crate::geometry::{Formula, Point, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use nalgebra::Matrix2;
@@ -55,9 +55,10 @@ impl Constraint {
 #[error("{0}")]
 pub struct SupportError(pub String);
 
-/// One direction held at a node by one support.
+/// One direction held at a node.
 struct Hold<'a> {
-    support: &'a str,
+    /// The support or rigid set that holds it, by its key.
+    by: &'a str,
     direction: Point,
     value: f64,
 }
@@ -71,18 +72,29 @@ pub struct Constraints {
 }
 
 impl Constraints {
-    /// Collects what all supports say at the nodes of a level.
+    /// Collects what all supports and rigid sets say at the nodes of a level. Rigid sets are where the components of their motion
+    /// that are prescribed put them; see [`Constraints::move_rigidly`] for the others.
     ///
     /// # Errors
-    /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite.
-    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
+    /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite, or a support
+    /// holds a rigid set that is to move.
+    pub fn new(
+        mesh: &MacroMesh,
+        numbering: &Numbering,
+        supports: &[Support],
+        rigid: &[RigidSet],
+    ) -> Result<Self, SupportError> {
         let mut holds: HashMap<usize, (Point, Vec<Hold>)> = HashMap::new();
-        for support in supports {
+        let keys: Vec<String> = supports.iter().map(|support| format!("support.{}", support.name)).collect();
+        for (support, key) in supports.iter().zip(&keys) {
             for name in &support.on {
                 for &edge in mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]) {
-                    collect(mesh, numbering, support, edge, &mut holds)?;
+                    collect(mesh, numbering, (support, key), edge, &mut holds)?;
                 }
             }
+        }
+        for set in rigid {
+            hold_rigidly(mesh, numbering, set, &mut holds)?;
         }
         let nodes = holds.into_iter().map(|(node, (x, holds))| Ok((node, combine(x, &holds)?)));
         let nodes: HashMap<usize, Constraint> = nodes.collect::<Result<_, _>>()?;
@@ -98,16 +110,53 @@ impl Constraints {
         if bits >> (node % 64) & 1 == 1 { self.nodes.get(&node) } else { None }
     }
 
+    /// Puts the nodes of a rigid set where a motion takes them.
+    pub fn move_rigidly(&mut self, mesh: &MacroMesh, numbering: &Numbering, set: &RigidSet, motion: &Motion) {
+        for (node, x) in set.places(mesh, numbering) {
+            let u = set.displacement(motion, x);
+            if let Some(constraint) = self.nodes.get_mut(&node) {
+                constraint.value = constraint.to_frame(u).into();
+            }
+        }
+    }
+
     /// All constrained nodes, in no order.
     pub fn iter(&self) -> impl Iterator<Item = (usize, &Constraint)> {
         self.nodes.iter().map(|(&node, constraint)| (node, constraint))
     }
 }
 
+/// Holds both components of every node of a rigid set, where its prescribed motion puts it.
+fn hold_rigidly<'a>(
+    mesh: &MacroMesh,
+    numbering: &Numbering,
+    set: &'a RigidSet,
+    holds: &mut HashMap<usize, (Point, Vec<Hold<'a>>)>,
+) -> Result<(), SupportError> {
+    let motion = set.prescribed_motion();
+    for (node, x) in set.places(mesh, numbering) {
+        let (_, known) = holds.entry(node).or_insert((x, Vec::new()));
+        for hold in known.iter() {
+            let moves = |&k: &usize| set.mode(k, x).dot(&hold.direction).abs() > SAME * set.mode(k, x).norm();
+            if let Some(k) = set.free().find(moves) {
+                return Err(SupportError(format!(
+                    "{} holds a node at ({}, {}) that {} is to move: prescribe its {}, or leave the support out there",
+                    hold.by, x.x, x.y, set.key, MOTIONS[k]
+                )));
+            }
+        }
+        let u = set.displacement(&motion, x);
+        for (direction, value) in [(Point::new(1.0, 0.0), u.x), (Point::new(0.0, 1.0), u.y)] {
+            add(known, &set.key, direction, value, x)?;
+        }
+    }
+    Ok(())
+}
+
 fn collect<'a>(
     mesh: &MacroMesh,
     numbering: &Numbering,
-    support: &'a Support,
+    (support, by): (&Support, &'a str),
     edge: u32,
     holds: &mut HashMap<usize, (Point, Vec<Hold<'a>>)>,
 ) -> Result<(), SupportError> {
@@ -116,7 +165,7 @@ fn collect<'a>(
         let x = node.place(mesh, numbering);
         let (_, known) = holds.entry(node.number(mesh, numbering)).or_insert((x, Vec::new()));
         let mut hold = |formula: &Option<Formula>, direction: Point| match formula {
-            Some(formula) => add(known, &support.name, direction, formula.value(&[x.x, x.y]), x),
+            Some(formula) => add(known, by, direction, formula.value(&[x.x, x.y]), x),
             None => Ok(()),
         };
         hold(&support.ux, Point::new(1.0, 0.0))?;
@@ -127,14 +176,20 @@ fn collect<'a>(
 }
 
 /// Adds a hold; normals of one support that nearly agree at a node become their mean.
-fn add<'a>(known: &mut Vec<Hold<'a>>, support: &'a str, direction: Point, value: f64, x: Point) -> Result<(), SupportError> {
+fn add<'a>(
+    known: &mut Vec<Hold<'a>>,
+    by: &'a str,
+    direction: Point,
+    value: f64,
+    x: Point,
+) -> Result<(), SupportError> {
     if !value.is_finite() {
-        return Err(SupportError(format!("support.{support}: its formula has no finite value at ({}, {})", x.x, x.y)));
+        return Err(SupportError(format!("{by}: its formula has no finite value at ({}, {})", x.x, x.y)));
     }
-    let near = |hold: &&mut Hold| hold.support == support && hold.direction.dot(&direction) > SMOOTH.cos();
+    let near = |hold: &&mut Hold| hold.by == by && hold.direction.dot(&direction) > SMOOTH.cos();
     match known.iter_mut().find(near) {
         Some(hold) => hold.direction = (hold.direction + direction).normalize(),
-        None => known.push(Hold { support, direction, value }),
+        None => known.push(Hold { by, direction, value }),
     }
     Ok(())
 }
@@ -163,10 +218,10 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
         // Against the whole displacement: two supports that fix a node leave rounding of it in the direction of a third.
         if (found - hold.value).abs() > 1e-9 * (u.norm() + hold.value.abs()) {
             let others: Vec<_> =
-                holds.iter().filter(|h| h.support != hold.support).map(|h| format!("support.{}", h.support)).collect();
+                holds.iter().filter(|h| h.by != hold.by).map(|h| h.by).collect();
             return Err(SupportError(format!(
-                "support.{} asks for displacement {} in direction ({:.6}, {:.6}) at ({}, {}), {} for {found}; leave one of them out there",
-                hold.support,
+                "{} asks for displacement {} in direction ({:.6}, {:.6}) at ({}, {}), {} for {found}; leave one of them out there",
+                hold.by,
                 hold.value,
                 hold.direction.x,
                 hold.direction.y,
@@ -183,8 +238,8 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
 mod tests {
     use super::*;
 
-    fn hold(support: &str, angle: f64, value: f64) -> Hold<'_> {
-        Hold { support, direction: Point::new(angle.cos(), angle.sin()), value }
+    fn hold(by: &str, angle: f64, value: f64) -> Hold<'_> {
+        Hold { by, direction: Point::new(angle.cos(), angle.sin()), value }
     }
 
     #[test]
@@ -208,7 +263,7 @@ mod tests {
     #[test]
     fn a_repeated_hold_agrees_but_for_rounding() {
         let (sin, cos) = 37f64.to_radians().sin_cos();
-        let hold = |support, x, y, value| Hold { support, direction: Point::new(x, y), value };
+        let hold = |by: &'static str, x, y, value| Hold { by, direction: Point::new(x, y), value };
         for turn in [1.0, 1.0 + 1e-15] {
             let holds = [hold("wall", -cos, -sin, 0.0), hold("top", -sin, cos, -1e-3), hold("more", -cos * turn, -sin, 0.0)];
             assert_eq!(combine(Point::zeros(), &holds).expect("they agree").fixed, [true, true]);
@@ -217,13 +272,13 @@ mod tests {
 
     #[test]
     fn opposite_directions_are_one_direction() {
-        let holds = [hold("a", 0.0, 0.25), Hold { support: "b", direction: Point::new(-1.0, 0.0), value: -0.25 }];
+        let holds = [hold("a", 0.0, 0.25), Hold { by: "b", direction: Point::new(-1.0, 0.0), value: -0.25 }];
         assert_eq!(combine(Point::zeros(), &holds).expect("they agree").fixed, [true, false]);
     }
 
     #[test]
     fn a_contradiction_names_both_supports() {
-        let words = combine(Point::new(1.0, 2.0), &[hold("wall", 0.0, 0.0), hold("pull", 0.0, 0.1)]).unwrap_err().0;
+        let words = combine(Point::new(1.0, 2.0), &[hold("support.wall", 0.0, 0.0), hold("support.pull", 0.0, 0.1)]).unwrap_err().0;
         assert!(words.contains("support.wall") && words.contains("support.pull") && words.contains("(1, 2)"), "{words}");
     }
 }

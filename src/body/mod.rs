@@ -3,10 +3,12 @@
 mod applied_force;
 mod constraint;
 mod macro_stiffness;
+mod rigid;
 
 pub use applied_force::applied_forces;
 pub use constraint::{Constraint, Constraints, SupportError};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
+pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet};
 
 use crate::element::PlaneStrain;
 use crate::geometry::Formula;

@@ -11,6 +11,7 @@ mod fingerprint;
 mod grade;
 mod model;
 pub(crate) mod overrides;
+mod rigid;
 pub(crate) mod section;
 pub(crate) mod values;
 
@@ -29,6 +30,7 @@ use crate::system::{SolverChoice, Tolerance};
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 pub use fingerprint::{Inputs, fingerprint};
+pub use rigid::Tool;
 pub(crate) use section::read_text;
 
 use overrides::{overridden, set_value};
@@ -49,6 +51,8 @@ pub struct Case {
     pub mesh: MeshChoice,
     /// Bodies, in the order of the file.
     pub bodies: Vec<Body>,
+    /// Rigid tools.
+    pub tools: Vec<Tool>,
     /// True shapes of boundaries.
     pub geometries: Vec<Geometry>,
     /// Prescribed displacements.
@@ -178,6 +182,7 @@ impl Case {
         let title = root.or("title", "", values::text);
         let mesh = model::read_mesh(root, &folder);
         let bodies = root.named("body", model::read_body);
+        let tools = root.named("rigid", rigid::read_tool);
         let geometries = root.named("geometry", model::read_geometry);
         let supports = root.named("support", model::read_support);
         let loads = root.named("load", model::read_load);
@@ -191,6 +196,7 @@ impl Case {
         model::check_geometries(&geometries, root);
         model::check_probes(&probes, root);
         contact::check_contacts(&contacts, &geometries, root);
+        rigid::check_tools(&tools, &contacts, root);
         exact::check_exact(&exact, root);
         Some(Self {
             name: name_of(file, "case.toml"),
@@ -199,6 +205,7 @@ impl Case {
             title: title?,
             mesh: mesh?,
             bodies,
+            tools,
             geometries,
             supports,
             loads,

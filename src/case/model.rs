@@ -49,16 +49,21 @@ pub fn read_body(section: &Section) -> Option<Body> {
 /// `[geometry.NAME]`
 pub fn read_geometry(section: &Section) -> Option<Geometry> {
     let curves = section.required("curves", "[\"lower.seam\", \"upper.seam\"]", values::names);
+    let curve = read_surface(section);
+    Some(Geometry { name: section.name().into(), curves: curves?, curve: curve? })
+}
+
+/// A curve: `circle`, or `x`, `y`, `t`.
+pub fn read_surface(section: &Section) -> Option<Curve> {
     let parametric = ["x", "y", "t"].map(|key| section.has(key));
-    let curve = match (section.has("circle"), parametric.contains(&true)) {
+    match (section.has("circle"), parametric.contains(&true)) {
         (true, true) => {
             section.problem(&["circle"], "stands beside x, y, t; give either circle or formulas".into());
             None
         }
         (true, false) => read_circle(section),
         _ => read_parametric(section),
-    };
-    Some(Geometry { name: section.name().into(), curves: curves?, curve: curve? })
+    }
 }
 
 fn read_circle(section: &Section) -> Option<Curve> {

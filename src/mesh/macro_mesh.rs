@@ -148,7 +148,7 @@ impl MacroMesh {
         Ok(if area > 0.0 { [a, b, c] } else { [a, c, b] })
     }
 
-    fn add_triangle(
+    pub(super) fn add_triangle(
         &mut self,
         vertices: [u32; 3],
         body: u32,

@@ -26,6 +26,7 @@ mod shape;
 mod smooth_normal;
 mod spline_shape;
 mod strip;
+mod tool;
 mod work;
 
 pub use bisection::BisectedMesh;
@@ -42,6 +43,7 @@ pub use partition::{Graph, Partition};
 pub use smooth_normal::{SmoothNormals, SmoothPoint};
 pub use spline_shape::Corner;
 pub use strip::Strip;
+pub use tool::SurfacePart;
 
 use std::path::{Path, PathBuf};
 

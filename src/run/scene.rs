@@ -1,9 +1,10 @@
 //! Case and mesh brought together: names resolved, geometries applied, macro triangles spread over ranks.
 
 use super::RunError;
+use crate::body::Body;
 use crate::case::Case;
 use crate::contact::CurveChoice;
-use crate::geometry::Point;
+use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, Partition, parse_gmsh, read_bytes};
 use crate::petsc::Session;
 use crate::system::{self, Scene};
@@ -28,7 +29,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     let names = Names { case, mesh: &mesh };
     names.check_bodies()?;
     for (key, boundaries) in names.used() {
-        for name in boundaries {
+        for name in boundaries.iter().filter(|name| !key.starts_with("contact.") || case.tool_of(name).is_none()) {
             names.check_boundary(&key, name)?;
         }
     }
@@ -38,7 +39,9 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     for geometry in &case.geometries {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }
+    add_tools(case, &mut mesh)?;
     let fitted = case.contacts.iter().filter(|pair| pair.curve == CurveChoice::Fit).flat_map(|pair| &pair.between);
+    let fitted = fitted.filter(|name| case.tool_of(name).is_none());
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
     for grade in &case.mesh.grades {
         let [x, y] = grade.point;
@@ -56,6 +59,22 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     Ok(mesh)
 }
 
+/// Adds the rigid tools, as fine as what they face.
+fn add_tools(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
+    for tool in &case.tools {
+        let error = |words: String| format!("{}: {}: {words}", case.file.display(), tool.key());
+        if mesh.bodies.iter().any(|name| name == tool.key()) || mesh.boundary(tool.key()).is_some() {
+            return Err(error(format!("{} has a physical group of that name, too; rename the tool", mesh.file.display())));
+        }
+        let pairs = case.contacts.iter().filter(|pair| pair.between.iter().any(|side| tool.has(side)));
+        let faced = pairs.flat_map(|pair| pair.between.iter().filter(|side| !tool.has(side)));
+        let against: Vec<u32> =
+            faced.filter_map(|side| mesh.boundary(side)).flat_map(|side| side.edges.iter().copied()).collect();
+        mesh.add_tool(tool.key(), &tool.surface, &against).map_err(error)?;
+    }
+    Ok(())
+}
+
 /// A scene with its macro triangles spread over the ranks. **Collective**
 pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, RunError> {
     let partition = system::spread(&mesh, &case.contacts, case.mesh.order, case.mesh.refine, session)?;
@@ -64,13 +83,18 @@ pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, 
 
 /// The scene of a case on a mesh that is spread already.
 pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
-    let body = |name: &String| case.bodies.iter().find(|body| body.name == *name).expect("checked names").clone();
+    let body = |name: &String| match case.bodies.iter().find(|body| body.name == *name) {
+        Some(body) => body.clone(),
+        // What a tool consists of does not matter: it does not strain.
+        None => Body { name: name.clone(), force: [Formula::constant(0.0), Formula::constant(0.0)], ..case.bodies[0].clone() },
+    };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),
         partition: Rc::new(partition),
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),
+        rigid: case.rigid_sets(),
         loads: case.loads.clone(),
         pairs: case.contacts.clone(),
         mesh: Rc::new(mesh),
@@ -139,7 +163,7 @@ impl Names<'_> {
     fn check_sides(&self, pair: &str, between: &[String; 2]) -> Result<(), String> {
         let key = format!("contact.{pair}.between");
         let mut bodies = Vec::new();
-        for name in between {
+        for name in between.iter().filter(|name| self.case.tool_of(name).is_none()) {
             let mut found: Vec<usize> =
                 self.mesh.boundary(name).iter().flat_map(|b| &b.edges).map(|&edge| self.mesh.body_beside(edge)).collect();
             found.sort_unstable();
@@ -151,7 +175,7 @@ impl Names<'_> {
                 return Err(self.error(&key, &words));
             }
         }
-        if bodies[0] == bodies[1] {
+        if bodies.len() == 2 && bodies[0] == bodies[1] {
             let words = format!(
                 "both sides lie on body \"{}\"; contact of a body with itself is not modelled",
                 self.mesh.bodies[bodies[0]]

@@ -1,12 +1,12 @@
 //! Whether supports and contact hold every piece of every body.
 
-use crate::body::Constraints;
+use crate::body::{Constraints, RigidSet};
 use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, integrate, tidy};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering, SmoothNormals};
 use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Points of a boundary that are proposed for a support.
 const POINTS: usize = 8;
@@ -221,7 +221,26 @@ fn support_conditions(scene: &Scene) -> Vec<Condition> {
         let direction = smooth.filter(|normal| normal.dot(&held.direction) > ALIKE).unwrap_or(held.direction);
         Condition { piece: held.piece, against: None, terms: vec![(held.place, direction)], doubt: 0.0 }
     };
-    supported(scene, &numbering).into_iter().map(condition).collect()
+    let rigid = scene.rigid.iter().filter(|set| set.free().next().is_some()).flat_map(|set| rigid_conditions(scene, set));
+    supported(scene, &numbering).into_iter().map(condition).chain(rigid).collect()
+}
+
+/// What is prescribed of the motion of a rigid set that is free otherwise: the shift of its reference point, and its turn.
+fn rigid_conditions(scene: &Scene, set: &RigidSet) -> Vec<Condition> {
+    let mesh = &scene.mesh;
+    let edges = set.edges(mesh);
+    let Some(&first) = edges.first() else { return Vec::new() };
+    let ends = edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
+    let arm = ends.map(|x| (x - set.about).norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let [along, up] = [Point::new(arm, 0.0), Point::new(0.0, 1.0)];
+    let terms = [
+        vec![(set.about, Point::new(1.0, 0.0))],
+        vec![(set.about, up)],
+        vec![(set.about + along, up), (set.about - along, -up)],
+    ];
+    let piece = mesh.piece_beside(first);
+    let prescribed = terms.into_iter().zip(set.prescribed).filter(|(_, component)| component.is_some());
+    prescribed.map(|(terms, _)| Condition { piece, against: None, terms, doubt: 0.0 }).collect()
 }
 
 /// Smooth normals at the vertices that supports hold along the normal.
@@ -256,15 +275,20 @@ pub struct Held {
     pub value: f64,
 }
 
-/// Everything that supports prescribe at the macro vertices.
+/// Everything that supports prescribe at the macro vertices, and rigid sets that are not free in any component.
 pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
-    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports) else { return Vec::new() };
+    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports, &scene.rigid) else { return Vec::new() };
     let mut piece = vec![0; scene.mesh.vertices.len()];
     for triangle in &scene.mesh.triangles {
         triangle.vertices.iter().for_each(|&vertex| piece[vertex as usize] = triangle.piece as usize);
     }
+    let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
+    let moving: HashSet<usize> = free.flat_map(|set| set.places(&scene.mesh, numbering).into_keys()).collect();
     let mut all = Vec::new();
     for (vertex, &place) in scene.mesh.vertices.iter().enumerate() {
+        if moving.contains(&numbering.vertex(vertex as u32)) {
+            continue;
+        }
         let Some(constraint) = constraints.get(numbering.vertex(vertex as u32)) else { continue };
         for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
             if constraint.fixed[k] {

@@ -1,6 +1,6 @@
 //! The physics that is solved: mesh, bodies, supports, loads and contacts, spread over ranks.
 
-use crate::body::{Body, Load, Support};
+use crate::body::{Body, Load, RigidNodes, RigidSet, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneStrain};
 use crate::geometry::Point;
@@ -23,6 +23,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Supports.
     pub supports: Vec<Support>,
+    /// Nodes that move together as rigid bodies.
+    pub rigid: Vec<RigidSet>,
     /// Loads.
     pub loads: Vec<Load>,
     /// Contact pairs.
@@ -43,6 +45,16 @@ impl Scene {
     pub fn on(&self, mesh: MacroMesh, session: &Session) -> petsc::Result<Self> {
         let partition = Rc::new(spread(&mesh, &self.pairs, self.order, self.refine, session)?);
         Ok(Self { mesh: Rc::new(mesh), partition, ..self.clone() })
+    }
+
+    /// Whether a body is a rigid tool.
+    pub fn is_rigid(&self, body: usize) -> bool {
+        self.rigid.iter().any(|set| set.nodes == RigidNodes::Body(self.mesh.bodies[body].clone()))
+    }
+
+    /// Young's modulus of a body as contacts see it: without bound for a rigid tool.
+    pub fn young(&self, body: usize) -> f64 {
+        if self.is_rigid(body) { f64::INFINITY } else { self.bodies[body].material.young }
     }
 
     /// Plane-strain law of each body.

@@ -235,7 +235,14 @@ pub fn strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) 
 }
 
 /// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
-fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
+///
+/// # Errors
+/// [`SystemError`] from PETSc or an inverted triangle.
+pub fn internal_forces(
+    problem: &Discretisation,
+    u: &Field<2>,
+    session: &Session,
+) -> Result<(Vec<f64>, Field<2>), SystemError> {
     let scene = &problem.scene;
     let laws = scene.laws();
     let mut strain = vec![0.0; scene.bodies.len()];
