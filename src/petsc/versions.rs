@@ -1,6 +1,7 @@
 //! Versions of the libraries that are loaded.
 
 use super::error::petsc;
+use super::index::Index;
 use std::ptr;
 
 /// PETSc's version, such as `3.18.5`.
@@ -8,6 +9,11 @@ pub fn petsc() -> String {
     let [mut major, mut minor, mut patch] = [0; 3];
     petsc!(PetscGetVersionNumber(&mut major, &mut minor, &mut patch, ptr::null_mut())).expect("PETSc knows its version");
     format!("{major}.{minor}.{patch}")
+}
+
+/// Bits of PETSc's indices: 32 or 64.
+pub fn index_bits() -> u32 {
+    Index::BITS
 }
 
 /// MPI's name and version, such as `Open MPI v4.1.4`.
