@@ -40,6 +40,9 @@ pub fn partition(
     if parts == 1 {
         return Ok(vec![0; vertices]);
     }
+    if size_of::<Index>() > 4 && unsafe { ffi::mezha_scotch_number_size() } == 4 {
+        return by_scotch_itself(session, parts, [offsets, neighbours, edge_weights, vertex_weights]);
+    }
 
     // This rank's share: vertices first .. end.
     let [first, end] = [session.rank(), session.rank() + 1].map(|rank| rank * vertices / session.size());
@@ -65,12 +68,34 @@ pub fn partition(
     let mut part = ptr::null_mut();
     petsc!(MatPartitioningApply(partitioning.0, &mut part))?;
     let own = IndexSet::from_raw(session, part).indices()?;
-    Ok(session.gather_all(&own.into_iter().map(|part| part as i32).collect::<Vec<_>>()))
+    #[allow(clippy::unnecessary_cast, reason = "an index may have 64 bits")]
+    let own: Vec<i32> = own.into_iter().map(|part| part as i32).collect();
+    Ok(session.gather_all(&own))
+}
+
+/// The same by Scotch on rank 0 alone. Debian's PETSc of 64-bit indices has a Scotch of 32-bit numbers, and would have it read
+/// each index as two of them. **Collective**
+fn by_scotch_itself(session: &Session, parts: usize, graph: [&[i32]; 4]) -> Result<Vec<i32>> {
+    let [offsets, neighbours, edge_weights, vertex_weights] = graph;
+    let mut part = vec![0; if session.rank() == 0 { vertex_weights.len() } else { 0 }];
+    if session.rank() == 0 {
+        unsafe { ffi::mezha_restart_scotch() };
+        petsc!(mezha_scotch_partition(
+            parts as i32,
+            vertex_weights.len() as i32,
+            offsets.as_ptr(),
+            neighbours.as_ptr(),
+            edge_weights.as_ptr(),
+            vertex_weights.as_ptr(),
+            part.as_mut_ptr()
+        ))?;
+    }
+    Ok(session.gather_all(&part))
 }
 
 /// A copy as PETSc counts, which it will free.
 fn handed_over(values: impl Iterator<Item = i32>) -> Result<*mut Index> {
-    let values: Vec<Index> = values.map(Index::from).collect();
+    let values: Vec<Index> = values.map(|value| value as Index).collect();
     let mut memory = ptr::null_mut();
     petsc!(mezha_malloc(size_of_val(&values[..]).max(1), &mut memory))?;
     let memory = memory.cast::<Index>();

@@ -32,7 +32,8 @@ pub fn blas() -> String {
 /// The BLAS among the files of a process: one that names itself goes before a `libblas` of unknown origin.
 fn blas_in<'a>(files: impl Iterator<Item = &'a str>) -> String {
     const NAMES: [&str; 4] = ["openblas", "libmkl_", "blis", "atlas"];
-    let libraries: Vec<&str> = files.filter(|file| file.contains(".so")).collect();
+    // A BLAS with 64-bit integers comes along with libraries of others; PETSc's own has 32 bits.
+    let libraries: Vec<&str> = files.filter(|file| file.contains(".so") && !file.contains("blas64")).collect();
     let named = NAMES.iter().find_map(|name| libraries.iter().find(|file| file.contains(name)).map(|file| (*name, *file)));
     match named {
         Some(("openblas", file)) => format!("openblas ({file})"),
@@ -55,6 +56,8 @@ mod tests {
         assert!(blas_in(libraries("/usr/lib/x86_64-linux-gnu/libopenblasp-r0.3.21.so")).starts_with("openblas (/usr"));
         assert!(blas_in(libraries("/usr/lib/x86_64-linux-gnu/blas/libblas.so.3.11.0")).starts_with("reference (/usr"));
         assert!(blas_in(libraries("/usr/lib/x86_64-linux-gnu/atlas/libblas.so.3")).starts_with("other (/usr"));
+        let both = ["/usr/lib/openblas64-pthread/libblas64.so.3", "/usr/lib/openblas-serial/libblas.so.3"];
+        assert_eq!(blas_in(both.into_iter()), format!("openblas ({})", both[1]));
         assert_eq!(blas_in(libraries("")), "other (not found)");
     }
 }

@@ -103,7 +103,9 @@ fn check_size(scene: &Scene, numbering: &Numbering, bits: u32) -> Result<(), Sys
     }
     let most = (0..scene.partition.size()).map(|rank| numbering.range(rank).len()).max().unwrap_or(0);
     if most > i32::MAX as usize / PLACES {
-        return refused(format!("{most} nodes on one rank are more than it can count with 32-bit numbers; refine less, or take more ranks"));
+        return refused(format!(
+            "{most} nodes on one rank are more than it can count with 32-bit numbers; refine less, or take more ranks"
+        ));
     }
     Ok(())
 }
