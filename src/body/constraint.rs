@@ -3,7 +3,7 @@
 use super::Support;
 use crate::geometry::{Formula, Point, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, SMatrix};
 use std::collections::HashMap;
 
 /// Directions closer than this (radians) are one direction.
@@ -62,6 +62,9 @@ struct Hold<'a> {
     value: f64,
 }
 
+/// Place and holds of each node that supports hold, by its number.
+type AllHolds<'a> = HashMap<usize, (Point, Vec<Hold<'a>>)>;
+
 /// All constrained nodes of a level, by number; the same on every rank.
 #[derive(Clone, Debug, Default)]
 pub struct Constraints {
@@ -76,15 +79,7 @@ impl Constraints {
     /// # Errors
     /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite.
     pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
-        let mut holds: HashMap<usize, (Point, Vec<Hold>)> = HashMap::new();
-        for support in supports {
-            for name in &support.on {
-                for &edge in mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]) {
-                    collect(mesh, numbering, support, edge, &mut holds)?;
-                }
-            }
-        }
-        let nodes = holds.into_iter().map(|(node, (x, holds))| Ok((node, combine(x, &holds)?)));
+        let nodes = all_holds(mesh, numbering, supports)?.into_iter().map(|(node, (x, holds))| Ok((node, combine(x, &holds)?)));
         let nodes: HashMap<usize, Constraint> = nodes.collect::<Result<_, _>>()?;
         let mut among = vec![0; nodes.keys().max().map_or(0, |last| last / 64 + 1)];
         nodes.keys().for_each(|&node| among[node / 64] |= 1 << (node % 64));
@@ -104,24 +99,78 @@ impl Constraints {
     }
 }
 
+/// Which supports hold each node of a level, and in which directions.
+#[derive(Clone, Debug, Default)]
+pub struct Holders(HashMap<usize, Vec<(usize, Point)>>);
+
+impl Holders {
+    /// Those of a level.
+    ///
+    /// # Errors
+    /// As of [`Constraints::new`].
+    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
+        let number = |name: &str| supports.iter().position(|support| support.name == name).unwrap_or_default();
+        let of_node = |holds: &[Hold]| holds.iter().map(|hold| (number(hold.support), hold.direction)).collect();
+        let all = all_holds(mesh, numbering, supports)?;
+        Ok(Self(all.into_iter().map(|(node, (_, holds))| (node, of_node(&holds))).collect()))
+    }
+
+    /// What each support has of the reaction at a node: its number and its force. Where several hold one node in one direction
+    /// they share the force there, by the least sum of squares.
+    pub fn shares(&self, node: usize, reaction: Point) -> impl Iterator<Item = (usize, Point)> {
+        let holds = self.0.get(&node).map(Vec::as_slice).unwrap_or(&[]);
+        let gram: Matrix2<f64> = holds.iter().map(|(_, direction)| direction * direction.transpose()).sum();
+        let inverse: SMatrix<f64, 2, 2> = gram.pseudo_inverse(SAME * SAME).unwrap_or_default();
+        let along = inverse * reaction;
+        holds.iter().map(move |&(support, direction)| (support, direction * direction.dot(&along)))
+    }
+}
+
+/// What all supports say at the nodes of a level: the place of each, and the directions that are held there.
+fn all_holds<'a>(mesh: &MacroMesh, numbering: &Numbering, supports: &'a [Support]) -> Result<AllHolds<'a>, SupportError> {
+    let mut holds = AllHolds::new();
+    for support in supports {
+        if let Some(vertex) = support.at.as_ref().and_then(|spot| mesh.vertex_at(spot)) {
+            let x = mesh.vertices[vertex as usize];
+            let (_, known) = holds.entry(numbering.vertex(vertex)).or_insert((x, Vec::new()));
+            collect_axes(support, x, known)?;
+        }
+        for name in &support.on {
+            for &edge in mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]) {
+                collect(mesh, numbering, support, edge, &mut holds)?;
+            }
+        }
+    }
+    Ok(holds)
+}
+
 fn collect<'a>(
     mesh: &MacroMesh,
     numbering: &Numbering,
     support: &'a Support,
     edge: u32,
-    holds: &mut HashMap<usize, (Point, Vec<Hold<'a>>)>,
+    holds: &mut AllHolds<'a>,
 ) -> Result<(), SupportError> {
     for position in 0..=numbering.level.intervals {
         let node = EdgeNode { edge, position: position as u32 };
         let x = node.place(mesh, numbering);
         let (_, known) = holds.entry(node.number(mesh, numbering)).or_insert((x, Vec::new()));
-        let mut hold = |formula: &Option<Formula>, direction: Point| match formula {
-            Some(formula) => add(known, &support.name, direction, formula.value(&[x.x, x.y]), x),
-            None => Ok(()),
-        };
-        hold(&support.ux, Point::new(1.0, 0.0))?;
-        hold(&support.uy, Point::new(0.0, 1.0))?;
-        hold(&support.normal, mesh.edge_normal(edge, node.fraction(mesh, numbering)))?;
+        collect_axes(support, x, known)?;
+        if let Some(formula) = &support.normal {
+            let normal = mesh.edge_normal(edge, node.fraction(mesh, numbering));
+            add(known, &support.name, normal, formula.value(&[x.x, x.y]), x)?;
+        }
+    }
+    Ok(())
+}
+
+/// Adds what a support says of both axes at a point.
+fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -> Result<(), SupportError> {
+    let axes: [(&Option<Formula>, Point); 2] = [(&support.ux, Point::new(1.0, 0.0)), (&support.uy, Point::new(0.0, 1.0))];
+    for (formula, direction) in axes {
+        if let Some(formula) = formula {
+            add(known, &support.name, direction, formula.value(&[x.x, x.y]), x)?;
+        }
     }
     Ok(())
 }
@@ -213,6 +262,21 @@ mod tests {
             let holds = [hold("wall", -cos, -sin, 0.0), hold("top", -sin, cos, -1e-3), hold("more", -cos * turn, -sin, 0.0)];
             assert_eq!(combine(Point::zeros(), &holds).expect("they agree").fixed, [true, true]);
         }
+    }
+
+    #[test]
+    fn supports_share_the_reaction_of_a_node() {
+        let (x, y) = (Point::new(1.0, 0.0), Point::new(0.0, 1.0));
+        let shares = |holds: Vec<(usize, Point)>, reaction| {
+            let mut sums = [Point::zeros(); 3];
+            Holders(HashMap::from([(7, holds)])).shares(7, reaction).for_each(|(support, force)| sums[support] += force);
+            sums
+        };
+        let reaction = Point::new(3.0, -2.0);
+        assert_eq!(shares(vec![(0, x), (2, y)], reaction), [3.0 * x, Point::zeros(), -2.0 * y]);
+        assert_eq!(shares(vec![(0, x), (1, x)], 3.0 * x), [1.5 * x, 1.5 * x, Point::zeros()]);
+        let inclined = shares(vec![(0, x), (1, Point::new(0.6, 0.8)), (2, y)], reaction);
+        assert!((inclined.iter().sum::<Point>() - reaction).norm() < 1e-14);
     }
 
     #[test]

@@ -5,11 +5,12 @@ mod constraint;
 mod macro_stiffness;
 
 pub use applied_force::applied_forces;
-pub use constraint::{Constraint, Constraints, SupportError};
+pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
 
 use crate::element::PlaneStrain;
 use crate::geometry::Formula;
+use crate::mesh::Spot;
 
 /// Linear elastic material in plane strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +39,15 @@ pub struct Body {
     pub force: [Formula; 2],
 }
 
-/// Prescribed displacement components on physical curves.
+/// Prescribed displacement components on physical curves, or at a point.
 #[derive(Clone, Debug)]
 pub struct Support {
     /// Name in the case file.
     pub name: String,
     /// Physical curves it acts on.
     pub on: Vec<String>,
+    /// Instead of curves the point that it acts on.
+    pub at: Option<Spot>,
     /// Prescribed component `u_x`, a formula of `x, y`.
     pub ux: Option<Formula>,
     /// Prescribed component `u_y`.

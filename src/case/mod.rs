@@ -12,6 +12,7 @@ mod grade;
 mod model;
 pub(crate) mod overrides;
 pub(crate) mod section;
+mod spot;
 pub(crate) mod values;
 
 use std::cell::RefCell;
@@ -190,6 +191,7 @@ impl Case {
         model::check_bodies(root);
         model::check_geometries(&geometries, root);
         model::check_probes(&probes, root);
+        spot::check_spots("support", supports.iter().map(|support| (&support.name, &support.at)), root);
         contact::check_contacts(&contacts, &geometries, root);
         exact::check_exact(&exact, root);
         Some(Self {

@@ -7,6 +7,7 @@ use toml::Value;
 use super::error::suggest;
 use super::grade::read_grade;
 use super::section::Section;
+use super::spot::{Where, read_where};
 use super::values::{self, PLANE};
 use super::{Geometry, MeshChoice, Output, Probe, Solver};
 use crate::body::{Body, Load, LoadKind, Material, Support};
@@ -92,7 +93,7 @@ fn read_parametric(section: &Section) -> Option<Curve> {
 
 /// `[support.NAME]`
 pub fn read_support(section: &Section) -> Option<Support> {
-    let on = section.required("on", "\"bottom\"", values::names);
+    let place = read_where(section, "\"bottom\"");
     let given = ["ux", "uy", "normal"].map(|key| section.has(key));
     let component = |key| section.optional(key, values::formula(&PLANE));
     let [ux, uy, normal] = ["ux", "uy", "normal"].map(component);
@@ -101,9 +102,13 @@ pub fn read_support(section: &Section) -> Option<Support> {
         [_, _, true] if given[0] || given[1] => {
             section.problem(&["normal"], "cannot stand beside ux or uy; make two supports on different curves".into());
         }
+        [_, _, true] if section.has("at") => {
+            section.problem(&["normal"], "stands beside at: a point has no normal; give ux, uy or both".into());
+        }
         _ => {}
     }
-    Some(Support { name: section.name().into(), on: on?, ux, uy, normal })
+    let Where { on, at } = place?;
+    Some(Support { name: section.name().into(), on, at, ux, uy, normal })
 }
 
 /// `[load.NAME]`

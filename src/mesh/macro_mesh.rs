@@ -1,7 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
-use super::MeshError;
 use super::edge_shape::EdgeShape;
+use super::{MeshError, NamedPoint};
 use crate::geometry::{Point, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -77,6 +77,8 @@ pub struct MacroMesh {
     pub pieces: Vec<BodyPiece>,
     /// Physical curves.
     pub boundaries: Vec<Boundary>,
+    /// Vertices at points that the case names.
+    pub points: Vec<NamedPoint>,
 }
 
 impl MacroMesh {
@@ -92,6 +94,7 @@ impl MacroMesh {
             bodies: Vec::new(),
             pieces: Vec::new(),
             boundaries: Vec::new(),
+            points: Vec::new(),
         };
         let mut known = HashMap::new();
         for (corners, names, line) in raw.triangles {

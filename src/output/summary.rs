@@ -39,6 +39,9 @@ pub struct Summary {
     pub boundaries: Vec<BoundaryIteration>,
     /// By name of the contact.
     pub contact: BTreeMap<String, ContactSummary>,
+    /// By name of the support.
+    #[serde(default)]
+    pub support: BTreeMap<String, SupportSummary>,
     /// Energies of the solution.
     pub energy: Energy,
     /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
@@ -245,6 +248,14 @@ impl ZoneSummary {
         let highest = all.iter().filter_map(|zone| zone.pressure_max).fold(0.0, f64::max);
         self.share.is_none_or(|share| zone_counts(share, self.pressure_max.unwrap_or(f64::NAN), highest))
     }
+}
+
+/// One support.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SupportSummary {
+    /// Its force on the bodies (per thickness).
+    #[serde(deserialize_with = "numbers")]
+    pub reaction: Option<[f64; 2]>,
 }
 
 /// Energies per thickness.

@@ -40,6 +40,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     }
     let fitted = case.contacts.iter().filter(|pair| pair.curve == CurveChoice::Fit).flat_map(|pair| &pair.between);
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
+    add_points(case, &mut mesh)?;
     for grade in &case.mesh.grades {
         let [x, y] = grade.point;
         mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
@@ -160,6 +161,16 @@ impl Names<'_> {
         }
         Ok(())
     }
+}
+
+/// Makes the points at which bodies are held vertices of the mesh.
+fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
+    let supports = case.supports.iter().map(|support| (format!("support.{}.at", support.name), support.at.as_ref()));
+    for (key, spot) in supports.filter_map(|(key, spot)| Some((key, spot?))) {
+        let [x, y] = spot.place;
+        mesh.add_point(spot).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
+    }
+    Ok(())
 }
 
 /// Points of probes and of exact displacements lie in their bodies.

@@ -85,6 +85,9 @@ fn edge_count(Solved { problem, .. }: &Solved) -> usize {
 
 /// Energies and balances.
 pub fn balances(summary: &mut Summary, Evaluation { problem, balance, .. }: &Evaluation) {
+    let supports = problem.scene.supports.iter().zip(&balance.reactions);
+    let told = |reaction: &Point| summary::SupportSummary { reaction: Some((*reaction).into()) };
+    summary.support = supports.map(|(support, reaction)| (support.name.clone(), told(reaction))).collect();
     let names = problem.scene.bodies.iter().map(|body| body.name.clone());
     summary.energy = summary::Energy {
         strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),

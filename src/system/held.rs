@@ -1,7 +1,7 @@
 //! Whether supports and contact hold every piece of every body.
 
 use crate::body::Constraints;
-use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, integrate, tidy};
+use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, integrate};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering, SmoothNormals};
@@ -163,14 +163,15 @@ impl<'a> Restraints<'a> {
         let mut candidates = self.support_points(mechanism, extent);
         candidates.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
         let Some(at) = candidates.iter().take(MOST_POINTS).find(|at| holds_all(at)).or(candidates.first()) else {
-            return "give a part of its boundary a name in the mesh, and a support".into();
+            return "hold it by a support at one of its points, at = [x, y] with ux or uy".into();
         };
         format!(
-            "hold it, for example by a support {} = 0 at one point of \"{}\", near ({}, {})",
+            "hold it, for example by a support with at = [{}, {}], body = \"{}\" and {} = 0, which is a point of \"{}\"",
+            coordinate(at.point.x, extent.radius),
+            coordinate(at.point.y, extent.radius),
+            self.scene.bodies[self.scene.mesh.pieces[mechanism.piece].body].name,
             ["ux", "uy"][at.axis],
             at.boundary,
-            tidy(at.point.x, extent.radius),
-            tidy(at.point.y, extent.radius)
         )
     }
 
@@ -198,6 +199,12 @@ impl<'a> Restraints<'a> {
         }
         found
     }
+}
+
+/// A coordinate as the case wants it: so many digits that a vertex is known again.
+fn coordinate(v: f64, large: f64) -> String {
+    let unit = 10f64.powf(large.log10().floor() - 9.0);
+    if v.abs() < unit { "0".into() } else { format!("{:.9e}", (v / unit).round() * unit).parse::<f64>().unwrap_or(v).to_string() }
 }
 
 /// Where a support might be.

@@ -133,7 +133,7 @@ fn bent(session: &Session, order: Order, refine: usize) -> Discretisation {
     let circle = Curve::Circle { centre: [half, 6.0 + rise - radius], radius };
     mesh.bend("arc", &["top".into()], &circle).expect("the vertices lie near it");
     let down = Some(Formula::constant(-0.25));
-    scene.supports.push(Support { name: "press".into(), on: vec!["top".into()], ux: None, uy: None, normal: down });
+    scene.supports.push(Support { name: "press".into(), on: vec!["top".into()], at: None, ux: None, uy: None, normal: down });
     scene.mesh = std::rc::Rc::new(mesh);
     Discretisation::new(scene, session).expect("a discretisation")
 }

@@ -1,7 +1,7 @@
 //! Energies, reactions, and the balances of forces, moments and energy.
 
 use super::agreed;
-use crate::body::MacroStiffness;
+use crate::body::{Holders, MacroStiffness};
 use crate::contact::{Configuration, Side};
 use crate::element::PlaneStrain;
 use crate::geometry::{Point, cross};
@@ -35,6 +35,10 @@ pub struct Balance {
     pub external_work: f64,
     /// Resultants of each contact.
     pub contacts: Vec<ContactForce>,
+    /// Force of each support on the bodies (per thickness).
+    pub reactions: Vec<Point>,
+    /// Sum of the magnitudes of all forces on bodies: loads and reactions of their nodes, contact (per thickness).
+    pub forces: f64,
     /// Largest `|F₁ + F₂| / |F₂|`.
     pub force: Option<f64>,
     /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C.
@@ -53,7 +57,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let Discretisation { contacts, coupling, .. } = problem;
     let (mut strain, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
-    let NodeSums { work, bodies } = sum_over_nodes(problem, solution, u, &internal, session)?;
+    let NodeSums { work, bodies, reactions } = sum_over_nodes(problem, solution, u, &internal, session)?;
     let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let gaps: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| (lambda * gap).abs()).sum();
@@ -82,6 +86,8 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         },
         bodies: body_balance(contacts, &forces, &bodies),
         strain,
+        reactions,
+        forces: magnitudes(&forces, &bodies),
         contacts: forces,
     })
 }
@@ -125,6 +131,8 @@ struct NodeSums {
     work: WorkTerms,
     /// Loads and reactions of each body.
     bodies: Vec<ForceSum>,
+    /// Force of each support.
+    reactions: Vec<Point>,
 }
 
 /// Forces added up.
@@ -162,6 +170,9 @@ fn sum_over_nodes(
     let applied = nodal_forces(problem, session)?;
     let pressed = contact_forces(problem, solution);
     let body_of = body_of_nodes(problem, session.rank());
+    let supports = &problem.scene.supports;
+    let holders = Holders::new(&problem.scene.mesh, &space.numbering, supports).map_err(|error| SystemError::Case(error.0))?;
+    let mut reactions = vec![0.0; 2 * supports.len()];
     let mut bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
     let mut work = WorkTerms::default();
     for (at, node) in space.own.clone().enumerate() {
@@ -185,13 +196,26 @@ fn sum_over_nodes(
         work.missed += reaction.dot(&(u - prescribed));
         work.given[1] += prescribed.norm();
         bodies[body_of[at]].add(f);
-        bodies[body_of[at]].add(constraint.to_global(reaction));
+        let reaction = constraint.to_global(reaction);
+        bodies[body_of[at]].add(reaction);
+        for (support, force) in holders.shares(node, reaction) {
+            reactions[2 * support] += force.x;
+            reactions[2 * support + 1] += force.y;
+        }
     }
+    session.sum(&mut reactions);
+    let reactions = reactions.chunks_exact(2).map(|force| Point::new(force[0], force[1])).collect();
     let mut sums = [work.loads, work.supports, work.contact, work.unbalanced, work.missed, work.given[0], work.given[1]];
     session.sum(&mut sums);
     let [loads, supports, contact, unbalanced, missed, ref given @ ..] = sums;
     let bodies = ForceSum::of_all_ranks(&bodies, session);
-    Ok(NodeSums { work: WorkTerms { loads, supports, contact, unbalanced, missed, given: *given }, bodies })
+    Ok(NodeSums { work: WorkTerms { loads, supports, contact, unbalanced, missed, given: *given }, bodies, reactions })
+}
+
+/// Sum of the magnitudes of the forces on all bodies.
+fn magnitudes(forces: &[ContactForce], outer: &[ForceSum]) -> f64 {
+    let pressed: f64 = forces.iter().flat_map(|force| force.resultants).map(|resultant| resultant.norm()).sum();
+    pressed + outer.iter().map(|sum| sum.magnitudes).sum::<f64>()
 }
 
 /// Largest sum of loads, reactions and contact forces on a body, over the sum of their magnitudes.
