@@ -9,7 +9,7 @@ pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
 
 use crate::element::PlaneStrain;
-use crate::geometry::Formula;
+use crate::geometry::{Formula, Point};
 use crate::mesh::Spot;
 
 /// Linear elastic material in plane strain.
@@ -65,6 +65,25 @@ pub struct Load {
     pub on: Vec<String>,
     /// What acts there.
     pub kind: LoadKind,
+}
+
+/// A force at a point of a body.
+#[derive(Clone, Debug)]
+pub struct PointLoad {
+    /// Name in the case file.
+    pub name: String,
+    /// Where it acts.
+    pub at: Spot,
+    /// Force per thickness, formulas of `x, y`.
+    pub force: [Formula; 2],
+}
+
+impl PointLoad {
+    /// The force at its point.
+    pub fn force(&self) -> Point {
+        let x = &self.at.place;
+        Point::new(self.force[0].value(x), self.force[1].value(x))
+    }
 }
 
 /// Kinds of surface load; formulas of `x, y`.

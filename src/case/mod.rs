@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use crate::accuracy::Accuracy;
-use crate::body::{Body, Load, Support};
+use crate::body::{Body, Load, PointLoad, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
@@ -56,6 +56,8 @@ pub struct Case {
     pub supports: Vec<Support>,
     /// Surface loads.
     pub loads: Vec<Load>,
+    /// Forces at points.
+    pub point_loads: Vec<PointLoad>,
     /// Contact pairs.
     pub contacts: Vec<Pair>,
     /// Linear solver.
@@ -181,7 +183,7 @@ impl Case {
         let bodies = root.named("body", model::read_body);
         let geometries = root.named("geometry", model::read_geometry);
         let supports = root.named("support", model::read_support);
-        let loads = root.named("load", model::read_load);
+        let (loads, point_loads) = model::split_loads(root.named("load", model::read_load));
         let contacts = root.named("contact", contact::read_contact);
         let solver = model::read_solver(root);
         let output = model::read_output(root);
@@ -191,7 +193,9 @@ impl Case {
         model::check_bodies(root);
         model::check_geometries(&geometries, root);
         model::check_probes(&probes, root);
-        spot::check_spots("support", supports.iter().map(|support| (&support.name, &support.at)), root);
+        spot::check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);
+        spot::check_spots("load", point_loads.iter().map(|load| (&load.name, &load.at)), root);
+        accuracy::check_energy(accuracy.as_ref(), &point_loads, root);
         contact::check_contacts(&contacts, &geometries, root);
         exact::check_exact(&exact, root);
         Some(Self {
@@ -204,6 +208,7 @@ impl Case {
             geometries,
             supports,
             loads,
+            point_loads,
             contacts,
             solver: solver?,
             accuracy,

@@ -10,7 +10,7 @@ use super::section::Section;
 use super::spot::{Where, read_where};
 use super::values::{self, PLANE};
 use super::{Geometry, MeshChoice, Output, Probe, Solver};
-use crate::body::{Body, Load, LoadKind, Material, Support};
+use crate::body::{Body, Load, LoadKind, Material, PointLoad, Support};
 use crate::element::Order;
 use crate::geometry::Curve;
 use crate::system::{SolverChoice, Tolerance};
@@ -111,9 +111,40 @@ pub fn read_support(section: &Section) -> Option<Support> {
     Some(Support { name: section.name().into(), on, at, ux, uy, normal })
 }
 
+/// What a table `[load.NAME]` says.
+pub enum LoadTable {
+    /// It acts on physical curves.
+    OnCurves(Load),
+    /// It acts at a point.
+    AtPoint(PointLoad),
+}
+
+/// The loads on curves, and those at points.
+pub fn split_loads(all: Vec<LoadTable>) -> (Vec<Load>, Vec<PointLoad>) {
+    let (mut loads, mut point_loads) = (Vec::new(), Vec::new());
+    for load in all {
+        match load {
+            LoadTable::OnCurves(load) => loads.push(load),
+            LoadTable::AtPoint(load) => point_loads.push(load),
+        }
+    }
+    (loads, point_loads)
+}
+
 /// `[load.NAME]`
-pub fn read_load(section: &Section) -> Option<Load> {
-    let on = section.required("on", "\"top\"", values::names);
+pub fn read_load(section: &Section) -> Option<LoadTable> {
+    let place = read_where(section, "\"top\"");
+    let name = section.name().to_string();
+    if section.has("at") {
+        for key in ["pressure", "traction"].into_iter().filter(|key| section.has(key)) {
+            section.problem(&[key], "acts on physical curves; at a point give force = [fx, fy]".into());
+        }
+        let force = section.required("force", "[0.0, -1.0], per thickness", values::formulas::<2>);
+        return Some(LoadTable::AtPoint(PointLoad { name, at: place?.at?, force: force? }));
+    }
+    if section.has("force") {
+        section.problem(&["force"], "acts at a point, at = [x, y]; on physical curves give pressure or traction".into());
+    }
     let given = [section.has("pressure"), section.has("traction")];
     let pressure = section.optional("pressure", values::formula(&PLANE)).map(LoadKind::Pressure);
     let traction = section.optional("traction", values::formulas::<2>).map(LoadKind::Traction);
@@ -122,7 +153,7 @@ pub fn read_load(section: &Section) -> Option<Load> {
         [true, true] => section.problem(&["pressure"], "stands beside traction; give one of them, or two loads".into()),
         _ => {}
     }
-    Some(Load { name: section.name().into(), on: on?, kind: pressure.or(traction)? })
+    Some(LoadTable::OnCurves(Load { name, on: place?.on, kind: pressure.or(traction)? }))
 }
 
 /// `[solver]`

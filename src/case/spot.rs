@@ -32,9 +32,9 @@ pub fn read_where(section: &Section, example: &str) -> Option<Where> {
 }
 
 /// Points ask for bodies of the case; `table` holds them under these names.
-pub fn check_spots<'a>(table: &str, all: impl Iterator<Item = (&'a String, &'a Option<Spot>)>, root: &Section) {
+pub fn check_spots<'a>(table: &str, all: impl Iterator<Item = (&'a String, &'a Spot)>, root: &Section) {
     for (name, spot) in all {
-        let Some(body) = spot.as_ref().and_then(|spot| spot.body.as_ref()) else { continue };
+        let Some(body) = &spot.body else { continue };
         if !root.names_below("body").any(|known| known == body) {
             let words = format!("no such body; {}", suggest(body, root.names_below("body")));
             root.problem(&[table, name, "body"], words);

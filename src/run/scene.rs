@@ -73,6 +73,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         refine: case.mesh.refine,
         supports: case.supports.clone(),
         loads: case.loads.clone(),
+        point_loads: case.point_loads.clone(),
         pairs: case.contacts.clone(),
         mesh: Rc::new(mesh),
     }
@@ -163,10 +164,11 @@ impl Names<'_> {
     }
 }
 
-/// Makes the points at which bodies are held vertices of the mesh.
+/// Makes the points at which bodies are held or loaded vertices of the mesh.
 fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     let supports = case.supports.iter().map(|support| (format!("support.{}.at", support.name), support.at.as_ref()));
-    for (key, spot) in supports.filter_map(|(key, spot)| Some((key, spot?))) {
+    let loads = case.point_loads.iter().map(|load| (format!("load.{}.at", load.name), Some(&load.at)));
+    for (key, spot) in supports.chain(loads).filter_map(|(key, spot)| Some((key, spot?))) {
         let [x, y] = spot.place;
         mesh.add_point(spot).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
     }

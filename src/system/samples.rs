@@ -36,6 +36,7 @@ pub fn blocks(pair: Pair, upper: impl Fn(Point) -> Point, supports: Vec<Support>
         refine: 3,
         supports,
         loads: Vec::new(),
+        point_loads: Vec::new(),
         pairs: vec![pair],
         mesh: Rc::new(mesh),
     }

@@ -1,6 +1,6 @@
 //! The physics that is solved: mesh, bodies, supports, loads and contacts, spread over ranks.
 
-use crate::body::{Body, Load, Support};
+use crate::body::{Body, Load, PointLoad, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneStrain};
 use crate::geometry::Point;
@@ -25,6 +25,8 @@ pub struct Scene {
     pub supports: Vec<Support>,
     /// Loads.
     pub loads: Vec<Load>,
+    /// Forces at points.
+    pub point_loads: Vec<PointLoad>,
     /// Contact pairs.
     pub pairs: Vec<Pair>,
 }
@@ -43,6 +45,13 @@ impl Scene {
     pub fn on(&self, mesh: MacroMesh, session: &Session) -> petsc::Result<Self> {
         let partition = Rc::new(spread(&mesh, &self.pairs, self.order, self.refine, session)?);
         Ok(Self { mesh: Rc::new(mesh), partition, ..self.clone() })
+    }
+
+    /// Whether each macro triangle of a rank has a corner at which a load acts: the energy there has no limit.
+    pub fn has_point_load(&self, rank: usize) -> Vec<bool> {
+        let loaded: Vec<u32> = self.point_loads.iter().filter_map(|load| self.mesh.vertex_at(&load.at)).collect();
+        let own = self.partition.triangles_of(rank).iter();
+        own.map(|&triangle| self.mesh.triangles[triangle as usize].vertices.iter().any(|vertex| loaded.contains(vertex))).collect()
     }
 
     /// Plane-strain law of each body.

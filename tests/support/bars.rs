@@ -36,6 +36,7 @@ pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Sc
         refine,
         supports: vec![wall],
         loads: Vec::new(),
+        point_loads: Vec::new(),
         pairs: Vec::new(),
         mesh: Rc::new(mesh),
     }

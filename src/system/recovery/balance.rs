@@ -248,16 +248,6 @@ pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Ses
     agreed(session, own.iter().map(energy).collect())
 }
 
-/// Strain energy of all bodies. **Collective**
-///
-/// # Errors
-/// [`SystemError`] from PETSc or an inverted triangle.
-pub fn strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<f64, SystemError> {
-    let mut sum = [local_strain_energy(problem, u, session)?.iter().sum()];
-    session.sum(&mut sum);
-    Ok(sum[0])
-}
-
 /// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
 fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
     let scene = &problem.scene;

@@ -14,7 +14,7 @@ mod traces;
 mod zone_ends;
 mod zone_errors;
 
-pub use balance::{Balance, ContactForce, local_strain_energy, strain_energy};
+pub use balance::{Balance, ContactForce, local_strain_energy};
 pub use cell_energies::cell_energies;
 pub use corners::Corners;
 pub use deformation::Deformation;
