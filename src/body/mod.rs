@@ -3,10 +3,12 @@
 mod applied_force;
 mod constraint;
 mod macro_stiffness;
+mod springs;
 
 pub use applied_force::applied_forces;
 pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
+pub use springs::{SpringStiffness, Springs};
 
 use crate::element::PlaneStrain;
 use crate::geometry::{Formula, Point};

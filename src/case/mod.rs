@@ -13,6 +13,7 @@ mod model;
 pub(crate) mod overrides;
 pub(crate) mod section;
 mod spot;
+mod support;
 pub(crate) mod values;
 
 use std::cell::RefCell;
@@ -21,7 +22,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use crate::accuracy::Accuracy;
-use crate::body::{Body, Load, PointLoad, Support};
+use crate::body::{Body, Load, PointLoad, Springs, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
@@ -54,6 +55,8 @@ pub struct Case {
     pub geometries: Vec<Geometry>,
     /// Prescribed displacements.
     pub supports: Vec<Support>,
+    /// Elastic supports.
+    pub springs: Vec<Springs>,
     /// Surface loads.
     pub loads: Vec<Load>,
     /// Forces at points.
@@ -182,7 +185,7 @@ impl Case {
         let mesh = model::read_mesh(root, &folder);
         let bodies = root.named("body", model::read_body);
         let geometries = root.named("geometry", model::read_geometry);
-        let supports = root.named("support", model::read_support);
+        let (supports, springs) = support::split(root.named("support", support::read_support));
         let (loads, point_loads) = model::split_loads(root.named("load", model::read_load));
         let contacts = root.named("contact", contact::read_contact);
         let solver = model::read_solver(root);
@@ -207,6 +210,7 @@ impl Case {
             bodies,
             geometries,
             supports,
+            springs,
             loads,
             point_loads,
             contacts,

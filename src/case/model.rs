@@ -1,4 +1,4 @@
-//! Mesh, bodies, geometry, supports, loads, solver and probes.
+//! Mesh, bodies, geometry, loads, solver and probes.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use toml::Value;
 use super::error::suggest;
 use super::grade::read_grade;
 use super::section::Section;
-use super::spot::{Where, read_where};
-use super::values::{self, PLANE};
+use super::spot::read_where;
+use super::values;
 use super::{Geometry, MeshChoice, Output, Probe, Solver};
-use crate::body::{Body, Load, LoadKind, Material, PointLoad, Support};
+use crate::body::{Body, Load, LoadKind, Material, PointLoad};
 use crate::element::Order;
 use crate::geometry::Curve;
 use crate::system::{SolverChoice, Tolerance};
@@ -89,26 +89,6 @@ fn read_parametric(section: &Section) -> Option<Curve> {
         }
     }
     Some(Curve::Parametric { x, y, range })
-}
-
-/// `[support.NAME]`
-pub fn read_support(section: &Section) -> Option<Support> {
-    let place = read_where(section, "\"bottom\"");
-    let given = ["ux", "uy", "normal"].map(|key| section.has(key));
-    let component = |key| section.optional(key, values::formula(&PLANE));
-    let [ux, uy, normal] = ["ux", "uy", "normal"].map(component);
-    match given {
-        [false, false, false] => section.problem(&[], "prescribes nothing; give ux, uy or normal".into()),
-        [_, _, true] if given[0] || given[1] => {
-            section.problem(&["normal"], "cannot stand beside ux or uy; make two supports on different curves".into());
-        }
-        [_, _, true] if section.has("at") => {
-            section.problem(&["normal"], "stands beside at: a point has no normal; give ux, uy or both".into());
-        }
-        _ => {}
-    }
-    let Where { on, at } = place?;
-    Some(Support { name: section.name().into(), on, at, ux, uy, normal })
 }
 
 /// What a table `[load.NAME]` says.

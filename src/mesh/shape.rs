@@ -127,6 +127,16 @@ impl MacroMesh {
         }
     }
 
+    /// Derivative of the position on a macro edge by the fraction `t` from its first vertex (length).
+    pub fn edge_slope(&self, edge: u32, t: f64) -> Point {
+        let macro_edge = &self.edges[edge as usize];
+        let [a, b] = macro_edge.vertices.map(|vertex| self.vertices[vertex as usize]);
+        match &macro_edge.shape {
+            Some(shape) => shape.curve.derivative(shape.parameter(t)) * (shape.range[1] - shape.range[0]),
+            None => b - a,
+        }
+    }
+
     /// Unit outward normal of a boundary edge at the fraction `t` from its first vertex; from the true shape where it has one.
     pub fn edge_normal(&self, edge: u32, t: f64) -> Point {
         let macro_edge = &self.edges[edge as usize];

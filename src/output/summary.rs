@@ -267,6 +267,9 @@ pub struct Energy {
     pub total: Option<f64>,
     /// U from the stationary value of the Lagrangian, of second order in the algebraic error; not in all scenes.
     pub stationary: Option<f64>,
+    /// Energy in elastic supports, ½∫k u²; null without any.
+    #[serde(default)]
+    pub springs: Option<f64>,
     /// f·u + r·u_D, without the factor one half.
     pub external_work: Option<f64>,
 }

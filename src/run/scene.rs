@@ -9,6 +9,9 @@ use crate::petsc::Session;
 use crate::system::{self, Scene};
 use std::rc::Rc;
 
+/// Parts of a macro edge at whose ends a stiffness of springs is looked at.
+const SAMPLES: usize = 8;
+
 /// The bytes of the mesh file of a case.
 ///
 /// # Errors
@@ -53,6 +56,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
             )
         })?;
     }
+    check_springs(case, &mesh)?;
     check_points(case, &mesh)?;
     Ok(mesh)
 }
@@ -72,6 +76,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),
+        springs: case.springs.clone(),
         loads: case.loads.clone(),
         point_loads: case.point_loads.clone(),
         pairs: case.contacts.clone(),
@@ -123,10 +128,11 @@ impl Names<'_> {
     fn used(&self) -> Vec<(String, &[String])> {
         let case = self.case;
         let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
+        let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
         let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
         let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
         let contacts = case.contacts.iter().map(|c| (format!("contact.{}.between", c.name), c.between.as_slice()));
-        supports.chain(loads).chain(geometries).chain(contacts).collect()
+        supports.chain(springs).chain(loads).chain(geometries).chain(contacts).collect()
     }
 
     fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
@@ -171,6 +177,29 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     for (key, spot) in supports.chain(loads).filter_map(|(key, spot)| Some((key, spot?))) {
         let [x, y] = spot.place;
         mesh.add_point(spot).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
+    }
+    Ok(())
+}
+
+/// Springs push back: their stiffness is a number >= 0 all along, and above 0 somewhere.
+fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
+    for springs in &case.springs {
+        let error = |words: String| format!("{}: support.{}.stiffness: {words}", case.file.display(), springs.name);
+        let mut largest = 0.0f64;
+        for edge in springs.edges(mesh) {
+            for t in (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64) {
+                let x = mesh.edge_position(edge, t);
+                for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
+                    if !(k.is_finite() && k >= 0.0) {
+                        return Err(error(format!("is {k} at ({}, {}); a spring wants a finite number >= 0 everywhere", x.x, x.y)));
+                    }
+                    largest = largest.max(k);
+                }
+            }
+        }
+        if largest == 0.0 {
+            return Err(error("is 0 all along the boundary; leave the support out, or correct the formula".into()));
+        }
     }
     Ok(())
 }

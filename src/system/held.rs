@@ -4,7 +4,7 @@ use crate::body::Constraints;
 use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, integrate};
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::{Level, Numbering, SmoothNormals};
+use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals};
 use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError};
 use std::collections::HashMap;
 
@@ -228,7 +228,43 @@ fn support_conditions(scene: &Scene) -> Vec<Condition> {
         let direction = smooth.filter(|normal| normal.dot(&held.direction) > ALIKE).unwrap_or(held.direction);
         Condition { piece: held.piece, against: None, terms: vec![(held.place, direction)], doubt: 0.0 }
     };
-    supported(scene, &numbering).into_iter().map(condition).collect()
+    supported(scene, &numbering).into_iter().map(condition).chain(spring_conditions(scene)).collect()
+}
+
+/// What springs resist at the macro vertices, however soft they are.
+fn spring_conditions(scene: &Scene) -> Vec<Condition> {
+    let mesh = &scene.mesh;
+    let mut all = Vec::new();
+    for springs in &scene.springs {
+        let edges = springs.edges(mesh);
+        let normals = mean_normals(mesh, &edges);
+        for &edge in &edges {
+            for vertex in mesh.edges[edge as usize].vertices {
+                let place = mesh.vertices[vertex as usize];
+                let held = springs.stiffness.at(place, normals[&vertex]).into_iter().filter(|(_, k)| *k > 0.0);
+                all.extend(held.map(|(direction, _)| Condition {
+                    piece: mesh.piece_beside(edge),
+                    against: None,
+                    terms: vec![(place, direction)],
+                    doubt: 0.0,
+                }));
+            }
+        }
+    }
+    all
+}
+
+/// Smooth normals at the vertices of some edges.
+fn mean_normals(mesh: &MacroMesh, edges: &[u32]) -> HashMap<u32, Point> {
+    let smooth = SmoothNormals::new(mesh, edges);
+    let mut normals = HashMap::new();
+    for &edge in edges {
+        for (vertex, t) in mesh.edges[edge as usize].vertices.into_iter().zip([0.0, 1.0]) {
+            *normals.entry(vertex).or_insert_with(Point::zeros) += smooth.at(mesh, edge, t).normal;
+        }
+    }
+    normals.values_mut().for_each(|normal: &mut Point| *normal = normal.normalize());
+    normals
 }
 
 /// Smooth normals at the vertices that supports hold along the normal.

@@ -1,6 +1,6 @@
 //! The physics that is solved: mesh, bodies, supports, loads and contacts, spread over ranks.
 
-use crate::body::{Body, Load, PointLoad, Support};
+use crate::body::{Body, Load, PointLoad, Springs, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneStrain};
 use crate::geometry::Point;
@@ -23,6 +23,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Supports.
     pub supports: Vec<Support>,
+    /// Elastic supports.
+    pub springs: Vec<Springs>,
     /// Loads.
     pub loads: Vec<Load>,
     /// Forces at points.

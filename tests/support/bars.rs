@@ -35,6 +35,7 @@ pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Sc
         order,
         refine,
         supports: vec![wall],
+        springs: Vec::new(),
         loads: Vec::new(),
         point_loads: Vec::new(),
         pairs: Vec::new(),

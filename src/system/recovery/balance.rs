@@ -1,6 +1,7 @@
 //! Energies, reactions, and the balances of forces, moments and energy.
 
 use super::agreed;
+use super::springs::SpringForces;
 use crate::body::{Holders, MacroStiffness};
 use crate::contact::{Configuration, Side};
 use crate::element::PlaneStrain;
@@ -29,13 +30,15 @@ pub struct Balance {
     /// Strain energy of each body, `½∫σ:ε`.
     pub strain: Vec<f64>,
     /// Strain energy in all, from the stationary value of the Lagrangian: its algebraic error is the square of that of `u` and
-    /// `λ`. Nothing where loads act together with gaps or prescribed displacements, or a jump term is added.
+    /// `λ`. Nothing where loads act together with gaps or prescribed displacements, a jump term is added, or springs act.
     pub stationary: Option<f64>,
     /// `f·u + r·u_D`.
     pub external_work: f64,
     /// Resultants of each contact.
     pub contacts: Vec<ContactForce>,
-    /// Force of each support on the bodies (per thickness).
+    /// Energy in elastic supports, `½∫k u²`; nothing if there are none.
+    pub springs: Option<f64>,
+    /// Force of each support on the bodies (per thickness), those of elastic ones after the others.
     pub reactions: Vec<Point>,
     /// Sum of the magnitudes of all forces on bodies: loads and reactions of their nodes, contact (per thickness).
     pub forces: f64,
@@ -43,7 +46,7 @@ pub struct Balance {
     pub force: Option<f64>,
     /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C.
     pub moment: Option<f64>,
-    /// `|2U - (f·u + r·u_D - λᵀc - λᵀCλ)|` over the largest of the terms.
+    /// `|2U + 2S - (f·u + r·u_D - λᵀc - λᵀCλ)|`, `S` being the energy in springs, over the largest of the terms.
     pub energy: Option<f64>,
     /// Largest `|loads + reactions + contact|` of a body over the sum of magnitudes of these.
     pub bodies: Option<f64>,
@@ -57,7 +60,10 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let Discretisation { contacts, coupling, .. } = problem;
     let (mut strain, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
-    let NodeSums { work, bodies, reactions } = sum_over_nodes(problem, solution, u, &internal, session)?;
+    let springs = SpringForces::new(problem, u, session)?;
+    let NodeSums { work, bodies, mut reactions } = sum_over_nodes(problem, solution, u, &internal, &springs.nodes, session)?;
+    reactions.extend(springs.reactions);
+    let has_springs = !problem.scene.springs.is_empty();
     let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let gaps: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| (lambda * gap).abs()).sum();
@@ -66,7 +72,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         .map(|jump| jump.weight * (solution.multipliers[jump.rows[0]] - solution.multipliers[jump.rows[1]]).powi(2))
         .sum();
     let (total, external) = (strain.iter().sum::<f64>(), work.loads + work.supports);
-    let largest = [2.0 * total, work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
+    let largest = [2.0 * (total + springs.energy), work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
     let worst = |ratio: &dyn Fn(&Contact, &ContactForce) -> f64| {
         contacts.iter().zip(&forces).map(|(contact, force)| ratio(contact, force)).filter(|v| v.is_finite()).reduce(f64::max)
     };
@@ -78,8 +84,9 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
             let sum = force.moments[0] + force.moments[1] - cross(middle, force.resultants[0] + force.resultants[1]);
             sum.abs() / (force.resultants[1].norm() * contact.boundary.length())
         }),
-        energy: (largest > 0.0).then(|| (2.0 * total - (external - lambda_gap - jumped)).abs() / largest),
-        stationary: if jumped > ROUNDING * largest {
+        energy: (largest > 0.0).then(|| (2.0 * (total + springs.energy) - (external - lambda_gap - jumped)).abs() / largest),
+        springs: has_springs.then_some(springs.energy),
+        stationary: if has_springs || jumped > ROUNDING * largest {
             None
         } else {
             work.stationary(total, lambda_gap, gaps > ROUNDING * largest)
@@ -158,12 +165,14 @@ impl ForceSum {
     }
 }
 
-/// Work and resultants of loads, supports and contact, of the forces `internal` `= Ku`. **Collective**
+/// Work and resultants of loads, supports and contact, of the forces `internal` `= Ku` of the bodies and those
+/// of `springs`. **Collective**
 fn sum_over_nodes(
     problem: &Discretisation,
     solution: &Solution,
     u: &Field<2>,
     internal: &Field<2>,
+    springs: &Field<2>,
     session: &Session,
 ) -> Result<NodeSums, SystemError> {
     let space = problem.finest();
@@ -176,13 +185,14 @@ fn sum_over_nodes(
     let mut bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
     let mut work = WorkTerms::default();
     for (at, node) in space.own.clone().enumerate() {
-        let [f, k] = [applied.own()[at], internal.own()[at]].map(|[x, y]| Point::new(x, y));
+        let [f, k, pull] = [applied.own()[at], internal.own()[at], springs.own()[at]].map(|[x, y]| Point::new(x, y));
         let (u, push) = (u.point(node), pressed.get(&node).copied().unwrap_or_default());
         work.loads += f.dot(&u);
         work.contact += push.dot(&u);
         work.given[0] += f.norm();
         // Contact pushes body 1 along -n: K u + Bᵀλ = f + r.
-        let residual = f - k - push;
+        let residual = f + pull - k - push;
+        bodies[body_of[at]].add(pull);
         let Some(constraint) = space.constraints.get(node) else {
             work.unbalanced += residual.dot(&u);
             bodies[body_of[at]].add(f);

@@ -9,6 +9,7 @@ mod evaluation;
 mod motion_error;
 mod overlaps;
 mod probe;
+mod springs;
 mod stress;
 mod traces;
 mod zone_ends;
