@@ -9,6 +9,7 @@ pub(crate) mod error;
 mod exact;
 mod fingerprint;
 mod grade;
+mod gravity;
 mod model;
 pub(crate) mod overrides;
 pub(crate) mod section;
@@ -183,7 +184,8 @@ impl Case {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
         let title = root.or("title", "", values::text);
         let mesh = model::read_mesh(root, &folder);
-        let bodies = root.named("body", model::read_body);
+        let gravity = gravity::read_gravity(root);
+        let bodies = root.named("body", |section| model::read_body(section, gravity));
         let geometries = root.named("geometry", model::read_geometry);
         let (supports, springs) = support::split(root.named("support", support::read_support));
         let (loads, point_loads) = model::split_loads(root.named("load", model::read_load));
@@ -194,6 +196,7 @@ impl Case {
         let exact = exact::read_exact(root);
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
         model::check_bodies(root);
+        gravity::check_gravity(gravity, root);
         model::check_geometries(&geometries, root);
         model::check_probes(&probes, root);
         spot::check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);

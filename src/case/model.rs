@@ -6,6 +6,7 @@ use toml::Value;
 
 use super::error::suggest;
 use super::grade::read_grade;
+use super::gravity::{Gravity, read_weight, with_weight};
 use super::section::Section;
 use super::spot::read_where;
 use super::values;
@@ -36,15 +37,16 @@ pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
 }
 
 /// `[body.NAME]`
-pub fn read_body(section: &Section) -> Option<Body> {
+pub fn read_body(section: &Section, gravity: Gravity) -> Option<Body> {
     let young = section.required("young", "7000.0", values::positive);
     let poisson = section.required("poisson", "0.3", |value| match values::number(value)? {
         ratio if ratio > -1.0 && ratio < 0.5 => Ok(ratio),
         _ => Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into()),
     });
     let force = section.or("body_force", vec![0.0, 0.0], values::formulas);
+    let weight = read_weight(section, gravity);
     let material = Material { young: young?, poisson: poisson? };
-    Some(Body { name: section.name().into(), material, force: force? })
+    Some(Body { name: section.name().into(), material, force: with_weight(force?, weight?) })
 }
 
 /// `[geometry.NAME]`
