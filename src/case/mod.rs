@@ -64,6 +64,8 @@ pub struct Case {
     pub point_loads: Vec<PointLoad>,
     /// Contact pairs.
     pub contacts: Vec<Pair>,
+    /// Sides of contacts that are made of several physical curves.
+    pub unions: Vec<Union>,
     /// Linear solver.
     pub solver: Solver,
     /// The accuracy that the mesh is adapted to; nothing if it stays as it is.
@@ -109,6 +111,15 @@ pub struct Geometry {
     pub curves: Vec<String>,
     /// The shape.
     pub curve: Curve,
+}
+
+/// Several physical curves that are one side of a contact.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Union {
+    /// The name of all of them.
+    pub name: String,
+    /// The physical curves.
+    pub curves: Vec<String>,
 }
 
 /// How the linear systems are solved.
@@ -179,6 +190,11 @@ impl Case {
         format!("# Resolved by mezha {}.\n{table}", env!("CARGO_PKG_VERSION"))
     }
 
+    /// The physical curves of a side of a contact, from its name.
+    pub fn curves_of(&self, side: &String) -> Vec<String> {
+        contact::parts(&self.unions, side)
+    }
+
     /// Reads every section, then checks what lies between them. None if a value is missing or bad; the log knows why.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
@@ -189,7 +205,7 @@ impl Case {
         let geometries = root.named("geometry", model::read_geometry);
         let (supports, springs) = support::split(root.named("support", support::read_support));
         let (loads, point_loads) = model::split_loads(root.named("load", model::read_load));
-        let contacts = root.named("contact", contact::read_contact);
+        let (contacts, unions) = contact::split_contacts(root.named("contact", contact::read_contact));
         let solver = model::read_solver(root);
         let output = model::read_output(root);
         let probes = root.named("probe", model::read_probe);
@@ -202,7 +218,7 @@ impl Case {
         spot::check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);
         spot::check_spots("load", point_loads.iter().map(|load| (&load.name, &load.at)), root);
         accuracy::check_energy(accuracy.as_ref(), &point_loads, root);
-        contact::check_contacts(&contacts, &geometries, root);
+        contact::check_contacts(&contacts, &unions, &geometries, root);
         exact::check_exact(&exact, root);
         Some(Self {
             name: name_of(file, "case.toml"),
@@ -217,6 +233,7 @@ impl Case {
             loads,
             point_loads,
             contacts,
+            unions,
             solver: solver?,
             accuracy,
             output: output?,

@@ -78,7 +78,7 @@ impl Connected {
                 }
             });
             let edges = parts.collect();
-            self.mesh.boundaries.push(Boundary { name: boundary.name.clone(), edges });
+            self.mesh.boundaries.push(Boundary { edges, ..boundary.clone() });
         }
     }
 

@@ -18,7 +18,7 @@ impl MacroMesh {
         let curve = Arc::new(curve.clone());
         for name in boundaries {
             let Some(boundary) = self.boundary(name) else {
-                let known = self.boundaries.iter().map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
+                let known = self.physical_curves().iter().map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
                 return Err(MeshError::unusable(
                     &self.file,
                     format!("has no physical curve \"{name}\", which [geometry.{geometry}] names; it has {known}"),

@@ -2,7 +2,7 @@
 
 use super::RunError;
 use crate::case::Case;
-use crate::contact::CurveChoice;
+use crate::contact::{CurveChoice, Pair};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Partition, parse_gmsh, read_bytes};
 use crate::petsc::Session;
@@ -31,10 +31,13 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     let names = Names { case, mesh: &mesh };
     names.check_bodies()?;
     for (key, boundaries) in names.used() {
-        for name in boundaries {
+        for name in &boundaries {
             names.check_boundary(&key, name)?;
         }
     }
+    names.check_unions()?;
+    case.unions.iter().for_each(|union| mesh.unite(&union.name, &union.curves));
+    let names = Names { case, mesh: &mesh };
     for pair in &case.contacts {
         names.check_sides(&pair.name, &pair.between)?;
     }
@@ -125,14 +128,16 @@ impl Names<'_> {
     }
 
     /// Every key of the case that names physical curves.
-    fn used(&self) -> Vec<(String, &[String])> {
+    fn used(&self) -> Vec<(String, Vec<String>)> {
         let case = self.case;
         let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
         let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
         let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
         let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
-        let contacts = case.contacts.iter().map(|c| (format!("contact.{}.between", c.name), c.between.as_slice()));
-        supports.chain(springs).chain(loads).chain(geometries).chain(contacts).collect()
+        let sides = |pair: &Pair| pair.between.iter().flat_map(|name| case.curves_of(name)).collect::<Vec<_>>();
+        let contacts = case.contacts.iter().map(|pair| (format!("contact.{}.between", pair.name), sides(pair)));
+        let named = supports.chain(springs).chain(loads).chain(geometries).map(|(key, names)| (key, names.to_vec()));
+        named.chain(contacts).collect()
     }
 
     fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
@@ -141,6 +146,19 @@ impl Names<'_> {
         }
         let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
         Err(self.error(key, &format!("no physical curve \"{name}\": {}", self.instead(name, known))))
+    }
+
+    /// A name that is made of those of several curves is no physical curve.
+    fn check_unions(&self) -> Result<(), String> {
+        let clash = self.case.unions.iter().find(|union| self.mesh.boundary(&union.name).is_some());
+        clash.map_or(Ok(()), |union| {
+            let words = format!(
+                "the side \"{}\" of several curves has the name of a physical curve of {}; rename that one",
+                union.name,
+                self.mesh.file.display()
+            );
+            Err(self.error("contact", &words))
+        })
     }
 
     /// Each side of a contact lies on one body, and they are two.

@@ -180,7 +180,7 @@ impl<'a> Restraints<'a> {
         let mesh = &self.scene.mesh;
         let touches = |name: &str| self.scene.pairs.iter().any(|pair| pair.between.iter().any(|side| side == name));
         let mut found = Vec::new();
-        for boundary in &mesh.boundaries {
+        for boundary in mesh.physical_curves() {
             let own: Vec<u32> =
                 boundary.edges.iter().copied().filter(|&edge| mesh.piece_beside(edge) == mechanism.piece).collect();
             for &edge in own.iter().step_by(own.len().div_ceil(POINTS).max(1)) {
