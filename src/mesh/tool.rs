@@ -192,10 +192,10 @@ impl MacroMesh {
             surface.push((side.part, edge));
         }
         let whole = surface.iter().map(|&(_, edge)| edge).collect();
-        self.boundaries.push(Boundary { name: name.into(), edges: whole });
+        self.boundaries.push(Boundary { name: name.into(), edges: whole, is_union: false });
         for number in (0..parts.len()).filter(|_| parts.len() > 1) {
             let own = surface.iter().filter(|(part, _)| *part == number).map(|&(_, edge)| edge).collect();
-            self.boundaries.push(Boundary { name: format!("{name}.{}", number + 1), edges: own });
+            self.boundaries.push(Boundary { name: format!("{name}.{}", number + 1), edges: own, is_union: false });
         }
         Ok(())
     }

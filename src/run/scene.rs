@@ -3,12 +3,15 @@
 use super::RunError;
 use crate::body::Body;
 use crate::case::Case;
-use crate::contact::CurveChoice;
+use crate::contact::{CurveChoice, Pair};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, Partition, parse_gmsh, read_bytes};
 use crate::petsc::Session;
 use crate::system::{self, Scene};
 use std::rc::Rc;
+
+/// Parts of a macro edge at whose ends a stiffness of springs is looked at.
+const SAMPLES: usize = 8;
 
 /// The bytes of the mesh file of a case.
 ///
@@ -33,6 +36,9 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
             names.check_boundary(&key, name)?;
         }
     }
+    names.check_unions()?;
+    case.unions.iter().for_each(|union| mesh.unite(&union.name, &union.curves));
+    let names = Names { case, mesh: &mesh };
     for pair in &case.contacts {
         names.check_sides(&pair.name, &pair.between)?;
     }
@@ -43,6 +49,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     let fitted = case.contacts.iter().filter(|pair| pair.curve == CurveChoice::Fit).flat_map(|pair| &pair.between);
     let fitted = fitted.filter(|name| case.tool_of(name).is_none());
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
+    add_points(case, &mut mesh)?;
     for grade in &case.mesh.grades {
         let [x, y] = grade.point;
         mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
@@ -55,6 +62,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
             )
         })?;
     }
+    check_springs(case, &mesh)?;
     check_points(case, &mesh)?;
     Ok(mesh)
 }
@@ -95,7 +103,9 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         refine: case.mesh.refine,
         supports: case.supports.clone(),
         rigid: case.rigid_sets(),
+        springs: case.springs.clone(),
         loads: case.loads.clone(),
+        point_loads: case.point_loads.clone(),
         pairs: case.contacts.clone(),
         mesh: Rc::new(mesh),
     }
@@ -142,13 +152,16 @@ impl Names<'_> {
     }
 
     /// Every key of the case that names physical curves.
-    fn used(&self) -> Vec<(String, &[String])> {
+    fn used(&self) -> Vec<(String, Vec<String>)> {
         let case = self.case;
         let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
+        let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
         let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
         let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
-        let contacts = case.contacts.iter().map(|c| (format!("contact.{}.between", c.name), c.between.as_slice()));
-        supports.chain(loads).chain(geometries).chain(contacts).collect()
+        let sides = |pair: &Pair| pair.between.iter().flat_map(|name| case.curves_of(name)).collect::<Vec<_>>();
+        let contacts = case.contacts.iter().map(|pair| (format!("contact.{}.between", pair.name), sides(pair)));
+        let named = supports.chain(springs).chain(loads).chain(geometries).map(|(key, names)| (key, names.to_vec()));
+        named.chain(contacts).collect()
     }
 
     fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
@@ -157,6 +170,19 @@ impl Names<'_> {
         }
         let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
         Err(self.error(key, &format!("no physical curve \"{name}\": {}", self.instead(name, known))))
+    }
+
+    /// A name that is made of those of several curves is no physical curve.
+    fn check_unions(&self) -> Result<(), String> {
+        let clash = self.case.unions.iter().find(|union| self.mesh.boundary(&union.name).is_some());
+        clash.map_or(Ok(()), |union| {
+            let words = format!(
+                "the side \"{}\" of several curves has the name of a physical curve of {}; rename that one",
+                union.name,
+                self.mesh.file.display()
+            );
+            Err(self.error("contact", &words))
+        })
     }
 
     /// Each side of a contact lies on one body, and they are two.
@@ -184,6 +210,40 @@ impl Names<'_> {
         }
         Ok(())
     }
+}
+
+/// Makes the points at which bodies are held or loaded vertices of the mesh.
+fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
+    let supports = case.supports.iter().map(|support| (format!("support.{}.at", support.name), support.at.as_ref()));
+    let loads = case.point_loads.iter().map(|load| (format!("load.{}.at", load.name), Some(&load.at)));
+    for (key, spot) in supports.chain(loads).filter_map(|(key, spot)| Some((key, spot?))) {
+        let [x, y] = spot.place;
+        mesh.add_point(spot).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
+    }
+    Ok(())
+}
+
+/// Springs push back: their stiffness is a number >= 0 all along, and above 0 somewhere.
+fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
+    for springs in &case.springs {
+        let error = |words: String| format!("{}: support.{}.stiffness: {words}", case.file.display(), springs.name);
+        let mut largest = 0.0f64;
+        for edge in springs.edges(mesh) {
+            for t in (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64) {
+                let x = mesh.edge_position(edge, t);
+                for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
+                    if !(k.is_finite() && k >= 0.0) {
+                        return Err(error(format!("is {k} at ({}, {}); a spring wants a finite number >= 0 everywhere", x.x, x.y)));
+                    }
+                    largest = largest.max(k);
+                }
+            }
+        }
+        if largest == 0.0 {
+            return Err(error("is 0 all along the boundary; leave the support out, or correct the formula".into()));
+        }
+    }
+    Ok(())
 }
 
 /// Points of probes and of exact displacements lie in their bodies.

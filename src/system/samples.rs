@@ -36,7 +36,9 @@ pub fn blocks(pair: Pair, upper: impl Fn(Point) -> Point, supports: Vec<Support>
         refine: 3,
         supports,
         rigid: Vec::new(),
+        springs: Vec::new(),
         loads: Vec::new(),
+        point_loads: Vec::new(),
         pairs: vec![pair],
         mesh: Rc::new(mesh),
     }

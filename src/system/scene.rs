@@ -1,6 +1,6 @@
 //! The physics that is solved: mesh, bodies, supports, loads and contacts, spread over ranks.
 
-use crate::body::{Body, Load, RigidNodes, RigidSet, Support};
+use crate::body::{Body, Load, PointLoad, RigidNodes, RigidSet, Springs, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneStrain};
 use crate::geometry::Point;
@@ -25,8 +25,12 @@ pub struct Scene {
     pub supports: Vec<Support>,
     /// Nodes that move together as rigid bodies.
     pub rigid: Vec<RigidSet>,
+    /// Elastic supports.
+    pub springs: Vec<Springs>,
     /// Loads.
     pub loads: Vec<Load>,
+    /// Forces at points.
+    pub point_loads: Vec<PointLoad>,
     /// Contact pairs.
     pub pairs: Vec<Pair>,
 }
@@ -55,6 +59,13 @@ impl Scene {
     /// Young's modulus of a body as contacts see it: without bound for a rigid tool.
     pub fn young(&self, body: usize) -> f64 {
         if self.is_rigid(body) { f64::INFINITY } else { self.bodies[body].material.young }
+    }
+
+    /// Whether each macro triangle of a rank has a corner at which a load acts: the energy there has no limit.
+    pub fn has_point_load(&self, rank: usize) -> Vec<bool> {
+        let loaded: Vec<u32> = self.point_loads.iter().filter_map(|load| self.mesh.vertex_at(&load.at)).collect();
+        let own = self.partition.triangles_of(rank).iter();
+        own.map(|&triangle| self.mesh.triangles[triangle as usize].vertices.iter().any(|vertex| loaded.contains(vertex))).collect()
     }
 
     /// Plane-strain law of each body.
