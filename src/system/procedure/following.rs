@@ -201,7 +201,7 @@ impl Following {
             let mut known = contact.known.clone();
             let knots = contact.boundary.knots();
             *widest = [widest[0].min(knots[0]), widest[1].max(knots[knots.len() - 1])];
-            if contact.pair.has_free_ends() && number == HELD && self.last_way > MOST_HELD {
+            if contact.has_free_ends() && number == HELD && self.last_way > MOST_HELD {
                 // Ends that find no rest, as where contact has several zones, are left to the active set.
                 all.push(Known { ends: Some(*widest), segments: None, ..known });
                 continue;
@@ -215,11 +215,16 @@ impl Following {
                     continue;
                 }
             }
-            if contact.pair.has_free_ends() && number < HELD {
+            if contact.has_free_ends() && number < HELD {
                 known.ends = Some(free_ends(&solution.pressure(contact), ends));
                 if !settled {
                     known.segments = None;
                 }
+            }
+            if contact.boundary.is_closed() && contact.pair.has_free_ends() && contact.pair.curve == CurveChoice::Geometry && !settled
+                && let Some(ends) = ends_of_a_part(&solution.pressure(contact))
+            {
+                (known.ends, known.segments) = (Some(ends), None);
             }
             all.push(known);
         }
@@ -232,6 +237,17 @@ fn differs(contact: &Contact, meeting: &Meeting) -> bool {
     let knots = contact.boundary.knots();
     let [first, last] = [meeting.ends[0].max(contact.limits[0]), meeting.ends[1].min(contact.limits[1])];
     (first - knots[0]).abs().max((last - knots[knots.len() - 1]).abs()) > SAME * (last - first)
+}
+
+/// Ends of a Γ_C that is to be a part of a closed one: half a segment beyond the only zone that presses. Nothing if that goes all
+/// around, or if there are several, which the active set keeps apart.
+fn ends_of_a_part(pressure: &ContactPressure) -> Option<[f64; 2]> {
+    let boundary = &pressure.contact.boundary;
+    let zones = pressure.zones();
+    let [zone] = &zones[..] else { return None };
+    let half = |k: usize| 0.5 * boundary.segment_length(k);
+    let ends = [zone.arcs[0] - half(zone.segments.start), zone.arcs[1] + half(zone.segments.end - 1)];
+    (ends[1] - ends[0] < boundary.length()).then(|| ends.map(|arc| boundary.parameter_at(arc)))
 }
 
 /// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not

@@ -84,7 +84,8 @@ fn one(
 /// the pressure E* e/a; E* is about E_c/2.
 fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f64 {
     let knots = contact.boundary.knots();
-    let ends_inside = knots[0] > contact.limits[0] && knots[knots.len() - 1] < contact.limits[1];
+    let is_whole = contact.boundary.turn().is_some_and(|turn| found.length > turn * (1.0 - 1e-9));
+    let ends_inside = knots[0] > contact.limits[0] && knots[knots.len() - 1] < contact.limits[1] && !is_whole;
     contact.modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
 }
 
