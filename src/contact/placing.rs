@@ -60,9 +60,9 @@ pub fn place(
     let mut fitted = None;
     let (curve, limits) = match pair.curve {
         CurveChoice::Fit => {
-            check_open(mesh, pair, sides).map_err(error)?;
-            let smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
+            let mut smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
             let mut meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
+            meeting.begin(&mut smooth);
             let found = meeting.fit(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
             fitted = Some((meeting, smooth));
             (found.curve, found.limits)
@@ -86,6 +86,7 @@ pub fn place(
     });
     let Some(nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
     let mut boundary = ContactBoundary::new(curve, range, nearest.outward());
+    check_grading(pair, &boundary).map_err(error)?;
     if pair.curve == CurveChoice::Fit {
         let [of_first, of_second] = &mut edges;
         of_first.retain(|edge| faces(&boundary, Side::First, edge));
@@ -117,17 +118,16 @@ fn check_count(pair: &Pair, edges: &[Vec<BoundaryEdge>; 2]) -> Result<(), String
     }
 }
 
-/// A fitted boundary has two ends, and so have the boundaries that it lies between.
-fn check_open(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(), String> {
-    let closed = |edges: &[u32]| mesh.stretches(edges).iter().any(|stretch| mesh.is_closed(&stretch.edges));
-    match (0..2).find(|&k| closed(sides[k])) {
-        Some(k) => Err(closed_curve(&pair.between[k])),
-        None => Ok(()),
+/// What goes all around has no ends towards which its segments could be graded, unless they follow the pressure.
+fn check_grading(pair: &Pair, boundary: &ContactBoundary) -> Result<(), String> {
+    if boundary.is_closed() && pair.grading != [1.0, 1.0] && !pair.has_free_ends() {
+        let [a, b] = pair.grading;
+        return Err(format!(
+            "grading = [{a}, {b}]: \"{}\" and \"{}\" face each other all around, and the contact boundary has no ends; leave grading out, or give segments as a list",
+            pair.between[0], pair.between[1]
+        ));
     }
-}
-
-fn closed_curve(name: &str) -> String {
-    format!("\"{name}\" is a closed curve; closed contact boundaries are not available yet: name an arc of it that is open")
+    Ok(())
 }
 
 /// A fitted boundary stays between the bodies.

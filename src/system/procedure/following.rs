@@ -170,7 +170,8 @@ impl Following {
         let fitted =
             problem.contacts.iter().filter_map(|contact| contact.known.meeting.as_ref().map(|meeting| (contact, meeting)));
         for (contact, meeting) in fitted {
-            let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+            let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+            meeting.begin(&mut sides);
             let depth = meeting.depth_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
             if depth > MOST_BEYOND * contact.boundary.length() {
                 return NextBoundary::GivenUp(Failure::Beyond { contact: contact.pair.name.clone(), depth });
@@ -211,6 +212,10 @@ impl Following {
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
                 if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
+                    if contact.known.meeting.as_ref().is_some_and(|before| before.seams != meeting.seams) {
+                        // What is known of the ends is counted from another place.
+                        (*ends, *widest) = ([None; 2], [f64::INFINITY, f64::NEG_INFINITY]);
+                    }
                     all.push(Known { meeting: Some(meeting), ends: None, segments: None, ..known });
                     continue;
                 }
@@ -221,7 +226,7 @@ impl Following {
                     known.segments = None;
                 }
             }
-            if contact.boundary.is_closed() && contact.pair.has_free_ends() && contact.pair.curve == CurveChoice::Geometry && !settled
+            if contact.boundary.is_closed() && contact.pair.has_free_ends() && !settled
                 && let Some(ends) = ends_of_a_part(&solution.pressure(contact))
             {
                 (known.ends, known.segments) = (Some(ends), None);
@@ -235,8 +240,18 @@ impl Following {
 /// Whether a meeting gives a contact other ends than it has.
 fn differs(contact: &Contact, meeting: &Meeting) -> bool {
     let knots = contact.boundary.knots();
+    let now = [knots[0], knots[knots.len() - 1]];
+    let before = contact.known.meeting.as_ref();
+    if let Some(before) = before.filter(|before| before.origin != meeting.origin || before.goes_round != meeting.goes_round) {
+        // Closed sides: both are counted from the first node of the mesh.
+        let (_, turn) = meeting.origin;
+        let ([a, b], [c, d]) = (before.ends_by_themselves(now), meeting.ends_by_themselves(meeting.ends));
+        let apart = |a: f64, b: f64| turn.map_or((a - b).abs(), |turn| ((a - b + 0.5 * turn).rem_euclid(turn) - 0.5 * turn).abs());
+        return contact.boundary.is_closed() != meeting.goes_round
+            || !meeting.goes_round && apart(a, c).max(apart(b, d)) > SAME * (meeting.ends[1] - meeting.ends[0]);
+    }
     let [first, last] = [meeting.ends[0].max(contact.limits[0]), meeting.ends[1].min(contact.limits[1])];
-    (first - knots[0]).abs().max((last - knots[knots.len() - 1]).abs()) > SAME * (last - first)
+    !meeting.goes_round && (first - now[0]).abs().max((last - now[1]).abs()) > SAME * (last - first)
 }
 
 /// Ends of a Γ_C that is to be a part of a closed one: half a segment beyond the only zone that presses. Nothing if that goes all

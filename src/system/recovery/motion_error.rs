@@ -45,7 +45,11 @@ pub fn motion_errors(
     let displacement = |node: EdgeNode| motion.at(node, mesh, space);
     let with_sides = |contact: &Contact| {
         let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact));
-        let sides = meeting.map(|_| SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement));
+        let sides = meeting.map(|meeting| {
+            let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+            meeting.begin(&mut sides);
+            sides
+        });
         let sides = meeting.zip(sides.as_ref()).map(|(meeting, sides)| meeting.sides(sides));
         one(problem, solution, contact, energy, bodies, sides)
     };
