@@ -101,6 +101,9 @@ pub fn place(
     Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting), edges })
 }
 
+/// Sine of the angle between the way to a foot and the normal there above which it is none.
+const NO_FOOT: f64 = 1e-4;
+
 /// Segments to an edge at most: shorter ones tell nothing, and their active set changes one by one.
 const MOST_TO_AN_EDGE: usize = 32;
 
@@ -325,10 +328,14 @@ pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacem
     })
 }
 
-/// Whether an edge looks at Γ_C: what lies behind a body does not touch.
+/// Whether an edge looks at Γ_C: what lies behind a body does not touch. Neither does what has no foot on it: from the far side of
+/// a closed body the search for the nearest point of a short Γ_C may end anywhere.
 pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
     let middle = 0.5 * (edge.points[0] + edge.points[1]);
-    edge.outward().dot(&boundary.normal(boundary.foot(middle))) * side.sign() > 0.0
+    let foot = boundary.foot(middle);
+    let (normal, away) = (boundary.normal(foot), middle - boundary.point(foot));
+    let is_foot = crate::geometry::cross(away, normal).abs() <= NO_FOOT * away.norm() + 1e-9 * edge.length();
+    is_foot && edge.outward().dot(&normal) * side.sign() > 0.0
 }
 
 #[cfg(test)]
