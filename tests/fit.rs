@@ -232,8 +232,9 @@ fn a_declared_gap_that_is_not_the_drawn_one_is_told() {
 }
 
 /// What closes in itself is refused in words that say so.
+/// Whole rings of straight edges that overlap by 1e-3, bonded to a shaft and a housing: closed splines through their nodes.
 #[test]
-fn a_full_circle_is_refused() {
+fn a_fit_goes_around_whole_rings() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let whole = |seed: u64, n: usize, inner: f64, outer: f64| {
         let mut ring = grid(n, 2, seed, move |u, v| {
@@ -247,17 +248,20 @@ fn a_full_circle_is_refused() {
         ring
     };
     let mut bodies = vec![
-        ("inner", whole(1, 16, 1.0, 2.0), ["inner.seam", "", "inner.rim", ""]),
-        ("outer", whole(2, 20, 2.0, 3.0), ["outer.rim", "", "outer.seam", ""]),
+        ("inner", whole(1, 30, 1.0, 2.0005), ["inner.seam", "", "inner.rim", ""]),
+        ("outer", whole(2, 36, 1.9995, 3.0), ["outer.rim", "", "outer.seam", ""]),
     ];
     // Points that nothing uses any more lie on the circle, and are left out of the file's triangles.
     bodies.iter_mut().for_each(|(_, ring, _)| ring.sides[1].clear());
-    let file = write_scene(
-        folder.path(),
-        &Mesh { bodies }.text(),
-        &RINGS.replace("\"flat\"", "\"inner.rim\"").replace("\"upright\"", "\"outer.rim\""),
-    );
-    let ended = Run::file(&file).set("contact.seam.curve", "fit").ended();
-    assert_eq!(ended.code, Some(2), "{}", ended.said());
-    assert!(ended.errors.contains("is a closed curve"), "{}", ended.errors);
+    let bonded = RINGS.replace("\"flat\", uy", "[\"inner.rim\", \"outer.rim\"], uy").replace("\"upright\", ux", "[\"inner.rim\", \"outer.rim\"], ux");
+    let case = bonded.replace("0.864878841841237", "4.279306881880523");
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), &case);
+    for (order, space, most) in [(1, "p0", 0.05), (2, "p1-discontinuous", 5e-3), (2, "p1-continuous", 5e-3)] {
+        let ended = Run::file(&file).ranks(2).set("mesh.order", order).set("contact.seam.multiplier", space).converged();
+        assert_eq!(ended.value("/contact/seam/trust"), true, "{}", ended.said());
+        let closed = ended.value("/contact/seam/closed");
+        assert!(closed.as_array().map(Vec::len) == Some(1) && closed[0][0] == 0.0, "{closed}");
+        let error = ended.number("/errors/lambda_seam");
+        assert!(error < most, "P{order}, {space}: {error}");
+    }
 }

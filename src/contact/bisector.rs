@@ -12,6 +12,9 @@ use std::ops::Range;
 /// Spans at most.
 const MOST_SPANS: usize = 64;
 
+/// Spans of a closed curve at least.
+const LEAST_AROUND: usize = 4;
+
 /// Corrections of the points half-way; each leaves a share of the square of the angle between the sides.
 const CORRECTIONS: usize = 2;
 
@@ -50,6 +53,25 @@ impl Bisector {
     /// # Errors
     /// Words, if the nodes do not face the other side, or if the pair wants more spans than they bear.
     pub fn between(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> Result<Self, String> {
+        Self::along(sides, nodes, pair, None)
+    }
+
+    /// The closed curve between two closed sides that face each other all around.
+    ///
+    /// # Errors
+    /// Words, as above, or if the pair wants fewer spans than a closed curve needs.
+    pub fn around(sides: [&SmoothSide; 2], pair: &Pair) -> Result<Self, String> {
+        if let Some(spans) = pair.spans.filter(|&spans| spans < LEAST_AROUND) {
+            return Err(format!(
+                "spans = {spans}: \"{}\" and \"{}\" meet all around, and a closed curve has {LEAST_AROUND} spans or more; give {LEAST_AROUND}, or \"auto\"",
+                pair.between[0], pair.between[1]
+            ));
+        }
+        let all = sides.map(|side| 0..side.nodes());
+        Self::along(sides, &all, pair, Some(sides[0].length()))
+    }
+
+    fn along(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, turn: Option<f64>) -> Result<Self, String> {
         let mut points = halfway(sides, nodes, pair);
         points.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
         if points.len() < 2 || points[0].parameter >= points[points.len() - 1].parameter {
@@ -70,7 +92,7 @@ impl Bisector {
         let curves = sides.map(|side| side.curve(pair.configuration));
         let fit = |points: &[Halfway]| {
             let samples: Vec<FitSample> = points.iter().map(|point| (point.parameter, point.place, point.weight)).collect();
-            Curve::Spline(fit_by_the_data(&samples, pair.spans))
+            Curve::Spline(fit_by_the_data(&samples, pair.spans, turn))
         };
         let mut curve = fit(&points);
         for _ in 0..CORRECTIONS {
@@ -78,7 +100,7 @@ impl Bisector {
             curve = fit(&points);
         }
         let data = [points[0].parameter, points[points.len() - 1].parameter];
-        let limits = limits(sides, nodes, pair, &curve, data);
+        let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);
         Ok(Self { curve, limits })
     }
 }
@@ -106,7 +128,7 @@ fn halfway(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> V
         for node in nodes.clone() {
             let x = side.positions(configuration)[node];
             let foot = other.nearest(x, configuration);
-            if foot < -least || foot > other.length() + least {
+            if other.turn().is_none() && (foot < -least || foot > other.length() + least) {
                 continue;
             }
             let own = side.parameters[node];
@@ -124,7 +146,7 @@ fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve
     let middle = 0.5 * (data[0] + data[1]);
     let beyond = BEYOND * (data[1] - data[0]);
     let (mut limits, mut ends) = (data, [false; 2]);
-    for (side, nodes) in sides.iter().zip(nodes) {
+    for (side, nodes) in sides.iter().zip(nodes).filter(|(side, _)| side.turn().is_none()) {
         let last = side.points.len() - 1;
         for node in [0, last].into_iter().filter(|node| nodes.contains(node)) {
             let foot = curve.nearest(side.positions(pair.configuration)[node]);
@@ -160,23 +182,28 @@ pub fn stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -
 
 /// The fewest spans whose mean distance from the samples is as small as that of any number, but for a half: more would
 /// follow the scatter between the two bodies.
-fn fit_by_the_data(samples: &[FitSample], wish: Option<usize>) -> Spline {
+fn fit_by_the_data(samples: &[FitSample], wish: Option<usize>, turn: Option<f64>) -> Spline {
+    let fit = |spans: usize| match turn {
+        Some(turn) => Spline::fit_closed(samples, spans, turn),
+        None => Spline::fit(samples, spans),
+    };
     if let Some(spans) = wish {
-        return Spline::fit(samples, spans);
+        return fit(spans);
     }
-    let most = (samples.len() / 4).clamp(1, MOST_SPANS);
-    let counts = std::iter::successors(Some(1), |count| (2 * count <= most).then_some(2 * count));
+    let least = if turn.is_some() { LEAST_AROUND } else { 1 };
+    let most = (samples.len() / 4).clamp(least, MOST_SPANS);
+    let counts = std::iter::successors(Some(least), |count| (2 * count <= most).then_some(2 * count));
     let fits: Vec<(f64, Spline)> = counts
         .map(|count| {
-            let spline = Spline::fit(samples, count);
+            let spline = fit(count);
             let squares: f64 = samples.iter().map(|(t, x, weight)| weight * (spline.point(*t) - x).norm_squared()).sum();
             (squares.sqrt(), spline)
         })
         .collect();
     let size = samples.iter().map(|(_, x, weight)| weight * x.norm_squared()).sum::<f64>().sqrt();
-    let least = fits.iter().map(|fit| fit.0).fold(f64::INFINITY, f64::min);
-    let good = fits.iter().position(|fit| fit.0 <= (1.5 * least).max(1e-14 * size)).unwrap_or(0);
-    fits.into_iter().nth(good).map(|fit| fit.1).unwrap_or_else(|| Spline::fit(samples, 1))
+    let nearest = fits.iter().map(|fit| fit.0).fold(f64::INFINITY, f64::min);
+    let good = fits.iter().position(|fit| fit.0 <= (1.5 * nearest).max(1e-14 * size)).unwrap_or(0);
+    fits.into_iter().nth(good).map(|fit| fit.1).unwrap_or_else(|| fit(least))
 }
 
 #[cfg(test)]
@@ -193,13 +220,13 @@ mod tests {
 
     #[test]
     fn the_data_choose_the_spans() {
-        assert!(fit_by_the_data(&on_arc(1.0, 200), None).spans() >= 16, "an arc wants many");
+        assert!(fit_by_the_data(&on_arc(1.0, 200), None, None).spans() >= 16, "an arc wants many");
         let straight: Vec<FitSample> = (0..40).map(|k| (f64::from(k), Point::new(f64::from(k), 2.0), 1.0)).collect();
-        assert_eq!(fit_by_the_data(&straight, None).spans(), 1);
+        assert_eq!(fit_by_the_data(&straight, None, None).spans(), 1);
         let mut scattered = on_arc(1.0, 60);
         scattered.extend(on_arc(1.01, 47));
-        assert!(fit_by_the_data(&scattered, None).spans() <= 2, "scatter between two bodies is not followed");
-        assert_eq!(fit_by_the_data(&on_arc(1.0, 200), Some(7)).spans(), 7);
+        assert!(fit_by_the_data(&scattered, None, None).spans() <= 2, "scatter between two bodies is not followed");
+        assert_eq!(fit_by_the_data(&on_arc(1.0, 200), Some(7), None).spans(), 7);
     }
 
     use crate::contact::samples::seam;

@@ -2,7 +2,13 @@
 
 use crate::geometry::{Curve, Point, gauss_points, turn_right};
 
+/// What is left of a turn by less than this share is rounding: the boundary is closed.
+const WHOLE: f64 = 1e-9;
+
 /// The contact boundary of one pair. The same on every rank; it knows nothing of the meshes.
+///
+/// One that goes all around a closed curve is closed: it begins and ends at its seam, and what is said of a parameter, an arc
+/// length or a segment holds one turn farther, too.
 #[derive(Clone, Debug)]
 pub struct ContactBoundary {
     curve: Curve,
@@ -12,13 +18,21 @@ pub struct ContactBoundary {
     knots: Vec<f64>,
     /// Arc length from the start to each segment end.
     arcs: Vec<f64>,
+    /// Length of one turn in the parameter, if the curve closes in itself.
+    period: Option<f64>,
 }
 
 impl ContactBoundary {
     /// The part of `curve` between two parameters, as one segment; the normal at the middle has a positive part along `towards`.
+    /// What is as long as the whole closed curve, or longer, is all of it.
     pub fn new(curve: Curve, range: [f64; 2], towards: Point) -> Self {
+        let period = curve.period();
+        let range = match period {
+            Some(period) if range[1] - range[0] >= (1.0 - WHOLE) * period => [range[0], range[0] + period],
+            _ => range,
+        };
         let side = turn_right(curve.tangent(0.5 * (range[0] + range[1]))).dot(&towards).signum();
-        let mut boundary = Self { curve, side, knots: range.to_vec(), arcs: vec![0.0; 2] };
+        let mut boundary = Self { curve, side, knots: range.to_vec(), arcs: vec![0.0; 2], period };
         boundary.arcs[1] = boundary.arc_between(range[0], range[1]);
         boundary
     }
@@ -57,9 +71,32 @@ impl ContactBoundary {
         &self.arcs
     }
 
+    /// Whether it goes all around a closed curve, so that its end is its start.
+    pub fn is_closed(&self) -> bool {
+        self.period.is_some_and(|period| self.knots[self.knots.len() - 1] - self.knots[0] > (1.0 - WHOLE) * period)
+    }
+
+    /// Its length if it is closed.
+    pub fn turn(&self) -> Option<f64> {
+        self.is_closed().then(|| self.length())
+    }
+
     /// Arc length of segment `k`.
     pub fn segment_length(&self, k: usize) -> f64 {
-        self.arcs[k + 1] - self.arcs[k]
+        let [from, to] = self.segment_arcs(k);
+        to - from
+    }
+
+    /// Arc lengths of the ends of segment `k`; beyond the last segment of a closed boundary its first ones follow.
+    pub fn segment_arcs(&self, k: usize) -> [f64; 2] {
+        let (turns, k) = (k / self.segments(), k % self.segments());
+        [k, k + 1].map(|k| self.arcs[k] + turns as f64 * self.length())
+    }
+
+    /// Parameter at the fraction `z` (in the parameter) of segment `k`, numbered likewise.
+    pub fn parameter_on(&self, k: usize, z: f64) -> f64 {
+        let k = k % self.segments();
+        self.knots[k] + z * (self.knots[k + 1] - self.knots[k])
     }
 
     /// Whether it is a straight line by its kind.
@@ -91,28 +128,35 @@ impl ContactBoundary {
     /// Parameter of the foot of `p`: the normal line there passes through `p`. May lie beyond the ends.
     pub fn foot(&self, p: Point) -> f64 {
         let t = self.curve.nearest(p);
-        match self.curve.period() {
-            Some(period) => {
-                let middle = 0.5 * (self.knots[0] + self.knots[self.knots.len() - 1]);
-                middle + (t - middle + 0.5 * period).rem_euclid(period) - 0.5 * period
-            }
-            None => t,
-        }
+        let middle = 0.5 * (self.knots[0] + self.knots[self.knots.len() - 1]);
+        self.period.map_or(t, |period| middle + nearest_turn(t - middle, period))
     }
 
-    /// Feet of the two ends of an edge, lower first; on a closed curve the edge is followed, not the long way round.
-    pub fn feet(&self, ends: [Point; 2]) -> [f64; 2] {
+    /// Feet of the two ends of an edge, in its direction; on a closed curve the edge is followed, not the long way round.
+    pub fn directed_feet(&self, ends: [Point; 2]) -> [f64; 2] {
         let [a, b] = ends.map(|p| self.foot(p));
-        let b = match self.curve.period() {
-            Some(period) => a + (b - a + 0.5 * period).rem_euclid(period) - 0.5 * period,
-            None => b,
-        };
+        [a, self.period.map_or(b, |period| a + nearest_turn(b - a, period))]
+    }
+
+    /// The same, lower first.
+    pub fn feet(&self, ends: [Point; 2]) -> [f64; 2] {
+        let [a, b] = self.directed_feet(ends);
         [a.min(b), a.max(b)]
+    }
+
+    /// Parts of it that an edge between two points lies at, unclipped, ascending: on a closed curve an edge across the seam, or
+    /// across both ends of a long arc, lies at two.
+    pub fn parts(&self, ends: [Point; 2]) -> impl Iterator<Item = [f64; 2]> {
+        let [from, to] = self.feet(ends);
+        let (first, last) = (self.knots[0], self.knots[self.knots.len() - 1]);
+        let turns = self.period.map_or([0.0; 3], |period| [-period, 0.0, period]);
+        let count = if self.period.is_some() { 3 } else { 1 };
+        turns.into_iter().take(count).map(move |turn| [from + turn, to + turn]).filter(move |part| part[0] < last && part[1] > first)
     }
 
     /// Parameter of one full turn, if the curve closes in itself.
     pub fn period(&self) -> Option<f64> {
-        self.curve.period()
+        self.period
     }
 
     /// Arc length between two parameters: exact for lines and circles, otherwise by 16 Gauss points on each of 32 pieces.
@@ -152,10 +196,72 @@ impl ContactBoundary {
     }
 }
 
+/// What is left of a way in a parameter without whole turns: at most half of one, in either direction.
+fn nearest_turn(way: f64, period: f64) -> f64 {
+    (way + 0.5 * period).rem_euclid(period) - 0.5 * period
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::Formula;
+
+    fn on_circle(angle: f64) -> Point {
+        Point::new(1.0 + 2.0 * angle.cos(), 2.0 * angle.sin())
+    }
+
+    fn circle(range: [f64; 2]) -> ContactBoundary {
+        ContactBoundary::new(Curve::Circle { centre: [1.0, 0.0], radius: 2.0 }, range, Point::new(-1.0, 0.0))
+    }
+
+    /// The same circle as formulas, begun at the top and run through in the other direction.
+    fn formulas() -> ContactBoundary {
+        let read = |text| Formula::parse(text, &["t"]).expect("a formula");
+        let curve = Curve::Parametric { x: read("1 + 2*sin(2*t)"), y: read("2*cos(2*t)"), range: [0.0, std::f64::consts::PI] };
+        ContactBoundary::new(curve, [0.0, std::f64::consts::PI], Point::new(0.0, -1.0))
+    }
+
+    #[test]
+    fn a_whole_circle_is_closed_wherever_it_begins() {
+        use std::f64::consts::TAU;
+        for from in [0.0, -3.0, 5.0] {
+            let mut boundary = circle([from, from + TAU]);
+            assert!(boundary.is_closed() && circle([from, from + 8.0]).is_closed() && !circle([from, from + 6.28]).is_closed());
+            boundary.cut(&[0.0, 0.1, 0.5, 1.0]);
+            assert!((boundary.length() - 2.0 * TAU).abs() < 1e-12);
+            for k in 0..3 {
+                let [here, farther] = [k, k + 3].map(|k| boundary.segment_arcs(k));
+                assert!((farther[0] - here[0] - 2.0 * TAU).abs() < 1e-12 && (farther[1] - here[1] - 2.0 * TAU).abs() < 1e-12);
+                assert_eq!(boundary.parameter_on(k, 0.3), boundary.parameter_on(k + 3, 0.3));
+                // Along a zone that goes on across the seam.
+                let [a, b] = [here[0] + 0.1, farther[0] + 0.1].map(|s| boundary.point(boundary.parameter_at(s)));
+                assert!((a - b).norm() < 1e-12);
+            }
+        }
+        let closed = formulas();
+        assert!(closed.is_closed() && (closed.length() - 2.0 * TAU).abs() < 1e-12);
+        assert_eq!(closed.period(), Some(std::f64::consts::PI));
+        assert!(!parabola().is_closed() && parabola().turn().is_none());
+    }
+
+    #[test]
+    fn an_edge_across_the_seam_lies_at_both_ends() {
+        for boundary in [circle([0.0, 7.0]), circle([-2.0, 5.0]), formulas()] {
+            let (first, last) = (boundary.knots()[0], boundary.knots()[1]);
+            let all = (0..10).map(|k| [k, k + 1].map(|k| on_circle(0.2 + std::f64::consts::TAU * f64::from(k) / 10.0)));
+            let mut parts: Vec<[f64; 2]> = all.flat_map(|ends| boundary.parts(ends).collect::<Vec<_>>()).collect();
+            assert_eq!(parts.len(), 11, "{parts:?}");
+            parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            assert!(parts[0][0] < first && parts[10][1] > last);
+            assert!(parts.windows(2).all(|two| (two[0][1] - two[1][0]).abs() < 1e-9), "{parts:?}");
+        }
+        // Both ends of an arc, nearer to each other than the edge is long.
+        let arc = circle([0.05, std::f64::consts::TAU - 0.05]);
+        assert_eq!(arc.parts([on_circle(0.2), on_circle(-0.2)]).count(), 2);
+        assert_eq!(arc.parts([on_circle(0.2), on_circle(0.4)]).count(), 1);
+        let ends = [on_circle(0.4), on_circle(0.2)];
+        assert!((arc.directed_feet(ends)[0] - arc.directed_feet(ends)[1] - 0.2).abs() < 1e-12);
+    }
 
     fn parabola() -> ContactBoundary {
         let read = |text| Formula::parse(text, &["t"]).expect("a formula");

@@ -73,10 +73,9 @@ fn softer_edges<'a>(
     let knots = boundary.knots();
     let (first, last) = (knots[0], knots[knots.len() - 1]);
     let least = 1e-9 * (last - first);
-    ruling.filter_map(move |edge| {
-        let feet = boundary.feet([edge.points[0], edge.points[1]]);
-        let part = [feet[0].max(first), feet[1].min(last)];
-        (part[1] - part[0] > least).then(|| (part, edge.length()))
+    ruling.flat_map(move |edge| {
+        let parts = boundary.parts([edge.points[0], edge.points[1]]).map(move |part| [part[0].max(first), part[1].min(last)]);
+        parts.filter(move |part| part[1] - part[0] > least).map(|part| (part, edge.length()))
     })
 }
 

@@ -59,18 +59,17 @@ impl<'a> Facing<'a> {
     /// Looks at the undeformed boundaries of a pair on the level that is numbered.
     pub fn new(mesh: &MacroMesh, numbering: &Numbering, pair: &'a Pair, boundary: &'a ContactBoundary) -> Self {
         let all = all_edges(mesh, numbering, pair, &|_| Point::zeros());
-        let [first, last] = ends(boundary);
         let mut sides = [Side::First, Side::Second].into_iter();
         let seen = all.map(|edges| {
             let side = sides.next().unwrap_or(Side::Second);
             let see = |edge: BoundaryEdge| {
-                let feet = boundary.feet([edge.points[0], edge.points[1]]);
-                let straight = boundary.foot(edge.points[0]) <= boundary.foot(edge.points[1]);
-                let ends = if straight { [edge.points[0], edge.points[1]] } else { [edge.points[1], edge.points[0]] };
+                let corners = [edge.points[0], edge.points[1]];
+                let [from, to] = boundary.directed_feet(corners);
+                let ends = if from <= to { corners } else { [corners[1], corners[0]] };
                 let faces = faces(boundary, side, &edge);
-                (feet[0] < last && feet[1] > first).then_some(Seen { edge, feet, ends, faces })
+                boundary.parts(corners).map(|feet| Seen { edge: edge.clone(), feet, ends, faces }).collect::<Vec<_>>()
             };
-            edges.into_iter().filter_map(see).collect()
+            edges.into_iter().flat_map(see).collect()
         });
         Self { pair, boundary, seen }
     }
@@ -234,8 +233,10 @@ impl<'a> Facing<'a> {
     /// Length of body `k`'s boundary here that is body `l`'s boundary there, where both contacts reach.
     fn shared(&self, k: usize, other: &Self, l: usize) -> f64 {
         let key = |seen: &Seen| (seen.edge.nodes[0], seen.edge.nodes[1]);
-        let theirs: HashMap<_, f64> =
-            other.seen[l].iter().filter(|seen| seen.faces).map(|seen| (key(seen), other.share(seen))).collect();
+        let mut theirs: HashMap<_, f64> = HashMap::new();
+        for seen in other.seen[l].iter().filter(|seen| seen.faces) {
+            *theirs.entry(key(seen)).or_default() += other.share(seen);
+        }
         let own = self.seen[k].iter().filter(|seen| seen.faces);
         let both = own.filter_map(|seen| Some(self.share(seen).min(*theirs.get(&key(seen))?) * seen.edge.length()));
         both.sum()

@@ -12,15 +12,15 @@ const MOST_OFF: f64 = 0.1;
 /// last (1). The outermost segment says nothing: the set of active multipliers decides what is on it. The end lies no farther
 /// inside than that segment, and outside than as much again. Nothing where λ does not fade out like a power of the distance.
 pub fn faded_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], zone: &Zone, end: usize) -> Option<f64> {
-    if zone.segments.len() < 4 {
+    if zone.segments.len() < 4 || zone.goes_round() {
         return None;
     }
-    let arcs = boundary.arcs();
     let nth = |i: usize| if end == 0 { zone.segments.start + i } else { zone.segments.end - 1 - i };
-    let length = arcs[nth(0) + 1] - arcs[nth(0)];
+    let length = boundary.segment_length(nth(0));
+    let middle = |k: usize| 0.5 * boundary.segment_arcs(k).iter().sum::<f64>();
     // Distances from the end of the outermost segment, inwards.
     let inwards = |s: f64| if end == 0 { s - zone.arcs[0] } else { zone.arcs[1] - s };
-    let near = [1, 2, 3].map(nth).map(|k| (inwards(0.5 * (arcs[k] + arcs[k + 1])), multipliers.value(lambda, k, 0.5)));
+    let near = [1, 2, 3].map(nth).map(|k| (inwards(middle(k)), multipliers.value(lambda, k, 0.5)));
     let [(a, p), (b, q), (c, r)] = near;
     if !(0.0 < p && p < q && q < r) {
         return None;

@@ -79,6 +79,9 @@ pub fn finite_motion(
         }
         length += if points.len() > before { boundary.segment_length(k) } else { 0.0 };
     }
+    if let Some(turn) = boundary.turn() {
+        count_from_a_gap(&mut points, turn);
+    }
     let force: f64 = points.iter().map(|[_, weight, _]| weight).sum();
     if force == 0.0 {
         return FiniteMotion::default();
@@ -104,6 +107,14 @@ pub fn finite_motion(
         force,
         length,
     }
+}
+
+/// Counts the arc lengths of points on a closed boundary from the widest gap between them, so that what presses hangs together.
+fn count_from_a_gap(points: &mut [[f64; 3]], turn: f64) {
+    let count = points.len();
+    let gap = |k: usize| if k == 0 { points[0][2] + turn - points[count - 1][2] } else { points[k][2] - points[k - 1][2] };
+    let first = (0..count).max_by(|&a, &b| gap(a).total_cmp(&gap(b))).unwrap_or(0);
+    points[..first].iter_mut().for_each(|point| point[2] += turn);
 }
 
 /// Mean weighted with λ; zero without points.

@@ -20,14 +20,24 @@ const JOINT: f64 = 0.3;
 pub struct Meeting {
     /// Which stretch of each boundary.
     pub stretches: [usize; 2],
-    /// Nodes of each that the curve is fitted to.
+    /// Nodes of each that the curve is fitted to, counted from its seam.
     pub nodes: [Range<usize>; 2],
-    /// Parameters of the ends of Γ_C, on body 1's stretch.
+    /// Parameters of the ends of Γ_C, on body 1's stretch, from its seam.
     pub ends: [f64; 2],
+    /// Node at which each stretch is begun, if it is closed: opposite to where the bodies meet.
+    pub seams: [usize; 2],
+    /// Parameter of body 1's seam on the stretch as it is by itself, and the length of one turn, if it is closed.
+    pub origin: (f64, Option<f64>),
+    /// Whether they meet all around.
+    pub goes_round: bool,
 }
 
-/// Nodes of one stretch that are near the other body: first and last.
+/// Nodes of one stretch that are near the other body: first and last. Of a closed one the last may lie a turn farther, and it
+/// does so in all if only few nodes are not near.
 type Near = Option<[usize; 2]>;
+
+/// Edges without contact that do not make two ends of a contact that goes all around but for them.
+const FEW: f64 = 4.0;
 
 impl Meeting {
     /// Where undeformed bodies touch, or are about to: the tolerance grows until both have two nodes in reach.
@@ -92,7 +102,62 @@ impl Meeting {
             stretches[k] = found;
         }
         let of = |k: usize| (&sides[k][stretches[k]], near[k][stretches[k]].unwrap_or([0; 2]));
-        Ok(Some(Self::between([of(0), of(1)], stretches, pair)))
+        let [first, second] = [of(0), of(1)];
+        if [first, second].iter().all(|(side, near)| is_whole(side, *near)) {
+            return Ok(Some(Self::around([first.0, second.0], stretches)));
+        }
+        Ok(Some(Self::on_a_part([first, second], stretches, pair)))
+    }
+
+    /// All around two closed sides.
+    fn around(sides: [&SmoothSide; 2], stretches: [usize; 2]) -> Self {
+        let length = sides[0].length();
+        let nodes = sides.map(|side| 0..side.nodes());
+        Self { stretches, nodes, ends: [0.0, length], seams: [0; 2], origin: (0.0, Some(length)), goes_round: true }
+    }
+
+    /// Where one of two sides at least is open, or near the other on a part only. Closed ones are begun opposite to that.
+    fn on_a_part(sides: [(&SmoothSide, [usize; 2]); 2], stretches: [usize; 2], pair: &Pair) -> Self {
+        let middles = sides.map(|(side, near)| (!is_whole(side, near)).then(|| near.iter().sum::<usize>() / 2));
+        let mut seams = [0; 2];
+        for k in 0..2 {
+            let ((side, _), (other, _)) = (sides[k], sides[1 - k]);
+            if side.turn().is_none() {
+                continue;
+            }
+            // What is near all around has its middle where the other side has its own.
+            let middle = middles[k].or_else(|| {
+                let x = other.positions(pair.configuration)[middles[1 - k]? % other.nodes()];
+                let away = |node: &usize| (side.positions(pair.configuration)[*node] - x).norm();
+                (0..side.nodes()).min_by(|a, b| away(a).total_cmp(&away(b)))
+            });
+            seams[k] = (middle.unwrap_or(0) + side.nodes() / 2) % side.nodes();
+        }
+        let begun = [0, 1].map(|k| {
+            let (side, near) = sides[k];
+            let Some(turn) = side.turn() else { return (None, near, None) };
+            let near = if is_whole(side, near) { [0, side.nodes()] } else { counted_from(seams[k], near, side.nodes()) };
+            (Some(side.begun_at(seams[k])), near, Some(turn))
+        });
+        let of = |k: usize| (begun[k].0.as_ref().unwrap_or(sides[k].0), begun[k].1);
+        let origin = (sides[0].0.parameters[seams[0]], begun[0].2);
+        Self { seams, origin, ..Self::between([of(0), of(1)], stretches, pair) }
+    }
+
+    /// Begins closed sides at the seams that this counts from.
+    pub fn begin(&self, sides: &mut [Vec<SmoothSide>; 2]) {
+        for k in 0..2 {
+            let side = &mut sides[k][self.stretches[k]];
+            if side.turn().is_some() && self.seams[k] > 0 {
+                *side = side.begun_at(self.seams[k]);
+            }
+        }
+    }
+
+    /// Ends of Γ_C on body 1's stretch as it is by itself, on a closed one within a turn from its first node on.
+    pub fn ends_by_themselves(&self, ends: [f64; 2]) -> [f64; 2] {
+        let (origin, turn) = self.origin;
+        ends.map(|t| turn.map_or(t, |turn| (t + origin).rem_euclid(turn)))
     }
 
     /// From the first to the last node that is near, where both bodies have such nodes, and one edge farther.
@@ -103,7 +168,8 @@ impl Meeting {
         let [low, high] = [far[0].min(far[1]), far[0].max(far[1])];
         let edge = first.edge_length(own[0], own[1]).max(second.edge_length(other[0], other[1]));
         let ends = [first.parameters[own[0]].max(low) - edge, first.parameters[own[1]].min(high) + edge];
-        let mut meeting = Self { stretches, nodes: [own, other].map(|[from, to]| from..to + 1), ends };
+        let nodes = [own, other].map(|[from, to]| from..to + 1);
+        let mut meeting = Self { stretches, nodes, ends, seams: [0; 2], origin: (0.0, None), goes_round: false };
         meeting.reach(ends, [first, second], pair);
         meeting
     }
@@ -144,6 +210,9 @@ impl Meeting {
     /// Words, if the sides do not face each other there, or if the pair wants more spans than the nodes bear.
     pub fn fit(&mut self, sides: &[Vec<SmoothSide>; 2], pair: &Pair, ends: [f64; 2]) -> Result<Bisector, String> {
         let both = [0, 1].map(|k| &sides[k][self.stretches[k]]);
+        if self.goes_round {
+            return Bisector::around(both, pair);
+        }
         self.reach(ends, both, pair);
         Bisector::between(both, &self.nodes, pair)
     }
@@ -170,9 +239,39 @@ fn is_near(side: &SmoothSide, node: usize, others: &[SmoothSide], pair: &Pair, s
     })
 }
 
+/// Whether the nodes of a side that are near go all around it.
+fn is_whole(side: &SmoothSide, near: [usize; 2]) -> bool {
+    side.turn().is_some() && near[1] - near[0] >= side.nodes()
+}
+
+/// Nodes of a closed side as they are counted from its seam.
+fn counted_from(seam: usize, [first, last]: [usize; 2], count: usize) -> [usize; 2] {
+    let from = (first + count - seam) % count;
+    [from, from + last - first]
+}
+
+/// First and last node of a closed side that is near some stretch of the other body, beside the widest part of it that is not.
+fn near_nodes_around(side: &SmoothSide, near: impl Fn(&usize) -> bool, turn: f64) -> Near {
+    let count = side.nodes();
+    let all: Vec<usize> = (0..count).filter(near).collect();
+    let next = |i: usize| if i + 1 < all.len() { all[i + 1] } else { all[0] + count };
+    let place = |node: usize| side.parameters[node % count] + (node / count) as f64 * turn;
+    let gap = |i: usize| place(next(i)) - place(all[i]);
+    let widest = (0..all.len()).max_by(|&a, &b| gap(a).total_cmp(&gap(b)))?;
+    if gap(widest) <= FEW * side.edge_length(0, count) {
+        return Some([0, count]);
+    }
+    let (first, last) = (next(widest) % count, all[widest]);
+    let last = if last < first { last + count } else { last };
+    (last > first).then_some([first, last])
+}
+
 /// First and last node of a side that is near some stretch of the other body.
 fn near_nodes(side: &SmoothSide, others: &[SmoothSide], pair: &Pair, share: f64) -> Near {
     let near = |&node: &usize| is_near(side, node, others, pair, share);
+    if let Some(turn) = side.turn() {
+        return near_nodes_around(side, near, turn);
+    }
     let first = (0..side.points.len()).find(near)?;
     let last = (0..side.points.len()).rev().find(near)?;
     (last > first).then_some([first, last])
@@ -195,7 +294,11 @@ fn undefined_node(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Option<Point> {
 /// # Errors
 /// The stretches that touch, if there are several.
 fn only_stretch(sides: &[SmoothSide], near: &[Near]) -> Result<Option<usize>, Vec<usize>> {
-    let length = |k: usize| near[k].map_or(0.0, |[a, b]| sides[k].parameters[b] - sides[k].parameters[a]);
+    let place = |side: &SmoothSide, node: usize| {
+        let count = side.nodes();
+        side.turn().map_or_else(|| side.parameters[node], |turn| side.parameters[node % count] + (node / count) as f64 * turn)
+    };
+    let length = |k: usize| near[k].map_or(0.0, |[a, b]| place(&sides[k], b) - place(&sides[k], a));
     let longest = (0..sides.len()).max_by(|&a, &b| length(a).total_cmp(&length(b)));
     let Some(longest) = longest.filter(|&k| near[k].is_some()) else { return Ok(None) };
     let touching: Vec<usize> = (0..sides.len()).filter(|&k| length(k) > 0.05 * length(longest)).collect();
@@ -260,7 +363,14 @@ mod tests {
 
     #[test]
     fn the_depth_beyond_the_ends_is_that_of_the_deepest_node_outside_the_margin() {
-        let meeting = Meeting { stretches: [0, 0], nodes: [0..17, 0..33], ends: [0.0, 2.0] };
+        let meeting = Meeting {
+            stretches: [0, 0],
+            nodes: [0..17, 0..33],
+            ends: [0.0, 2.0],
+            seams: [0; 2],
+            origin: (0.0, None),
+            goes_round: false,
+        };
         let sides = lowered(|x| 0.01 * x);
         // Nodes of body 1 lie at each eighth.
         for (ends, margin, depth) in [

@@ -1,7 +1,7 @@
 //! The jump term that heals a multiplier space too rich for the displacements.
 //!
 //! `C = δ (h / E_c) Σ H [ψ_i] [ψ_j]` in place of the zero block, over the jumps between neighbouring values: at the
-//! inner segment ends and, for discontinuous P1, across each segment. `h` is the length of the softer
+//! inner segment ends, at the seam of a closed boundary and, for discontinuous P1, across each segment. `h` is the length of the softer
 //! body's edges and `H` that of the segments, both means of the segments beside. It vanishes with `h H` for a smooth pressure.
 
 use super::{MultiplierSpace, Multipliers};
@@ -27,7 +27,11 @@ pub type SparseRows = Vec<BTreeMap<usize, f64>>;
 pub fn jumps(multipliers: &Multipliers, edges: &[f64], modulus: f64) -> Vec<Jump> {
     let neighbours: Vec<[usize; 2]> = match multipliers.space {
         MultiplierSpace::P1Continuous => Vec::new(),
-        _ => (1..multipliers.count()).map(|i| [i - 1, i]).collect(),
+        _ => {
+            let count = multipliers.count();
+            let across_the_seam = multipliers.go_round().then_some([count - 1, 0]).filter(|_| count > 2);
+            (1..count).map(|i| [i - 1, i]).chain(across_the_seam).collect()
+        }
     };
     let jump = |rows: [usize; 2]| {
         let mean = |of: &dyn Fn(usize) -> f64| 0.5 * (of(rows[0]) + of(rows[1]));
@@ -87,6 +91,24 @@ mod tests {
             (weights[0] / weights[2] - 10.0).abs() < 1e-12 && weights[0] > weights[1] && weights[1] > weights[2],
             "{weights:?}"
         );
+    }
+
+    /// Around a circle of even segments no multiplier is another than the next.
+    #[test]
+    fn a_closed_boundary_has_a_jump_at_its_seam() {
+        let curve = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
+        let mut boundary = ContactBoundary::new(curve, [1.0, 1.0 + std::f64::consts::TAU], Point::new(-1.0, 0.0));
+        boundary.cut(&[0.0, 0.25, 0.5, 0.75, 1.0]);
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous] {
+            let multipliers = Multipliers::new(space, &boundary);
+            let rows = jump_matrix(jumps(&multipliers, &[0.1; 4], 7.0).iter(), multipliers.count());
+            let count = rows.len();
+            for (i, row) in rows.iter().enumerate() {
+                assert_eq!(row.len(), 3, "{space:?}: {rows:?}");
+                let next = row[&((i + 1) % count)];
+                assert!((next / rows[0][&1] - 1.0).abs() < 1e-12 && (row[&i] + 2.0 * next).abs() < 1e-12 * row[&i]);
+            }
+        }
     }
 
     /// The last multiplier before an open one is drawn to zero, and the open one towards contact.

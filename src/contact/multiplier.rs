@@ -45,7 +45,8 @@ impl DiagonalBlock {
 }
 
 /// The multipliers of one contact boundary, numbered along it. Linear ones are linear in the parameter of Γ_C, which
-/// is its arc length on lines and circles only.
+/// is its arc length on lines and circles only. On a closed boundary a continuous pressure goes on across the seam: its last
+/// multiplier is its first.
 #[derive(Clone, Debug)]
 pub struct Multipliers {
     /// Their space.
@@ -56,13 +57,15 @@ pub struct Multipliers {
     lengths: Vec<f64>,
     /// `∫ψ_i ds`.
     integrals: Vec<f64>,
+    /// Whether the last segment is followed by the first.
+    closed: bool,
 }
 
 impl Multipliers {
     /// The multipliers of a space on a boundary's segments.
     pub fn new(space: MultiplierSpace, boundary: &ContactBoundary) -> Self {
         let lengths = (0..boundary.segments()).map(|k| boundary.segment_length(k)).collect();
-        let mut multipliers = Self { space, alpha: ALPHA, lengths, integrals: Vec::new() };
+        let mut multipliers = Self { space, alpha: ALPHA, lengths, integrals: Vec::new(), closed: boundary.is_closed() };
         multipliers.integrals = vec![0.0; multipliers.count()];
         for (k, ends) in boundary.knots().windows(2).enumerate() {
             for (z, weight) in gauss_points(10) {
@@ -85,15 +88,25 @@ impl Multipliers {
         match self.space {
             MultiplierSpace::P0 => segments,
             MultiplierSpace::P1Discontinuous => 2 * segments,
+            MultiplierSpace::P1Continuous if self.closed => segments,
             MultiplierSpace::P1Continuous => segments + 1,
         }
     }
 
+    /// Whether the last segment is followed by the first.
+    pub fn go_round(&self) -> bool {
+        self.closed
+    }
+
     /// Multipliers of segment `k` with their values at the fraction `z` of the segment; the second is unused for P0.
+    /// Beyond the last segment of a closed boundary its first ones follow.
     pub fn on_segment(&self, k: usize, z: f64) -> ([usize; 2], [f64; 2]) {
+        let segments = self.lengths.len();
+        let k = if self.closed { k % segments } else { k };
         match self.space {
             MultiplierSpace::P0 => ([k, k], [1.0, 0.0]),
             MultiplierSpace::P1Discontinuous => ([2 * k, 2 * k + 1], [1.0 - z, z]),
+            MultiplierSpace::P1Continuous if self.closed => ([k, (k + 1) % segments], [1.0 - z, z]),
             MultiplierSpace::P1Continuous => ([k, k + 1], [1.0 - z, z]),
         }
     }
@@ -121,6 +134,10 @@ impl Multipliers {
     /// Length `H_i` that a multiplier stands for: its segment, or the lumped length of a segment end.
     pub fn length(&self, multiplier: usize) -> f64 {
         match self.space {
+            MultiplierSpace::P1Continuous if self.closed => {
+                let segments = self.lengths.len();
+                0.5 * (self.lengths[(multiplier + segments - 1) % segments] + self.lengths[multiplier])
+            }
             MultiplierSpace::P1Continuous => {
                 let beside = multiplier.saturating_sub(1)..(multiplier + 1).min(self.lengths.len());
                 beside.map(|k| 0.5 * self.lengths[k]).sum()
@@ -200,6 +217,25 @@ mod tests {
             assert!((m.value(&vec![3.0; m.count()], 1, 0.3) - 3.0).abs() < 1e-14);
             assert!(((0..m.count()).map(|i| m.integral(i)).sum::<f64>() - 2.0).abs() < 1e-15);
         }
+    }
+
+    /// Around a circle, whatever the space, each multiplier has one before and one behind it.
+    #[test]
+    fn multipliers_of_a_closed_boundary_go_round() {
+        let curve = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
+        let mut boundary = ContactBoundary::new(curve, [0.0, std::f64::consts::TAU], Point::new(-1.0, 0.0));
+        boundary.cut(&[0.0, 0.1, 0.4, 1.0]);
+        for (space, count) in SPACES.into_iter().zip([3, 6, 3]) {
+            let m = Multipliers::new(space, &boundary);
+            assert_eq!((m.count(), m.on_segment(1, 0.2)), (count, m.on_segment(4, 0.2)));
+            let whole = |of: &dyn Fn(usize) -> f64| (0..m.count()).map(of).sum::<f64>() / std::f64::consts::TAU;
+            assert!((whole(&|i| m.integral(i)) - 1.0).abs() < 1e-14);
+            let times = if space == MultiplierSpace::P1Discontinuous { 2.0 } else { 1.0 };
+            assert!((whole(&|i| m.length(i)) - times).abs() < 1e-14, "{space:?}");
+            assert!((m.value(&vec![3.0; m.count()], 2, 0.9) - 3.0).abs() < 1e-14);
+        }
+        let continuous = Multipliers::new(MultiplierSpace::P1Continuous, &boundary);
+        assert_eq!(continuous.value(&[5.0, 7.0, 9.0], 2, 1.0), 5.0, "the seam has one value");
     }
 
     /// `α E_c / (H m)` with the mass `m` of the multiplier alone: `∫ψ² ds`, or that of a whole row.

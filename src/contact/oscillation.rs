@@ -16,6 +16,10 @@ const END: [f64; 2] = [0.1, 0.2];
 /// of every other multiplier is a checkerboard too. Nothing if there is no such sample.
 pub fn oscillation(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool]) -> Option<f64> {
     let mut samples = samples(boundary, multipliers, lambda, active);
+    let turn = boundary.turn().filter(|_| samples.len() > 4);
+    if let Some(turn) = turn {
+        go_round(&mut samples, turn);
+    }
     let lone: Vec<usize> = (1..samples.len().saturating_sub(1))
         .filter(|&k| !samples[k].active && samples[k - 1].active && samples[k + 1].active)
         .collect();
@@ -23,7 +27,12 @@ pub fn oscillation(boundary: &ContactBoundary, multipliers: &Multipliers, lambda
     let carried: Vec<f64> = samples.iter().filter(|sample| sample.active).map(|sample| sample.arc).collect();
     let (first, last) = (*carried.first()?, *carried.last()?);
     let (length, segment) = (boundary.length(), boundary.segment_length(0).max(boundary.segment_length(boundary.segments() - 1)));
-    let ends = [first < segment, last > length - segment].map(|at_the_end| END[usize::from(at_the_end)]);
+    let ends = match turn {
+        // All around it is smooth; samples that were added only stand beside others.
+        Some(_) if samples.iter().all(|sample| sample.active) => [0.0; 2],
+        Some(_) => [END[0]; 2],
+        None => [first < segment, last > length - segment].map(|at_the_end| END[usize::from(at_the_end)]),
+    };
     let inner = (first + ends[0] * (last - first))..=(last - ends[1] * (last - first));
     let mut sums = [0.0; 2];
     for five in samples.windows(5).filter(|five| five.iter().all(|s| s.active) && inner.contains(&five[2].arc)) {
@@ -33,7 +42,20 @@ pub fn oscillation(boundary: &ContactBoundary, multipliers: &Multipliers, lambda
     (sums[1] > 0.0).then(|| (sums[0] / sums[1]).sqrt())
 }
 
+/// Begins the samples of a closed boundary at the widest part of it that carries nothing, so that no zone goes across their ends;
+/// where there is no such part, with the last two before the first, and the first two behind the last.
+fn go_round(samples: &mut Vec<PressureSample>, turn: f64) {
+    let count = samples.len();
+    let open_from = |k: usize| (0..count).take_while(|i| !samples[(k + i) % count].active).count();
+    let (from, open) = (0..count).map(|k| (k, open_from(k))).max_by_key(|&(k, open)| (open, std::cmp::Reverse(k))).unwrap_or((0, 0));
+    let at = |k: usize| PressureSample { arc: samples[k % count].arc + (k / count) as f64 * turn, ..samples[k % count] };
+    // A single one that is open between two that carry is part of a checkerboard.
+    let all: Vec<PressureSample> = if open > 1 { (from..from + count).map(at).collect() } else { (count - 2..2 * count + 2).map(at).collect() };
+    *samples = all;
+}
+
 /// The pressure at one point of Γ_C.
+#[derive(Clone, Copy)]
 struct PressureSample {
     arc: f64,
     value: f64,
@@ -55,7 +77,7 @@ fn samples(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64]
         }
         MultiplierSpace::P1Continuous => {
             let end = |i: usize| PressureSample { arc: arcs[i], value: lambda[i], active: active[i] };
-            (0..arcs.len()).map(end).collect()
+            (0..multipliers.count()).map(end).collect()
         }
     }
 }

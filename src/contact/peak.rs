@@ -9,10 +9,13 @@ pub fn recovered_peak(boundary: &ContactBoundary, multipliers: &Multipliers, lam
     let highest = |k: usize| multipliers.value(lambda, k, 0.0).max(multipliers.value(lambda, k, 1.0));
     let top = zone.segments.clone().max_by(|a, b| highest(*a).total_cmp(&highest(*b)))?;
     let last = zone.segments.end.checked_sub(3).filter(|last| *last >= zone.segments.start)?;
-    let first = top.saturating_sub(1).clamp(zone.segments.start, last);
-    let arcs = boundary.arcs();
+    // Around a closed boundary each segment has one before and one behind it.
+    let (top, first) = match zone.goes_round() {
+        true => (top + boundary.segments(), top + boundary.segments() - 1),
+        false => (top, top.saturating_sub(1).clamp(zone.segments.start, last)),
+    };
     let near = [first, first + 1, first + 2];
-    let intervals = near.map(|k| [arcs[k], arcs[k + 1]]);
+    let intervals = near.map(|k| boundary.segment_arcs(k));
     let parabola = Parabola::of_means(intervals, near.map(|k| multipliers.value(lambda, k, 0.5)));
     Some(parabola.largest(intervals[top - first]))
 }

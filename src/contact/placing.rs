@@ -33,7 +33,7 @@ pub struct Known {
 pub struct Placed {
     /// Γ_C, cut.
     pub boundary: ContactBoundary,
-    /// Parameters beyond which one of the bodies has no boundary.
+    /// Parameters beyond which one of the bodies has no boundary; infinite where both go all around.
     pub limits: [f64; 2],
     /// What a fitted one was fitted to.
     pub meeting: Option<Meeting>,
@@ -60,9 +60,9 @@ pub fn place(
     let mut fitted = None;
     let (curve, limits) = match pair.curve {
         CurveChoice::Fit => {
-            check_open(mesh, pair, sides).map_err(error)?;
-            let smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
+            let mut smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
             let mut meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
+            meeting.begin(&mut smooth);
             let found = meeting.fit(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
             fitted = Some((meeting, smooth));
             (found.curve, found.limits)
@@ -71,6 +71,8 @@ pub fn place(
         CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,
     };
     let wanted = known.ends.or(fitted.as_ref().map(|(meeting, _)| meeting.ends)).unwrap_or(limits);
+    let goes_round = curve.period().is_some_and(|period| limits[1] - limits[0] > (1.0 - 1e-9) * period);
+    let limits = if goes_round { [f64::NEG_INFINITY, f64::INFINITY] } else { limits };
     let range = [wanted[0].max(limits[0]), wanted[1].min(limits[1])];
     if range[1] - range[0] <= 1e-9 * (wanted[1] - wanted[0]) {
         return Err(error("the two boundaries face each other nowhere over a length".into()));
@@ -84,6 +86,7 @@ pub fn place(
     });
     let Some(nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
     let mut boundary = ContactBoundary::new(curve, range, nearest.outward());
+    check_grading(pair, &boundary).map_err(error)?;
     if pair.curve == CurveChoice::Fit {
         let [of_first, of_second] = &mut edges;
         of_first.retain(|edge| faces(&boundary, Side::First, edge));
@@ -97,6 +100,9 @@ pub fn place(
     }
     Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting), edges })
 }
+
+/// Sine of the angle between the way to a foot and the normal there above which it is none.
+const NO_FOOT: f64 = 1e-4;
 
 /// Segments to an edge at most: shorter ones tell nothing, and their active set changes one by one.
 const MOST_TO_AN_EDGE: usize = 32;
@@ -115,17 +121,16 @@ fn check_count(pair: &Pair, edges: &[Vec<BoundaryEdge>; 2]) -> Result<(), String
     }
 }
 
-/// A fitted boundary has two ends, and so have the boundaries that it lies between.
-fn check_open(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(), String> {
-    let closed = |edges: &[u32]| mesh.stretches(edges).iter().any(|stretch| mesh.is_closed(&stretch.edges));
-    match (0..2).find(|&k| closed(sides[k])) {
-        Some(k) => Err(closed_curve(&pair.between[k])),
-        None => Ok(()),
+/// What goes all around has no ends towards which its segments could be graded, unless they follow the pressure.
+fn check_grading(pair: &Pair, boundary: &ContactBoundary) -> Result<(), String> {
+    if boundary.is_closed() && pair.grading != [1.0, 1.0] && !pair.has_free_ends() {
+        let [a, b] = pair.grading;
+        return Err(format!(
+            "grading = [{a}, {b}]: \"{}\" and \"{}\" face each other all around, and the contact boundary has no ends; leave grading out, or give segments as a list",
+            pair.between[0], pair.between[1]
+        ));
     }
-}
-
-fn closed_curve(name: &str) -> String {
-    format!("\"{name}\" is a closed curve; closed contact boundaries are not available yet: name an arc of it that is open")
+    Ok(())
 }
 
 /// A fitted boundary stays between the bodies.
@@ -139,17 +144,16 @@ fn check_stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair)
     }
 }
 
-/// Both boundaries must cover Γ_C without a hole, and must not close around it.
+/// Both boundaries must cover Γ_C without a hole.
 fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &ContactBoundary) -> Result<(), String> {
     let (first, last) = (boundary.knots()[0], boundary.knots()[1]);
     let least = 1e-6 * (last - first);
     for (side, edges) in sides.into_iter().enumerate() {
-        let part = |edge: &u32| boundary.feet(mesh.edges[*edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]));
-        let mut parts: Vec<[f64; 2]> = edges.iter().map(part).collect();
-        let whole: f64 = parts.iter().map(|[a, b]| b - a).sum();
-        if boundary.period().is_some_and(|period| whole > (1.0 - 1e-6) * period) {
-            return Err(closed_curve(&pair.between[side]));
-        }
+        let parts_of = |edge: &u32| {
+            let ends = mesh.edges[*edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+            boundary.parts(ends).collect::<Vec<_>>()
+        };
+        let mut parts: Vec<[f64; 2]> = edges.iter().flat_map(parts_of).collect();
         parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
         parts.push([last; 2]);
         let mut reached = first;
@@ -234,38 +238,82 @@ fn ends(mesh: &MacroMesh, edges: &[u32]) -> (Point, Point) {
     (a, farthest(a))
 }
 
-/// The declared geometry of both boundaries, over the extent that both have.
+/// The declared geometry of both boundaries, over the extent that both have: all of it, where both go all around.
 fn shared_geometry(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2]) -> Result<(Curve, [f64; 2]), String> {
-    let mut common: Option<(Curve, [f64; 2])> = None;
+    let mut curve: Option<Curve> = None;
+    let mut extents = [[0.0; 2]; 2];
     for (side, edges) in sides.into_iter().enumerate() {
-        let mut extent: Option<[f64; 2]> = None;
+        let mut ranges = Vec::new();
         for &edge in edges {
             let Some(shape) = mesh.edges[edge as usize].shape.as_ref().filter(|shape| !shape.is_spline()) else {
                 return Err(format!("curve = \"geometry\", but no curved [geometry] lists \"{}\"", pair.between[side]));
             };
-            let middle_of = |[a, b]: [f64; 2]| 0.5 * (a + b);
-            let reference = extent.or(common.as_ref().map(|(_, range)| *range)).map(middle_of).filter(|t| t.is_finite());
-            let middle = 0.5 * (shape.range[0] + shape.range[1]);
-            let turn = match (shape.curve.period(), reference) {
-                (Some(period), Some(reference)) => ((reference - middle) / period).round() * period,
-                _ => 0.0,
-            };
-            let [a, b] = shape.range.map(|t| t + turn);
-            let [low, high] = extent.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
-            extent = Some([low.min(a).min(b), high.max(a).max(b)]);
-            common.get_or_insert_with(|| ((*shape.curve).clone(), [f64::NEG_INFINITY, f64::INFINITY]));
+            let [a, b] = shape.range;
+            ranges.push([a.min(b), a.max(b)]);
+            curve.get_or_insert_with(|| (*shape.curve).clone());
         }
-        if let (Some((_, range)), Some([low, high])) = (&mut common, extent) {
-            *range = [range[0].max(low), range[1].min(high)];
+        extents[side] = extent(ranges, curve.as_ref().and_then(Curve::period));
+    }
+    let nowhere =
+        || format!("\"{}\" and \"{}\" do not face each other: they have no extent in common", pair.between[0], pair.between[1]);
+    let curve = curve.ok_or_else(nowhere)?;
+    let mut common = common_extents(extents, &curve);
+    common.sort_by(|a, b| (b[1] - b[0]).total_cmp(&(a[1] - a[0])));
+    match common[..] {
+        [] => Err(nowhere()),
+        [range] => Ok((curve, range)),
+        [range, other, ..] => {
+            let [a, b] = [range, other].map(|range| curve.point(0.5 * (range[0] + range[1])));
+            Err(format!(
+                "\"{}\" and \"{}\" face each other on two stretches, near ({:.6}, {:.6}) and near ({:.6}, {:.6}); give the parts of one of them names of their own, and each a contact",
+                pair.between[0], pair.between[1], a.x, a.y, b.x, b.y
+            ))
         }
     }
-    match common {
-        Some((curve, range)) if range[1] > range[0] => Ok((curve, range)),
-        _ => Err(format!(
-            "\"{}\" and \"{}\" do not face each other: they have no extent in common",
-            pair.between[0], pair.between[1]
-        )),
+}
+
+/// From the first to the last parameter of pieces of a curve; on a closed one what is left of a turn without the widest gap
+/// between them, or, without a gap, a turn from the beginning of the curve.
+fn extent(mut ranges: Vec<[f64; 2]>, period: Option<f64>) -> [f64; 2] {
+    let whole = |ranges: &[[f64; 2]]| {
+        ranges.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [a, b]| [low.min(*a), high.max(*b)])
+    };
+    let Some(period) = period else { return whole(&ranges) };
+    for range in &mut ranges {
+        let turns = (range[0] / period + 1e-9).floor() * period;
+        *range = range.map(|t| t - turns);
     }
+    ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut widest = [0.0; 2];
+    let mut reached = f64::NEG_INFINITY;
+    let again = ranges.first().map(|range| range.map(|t| t + period));
+    for [from, to] in ranges.iter().copied().chain(again) {
+        if from - reached > widest[1] - widest[0] && reached.is_finite() {
+            widest = [reached, from];
+        }
+        reached = reached.max(to);
+    }
+    if widest[1] - widest[0] <= 1e-9 * period { [0.0, period] } else { [widest[1] - period, widest[0]] }
+}
+
+/// What two extents on a curve have in common; on a closed one that may be two stretches.
+fn common_extents([first, second]: [[f64; 2]; 2], curve: &Curve) -> Vec<[f64; 2]> {
+    let Some(period) = curve.period() else {
+        let both = [first[0].max(second[0]), first[1].min(second[1])];
+        return if both[1] > both[0] { vec![both] } else { Vec::new() };
+    };
+    let whole = |range: [f64; 2]| range[1] - range[0] > (1.0 - 1e-9) * period;
+    if whole(first) || whole(second) {
+        let start = curve.range()[0];
+        return vec![match (whole(first), whole(second)) {
+            (true, true) => [start, start + period],
+            (true, false) => second,
+            _ => first,
+        }];
+    }
+    let turned = [-1.0, 0.0, 1.0].map(|turns| second.map(|t| t + turns * period));
+    let both = turned.into_iter().map(|[a, b]| [first[0].max(a), first[1].min(b)]);
+    both.filter(|both| both[1] - both[0] > 1e-9 * period).collect()
 }
 
 /// All element edges of a pair's two boundaries, at the level that is numbered, where contact is modelled.
@@ -280,10 +328,14 @@ pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacem
     })
 }
 
-/// Whether an edge looks at Γ_C: what lies behind a body does not touch.
+/// Whether an edge looks at Γ_C: what lies behind a body does not touch. Neither does what has no foot on it: from the far side of
+/// a closed body the search for the nearest point of a short Γ_C may end anywhere.
 pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
     let middle = 0.5 * (edge.points[0] + edge.points[1]);
-    edge.outward().dot(&boundary.normal(boundary.foot(middle))) * side.sign() > 0.0
+    let foot = boundary.foot(middle);
+    let (normal, away) = (boundary.normal(foot), middle - boundary.point(foot));
+    let is_foot = crate::geometry::cross(away, normal).abs() <= NO_FOOT * away.norm() + 1e-9 * edge.length();
+    is_foot && edge.outward().dot(&normal) * side.sign() > 0.0
 }
 
 #[cfg(test)]

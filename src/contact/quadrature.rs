@@ -48,9 +48,11 @@ fn points_of_segments(boundary: &ContactBoundary, edges: &[BoundaryEdge], count:
     let all: Vec<QuadraturePoint> = knots.windows(2).enumerate().flat_map(between).collect();
     let snap = SNAP * (knots[knots.len() - 1] - knots[0]);
     let seen = |(edge, small): (usize, &BoundaryEdge)| {
-        let feet = boundary.feet([small.points[0], small.points[1]]);
-        let [first, end] = feet.map(|foot| all.partition_point(|point| point.parameter < foot - snap));
-        all[first..end].iter().map(move |point| QuadraturePoint { edge, ..*point }).collect::<Vec<_>>()
+        let parts = boundary.parts([small.points[0], small.points[1]]).map(|part| {
+            let [first, end] = part.map(|foot| all.partition_point(|point| point.parameter < foot - snap));
+            all[first..end].iter().map(|point| QuadraturePoint { edge, ..*point }).collect::<Vec<_>>()
+        });
+        parts.flatten().collect::<Vec<_>>()
     };
     edges.iter().enumerate().flat_map(seen).collect()
 }

@@ -24,16 +24,19 @@ pub struct Roughness {
 /// discontinuous), their ends (P1 continuous), and zero where contact ends inside the boundary. Nothing if there are fewer
 /// than three samples.
 pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], zone: &Zone) -> Option<Roughness> {
-    let samples = apart(&samples(boundary, multipliers, lambda, zone));
+    let mut samples = apart(&samples(boundary, multipliers, lambda, zone));
     if samples.len() < 3 {
         return None;
     }
-    let arcs = boundary.arcs();
+    if zone.goes_round() {
+        samples = around(&samples, zone.length());
+    }
     let (mut middle, mut inside, mut peak) = ([0.0; 2], [0.0; 2], f64::NEG_INFINITY);
     for k in zone.segments.clone() {
-        let length = arcs[k + 1] - arcs[k];
+        let [from, to] = boundary.segment_arcs(k);
+        let length = to - from;
         for (z, weight) in gauss_points(5) {
-            let arc = arcs[k] + z * length;
+            let arc = from + z * length;
             let smooth = interpolate(&samples, arc);
             peak = peak.max(smooth);
             let here = multipliers.value(lambda, k, *z);
@@ -50,23 +53,34 @@ pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: 
     Some(Roughness { middle, inside, peak: (peak / found - 1.0).abs() })
 }
 
+/// Samples all around a closed boundary, with some of the last before the first and some of the first behind the last.
+fn around(samples: &[[f64; 2]], turn: f64) -> Vec<[f64; 2]> {
+    // The first and the last one may be the same end of a segment.
+    let count = if samples[samples.len() - 1][0] - samples[0][0] > turn * (1.0 - 1e-12) { samples.len() - 1 } else { samples.len() };
+    let more = NEIGHBOURS.min(count);
+    let at = |k: usize| [samples[k % count][0] + ((k / count) as f64 - 1.0) * turn, samples[k % count][1]];
+    (count - more..2 * count + more).map(at).collect()
+}
+
 /// Arc lengths and values.
 fn samples(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], zone: &Zone) -> Vec<[f64; 2]> {
-    let arcs = boundary.arcs();
-    let at = |k: usize, z: f64| [arcs[k] + z * (arcs[k + 1] - arcs[k]), multipliers.value(lambda, k, z)];
+    let at = |k: usize, z: f64| {
+        let [from, to] = boundary.segment_arcs(k);
+        [from + z * (to - from), multipliers.value(lambda, k, z)]
+    };
     let gauss = 0.5 / 3f64.sqrt();
     let segments = zone.segments.clone();
     let mut samples: Vec<[f64; 2]> = match multipliers.space {
         MultiplierSpace::P0 => segments.map(|k| at(k, 0.5)).collect(),
         MultiplierSpace::P1Discontinuous => segments.flat_map(|k| [at(k, 0.5 - gauss), at(k, 0.5 + gauss)]).collect(),
         MultiplierSpace::P1Continuous => {
-            return (zone.segments.start..=zone.segments.end).map(|i| [arcs[i], lambda[i]]).collect();
+            return std::iter::once(at(zone.segments.start, 0.0)).chain(segments.map(|k| at(k, 1.0))).collect();
         }
     };
-    if zone.segments.start > 0 {
+    if !zone.is_at_end[0] && !zone.goes_round() {
         samples.insert(0, [zone.arcs[0], 0.0]);
     }
-    if zone.segments.end < boundary.segments() {
+    if !zone.is_at_end[1] && !zone.goes_round() {
         samples.push([zone.arcs[1], 0.0]);
     }
     samples

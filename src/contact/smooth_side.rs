@@ -1,7 +1,7 @@
 //! One side of a contact as a smooth curve through its nodes, undeformed and as it lies now.
 
 use super::{Configuration, GapChoice, Pair};
-use crate::geometry::{Curve, Point, Spline, chord_lengths, turn_right};
+use crate::geometry::{Curve, Point, Spline, chord_lengths, cross, turn_right};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering, Stretch};
 
 /// What lies deeper in a body than this share of a stretch belongs to another side of it.
@@ -14,7 +14,8 @@ pub const APART: f64 = 6.4e-2;
 pub type Displacement<'a> = &'a dyn Fn(EdgeNode) -> Point;
 
 /// A smooth stretch of a body's boundary by its nodes on the finest level, from smaller to larger x (upwards if it is
-/// vertical). Its parameter is the undeformed length along them, deformed or not.
+/// vertical); a closed one counter-clockwise, its last node the first again. Its parameter is the undeformed length along
+/// them, deformed or not.
 pub struct SmoothSide {
     /// Undeformed positions of the nodes on the smooth shape.
     pub places: Vec<Point>,
@@ -28,6 +29,8 @@ pub struct SmoothSide {
     degree: usize,
     undeformed: Curve,
     deformed: Curve,
+    /// Whether it closes in itself.
+    closed: bool,
 }
 
 impl SmoothSide {
@@ -41,9 +44,13 @@ impl SmoothSide {
 
     fn new(mesh: &MacroMesh, numbering: &Numbering, stretch: &Stretch, displacement: Displacement) -> Self {
         let mut nodes = nodes_along(mesh, numbering, &stretch.edges);
+        let closed = mesh.is_closed(&stretch.edges);
         let ends = [nodes[0], nodes[nodes.len() - 1]].map(|node| node.place(mesh, numbering));
         let along = ends[1] - ends[0];
-        let falls = along.x < -1e-9 * along.norm() || (along.x <= 1e-9 * along.norm() && along.y < 0.0);
+        let falls = match closed {
+            true => turns_clockwise(nodes.iter().map(|node| node.place(mesh, numbering))),
+            false => along.x < -1e-9 * along.norm() || (along.x <= 1e-9 * along.norm() && along.y < 0.0),
+        };
         if falls {
             nodes.reverse();
         }
@@ -54,16 +61,38 @@ impl SmoothSide {
         };
         let places: Vec<Point> = nodes.iter().map(smooth).collect();
         let points: Vec<Point> = nodes.iter().zip(&places).map(|(&node, place)| place + displacement(node)).collect();
-        let parameters = chord_lengths(&places);
-        Self {
-            undeformed: Curve::Spline(Spline::through_at(parameters.clone(), &places)),
-            deformed: Curve::Spline(Spline::through_at(parameters.clone(), &points)),
-            hand: if falls { -1.0 } else { 1.0 },
-            degree: numbering.level.order.degree(),
-            places,
-            points,
-            parameters,
+        let (hand, degree) = (if falls { -1.0 } else { 1.0 }, numbering.level.order.degree());
+        Self::through(places, points, hand, degree, closed)
+    }
+
+    fn through(mut places: Vec<Point>, mut points: Vec<Point>, hand: f64, degree: usize, closed: bool) -> Self {
+        let last = places.len() - 1;
+        if closed {
+            (places[last], points[last]) = (places[0], points[0]);
         }
+        let parameters = chord_lengths(&places);
+        let spline = |points: &[Point]| match closed {
+            true => Curve::Spline(Spline::through_closed_at(parameters.clone(), points)),
+            false => Curve::Spline(Spline::through_at(parameters.clone(), points)),
+        };
+        Self { undeformed: spline(&places), deformed: spline(&points), hand, degree, places, points, parameters, closed }
+    }
+
+    /// The same closed side begun at another of its nodes.
+    pub fn begun_at(&self, node: usize) -> Self {
+        let count = self.places.len() - 1;
+        let turned = |points: &[Point]| (0..=count).map(|k| points[(node + k) % count]).collect::<Vec<_>>();
+        Self::through(turned(&self.places), turned(&self.points), self.hand, self.degree, self.closed)
+    }
+
+    /// Length of one turn in the parameter, if it closes in itself.
+    pub fn turn(&self) -> Option<f64> {
+        self.closed.then(|| self.length())
+    }
+
+    /// Number of its nodes, each counted once.
+    pub fn nodes(&self) -> usize {
+        self.places.len() - usize::from(self.closed)
     }
 
     /// Positions of the nodes in a configuration.
@@ -79,18 +108,20 @@ impl SmoothSide {
         self.parameters[self.parameters.len() - 1]
     }
 
-    /// Parameter of the point nearest to `x` in a configuration; beyond the ends along the tangents.
+    /// Parameter of the point nearest to `x` in a configuration; beyond the ends along the tangents, on a closed side within one
+    /// turn from its first node.
     pub fn nearest(&self, x: Point, configuration: Configuration) -> f64 {
-        match configuration {
-            Configuration::Reference => self.undeformed.nearest(x),
-            Configuration::Deformed => self.deformed.nearest(x),
-        }
+        let t = self.curve(configuration).nearest(x);
+        self.turn().map_or(t, |turn| t.rem_euclid(turn))
     }
 
     /// Length of boundary that a node stands for, undeformed.
     pub fn weight(&self, node: usize) -> f64 {
-        let at = |k: usize| self.parameters[k.min(self.parameters.len() - 1)];
-        0.5 * (at(node + 1) - at(node.saturating_sub(1)))
+        let last = self.parameters.len() - 1;
+        let at = |k: usize| self.parameters[k.min(last)];
+        // The last node of a closed side is its first.
+        let before = if self.closed && node == 0 { self.length() - at(last - 1) } else { at(node) - at(node.saturating_sub(1)) };
+        0.5 * (at(node + 1) - at(node) + before)
     }
 
     /// Longest edge that meets a range of nodes.
@@ -144,6 +175,12 @@ impl SmoothSide {
         let moved = (self.points[node] - x) - (other.deformed.point(t) - foot);
         Some(initial + moved.dot(&(outward - own).normalize()))
     }
+}
+
+/// Whether points go round clockwise.
+fn turns_clockwise(points: impl Iterator<Item = Point>) -> bool {
+    let points: Vec<Point> = points.collect();
+    points.windows(2).map(|two| cross(two[0] - points[0], two[1] - points[0])).sum::<f64>() < 0.0
 }
 
 /// Nodes of a chain of edges on the finest level, in its order.

@@ -35,9 +35,12 @@ pub fn edge_overlaps(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<
     let (first, last) = (knots[0], knots[knots.len() - 1]);
     let least = 1e-13 * (last - first);
     let mut overlaps = Vec::new();
-    for (edge, small) in edges.iter().enumerate() {
-        let feet = boundary.feet([small.points[0], small.points[1]]);
-        let (start, end) = (feet[0].max(first), feet[1].min(last));
+    let parts = |(edge, small): (usize, &BoundaryEdge)| {
+        let parts: Vec<[f64; 2]> = boundary.parts([small.points[0], small.points[1]]).collect();
+        parts.into_iter().map(move |part| (edge, part))
+    };
+    for (edge, part) in edges.iter().enumerate().flat_map(parts) {
+        let (start, end) = (part[0].max(first), part[1].min(last));
         if end - start <= least {
             continue;
         }

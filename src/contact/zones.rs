@@ -20,7 +20,8 @@ pub fn zone_counts(share: f64, peak: f64, highest: f64) -> bool {
     share.abs() >= LEAST_SHARE || peak >= LEAST_PRESSURE * highest
 }
 
-/// Neighbouring segments that carry pressure, with none beside them that does.
+/// Neighbouring segments that carry pressure, with none beside them that does. On a closed boundary a zone may go on across the
+/// seam: its segments and arc lengths then go on beyond those of the boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zone {
     /// Its segments.
@@ -29,8 +30,10 @@ pub struct Zone {
     pub arcs: [f64; 2],
     /// Arc lengths of the ends of its reach: half way to the next zone, or the end of the boundary.
     pub reach: [f64; 2],
-    /// Whether it reaches the ends of the boundary.
+    /// Whether it reaches the ends of the boundary; a closed one has none.
     pub is_at_end: [bool; 2],
+    /// Length of the boundary, if that is closed.
+    turn: Option<f64>,
 }
 
 impl Zone {
@@ -48,17 +51,27 @@ impl Zone {
                 _ => ranges.push(k..k + 1),
             }
         }
-        let arcs = boundary.arcs();
-        let between = |k: usize| match k {
-            0 => 0.0,
-            k if k == ranges.len() => boundary.length(),
-            k => 0.5 * (arcs[ranges[k - 1].end] + arcs[ranges[k].start]),
+        if boundary.is_closed() {
+            join_across_the_seam(&mut ranges, boundary.segments());
+        }
+        let arcs = |range: &Range<usize>| [boundary.segment_arcs(range.start)[0], boundary.segment_arcs(range.end - 1)[1]];
+        let ends: Vec<[f64; 2]> = ranges.iter().map(arcs).collect();
+        let ends_of_reach = |k: usize| {
+            let half_way = |before: f64, behind: f64| 0.5 * (before + behind);
+            let (first, last) = (ends[0][0], ends[ends.len() - 1][1]);
+            let before = |turn: f64| half_way(last - turn, first);
+            let outside = boundary.turn().map_or([0.0, boundary.length()], |turn| [before(turn), before(turn) + turn]);
+            let low = if k == 0 { outside[0] } else { half_way(ends[k - 1][1], ends[k][0]) };
+            let high = if k + 1 == ends.len() { outside[1] } else { half_way(ends[k][1], ends[k + 1][0]) };
+            [low, high]
         };
+        let at_end = |range: &Range<usize>| [range.start == 0, range.end == boundary.segments()].map(|at| at && !boundary.is_closed());
         let zone = |(k, range): (usize, &Range<usize>)| Self {
             segments: range.clone(),
-            arcs: [arcs[range.start], arcs[range.end]],
-            reach: [between(k), between(k + 1)],
-            is_at_end: [range.start == 0, range.end == boundary.segments()],
+            arcs: ends[k],
+            reach: ends_of_reach(k),
+            is_at_end: at_end(range),
+            turn: boundary.turn(),
         };
         ranges.iter().enumerate().map(zone).collect()
     }
@@ -68,28 +81,65 @@ impl Zone {
         self.arcs[1] - self.arcs[0]
     }
 
-    /// Whether an arc length lies in its middle.
+    /// Whether it goes all around a closed boundary.
+    pub fn goes_round(&self) -> bool {
+        self.turn.is_some_and(|turn| self.length() >= turn * (1.0 - 1e-12))
+    }
+
+    /// An arc length of a closed boundary as the zone counts it, within one turn about its middle.
+    fn as_counted(&self, arc: f64) -> f64 {
+        let middle = 0.5 * (self.arcs[0] + self.arcs[1]);
+        self.turn.map_or(arc, |turn| middle + (arc - middle + 0.5 * turn).rem_euclid(turn) - 0.5 * turn)
+    }
+
+    /// Whether an arc length lies in its middle; all of a zone without ends is.
     pub fn has_in_its_middle(&self, arc: f64) -> bool {
-        ((arc - self.arcs[0]) / self.length() - 0.5).abs() <= 0.5 * MIDDLE
+        self.goes_round() || ((self.as_counted(arc) - self.arcs[0]) / self.length() - 0.5).abs() <= 0.5 * MIDDLE
     }
 
     /// Whether an arc length lies in it, and not beside an end of the boundary, where λ may be singular.
     pub fn has_inside(&self, arc: f64) -> bool {
         let beside = |end: usize| if self.is_at_end[end] { BESIDE * self.length() } else { 0.0 };
-        arc >= self.arcs[0] + beside(0) && arc <= self.arcs[1] - beside(1)
+        let arc = self.as_counted(arc);
+        self.goes_round() || (arc >= self.arcs[0] + beside(0) && arc <= self.arcs[1] - beside(1))
+    }
+
+    /// Whether an arc length lies in its reach.
+    pub fn reaches(&self, arc: f64) -> bool {
+        let arc = self.as_counted(arc);
+        self.goes_round() || (arc > self.reach[0] && arc < self.reach[1])
+    }
+
+    /// Its intervals of arc length on the boundary: two, if it goes on across the seam.
+    pub fn intervals(&self) -> Vec<[f64; 2]> {
+        let [from, to] = self.arcs;
+        match self.turn {
+            Some(turn) if to > turn * (1.0 + 1e-12) => vec![[0.0, to - turn], [from, turn]],
+            _ => vec![self.arcs],
+        }
     }
 
     /// `∫λ ds` (force per thickness).
     pub fn force(&self, multipliers: &Multipliers, lambda: &[f64]) -> f64 {
-        let first = multipliers.on_segment(self.segments.start, 0.0).0[0];
-        let rows = multipliers.on_segment(self.segments.end - 1, 0.0).0;
-        (first..=rows[0].max(rows[1])).map(|i| lambda[i] * multipliers.integral(i)).sum()
+        let mut rows: Vec<usize> = self.segments.clone().flat_map(|k| multipliers.on_segment(k, 0.0).0).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        rows.into_iter().map(|i| lambda[i] * multipliers.integral(i)).sum()
     }
 
     /// Largest pressure (stress).
     pub fn peak(&self, multipliers: &Multipliers, lambda: &[f64]) -> f64 {
         let ends = self.segments.clone().flat_map(|k| [0.0, 1.0].map(|z| multipliers.value(lambda, k, z)));
         ends.fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// Ranges of neighbouring segments at both ends of a closed boundary are one.
+fn join_across_the_seam(ranges: &mut Vec<Range<usize>>, segments: usize) {
+    if ranges.len() > 1 && ranges[0].start == 0 && ranges[ranges.len() - 1].end == segments {
+        let first = ranges.remove(0);
+        let last = ranges.len() - 1;
+        ranges[last].end = segments + first.end;
     }
 }
 
@@ -158,5 +208,43 @@ mod tests {
         let (found, ..) = zones(MultiplierSpace::P0, |k| k >= 5);
         let inside = |arc: f64| found[0].has_inside(arc);
         assert_eq!([4.9, 5.1, 9.4, 9.6].map(inside), [false, true, true, false], "the tenth at the end of the boundary");
+    }
+
+    /// The zones of a circle of length 10 in ten segments.
+    fn zones_around(space: MultiplierSpace, active: impl Fn(usize) -> bool) -> (Vec<Zone>, Multipliers, Vec<f64>) {
+        let tau = std::f64::consts::TAU;
+        let curve = Curve::Circle { centre: [0.0, 0.0], radius: 10.0 / tau };
+        let mut boundary = ContactBoundary::new(curve, [0.0, tau], Point::new(-1.0, 0.0));
+        boundary.cut(&(0..=10).map(|k| k as f64 / 10.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(space, &boundary);
+        let active: Vec<bool> = (0..multipliers.count()).map(active).collect();
+        let lambda: Vec<f64> = (0..active.len()).map(|i| if active[i] { (i + 1) as f64 } else { 0.0 }).collect();
+        (Zone::all(&boundary, &multipliers, &lambda, &active), multipliers, lambda)
+    }
+
+    #[test]
+    fn a_zone_across_the_seam_is_one() {
+        let near = |found: &[f64], wanted: &[f64]| {
+            assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?} instead of {wanted:?}")
+        };
+        let (zones, multipliers, lambda) = zones_around(MultiplierSpace::P0, |k| k < 2 || (4..5).contains(&k) || k >= 7);
+        let [small, across] = &zones[..] else { panic!("{zones:?}") };
+        assert_eq!((&small.segments, &across.segments), (&(4..5), &(7..12)));
+        near(&across.arcs, &[7.0, 12.0]);
+        near(across.intervals().as_flattened(), &[0.0, 2.0, 7.0, 10.0]);
+        near(&across.reach, &[6.0, 13.0]);
+        near(&small.reach, &[3.0, 6.0]);
+        assert!(!across.is_at_end[0] && !across.is_at_end[1] && !across.goes_round());
+        near(&[across.force(&multipliers, &lambda), across.peak(&multipliers, &lambda)], &[1.0 + 2.0 + 8.0 + 9.0 + 10.0, 10.0]);
+        assert_eq!([0.9, 1.1, 8.1, 7.9].map(|arc| across.has_in_its_middle(arc)), [true, false, true, false]);
+        assert_eq!([1.9, 2.1, 7.1, 6.9].map(|arc| across.has_inside(arc)), [true, false, true, false]);
+        assert_eq!([2.9, 3.1, 6.1, 5.9].map(|arc| across.reaches(arc)), [true, false, true, false]);
+        // Node 0 is between the last segment and the first.
+        let (zones, ..) = zones_around(MultiplierSpace::P1Continuous, |k| k == 0);
+        assert_eq!(zones.iter().map(|zone| zone.segments.clone()).collect::<Vec<_>>(), [9..11]);
+        let (all, multipliers, lambda) = zones_around(MultiplierSpace::P1Continuous, |_| true);
+        assert!(all.len() == 1 && all[0].goes_round() && all[0].has_in_its_middle(0.1) && all[0].has_inside(9.9));
+        near(&[all[0].force(&multipliers, &lambda)], &[55.0]);
+        near(&all[0].reach, &[0.0, 10.0]);
     }
 }

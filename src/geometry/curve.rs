@@ -3,6 +3,9 @@
 use super::{Formula, Point, Spline, cross};
 use std::f64::consts::TAU;
 
+/// Ends of a curve nearer than this share of its speed times its range are one point, where its tangents are one, too.
+const MEETS_ITSELF: f64 = 1e-9;
+
 /// Spans of a spline from which the nearest point is looked for among their ends.
 const MANY: usize = 16;
 
@@ -42,9 +45,27 @@ impl Curve {
         }
     }
 
-    /// Length of one turn in the parameter, if the curve closes in itself.
+    /// Length of one turn in the parameter, if the curve closes in itself: circles, and curves that end where they begin, in the
+    /// same direction.
     pub fn period(&self) -> Option<f64> {
-        matches!(self, Self::Circle { .. }).then_some(TAU)
+        match self {
+            Self::Line(_) => None,
+            Self::Circle { .. } => Some(TAU),
+            Self::Parametric { x, y, range } => {
+                let place = range.map(|t| Point::new(x.value(&[t]), y.value(&[t])));
+                let slope = range.map(|t| Point::new(x.derivative(0, &[t]), y.derivative(0, &[t])));
+                let (period, speed) = (range[1] - range[0], slope[0].norm());
+                let near = |a: Point, b: Point, size: f64| (a - b).norm() <= MEETS_ITSELF * size;
+                (near(place[0], place[1], speed * period) && near(slope[0], slope[1], speed)).then_some(period)
+            }
+            Self::Spline(spline) => spline.period(),
+        }
+    }
+
+    /// The parameter within the range that means the same point of a closed curve of formulas.
+    fn within(&self, t: f64) -> f64 {
+        let [first, last] = self.range();
+        if (first..=last).contains(&t) || self.period().is_none() { t } else { first + (t - first).rem_euclid(last - first) }
     }
 
     /// Whether the curve is a straight line by its kind.
@@ -57,7 +78,10 @@ impl Curve {
         match self {
             Self::Line([a, b]) => Point::new(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])),
             Self::Circle { centre, radius } => Point::new(centre[0] + radius * t.cos(), centre[1] + radius * t.sin()),
-            Self::Parametric { x, y, .. } => Point::new(x.value(&[t]), y.value(&[t])),
+            Self::Parametric { x, y, .. } => {
+                let t = self.within(t);
+                Point::new(x.value(&[t]), y.value(&[t]))
+            }
             Self::Spline(spline) => spline.point(t),
         }
     }
@@ -67,7 +91,10 @@ impl Curve {
         match self {
             Self::Line([a, b]) => Point::new(b[0] - a[0], b[1] - a[1]),
             Self::Circle { radius, .. } => Point::new(-radius * t.sin(), radius * t.cos()),
-            Self::Parametric { x, y, .. } => Point::new(x.derivative(0, &[t]), y.derivative(0, &[t])),
+            Self::Parametric { x, y, .. } => {
+                let t = self.within(t);
+                Point::new(x.derivative(0, &[t]), y.derivative(0, &[t]))
+            }
             Self::Spline(spline) => spline.derivative(t),
         }
     }

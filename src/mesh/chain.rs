@@ -34,13 +34,18 @@ impl MacroMesh {
         }
         let points = self.chain_points(chain);
         let (first, last) = (points[0], points[points.len() - 1]);
-        let straight = points.iter().all(|x| cross(last - first, x - first).abs() <= 1e-12 * (last - first).norm_squared());
-        if straight { Curve::Line([first.into(), last.into()]) } else { Curve::Spline(Spline::through(&points)) }
+        let straight = first != last && points.iter().all(|x| cross(last - first, x - first).abs() <= 1e-12 * (last - first).norm_squared());
+        match straight {
+            true => Curve::Line([first.into(), last.into()]),
+            false if self.is_closed(chain) => Curve::Spline(Spline::through_closed(&points)),
+            false => Curve::Spline(Spline::through(&points)),
+        }
     }
 
-    /// Whether a chain of edges comes back to where it begins.
+    /// Whether a chain of edges comes back to where it begins, and goes on there without a corner.
     pub fn is_closed(&self, chain: &[u32]) -> bool {
-        chain.len() > 2 && self.directed(chain[0])[0] == self.directed(chain[chain.len() - 1])[1]
+        let [first, last] = [chain[0], chain[chain.len() - 1]];
+        chain.len() > 2 && self.directed(first)[0] == self.directed(last)[1] && self.goes_on(last, first)
     }
 
     /// Edges in the order and direction of the boundary (body on the left), cut at corners and gaps, and where the

@@ -26,8 +26,7 @@ impl EdgeShape {
 
 impl MacroMesh {
     /// Bends the edges of these boundaries, where they are curved and have no declared shape, onto the splines through their
-    /// vertices, one for each stretch without corners. What is closed in itself stays as it is, and so do straight pieces
-    /// with a corner between them.
+    /// vertices, one for each stretch without corners. Straight pieces with a corner between them stay as they are.
     pub fn bend_onto_splines(&mut self, boundaries: &[&String]) {
         let edges_of = |name: &&String| self.boundary(name).map(|found| found.edges.clone());
         let mut all: Vec<Vec<u32>> = boundaries.iter().filter_map(edges_of).collect();
@@ -36,7 +35,8 @@ impl MacroMesh {
         for stretch in all.iter().flat_map(|edges| self.stretches(edges)).collect::<Vec<_>>() {
             let bare = stretch.edges.iter().all(|&edge| self.edges[edge as usize].shape.is_none());
             let Curve::Spline(spline) = &stretch.curve else { continue };
-            if !bare || self.is_closed(&stretch.edges) || !is_arc(&self.chain_points(&stretch.edges)) {
+            let is_closed = self.is_closed(&stretch.edges);
+            if !bare || !is_arc(&self.points_with_turns(&stretch.edges), is_closed) {
                 continue;
             }
             let curve = Arc::new(stretch.curve.clone());
@@ -52,9 +52,19 @@ impl MacroMesh {
     pub fn corners_left(&self, boundary: &str) -> Vec<Corner> {
         let edges = self.boundary(boundary).map(|found| found.edges.as_slice()).unwrap_or(&[]);
         let unbent = |stretch: &Stretch| self.edges[stretch.edges[0] as usize].shape.is_none() && !stretch.curve.is_line();
-        let all = self.stretches(edges).into_iter().filter(unbent).map(|stretch| self.chain_points(&stretch.edges));
+        let all = self.stretches(edges).into_iter().filter(unbent).map(|stretch| self.points_with_turns(&stretch.edges));
         all.flat_map(|points| points.windows(3).map(|three| Corner { place: three[1], angle: turn(three) }).collect::<Vec<_>>())
             .collect()
+    }
+
+    /// Vertices of a chain of edges, of a closed one with the second again behind the last, so that all of its turns are between
+    /// three of them.
+    fn points_with_turns(&self, chain: &[u32]) -> Vec<Point> {
+        let mut points = self.chain_points(chain);
+        if self.is_closed(chain) {
+            points.push(points[1]);
+        }
+        points
     }
 
     /// How far the farthest chord of a boundary lies from the spline that it is bent onto (length); 0 if none is.
@@ -78,13 +88,15 @@ pub struct Corner {
     pub angle: f64,
 }
 
-/// Whether a chain of points lies on an arc: it turns, and nowhere is a corner between pieces that are straight beside it.
-fn is_arc(points: &[Point]) -> bool {
+/// Whether a chain of points lies on an arc: it turns, and nowhere is a corner between pieces that are straight beside it. In a
+/// closed chain the last turn comes before the first.
+fn is_arc(points: &[Point], closed: bool) -> bool {
     let turns: Vec<f64> = points.windows(3).map(turn).collect();
     let largest = turns.iter().copied().fold(0.0, f64::max);
     let beside = |k: usize| {
-        let before = if k == 0 { 0.0 } else { turns[k - 1] };
-        before.max(turns.get(k + 1).copied().unwrap_or(0.0))
+        let outside = |turn: Option<&f64>| if closed { turn.copied() } else { None }.unwrap_or(0.0);
+        let before = if k == 0 { outside(turns.last()) } else { turns[k - 1] };
+        before.max(turns.get(k + 1).copied().unwrap_or_else(|| outside(turns.first())))
     };
     let sharp = |k: usize| turns.len() > 1 && turns[k] > FAINT * largest && turns[k] > SHARPER * beside(k);
     largest > ROUNDED && !(0..turns.len()).any(sharp)
@@ -127,6 +139,23 @@ mod tests {
         assert!(flat.edges.iter().all(|edge| edge.shape.is_none()));
     }
 
+    /// Of a closed chain the last turn and the first are neighbours.
+    #[test]
+    fn a_closed_arc_has_no_ends() {
+        let points: Vec<Point> = (0..22).map(|k| 0.3 * f64::from(k)).map(|a| Point::new(a.cos(), a.sin())).collect();
+        assert!(is_arc(&points, true));
+        // It turns at its end and at its beginning, which is a corner only if these are not neighbours.
+        let turns = [0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.3];
+        let (mut angle, mut x) = (0.0f64, Point::zeros());
+        let mut open = vec![x];
+        for turn in turns.into_iter().chain([0.0]) {
+            x += Point::new(angle.cos(), angle.sin());
+            open.push(x);
+            angle += turn;
+        }
+        assert!(is_arc(&open, true) && !is_arc(&open, false));
+    }
+
     #[test]
     fn a_corner_between_straight_pieces_is_one() {
         let points = |turns: &[f64]| {
@@ -150,7 +179,7 @@ mod tests {
             (vec![0.05, 0.05, 0.3, 0.05], false),
             (vec![0.2, 0.0, 0.0], false),
         ] {
-            assert_eq!(is_arc(&points(&turns)), arc, "{turns:?}");
+            assert_eq!(is_arc(&points(&turns), false), arc, "{turns:?}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A solution in the terms of `summary.json`.
 
 use crate::case::Case;
-use crate::contact::MultiplierSpace;
+use crate::contact::{MultiplierSpace, Zone};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
@@ -118,7 +118,9 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
     let pair = |p: Point| [p.x, p.y];
     let force = &balance.contacts[at];
     let end = |s: f64| pair(boundary.point(boundary.parameter_at(s)));
-    let closed: Vec<[f64; 2]> = pressure.zones().iter().map(|zone| zone.arcs).collect();
+    let zones = pressure.zones();
+    let mut closed: Vec<[f64; 2]> = zones.iter().flat_map(Zone::intervals).collect();
+    closed.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let inf_sup = solution.inf_sup.get(at).copied().flatten();
     summary::ContactSummary {
         length: Some(boundary.length()),
@@ -127,7 +129,7 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
         h_ratio: Some(contact.segment_ratio),
         ends: Some([pair(boundary.point(knots[0])), pair(boundary.point(knots[knots.len() - 1]))]),
         closed_points: Some(closed.iter().map(|&[a, b]| [end(a), end(b)]).collect()),
-        closed_edges: closed_edges(contact, &closed),
+        closed_edges: closed_edges(contact, &zones),
         closed: Some(closed),
         force: Some(force.force),
         unresolved_force: None,
@@ -177,13 +179,9 @@ fn space_name(space: MultiplierSpace) -> &'static str {
     }
 }
 
-/// Most edges of the softer body on an interval.
-fn closed_edges(contact: &Contact, closed: &[[f64; 2]]) -> Option<f64> {
-    let arcs = contact.boundary.arcs();
-    let edges = |k: usize| (arcs[k + 1] - arcs[k]) / contact.edge_lengths[k];
-    let on =
-        |&[from, to]: &[f64; 2]| (0..contact.edge_lengths.len()).filter(|&k| arcs[k] >= from && arcs[k] < to).map(edges).sum();
-    closed.iter().map(on).reduce(f64::max)
+/// Most edges of the softer body on a zone.
+fn closed_edges(contact: &Contact, zones: &[Zone]) -> Option<f64> {
+    zones.iter().map(|zone| contact.edges_on(zone)).reduce(f64::max)
 }
 
 #[cfg(test)]

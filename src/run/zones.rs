@@ -22,7 +22,7 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
         let (found, at_ends) = &estimates[k];
         let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
         let singular = (0..2).any(|end| pressure.grows_towards(zone, end, before(end)));
-        let edges: f64 = zone.segments.clone().map(|k| contact.boundary.segment_length(k) / contact.edge_lengths[k]).sum();
+        let edges = contact.edges_on(zone);
         // All signs of a narrow zone may be small beside its error, unless they are very small.
         let wide = edges >= LEAST_PARTS && zone.segments.len() >= LEAST_SEGMENTS;
         let tells = |_: &f64| wide || found.worst.is_some_and(|worst| worst <= PROVES);

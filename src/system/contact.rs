@@ -3,7 +3,7 @@
 use super::{Scene, SystemError};
 use crate::contact::{
     Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace, Multipliers, Pair,
-    Stabilise, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    Stabilise, Zone, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, Numbering};
@@ -44,7 +44,7 @@ pub struct Contact {
     pub known: Known,
     /// Where its ends were found to lie after the last solve, if they follow the bodies: beside those it was solved on.
     pub found: Option<[Point; 2]>,
-    /// Parameters of Γ_C beyond which one of the bodies has no boundary.
+    /// Parameters of Γ_C beyond which one of the bodies has no boundary; infinite where both go all around.
     pub limits: [f64; 2],
     /// Whether a load acts on the boundary of body 1, and of body 2: its stress is not that of the contact alone.
     pub loaded: [bool; 2],
@@ -147,6 +147,17 @@ impl Contact {
     pub fn edge_length(&self) -> f64 {
         let shortest = (0..self.boundary.segments()).map(|k| self.boundary.segment_length(k)).fold(f64::INFINITY, f64::min);
         shortest / self.segment_ratio
+    }
+
+    /// Edges of the softer body on a zone.
+    pub fn edges_on(&self, zone: &Zone) -> f64 {
+        let count = self.edge_lengths.len();
+        zone.segments.clone().map(|k| self.boundary.segment_length(k) / self.edge_lengths[k % count]).sum()
+    }
+
+    /// Whether its ends follow the pressure, if it has any.
+    pub fn has_free_ends(&self) -> bool {
+        self.pair.has_free_ends() && !self.boundary.is_closed()
     }
 
     /// Both ends of Γ_C, as well as they are known.

@@ -39,10 +39,10 @@ impl<'a> ContactPressure<'a> {
         let knots = boundary.knots();
         let (k, z) = boundary.locate(boundary.foot(x).clamp(knots[0], knots[knots.len() - 1]));
         let near = 1e-9;
-        let here = self.value(k, z.clamp(0.0, 1.0));
-        if z < near && k > 0 {
-            0.5 * (here + self.value(k - 1, 1.0))
-        } else if z > 1.0 - near && k + 1 < boundary.segments() {
+        let (here, last) = (self.value(k, z.clamp(0.0, 1.0)), boundary.segments() - 1);
+        if z < near && (k > 0 || boundary.is_closed()) {
+            0.5 * (here + self.value(k.checked_sub(1).unwrap_or(last), 1.0))
+        } else if z > 1.0 - near && (k < last || boundary.is_closed()) {
             0.5 * (here + self.value(k + 1, 0.0))
         } else {
             here
@@ -105,13 +105,12 @@ impl<'a> ContactPressure<'a> {
     /// nothing where nothing presses.
     pub fn middle_error(&self, exact: &Formula) -> Option<f64> {
         let boundary = &self.contact.boundary;
-        let (knots, arcs) = (boundary.knots(), boundary.arcs());
         let error = |zone: &Zone| {
             let mut sums = [0.0; 2];
             for k in zone.segments.clone() {
-                let length = arcs[k + 1] - arcs[k];
-                for (z, weight) in gauss_points(8).iter().filter(|(z, _)| zone.has_in_its_middle(arcs[k] + z * length)) {
-                    let x = boundary.point(knots[k] + z * (knots[k + 1] - knots[k]));
+                let ([from, _], length) = (boundary.segment_arcs(k), boundary.segment_length(k));
+                for (z, weight) in gauss_points(8).iter().filter(|(z, _)| zone.has_in_its_middle(from + z * length)) {
+                    let x = boundary.point(boundary.parameter_on(k, *z));
                     let wanted = exact.value(&[x.x, x.y]);
                     sums[0] += weight * length * (self.value(k, *z) - wanted).powi(2);
                     sums[1] += weight * length * wanted * wanted;

@@ -152,7 +152,7 @@ impl ContactSolution {
                 let pressure = ContactPressure::new(old, &self.multipliers, &self.active).value(segment, z);
                 values.push(if carries { pressure } else { 0.0 });
             }
-            if self.is_refined {
+            if self.is_refined && !new.boundary.is_closed() {
                 carry_single_ones(&self.active[old.range()], &mut active[new.range()]);
             }
         }
@@ -185,7 +185,7 @@ impl ContactSolution {
         let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         if scene.pairs.iter().any(|pair| pair.follows()) {
             for ((known, new), old) in
-                known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.pair.has_free_ends())
+                known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.has_free_ends())
             {
                 let knots = old.boundary.knots();
                 let ends = [knots[0], knots[knots.len() - 1]];
@@ -195,7 +195,7 @@ impl ContactSolution {
                     false => foreseen(old, &new.boundary, k),
                 };
                 known.meeting.clone_from(&new.known.meeting);
-                known.ends = Some([foot(0), foot(1)]);
+                known.ends = Some(ascending([foot(0), foot(1)], &new.boundary));
             }
             contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         }
@@ -203,14 +203,20 @@ impl ContactSolution {
     }
 }
 
+/// Both ends of a part of a closed curve, which may lie across its seam: the first before the last.
+fn ascending([first, last]: [f64; 2], boundary: &ContactBoundary) -> [f64; 2] {
+    [first, boundary.period().filter(|_| last <= first).map_or(last, |period| last + period)]
+}
+
 /// Where an end will lie on the next mesh, as a parameter of its boundary: it goes on as it has from the mesh before.
 fn foreseen(old: &Contact, boundary: &ContactBoundary, end: usize) -> f64 {
-    let here = boundary.foot(old.ends()[end]);
-    let Some(before) = old.known.coarser else { return here };
+    let here = old.ends()[end];
+    let Some(before) = old.known.coarser else { return boundary.foot(here) };
+    let [here, before] = boundary.directed_feet([here, before[end]]);
     let knots = old.boundary.knots();
     let segment = if end == 0 { knots[1] - knots[0] } else { knots[knots.len() - 1] - knots[knots.len() - 2] };
     let most = MOST_FORESEEN * segment.abs();
-    here + (GOES_ON * (here - boundary.foot(before[end]))).clamp(-most, most)
+    here + (GOES_ON * (here - before)).clamp(-most, most)
 }
 
 /// Single open multipliers between those that press. They come from the singularity at an end of contact, and keep their

@@ -139,7 +139,11 @@ fn peak_weights(pressure: &ContactPressure) -> Vec<f64> {
     let segments = pressure.contact.boundary.segments();
     let top = (0..segments).max_by(|a, b| highest(*a).total_cmp(&highest(*b))).unwrap_or(0);
     let mut weights = vec![0.0; pressure.values.len()];
-    for k in top.saturating_sub(AT_THE_PEAK)..(top + 1 + AT_THE_PEAK).min(segments) {
+    let near = match pressure.contact.boundary.is_closed() && segments > 2 * AT_THE_PEAK {
+        true => top + segments - AT_THE_PEAK..top + segments + 1 + AT_THE_PEAK,
+        false => top.saturating_sub(AT_THE_PEAK)..(top + 1 + AT_THE_PEAK).min(segments),
+    };
+    for k in near {
         multipliers.on_segment(k, 0.5).0.into_iter().for_each(|row| weights[row] = multipliers.integral(row));
     }
     weights
@@ -155,7 +159,7 @@ fn end_weights(pressure: &ContactPressure) -> Vec<f64> {
         let [first, last] = [k - zone.segments.start, zone.segments.end - 1 - k].map(|away| away < AT_AN_END);
         (first && !(zone.is_at_end[0] && whole[0])) || (last && !(zone.is_at_end[1] && whole[1]))
     };
-    for zone in pressure.zones() {
+    for zone in pressure.zones().into_iter().filter(|zone| !zone.goes_round()) {
         for k in zone.segments.clone().filter(|&k| beside(&zone, k)) {
             multipliers.on_segment(k, 0.5).0.into_iter().for_each(|row| weights[row] = multipliers.integral(row));
         }

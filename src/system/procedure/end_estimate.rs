@@ -17,11 +17,13 @@ const FADED_MOVES: f64 = 0.5;
 /// Largest way of an end of a zone that presses from where it was on the mesh before, by the width of the zone; one where there
 /// are other zones.
 pub(super) fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f64 {
-    let ends = |pressure: &ContactPressure| -> Vec<[Point; 2]> {
+    // A zone that goes all around has no ends.
+    let ends = |pressure: &ContactPressure| -> Vec<Option<[Point; 2]>> {
         let boundary = &pressure.contact.boundary;
         let end = |arc: f64| boundary.point(boundary.parameter_at(arc));
         let zones = pressure.zones();
-        zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts).map(|(zone, _)| zone.arcs.map(end)).collect()
+        let counting = zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
+        counting.map(|(zone, _)| (!zone.goes_round()).then(|| zone.arcs.map(end))).collect()
     };
     let (now, before) = (ends(now), ends(before));
     if now.is_empty() {
@@ -30,7 +32,11 @@ pub(super) fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f6
     if now.len() != before.len() {
         return 1.0;
     }
-    let way = |(a, b): (&[Point; 2], &[Point; 2])| (a[0] - b[0]).norm().max((a[1] - b[1]).norm()) / (a[1] - a[0]).norm();
+    let way = |(a, b): (&Option<[Point; 2]>, &Option<[Point; 2]>)| match (a, b) {
+        (Some(a), Some(b)) => (a[0] - b[0]).norm().max((a[1] - b[1]).norm()) / (a[1] - a[0]).norm(),
+        (None, None) => 0.0,
+        _ => 1.0,
+    };
     now.iter().zip(&before).map(way).fold(0.0, f64::max)
 }
 
@@ -39,12 +45,15 @@ pub(super) fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f6
 /// the error, and the second value is true.
 pub(super) fn ends_within_segments(pressure: &ContactPressure, before: &ContactPressure) -> (f64, bool) {
     let contact = pressure.contact;
-    let (arcs, knots) = (contact.boundary.arcs(), contact.boundary.knots());
+    let knots = contact.boundary.knots();
     let is_of_a_body = [knots[0] <= contact.limits[0], knots[knots.len() - 1] >= contact.limits[1]];
     let (zones, zones_before) = (pressure.zones(), before.zones());
     let off = |z: usize, zone: &Zone, end: usize| {
+        if zone.goes_round() {
+            return (0.0, true);
+        }
         let segment = [zone.segments.start, zone.segments.end - 1][end];
-        let length = arcs[segment + 1] - arcs[segment];
+        let length = contact.boundary.segment_length(segment);
         let presses_to_its_end = pressure.active[contact.multipliers.on_segment(segment, 0.0).0[end]];
         if zone.is_at_end[end] && presses_to_its_end {
             let is_free = contact.pair.has_free_ends() && !is_of_a_body[end];

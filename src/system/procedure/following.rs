@@ -170,7 +170,8 @@ impl Following {
         let fitted =
             problem.contacts.iter().filter_map(|contact| contact.known.meeting.as_ref().map(|meeting| (contact, meeting)));
         for (contact, meeting) in fitted {
-            let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+            let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+            meeting.begin(&mut sides);
             let depth = meeting.depth_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
             if depth > MOST_BEYOND * contact.boundary.length() {
                 return NextBoundary::GivenUp(Failure::Beyond { contact: contact.pair.name.clone(), depth });
@@ -201,7 +202,7 @@ impl Following {
             let mut known = contact.known.clone();
             let knots = contact.boundary.knots();
             *widest = [widest[0].min(knots[0]), widest[1].max(knots[knots.len() - 1])];
-            if contact.pair.has_free_ends() && number == HELD && self.last_way > MOST_HELD {
+            if contact.has_free_ends() && number == HELD && self.last_way > MOST_HELD {
                 // Ends that find no rest, as where contact has several zones, are left to the active set.
                 all.push(Known { ends: Some(*widest), segments: None, ..known });
                 continue;
@@ -211,15 +212,24 @@ impl Following {
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
                 if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
+                    if contact.known.meeting.as_ref().is_some_and(|before| before.seams != meeting.seams) {
+                        // What is known of the ends is counted from another place.
+                        (*ends, *widest) = ([None; 2], [f64::INFINITY, f64::NEG_INFINITY]);
+                    }
                     all.push(Known { meeting: Some(meeting), ends: None, segments: None, ..known });
                     continue;
                 }
             }
-            if contact.pair.has_free_ends() && number < HELD {
+            if contact.has_free_ends() && number < HELD {
                 known.ends = Some(free_ends(&solution.pressure(contact), ends));
                 if !settled {
                     known.segments = None;
                 }
+            }
+            if contact.boundary.is_closed() && contact.pair.has_free_ends() && !settled
+                && let Some(ends) = ends_of_a_part(&solution.pressure(contact))
+            {
+                (known.ends, known.segments) = (Some(ends), None);
             }
             all.push(known);
         }
@@ -230,8 +240,29 @@ impl Following {
 /// Whether a meeting gives a contact other ends than it has.
 fn differs(contact: &Contact, meeting: &Meeting) -> bool {
     let knots = contact.boundary.knots();
+    let now = [knots[0], knots[knots.len() - 1]];
+    let before = contact.known.meeting.as_ref();
+    if let Some(before) = before.filter(|before| before.origin != meeting.origin || before.goes_round != meeting.goes_round) {
+        // Closed sides: both are counted from the first node of the mesh.
+        let (_, turn) = meeting.origin;
+        let ([a, b], [c, d]) = (before.ends_by_themselves(now), meeting.ends_by_themselves(meeting.ends));
+        let apart = |a: f64, b: f64| turn.map_or((a - b).abs(), |turn| ((a - b + 0.5 * turn).rem_euclid(turn) - 0.5 * turn).abs());
+        return contact.boundary.is_closed() != meeting.goes_round
+            || !meeting.goes_round && apart(a, c).max(apart(b, d)) > SAME * (meeting.ends[1] - meeting.ends[0]);
+    }
     let [first, last] = [meeting.ends[0].max(contact.limits[0]), meeting.ends[1].min(contact.limits[1])];
-    (first - knots[0]).abs().max((last - knots[knots.len() - 1]).abs()) > SAME * (last - first)
+    !meeting.goes_round && (first - now[0]).abs().max((last - now[1]).abs()) > SAME * (last - first)
+}
+
+/// Ends of a Γ_C that is to be a part of a closed one: half a segment beyond the only zone that presses. Nothing if that goes all
+/// around, or if there are several, which the active set keeps apart.
+fn ends_of_a_part(pressure: &ContactPressure) -> Option<[f64; 2]> {
+    let boundary = &pressure.contact.boundary;
+    let zones = pressure.zones();
+    let [zone] = &zones[..] else { return None };
+    let half = |k: usize| 0.5 * boundary.segment_length(k);
+    let ends = [zone.arcs[0] - half(zone.segments.start), zone.arcs[1] + half(zone.segments.end - 1)];
+    (ends[1] - ends[0] < boundary.length()).then(|| ends.map(|arc| boundary.parameter_at(arc)))
 }
 
 /// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not

@@ -28,8 +28,9 @@ const PEAK_BY_ONE: f64 = 0.7;
 /// How λ differs on one zone, relative to what it is there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ZoneDifference {
-    /// Its ends, to be found again on another mesh.
-    ends: [Point; 2],
+    /// Its middle and its length, to be found again on another mesh.
+    middle: Point,
+    length: f64,
     /// L2 difference of λ in its middle.
     pressure: f64,
     /// The same all over it, but for its ends at those of the boundary.
@@ -62,12 +63,12 @@ impl ZoneDifference {
     pub(super) fn new(contact: &Contact, lambda: &[f64], zone: &Zone, before: impl Fn(Point) -> f64) -> Self {
         let (knots, arcs) = (contact.boundary.knots(), contact.boundary.arcs());
         let (mut squares, mut force, mut peak) = ([[0.0; 2]; 2], 0.0, f64::NEG_INFINITY);
-        for k in (0..contact.boundary.segments()).filter(|&k| arcs[k + 1] > zone.reach[0] && arcs[k] < zone.reach[1]) {
+        for k in 0..contact.boundary.segments() {
             let (length, ends) = (arcs[k + 1] - arcs[k], [knots[k], knots[k + 1]]);
             for (z, weight) in gauss_points(3) {
                 let arc = arcs[k] + z * length;
                 let there = before(contact.boundary.point(ends[0] + z * (ends[1] - ends[0])));
-                if arc > zone.reach[0] && arc < zone.reach[1] {
+                if zone.reaches(arc) {
                     force += weight * length * there;
                     peak = there.max(peak);
                 }
@@ -81,25 +82,24 @@ impl ZoneDifference {
         }
         let [pressure, inside] = squares.map(|[difference, whole]| (difference / whole).sqrt());
         let [now, top] = [zone.force(&contact.multipliers, lambda), zone.peak(&contact.multipliers, lambda)];
-        let end = |arc: f64| contact.boundary.point(contact.boundary.parameter_at(arc));
+        let boundary = &contact.boundary;
         Self {
-            ends: zone.arcs.map(end),
+            middle: boundary.point(boundary.parameter_at(0.5 * (zone.arcs[0] + zone.arcs[1]))),
+            length: zone.length(),
             pressure,
             inside,
             force: (force / now - 1.0).abs(),
             peak: (peak / top - 1.0).abs(),
             at_ends: [(zone.segments.start, 0.05), (zone.segments.end - 1, 0.95)]
-                .map(|(k, z)| before(contact.boundary.point(knots[k] + z * (knots[k + 1] - knots[k])))),
+                .map(|(k, z)| before(boundary.point(boundary.parameter_on(k, z)))),
         }
     }
 
     /// The nearest of the zones on another mesh, if it is near.
     pub(super) fn again<'a>(&self, others: &'a [Self]) -> Option<&'a Self> {
-        let middle = |zone: &Self| 0.5 * (zone.ends[0] + zone.ends[1]);
-        let length = |zone: &Self| (zone.ends[1] - zone.ends[0]).norm();
-        let away = |other: &&Self| (middle(self) - middle(other)).norm();
+        let away = |other: &&Self| (self.middle - other.middle).norm();
         let nearest = others.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-        nearest.filter(|other| away(other) < 0.5 * length(self).max(length(other)))
+        nearest.filter(|other| away(other) < 0.5 * self.length.max(other.length))
     }
 
     /// Error of λ that is left, if it falls halfway between how the differences fall and how it should.
@@ -186,7 +186,8 @@ mod tests {
 
     fn difference(pressure: f64) -> ZoneDifference {
         ZoneDifference {
-            ends: [Point::zeros(), Point::new(1.0, 0.0)],
+            middle: Point::new(0.5, 0.0),
+            length: 1.0,
             pressure,
             inside: pressure,
             force: 0.1,
@@ -234,7 +235,7 @@ mod tests {
 
     #[test]
     fn a_zone_is_found_again_where_it_was() {
-        let at = |from: f64, to: f64| ZoneDifference { ends: [from, to].map(|x| Point::new(x, 0.0)), ..difference(0.1) };
+        let at = |from: f64, to: f64| ZoneDifference { middle: Point::new(0.5 * (from + to), 0.0), length: to - from, ..difference(0.1) };
         let others = [at(0.0, 1.0), at(3.0, 4.0)];
         assert_eq!(at(3.2, 3.6).again(&others), Some(&others[1]));
         assert_eq!(at(6.0, 6.5).again(&others), None);

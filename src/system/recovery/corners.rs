@@ -28,7 +28,11 @@ pub struct Corners {
 /// arcs that press.
 pub fn corners(scene: &Scene, contact: &Contact, zones: &[[f64; 2]]) -> Corners {
     let boundary = &contact.boundary;
-    let within = |s: f64| zones.iter().any(|[from, to]| (s - from).min(to - s) > END * (to - from));
+    let inside = |s: f64| zones.iter().any(|[from, to]| (s - from).min(to - s) > END * (to - from));
+    // A zone of a closed boundary may go on across the seam, or have no end.
+    let turn = boundary.turn();
+    let goes_round = turn.is_some_and(|turn| zones.iter().any(|[from, to]| to - from >= turn * (1.0 - 1e-12)));
+    let within = |s: f64| goes_round || inside(s) || turn.is_some_and(|turn| inside(s + turn));
     let sharpest = contact.pair.between.each_ref().map(|name| {
         let all = scene.mesh.corners_left(name).into_iter();
         let pressing = all.filter(|corner| within(boundary.arc(boundary.foot(corner.place))));

@@ -45,7 +45,11 @@ pub fn motion_errors(
     let displacement = |node: EdgeNode| motion.at(node, mesh, space);
     let with_sides = |contact: &Contact| {
         let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact));
-        let sides = meeting.map(|_| SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement));
+        let sides = meeting.map(|meeting| {
+            let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+            meeting.begin(&mut sides);
+            sides
+        });
         let sides = meeting.zip(sides.as_ref()).map(|(meeting, sides)| meeting.sides(sides));
         one(problem, solution, contact, energy, bodies, sides)
     };
@@ -84,7 +88,8 @@ fn one(
 /// the pressure E* e/a; E* is about E_c/2.
 fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f64 {
     let knots = contact.boundary.knots();
-    let ends_inside = knots[0] > contact.limits[0] && knots[knots.len() - 1] < contact.limits[1];
+    let is_whole = contact.boundary.turn().is_some_and(|turn| found.length > turn * (1.0 - 1e-9));
+    let ends_inside = knots[0] > contact.limits[0] && knots[knots.len() - 1] < contact.limits[1] && !is_whole;
     contact.modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
 }
 

@@ -11,7 +11,9 @@ const LEFT: f64 = 1e-7;
 ///
 /// A pressure p over a width w moves the boundary by about 2 p w/E; so an overlap δ asks for the force E δ/2, however wide.
 pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint], force: f64) -> Option<f64> {
-    let outside = |s: f64| !zones.iter().any(|&[from, to]| s >= from && s <= to);
+    let within = |s: f64| zones.iter().any(|&[from, to]| s >= from && s <= to);
+    // A zone of a closed boundary may go on across the seam.
+    let outside = |s: f64| !within(s) && !contact.boundary.turn().is_some_and(|turn| within(s + turn));
     let (mut sum, mut deepest, mut largest, mut whole) = (0.0, 0.0f64, 0.0f64, 0.0f64);
     for point in points.iter().filter(|point| point.gap.is_finite()) {
         whole = whole.max((point.displacement[1] - point.displacement[0]).abs());

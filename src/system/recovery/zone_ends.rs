@@ -2,7 +2,7 @@
 
 use crate::contact::{MultiplierSpace, Zone};
 use crate::mesh::MacroMesh;
-use crate::system::{Contact, ContactPressure};
+use crate::system::ContactPressure;
 
 /// Growth of the pressure from the last segment but one to the last, and by one refinement, above which it may be singular at
 /// an end.
@@ -20,7 +20,7 @@ impl ContactPressure<'_> {
     /// there on the mesh `before` and on the one before that (`earlier`) tell. Steps grow towards any steep end.
     pub fn grows_towards(&self, zone: &Zone, end: usize, [before, earlier]: [Option<f64>; 2]) -> bool {
         let contact = self.contact;
-        if !touches(contact, zone, end) || zone.segments.len() < 3 {
+        if !zone.is_at_end[end] || zone.segments.len() < 3 {
             return false;
         }
         let nth = |i: usize| if end == 0 { zone.segments.start + i } else { zone.segments.end - 1 - i };
@@ -42,7 +42,7 @@ impl ContactPressure<'_> {
     pub fn ends_at_a_corner(&self, mesh: &MacroMesh, zone: &Zone, end: usize) -> bool {
         let contact = self.contact;
         let boundary = &contact.boundary;
-        if !touches(contact, zone, end) || boundary.period().is_some() {
+        if !zone.is_at_end[end] || boundary.period().is_some() {
             return false;
         }
         let knots = boundary.knots();
@@ -59,10 +59,6 @@ impl ContactPressure<'_> {
     }
 }
 
-/// Whether a zone reaches an end of Γ_C.
-fn touches(contact: &Contact, zone: &Zone, end: usize) -> bool {
-    if end == 0 { zone.segments.start == 0 } else { zone.segments.end == contact.boundary.segments() }
-}
 
 #[cfg(test)]
 mod tests {

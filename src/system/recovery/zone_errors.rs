@@ -26,14 +26,23 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
     };
     let points: &[TracePoint] = &points.iter().map(told).collect::<Vec<_>>();
     let one = |zone: &Zone| {
-        let arcs = contact.boundary.arcs();
+        let boundary = &contact.boundary;
         let height = |k: &usize| contact.multipliers.value(lambda, *k, 0.5);
         let top = zone.segments.clone().max_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(zone.segments.start);
-        let near = [arcs[top.saturating_sub(1).max(zone.segments.start)], arcs[(top + 2).min(zone.segments.end)]];
+        // One segment before the highest one, and one behind it.
+        let (top, first, last) = match zone.goes_round() {
+            true => (top + boundary.segments(), 0, usize::MAX),
+            false => (top, zone.segments.start, zone.segments.end - 1),
+        };
+        let near = [boundary.segment_arcs(top.saturating_sub(1).max(first))[0], boundary.segment_arcs((top + 1).min(last))[1]];
+        let is_near = |arc: f64| {
+            let beyond = boundary.turn().map_or(0.0, |turn| ((arc - near[0]) / turn).floor() * turn);
+            arc - beyond >= near[0] && arc - beyond <= near[1]
+        };
         ZoneErrors {
             stress: apart(points, |arc| zone.has_in_its_middle(arc)),
             stress_inside: apart(points, |arc| zone.has_inside(arc)),
-            stress_at_peak: apart(points, |arc| arc >= near[0] && arc <= near[1]),
+            stress_at_peak: apart(points, is_near),
             roughness: roughness(&contact.boundary, &contact.multipliers, lambda, zone),
         }
     };
@@ -43,8 +52,8 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
 /// Relative root mean squares of `λ + n·σn` of both bodies over some arc lengths, by the trapezoidal rule.
 fn apart(points: &[TracePoint], counts: impl Fn(f64) -> bool) -> [f64; 2] {
     let mut sums = [0.0; 3];
-    let inside: Vec<&TracePoint> = points.iter().filter(|point| point.is_complete() && counts(point.arc)).collect();
-    for ends in inside.windows(2) {
+    let complete: Vec<&TracePoint> = points.iter().filter(|point| point.is_complete()).collect();
+    for ends in complete.windows(2).filter(|ends| ends.iter().all(|point| counts(point.arc))) {
         let half = 0.5 * (ends[1].arc - ends[0].arc);
         for point in ends {
             for (sum, stress) in sums.iter_mut().zip(point.stress) {
