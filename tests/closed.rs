@@ -90,7 +90,8 @@ fn the_seam_changes_nothing() {
             let run = run.set("mesh.order", order).set("contact.seam.multiplier", space).set("mesh.refine", 1).ranks(1 + at % 2);
             run.set("contact.seam.segments", 24).set("solver.tolerance", "1e-12").set("contact.seam.stabilise", at % 2 == 0)
         };
-        let [one, other] = [&[][..], &[(circle, turned)]].map(|words| converged(scene("rings_full/rings.msh", "michell.toml", words, run)));
+        let [one, other] =
+            [&[][..], &[(circle, turned)]].map(|words| converged(scene("rings_full/rings.msh", "michell.toml", words, run)));
         for path in ["/contact/seam/force", "/energy/total", "/contact/seam/pressure_max"] {
             let [a, b] = [&one, &other].map(|ended| ended.number(path));
             assert!((a / b - 1.0).abs() < 1e-9, "P{order}, {space}: {path} {a} and {b}");
@@ -205,7 +206,8 @@ fn what_goes_all_around_has_no_ends_to_grade_towards() {
         assert_eq!(ended.code, Some(2), "{}", ended.said());
         assert!(words.iter().all(|word| ended.errors.contains(word)), "{}", ended.errors);
     }
-    let ended = scene("rings_full/rings.msh", "case.toml", &[], |run| run.set("contact.seam.curve", "fit").set("contact.seam.spans", 3));
+    let ended =
+        scene("rings_full/rings.msh", "case.toml", &[], |run| run.set("contact.seam.curve", "fit").set("contact.seam.spans", 3));
     assert_eq!(ended.code, Some(2), "{}", ended.said());
     assert!(ended.errors.contains("a closed curve has 4 spans or more; give 4, or \"auto\""), "{}", ended.errors);
 }

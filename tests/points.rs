@@ -110,7 +110,12 @@ fn the_support_that_is_proposed_holds() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let case = BLOCKS.lines().filter(|line| !line.contains("at = ")).collect::<Vec<_>>().join("\n");
         let mesh = blocks().map(|[x, y]| [scale * (0.8 * x - 0.6 * y), scale * (0.6 * x + 0.8 * y)]);
-        let mut file = write_scene(folder.path(), &mesh.text(), &format!("{case}\nsupport.normal = {{ on = \"bottom\", normal = 0.0 }}").replace("support.table = { on = \"bottom\", uy = 0.0 }", ""));
+        let mut file = write_scene(
+            folder.path(),
+            &mesh.text(),
+            &format!("{case}\nsupport.normal = {{ on = \"bottom\", normal = 0.0 }}")
+                .replace("support.table = { on = \"bottom\", uy = 0.0 }", ""),
+        );
         for round in 0.. {
             let (code, output, errors) = mezha(None, &["check", &file.display().to_string()]);
             if code == Some(0) {
@@ -120,7 +125,11 @@ fn the_support_that_is_proposed_holds() {
             assert!(code == Some(3) && round < 2, "{output}\n{errors}");
             let words = errors.split("a support with ").nth(1).expect("a remedy").split(", which is").next().expect("words");
             let text = std::fs::read_to_string(&file).expect("the case");
-            file = write_scene(folder.path(), &mesh.text(), &format!("{text}\nsupport.s{round} = {{ {} }}", words.replace(" and ", ", ").replace(" = 0", " = 0.0")));
+            file = write_scene(
+                folder.path(),
+                &mesh.text(),
+                &format!("{text}\nsupport.s{round} = {{ {} }}", words.replace(" and ", ", ").replace(" = 0", " = 0.0")),
+            );
         }
     }
 }

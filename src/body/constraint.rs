@@ -96,12 +96,7 @@ impl Constraints {
     /// # Errors
     /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite, or a support
     /// holds a rigid set that is to move.
-    pub fn new(
-        mesh: &MacroMesh,
-        numbering: &Numbering,
-        supports: &[Support],
-        rigid: &[RigidSet],
-    ) -> Result<Self, SupportError> {
+    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support], rigid: &[RigidSet]) -> Result<Self, SupportError> {
         let mut holds = all_holds(mesh, numbering, supports)?;
         for set in rigid {
             hold_rigidly(mesh, numbering, set, &mut holds)?;
@@ -240,13 +235,7 @@ fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -
 }
 
 /// Adds a hold; normals of one support that nearly agree at a node become their mean.
-fn add<'a>(
-    known: &mut Vec<Hold<'a>>,
-    by: HeldBy<'a>,
-    direction: Point,
-    value: f64,
-    x: Point,
-) -> Result<(), SupportError> {
+fn add<'a>(known: &mut Vec<Hold<'a>>, by: HeldBy<'a>, direction: Point, value: f64, x: Point) -> Result<(), SupportError> {
     if !value.is_finite() {
         return Err(SupportError(format!("{by}: its formula has no finite value at ({}, {})", x.x, x.y)));
     }
@@ -281,8 +270,7 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
         let found = u.dot(&hold.direction);
         // Against the whole displacement: two supports that fix a node leave rounding of it in the direction of a third.
         if (found - hold.value).abs() > 1e-9 * (u.norm() + hold.value.abs()) {
-            let others: Vec<_> =
-                holds.iter().filter(|h| h.by != hold.by).map(|h| h.by.to_string()).collect();
+            let others: Vec<_> = holds.iter().filter(|h| h.by != hold.by).map(|h| h.by.to_string()).collect();
             return Err(SupportError(format!(
                 "{} asks for displacement {} in direction ({:.6}, {:.6}) at ({}, {}), {} for {found}; leave one of them out there",
                 hold.by,

@@ -33,7 +33,7 @@ use crate::system::{SolverChoice, Tolerance};
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 pub use fingerprint::{Inputs, fingerprint};
-pub use rigid::Tool;
+pub use rigid::{Plate, Tool};
 pub(crate) use section::read_text;
 
 use overrides::{overridden, set_value};
@@ -66,6 +66,8 @@ pub struct Case {
     pub loads: Vec<Load>,
     /// Forces at points.
     pub point_loads: Vec<PointLoad>,
+    /// Boundaries that stay rigid under a resultant.
+    pub plates: Vec<Plate>,
     /// Contact pairs.
     pub contacts: Vec<Pair>,
     /// Sides of contacts that are made of several physical curves.
@@ -209,7 +211,7 @@ impl Case {
         let tools = root.named("rigid", rigid::read_tool);
         let geometries = root.named("geometry", model::read_geometry);
         let (supports, springs) = support::split(root.named("support", support::read_support));
-        let (loads, point_loads) = model::split_loads(root.named("load", model::read_load));
+        let (loads, point_loads, plates) = model::split_loads(root.named("load", model::read_load));
         let (contacts, unions) = contact::split_contacts(root.named("contact", contact::read_contact));
         let solver = model::read_solver(root);
         let output = model::read_output(root);
@@ -239,6 +241,7 @@ impl Case {
             springs,
             loads,
             point_loads,
+            plates,
             contacts,
             unions,
             solver: solver?,

@@ -7,6 +7,7 @@ use toml::Value;
 use super::error::suggest;
 use super::grade::read_grade;
 use super::gravity::{Gravity, read_weight, with_weight};
+use super::rigid::{Plate, read_plate};
 use super::section::Section;
 use super::spot::read_where;
 use super::values::{self, PLANE};
@@ -104,18 +105,21 @@ pub enum LoadTable {
     OnCurves(Load),
     /// It acts at a point.
     AtPoint(PointLoad),
+    /// A resultant on a boundary that stays rigid.
+    OnPlate(Plate),
 }
 
-/// The loads on curves, and those at points.
-pub fn split_loads(all: Vec<LoadTable>) -> (Vec<Load>, Vec<PointLoad>) {
-    let (mut loads, mut point_loads) = (Vec::new(), Vec::new());
+/// The loads on curves, those at points, and those on boundaries that stay rigid.
+pub fn split_loads(all: Vec<LoadTable>) -> (Vec<Load>, Vec<PointLoad>, Vec<Plate>) {
+    let (mut loads, mut point_loads, mut plates) = (Vec::new(), Vec::new(), Vec::new());
     for load in all {
         match load {
             LoadTable::OnCurves(load) => loads.push(load),
             LoadTable::AtPoint(load) => point_loads.push(load),
+            LoadTable::OnPlate(plate) => plates.push(plate),
         }
     }
-    (loads, point_loads)
+    (loads, point_loads, plates)
 }
 
 /// `[load.NAME]`
@@ -129,8 +133,13 @@ pub fn read_load(section: &Section) -> Option<LoadTable> {
         let force = section.required("force", "[0.0, -1.0], per thickness", values::formulas::<2>);
         return Some(LoadTable::AtPoint(PointLoad { name, at: place?.at?, force: force? }));
     }
-    if section.has("force") {
-        section.problem(&["force"], "acts at a point, at = [x, y]; on physical curves give pressure or traction".into());
+    if section.or("rigid", false, values::boolean)? {
+        return read_plate(section, place?.on).map(LoadTable::OnPlate);
+    }
+    for key in ["force", "moment"].into_iter().filter(|key| section.has(key)) {
+        let words =
+            "acts at a point, at = [x, y], or on curves that stay rigid, rigid = true; otherwise give pressure or traction";
+        section.problem(&[key], words.into());
     }
     let given = [section.has("pressure"), section.has("traction")];
     let pressure = section.optional("pressure", values::formula(&PLANE)).map(LoadKind::Pressure);

@@ -10,7 +10,7 @@ use super::values;
 use crate::body::{RigidNodes, RigidSet};
 use crate::contact::Pair;
 use crate::geometry::{Curve, Point};
-use crate::mesh::SurfacePart;
+use crate::mesh::{MacroMesh, SurfacePart};
 
 /// What the boundaries of tools begin with.
 const PREFIX: &str = "rigid.";
@@ -39,6 +39,35 @@ impl Tool {
             None => false,
         }
     }
+}
+
+/// A boundary that stays rigid under a resultant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plate {
+    /// Name in the case file.
+    pub name: String,
+    /// Physical curves that move together.
+    pub on: Vec<String>,
+    /// Its motion; the reference point is the middle of the curves if the case gives none.
+    pub motion: RigidSet,
+    /// Whether the case gives the reference point.
+    pub has_reference: bool,
+}
+
+/// `[load.NAME]` with `rigid = true`, on these curves.
+pub fn read_plate(section: &Section, on: Vec<String>) -> Option<Plate> {
+    for key in ["pressure", "traction"].into_iter().filter(|key| section.has(key)) {
+        section.problem(&[key], "stands beside rigid = true; give force and moment, or make two loads".into());
+    }
+    if !section.has("force") && !section.has("moment") {
+        section.problem(&[], "presses with nothing; give force = [fx, fy], moment, or both beside rigid = true".into());
+    }
+    let about = section.optional("about", values::point);
+    let (prescribed, applied) = read_motion(section)?;
+    let about_point = about.map_or_else(Point::zeros, |[x, y]| Point::new(x, y));
+    let key = format!("load.{}", section.name());
+    let motion = RigidSet { key, nodes: RigidNodes::Boundaries(on.clone()), about: about_point, prescribed, applied };
+    Some(Plate { name: section.name().into(), on, motion, has_reference: about.is_some() })
 }
 
 /// `[rigid.NAME]`
@@ -121,6 +150,15 @@ fn middle(surface: &[SurfacePart]) -> Point {
     }
 }
 
+/// Middle of the box around physical curves.
+fn middle_of(mesh: &MacroMesh, on: &[String]) -> Point {
+    let edges = on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
+    let vertices = edges.flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
+    let box_of = |[low, high]: [Point; 2], x: Point| [low.inf(&x), high.sup(&x)];
+    let [low, high] = vertices.fold([Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)], box_of);
+    0.5 * (low + high)
+}
+
 /// Contacts name tools that there are, each tool is in one of them, and two tools do not press on each other.
 pub fn check_tools(tools: &[Tool], contacts: &[Pair], root: &Section) {
     if tools.len() < root.names_below("rigid").count() || contacts.len() < root.names_below("contact").count() {
@@ -147,9 +185,13 @@ pub fn check_tools(tools: &[Tool], contacts: &[Pair], root: &Section) {
 }
 
 impl Case {
-    /// Everything that moves as a rigid body.
-    pub fn rigid_sets(&self) -> Vec<RigidSet> {
-        self.tools.iter().map(|tool| tool.motion.clone()).collect()
+    /// Everything that moves as a rigid body on a mesh.
+    pub fn rigid_sets(&self, mesh: &MacroMesh) -> Vec<RigidSet> {
+        let plate = |plate: &Plate| match plate.has_reference {
+            true => plate.motion.clone(),
+            false => RigidSet { about: middle_of(mesh, &plate.on), ..plate.motion.clone() },
+        };
+        self.tools.iter().map(|tool| tool.motion.clone()).chain(self.plates.iter().map(plate)).collect()
     }
 
     /// The tool that a boundary is the surface of, or a part of that.

@@ -142,7 +142,11 @@ impl MacroMesh {
                 }
             }
         }
-        if nearest.0.is_finite() { Ok(nearest.1 > 0.0) } else { Err("its surface faces none of the boundaries that it is in contact with; move or turn it".into()) }
+        if nearest.0.is_finite() {
+            Ok(nearest.1 > 0.0)
+        } else {
+            Err("its surface faces none of the boundaries that it is in contact with; move or turn it".into())
+        }
     }
 
     /// Triangles between the surface and a row of vertices behind it.
@@ -315,7 +319,8 @@ mod tests {
                 assert!(((x - Point::new(1.0, 3.0)).norm() - 1.0).abs() < 1e-14, "{x}");
             }
         }
-        let open = own.iter().flat_map(|triangle| triangle.edges).filter(|&edge| mesh.edges[edge as usize].triangles[1].is_none());
+        let open =
+            own.iter().flat_map(|triangle| triangle.edges).filter(|&edge| mesh.edges[edge as usize].triangles[1].is_none());
         assert_eq!(open.count(), 2 * edges.len());
     }
 

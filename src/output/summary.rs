@@ -39,6 +39,8 @@ pub struct Summary {
     pub boundaries: Vec<BoundaryIteration>,
     /// By name of the contact.
     pub contact: BTreeMap<String, ContactSummary>,
+    /// By name of the rigid tool, or of the load that stays rigid.
+    pub rigid: BTreeMap<String, RigidSummary>,
     /// By name of the support.
     #[serde(default)]
     pub support: BTreeMap<String, SupportSummary>,
@@ -248,6 +250,19 @@ impl ZoneSummary {
         let highest = all.iter().filter_map(|zone| zone.pressure_max).fold(0.0, f64::max);
         self.share.is_none_or(|share| zone_counts(share, self.pressure_max.unwrap_or(f64::NAN), highest))
     }
+}
+
+/// A rigid tool, or a boundary that stays rigid.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RigidSummary {
+    /// Shift of the reference point (length), and turn about it (radians).
+    pub motion: Option<[f64; 3]>,
+    /// The reference point.
+    pub about: Option<[f64; 2]>,
+    /// Force on the bodies (per thickness).
+    pub force: Option<[f64; 2]>,
+    /// Its moment about the reference point.
+    pub moment: Option<f64>,
 }
 
 /// One support.

@@ -37,6 +37,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
         }
     }
     names.check_unions()?;
+    names.check_plates()?;
     case.unions.iter().for_each(|union| mesh.unite(&union.name, &union.curves));
     let names = Names { case, mesh: &mesh };
     for pair in &case.contacts {
@@ -102,7 +103,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),
-        rigid: case.rigid_sets(),
+        rigid: case.rigid_sets(&mesh),
         springs: case.springs.clone(),
         loads: case.loads.clone(),
         point_loads: case.point_loads.clone(),
@@ -157,10 +158,12 @@ impl Names<'_> {
         let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
         let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
         let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
+        let plates = case.plates.iter().map(|plate| (format!("load.{}.on", plate.name), plate.on.as_slice()));
         let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
         let sides = |pair: &Pair| pair.between.iter().flat_map(|name| case.curves_of(name)).collect::<Vec<_>>();
         let contacts = case.contacts.iter().map(|pair| (format!("contact.{}.between", pair.name), sides(pair)));
-        let named = supports.chain(springs).chain(loads).chain(geometries).map(|(key, names)| (key, names.to_vec()));
+        let named =
+            supports.chain(springs).chain(loads).chain(plates).chain(geometries).map(|(key, names)| (key, names.to_vec()));
         named.chain(contacts).collect()
     }
 
@@ -170,6 +173,29 @@ impl Names<'_> {
         }
         let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
         Err(self.error(key, &format!("no physical curve \"{name}\": {}", self.instead(name, known))))
+    }
+
+    /// A boundary that stays rigid lies on one body, and nothing else touches it.
+    fn check_plates(&self) -> Result<(), String> {
+        for plate in &self.case.plates {
+            let key = format!("load.{}.on", plate.name);
+            let edges = plate.on.iter().filter_map(|name| self.mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
+            let mut pieces: Vec<usize> = edges.map(|&edge| self.mesh.piece_beside(edge)).collect();
+            pieces.sort_unstable();
+            pieces.dedup();
+            if pieces.len() > 1 {
+                let words = format!("lies on {} bodies or pieces of one; give each a load of its own", pieces.len());
+                return Err(self.error(&key, &words));
+            }
+            let pressed = |pair: &&Pair| {
+                pair.between.iter().flat_map(|name| self.case.curves_of(name)).any(|name| plate.on.contains(&name))
+            };
+            if let Some(pair) = self.case.contacts.iter().find(pressed) {
+                let words = format!("contact.{} is there, too; a boundary that stays rigid is no side of a contact", pair.name);
+                return Err(self.error(&key, &words));
+            }
+        }
+        Ok(())
     }
 
     /// A name that is made of those of several curves is no physical curve.
@@ -233,7 +259,10 @@ fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
                 let x = mesh.edge_position(edge, t);
                 for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
                     if !(k.is_finite() && k >= 0.0) {
-                        return Err(error(format!("is {k} at ({}, {}); a spring wants a finite number >= 0 everywhere", x.x, x.y)));
+                        return Err(error(format!(
+                            "is {k} at ({}, {}); a spring wants a finite number >= 0 everywhere",
+                            x.x, x.y
+                        )));
                     }
                     largest = largest.max(k);
                 }

@@ -89,6 +89,14 @@ pub fn balances(summary: &mut Summary, Evaluation { problem, balance, .. }: &Eva
     let names = scene.supports.iter().map(|support| &support.name).chain(scene.springs.iter().map(|springs| &springs.name));
     let told = |reaction: &Point| summary::SupportSummary { reaction: Some((*reaction).into()) };
     summary.support = names.zip(&balance.reactions).map(|(name, reaction)| (name.clone(), told(reaction))).collect();
+    let rigid = scene.rigid.iter().zip(&balance.rigid).zip(&balance.motions);
+    summary.rigid = rigid
+        .map(|((set, &[x, y, moment]), motion)| {
+            let about = Some(set.about.into());
+            let told = summary::RigidSummary { motion: Some(*motion), about, force: Some([x, y]), moment: Some(moment) };
+            (set.key.split_once('.').map_or(set.key.as_str(), |(_, name)| name).to_string(), told)
+        })
+        .collect();
     let names = problem.scene.bodies.iter().map(|body| body.name.clone());
     summary.energy = summary::Energy {
         strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),

@@ -2,8 +2,8 @@
 
 use super::stiffness::Stiffness;
 use super::{
-    Discretisation, Interpolation, LinearEnding, LinearSolve, LinearSolver, Preconditioning, RigidBorder, SaddlePoint, SolverChoice,
-    Space, SystemError, inf_sup, rigid_motions,
+    Discretisation, Interpolation, LinearEnding, LinearSolve, LinearSolver, Preconditioning, RigidBorder, SaddlePoint,
+    SolverChoice, Space, SystemError, inf_sup, rigid_motions,
 };
 use crate::petsc::{Matrix, Session, Vector};
 use nalgebra::DVector;
@@ -129,10 +129,17 @@ impl<'a> System<'a> {
 
     /// Takes over the unknowns of a start, and its active set. **Collective**
     pub fn begin(&mut self, start: &Start) -> Result<(), SystemError> {
-        put(&self.blocks, self.space(), start, &mut self.unknowns);
-        if !self.rigid.border.is_empty() {
+        if self.rigid.border.is_empty() {
+            put(&self.blocks, self.space(), start, &mut self.unknowns);
+        } else {
             let motions = rigid_motions(self.problem, &start.displacement, &self.session);
-            self.move_rigidly(self.rigid.border.free_of(&motions));
+            let motion = self.rigid.border.free_of(&motions);
+            let back: Vec<f64> = motion.iter().map(|component| -component).collect();
+            let mut displacement = start.displacement.clone();
+            self.rigid.border.displace(&self.problem.scene.rigid, &back, &mut displacement);
+            let (pressures, active) = (start.pressures.clone(), start.active.clone());
+            put(&self.blocks, self.space(), &Start { displacement, pressures, active }, &mut self.unknowns);
+            self.move_rigidly(motion);
         }
         self.set_active(&start.active)
     }

@@ -47,6 +47,13 @@ impl<const K: usize> Field<K> {
         &self.own
     }
 
+    /// Takes away another field of the same nodes.
+    pub fn subtract(&mut self, other: &Self) {
+        let minus = |values: &mut [f64; K], others: [f64; K]| (0..K).for_each(|k| values[k] -= others[k]);
+        self.own.iter_mut().zip(&other.own).for_each(|(values, others)| minus(values, *others));
+        self.others.iter_mut().for_each(|(node, values)| minus(values, other.others[node]));
+    }
+
     /// Other values, each of those at the same node.
     pub fn map<const M: usize>(&self, f: impl Fn([f64; K]) -> [f64; M]) -> Field<M> {
         let others = self.others.iter().map(|(&node, &values)| (node, f(values))).collect();

@@ -240,11 +240,8 @@ fn rigid_conditions(scene: &Scene, set: &RigidSet) -> Vec<Condition> {
     let ends = edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
     let arm = ends.map(|x| (x - set.about).norm()).fold(f64::MIN_POSITIVE, f64::max);
     let [along, up] = [Point::new(arm, 0.0), Point::new(0.0, 1.0)];
-    let terms = [
-        vec![(set.about, Point::new(1.0, 0.0))],
-        vec![(set.about, up)],
-        vec![(set.about + along, up), (set.about - along, -up)],
-    ];
+    let terms =
+        [vec![(set.about, Point::new(1.0, 0.0))], vec![(set.about, up)], vec![(set.about + along, up), (set.about - along, -up)]];
     let piece = mesh.piece_beside(first);
     let prescribed = terms.into_iter().zip(set.prescribed).filter(|(_, component)| component.is_some());
     prescribed.map(|(terms, _)| Condition { piece, against: None, terms, doubt: 0.0 }).collect()

@@ -2,13 +2,14 @@
 
 use super::agreed;
 use super::springs::SpringForces;
-use crate::body::{Holders, MacroStiffness};
+use crate::body::{Holders, MacroStiffness, Motion, RigidSet};
 use crate::contact::{Configuration, Side};
 use crate::element::PlaneStrain;
 use crate::geometry::{Point, cross};
 use crate::mesh::{EdgeNode, lattice};
 use crate::petsc::Session;
-use crate::system::{Contact, Discretisation, Field, Solution, SystemError, nodal_forces};
+use crate::system::{Contact, Discretisation, Field, Solution, SystemError, nodal_forces, rigid_motions};
+use std::collections::HashMap;
 
 /// Work below this share of the largest is none: gaps measured where bodies touch are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -40,6 +41,10 @@ pub struct Balance {
     pub springs: Option<f64>,
     /// Force of each support on the bodies (per thickness), those of elastic ones after the others.
     pub reactions: Vec<Point>,
+    /// Force of each rigid set on the bodies, and its moment about the reference point (per thickness).
+    pub rigid: Vec<[f64; 3]>,
+    /// Motion of each rigid set.
+    pub motions: Vec<Motion>,
     /// Sum of the magnitudes of all forces on bodies: loads and reactions of their nodes, contact (per thickness).
     pub forces: f64,
     /// Largest `|F₁ + F₂| / |F₂|`.
@@ -61,7 +66,8 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let (mut strain, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
     let springs = SpringForces::new(problem, u, session)?;
-    let NodeSums { work, bodies, mut reactions } = sum_over_nodes(problem, solution, u, &internal, &springs.nodes, session)?;
+    let NodeSums { work, bodies, mut reactions, rigid } =
+        sum_over_nodes(problem, solution, u, &internal, &springs.nodes, session)?;
     reactions.extend(springs.reactions);
     let has_springs = !problem.scene.springs.is_empty();
     let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
@@ -72,7 +78,8 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         .map(|jump| jump.weight * (solution.multipliers[jump.rows[0]] - solution.multipliers[jump.rows[1]]).powi(2))
         .sum();
     let (total, external) = (strain.iter().sum::<f64>(), work.loads + work.supports);
-    let largest = [2.0 * (total + springs.energy), work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
+    let largest =
+        [2.0 * (total + springs.energy), work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
     let worst = |ratio: &dyn Fn(&Contact, &ContactForce) -> f64| {
         contacts.iter().zip(&forces).map(|(contact, force)| ratio(contact, force)).filter(|v| v.is_finite()).reduce(f64::max)
     };
@@ -94,6 +101,8 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         bodies: body_balance(contacts, &forces, &bodies),
         strain,
         reactions,
+        rigid,
+        motions: rigid_motions(problem, &solution.displacement, session),
         forces: magnitudes(&forces, &bodies),
         contacts: forces,
     })
@@ -140,6 +149,8 @@ struct NodeSums {
     bodies: Vec<ForceSum>,
     /// Force of each support.
     reactions: Vec<Point>,
+    /// Force and moment of each rigid set.
+    rigid: Vec<[f64; 3]>,
 }
 
 /// Forces added up.
@@ -182,6 +193,9 @@ fn sum_over_nodes(
     let supports = &problem.scene.supports;
     let holders = Holders::new(&problem.scene.mesh, &space.numbering, supports).map_err(|error| SystemError::Case(error.0))?;
     let mut reactions = vec![0.0; 2 * supports.len()];
+    let sets = &problem.scene.rigid;
+    let set_of = set_of_nodes(problem);
+    let mut rigid = vec![0.0; 3 * sets.len()];
     let mut bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
     let mut work = WorkTerms::default();
     for (at, node) in space.own.clone().enumerate() {
@@ -208,18 +222,32 @@ fn sum_over_nodes(
         bodies[body_of[at]].add(f);
         let reaction = constraint.to_global(reaction);
         bodies[body_of[at]].add(reaction);
+        if let Some(&(set, x)) = set_of.get(&node) {
+            (0..3).for_each(|k| rigid[3 * set + k] += reaction.dot(&sets[set].mode(k, x)));
+        }
         for (support, force) in holders.shares(node, reaction) {
             reactions[2 * support] += force.x;
             reactions[2 * support + 1] += force.y;
         }
     }
     session.sum(&mut reactions);
+    session.sum(&mut rigid);
+    let rigid = rigid.as_chunks().0.to_vec();
     let reactions = reactions.chunks_exact(2).map(|force| Point::new(force[0], force[1])).collect();
     let mut sums = [work.loads, work.supports, work.contact, work.unbalanced, work.missed, work.given[0], work.given[1]];
     session.sum(&mut sums);
     let [loads, supports, contact, unbalanced, missed, ref given @ ..] = sums;
     let bodies = ForceSum::of_all_ranks(&bodies, session);
-    Ok(NodeSums { work: WorkTerms { loads, supports, contact, unbalanced, missed, given: *given }, bodies, reactions })
+    Ok(NodeSums { work: WorkTerms { loads, supports, contact, unbalanced, missed, given: *given }, bodies, reactions, rigid })
+}
+
+/// The rigid set of each node that is in one, and where the node is.
+fn set_of_nodes(problem: &Discretisation) -> HashMap<usize, (usize, Point)> {
+    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+    let places = |(number, set): (usize, &RigidSet)| {
+        set.places(&scene.mesh, numbering).into_iter().map(move |(node, x)| (node, (number, x)))
+    };
+    scene.rigid.iter().enumerate().flat_map(places).collect()
 }
 
 /// Sum of the magnitudes of the forces on all bodies.
@@ -262,11 +290,7 @@ pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Ses
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn internal_forces(
-    problem: &Discretisation,
-    u: &Field<2>,
-    session: &Session,
-) -> Result<(Vec<f64>, Field<2>), SystemError> {
+pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
     let scene = &problem.scene;
     let laws = scene.laws();
     let mut strain = vec![0.0; scene.bodies.len()];
@@ -311,8 +335,8 @@ fn each_force(
 }
 
 /// `Bᵀλ` at the contact nodes.
-fn contact_forces(problem: &Discretisation, solution: &Solution) -> std::collections::HashMap<usize, Point> {
-    let mut forces = std::collections::HashMap::new();
+fn contact_forces(problem: &Discretisation, solution: &Solution) -> HashMap<usize, Point> {
+    let mut forces = HashMap::new();
     for (row, lambda) in problem.coupling.rows.iter().zip(&solution.multipliers) {
         for coupled in row {
             *forces.entry(coupled.node.number(&problem.scene.mesh, &problem.finest().numbering)).or_insert(Point::zeros()) +=

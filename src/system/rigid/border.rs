@@ -1,9 +1,10 @@
 //! The border of the blocks: columns of the free components, and what they weigh.
 
-use crate::body::{Motion, RigidSet};
+use crate::body::{Motion, RigidNodes, RigidSet};
 use crate::geometry::Point;
+use crate::mesh::lattice;
 use crate::petsc::Session;
-use crate::system::recovery::internal_forces;
+use crate::system::recovery::{SpringForces, internal_forces};
 use crate::system::{Discretisation, Field, SystemError, nodal_forces};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
@@ -32,7 +33,7 @@ pub struct RigidBorder {
     components: Vec<Component>,
     /// `D`.
     corner: DMatrix<f64>,
-    /// Nodes of this rank: the place of their unknowns, the set, and where they are.
+    /// Nodes of this rank that move with a set: the place of their unknowns, the set, and where they are.
     nodes: Vec<(usize, usize, Point)>,
 }
 
@@ -50,8 +51,8 @@ impl RigidBorder {
         let mut columns = Vec::new();
         for (number, set) in sets.iter().enumerate() {
             let arm = places[number].values().map(|x| (x - set.about).norm()).fold(f64::MIN_POSITIVE, f64::max);
-            let own = places[number].iter().filter(|(node, _)| space.own.contains(node));
-            border.nodes.extend(own.map(|(node, x)| (2 * (node - space.own.start), number, *x)));
+            let moved = moved_nodes(problem, set, &places[number], session.rank());
+            border.nodes.extend(moved.into_iter().map(|(node, x)| (2 * (node - space.own.start), number, x)));
             for k in set.free() {
                 let column = moved_forces(problem, set, k, &places[number], session)?;
                 let arm = if k == 2 { arm } else { 1.0 };
@@ -98,7 +99,8 @@ impl RigidBorder {
         for (i, column) in columns.iter().enumerate() {
             for (j, other) in self.components.iter().enumerate() {
                 let own = self.nodes.iter().filter(|(_, set, _)| *set == other.set);
-                let work = |(at, set, x): &(usize, usize, Point)| Point::from(column.own()[at / 2]).dot(&sets[*set].mode(other.k, *x));
+                let work =
+                    |(at, set, x): &(usize, usize, Point)| Point::from(column.own()[at / 2]).dot(&sets[*set].mode(other.k, *x));
                 sums[i * count + j] = own.map(work).sum();
             }
             sums[count * count + i] = self.components[i].given;
@@ -131,8 +133,8 @@ impl RigidBorder {
         self.components.iter().map(|component| motions[component.set][component.k]).collect()
     }
 
-    /// Adds the displacements of rigid nodes by the free components of their motion to those of this rank, in the nodes' frames,
-    /// which are the global ones there.
+    /// Adds the displacements of nodes that move with rigid sets, by the free components of their motion, to those of this rank, in
+    /// the nodes' frames, which are the global ones there.
     pub fn displace(&self, sets: &[RigidSet], motion: &[f64], displacement: &mut [f64]) {
         for &(at, set, x) in &self.nodes {
             for (component, value) in self.components.iter().zip(motion).filter(|(component, _)| component.set == set) {
@@ -181,7 +183,28 @@ impl RigidBorder {
     }
 }
 
-/// `K R`: forces at all nodes when a set moves by one component, all else at rest. **Collective**
+/// Nodes of this rank that move with a set, and where they are: with a tool those within its triangles, too, so that its motion
+/// is no force within it.
+fn moved_nodes(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>, rank: usize) -> BTreeMap<usize, Point> {
+    let (scene, space) = (&problem.scene, problem.finest());
+    let level = space.numbering.level;
+    let mut moved: BTreeMap<usize, Point> =
+        places.iter().filter(|(node, _)| space.own.contains(node)).map(|(&node, &x)| (node, x)).collect();
+    let RigidNodes::Body(name) = &set.nodes else { return moved };
+    let is_own = |triangle: &&u32| scene.mesh.bodies[scene.mesh.triangles[**triangle as usize].body as usize] == *name;
+    for &triangle in scene.partition.triangles_of(rank).iter().filter(is_own) {
+        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
+        for (i, j) in lattice::nodes(level.intervals) {
+            let node = numbers.node(i, j);
+            if space.own.contains(&node) {
+                moved.entry(node).or_insert_with(|| scene.mesh.node_position(triangle as usize, level, (i, j)));
+            }
+        }
+    }
+    moved
+}
+
+/// `K R`: forces at all nodes when a set moves by one component, all else at rest; none of a tool. **Collective**
 fn moved_forces(
     problem: &Discretisation,
     set: &RigidSet,
@@ -189,6 +212,9 @@ fn moved_forces(
     places: &BTreeMap<usize, Point>,
     session: &Session,
 ) -> Result<Field<2>, SystemError> {
+    if let RigidNodes::Body(_) = set.nodes {
+        return Ok(Field::zeros(problem, session));
+    }
     let space = problem.finest();
     let mut moved = vec![0.0; space.local_unknowns()];
     for (&node, &x) in places.iter().filter(|(node, _)| space.own.contains(node)) {
@@ -196,5 +222,7 @@ fn moved_forces(
         (moved[at], moved[at + 1]) = (u.x, u.y);
     }
     let moved = Field::displacement(problem, &moved, session)?;
-    Ok(internal_forces(problem, &moved, session)?.1)
+    let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session)?);
+    forces.subtract(&springs.nodes);
+    Ok(forces)
 }

@@ -1,0 +1,221 @@
+//! Rigid tools and boundaries that stay rigid, against exact solutions and against bodies a million times stiffer.
+
+mod support;
+
+use support::mesh::{Mesh, grid, write_scene};
+use support::{Ended, PAIRS, RANKS, Run};
+
+const EXACT: f64 = 1e-9;
+
+/// A block [0, 2] × [0, 1], its left side free to slide up and down.
+fn block() -> Mesh {
+    Mesh { bodies: vec![("block", grid(5, 3, 21, |u, v| [2.0 * u, v]), ["bottom", "right", "top", "left"])] }
+}
+
+const BLOCK: &str = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.block = { young = 1000.0, poisson = 0.3 }
+support.bottom = { on = "bottom", uy = 0.0 }
+solver.tolerance = 1e-12
+"#;
+
+/// Plane-strain modulus of the block.
+const MODULUS: f64 = 1000.0 / 0.91;
+
+fn in_folder<T>(mesh: &Mesh, case: &str, with: impl FnOnce(Run) -> T) -> T {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    with(Run::file(&write_scene(folder.path(), &mesh.text(), case)))
+}
+
+fn close(found: f64, wanted: f64, size: f64, words: &str) {
+    assert!((found - wanted).abs() <= EXACT * size, "{words}: {found} instead of {wanted}");
+}
+
+/// A flat tool, wider than the block, moved down or pressed: the pressure is the same everywhere.
+#[test]
+fn a_flat_tool_presses_evenly() {
+    let flat = format!(
+        "{BLOCK}support.left = {{ on = \"left\", ux = 0.0 }}\ncontact.top = {{ between = [\"top\", \"rigid.die\"], curve = \"line\", gap = \"closed\" }}\n"
+    );
+    let pressure = 0.01 * MODULUS;
+    for motion in ["uy = -0.01".to_string(), format!("ux = 0.0, force = [0.0, {:?}]", -2.0 * pressure)] {
+        let case = format!("{flat}rigid.die = {{ line = [[-0.5, 1.0], [2.5, 1.0]], {motion} }}\n");
+        for (at, (order, space)) in PAIRS.into_iter().enumerate() {
+            let ended = in_folder(&block(), &case, |run| {
+                run.set("mesh.order", order).set("contact.top.multiplier", space).ranks(1 + at % 3).converged()
+            });
+            let words = format!("P{order} and {space}, {motion}");
+            for point in ended.trace("top") {
+                close(point.lambda, pressure, pressure, &words);
+            }
+            close(ended.number("/rigid/die/motion/1"), -0.01, 0.01, &words);
+            close(ended.number("/rigid/die/force/1"), -2.0 * pressure, 2.0 * pressure, &words);
+            for balance in ["force", "moment", "energy", "bodies"] {
+                assert!(ended.number(&format!("/balance/{balance}")) < EXACT, "{words}: {balance}");
+            }
+        }
+    }
+}
+
+/// A force beside the middle turns the tool: `p = P/2 (1 + 3 e (x - 1))` with the eccentricity `e`, and the turn is that of
+/// pure bending.
+#[test]
+fn a_force_beside_the_middle_turns_the_tool() {
+    let (force, eccentricity) = (4.0, 0.2);
+    let case = format!(
+        "{BLOCK}support.foot = {{ at = [1.0, 0.0], ux = 0.0 }}
+contact.top = {{ between = [\"top\", \"rigid.die\"], curve = \"line\", gap = \"closed\" }}
+rigid.die = {{ line = [[3.0, 1.0], [-1.0, 1.0]], ux = 0.0, force = [0.0, -{force}], moment = -{} }}\n",
+        force * eccentricity
+    );
+    for ranks in RANKS {
+        let ended = in_folder(&block(), &case, |run| run.ranks(ranks).converged());
+        for point in ended.trace("top") {
+            let wanted = 0.5 * force * (1.0 + 3.0 * eccentricity * (point.x[0] - 1.0));
+            close(point.lambda, wanted, force, &format!("{point:?}"));
+        }
+        let turn = -0.5 * force * 3.0 * eccentricity / MODULUS;
+        close(ended.number("/rigid/die/motion/2"), turn, turn.abs(), "turn");
+        close(ended.number("/rigid/die/moment"), -force * eccentricity, force, "moment");
+    }
+}
+
+/// A block with edges that shorten towards the middle of its top, and beside it a part of a ring that is a million times stiffer.
+fn roller_scene(with_ring: bool) -> Mesh {
+    let flat = grid(12, 5, 31, |u, v| {
+        let s = 2.0 * u - 1.0;
+        [2.0 * s * s.abs(), 2.0 * v - 2.0]
+    });
+    let ring = grid(13, 2, 32, |u, v| {
+        let (s, r) = (2.0 * u - 1.0, 3.0 + 0.5 * v);
+        let angle = 0.6 * s * s.abs();
+        [r * angle.sin(), 3.0 - r * angle.cos()]
+    });
+    let mut bodies = vec![("block", flat, ["bottom", "right", "top", "left"])];
+    if with_ring {
+        bodies.push(("ring", ring, ["ring.seam", "", "ring.top", ""]));
+    }
+    Mesh { bodies }
+}
+
+const ROLLER: &str = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.block = { young = 1000.0, poisson = 0.3 }
+support.bottom = { on = "bottom", ux = 0.0, uy = 0.0 }
+solver.tolerance = 1e-10
+"#;
+
+#[test]
+fn a_rigid_roller_is_a_stiff_one() {
+    let stiff = format!(
+        "{ROLLER}body.ring = {{ young = 1e9, poisson = 0.3 }}
+support.held = {{ on = \"ring.top\", ux = 0.0, uy = -0.02 }}
+geometry.round = {{ curves = [\"ring.seam\"], circle = {{ centre = [0, 3], radius = 3 }} }}
+contact.seam = {{ between = [\"top\", \"ring.seam\"] }}\n"
+    );
+    let rigid = format!(
+        "{ROLLER}rigid.roller = {{ circle = {{ centre = [0, 3], radius = 3 }}, uy = -0.02 }}
+contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
+    );
+    let stiff = in_folder(&roller_scene(true), &stiff, Run::converged);
+    let moved = in_folder(&roller_scene(false), &rigid, Run::converged);
+    let same = |a: &Ended, b: &Ended, path: &str, most: f64| {
+        let [a, b] = [a, b].map(|ended| ended.number(path));
+        assert!((a / b - 1.0).abs() < most, "{path}: {a} and {b}");
+    };
+    for path in ["/contact/seam/force", "/contact/seam/pressure_max", "/energy/strain/block"] {
+        same(&moved, &stiff, path, 1e-3);
+    }
+    // The same roller, pressed by the force that moved it.
+    let force = format!("[0.0, {:?}]", -moved.number("/contact/seam/resultant/1").abs());
+    let pressed = rigid.replace("uy = -0.02", &format!("ux = 0.0, force = {force}"));
+    for ranks in RANKS {
+        let pressed = in_folder(&roller_scene(false), &pressed, |run| run.ranks(ranks).converged());
+        assert!((pressed.number("/rigid/roller/motion/1") + 0.02).abs() < 1e-6, "{}", pressed.number("/rigid/roller/motion/1"));
+        same(&pressed, &moved, "/contact/seam/pressure_max", 1e-4);
+    }
+}
+
+/// The force is so small beside the gap that the roller must come down first.
+#[test]
+fn a_roller_comes_down_onto_the_block() {
+    let case = format!(
+        "{ROLLER}rigid.roller = {{ circle = {{ centre = [0, 3.5], radius = 3 }}, ux = 0.0, force = [0.0, -5.0] }}
+contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
+    );
+    let ended = in_folder(&roller_scene(false), &case, Run::converged);
+    assert!((ended.number("/contact/seam/resultant/1").abs() - 5.0).abs() < 1e-7, "{}", ended.said());
+    let down = ended.number("/rigid/roller/motion/1");
+    assert!(down < -0.5 && down > -0.53, "{down}");
+}
+
+#[test]
+fn a_roller_that_nothing_holds_is_told() {
+    let case = format!(
+        "{ROLLER}rigid.roller = {{ circle = {{ centre = [0, 3], radius = 3 }}, force = [0.0, -5.0] }}
+contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
+    );
+    let ended = in_folder(&roller_scene(false), &case, Run::ended);
+    assert_eq!(ended.code, Some(3), "{}", ended.said());
+    assert!(ended.said().contains("rigid.roller") && ended.said().contains("move by (1, 0)"), "{}", ended.said());
+}
+
+/// A plate that is bonded to the top presses as a prescribed displacement does.
+#[test]
+fn a_plate_presses_with_its_resultant() {
+    let pressed = format!(
+        "{BLOCK}support.foot = {{ at = [0.0, 0.0], ux = 0.0 }}
+load.plate = {{ on = \"top\", rigid = true, force = [1.0, -6.0], moment = 0.5 }}\n"
+    )
+    .replace("uy = 0.0 }", "ux = 0.0, uy = 0.0 }");
+    for ranks in RANKS {
+        let plate = in_folder(&block(), &pressed, |run| run.ranks(ranks).converged());
+        for (path, wanted) in [("/rigid/plate/force/0", 1.0), ("/rigid/plate/force/1", -6.0), ("/rigid/plate/moment", 0.5)] {
+            close(plate.number(path), wanted, 6.0, path);
+        }
+        let [ux, uy, turn] = [0, 1, 2].map(|k| plate.number(&format!("/rigid/plate/motion/{k}")));
+        let held = format!(
+            "{}support.plate = {{ on = \"top\", ux = {ux:?}, uy = \"{uy:?} + {turn:?} * (x - 1)\" }}\n",
+            pressed.split("load.plate").next().expect("some")
+        );
+        let held = in_folder(&block(), &held, |run| run.ranks(ranks).converged());
+        let energy = plate.number("/energy/total");
+        close(held.number("/energy/total"), energy, energy, "energy");
+        close(held.number("/support/plate/reaction/1"), -6.0, 6.0, "reaction");
+        close(plate.number("/energy/external_work"), 2.0 * energy, energy, "work");
+    }
+}
+
+/// Exit code 2 and these words, from `check` and from `run`.
+#[test]
+fn mistakes_are_told() {
+    let contact = "contact.top = { between = [\"top\", \"rigid.die\"], curve = \"line\", gap = \"closed\" }\n";
+    let line = "line = [[-0.5, 1.0], [2.5, 1.0]]";
+    for (words, told) in [
+        (format!("{contact}rigid.die = {{ uy = 0.1 }}"), "rigid.die: its surface is one of line"),
+        (format!("{contact}rigid.die = {{ {line}, circle = {{ centre = [0, 0], radius = 1 }} }}"), "give exactly one of them"),
+        (format!("{contact}rigid.die = {{ line = [[0, 1]] }}"), "rigid.die.line"),
+        (format!("{contact}rigid.die = {{ line = [[0, 1], [0, 1]] }}"), "twice"),
+        (format!("{contact}rigid.die = {{ {line}, uy = 0.1, force = [0, -1] }}"), "stands beside uy"),
+        (format!("{contact}rigid.die = {{ {line}, angle = 0.1, moment = 2 }}"), "stands beside angle"),
+        (format!("{contact}rigid.dye = {{ {line} }}"), "\"rigid.die\" is no rigid tool"),
+        (format!("{contact}rigid.die = {{ {line} }}\nrigid.other = {{ {line} }}"), "rigid.other: nothing touches it"),
+        (format!("{contact}rigid.die = {{ line = [[3, 1], [3, 2]] }}"), "faces none of the boundaries"),
+        (format!("{contact}rigid.die = {{ {line}, young = 3 }}"), "young"),
+        ("contact.top = { between = [\"rigid.a\", \"rigid.b\"] }\nrigid.a = { line = [[0, 1], [1, 1]] }\nrigid.b = { line = [[0, 1], [1, 1]] }".into(), "both sides are rigid"),
+        ("load.plate = { on = \"top\", rigid = true }".into(), "presses with nothing"),
+        ("load.plate = { on = \"top\", rigid = true, force = [0, 1], pressure = 2 }".into(), "stands beside rigid"),
+        ("load.plate = { on = \"top\", force = [0, 1] }".into(), "rigid = true"),
+        ("load.plate = { on = \"tap\", rigid = true, force = [0, 1] }".into(), "load.plate.on"),
+        ("load.plate = { on = [\"top\", \"bottom\"], rigid = true, force = [0, 1] }".into(), "support.bottom holds a node"),
+        (format!("{contact}rigid.die = {{ {line} }}\nload.plate = {{ on = \"top\", rigid = true, force = [0, 1] }}"), "contact.top is there, too"),
+    ] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = write_scene(folder.path(), &block().text(), &format!("{BLOCK}{words}\n"));
+        let ended = Run::file(&file).ended();
+        assert_eq!(ended.code, Some(2), "{words}: {}", ended.said());
+        assert!(ended.errors.contains(told) && ended.errors.contains("case.toml"), "{words}: no `{told}` in {}", ended.errors);
+        let (code, _, errors) = support::mezha(None, &["check", &file.to_string_lossy()]);
+        assert_eq!(code, Some(2), "check, {words}: {errors}");
+    }
+}
