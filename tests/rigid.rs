@@ -87,7 +87,7 @@ fn roller_scene(with_ring: bool) -> Mesh {
         [2.0 * s * s.abs(), 2.0 * v - 2.0]
     });
     let ring = grid(13, 2, 32, |u, v| {
-        let (s, r) = (2.0 * u - 1.0, 3.0 + 0.5 * v);
+        let (s, r) = (2.0 * u - 1.0, 3.0 - 0.5 * v);
         let angle = 0.6 * s * s.abs();
         [r * angle.sin(), 3.0 - r * angle.cos()]
     });
