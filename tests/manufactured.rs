@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::Run;
+use support::{Run, TracePoint};
 
 /// Largest error among those whose names start so.
 fn largest(errors: &serde_json::Value, start: &str) -> f64 {
@@ -53,6 +53,49 @@ fn contact_that_ends_with_p1_continuous() {
 #[test]
 fn contact_that_ends_with_p0() {
     orders("open_zone", 1, "p0", 2, [0.9, 0.9]);
+}
+
+/// Errors of λ at the two Gauss points of each segment, in the mean square: there the linear function that is next to a smooth one
+/// has an error of higher order.
+fn error_at_gauss_points(trace: &[TracePoint], exact: impl Fn([f64; 2]) -> f64) -> f64 {
+    let (mut square, mut length) = (0.0, 0.0);
+    // Two points at one place are the end of a segment and the beginning of the next.
+    for segment in trace.chunk_by(|a, b| b.s - a.s > 1e-12) {
+        let [first, last] = [segment[0], segment[segment.len() - 1]];
+        for gauss in [-1.0, 1.0].map(|sign: f64| 0.5 + sign * (1.0_f64 / 12.0).sqrt()) {
+            let x = [0, 1].map(|k| first.x[k] + gauss * (last.x[k] - first.x[k]));
+            let lambda = first.lambda + gauss * (last.lambda - first.lambda);
+            square += 0.5 * (last.s - first.s) * (lambda - exact(x)).powi(2);
+        }
+        length += last.s - first.s;
+    }
+    (square / length).sqrt()
+}
+
+/// P2 with discontinuous linear multipliers, where all is smooth: the displacement is of third order (at the nodes of higher),
+/// λ of second, as linear functions are, and at their Gauss points of order 2.5.
+#[test]
+fn rates_of_smooth_solutions() {
+    type Lambda = fn([f64; 2]) -> f64;
+    let upright: Lambda = |x| 0.8 + 0.3 * (2.0 * x[1]).cos();
+    let under: Lambda = |x| 1.0 + 0.4 * x[0].sin();
+    let contacts = [("upright", upright), ("under_left", under), ("under_right", under)];
+    let of = |refine: usize| {
+        let run = Run::case("three_bodies").ranks(2).set("mesh.refine", refine).set("exact.must_hold", false);
+        let ended = run.set("solver.tolerance", "1e-11").converged();
+        let errors = ended.value("/errors");
+        let gauss = contacts.map(|(name, exact)| error_at_gauss_points(&ended.trace(name), exact));
+        let gauss = gauss.into_iter().fold(0.0, f64::max);
+        [largest(&errors, "u_"), largest(&errors, "energy_norm_"), largest(&errors, "lambda_"), gauss]
+    };
+    let (coarse, fine) = (of(1), of(4));
+    for (k, (name, least)) in
+        [("u", 3.0), ("energy", 1.95), ("pressure", 1.95), ("pressure at Gauss points", 2.3)].into_iter().enumerate()
+    {
+        let found = (coarse[k] / fine[k]).log2() / 3.0;
+        println!("{name} of order {found:.3}: {:.2e}, {:.2e}", coarse[k], fine[k]);
+        assert!(found >= least, "{name} of order {found:.3}: {:e}, {:e}", coarse[k], fine[k]);
+    }
 }
 
 /// λ of Michell's rings at 0, 30, 45, 60 and 90 degrees.
