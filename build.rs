@@ -43,10 +43,7 @@ fn main() {
     for path in ["build.rs", "src/petsc/shim.c", "src/petsc/shim.h"] {
         println!("cargo:rerun-if-changed={path}");
     }
-    let petsc = pkg_config::Config::new()
-        .atleast_version("3.18")
-        .probe("PETSc")
-        .unwrap_or_else(|error| missing("PETSc 3.18 or newer", "libpetsc-real-dev pkg-config", &error.to_string()));
+    let petsc = petsc();
     let includes: Vec<PathBuf> = petsc.include_paths.iter().cloned().chain(mpi_includes()).collect();
     for path in &petsc.link_paths {
         // The library of this PETSc flavour, at run time too: no environment variable is needed.
@@ -57,6 +54,26 @@ fn main() {
 
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     declarations(&includes, &out.join("petsc.rs"));
+}
+
+/// PETSc: that of `PETSC_DIR` (and `PETSC_ARCH`) if it is set, as PETSc's own users say which one they mean; else what pkg-config
+/// calls `PETSc`, and then `PETSc64`, which is Debian's name for the one with 64-bit indices.
+fn petsc() -> pkg_config::Library {
+    let [chosen, architecture] = ["PETSC_DIR", "PETSC_ARCH"].map(|name| {
+        println!("cargo:rerun-if-env-changed={name}");
+        std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
+    });
+    let probe = |name: &str| pkg_config::Config::new().atleast_version("3.18").probe(name);
+    if let Some(folder) = chosen {
+        let file = folder.join(architecture.unwrap_or_default()).join("lib/pkgconfig/PETSc.pc");
+        return probe(&file.to_string_lossy()).unwrap_or_else(|error| {
+            let words = format!("PETSC_DIR and PETSC_ARCH lead to {}. Correct or unset them.\n\n{error}", file.display());
+            missing("the PETSc that PETSC_DIR names, 3.18 or newer,", "libpetsc-real-dev pkg-config", &words)
+        });
+    }
+    probe("PETSc")
+        .or_else(|error| probe("PETSc64").map_err(|_| error))
+        .unwrap_or_else(|error| missing("PETSc 3.18 or newer", "libpetsc-real-dev pkg-config", &error.to_string()))
 }
 
 /// Directories with `mpi.h`, as the compiler wrapper tells them.

@@ -30,7 +30,8 @@ fn info_names_versions_and_ranks() {
         let (code, output, _) = mezha(ranks, &["info"]);
         assert_eq!(code, Some(0));
         let version = format!("mezha {}", env!("CARGO_PKG_VERSION"));
-        for word in [&version, "PETSc 3.", "Open MPI", "BLAS", told] {
+        let width = format!(", {}-bit indices", mezha::petsc::Index::BITS);
+        for word in [&version, "PETSc 3.", &width, "Open MPI", "BLAS", told] {
             assert_eq!(output.matches(word).count(), 1, "{word} in {output}");
         }
     }

@@ -82,7 +82,7 @@ contact.high = { between = ["rim.high", "plate.bottom"] }
 fn a_ring_that_rolls_is_found_on_polygons_and_on_circles() {
     let circle = "geometry.rim.circle={ centre = [0, 1], radius = 1 }";
     let held = "support.slit={ on = \"slit\", ux = 0.0, uy = 0.0 }";
-    let words = ["body ring can turn about (0, 1)", "hold it, for example by a support u"];
+    let words = ["body ring can turn about (0, 1)", "hold it, for example by a support with at = ["];
     for edges in [24, 61] {
         let mesh = between_plates(edges, 1.0);
         for refine in ["mesh.refine=0", "mesh.refine=2"] {

@@ -1,6 +1,6 @@
 //! Nodal forces of loads and body forces.
 
-use super::{Body, Load, LoadKind, positions};
+use super::{Body, Load, LoadKind, PointLoad, positions};
 use crate::element::{BadJacobian, Order, edge_load, triangle_load};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
@@ -16,6 +16,7 @@ pub fn applied_forces(
     numbering: &Numbering,
     bodies: &[Body],
     loads: &[Load],
+    point_loads: &[PointLoad],
     mut add: impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
     for load in loads {
@@ -25,6 +26,12 @@ pub fn applied_forces(
                 let forces = edge_load(&small.points, |x, normal| load.kind.traction(x, normal));
                 small.nodes.iter().zip(forces).for_each(|(node, force)| add(node.number(mesh, numbering), force));
             }
+        }
+    }
+    for load in point_loads {
+        let Some(vertex) = mesh.vertex_at(&load.at) else { continue };
+        if mesh.triangle_at(vertex).is_some_and(|triangle| partition.owner(triangle) == rank) {
+            add(numbering.vertex(vertex), load.force());
         }
     }
     for &triangle in partition.triangles_of(rank) {

@@ -1,9 +1,9 @@
 //! Supports at the nodes of one level: which displacement components are prescribed, in which frame.
 
-use super::Support;
+use super::{MOTIONS, Motion, RigidSet, Support};
 use crate::geometry::{Formula, Point, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, SMatrix};
 use std::collections::HashMap;
 
 /// Directions closer than this (radians) are one direction.
@@ -55,12 +55,31 @@ impl Constraint {
 #[error("{0}")]
 pub struct SupportError(pub String);
 
-/// One direction held at a node by one support.
+/// What holds a node, by its name; shown as the key of the case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum HeldBy<'a> {
+    Support(&'a str),
+    Rigid(&'a str),
+}
+
+impl std::fmt::Display for HeldBy<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            Self::Support(name) => write!(f, "support.{name}"),
+            Self::Rigid(key) => f.write_str(key),
+        }
+    }
+}
+
+/// One direction held at a node.
 struct Hold<'a> {
-    support: &'a str,
+    by: HeldBy<'a>,
     direction: Point,
     value: f64,
 }
+
+/// Place and holds of each node that supports hold, by its number.
+type AllHolds<'a> = HashMap<usize, (Point, Vec<Hold<'a>>)>;
 
 /// All constrained nodes of a level, by number; the same on every rank.
 #[derive(Clone, Debug, Default)]
@@ -71,18 +90,21 @@ pub struct Constraints {
 }
 
 impl Constraints {
-    /// Collects what all supports say at the nodes of a level.
+    /// Collects what all supports and rigid sets say at the nodes of a level. Rigid sets are where the components of their motion
+    /// that are prescribed put them; see [`Constraints::move_rigidly`] for the others.
     ///
     /// # Errors
-    /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite.
-    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
-        let mut holds: HashMap<usize, (Point, Vec<Hold>)> = HashMap::new();
-        for support in supports {
-            for name in &support.on {
-                for &edge in mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]) {
-                    collect(mesh, numbering, support, edge, &mut holds)?;
-                }
-            }
+    /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite, or a support
+    /// holds a rigid set that is to move.
+    pub fn new(
+        mesh: &MacroMesh,
+        numbering: &Numbering,
+        supports: &[Support],
+        rigid: &[RigidSet],
+    ) -> Result<Self, SupportError> {
+        let mut holds = all_holds(mesh, numbering, supports)?;
+        for set in rigid {
+            hold_rigidly(mesh, numbering, set, &mut holds)?;
         }
         let nodes = holds.into_iter().map(|(node, (x, holds))| Ok((node, combine(x, &holds)?)));
         let nodes: HashMap<usize, Constraint> = nodes.collect::<Result<_, _>>()?;
@@ -98,10 +120,92 @@ impl Constraints {
         if bits >> (node % 64) & 1 == 1 { self.nodes.get(&node) } else { None }
     }
 
+    /// Puts the nodes of a rigid set where a motion takes them.
+    pub fn move_rigidly(&mut self, mesh: &MacroMesh, numbering: &Numbering, set: &RigidSet, motion: &Motion) {
+        for (node, x) in set.places(mesh, numbering) {
+            let u = set.displacement(motion, x);
+            if let Some(constraint) = self.nodes.get_mut(&node) {
+                constraint.value = constraint.to_frame(u).into();
+            }
+        }
+    }
+
     /// All constrained nodes, in no order.
     pub fn iter(&self) -> impl Iterator<Item = (usize, &Constraint)> {
         self.nodes.iter().map(|(&node, constraint)| (node, constraint))
     }
+}
+
+/// Holds both components of every node of a rigid set, where its prescribed motion puts it.
+fn hold_rigidly<'a>(
+    mesh: &MacroMesh,
+    numbering: &Numbering,
+    set: &'a RigidSet,
+    holds: &mut AllHolds<'a>,
+) -> Result<(), SupportError> {
+    let motion = set.prescribed_motion();
+    for (node, x) in set.places(mesh, numbering) {
+        let (_, known) = holds.entry(node).or_insert((x, Vec::new()));
+        for hold in known.iter() {
+            let moves = |&k: &usize| set.mode(k, x).dot(&hold.direction).abs() > SAME * set.mode(k, x).norm();
+            if let Some(k) = set.free().find(moves) {
+                return Err(SupportError(format!(
+                    "{} holds a node at ({}, {}) that {} is to move: prescribe its {}, or leave the support out there",
+                    hold.by, x.x, x.y, set.key, MOTIONS[k]
+                )));
+            }
+        }
+        let u = set.displacement(&motion, x);
+        for (direction, value) in [(Point::new(1.0, 0.0), u.x), (Point::new(0.0, 1.0), u.y)] {
+            add(known, HeldBy::Rigid(&set.key), direction, value, x)?;
+        }
+    }
+    Ok(())
+}
+
+/// Which supports hold each node of a level, and in which directions.
+#[derive(Clone, Debug, Default)]
+pub struct Holders(HashMap<usize, Vec<(usize, Point)>>);
+
+impl Holders {
+    /// Those of a level.
+    ///
+    /// # Errors
+    /// As of [`Constraints::new`].
+    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
+        let number = |by: HeldBy| supports.iter().position(|support| by == HeldBy::Support(&support.name)).unwrap_or_default();
+        let of_node = |holds: &[Hold]| holds.iter().map(|hold| (number(hold.by), hold.direction)).collect();
+        let all = all_holds(mesh, numbering, supports)?;
+        Ok(Self(all.into_iter().map(|(node, (_, holds))| (node, of_node(&holds))).collect()))
+    }
+
+    /// What each support has of the reaction at a node: its number and its force. Where several hold one node in one direction
+    /// they share the force there, by the least sum of squares.
+    pub fn shares(&self, node: usize, reaction: Point) -> impl Iterator<Item = (usize, Point)> {
+        let holds = self.0.get(&node).map(Vec::as_slice).unwrap_or(&[]);
+        let gram: Matrix2<f64> = holds.iter().map(|(_, direction)| direction * direction.transpose()).sum();
+        let inverse: SMatrix<f64, 2, 2> = gram.pseudo_inverse(SAME * SAME).unwrap_or_default();
+        let along = inverse * reaction;
+        holds.iter().map(move |&(support, direction)| (support, direction * direction.dot(&along)))
+    }
+}
+
+/// What all supports say at the nodes of a level: the place of each, and the directions that are held there.
+fn all_holds<'a>(mesh: &MacroMesh, numbering: &Numbering, supports: &'a [Support]) -> Result<AllHolds<'a>, SupportError> {
+    let mut holds = AllHolds::new();
+    for support in supports {
+        if let Some(vertex) = support.at.as_ref().and_then(|spot| mesh.vertex_at(spot)) {
+            let x = mesh.vertices[vertex as usize];
+            let (_, known) = holds.entry(numbering.vertex(vertex)).or_insert((x, Vec::new()));
+            collect_axes(support, x, known)?;
+        }
+        for name in &support.on {
+            for &edge in mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]) {
+                collect(mesh, numbering, support, edge, &mut holds)?;
+            }
+        }
+    }
+    Ok(holds)
 }
 
 fn collect<'a>(
@@ -109,32 +213,47 @@ fn collect<'a>(
     numbering: &Numbering,
     support: &'a Support,
     edge: u32,
-    holds: &mut HashMap<usize, (Point, Vec<Hold<'a>>)>,
+    holds: &mut AllHolds<'a>,
 ) -> Result<(), SupportError> {
     for position in 0..=numbering.level.intervals {
         let node = EdgeNode { edge, position: position as u32 };
         let x = node.place(mesh, numbering);
         let (_, known) = holds.entry(node.number(mesh, numbering)).or_insert((x, Vec::new()));
-        let mut hold = |formula: &Option<Formula>, direction: Point| match formula {
-            Some(formula) => add(known, &support.name, direction, formula.value(&[x.x, x.y]), x),
-            None => Ok(()),
-        };
-        hold(&support.ux, Point::new(1.0, 0.0))?;
-        hold(&support.uy, Point::new(0.0, 1.0))?;
-        hold(&support.normal, mesh.edge_normal(edge, node.fraction(mesh, numbering)))?;
+        collect_axes(support, x, known)?;
+        if let Some(formula) = &support.normal {
+            let normal = mesh.edge_normal(edge, node.fraction(mesh, numbering));
+            add(known, HeldBy::Support(&support.name), normal, formula.value(&[x.x, x.y]), x)?;
+        }
+    }
+    Ok(())
+}
+
+/// Adds what a support says of both axes at a point.
+fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -> Result<(), SupportError> {
+    let axes: [(&Option<Formula>, Point); 2] = [(&support.ux, Point::new(1.0, 0.0)), (&support.uy, Point::new(0.0, 1.0))];
+    for (formula, direction) in axes {
+        if let Some(formula) = formula {
+            add(known, HeldBy::Support(&support.name), direction, formula.value(&[x.x, x.y]), x)?;
+        }
     }
     Ok(())
 }
 
 /// Adds a hold; normals of one support that nearly agree at a node become their mean.
-fn add<'a>(known: &mut Vec<Hold<'a>>, support: &'a str, direction: Point, value: f64, x: Point) -> Result<(), SupportError> {
+fn add<'a>(
+    known: &mut Vec<Hold<'a>>,
+    by: HeldBy<'a>,
+    direction: Point,
+    value: f64,
+    x: Point,
+) -> Result<(), SupportError> {
     if !value.is_finite() {
-        return Err(SupportError(format!("support.{support}: its formula has no finite value at ({}, {})", x.x, x.y)));
+        return Err(SupportError(format!("{by}: its formula has no finite value at ({}, {})", x.x, x.y)));
     }
-    let near = |hold: &&mut Hold| hold.support == support && hold.direction.dot(&direction) > SMOOTH.cos();
+    let near = |hold: &&mut Hold| hold.by == by && hold.direction.dot(&direction) > SMOOTH.cos();
     match known.iter_mut().find(near) {
         Some(hold) => hold.direction = (hold.direction + direction).normalize(),
-        None => known.push(Hold { support, direction, value }),
+        None => known.push(Hold { by, direction, value }),
     }
     Ok(())
 }
@@ -163,10 +282,10 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
         // Against the whole displacement: two supports that fix a node leave rounding of it in the direction of a third.
         if (found - hold.value).abs() > 1e-9 * (u.norm() + hold.value.abs()) {
             let others: Vec<_> =
-                holds.iter().filter(|h| h.support != hold.support).map(|h| format!("support.{}", h.support)).collect();
+                holds.iter().filter(|h| h.by != hold.by).map(|h| h.by.to_string()).collect();
             return Err(SupportError(format!(
-                "support.{} asks for displacement {} in direction ({:.6}, {:.6}) at ({}, {}), {} for {found}; leave one of them out there",
-                hold.support,
+                "{} asks for displacement {} in direction ({:.6}, {:.6}) at ({}, {}), {} for {found}; leave one of them out there",
+                hold.by,
                 hold.value,
                 hold.direction.x,
                 hold.direction.y,
@@ -183,8 +302,8 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
 mod tests {
     use super::*;
 
-    fn hold(support: &str, angle: f64, value: f64) -> Hold<'_> {
-        Hold { support, direction: Point::new(angle.cos(), angle.sin()), value }
+    fn hold(name: &str, angle: f64, value: f64) -> Hold<'_> {
+        Hold { by: HeldBy::Support(name), direction: Point::new(angle.cos(), angle.sin()), value }
     }
 
     #[test]
@@ -208,7 +327,7 @@ mod tests {
     #[test]
     fn a_repeated_hold_agrees_but_for_rounding() {
         let (sin, cos) = 37f64.to_radians().sin_cos();
-        let hold = |support, x, y, value| Hold { support, direction: Point::new(x, y), value };
+        let hold = |name, x, y, value| Hold { by: HeldBy::Support(name), direction: Point::new(x, y), value };
         for turn in [1.0, 1.0 + 1e-15] {
             let holds = [hold("wall", -cos, -sin, 0.0), hold("top", -sin, cos, -1e-3), hold("more", -cos * turn, -sin, 0.0)];
             assert_eq!(combine(Point::zeros(), &holds).expect("they agree").fixed, [true, true]);
@@ -216,8 +335,23 @@ mod tests {
     }
 
     #[test]
+    fn supports_share_the_reaction_of_a_node() {
+        let (x, y) = (Point::new(1.0, 0.0), Point::new(0.0, 1.0));
+        let shares = |holds: Vec<(usize, Point)>, reaction| {
+            let mut sums = [Point::zeros(); 3];
+            Holders(HashMap::from([(7, holds)])).shares(7, reaction).for_each(|(support, force)| sums[support] += force);
+            sums
+        };
+        let reaction = Point::new(3.0, -2.0);
+        assert_eq!(shares(vec![(0, x), (2, y)], reaction), [3.0 * x, Point::zeros(), -2.0 * y]);
+        assert_eq!(shares(vec![(0, x), (1, x)], 3.0 * x), [1.5 * x, 1.5 * x, Point::zeros()]);
+        let inclined = shares(vec![(0, x), (1, Point::new(0.6, 0.8)), (2, y)], reaction);
+        assert!((inclined.iter().sum::<Point>() - reaction).norm() < 1e-14);
+    }
+
+    #[test]
     fn opposite_directions_are_one_direction() {
-        let holds = [hold("a", 0.0, 0.25), Hold { support: "b", direction: Point::new(-1.0, 0.0), value: -0.25 }];
+        let holds = [hold("a", 0.0, 0.25), Hold { by: HeldBy::Support("b"), direction: Point::new(-1.0, 0.0), value: -0.25 }];
         assert_eq!(combine(Point::zeros(), &holds).expect("they agree").fixed, [true, false]);
     }
 

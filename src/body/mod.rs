@@ -3,13 +3,18 @@
 mod applied_force;
 mod constraint;
 mod macro_stiffness;
+mod rigid;
+mod springs;
 
 pub use applied_force::applied_forces;
-pub use constraint::{Constraint, Constraints, SupportError};
+pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
+pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet};
+pub use springs::{SpringStiffness, Springs};
 
 use crate::element::PlaneStrain;
-use crate::geometry::Formula;
+use crate::geometry::{Formula, Point};
+use crate::mesh::Spot;
 
 /// Linear elastic material in plane strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +43,15 @@ pub struct Body {
     pub force: [Formula; 2],
 }
 
-/// Prescribed displacement components on physical curves.
+/// Prescribed displacement components on physical curves, or at a point.
 #[derive(Clone, Debug)]
 pub struct Support {
     /// Name in the case file.
     pub name: String,
     /// Physical curves it acts on.
     pub on: Vec<String>,
+    /// Instead of curves the point that it acts on.
+    pub at: Option<Spot>,
     /// Prescribed component `u_x`, a formula of `x, y`.
     pub ux: Option<Formula>,
     /// Prescribed component `u_y`.
@@ -62,6 +69,25 @@ pub struct Load {
     pub on: Vec<String>,
     /// What acts there.
     pub kind: LoadKind,
+}
+
+/// A force at a point of a body.
+#[derive(Clone, Debug)]
+pub struct PointLoad {
+    /// Name in the case file.
+    pub name: String,
+    /// Where it acts.
+    pub at: Spot,
+    /// Force per thickness, formulas of `x, y`.
+    pub force: [Formula; 2],
+}
+
+impl PointLoad {
+    /// The force at its point.
+    pub fn force(&self) -> Point {
+        let x = &self.at.place;
+        Point::new(self.force[0].value(x), self.force[1].value(x))
+    }
 }
 
 /// Kinds of surface load; formulas of `x, y`.

@@ -7,6 +7,7 @@ use super::error::suggest;
 use super::section::Section;
 use super::values;
 use crate::accuracy::{Accuracy, Goal, ProbePoint, Quantity};
+use crate::body::PointLoad;
 use crate::contact::{Law, Pair};
 use crate::geometry::Point;
 
@@ -77,6 +78,19 @@ pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[Probe]) -> Opt
     }
     goals.extend(probes.iter().flat_map(|probe| goals_at(probe, displacement, stress)));
     Some(Accuracy { goals, most_unknowns, most_seconds })
+}
+
+/// The energy of a force at a point is infinite in the plane: no mesh reaches it.
+pub fn check_energy(accuracy: Option<&Accuracy>, loads: &[PointLoad], root: &Section) {
+    let energy = accuracy.is_some_and(|accuracy| accuracy.goals.iter().any(|goal| goal.quantity == Quantity::Energy));
+    if let Some(load) = loads.first().filter(|_| energy) {
+        let key: &[&str] = if root.has_table("accuracy") { &["accuracy", "energy"] } else { &["accuracy"] };
+        let words = format!(
+            "load.{} acts at a point, where the energy is infinite: ask for force, pressure, displacement or stress, or spread the load over a boundary",
+            load.name
+        );
+        root.problem(key, words);
+    }
 }
 
 /// A relative error.

@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::Geometry;
+use super::{Geometry, Union};
 use super::section::Section;
 use super::values::{self, PLANE, choice, must_be};
 use crate::contact::{
@@ -21,8 +21,31 @@ const CONFIGURATIONS: [(&str, Configuration); 2] =
     [("reference", Configuration::Reference), ("deformed", Configuration::Deformed)];
 const END_RULES: [(&str, EndRule); 2] = [("free", EndRule::Free), ("fixed", EndRule::Fixed)];
 
+/// What a table `[contact.NAME]` says.
+pub struct ReadContact {
+    /// The contact; a side of several curves has one name made of theirs.
+    pub pair: Pair,
+    /// The curves of each side.
+    pub sides: [Vec<String>; 2],
+}
+
+/// The contacts, and the sides that are made of several curves.
+pub fn split_contacts(all: Vec<ReadContact>) -> (Vec<Pair>, Vec<Union>) {
+    let mut unions: Vec<Union> = Vec::new();
+    let mut pairs = Vec::new();
+    for ReadContact { pair, sides } in all {
+        for (name, curves) in pair.between.iter().zip(sides) {
+            if curves.len() > 1 && !unions.iter().any(|known| known.name == *name) {
+                unions.push(Union { name: name.clone(), curves });
+            }
+        }
+        pairs.push(pair);
+    }
+    (pairs, unions)
+}
+
 /// `[contact.NAME]`
-pub fn read_contact(section: &Section) -> Option<Pair> {
+pub fn read_contact(section: &Section) -> Option<ReadContact> {
     let between = section.required("between", "[\"lower.seam\", \"upper.seam\"]", read_between);
     let curve = section.or("curve", "fit", choice(&CURVES));
     let gap = section.or("gap", "geometry", read_gap);
@@ -53,9 +76,10 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
     if !section.name().chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
         section.problem(&[], "its name is part of a file name; use letters, digits, - and _".into());
     }
-    Some(Pair {
+    let sides = between?;
+    let pair = Pair {
         name: section.name().into(),
-        between: between?,
+        between: sides.each_ref().map(|curves| curves.join(" + ")),
         curve: curve?,
         gap: gap?,
         space: space?,
@@ -67,7 +91,8 @@ pub fn read_contact(section: &Section) -> Option<Pair> {
         spans: spans?,
         grading: grading?,
         ends: ends?,
-    })
+    };
+    Some(ReadContact { pair, sides })
 }
 
 /// What a curve that is declared cannot have: it neither follows the bodies nor is it fitted.
@@ -104,12 +129,15 @@ fn read_quadrature(section: &Section, space: Option<MultiplierSpace>) -> Option<
     Some(Quadrature::Segment { points })
 }
 
-fn read_between(value: &Value) -> Result<[String; 2], String> {
+/// The curves of each side: one name, or a list of them.
+fn read_between(value: &Value) -> Result<[Vec<String>; 2], String> {
     let wanted = || must_be("two physical curves, of body 1 and of body 2", value);
     let list = value.as_array().ok_or_else(wanted)?;
-    let names = list.iter().map(values::name).collect::<Result<Vec<_>, _>>()?;
-    match <[String; 2]>::try_from(names).map_err(|_| wanted())? {
-        [first, second] if first == second => Err("must name two different curves, one of each body".into()),
+    let names = list.iter().map(values::names).collect::<Result<Vec<_>, _>>()?;
+    match <[Vec<String>; 2]>::try_from(names).map_err(|_| wanted())? {
+        [first, second] if first.iter().any(|name| second.contains(name)) => {
+            Err("must name two different curves, one of each body".into())
+        }
         pair => Ok(pair),
     }
 }
@@ -169,8 +197,13 @@ fn read_fractions(value: &Value) -> Result<SegmentRule, String> {
     Ok(SegmentRule::Fractions(fractions))
 }
 
+/// The physical curves of a side.
+pub fn parts(unions: &[Union], name: &String) -> Vec<String> {
+    unions.iter().find(|union| union.name == *name).map_or_else(|| vec![name.clone()], |union| union.curves.clone())
+}
+
 /// A contact on a declared geometry needs one that lists both boundaries.
-pub fn check_contacts(contacts: &[Pair], geometries: &[Geometry], root: &Section) {
+pub fn check_contacts(contacts: &[Pair], unions: &[Union], geometries: &[Geometry], root: &Section) {
     if geometries.len() < root.names_below("geometry").count() {
         return; // A geometry could not be read; its own error comes first.
     }
@@ -183,7 +216,7 @@ pub fn check_contacts(contacts: &[Pair], geometries: &[Geometry], root: &Section
     }
     for pair in contacts.iter().filter(|pair| pair.curve == CurveChoice::Geometry) {
         let [first, second] = &pair.between;
-        let lists = |geometry: &&Geometry, name| geometry.curves.contains(name);
+        let lists = |geometry: &&Geometry, name| parts(unions, name).iter().all(|curve| geometry.curves.contains(curve));
         if geometries.iter().filter(|geometry| lists(geometry, first) && lists(geometry, second)).count() == 1 {
             continue;
         }
@@ -193,7 +226,8 @@ pub fn check_contacts(contacts: &[Pair], geometries: &[Geometry], root: &Section
             found.extend(shapes.map(|geometry| format!("geometry.{} lists \"{name}\"", geometry.name)));
         }
         let found = if found.is_empty() { "none lists either".into() } else { found.join(", ") };
-        let words = format!("needs one [geometry] with curves = [\"{first}\", \"{second}\"]; {found}");
+        let curves = [first, second].map(|name| parts(unions, name)).concat();
+        let words = format!("needs one [geometry] with curves = [\"{}\"]; {found}", curves.join("\", \""));
         root.problem(&["contact", &pair.name, "curve"], words);
     }
 }

@@ -9,9 +9,13 @@ pub(crate) mod error;
 mod exact;
 mod fingerprint;
 mod grade;
+mod gravity;
 mod model;
 pub(crate) mod overrides;
+mod rigid;
 pub(crate) mod section;
+mod spot;
+mod support;
 pub(crate) mod values;
 
 use std::cell::RefCell;
@@ -20,7 +24,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use crate::accuracy::Accuracy;
-use crate::body::{Body, Load, Support};
+use crate::body::{Body, Load, PointLoad, Springs, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
@@ -29,6 +33,7 @@ use crate::system::{SolverChoice, Tolerance};
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 pub use fingerprint::{Inputs, fingerprint};
+pub use rigid::Tool;
 pub(crate) use section::read_text;
 
 use overrides::{overridden, set_value};
@@ -49,14 +54,22 @@ pub struct Case {
     pub mesh: MeshChoice,
     /// Bodies, in the order of the file.
     pub bodies: Vec<Body>,
+    /// Rigid tools.
+    pub tools: Vec<Tool>,
     /// True shapes of boundaries.
     pub geometries: Vec<Geometry>,
     /// Prescribed displacements.
     pub supports: Vec<Support>,
+    /// Elastic supports.
+    pub springs: Vec<Springs>,
     /// Surface loads.
     pub loads: Vec<Load>,
+    /// Forces at points.
+    pub point_loads: Vec<PointLoad>,
     /// Contact pairs.
     pub contacts: Vec<Pair>,
+    /// Sides of contacts that are made of several physical curves.
+    pub unions: Vec<Union>,
     /// Linear solver.
     pub solver: Solver,
     /// The accuracy that the mesh is adapted to; nothing if it stays as it is.
@@ -102,6 +115,15 @@ pub struct Geometry {
     pub curves: Vec<String>,
     /// The shape.
     pub curve: Curve,
+}
+
+/// Several physical curves that are one side of a contact.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Union {
+    /// The name of all of them.
+    pub name: String,
+    /// The physical curves.
+    pub curves: Vec<String>,
 }
 
 /// How the linear systems are solved.
@@ -172,25 +194,37 @@ impl Case {
         format!("# Resolved by mezha {}.\n{table}", env!("CARGO_PKG_VERSION"))
     }
 
+    /// The physical curves of a side of a contact, from its name.
+    pub fn curves_of(&self, side: &String) -> Vec<String> {
+        contact::parts(&self.unions, side)
+    }
+
     /// Reads every section, then checks what lies between them. None if a value is missing or bad; the log knows why.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
         let title = root.or("title", "", values::text);
         let mesh = model::read_mesh(root, &folder);
-        let bodies = root.named("body", model::read_body);
+        let gravity = gravity::read_gravity(root);
+        let bodies = root.named("body", |section| model::read_body(section, gravity));
+        let tools = root.named("rigid", rigid::read_tool);
         let geometries = root.named("geometry", model::read_geometry);
-        let supports = root.named("support", model::read_support);
-        let loads = root.named("load", model::read_load);
-        let contacts = root.named("contact", contact::read_contact);
+        let (supports, springs) = support::split(root.named("support", support::read_support));
+        let (loads, point_loads) = model::split_loads(root.named("load", model::read_load));
+        let (contacts, unions) = contact::split_contacts(root.named("contact", contact::read_contact));
         let solver = model::read_solver(root);
         let output = model::read_output(root);
         let probes = root.named("probe", model::read_probe);
         let exact = exact::read_exact(root);
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
         model::check_bodies(root);
+        gravity::check_gravity(gravity, root);
         model::check_geometries(&geometries, root);
         model::check_probes(&probes, root);
-        contact::check_contacts(&contacts, &geometries, root);
+        spot::check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);
+        spot::check_spots("load", point_loads.iter().map(|load| (&load.name, &load.at)), root);
+        accuracy::check_energy(accuracy.as_ref(), &point_loads, root);
+        contact::check_contacts(&contacts, &unions, &geometries, root);
+        rigid::check_tools(&tools, &contacts, root);
         exact::check_exact(&exact, root);
         Some(Self {
             name: name_of(file, "case.toml"),
@@ -199,10 +233,14 @@ impl Case {
             title: title?,
             mesh: mesh?,
             bodies,
+            tools,
             geometries,
             supports,
+            springs,
             loads,
+            point_loads,
             contacts,
+            unions,
             solver: solver?,
             accuracy,
             output: output?,

@@ -1,4 +1,4 @@
-//! Mesh, bodies, geometry, supports, loads, solver and probes.
+//! Mesh, bodies, geometry, loads, solver and probes.
 
 use std::path::Path;
 
@@ -6,10 +6,12 @@ use toml::Value;
 
 use super::error::suggest;
 use super::grade::read_grade;
+use super::gravity::{Gravity, read_weight, with_weight};
 use super::section::Section;
+use super::spot::read_where;
 use super::values::{self, PLANE};
 use super::{Geometry, MeshChoice, Output, Probe, Solver};
-use crate::body::{Body, Load, LoadKind, Material, Support};
+use crate::body::{Body, Load, LoadKind, Material, PointLoad};
 use crate::element::Order;
 use crate::geometry::Curve;
 use crate::system::{SolverChoice, Tolerance};
@@ -35,30 +37,36 @@ pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
 }
 
 /// `[body.NAME]`
-pub fn read_body(section: &Section) -> Option<Body> {
+pub fn read_body(section: &Section, gravity: Gravity) -> Option<Body> {
     let young = section.required("young", "7000.0", values::positive);
     let poisson = section.required("poisson", "0.3", |value| match values::number(value)? {
         ratio if ratio > -1.0 && ratio < 0.5 => Ok(ratio),
         _ => Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into()),
     });
     let force = section.or("body_force", vec![0.0, 0.0], values::formulas);
+    let weight = read_weight(section, gravity);
     let material = Material { young: young?, poisson: poisson? };
-    Some(Body { name: section.name().into(), material, force: force? })
+    Some(Body { name: section.name().into(), material, force: with_weight(force?, weight?) })
 }
 
 /// `[geometry.NAME]`
 pub fn read_geometry(section: &Section) -> Option<Geometry> {
     let curves = section.required("curves", "[\"lower.seam\", \"upper.seam\"]", values::names);
+    let curve = read_surface(section);
+    Some(Geometry { name: section.name().into(), curves: curves?, curve: curve? })
+}
+
+/// A curve: `circle`, or `x`, `y`, `t`.
+pub fn read_surface(section: &Section) -> Option<Curve> {
     let parametric = ["x", "y", "t"].map(|key| section.has(key));
-    let curve = match (section.has("circle"), parametric.contains(&true)) {
+    match (section.has("circle"), parametric.contains(&true)) {
         (true, true) => {
             section.problem(&["circle"], "stands beside x, y, t; give either circle or formulas".into());
             None
         }
         (true, false) => read_circle(section),
         _ => read_parametric(section),
-    };
-    Some(Geometry { name: section.name().into(), curves: curves?, curve: curve? })
+    }
 }
 
 fn read_circle(section: &Section) -> Option<Curve> {
@@ -90,25 +98,40 @@ fn read_parametric(section: &Section) -> Option<Curve> {
     Some(Curve::Parametric { x, y, range })
 }
 
-/// `[support.NAME]`
-pub fn read_support(section: &Section) -> Option<Support> {
-    let on = section.required("on", "\"bottom\"", values::names);
-    let given = ["ux", "uy", "normal"].map(|key| section.has(key));
-    let component = |key| section.optional(key, values::formula(&PLANE));
-    let [ux, uy, normal] = ["ux", "uy", "normal"].map(component);
-    match given {
-        [false, false, false] => section.problem(&[], "prescribes nothing; give ux, uy or normal".into()),
-        [_, _, true] if given[0] || given[1] => {
-            section.problem(&["normal"], "cannot stand beside ux or uy; make two supports on different curves".into());
+/// What a table `[load.NAME]` says.
+pub enum LoadTable {
+    /// It acts on physical curves.
+    OnCurves(Load),
+    /// It acts at a point.
+    AtPoint(PointLoad),
+}
+
+/// The loads on curves, and those at points.
+pub fn split_loads(all: Vec<LoadTable>) -> (Vec<Load>, Vec<PointLoad>) {
+    let (mut loads, mut point_loads) = (Vec::new(), Vec::new());
+    for load in all {
+        match load {
+            LoadTable::OnCurves(load) => loads.push(load),
+            LoadTable::AtPoint(load) => point_loads.push(load),
         }
-        _ => {}
     }
-    Some(Support { name: section.name().into(), on: on?, ux, uy, normal })
+    (loads, point_loads)
 }
 
 /// `[load.NAME]`
-pub fn read_load(section: &Section) -> Option<Load> {
-    let on = section.required("on", "\"top\"", values::names);
+pub fn read_load(section: &Section) -> Option<LoadTable> {
+    let place = read_where(section, "\"top\"");
+    let name = section.name().to_string();
+    if section.has("at") {
+        for key in ["pressure", "traction"].into_iter().filter(|key| section.has(key)) {
+            section.problem(&[key], "acts on physical curves; at a point give force = [fx, fy]".into());
+        }
+        let force = section.required("force", "[0.0, -1.0], per thickness", values::formulas::<2>);
+        return Some(LoadTable::AtPoint(PointLoad { name, at: place?.at?, force: force? }));
+    }
+    if section.has("force") {
+        section.problem(&["force"], "acts at a point, at = [x, y]; on physical curves give pressure or traction".into());
+    }
     let given = [section.has("pressure"), section.has("traction")];
     let pressure = section.optional("pressure", values::formula(&PLANE)).map(LoadKind::Pressure);
     let traction = section.optional("traction", values::formulas::<2>).map(LoadKind::Traction);
@@ -117,7 +140,7 @@ pub fn read_load(section: &Section) -> Option<Load> {
         [true, true] => section.problem(&["pressure"], "stands beside traction; give one of them, or two loads".into()),
         _ => {}
     }
-    Some(Load { name: section.name().into(), on: on?, kind: pressure.or(traction)? })
+    Some(LoadTable::OnCurves(Load { name, on: place?.on, kind: pressure.or(traction)? }))
 }
 
 /// `[solver]`

@@ -151,6 +151,11 @@ impl<'a> Section<'a> {
         self.get(key).and_then(Value::as_table).into_iter().flat_map(Table::keys).map(String::as_str)
     }
 
+    /// A table under a key, as it is written.
+    pub fn below(&self, key: &'static str, name: &str) -> Option<&'a Table> {
+        self.get(key)?.as_table()?.get(name)?.as_table()
+    }
+
     fn get(&self, key: &'static str) -> Option<&'a Value> {
         let mut asked = self.asked.borrow_mut();
         if !asked.contains(&key) {

@@ -6,11 +6,10 @@
 //! 1984). What is halved is halved for both triangles beside it, so that the mesh stays conforming; new vertices of a bent side
 //! lie on its curve.
 
-use super::edge_shape::EdgeShape;
+use super::connected::Connected;
 use super::origin::Origin;
-use super::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
+use super::{MacroMesh, MacroTriangle};
 use crate::geometry::Point;
-use std::collections::HashMap;
 
 /// A side that is so many times shorter than the longest one of its triangle is halved after that one only.
 const SLENDER: f64 = 3.0;
@@ -70,7 +69,7 @@ impl BisectedMesh {
                 next.add(part.0, known);
             }
         }
-        next.halve_edges(&self.mesh, &middles);
+        next.divide_edges(&self.mesh, |edge| Some((middles[edge]?, 0.5)));
         Self { mesh: next.mesh, sides, origins }
     }
 
@@ -163,94 +162,6 @@ impl TrianglePart {
 /// The longest of three sides. Sides of one length are told by their number: rounding decides nothing.
 fn longest(lengths: [f64; 3]) -> usize {
     (1..3).fold(0, |best, k| if lengths[k] > lengths[best] * (1.0 + EQUAL) { k } else { best })
-}
-
-/// A mesh that is being connected.
-struct Connected {
-    mesh: MacroMesh,
-    /// Edges by their ends, the smaller one first.
-    known: HashMap<[u32; 2], u32>,
-}
-
-impl Connected {
-    /// The bodies of a mesh without its triangles.
-    fn new(before: &MacroMesh, vertices: Vec<Point>) -> Self {
-        let mut ratios = before.ratios.clone();
-        ratios.resize(vertices.len(), None);
-        let pieces = before.pieces.iter().map(|piece| super::BodyPiece { first: u32::MAX, ..piece.clone() }).collect();
-        let mesh = MacroMesh {
-            file: before.file.clone(),
-            vertices,
-            ratios,
-            triangles: Vec::new(),
-            edges: Vec::new(),
-            bodies: before.bodies.clone(),
-            pieces,
-            boundaries: Vec::new(),
-        };
-        Self { mesh, known: HashMap::new() }
-    }
-
-    /// Adds a triangle of the same body and piece as one of the mesh before.
-    fn add(&mut self, vertices: [u32; 3], before: &MacroTriangle) {
-        let triangle = self.mesh.triangles.len() as u32;
-        let (mut edges, mut forward) = ([0; 3], [true; 3]);
-        for k in 0..3 {
-            let (a, b) = (vertices[k], vertices[(k + 1) % 3]);
-            let count = self.mesh.edges.len() as u32;
-            edges[k] = *self.known.entry([a.min(b), a.max(b)]).or_insert(count);
-            if edges[k] == count {
-                self.mesh.edges.push(MacroEdge { vertices: [a, b], triangles: [Some(triangle), None], shape: None });
-            } else {
-                self.mesh.edges[edges[k] as usize].triangles[1] = Some(triangle);
-                forward[k] = false;
-            }
-        }
-        let piece = &mut self.mesh.pieces[before.piece as usize];
-        piece.first = piece.first.min(triangle);
-        self.mesh.triangles.push(MacroTriangle { vertices, edges, forward, ..before.clone() });
-    }
-
-    /// Gives the edges the shapes, and the boundaries, of the edges that they are parts of.
-    fn halve_edges(&mut self, before: &MacroMesh, middles: &[Option<u32>]) {
-        for (edge, known) in before.edges.iter().enumerate() {
-            let Some(shape) = &known.shape else { continue };
-            let [a, b] = known.vertices;
-            match middles[edge] {
-                None => self.bend([a, b], shape.clone()),
-                Some(middle) => {
-                    let [from, to] = shape.range;
-                    let at = shape.parameter(0.5);
-                    self.bend([a, middle], EdgeShape { range: [from, at], ..shape.clone() });
-                    self.bend([middle, b], EdgeShape { range: [at, to], ..shape.clone() });
-                }
-            }
-        }
-        for boundary in &before.boundaries {
-            let parts = boundary.edges.iter().flat_map(|&edge| {
-                let [a, b] = before.edges[edge as usize].vertices;
-                match middles[edge as usize] {
-                    None => vec![self.edge(a, b)],
-                    Some(middle) => vec![self.edge(a, middle), self.edge(middle, b)],
-                }
-            });
-            let edges = parts.collect();
-            self.mesh.boundaries.push(Boundary { name: boundary.name.clone(), edges });
-        }
-    }
-
-    fn edge(&self, a: u32, b: u32) -> u32 {
-        self.known[&[a.min(b), a.max(b)]]
-    }
-
-    /// Gives the edge between two vertices a shape that runs from the first to the second.
-    fn bend(&mut self, [a, b]: [u32; 2], shape: EdgeShape) {
-        let edge = self.edge(a, b);
-        let edge = &mut self.mesh.edges[edge as usize];
-        let [from, to] = shape.range;
-        let range = if edge.vertices == [a, b] { [from, to] } else { [to, from] };
-        edge.shape = Some(EdgeShape { range, ..shape });
-    }
 }
 
 #[cfg(test)]

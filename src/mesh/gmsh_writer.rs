@@ -20,8 +20,8 @@ impl MacroMesh {
 
     /// Boundaries and bodies by name; a tag is a place, from 1.
     fn physical_names(&self) -> String {
-        let mut text = format!("{}\n", self.boundaries.len() + self.bodies.len());
-        let names = self.boundaries.iter().map(|boundary| (1, &boundary.name)).enumerate();
+        let mut text = format!("{}\n", self.physical_curves().len() + self.bodies.len());
+        let names = self.physical_curves().iter().map(|boundary| (1, &boundary.name)).enumerate();
         for (place, (dimension, name)) in names.chain(self.bodies.iter().map(|name| (2, name)).enumerate()) {
             line(&mut text, format_args!("{dimension} {} \"{name}\"", place + 1));
         }
@@ -30,8 +30,8 @@ impl MacroMesh {
 
     /// One curve for each boundary, one surface for each body, each with its physical tag and the box around it.
     fn entities(&self) -> String {
-        let mut text = format!("0 {} {} 0\n", self.boundaries.len(), self.bodies.len());
-        for (place, boundary) in self.boundaries.iter().enumerate() {
+        let mut text = format!("0 {} {} 0\n", self.physical_curves().len(), self.bodies.len());
+        for (place, boundary) in self.physical_curves().iter().enumerate() {
             let ends = boundary.edges.iter().flat_map(|&edge| self.edges[edge as usize].vertices);
             entity(&mut text, place + 1, self.box_around(ends));
         }
@@ -70,12 +70,12 @@ impl MacroMesh {
 
     /// Lines of the boundaries, then triangles in their order: a block for as many of one body as follow each other.
     fn elements(&self) -> String {
-        let boundaries = self.boundaries.iter().filter(|boundary| !boundary.edges.is_empty()).count();
+        let boundaries = self.physical_curves().iter().filter(|boundary| !boundary.edges.is_empty()).count();
         let blocks = self.triangles.chunk_by(|a, b| a.body == b.body);
-        let count = self.triangles.len() + self.boundaries.iter().map(|boundary| boundary.edges.len()).sum::<usize>();
+        let count = self.triangles.len() + self.physical_curves().iter().map(|boundary| boundary.edges.len()).sum::<usize>();
         let mut text = format!("{} {count} 1 {count}\n", boundaries + blocks.clone().count());
         let mut tag = 0;
-        for (place, boundary) in self.boundaries.iter().enumerate().filter(|(_, boundary)| !boundary.edges.is_empty()) {
+        for (place, boundary) in self.physical_curves().iter().enumerate().filter(|(_, boundary)| !boundary.edges.is_empty()) {
             line(&mut text, format_args!("1 {} 1 {}", place + 1, boundary.edges.len()));
             for &edge in &boundary.edges {
                 let [a, b] = self.edges[edge as usize].vertices;
@@ -137,7 +137,7 @@ mod tests {
                 *x = Point::new(x.x / 3.0 + 1e-9 * place as f64, x.y / 7.0) * 1e-3;
             }
             let [edge, last] = [mesh.boundaries[0].edges[0], *mesh.boundaries.last().expect("some").edges.last().expect("some")];
-            mesh.boundaries.push(Boundary { name: "in several, \u{3bb}".into(), edges: vec![last, edge] });
+            mesh.boundaries.push(Boundary { name: "in several, \u{3bb}".into(), edges: vec![last, edge], is_union: false });
             assert_eq!(content(&again(&mesh)), content(&mesh), "{file}");
         }
     }

@@ -1,7 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
-use super::MeshError;
 use super::edge_shape::EdgeShape;
+use super::{MeshError, NamedPoint};
 use crate::geometry::{Point, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -47,6 +47,8 @@ pub struct Boundary {
     pub name: String,
     /// Its macro edges.
     pub edges: Vec<u32>,
+    /// Whether the case has made it of several physical curves.
+    pub is_union: bool,
 }
 
 /// A part of a body whose triangles hang together by edges.
@@ -77,6 +79,8 @@ pub struct MacroMesh {
     pub pieces: Vec<BodyPiece>,
     /// Physical curves.
     pub boundaries: Vec<Boundary>,
+    /// Vertices at points that the case names.
+    pub points: Vec<NamedPoint>,
 }
 
 impl MacroMesh {
@@ -92,6 +96,7 @@ impl MacroMesh {
             bodies: Vec::new(),
             pieces: Vec::new(),
             boundaries: Vec::new(),
+            points: Vec::new(),
         };
         let mut known = HashMap::new();
         for (corners, names, line) in raw.triangles {
@@ -148,7 +153,7 @@ impl MacroMesh {
         Ok(if area > 0.0 { [a, b, c] } else { [a, c, b] })
     }
 
-    fn add_triangle(
+    pub(super) fn add_triangle(
         &mut self,
         vertices: [u32; 3],
         body: u32,
@@ -222,7 +227,7 @@ impl MacroMesh {
         };
         let known = self.boundaries.iter().position(|boundary| boundary.name == name);
         let at = known.unwrap_or_else(|| {
-            self.boundaries.push(Boundary { name, edges: Vec::new() });
+            self.boundaries.push(Boundary { name, edges: Vec::new(), is_union: false });
             self.boundaries.len() - 1
         });
         if placed.insert((at, edge)) {
@@ -234,6 +239,26 @@ impl MacroMesh {
     /// The boundary of that name, if the mesh has it.
     pub fn boundary(&self, name: &str) -> Option<&Boundary> {
         self.boundaries.iter().find(|boundary| boundary.name == name)
+    }
+
+    /// The physical curves of the mesh file.
+    pub fn physical_curves(&self) -> &[Boundary] {
+        let count = self.boundaries.iter().take_while(|boundary| !boundary.is_union).count();
+        &self.boundaries[..count]
+    }
+
+    /// Makes one boundary of several, under a name of its own; one of that name, if there is one, is it.
+    pub fn unite(&mut self, name: &str, curves: &[String]) {
+        if self.boundary(name).is_some() {
+            return;
+        }
+        let mut edges: Vec<u32> = Vec::new();
+        for edge in curves.iter().filter_map(|curve| self.boundary(curve)).flat_map(|boundary| &boundary.edges) {
+            if !edges.contains(edge) {
+                edges.push(*edge);
+            }
+        }
+        self.boundaries.push(Boundary { name: name.into(), edges, is_union: true });
     }
 
     /// The triangle beside a boundary edge, and which of its three edges it is.

@@ -7,12 +7,14 @@
 mod bisection;
 mod cells;
 mod chain;
+mod connected;
 mod edge_shape;
 mod edge_trace;
 mod gmsh;
 mod gmsh_writer;
 mod grading;
 mod hierarchy;
+mod insertion;
 pub mod lattice;
 mod macro_mesh;
 mod numbering;
@@ -25,7 +27,9 @@ pub(crate) mod samples;
 mod shape;
 mod smooth_normal;
 mod spline_shape;
+mod spot;
 mod strip;
+mod tool;
 mod work;
 
 pub use bisection::BisectedMesh;
@@ -41,7 +45,9 @@ pub use origin::Origin;
 pub use partition::{Graph, Partition};
 pub use smooth_normal::{SmoothNormals, SmoothPoint};
 pub use spline_shape::Corner;
+pub use spot::{NamedPoint, Spot};
 pub use strip::Strip;
+pub use tool::SurfacePart;
 
 use std::path::{Path, PathBuf};
 

@@ -18,7 +18,7 @@ impl MacroMesh {
         let curve = Arc::new(curve.clone());
         for name in boundaries {
             let Some(boundary) = self.boundary(name) else {
-                let known = self.boundaries.iter().map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
+                let known = self.physical_curves().iter().map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
                 return Err(MeshError::unusable(
                     &self.file,
                     format!("has no physical curve \"{name}\", which [geometry.{geometry}] names; it has {known}"),
@@ -124,6 +124,16 @@ impl MacroMesh {
         match &macro_edge.shape {
             Some(shape) if t > 0.0 && t < 1.0 => shape.curve.point(shape.parameter(t)),
             _ => a * (1.0 - t) + b * t,
+        }
+    }
+
+    /// Derivative of the position on a macro edge by the fraction `t` from its first vertex (length).
+    pub fn edge_slope(&self, edge: u32, t: f64) -> Point {
+        let macro_edge = &self.edges[edge as usize];
+        let [a, b] = macro_edge.vertices.map(|vertex| self.vertices[vertex as usize]);
+        match &macro_edge.shape {
+            Some(shape) => shape.curve.derivative(shape.parameter(t)) * (shape.range[1] - shape.range[0]),
+            None => b - a,
         }
     }
 

@@ -39,6 +39,9 @@ pub struct Summary {
     pub boundaries: Vec<BoundaryIteration>,
     /// By name of the contact.
     pub contact: BTreeMap<String, ContactSummary>,
+    /// By name of the support.
+    #[serde(default)]
+    pub support: BTreeMap<String, SupportSummary>,
     /// Energies of the solution.
     pub energy: Energy,
     /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
@@ -247,6 +250,14 @@ impl ZoneSummary {
     }
 }
 
+/// One support.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SupportSummary {
+    /// Its force on the bodies (per thickness).
+    #[serde(deserialize_with = "numbers")]
+    pub reaction: Option<[f64; 2]>,
+}
+
 /// Energies per thickness.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
@@ -256,6 +267,9 @@ pub struct Energy {
     pub total: Option<f64>,
     /// U from the stationary value of the Lagrangian, of second order in the algebraic error; not in all scenes.
     pub stationary: Option<f64>,
+    /// Energy in elastic supports, ½∫k u²; null without any.
+    #[serde(default)]
+    pub springs: Option<f64>,
     /// f·u + r·u_D, without the factor one half.
     pub external_work: Option<f64>,
 }

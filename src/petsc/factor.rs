@@ -2,6 +2,7 @@
 
 use super::error::{Error, Result, petsc};
 use super::ffi;
+use super::index::Index;
 use super::index_set::IndexSet;
 use super::matrix::Matrix;
 use super::session::Session;
@@ -23,15 +24,15 @@ impl Factor {
     ///
     /// # Errors
     /// PETSc's, and [`Error::NotConverged`] if a pivot is zero: the matrix is singular.
-    pub fn new(session: &Session, rows: &[(Vec<i32>, Vec<f64>)]) -> Result<Self> {
+    pub fn new(session: &Session, rows: &[(Vec<Index>, Vec<f64>)]) -> Result<Self> {
         let alone = unsafe { mpi::ffi::RSMPI_COMM_SELF };
         let n = length(rows.len());
-        let counts: Vec<i32> = rows.iter().map(|(columns, _)| length(columns.len())).collect();
+        let counts: Vec<Index> = rows.iter().map(|(columns, _)| length(columns.len())).collect();
         let mut raw = ptr::null_mut();
         petsc!(MatCreateSeqAIJ(alone, n, n, 0, counts.as_ptr(), &mut raw))?;
         let mut matrix = Matrix::from_raw(session, raw);
         for (row, (columns, values)) in rows.iter().enumerate() {
-            matrix.insert(&[row as i32], columns, values)?;
+            matrix.insert(&[row as Index], columns, values)?;
         }
         matrix.assemble()?;
         let (mut rows, mut columns) = (ptr::null_mut(), ptr::null_mut());

@@ -2,6 +2,7 @@
 
 use super::error::{Result, give_back, petsc};
 use super::ffi;
+use super::index::Index;
 use super::index_set::IndexSet;
 use super::vector::{Vector, length};
 use std::ops::Deref;
@@ -17,7 +18,7 @@ pub struct Gather {
 impl Gather {
     /// Prepares to fetch the entries `indices` (global, any order, repeats allowed, each rank its own)
     /// from vectors laid out like `layout`. **Collective**
-    pub fn new(layout: &Vector, indices: &[i32]) -> Result<Self> {
+    pub fn new(layout: &Vector, indices: &[Index]) -> Result<Self> {
         let session = layout.session();
         let alone = unsafe { mpi::ffi::RSMPI_COMM_SELF };
         let mut from = ptr::null_mut();

@@ -2,6 +2,7 @@
 
 use super::error::{Result, give_back, petsc};
 use super::ffi;
+use super::index::Index;
 use super::session::Session;
 use std::ptr;
 
@@ -22,7 +23,7 @@ impl IndexSet {
     }
 
     /// The numbers on this rank.
-    pub fn indices(&self) -> Result<Vec<i32>> {
+    pub fn indices(&self) -> Result<Vec<Index>> {
         let (mut count, mut array) = (0, ptr::null());
         petsc!(ISGetLocalSize(self.raw, &mut count))?;
         petsc!(ISGetIndices(self.raw, &mut array))?;

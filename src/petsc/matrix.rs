@@ -2,6 +2,7 @@
 
 use super::error::{Result, give_back, petsc};
 use super::ffi;
+use super::index::Index;
 use super::session::Session;
 use super::vector::{Vector, length};
 use std::ops::Range;
@@ -30,8 +31,8 @@ impl Matrix {
         rows: usize,
         columns: usize,
         block: usize,
-        diagonal: &[i32],
-        off_diagonal: &[i32],
+        diagonal: &[Index],
+        off_diagonal: &[Index],
     ) -> Result<Self> {
         assert!(
             [diagonal.len(), off_diagonal.len()] == [rows / block; 2] && rows.is_multiple_of(block),
@@ -70,7 +71,7 @@ impl Matrix {
     /// # Panics
     /// If `values` has another length.
     #[inline]
-    pub fn add_blocks(&mut self, rows: &[i32], columns: &[i32], values: &[f64]) -> Result<()> {
+    pub fn add_blocks(&mut self, rows: &[Index], columns: &[Index], values: &[f64]) -> Result<()> {
         assert_eq!(values.len(), rows.len() * columns.len() * self.block * self.block, "values of whole blocks");
         let (m, n) = (length(rows.len()), length(columns.len()));
         let add = ffi::InsertMode::ADD_VALUES;
@@ -83,18 +84,18 @@ impl Matrix {
     /// # Panics
     /// If `values` has another length than the product of the two.
     #[inline]
-    pub fn add(&mut self, rows: &[i32], columns: &[i32], values: &[f64]) -> Result<()> {
+    pub fn add(&mut self, rows: &[Index], columns: &[Index], values: &[f64]) -> Result<()> {
         self.set_values(rows, columns, values, ffi::InsertMode::ADD_VALUES)
     }
 
     /// As [`Matrix::add`], but the values take the place of the old ones. Between two assemblies either add or insert.
     #[inline]
-    pub fn insert(&mut self, rows: &[i32], columns: &[i32], values: &[f64]) -> Result<()> {
+    pub fn insert(&mut self, rows: &[Index], columns: &[Index], values: &[f64]) -> Result<()> {
         self.set_values(rows, columns, values, ffi::InsertMode::INSERT_VALUES)
     }
 
     #[inline]
-    fn set_values(&mut self, rows: &[i32], columns: &[i32], values: &[f64], mode: ffi::InsertMode) -> Result<()> {
+    fn set_values(&mut self, rows: &[Index], columns: &[Index], values: &[f64], mode: ffi::InsertMode) -> Result<()> {
         assert_eq!(values.len(), rows.len() * columns.len(), "one value for each row and column");
         let (m, n) = (length(rows.len()), length(columns.len()));
         petsc!(MatSetValues(self.raw, m, rows.as_ptr(), n, columns.as_ptr(), values.as_ptr(), mode))
@@ -107,7 +108,7 @@ impl Matrix {
     }
 
     /// Shows a row of this rank: its global columns and its values; after [`Matrix::assemble`].
-    pub fn row(&self, row: usize, mut show: impl FnMut(&[i32], &[f64])) -> Result<()> {
+    pub fn row(&self, row: usize, mut show: impl FnMut(&[Index], &[f64])) -> Result<()> {
         let (mut count, mut columns, mut values) = (0, ptr::null(), ptr::null());
         petsc!(MatGetRow(self.raw, length(row), &mut count, &mut columns, &mut values))?;
         if count > 0 {

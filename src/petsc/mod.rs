@@ -2,7 +2,7 @@
 //!
 //! A [`Session`] starts both libraries; every other object holds a clone of it, so that both end when the last object is gone.
 //! Each wrapper owns one reference that PETSc counts, gives it back when dropped, and checks every code PETSc returns.
-//! Sizes and ranges are `usize`, indices inside arrays are `i32` as PETSc stores them; where values are
+//! Sizes and ranges are `usize`, indices inside arrays are [`Index`] as PETSc stores them; where values are
 //! added or inserted, negative ones are skipped.
 //! Functions marked **Collective** must be called by all ranks in the same order, and so must the drop of any object.
 
@@ -15,6 +15,7 @@ mod ffi;
 mod field_split;
 mod gather;
 mod halo;
+mod index;
 mod index_set;
 mod krylov;
 mod matrix;
@@ -35,6 +36,7 @@ pub use error::{Error, Result, errors_are_final};
 pub use factor::Factor;
 pub use gather::Gather;
 pub use halo::Halo;
+pub use index::Index;
 pub use index_set::IndexSet;
 pub use krylov::{Krylov, KrylovEnding};
 pub use matrix::Matrix;

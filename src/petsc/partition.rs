@@ -2,6 +2,7 @@
 
 use super::error::{Result, give_back, petsc};
 use super::ffi;
+use super::index::Index;
 use super::index_set::IndexSet;
 use super::matrix::Matrix;
 use super::session::Session;
@@ -10,7 +11,8 @@ use std::ptr;
 
 /// Divides a graph into `parts` of about equal weight with few edges between them; the part of each vertex.
 /// The whole graph is given, the same on every rank, and so is the result; it depends on the
-/// arguments and the number of ranks alone. **Collective**
+/// arguments and the number of ranks alone. Such a graph and its parts are counted in 32 bits, whatever PETSc's indices have.
+/// **Collective**
 ///
 /// | argument | length | |
 /// |---|---|---|
@@ -38,14 +40,17 @@ pub fn partition(
     if parts == 1 {
         return Ok(vec![0; vertices]);
     }
+    if size_of::<Index>() > 4 && unsafe { ffi::mezha_scotch_number_size() } == 4 {
+        return by_scotch_itself(session, parts, [offsets, neighbours, edge_weights, vertex_weights]);
+    }
 
     // This rank's share: vertices first .. end.
     let [first, end] = [session.rank(), session.rank() + 1].map(|rank| rank * vertices / session.size());
     let entries = offsets[first] as usize..offsets[end] as usize;
-    let own_offsets: Vec<i32> = offsets[first..=end].iter().map(|offset| offset - offsets[first]).collect();
-    let rows = handed_over(&own_offsets)?;
-    let columns = handed_over(&neighbours[entries.clone()])?;
-    let weights = handed_over(&edge_weights[entries])?;
+    let own_offsets = offsets[first..=end].iter().map(|offset| offset - offsets[first]);
+    let rows = handed_over(own_offsets)?;
+    let columns = handed_over(neighbours[entries.clone()].iter().copied())?;
+    let weights = handed_over(edge_weights[entries].iter().copied())?;
     let mut graph = ptr::null_mut();
     petsc!(MatCreateMPIAdj(session.raw(), length(end - first), length(vertices), rows, columns, weights, &mut graph))?;
     let graph = Matrix::from_raw(session, graph);
@@ -55,21 +60,45 @@ pub fn partition(
     petsc!(MatPartitioningSetType(partitioning.0, c"ptscotch".as_ptr()))?;
     petsc!(MatPartitioningSetNParts(partitioning.0, length(parts)))?;
     if vertex_weights.iter().any(|weight| *weight != 1) {
-        petsc!(MatPartitioningSetVertexWeights(partitioning.0, handed_over(&vertex_weights[first..end])?))?;
+        petsc!(MatPartitioningSetVertexWeights(partitioning.0, handed_over(vertex_weights[first..end].iter().copied())?))?;
     }
     petsc!(MatPartitioningSetUseEdgeWeights(partitioning.0, ffi::PetscBool::PETSC_TRUE))?;
     // Scotch draws random numbers: from the same start, so that a partition does not depend on earlier ones.
     unsafe { ffi::mezha_restart_scotch() };
     let mut part = ptr::null_mut();
     petsc!(MatPartitioningApply(partitioning.0, &mut part))?;
-    Ok(session.gather_all(&IndexSet::from_raw(session, part).indices()?))
+    let own = IndexSet::from_raw(session, part).indices()?;
+    #[allow(clippy::unnecessary_cast, reason = "an index may have 64 bits")]
+    let own: Vec<i32> = own.into_iter().map(|part| part as i32).collect();
+    Ok(session.gather_all(&own))
 }
 
-/// A copy that PETSc will free.
-fn handed_over(values: &[i32]) -> Result<*mut i32> {
+/// The same by Scotch on rank 0 alone. Debian's PETSc of 64-bit indices has a Scotch of 32-bit numbers, and would have it read
+/// each index as two of them. **Collective**
+fn by_scotch_itself(session: &Session, parts: usize, graph: [&[i32]; 4]) -> Result<Vec<i32>> {
+    let [offsets, neighbours, edge_weights, vertex_weights] = graph;
+    let mut part = vec![0; if session.rank() == 0 { vertex_weights.len() } else { 0 }];
+    if session.rank() == 0 {
+        unsafe { ffi::mezha_restart_scotch() };
+        petsc!(mezha_scotch_partition(
+            parts as i32,
+            vertex_weights.len() as i32,
+            offsets.as_ptr(),
+            neighbours.as_ptr(),
+            edge_weights.as_ptr(),
+            vertex_weights.as_ptr(),
+            part.as_mut_ptr()
+        ))?;
+    }
+    Ok(session.gather_all(&part))
+}
+
+/// A copy as PETSc counts, which it will free.
+fn handed_over(values: impl Iterator<Item = i32>) -> Result<*mut Index> {
+    let values: Vec<Index> = values.map(|value| value as Index).collect();
     let mut memory = ptr::null_mut();
-    petsc!(mezha_malloc(size_of_val(values).max(1), &mut memory))?;
-    let memory = memory.cast::<i32>();
+    petsc!(mezha_malloc(size_of_val(&values[..]).max(1), &mut memory))?;
+    let memory = memory.cast::<Index>();
     unsafe { ptr::copy_nonoverlapping(values.as_ptr(), memory, values.len()) };
     Ok(memory)
 }

@@ -2,6 +2,7 @@
 
 use super::error::{Result, petsc};
 use super::ffi;
+use super::index::Index;
 use super::matrix::Matrix;
 use super::preconditioner::Preconditioner;
 use super::session::Session;
@@ -122,7 +123,7 @@ type One = unsafe extern "C" fn(ffi::Mat, ffi::Vec) -> Code;
 type Two = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> Code;
 type Three = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec, ffi::Vec) -> Code;
 type Norm = unsafe extern "C" fn(ffi::Mat, ffi::NormType, *mut f64) -> Code;
-type Sweep = unsafe extern "C" fn(ffi::Mat, ffi::Vec, f64, ffi::MatSORType, f64, i32, i32, ffi::Vec) -> Code;
+type Sweep = unsafe extern "C" fn(ffi::Mat, ffi::Vec, f64, ffi::MatSORType, f64, Index, Index, ffi::Vec) -> Code;
 
 impl Preconditioner {
     /// Makes this an action; `name` is what PETSc shows of it. **Collective**
@@ -214,8 +215,8 @@ mod operator {
         factor: f64,
         kind: ffi::MatSORType,
         shift: f64,
-        sweeps: i32,
-        local_sweeps: i32,
+        sweeps: Index,
+        local_sweeps: Index,
         x: ffi::Vec,
     ) -> Code {
         let from_zero = ffi::MatSORType::SOR_ZERO_INITIAL_GUESS.0;
@@ -227,7 +228,7 @@ mod operator {
             let (b, mut x) = (Lent::new(session, b), Lent::new(session, x));
             let sweeps = sweeps * local_sweeps;
             (0..sweeps).try_for_each(|sweep| action.relax(&b, &mut x, zero && sweep == 0))?;
-            petsc!(mezha_log_work(2.0 * f64::from(sweeps) * action.work()))
+            petsc!(mezha_log_work(2.0 * sweeps as f64 * action.work()))
         })
     }
 

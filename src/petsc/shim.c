@@ -27,11 +27,55 @@ PetscErrorCode mezha_log_work(double operations)
   return PetscLogFlops(operations);
 }
 
+/* Scotch comes with PETSc, so its development files need not be there: look its functions up. */
+static void *scotch(const char *name)
+{
+  return dlsym(RTLD_DEFAULT, name);
+}
+
 void mezha_restart_scotch(void)
 {
-  /* Scotch comes with PETSc, so its development files need not be there: look the function up. */
-  void (*reset)(void) = (void (*)(void))dlsym(RTLD_DEFAULT, "SCOTCH_randomReset");
+  void (*reset)(void) = (void (*)(void))scotch("SCOTCH_randomReset");
   if (reset) reset();
+}
+
+int mezha_scotch_number_size(void)
+{
+  int (*size)(void) = (int (*)(void))scotch("SCOTCH_numSizeof");
+  return size ? size() : 0;
+}
+
+/* PETSc's own choices: the best of Scotch's strategies, and 1 % of imbalance. */
+PetscErrorCode mezha_scotch_partition(int parts, int vertices, const int *offsets, const int *neighbours, const int *edge_weights,
+                                      const int *vertex_weights, int *part)
+{
+  void *(*new_graph)(void)    = (void *(*)(void))scotch("SCOTCH_graphAlloc");
+  void *(*new_strategy)(void) = (void *(*)(void))scotch("SCOTCH_stratAlloc");
+  int (*init_graph)(void *)    = (int (*)(void *))scotch("SCOTCH_graphInit");
+  int (*init_strategy)(void *) = (int (*)(void *))scotch("SCOTCH_stratInit");
+  void (*exit_graph)(void *)    = (void (*)(void *))scotch("SCOTCH_graphExit");
+  void (*exit_strategy)(void *) = (void (*)(void *))scotch("SCOTCH_stratExit");
+  void (*release)(void *)       = (void (*)(void *))scotch("SCOTCH_memFree");
+  int (*build)(void *, int, int, const int *, const int *, const int *, const int *, int, const int *, const int *) =
+    (int (*)(void *, int, int, const int *, const int *, const int *, const int *, int, const int *, const int *))scotch("SCOTCH_graphBuild");
+  int (*choose)(void *, int, int, double)    = (int (*)(void *, int, int, double))scotch("SCOTCH_stratGraphMapBuild");
+  int (*divide)(void *, int, void *, int *) = (int (*)(void *, int, void *, int *))scotch("SCOTCH_graphPart");
+  const int best = 1;
+  int       failed = 1;
+  if (new_graph && new_strategy && init_graph && init_strategy && exit_graph && exit_strategy && release && build && choose && divide) {
+    void *graph = new_graph(), *strategy = new_strategy();
+    if (graph && strategy && init_graph(graph) == 0) {
+      if (init_strategy(strategy) == 0) {
+        failed = build(graph, 0, vertices, offsets, NULL, vertex_weights, NULL, offsets[vertices], neighbours, edge_weights) ||
+                 choose(strategy, best, parts, 0.01) || divide(graph, parts, strategy, part);
+        exit_strategy(strategy);
+      }
+      exit_graph(graph);
+    }
+    if (graph) release(graph);
+    if (strategy) release(strategy);
+  }
+  return failed ? mezha_callback_error("Scotch has not divided the graph") : 0;
 }
 
 static char kept_message[4096];

@@ -11,6 +11,11 @@ PetscErrorCode mezha_callback_error(const char *message);
 PetscErrorCode mezha_log_work(double operations);
 /* Starts the random numbers of Scotch afresh, if this PETSc has loaded it. */
 void mezha_restart_scotch(void);
+/* Bytes of the numbers that this Scotch counts with; 0 if this PETSc has not loaded it. */
+int mezha_scotch_number_size(void);
+/* Divides a graph that this process has whole, by a Scotch with numbers of 4 bytes: `part` is that of each vertex. */
+PetscErrorCode mezha_scotch_partition(int parts, int vertices, const int *offsets, const int *neighbours, const int *edge_weights,
+                                      const int *vertex_weights, int *part);
 /* From now on PETSc's words about errors are kept, or printed again. */
 void mezha_keep_messages(PetscBool keep);
 /* What was kept since the last start: the error, more about it, hints and a list of calls, a line each. */

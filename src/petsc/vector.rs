@@ -2,6 +2,7 @@
 
 use super::error::{Result, give_back, petsc};
 use super::ffi;
+use super::index::Index;
 use super::session::Session;
 use std::ops::{Deref, DerefMut, Range};
 use std::{ptr, slice};
@@ -64,7 +65,7 @@ impl Vector {
     /// # Panics
     /// If there are not as many values as indices.
     #[inline]
-    pub fn add(&mut self, indices: &[i32], values: &[f64]) -> Result<()> {
+    pub fn add(&mut self, indices: &[Index], values: &[f64]) -> Result<()> {
         assert_eq!(indices.len(), values.len(), "as many values as indices");
         petsc!(VecSetValues(self.raw, length(indices.len()), indices.as_ptr(), values.as_ptr(), ffi::InsertMode::ADD_VALUES))
     }
@@ -174,10 +175,10 @@ impl DerefMut for Lent {
 /// A length as PETSc counts.
 ///
 /// # Panics
-/// Beyond 2³¹ − 1: this PETSc has 32-bit indices.
+/// Beyond what an [`Index`] holds.
 #[inline]
-pub(super) fn length(count: usize) -> ffi::PetscInt {
-    ffi::PetscInt::try_from(count).expect("PETSc counts in 32 bits")
+pub(super) fn length(count: usize) -> Index {
+    Index::try_from(count).expect("a length that PETSc can count")
 }
 
 /// Local length of a vector of PETSc's.

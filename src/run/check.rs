@@ -63,9 +63,10 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
 /// Versions of everything that matters.
 pub fn info(session: &Session) -> String {
     format!(
-        "mezha {}\nPETSc {}\nMPI   {}\nBLAS  {}\nranks {}",
+        "mezha {}\nPETSc {}, {}-bit indices\nMPI   {}\nBLAS  {}\nranks {}",
         env!("CARGO_PKG_VERSION"),
         versions::petsc(),
+        versions::index_bits(),
         versions::mpi(),
         versions::blas(),
         session.size()

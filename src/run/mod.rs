@@ -8,6 +8,7 @@ mod input;
 mod memory;
 mod observe;
 mod outcome;
+mod points;
 mod report;
 mod results;
 mod run_options;

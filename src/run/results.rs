@@ -4,7 +4,7 @@ use super::exact::{Errors, compare};
 use super::outcome::outside;
 use super::report::{memory, short};
 use super::slivers::slivers;
-use super::{Outcome, Run, RunError, accuracy, fields, summarise, trust, zones};
+use super::{Outcome, Run, RunError, accuracy, fields, points, summarise, trust, zones};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, CurveChoice, GapChoice};
@@ -84,6 +84,7 @@ impl Run<'_> {
         summarise::balances(summary, &found);
         summarise::deformations(summary, &found);
         self.report.large_strains(&found);
+        points::loaded_points(&found).iter().for_each(|words| self.report.warn(words));
         let mut traces = Vec::new();
         for (at, contact) in solved.problem.contacts.iter().enumerate() {
             let points = found.traces(&found.pressure(at))?;

@@ -1,13 +1,17 @@
 //! Case and mesh brought together: names resolved, geometries applied, macro triangles spread over ranks.
 
 use super::RunError;
+use crate::body::Body;
 use crate::case::Case;
-use crate::contact::CurveChoice;
-use crate::geometry::Point;
+use crate::contact::{CurveChoice, Pair};
+use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, Partition, parse_gmsh, read_bytes};
 use crate::petsc::Session;
 use crate::system::{self, Scene};
 use std::rc::Rc;
+
+/// Parts of a macro edge at whose ends a stiffness of springs is looked at.
+const SAMPLES: usize = 8;
 
 /// The bytes of the mesh file of a case.
 ///
@@ -28,18 +32,24 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     let names = Names { case, mesh: &mesh };
     names.check_bodies()?;
     for (key, boundaries) in names.used() {
-        for name in boundaries {
+        for name in boundaries.iter().filter(|name| !key.starts_with("contact.") || case.tool_of(name).is_none()) {
             names.check_boundary(&key, name)?;
         }
     }
+    names.check_unions()?;
+    case.unions.iter().for_each(|union| mesh.unite(&union.name, &union.curves));
+    let names = Names { case, mesh: &mesh };
     for pair in &case.contacts {
         names.check_sides(&pair.name, &pair.between)?;
     }
     for geometry in &case.geometries {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }
+    add_tools(case, &mut mesh)?;
     let fitted = case.contacts.iter().filter(|pair| pair.curve == CurveChoice::Fit).flat_map(|pair| &pair.between);
+    let fitted = fitted.filter(|name| case.tool_of(name).is_none());
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
+    add_points(case, &mut mesh)?;
     for grade in &case.mesh.grades {
         let [x, y] = grade.point;
         mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
@@ -52,8 +62,25 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
             )
         })?;
     }
+    check_springs(case, &mesh)?;
     check_points(case, &mesh)?;
     Ok(mesh)
+}
+
+/// Adds the rigid tools, as fine as what they face.
+fn add_tools(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
+    for tool in &case.tools {
+        let error = |words: String| format!("{}: {}: {words}", case.file.display(), tool.key());
+        if mesh.bodies.iter().any(|name| name == tool.key()) || mesh.boundary(tool.key()).is_some() {
+            return Err(error(format!("{} has a physical group of that name, too; rename the tool", mesh.file.display())));
+        }
+        let pairs = case.contacts.iter().filter(|pair| pair.between.iter().any(|side| tool.has(side)));
+        let faced = pairs.flat_map(|pair| pair.between.iter().filter(|side| !tool.has(side)));
+        let against: Vec<u32> =
+            faced.filter_map(|side| mesh.boundary(side)).flat_map(|side| side.edges.iter().copied()).collect();
+        mesh.add_tool(tool.key(), &tool.surface, &against).map_err(error)?;
+    }
+    Ok(())
 }
 
 /// A scene with its macro triangles spread over the ranks. **Collective**
@@ -64,14 +91,21 @@ pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, 
 
 /// The scene of a case on a mesh that is spread already.
 pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
-    let body = |name: &String| case.bodies.iter().find(|body| body.name == *name).expect("checked names").clone();
+    let body = |name: &String| match case.bodies.iter().find(|body| body.name == *name) {
+        Some(body) => body.clone(),
+        // What a tool consists of does not matter: it does not strain.
+        None => Body { name: name.clone(), force: [Formula::constant(0.0), Formula::constant(0.0)], ..case.bodies[0].clone() },
+    };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),
         partition: Rc::new(partition),
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),
+        rigid: case.rigid_sets(),
+        springs: case.springs.clone(),
         loads: case.loads.clone(),
+        point_loads: case.point_loads.clone(),
         pairs: case.contacts.clone(),
         mesh: Rc::new(mesh),
     }
@@ -118,13 +152,16 @@ impl Names<'_> {
     }
 
     /// Every key of the case that names physical curves.
-    fn used(&self) -> Vec<(String, &[String])> {
+    fn used(&self) -> Vec<(String, Vec<String>)> {
         let case = self.case;
         let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
+        let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
         let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
         let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
-        let contacts = case.contacts.iter().map(|c| (format!("contact.{}.between", c.name), c.between.as_slice()));
-        supports.chain(loads).chain(geometries).chain(contacts).collect()
+        let sides = |pair: &Pair| pair.between.iter().flat_map(|name| case.curves_of(name)).collect::<Vec<_>>();
+        let contacts = case.contacts.iter().map(|pair| (format!("contact.{}.between", pair.name), sides(pair)));
+        let named = supports.chain(springs).chain(loads).chain(geometries).map(|(key, names)| (key, names.to_vec()));
+        named.chain(contacts).collect()
     }
 
     fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
@@ -135,11 +172,24 @@ impl Names<'_> {
         Err(self.error(key, &format!("no physical curve \"{name}\": {}", self.instead(name, known))))
     }
 
+    /// A name that is made of those of several curves is no physical curve.
+    fn check_unions(&self) -> Result<(), String> {
+        let clash = self.case.unions.iter().find(|union| self.mesh.boundary(&union.name).is_some());
+        clash.map_or(Ok(()), |union| {
+            let words = format!(
+                "the side \"{}\" of several curves has the name of a physical curve of {}; rename that one",
+                union.name,
+                self.mesh.file.display()
+            );
+            Err(self.error("contact", &words))
+        })
+    }
+
     /// Each side of a contact lies on one body, and they are two.
     fn check_sides(&self, pair: &str, between: &[String; 2]) -> Result<(), String> {
         let key = format!("contact.{pair}.between");
         let mut bodies = Vec::new();
-        for name in between {
+        for name in between.iter().filter(|name| self.case.tool_of(name).is_none()) {
             let mut found: Vec<usize> =
                 self.mesh.boundary(name).iter().flat_map(|b| &b.edges).map(|&edge| self.mesh.body_beside(edge)).collect();
             found.sort_unstable();
@@ -151,7 +201,7 @@ impl Names<'_> {
                 return Err(self.error(&key, &words));
             }
         }
-        if bodies[0] == bodies[1] {
+        if bodies.len() == 2 && bodies[0] == bodies[1] {
             let words = format!(
                 "both sides lie on body \"{}\"; contact of a body with itself is not modelled",
                 self.mesh.bodies[bodies[0]]
@@ -160,6 +210,40 @@ impl Names<'_> {
         }
         Ok(())
     }
+}
+
+/// Makes the points at which bodies are held or loaded vertices of the mesh.
+fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
+    let supports = case.supports.iter().map(|support| (format!("support.{}.at", support.name), support.at.as_ref()));
+    let loads = case.point_loads.iter().map(|load| (format!("load.{}.at", load.name), Some(&load.at)));
+    for (key, spot) in supports.chain(loads).filter_map(|(key, spot)| Some((key, spot?))) {
+        let [x, y] = spot.place;
+        mesh.add_point(spot).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
+    }
+    Ok(())
+}
+
+/// Springs push back: their stiffness is a number >= 0 all along, and above 0 somewhere.
+fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
+    for springs in &case.springs {
+        let error = |words: String| format!("{}: support.{}.stiffness: {words}", case.file.display(), springs.name);
+        let mut largest = 0.0f64;
+        for edge in springs.edges(mesh) {
+            for t in (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64) {
+                let x = mesh.edge_position(edge, t);
+                for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
+                    if !(k.is_finite() && k >= 0.0) {
+                        return Err(error(format!("is {k} at ({}, {}); a spring wants a finite number >= 0 everywhere", x.x, x.y)));
+                    }
+                    largest = largest.max(k);
+                }
+            }
+        }
+        if largest == 0.0 {
+            return Err(error("is 0 all along the boundary; leave the support out, or correct the formula".into()));
+        }
+    }
+    Ok(())
 }
 
 /// Points of probes and of exact displacements lie in their bodies.

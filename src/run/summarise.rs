@@ -85,11 +85,16 @@ fn edge_count(Solved { problem, .. }: &Solved) -> usize {
 
 /// Energies and balances.
 pub fn balances(summary: &mut Summary, Evaluation { problem, balance, .. }: &Evaluation) {
+    let scene = &problem.scene;
+    let names = scene.supports.iter().map(|support| &support.name).chain(scene.springs.iter().map(|springs| &springs.name));
+    let told = |reaction: &Point| summary::SupportSummary { reaction: Some((*reaction).into()) };
+    summary.support = names.zip(&balance.reactions).map(|(name, reaction)| (name.clone(), told(reaction))).collect();
     let names = problem.scene.bodies.iter().map(|body| body.name.clone());
     summary.energy = summary::Energy {
         strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),
         total: Some(balance.strain.iter().sum()),
         stationary: balance.stationary,
+        springs: balance.springs,
         external_work: Some(balance.external_work),
     };
     summary.balance =

@@ -21,7 +21,7 @@ impl BoundaryMotion {
         {
             let at = 2 * (node - space.own.start);
             let u = space.to_global(node, Point::new(unknowns[at], unknowns[at + 1]));
-            keys.push(node as i32);
+            keys.push(node as u64);
             values.extend([u.x, u.y]);
         }
         let (keys, values) = (session.gather_all(&keys), session.gather_all(&values));

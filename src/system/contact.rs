@@ -96,7 +96,7 @@ impl Contact {
     ) -> Result<Self, SystemError> {
         let sides = [0, 1].map(|k| scene.mesh.boundary(&pair.between[k]).map(|b| b.edges.clone()).unwrap_or_default());
         let bodies = [0, 1].map(|k: usize| scene.mesh.body_beside(sides[k][0]));
-        let young = bodies.map(|body| scene.bodies[body].material.young);
+        let young = bodies.map(|body| scene.young(body));
         let placed = place(&scene.mesh, numbering, pair, young, known, displacement)?;
         let (boundary, all) = (placed.boundary, placed.edges);
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;

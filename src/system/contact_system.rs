@@ -2,16 +2,23 @@
 
 use super::stiffness::Stiffness;
 use super::{
-    Discretisation, Interpolation, LinearSolve, LinearSolver, Preconditioning, SaddlePoint, SolverChoice, Space, SystemError,
-    inf_sup,
+    Discretisation, Interpolation, LinearEnding, LinearSolve, LinearSolver, Preconditioning, RigidBorder, SaddlePoint, SolverChoice,
+    Space, SystemError, inf_sup, rigid_motions,
 };
 use crate::petsc::{Matrix, Session, Vector};
+use nalgebra::DVector;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
+/// Solves with rigid sets that move, for one active set: each brings their balance to its own tolerance of the one before.
+const MOST_BALANCED: usize = 8;
+
+/// Relative residual of the responses to their motion, at most.
+const RESPONSE: f64 = 1e-6;
+
 /// What a solve begins with.
 pub struct Start {
-    /// This rank's displacements, in the nodes' frames.
+    /// This rank's displacements, in the nodes' frames, those of rigid sets among them.
     pub displacement: Vec<f64>,
     /// Pressures of all multipliers (stress).
     pub pressures: Vec<f64>,
@@ -32,6 +39,20 @@ pub struct System<'a> {
     unknowns: Vector,
     /// The right-hand side of the set, once somebody has asked for it.
     right_hand_side: OnceCell<Vector>,
+    rigid: RigidState,
+}
+
+/// Rigid sets with an unknown motion.
+struct RigidState {
+    border: RigidBorder,
+    /// Free components of the motion.
+    motion: Vec<f64>,
+    /// Unknowns that answer to each of them, for an active set.
+    responses: Vec<Vector>,
+    /// The border's product with each response.
+    products: Vec<DVector<f64>>,
+    /// Relative residual of the responses; nothing if they are those of another active set.
+    solved_to: Option<f64>,
 }
 
 /// Norm of a residual, and that of the right-hand side.
@@ -64,8 +85,9 @@ impl<'a> System<'a> {
     ) -> Result<Self, SystemError> {
         let solver = LinearSolver::new(&blocks, interpolations, choice, preconditioning, session)?;
         let unknowns = blocks.nest.create_vectors()?.0;
+        let rigid = RigidState::new(problem, &unknowns, session)?;
         let (session, right_hand_side) = (session.clone(), OnceCell::new());
-        Ok(Self { problem, session, blocks, solver, is_solver_current: true, unknowns, right_hand_side })
+        Ok(Self { problem, session, blocks, solver, is_solver_current: true, unknowns, right_hand_side, rigid })
     }
 
     /// What it was assembled from.
@@ -95,6 +117,7 @@ impl<'a> System<'a> {
         }
         self.blocks.set_active(self.problem, active)?;
         self.is_solver_current = false;
+        self.rigid.solved_to = None;
         self.right_hand_side.take();
         let unknowns = self.space().local_unknowns();
         let mut values = self.unknowns.values_mut();
@@ -107,6 +130,10 @@ impl<'a> System<'a> {
     /// Takes over the unknowns of a start, and its active set. **Collective**
     pub fn begin(&mut self, start: &Start) -> Result<(), SystemError> {
         put(&self.blocks, self.space(), start, &mut self.unknowns);
+        if !self.rigid.border.is_empty() {
+            let motions = rigid_motions(self.problem, &start.displacement, &self.session);
+            self.move_rigidly(self.rigid.border.free_of(&motions));
+        }
         self.set_active(&start.active)
     }
 
@@ -114,9 +141,73 @@ impl<'a> System<'a> {
     /// it. **Collective**
     pub fn solve(&mut self, tolerance: f64) -> Result<LinearSolve, SystemError> {
         self.bring_solver_up_to_date()?;
+        if self.rigid.border.is_empty() {
+            return self.solve_at_rest(tolerance);
+        }
+        self.balance_rigid_sets(tolerance)?;
+        let mut solve = self.solve_at_rest(tolerance)?;
+        for _ in 0..MOST_BALANCED {
+            if matches!(solve.ending, LinearEnding::Failed { .. }) || self.balance_rigid_sets(tolerance)? <= tolerance {
+                return Ok(solve);
+            }
+            let again = self.solve_at_rest(tolerance)?;
+            solve = LinearSolve { iterations: solve.iterations + again.iterations, ..again };
+        }
+        let reason = "the forces on rigid tools or plates do not come to balance".into();
+        let (iterations, residual) = (solve.iterations, solve.residual);
+        Ok(LinearSolve { ending: LinearEnding::Failed { reason, iterations, residual }, ..solve })
+    }
+
+    /// Solves with the rigid sets where they are. **Collective**
+    fn solve_at_rest(&mut self, tolerance: f64) -> Result<LinearSolve, SystemError> {
         self.right_hand_side()?;
         let b = self.right_hand_side.get().expect("just made");
         self.solver.solve(&self.blocks, b, &mut self.unknowns, tolerance)
+    }
+
+    /// Moves the rigid sets, and all else with them, to where their forces balance. What they were out of balance by before,
+    /// relative to the largest force on them, is returned; less than `enough` is left as it is. **Collective**
+    fn balance_rigid_sets(&mut self, enough: f64) -> Result<f64, SystemError> {
+        self.respond(enough.min(RESPONSE))?;
+        let pressures = self.pressures();
+        let product = self.with_free_displacement(|u| self.rigid.border.transposed(u, &pressures, &self.session));
+        let unbalanced = self.rigid.border.unbalanced(&product, &self.rigid.motion);
+        let share = self.rigid.border.share(&unbalanced, &pressures);
+        if share > enough {
+            let correction = self.rigid.border.correction(&self.rigid.products, &unbalanced);
+            for (response, by) in self.rigid.responses.iter().zip(correction.iter()) {
+                self.unknowns.axpy(-by, response)?;
+            }
+            self.move_rigidly(self.rigid.motion.iter().zip(correction.iter()).map(|(q, by)| q + by).collect());
+        }
+        Ok(share)
+    }
+
+    fn move_rigidly(&mut self, motion: Vec<f64>) {
+        self.blocks.move_rigidly(&self.rigid.border, &motion);
+        self.rigid.motion = motion;
+        self.right_hand_side.take();
+    }
+
+    /// Solves for the responses to the motions of rigid sets, if those that are known are not exact enough or those of another
+    /// active set. **Collective**
+    fn respond(&mut self, tolerance: f64) -> Result<(), SystemError> {
+        if self.rigid.solved_to.is_some_and(|known| known <= tolerance) {
+            return Ok(());
+        }
+        self.rigid.products.clear();
+        for component in 0..self.rigid.border.len() {
+            let (forces, gaps) = self.rigid.border.column(component);
+            let b = self.blocks.right_hand_side_of(forces, gaps, self.problem.finest())?;
+            let response = &mut self.rigid.responses[component];
+            self.solver.solve(&self.blocks, &b, response, tolerance)?;
+            let unknowns = self.problem.finest().local_unknowns();
+            let pressures = pressures_of(&self.blocks, &response.values()[unknowns..], &self.session);
+            let product = self.rigid.border.transposed(&response.values()[..unknowns], &pressures, &self.session);
+            self.rigid.products.push(product);
+        }
+        self.rigid.solved_to = Some(tolerance);
+        Ok(())
     }
 
     /// Displacements under other nodal forces (`load`, of this rank) and other gaps, all else as it is: the active set,
@@ -127,7 +218,20 @@ impl<'a> System<'a> {
         let mut x = self.unknowns.duplicate()?;
         x.set(0.0)?;
         self.solver.solve(&self.blocks, &b, &mut x, tolerance)?;
-        Ok(x.values()[..self.space().local_unknowns()].to_vec())
+        let unknowns = self.space().local_unknowns();
+        if self.rigid.border.is_empty() {
+            return Ok(x.values()[..unknowns].to_vec());
+        }
+        self.respond(tolerance)?;
+        let pressures = pressures_of(&self.blocks, &x.values()[unknowns..], &self.session);
+        let unbalanced = -self.rigid.border.transposed(&x.values()[..unknowns], &pressures, &self.session);
+        let motion = self.rigid.border.correction(&self.rigid.products, &unbalanced);
+        for (response, by) in self.rigid.responses.iter().zip(motion.iter()) {
+            x.axpy(-by, response)?;
+        }
+        let mut displacement = x.values()[..unknowns].to_vec();
+        self.rigid.border.displace(&self.problem.scene.rigid, motion.as_slice(), &mut displacement);
+        Ok(displacement)
     }
 
     fn bring_solver_up_to_date(&mut self) -> Result<(), SystemError> {
@@ -188,14 +292,13 @@ impl<'a> System<'a> {
                 displacement[2 * (node - space.own.start) + k] = constraint.value[k];
             }
         }
+        self.rigid.border.displace(&self.problem.scene.rigid, &self.rigid.motion, &mut displacement);
         displacement
     }
 
     /// `λ_i = s_i λ̂_i` of all multipliers (stress). **Collective**
     pub fn pressures(&self) -> Vec<f64> {
-        let own = &self.unknowns.values()[self.space().local_unknowns()..];
-        let all = self.blocks.multipliers.collect(own, &self.session);
-        all.iter().zip(&self.blocks.multipliers.scale).map(|(value, scale)| value * scale).collect()
+        pressures_of(&self.blocks, &self.unknowns.values()[self.space().local_unknowns()..], &self.session)
     }
 
     /// `(B u - c)_i` of all multipliers, active or not, for this rank's displacements (length squared). **Collective**
@@ -238,6 +341,27 @@ impl<'a> System<'a> {
     pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
         self.solver.unused_options()
     }
+}
+
+impl RigidState {
+    /// Sets at rest. **Collective**
+    fn new(problem: &Discretisation, unknowns: &Vector, session: &Session) -> Result<Self, SystemError> {
+        let border = RigidBorder::new(problem, session)?;
+        let count = border.len();
+        let mut responses = Vec::new();
+        for _ in 0..count {
+            let mut response = unknowns.duplicate()?;
+            response.set(0.0)?;
+            responses.push(response);
+        }
+        Ok(Self { border, motion: vec![0.0; count], responses, products: Vec::new(), solved_to: None })
+    }
+}
+
+/// Pressures of all multipliers (stress), from the scaled ones of this rank. **Collective**
+fn pressures_of(blocks: &SaddlePoint, own: &[f64], session: &Session) -> Vec<f64> {
+    let all = blocks.multipliers.collect(own, session);
+    all.iter().zip(&blocks.multipliers.scale).map(|(value, scale)| value * scale).collect()
 }
 
 /// Puts a start into unknowns; prescribed components are no unknowns, and open multipliers begin from zero.

@@ -1,9 +1,9 @@
 //! A scene cut into unknowns: spaces of all levels, contacts, couplings.
 
-use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError};
+use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError, rigid_motions};
 use crate::contact::Jump;
 use crate::mesh::{Level, MacroMesh, Numbering, levels};
-use crate::petsc::Session;
+use crate::petsc::{Index, Session};
 
 /// Everything that a system is assembled from.
 pub struct Discretisation {
@@ -56,6 +56,17 @@ impl Discretisation {
         Ok(())
     }
 
+    /// Puts the nodes of rigid sets where a solution has moved them, given by this rank's displacements in the nodes' frames: what
+    /// comes after the solve takes their displacement for a prescribed one. **Collective**
+    pub fn settle(&mut self, displacement: &[f64], session: &Session) {
+        let motions = rigid_motions(self, displacement, session);
+        let finest = self.spaces.len() - 1;
+        let Space { constraints, numbering, .. } = &mut self.spaces[finest];
+        for (set, motion) in self.scene.rigid.iter().zip(&motions) {
+            constraints.move_rigidly(&self.scene.mesh, numbering, set, motion);
+        }
+    }
+
     /// Whether some contact boundary depends on the solution.
     pub fn follows(&self) -> bool {
         self.contacts.iter().any(|contact| contact.pair.follows())
@@ -88,12 +99,24 @@ impl Discretisation {
     }
 }
 
-/// PETSc counts with 32 bits: the five numbers of a node's stress must still be counted.
-fn check_size(scene: &Scene, level: Level) -> Result<(), SystemError> {
-    let nodes = node_count(&scene.mesh, level);
-    if 5 * nodes > i32::MAX as u64 {
-        let words = format!("mesh.refine = {}: {nodes} nodes are more than 32-bit numbers can count; refine less", scene.refine);
-        return Err(SystemError::Case(words));
+/// Numbers of 32 bits that a rank has for each of its nodes in its longest lists: it counts 11.5 couplings in stored rows of P2
+/// in the mean, without a sign, and 6 corners of triangles in files for ParaView, with one.
+const PLACES: usize = 7;
+
+/// PETSc's indices of so many bits must count the five numbers of a node's stress on all ranks, and 32 bits what one rank has.
+fn check_size(scene: &Scene, numbering: &Numbering, bits: u32) -> Result<(), SystemError> {
+    let nodes = numbering.node_count();
+    let refused = |words: String| Err(SystemError::Case(format!("mesh.refine = {}: {words}", scene.refine)));
+    if nodes as u64 > (u64::MAX >> (65 - bits)) / 5 {
+        return refused(format!(
+            "{nodes} nodes are more than PETSc can count with {bits}-bit indices; refine less, or build mezha with a PETSc of 64-bit indices (CONTRIBUTING.md says how)"
+        ));
+    }
+    let most = (0..scene.partition.size()).map(|rank| numbering.range(rank).len()).max().unwrap_or(0);
+    if most > i32::MAX as usize / PLACES {
+        return refused(format!(
+            "{most} nodes on one rank are more than it can count with 32-bit numbers; refine less, or take more ranks"
+        ));
     }
     Ok(())
 }
@@ -111,9 +134,9 @@ pub fn node_count(mesh: &MacroMesh, level: Level) -> u64 {
 /// [`SystemError::Case`] if the mesh is too fine.
 pub fn finest_numbering(scene: &Scene) -> Result<Numbering, SystemError> {
     let levels = levels(scene.order, scene.refine);
-    let finest = levels[levels.len() - 1];
-    check_size(scene, finest)?;
-    Ok(Numbering::new(finest, &scene.partition))
+    let numbering = Numbering::new(levels[levels.len() - 1], &scene.partition);
+    check_size(scene, &numbering, Index::BITS)?;
+    Ok(numbering)
 }
 
 /// Spaces of all levels that multigrid uses, coarsest first.
@@ -121,9 +144,8 @@ pub fn finest_numbering(scene: &Scene) -> Result<Numbering, SystemError> {
 /// # Errors
 /// [`SystemError::Case`] if supports contradict each other, or the mesh is too fine.
 pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
-    let levels = levels(scene.order, scene.refine);
-    check_size(scene, levels[levels.len() - 1])?;
-    levels.into_iter().map(|level| Space::new(scene, level, rank)).collect()
+    finest_numbering(scene)?;
+    levels(scene.order, scene.refine).into_iter().map(|level| Space::new(scene, level, rank)).collect()
 }
 
 #[cfg(test)]
@@ -131,20 +153,36 @@ mod tests {
     use super::*;
     use crate::contact::MultiplierSpace;
     use crate::geometry::Point;
+    use crate::mesh::Partition;
     use crate::system::samples::{blocks, pair};
+    use std::rc::Rc;
 
     /// The two blocks are grids of one and of two cells, each of n by n.
     #[test]
-    fn a_mesh_that_32_bits_cannot_count_is_refused_with_the_number_of_its_nodes() {
+    fn a_mesh_that_cannot_be_counted_is_refused_with_the_number_of_its_nodes() {
         let mut scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new());
         let level = |intervals| Level { intervals, order: scene.order };
-        assert!(check_size(&scene, level(8192)).is_ok());
-        let (refused, n) = (level(16384), 16384u64);
+        let (fine, too_fine, n) = (level(8192), level(16384), 16384u64);
+        let words = |nodes: u64, rest: &str| format!("mesh.refine = 14: {nodes} nodes {rest}");
+        let all = (n + 1) * (n + 1) + (2 * n + 1) * (n + 1);
+        let count = scene.mesh.triangles.len();
         scene.refine = 14;
-        let words = check_size(&scene, refused).expect_err("too fine").to_string();
-        assert!(
-            words.contains(&format!("mesh.refine = 14: {} nodes are more", (n + 1) * (n + 1) + (2 * n + 1) * (n + 1))),
-            "{words}"
-        );
+        // On one rank 32 bits are not enough, however wide PETSc's indices are; on six PETSc's alone decide.
+        for (ranks, bits, refusal) in [
+            (1, 32, Some(words(all, "are more than PETSc can count with 32-bit indices; refine less, or build"))),
+            (1, 64, Some(words(all, "on one rank are more than it can count with 32-bit numbers; refine less, or take more"))),
+            (count, 32, Some(words(all, "are more than PETSc can count with 32-bit indices"))),
+            (count, 64, None),
+        ] {
+            let owners: Vec<i32> = (0..count).map(|triangle| (triangle % ranks) as i32).collect();
+            scene.partition = Rc::new(Partition::new(&scene.mesh, &owners, ranks));
+            let check = |level| check_size(&scene, &Numbering::new(level, &scene.partition), bits);
+            assert!(check(fine).is_ok());
+            match (check(too_fine), refusal) {
+                (Ok(()), None) => {}
+                (Err(error), Some(words)) => assert!(error.to_string().contains(&words), "{error}"),
+                other => panic!("{ranks} ranks, {bits} bits: {other:?}"),
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::{Discretisation, SystemError};
 use crate::geometry::Point;
 use crate::mesh::lattice;
-use crate::petsc::{Gather, Session, Vector};
+use crate::petsc::{Gather, Index, Session, Vector};
 use std::collections::HashMap;
 
 /// `K` numbers at every node of the macro triangles that this rank owns.
@@ -69,7 +69,7 @@ impl<const K: usize> Field<K> {
     /// Takes the values of other ranks' nodes from their owners.
     fn fetch(&mut self, values: &Vector) -> Result<(), SystemError> {
         let nodes: Vec<usize> = self.others.keys().copied().collect();
-        let wanted: Vec<i32> = nodes.iter().flat_map(|&node| indices::<K>(node)).collect();
+        let wanted: Vec<Index> = nodes.iter().flat_map(|&node| indices::<K>(node)).collect();
         let found = Gather::new(values, &wanted)?.fetch(values)?;
         for (node, values) in nodes.iter().zip(found.chunks_exact(K)) {
             self.others.insert(*node, std::array::from_fn(|k| values[k]));
@@ -101,8 +101,8 @@ impl Field<2> {
     }
 }
 
-fn indices<const K: usize>(node: usize) -> [i32; K] {
-    std::array::from_fn(|k| (K * node + k) as i32)
+fn indices<const K: usize>(node: usize) -> [Index; K] {
+    std::array::from_fn(|k| (K * node + k) as Index)
 }
 
 /// Nodes of this rank's macro triangles that other ranks own.

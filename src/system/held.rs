@@ -1,12 +1,12 @@
 //! Whether supports and contact hold every piece of every body.
 
-use crate::body::Constraints;
-use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, integrate, tidy};
+use crate::body::{Constraints, RigidSet};
+use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, integrate};
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::{Level, Numbering, SmoothNormals};
+use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals};
 use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Points of a boundary that are proposed for a support.
 const POINTS: usize = 8;
@@ -163,14 +163,15 @@ impl<'a> Restraints<'a> {
         let mut candidates = self.support_points(mechanism, extent);
         candidates.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
         let Some(at) = candidates.iter().take(MOST_POINTS).find(|at| holds_all(at)).or(candidates.first()) else {
-            return "give a part of its boundary a name in the mesh, and a support".into();
+            return "hold it by a support at one of its points, at = [x, y] with ux or uy".into();
         };
         format!(
-            "hold it, for example by a support {} = 0 at one point of \"{}\", near ({}, {})",
+            "hold it, for example by a support with at = [{}, {}], body = \"{}\" and {} = 0, which is a point of \"{}\"",
+            coordinate(at.point.x, extent.radius),
+            coordinate(at.point.y, extent.radius),
+            self.scene.bodies[self.scene.mesh.pieces[mechanism.piece].body].name,
             ["ux", "uy"][at.axis],
             at.boundary,
-            tidy(at.point.x, extent.radius),
-            tidy(at.point.y, extent.radius)
         )
     }
 
@@ -179,7 +180,7 @@ impl<'a> Restraints<'a> {
         let mesh = &self.scene.mesh;
         let touches = |name: &str| self.scene.pairs.iter().any(|pair| pair.between.iter().any(|side| side == name));
         let mut found = Vec::new();
-        for boundary in &mesh.boundaries {
+        for boundary in mesh.physical_curves() {
             let own: Vec<u32> =
                 boundary.edges.iter().copied().filter(|&edge| mesh.piece_beside(edge) == mechanism.piece).collect();
             for &edge in own.iter().step_by(own.len().div_ceil(POINTS).max(1)) {
@@ -198,6 +199,12 @@ impl<'a> Restraints<'a> {
         }
         found
     }
+}
+
+/// A coordinate as the case wants it: so many digits that a vertex is known again.
+fn coordinate(v: f64, large: f64) -> String {
+    let unit = 10f64.powf(large.log10().floor() - 9.0);
+    if v.abs() < unit { "0".into() } else { format!("{:.9e}", (v / unit).round() * unit).parse::<f64>().unwrap_or(v).to_string() }
 }
 
 /// Where a support might be.
@@ -221,7 +228,62 @@ fn support_conditions(scene: &Scene) -> Vec<Condition> {
         let direction = smooth.filter(|normal| normal.dot(&held.direction) > ALIKE).unwrap_or(held.direction);
         Condition { piece: held.piece, against: None, terms: vec![(held.place, direction)], doubt: 0.0 }
     };
-    supported(scene, &numbering).into_iter().map(condition).collect()
+    let rigid = scene.rigid.iter().filter(|set| set.free().next().is_some()).flat_map(|set| rigid_conditions(scene, set));
+    supported(scene, &numbering).into_iter().map(condition).chain(rigid).chain(spring_conditions(scene)).collect()
+}
+
+/// What is prescribed of the motion of a rigid set that is free otherwise: the shift of its reference point, and its turn.
+fn rigid_conditions(scene: &Scene, set: &RigidSet) -> Vec<Condition> {
+    let mesh = &scene.mesh;
+    let edges = set.edges(mesh);
+    let Some(&first) = edges.first() else { return Vec::new() };
+    let ends = edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
+    let arm = ends.map(|x| (x - set.about).norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let [along, up] = [Point::new(arm, 0.0), Point::new(0.0, 1.0)];
+    let terms = [
+        vec![(set.about, Point::new(1.0, 0.0))],
+        vec![(set.about, up)],
+        vec![(set.about + along, up), (set.about - along, -up)],
+    ];
+    let piece = mesh.piece_beside(first);
+    let prescribed = terms.into_iter().zip(set.prescribed).filter(|(_, component)| component.is_some());
+    prescribed.map(|(terms, _)| Condition { piece, against: None, terms, doubt: 0.0 }).collect()
+}
+
+/// What springs resist at the macro vertices, however soft they are.
+fn spring_conditions(scene: &Scene) -> Vec<Condition> {
+    let mesh = &scene.mesh;
+    let mut all = Vec::new();
+    for springs in &scene.springs {
+        let edges = springs.edges(mesh);
+        let normals = mean_normals(mesh, &edges);
+        for &edge in &edges {
+            for vertex in mesh.edges[edge as usize].vertices {
+                let place = mesh.vertices[vertex as usize];
+                let held = springs.stiffness.at(place, normals[&vertex]).into_iter().filter(|(_, k)| *k > 0.0);
+                all.extend(held.map(|(direction, _)| Condition {
+                    piece: mesh.piece_beside(edge),
+                    against: None,
+                    terms: vec![(place, direction)],
+                    doubt: 0.0,
+                }));
+            }
+        }
+    }
+    all
+}
+
+/// Smooth normals at the vertices of some edges.
+fn mean_normals(mesh: &MacroMesh, edges: &[u32]) -> HashMap<u32, Point> {
+    let smooth = SmoothNormals::new(mesh, edges);
+    let mut normals = HashMap::new();
+    for &edge in edges {
+        for (vertex, t) in mesh.edges[edge as usize].vertices.into_iter().zip([0.0, 1.0]) {
+            *normals.entry(vertex).or_insert_with(Point::zeros) += smooth.at(mesh, edge, t).normal;
+        }
+    }
+    normals.values_mut().for_each(|normal: &mut Point| *normal = normal.normalize());
+    normals
 }
 
 /// Smooth normals at the vertices that supports hold along the normal.
@@ -256,15 +318,20 @@ pub struct Held {
     pub value: f64,
 }
 
-/// Everything that supports prescribe at the macro vertices.
+/// Everything that supports prescribe at the macro vertices, and rigid sets that are not free in any component.
 pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
-    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports) else { return Vec::new() };
+    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports, &scene.rigid) else { return Vec::new() };
     let mut piece = vec![0; scene.mesh.vertices.len()];
     for triangle in &scene.mesh.triangles {
         triangle.vertices.iter().for_each(|&vertex| piece[vertex as usize] = triangle.piece as usize);
     }
+    let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
+    let moving: HashSet<usize> = free.flat_map(|set| set.places(&scene.mesh, numbering).into_keys()).collect();
     let mut all = Vec::new();
     for (vertex, &place) in scene.mesh.vertices.iter().enumerate() {
+        if moving.contains(&numbering.vertex(vertex as u32)) {
+            continue;
+        }
         let Some(constraint) = constraints.get(numbering.vertex(vertex as u32)) else { continue };
         for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
             if constraint.fixed[k] {

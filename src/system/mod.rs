@@ -22,6 +22,7 @@ mod need;
 mod nodal_force;
 mod procedure;
 pub mod recovery;
+mod rigid;
 mod rigid_start;
 mod saddle_point;
 #[cfg(test)]
@@ -50,6 +51,7 @@ pub use procedure::{
     AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,
     ZoneDifference, ZoneEstimate,
 };
+pub use rigid::{RigidBorder, rigid_motions};
 pub use rigid_start::rigid_start;
 pub use saddle_point::{SaddlePoint, SchurPattern};
 pub use scene::{Scene, spread};

@@ -18,7 +18,8 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         sum[1] += force.y;
     };
     let rank = session.rank();
-    let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &scene.bodies, &scene.loads, add);
+    let (loads, point_loads) = (&scene.loads, &scene.point_loads);
+    let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &scene.bodies, loads, point_loads, add);
     session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
     let bad = forces.own().iter().flatten().any(|force| !force.is_finite());
     if session.any(bad) {

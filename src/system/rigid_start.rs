@@ -70,7 +70,7 @@ mod tests {
         let formula = |text| Some(Formula::parse(text, &["x", "y"]).expect("a formula"));
         let found = |ux, uy| {
             let on = vec!["bottom".into(), "lower.seam".into()];
-            let support = Support { name: "held".into(), on, ux: formula(ux), uy: formula(uy), normal: None };
+            let support = Support { name: "held".into(), on, at: None, ux: formula(ux), uy: formula(uy), normal: None };
             let scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), vec![support]);
             (motions(&scene), scene)
         };

@@ -35,7 +35,10 @@ pub fn blocks(pair: Pair, upper: impl Fn(Point) -> Point, supports: Vec<Support>
         order: Order::P1,
         refine: 3,
         supports,
+        rigid: Vec::new(),
+        springs: Vec::new(),
         loads: Vec::new(),
+        point_loads: Vec::new(),
         pairs: vec![pair],
         mesh: Rc::new(mesh),
     }

@@ -1,6 +1,6 @@
 //! The physics that is solved: mesh, bodies, supports, loads and contacts, spread over ranks.
 
-use crate::body::{Body, Load, Support};
+use crate::body::{Body, Load, PointLoad, RigidNodes, RigidSet, Springs, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneStrain};
 use crate::geometry::Point;
@@ -23,8 +23,14 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Supports.
     pub supports: Vec<Support>,
+    /// Nodes that move together as rigid bodies.
+    pub rigid: Vec<RigidSet>,
+    /// Elastic supports.
+    pub springs: Vec<Springs>,
     /// Loads.
     pub loads: Vec<Load>,
+    /// Forces at points.
+    pub point_loads: Vec<PointLoad>,
     /// Contact pairs.
     pub pairs: Vec<Pair>,
 }
@@ -43,6 +49,23 @@ impl Scene {
     pub fn on(&self, mesh: MacroMesh, session: &Session) -> petsc::Result<Self> {
         let partition = Rc::new(spread(&mesh, &self.pairs, self.order, self.refine, session)?);
         Ok(Self { mesh: Rc::new(mesh), partition, ..self.clone() })
+    }
+
+    /// Whether a body is a rigid tool.
+    pub fn is_rigid(&self, body: usize) -> bool {
+        self.rigid.iter().any(|set| set.nodes == RigidNodes::Body(self.mesh.bodies[body].clone()))
+    }
+
+    /// Young's modulus of a body as contacts see it: without bound for a rigid tool.
+    pub fn young(&self, body: usize) -> f64 {
+        if self.is_rigid(body) { f64::INFINITY } else { self.bodies[body].material.young }
+    }
+
+    /// Whether each macro triangle of a rank has a corner at which a load acts: the energy there has no limit.
+    pub fn has_point_load(&self, rank: usize) -> Vec<bool> {
+        let loaded: Vec<u32> = self.point_loads.iter().filter_map(|load| self.mesh.vertex_at(&load.at)).collect();
+        let own = self.partition.triangles_of(rank).iter();
+        own.map(|&triangle| self.mesh.triangles[triangle as usize].vertices.iter().any(|vertex| loaded.contains(vertex))).collect()
     }
 
     /// Plane-strain law of each body.

@@ -5,7 +5,7 @@ mod support;
 
 use launch::{LIST_LEAKS, Suite, alone, mpirun, named};
 use mezha::petsc::{
-    Error, Gather, Krylov, Matrix, Operator, Session, Stage, Vector, errors_are_final, options, partition, versions,
+    Error, Gather, Index, Krylov, Matrix, Operator, Session, Stage, Vector, errors_are_final, options, partition, versions,
 };
 use std::time::{Duration, Instant};
 use support::{HeldString, laplacian, ramp, share, sparse};
@@ -85,6 +85,7 @@ fn options_without_use_are_listed(session: &Session) {
 
 fn versions_are_known(_session: &Session) {
     assert!(versions::petsc().starts_with("3."), "{}", versions::petsc());
+    assert!([32, 64].contains(&versions::index_bits()));
     assert!(versions::mpi().starts_with("Open MPI v"), "{}", versions::mpi());
     assert!(versions::blas().contains(".so"), "{}", versions::blas());
 }
@@ -159,8 +160,8 @@ fn vector_algebra(session: &Session) {
 
 fn vector_adds_across_ranks(session: &Session) {
     let mut x = Vector::new(session, 2).unwrap();
-    let n = x.len() as i32;
-    let all: Vec<i32> = (-1..n).collect();
+    let n = x.len() as Index;
+    let all: Vec<Index> = (-1..n).collect();
     let ones = vec![1.0; all.len()];
     x.add(&all, &ones).unwrap();
     x.assemble().unwrap();
@@ -173,7 +174,7 @@ fn vector_adds_across_ranks(session: &Session) {
 
 fn gather_fetches_any_entry(session: &Session) {
     let x = ramp(session, 7);
-    let backwards: Vec<i32> = (0..7).rev().chain([3, 3]).collect();
+    let backwards: Vec<Index> = (0..7).rev().chain([3, 3]).collect();
     let mut gather = Gather::new(&x, &backwards).unwrap();
     assert_eq!(gather.fetch(&x).unwrap(), [6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0, 3.0, 3.0]);
     let mut y = x.duplicate().unwrap();
@@ -214,8 +215,8 @@ fn matrix_of_exact_counts(session: &Session) {
 
 fn matrix_in_blocks(session: &Session) {
     // One 2 x 2 block per rank on the diagonal, and one in the column of rank 0, filled by rank 0 from afar.
-    let (rank, size) = (session.rank() as i32, session.size() as i32);
-    let mut a = Matrix::aij(session, 2, 2, 2, &[1], &[i32::from(rank > 0)]).unwrap();
+    let (rank, size) = (session.rank() as Index, session.size() as Index);
+    let mut a = Matrix::aij(session, 2, 2, 2, &[1], &[Index::from(rank > 0)]).unwrap();
     a.add_blocks(&[rank], &[rank, -1], &[1.0, 2.0, 9.0, 9.0, 3.0, 4.0, 9.0, 9.0]).unwrap();
     if rank == 0 {
         for other in 1..size {
@@ -258,7 +259,7 @@ fn wrong_calls_give_words(session: &Session) {
     assert!(text.starts_with("PCSetType: Unable to find requested PC type nonsense"), "{text}");
 
     let mut a = laplacian(session, 10, |_| 0.0);
-    let row = a.row_range().start as i32;
+    let row = a.row_range().start as Index;
     let text = words(a.insert(&[row], &[(row + 4) % 10], &[1.0]));
     assert!(text.starts_with("MatSetValues: ") && text.contains("nonzero"), "{text}");
 
@@ -282,8 +283,8 @@ fn nest_is_its_blocks(session: &Session) {
 
     let [upper, lower] = nest.nest_index_sets().unwrap();
     let (own_n, own_m) = (share(session, n).len(), share(session, m).len());
-    let first = nest.row_range().start as i32;
-    assert_eq!(upper.indices().unwrap(), (first..first + own_n as i32).collect::<Vec<_>>());
+    let first = nest.row_range().start as Index;
+    assert_eq!(upper.indices().unwrap(), (first..first + own_n as Index).collect::<Vec<_>>());
     assert_eq!(lower.indices().unwrap().len(), own_m);
 
     // Product by blocks.

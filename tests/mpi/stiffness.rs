@@ -10,7 +10,7 @@ use mezha::element::Order;
 use mezha::geometry::{Curve, Formula};
 use mezha::mesh::{Partition, lattice};
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
-use mezha::system::recovery::strain_energy;
+use mezha::system::recovery::local_strain_energy;
 use mezha::system::{Discretisation, Elastic, Field, Form, Space, interpolations};
 use std::rc::Rc;
 
@@ -133,7 +133,7 @@ fn bent(session: &Session, order: Order, refine: usize) -> Discretisation {
     let circle = Curve::Circle { centre: [half, 6.0 + rise - radius], radius };
     mesh.bend("arc", &["top".into()], &circle).expect("the vertices lie near it");
     let down = Some(Formula::constant(-0.25));
-    scene.supports.push(Support { name: "press".into(), on: vec!["top".into()], ux: None, uy: None, normal: down });
+    scene.supports.push(Support { name: "press".into(), on: vec!["top".into()], at: None, ux: None, uy: None, normal: down });
     scene.mesh = std::rc::Rc::new(mesh);
     Discretisation::new(scene, session).expect("a discretisation")
 }
@@ -146,7 +146,9 @@ fn the_energy_of_a_product_is_that_of_the_triangles(session: &Session) {
         let x = erratic(&problem, finest(&elastic[0]), 0.6);
         let energy = |x: &Vector| {
             let u = Field::displacement(&problem, &x.values(), session).expect("displacements");
-            strain_energy(&problem, &u, session).expect("an energy")
+            let mut sum = [local_strain_energy(&problem, &u, session).expect("an energy").iter().sum::<f64>()];
+            session.sum(&mut sum);
+            sum[0]
         };
         // With what is prescribed: ½ (u + p)·K (u + p) = ½ u·K u - u·f + E(p), f being the forces of p.
         let mut prescribed = x.duplicate().expect("a vector");

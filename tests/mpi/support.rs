@@ -1,6 +1,6 @@
 //! Small matrices and problems for the checks.
 
-use mezha::petsc::{Krylov, Matrix, MultigridLevel, Session, Vector, options};
+use mezha::petsc::{Index, Krylov, Matrix, MultigridLevel, Session, Vector, options};
 use std::ops::Range;
 
 /// This rank's range of `total` numbers.
@@ -20,14 +20,14 @@ pub fn ramp(session: &Session, total: usize) -> Vector {
 /// The `rows` × `columns` matrix with the given entries (column, value) in each row, from exact counts.
 pub fn sparse(session: &Session, rows: usize, columns: usize, entries: impl Fn(usize) -> Vec<(usize, f64)>) -> Matrix {
     let (own_rows, own_columns) = (share(session, rows), share(session, columns));
-    let counts = |own: bool| -> Vec<i32> {
-        let count = |i| entries(i).iter().filter(|(j, _)| own_columns.contains(j) == own).count() as i32;
+    let counts = |own: bool| -> Vec<Index> {
+        let count = |i| entries(i).iter().filter(|(j, _)| own_columns.contains(j) == own).count() as Index;
         own_rows.clone().map(count).collect()
     };
     let mut a = Matrix::aij(session, own_rows.len(), own_columns.len(), 1, &counts(true), &counts(false)).unwrap();
     for i in own_rows {
-        let (columns, values): (Vec<i32>, Vec<f64>) = entries(i).iter().map(|(j, value)| (*j as i32, *value)).unzip();
-        a.add(&[i as i32], &columns, &values).unwrap();
+        let (columns, values): (Vec<Index>, Vec<f64>) = entries(i).iter().map(|(j, value)| (*j as Index, *value)).unzip();
+        a.add(&[i as Index], &columns, &values).unwrap();
     }
     a.assemble().unwrap();
     a

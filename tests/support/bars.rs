@@ -28,14 +28,16 @@ pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Sc
         force: [Formula::constant(0.0), Formula::constant(0.0)],
     };
     let zero = Some(Formula::constant(0.0));
-    let wall = Support { name: "wall".into(), on: vec!["left".into()], ux: zero, uy: None, normal: None };
+    let wall = Support { name: "wall".into(), on: vec!["left".into()], at: None, ux: zero, uy: None, normal: None };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),
         partition: Rc::new(partition),
         order,
         refine,
         supports: vec![wall],
+        springs: Vec::new(),
         loads: Vec::new(),
+        point_loads: Vec::new(),
         pairs: Vec::new(),
         mesh: Rc::new(mesh),
     }

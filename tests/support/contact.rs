@@ -11,7 +11,7 @@ use mezha::system::Scene;
 pub fn with_contact(mut scene: Scene, space: MultiplierSpace, segments: usize, stabilise: Stabilise) -> Scene {
     let support = |on: &str, ux: Option<f64>, uy: Option<f64>| {
         let [ux, uy] = [ux, uy].map(|value| value.map(Formula::constant));
-        Support { name: on.into(), on: vec![on.into()], ux, uy, normal: None }
+        Support { name: on.into(), on: vec![on.into()], at: None, ux, uy, normal: None }
     };
     scene.supports = vec![support("left", Some(0.0), None), support("bottom", None, Some(0.01))];
     let kind = LoadKind::Pressure(Formula::constant(1.0));

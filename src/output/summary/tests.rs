@@ -51,7 +51,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
     let expected = [
         (
             "",
-            "balance boundaries case contact energy errors estimate memory_mib mesh mezha outer probe ranks reason rotation solver status strain_max time_s unknowns",
+            "balance boundaries case contact energy errors estimate memory_mib mesh mezha outer probe ranks reason rotation solver status strain_max support time_s unknowns",
         ),
         ("/mesh", "h_max h_min order triangles vertices"),
         ("/unknowns", "displacement multiplier"),
@@ -61,7 +61,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
             "closed closed_edges closed_points corner_angle corner_error ends force h_ratio inf_sup length lost_points missing moment multiplier oscillation pressure_max resultant rotation_error segments slip slip_error trust trust_force unresolved_force zones",
         ),
         ("/contact/seam/zones/0", "corner edges ends force lambda peak pressure_max segments share singular whole worst"),
-        ("/energy", "external_work stationary strain total"),
+        ("/energy", "external_work springs stationary strain total"),
         ("/estimate", "energy seam"),
         ("/estimate/seam", "force lambda peak"),
         ("/balance", "bodies energy force moment"),

@@ -12,7 +12,7 @@ mod tree;
 pub use operators::GalerkinLevels;
 
 use super::{Discretisation, SystemError};
-use crate::petsc::{Matrix, Session};
+use crate::petsc::{Index, Matrix, Session};
 use grid::Grid;
 use level::{Coarsening, LevelNodes};
 use tree::Tree;
@@ -65,9 +65,9 @@ fn interpolation(fine: &LevelNodes, coarsening: &Coarsening, session: &Session) 
     }
     let mut matrix = Matrix::aij(session, rows.len(), columns.len(), 1, &diagonal, &off_diagonal)?;
     for (row, at, axis) in components() {
-        let (columns, weights): (Vec<i32>, Vec<f64>) =
-            coarsening.row(at, axis).map(|(column, weight)| (column as i32, weight)).unzip();
-        matrix.insert(&[row as i32], &columns, &weights)?;
+        let (columns, weights): (Vec<Index>, Vec<f64>) =
+            coarsening.row(at, axis).map(|(column, weight)| (column as Index, weight)).unzip();
+        matrix.insert(&[row as Index], &columns, &weights)?;
     }
     matrix.assemble()?;
     Ok(matrix)

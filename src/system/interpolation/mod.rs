@@ -9,7 +9,7 @@ pub use node_interpolation::NodeInterpolation;
 use super::auxiliary::{SMALL, auxiliary_interpolations};
 use super::user_options::want_entries;
 use super::{Discretisation, Scene, Space, SystemError};
-use crate::petsc::{Matrix, Session};
+use crate::petsc::{Index, Matrix, Session};
 use node_interpolation::{InterpolationShell, turned};
 use parents::{Here, NodeParents};
 use std::rc::Rc;
@@ -104,7 +104,7 @@ fn distinct([a, b]: [usize; 2]) -> impl Iterator<Item = usize> {
 }
 
 fn insert(matrix: &mut Matrix, fine: &Space, coarse: &Space, node: usize, parent: usize, weight: f64) -> Result<(), SystemError> {
-    let (row, column) = (2 * node as i32, 2 * parent as i32);
+    let (row, column) = (2 * node as Index, 2 * parent as Index);
     if coarse.constraints.get(parent).is_none() && fine.constraints.get(node).is_none() {
         matrix.insert(&[row], &[column], &[weight])?;
         matrix.insert(&[row + 1], &[column + 1], &[weight])?;

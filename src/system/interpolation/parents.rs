@@ -23,7 +23,7 @@ const EVEN: [f64; 2] = [0.5; 2];
 
 /// Fine nodes that are here with their coarse parents, each node once.
 pub struct NodeParents {
-    nodes: Vec<[u32; 3]>,
+    nodes: Vec<[usize; 3]>,
     /// Weights of the parents, for the few nodes that are not in their middle.
     graded: HashMap<usize, [f64; 2]>,
 }
@@ -53,8 +53,8 @@ impl NodeParents {
                         rows.graded.insert(node, weights);
                     }
                 }
-                let [a, b] = lattice::parents(i, j).map(|(i, j)| below.node(i, j) as u32);
-                rows.nodes.push([node as u32, a, b]);
+                let [a, b] = lattice::parents(i, j).map(|(i, j)| below.node(i, j));
+                rows.nodes.push([node, a, b]);
             }
         }
         rows
@@ -67,6 +67,6 @@ impl NodeParents {
 
     /// Nodes with their parents.
     pub fn iter(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
-        self.nodes.iter().map(|&[node, a, b]| (node as usize, [a as usize, b as usize]))
+        self.nodes.iter().map(|&[node, a, b]| (node, [a, b]))
     }
 }

@@ -103,6 +103,8 @@ impl OneMesh<'_> {
         let LoopOutcome { solution, ending, passes, ascended } = found;
         let solution = self.finished(&mut system, solution, &ending, ascended)?;
         let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
+        drop(system);
+        problem.settle(&solution.displacement, self.procedure.session);
         Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), ascended, preconditioning, solver })
     }
 
@@ -129,6 +131,7 @@ impl OneMesh<'_> {
             match found.after {
                 After::Ended(ending) => {
                     problem.contacts.iter_mut().zip(following.found).for_each(|(contact, ends)| contact.found = Some(ends));
+                    problem.settle(&found.solution.displacement, self.procedure.session);
                     let MeshHistory { passes, boundaries } = history;
                     return Ok(OnMesh {
                         solution: found.solution,

@@ -16,7 +16,7 @@ use crate::element::Order;
 use crate::mesh::Cells;
 use crate::petsc::Session;
 use crate::system::recovery::{
-    TracePoint, ZoneErrors, cell_energies, local_strain_energy, probe, strain_energy, stress_around, zone_errors,
+    TracePoint, ZoneErrors, cell_energies, local_strain_energy, probe, stress_around, zone_errors,
 };
 use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
 
@@ -53,6 +53,9 @@ const FORCE_SHARES: [f64; 2] = [0.6, 0.3];
 
 /// The same where the energy norm tells that it falls more slowly than on a smooth solution.
 const FORCE_SLOW_SHARES: [f64; 2] = [0.3, 0.3];
+
+/// Share of the energy that must be left without the triangles at forces on points, for the rest to tell anything.
+const LEAST_LEFT: f64 = 0.05;
 
 /// λ at both ends of a zone, on the mesh before and on the one before that (stress).
 pub(super) type AtEnds = [Option<[f64; 2]>; 2];
@@ -119,12 +122,21 @@ impl Difference {
         let mut apart = coarse.displacement(&problem.scene, problem.finest(), session.rank());
         apart.iter_mut().zip(&solution.displacement).for_each(|(before, now)| *before = now - *before);
         let u = Field::displacement(problem, &solution.displacement, session)?;
-        let whole = strain_energy(problem, &u, session)?;
+        // Forces at points make an energy without limit, which says nothing of what is farther away.
+        let left_out = problem.scene.has_point_load(session.rank());
+        let without = |parts: Vec<f64>| -> Vec<f64> {
+            parts.into_iter().zip(&left_out).map(|(part, &is_out)| if is_out { 0.0 } else { part }).collect()
+        };
+        let parts = local_strain_energy(problem, &u, session)?;
+        let mut sums = [parts.iter().sum::<f64>(), without(parts).iter().sum()];
+        session.sum(&mut sums);
+        let whole = if sums[1] > LEAST_LEFT * sums[0] || sums[0] == 0.0 { sums[1] } else { f64::NAN };
         let apart = Field::displacement(problem, &apart, session)?;
         let probes = accuracy.map_or_else(Vec::new, Accuracy::probes);
         let probes = probes.iter().map(|point| at_probe(problem, point, &u, &apart, session)).collect::<Result<_, _>>()?;
         let cells = if accuracy.is_some() { cell_energies(problem, &apart, session)? } else { Vec::new() };
-        let of_triangles = local_strain_energy(problem, &apart, session)?;
+        let of_triangles = without(local_strain_energy(problem, &apart, session)?);
+        let cells = cells.into_iter().zip(&left_out).map(|(cells, &is_out)| if is_out { Cells::default() } else { cells });
         let mut apart = [of_triangles.iter().sum::<f64>()];
         session.sum(&mut apart);
         let (mut force, mut ends, mut within_segments, mut zones) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -144,8 +156,9 @@ impl Difference {
             zones.push(pressure.zones().iter().map(|zone| ZoneDifference::new(contact, pressure.values, zone, before)).collect());
         }
         let of_triangles = of_triangles.into_iter().map(|part| share(part, whole)).collect();
-        let cells = cells.into_iter().map(|part| part.scaled(if whole == 0.0 { 0.0 } else { 1.0 / whole })).collect();
-        Ok(Self { energy: share(apart[0], whole), of_triangles, cells, force, peak, above, ends, within_segments, probes, zones })
+        let cells = cells.map(|part| part.scaled(if whole == 0.0 { 0.0 } else { 1.0 / whole })).collect();
+        let energy = if whole.is_nan() { f64::NAN } else { share(apart[0], whole) };
+        Ok(Self { energy, of_triangles, cells, force, peak, above, ends, within_segments, probes, zones })
     }
 }
 

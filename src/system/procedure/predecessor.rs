@@ -4,7 +4,7 @@ use super::coarse_solution::ContactSolution;
 use super::solved::Solved;
 use crate::geometry::Point;
 use crate::mesh::{Origin, lattice};
-use crate::petsc::{Session, Vector};
+use crate::petsc::{Index, Session, Vector};
 use crate::system::recovery::shapes_at;
 use crate::system::{Discretisation, Field, Preconditioning, Scene, Space, Start, SystemError, spaces};
 
@@ -55,7 +55,7 @@ impl<'s> Predecessor<'s> {
                 let shapes = shapes_at(self.problem, origin.triangle as usize, Point::new(x, y));
                 let u: Point =
                     shapes.iter().fold(Point::zeros(), |sum, (node, value)| sum + *value * self.displacement.point(*node));
-                let first = 3 * numbers.node(i, j) as i32;
+                let first = 3 * numbers.node(i, j) as Index;
                 sums.add(&[first, first + 1, first + 2], &[u.x, u.y, 1.0])?;
             }
         }

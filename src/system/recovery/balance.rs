@@ -1,7 +1,8 @@
 //! Energies, reactions, and the balances of forces, moments and energy.
 
 use super::agreed;
-use crate::body::MacroStiffness;
+use super::springs::SpringForces;
+use crate::body::{Holders, MacroStiffness};
 use crate::contact::{Configuration, Side};
 use crate::element::PlaneStrain;
 use crate::geometry::{Point, cross};
@@ -29,17 +30,23 @@ pub struct Balance {
     /// Strain energy of each body, `½∫σ:ε`.
     pub strain: Vec<f64>,
     /// Strain energy in all, from the stationary value of the Lagrangian: its algebraic error is the square of that of `u` and
-    /// `λ`. Nothing where loads act together with gaps or prescribed displacements, or a jump term is added.
+    /// `λ`. Nothing where loads act together with gaps or prescribed displacements, a jump term is added, or springs act.
     pub stationary: Option<f64>,
     /// `f·u + r·u_D`.
     pub external_work: f64,
     /// Resultants of each contact.
     pub contacts: Vec<ContactForce>,
+    /// Energy in elastic supports, `½∫k u²`; nothing if there are none.
+    pub springs: Option<f64>,
+    /// Force of each support on the bodies (per thickness), those of elastic ones after the others.
+    pub reactions: Vec<Point>,
+    /// Sum of the magnitudes of all forces on bodies: loads and reactions of their nodes, contact (per thickness).
+    pub forces: f64,
     /// Largest `|F₁ + F₂| / |F₂|`; of a closed contact, where `F₂` may vanish, by `∫λ ds`.
     pub force: Option<f64>,
     /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C.
     pub moment: Option<f64>,
-    /// `|2U - (f·u + r·u_D - λᵀc - λᵀCλ)|` over the largest of the terms.
+    /// `|2U + 2S - (f·u + r·u_D - λᵀc - λᵀCλ)|`, `S` being the energy in springs, over the largest of the terms.
     pub energy: Option<f64>,
     /// Largest `|loads + reactions + contact|` of a body over the sum of magnitudes of these.
     pub bodies: Option<f64>,
@@ -53,7 +60,10 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let Discretisation { contacts, coupling, .. } = problem;
     let (mut strain, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain);
-    let NodeSums { work, bodies } = sum_over_nodes(problem, solution, u, &internal, session)?;
+    let springs = SpringForces::new(problem, u, session)?;
+    let NodeSums { work, bodies, mut reactions } = sum_over_nodes(problem, solution, u, &internal, &springs.nodes, session)?;
+    reactions.extend(springs.reactions);
+    let has_springs = !problem.scene.springs.is_empty();
     let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let gaps: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| (lambda * gap).abs()).sum();
@@ -62,7 +72,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         .map(|jump| jump.weight * (solution.multipliers[jump.rows[0]] - solution.multipliers[jump.rows[1]]).powi(2))
         .sum();
     let (total, external) = (strain.iter().sum::<f64>(), work.loads + work.supports);
-    let largest = [2.0 * total, work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
+    let largest = [2.0 * (total + springs.energy), work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
     let worst = |ratio: &dyn Fn(&Contact, &ContactForce) -> f64| {
         contacts.iter().zip(&forces).map(|(contact, force)| ratio(contact, force)).filter(|v| v.is_finite()).reduce(f64::max)
     };
@@ -74,14 +84,17 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
             let sum = force.moments[0] + force.moments[1] - cross(middle, force.resultants[0] + force.resultants[1]);
             sum.abs() / (force.size(contact) * contact.boundary.length())
         }),
-        energy: (largest > 0.0).then(|| (2.0 * total - (external - lambda_gap - jumped)).abs() / largest),
-        stationary: if jumped > ROUNDING * largest {
+        energy: (largest > 0.0).then(|| (2.0 * (total + springs.energy) - (external - lambda_gap - jumped)).abs() / largest),
+        springs: has_springs.then_some(springs.energy),
+        stationary: if has_springs || jumped > ROUNDING * largest {
             None
         } else {
             work.stationary(total, lambda_gap, gaps > ROUNDING * largest)
         },
         bodies: body_balance(contacts, &forces, &bodies),
         strain,
+        reactions,
+        forces: magnitudes(&forces, &bodies),
         contacts: forces,
     })
 }
@@ -133,6 +146,8 @@ struct NodeSums {
     work: WorkTerms,
     /// Loads and reactions of each body.
     bodies: Vec<ForceSum>,
+    /// Force of each support.
+    reactions: Vec<Point>,
 }
 
 /// Forces added up.
@@ -158,28 +173,34 @@ impl ForceSum {
     }
 }
 
-/// Work and resultants of loads, supports and contact, of the forces `internal` `= Ku`. **Collective**
+/// Work and resultants of loads, supports and contact, of the forces `internal` `= Ku` of the bodies and those
+/// of `springs`. **Collective**
 fn sum_over_nodes(
     problem: &Discretisation,
     solution: &Solution,
     u: &Field<2>,
     internal: &Field<2>,
+    springs: &Field<2>,
     session: &Session,
 ) -> Result<NodeSums, SystemError> {
     let space = problem.finest();
     let applied = nodal_forces(problem, session)?;
     let pressed = contact_forces(problem, solution);
     let body_of = body_of_nodes(problem, session.rank());
+    let supports = &problem.scene.supports;
+    let holders = Holders::new(&problem.scene.mesh, &space.numbering, supports).map_err(|error| SystemError::Case(error.0))?;
+    let mut reactions = vec![0.0; 2 * supports.len()];
     let mut bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
     let mut work = WorkTerms::default();
     for (at, node) in space.own.clone().enumerate() {
-        let [f, k] = [applied.own()[at], internal.own()[at]].map(|[x, y]| Point::new(x, y));
+        let [f, k, pull] = [applied.own()[at], internal.own()[at], springs.own()[at]].map(|[x, y]| Point::new(x, y));
         let (u, push) = (u.point(node), pressed.get(&node).copied().unwrap_or_default());
         work.loads += f.dot(&u);
         work.contact += push.dot(&u);
         work.given[0] += f.norm();
         // Contact pushes body 1 along -n: K u + Bᵀλ = f + r.
-        let residual = f - k - push;
+        let residual = f + pull - k - push;
+        bodies[body_of[at]].add(pull);
         let Some(constraint) = space.constraints.get(node) else {
             work.unbalanced += residual.dot(&u);
             bodies[body_of[at]].add(f);
@@ -193,13 +214,26 @@ fn sum_over_nodes(
         work.missed += reaction.dot(&(u - prescribed));
         work.given[1] += prescribed.norm();
         bodies[body_of[at]].add(f);
-        bodies[body_of[at]].add(constraint.to_global(reaction));
+        let reaction = constraint.to_global(reaction);
+        bodies[body_of[at]].add(reaction);
+        for (support, force) in holders.shares(node, reaction) {
+            reactions[2 * support] += force.x;
+            reactions[2 * support + 1] += force.y;
+        }
     }
+    session.sum(&mut reactions);
+    let reactions = reactions.chunks_exact(2).map(|force| Point::new(force[0], force[1])).collect();
     let mut sums = [work.loads, work.supports, work.contact, work.unbalanced, work.missed, work.given[0], work.given[1]];
     session.sum(&mut sums);
     let [loads, supports, contact, unbalanced, missed, ref given @ ..] = sums;
     let bodies = ForceSum::of_all_ranks(&bodies, session);
-    Ok(NodeSums { work: WorkTerms { loads, supports, contact, unbalanced, missed, given: *given }, bodies })
+    Ok(NodeSums { work: WorkTerms { loads, supports, contact, unbalanced, missed, given: *given }, bodies, reactions })
+}
+
+/// Sum of the magnitudes of the forces on all bodies.
+fn magnitudes(forces: &[ContactForce], outer: &[ForceSum]) -> f64 {
+    let pressed: f64 = forces.iter().flat_map(|force| force.resultants).map(|resultant| resultant.norm()).sum();
+    pressed + outer.iter().map(|sum| sum.magnitudes).sum::<f64>()
 }
 
 /// Largest sum of loads, reactions and contact forces on a body, over the sum of their magnitudes.
@@ -233,18 +267,15 @@ pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Ses
     agreed(session, own.iter().map(energy).collect())
 }
 
-/// Strain energy of all bodies. **Collective**
+/// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<f64, SystemError> {
-    let mut sum = [local_strain_energy(problem, u, session)?.iter().sum()];
-    session.sum(&mut sum);
-    Ok(sum[0])
-}
-
-/// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
-fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
+pub fn internal_forces(
+    problem: &Discretisation,
+    u: &Field<2>,
+    session: &Session,
+) -> Result<(Vec<f64>, Field<2>), SystemError> {
     let scene = &problem.scene;
     let laws = scene.laws();
     let mut strain = vec![0.0; scene.bodies.len()];

@@ -40,7 +40,7 @@ pub fn corners(scene: &Scene, contact: &Contact, zones: &[[f64; 2]]) -> Corners 
     });
     let compliance = contact.bodies.map(|body| {
         let material = &scene.bodies[body].material;
-        (1.0 - material.poisson.powi(2)) / material.young
+        (1.0 - material.poisson.powi(2)) / scene.young(body)
     });
     let part = |k: usize| sharpest[k] * compliance[k] / (compliance[0] + compliance[1]);
     let share = if matches!(contact.pair.gap, GapChoice::Closed) { WHERE_CLOSED } else { 1.0 };

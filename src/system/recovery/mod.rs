@@ -9,12 +9,13 @@ mod evaluation;
 mod motion_error;
 mod overlaps;
 mod probe;
+mod springs;
 mod stress;
 mod traces;
 mod zone_ends;
 mod zone_errors;
 
-pub use balance::{Balance, ContactForce, local_strain_energy, strain_energy};
+pub use balance::{Balance, ContactForce, internal_forces, local_strain_energy};
 pub use cell_energies::cell_energies;
 pub use corners::Corners;
 pub use deformation::Deformation;

@@ -20,7 +20,7 @@ mod transposed;
 pub use multiplier_blocks::SchurPattern;
 
 use super::stiffness::{ContactNeighbours, Elastic, Stiffness};
-use super::{Coupled, Discretisation, Form, Space, SystemError};
+use super::{Coupled, Discretisation, Form, RigidBorder, Space, SystemError};
 use crate::contact::DiagonalBlock;
 use crate::mesh::EdgeNode;
 use crate::petsc::{Matrix, Session, Vector};
@@ -39,8 +39,12 @@ pub struct SaddlePoint {
     pub nest: Matrix,
     /// What they do to a vector, with as few messages as can be.
     pub product: Matrix,
-    /// `c - B u_D` (length squared).
+    /// `c - B u_D` (length squared), rigid sets where they are.
     gap: Vec<f64>,
+    /// The same with rigid sets at rest.
+    gap_at_rest: Vec<f64>,
+    /// Forces on this rank's unknowns by which rigid sets have moved; nothing if none can.
+    moved: Vec<f64>,
     /// The set that all blocks are those of.
     active: Vec<bool>,
     /// `D` of the active multipliers, unscaled; nothing in the plain form.
@@ -84,7 +88,10 @@ impl SaddlePoint {
         let blocks = [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]];
         let (nest, product) = (Matrix::nest(session, blocks)?, Matrix::nest_product(session, blocks)?);
         let (gap, load) = (moved_gap(problem), KeptLoad::new(load));
-        let mut system = Self { stiffness, multipliers, nest, product, gap, active, augmentation, rows, form, load };
+        let gap_at_rest = gap.clone();
+        let moved = Vec::new();
+        let mut system =
+            Self { stiffness, multipliers, nest, product, gap, gap_at_rest, moved, active, augmentation, rows, form, load };
         system.augment(problem, &change)?;
         system.fill(problem, &all)?;
         Ok(system)
@@ -108,6 +115,18 @@ impl SaddlePoint {
             self.augment(problem, &change)?;
         }
         self.fill(problem, &changed)
+    }
+
+    /// Moves the rigid sets by the free components of their motion: `b - T q`.
+    pub fn move_rigidly(&mut self, border: &RigidBorder, motion: &[f64]) {
+        self.gap.copy_from_slice(&self.gap_at_rest);
+        self.moved.clear();
+        for (component, value) in motion.iter().enumerate() {
+            let (forces, gaps) = border.column(component);
+            self.moved.resize(forces.len(), 0.0);
+            self.moved.iter_mut().zip(forces).for_each(|(sum, force)| *sum += value * force);
+            self.gap.iter_mut().zip(gaps).for_each(|(sum, gap)| *sum -= value * gap);
+        }
     }
 
     /// Adds `Bᵀ D B` of a change of the weights to every level. **Collective**
@@ -176,7 +195,11 @@ impl SaddlePoint {
 
     /// Right-hand side: `f + Bᵀ D c`, and `ĉ` on active multipliers. **Collective**
     pub fn right_hand_side(&self, space: &Space) -> Result<Vector, SystemError> {
-        self.right_hand_side_with(|values| self.load.put(values), &self.gap, space)
+        let load = |values: &mut [f64]| {
+            self.load.put(values);
+            values.iter_mut().zip(&self.moved).for_each(|(value, moved)| *value -= moved);
+        };
+        self.right_hand_side_with(load, &self.gap, space)
     }
 
     /// The same for other nodal forces of this rank, and other gaps. **Collective**

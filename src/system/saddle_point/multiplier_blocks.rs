@@ -5,7 +5,7 @@ use super::coupling_rows::CouplingRows;
 use super::transposed::TransposedCoupling;
 use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::geometry::Point;
-use crate::petsc::{Matrix, Session};
+use crate::petsc::{Index, Matrix, Session};
 use crate::system::{Contact, Discretisation, Form, Space, SystemError};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -40,7 +40,7 @@ impl SchurPattern {
             Self::Mixed => (1, 3, 2),
         };
         let rows = own / block;
-        Ok(Matrix::aij(session, own, own, block, &vec![diagonal.min(own as i32); rows], &vec![off_diagonal; rows])?)
+        Ok(Matrix::aij(session, own, own, block, &vec![diagonal.min(own as Index); rows], &vec![off_diagonal; rows])?)
     }
 }
 
@@ -132,11 +132,11 @@ impl MultiplierBlocks {
     ) -> Result<(), SystemError> {
         let own_rows = self.coupling.row_range();
         for i in self.touched(augmentation, changed) {
-            let at = [self.number[i] as i32];
+            let at = [self.number[i] as Index];
             let here = own_rows.contains(&self.number[i]);
             let scale = if active[i] { self.scale[i] } else { 0.0 };
             for &(node, value) in rows.row(i).iter().filter(|_| here) {
-                let columns = [2 * node as i32, 2 * node as i32 + 1];
+                let columns = [2 * node as Index, 2 * node as Index + 1];
                 self.coupling.insert(&at, &columns, &[value.x * scale, value.y * scale])?;
             }
             let column = corrected(rows, augmentation, &self.jumps, i);
@@ -145,7 +145,7 @@ impl MultiplierBlocks {
             }
             for node in self.columns[i].iter().filter(|_| self.transposed.is_none()) {
                 let value = column.get(node).copied().unwrap_or_default() * scale;
-                self.transpose.insert(&[2 * *node as i32, 2 * *node as i32 + 1], &at, &[value.x, value.y])?;
+                self.transpose.insert(&[2 * *node as Index, 2 * *node as Index + 1], &at, &[value.x, value.y])?;
             }
             if here {
                 self.set_corner(problem, active, augmentation, i)?;
@@ -195,8 +195,8 @@ impl MultiplierBlocks {
             }
         }
         for (matrix, row) in [(&mut self.corner, corner), (&mut self.schur, schur)] {
-            let columns: Vec<i32> = row.keys().map(|&j| self.number[j] as i32).collect();
-            matrix.insert(&[self.number[i] as i32], &columns, &row.into_values().collect::<Vec<_>>())?;
+            let columns: Vec<Index> = row.keys().map(|&j| self.number[j] as Index).collect();
+            matrix.insert(&[self.number[i] as Index], &columns, &row.into_values().collect::<Vec<_>>())?;
         }
         Ok(())
     }
@@ -234,7 +234,7 @@ fn corrected(rows: &CouplingRows, augmentation: &Augmentation, jumps: &SparseRow
 /// Empty `B̂` with exact preallocation.
 fn coupling_matrix(rows: &CouplingRows, own: &[usize], space: &Space, session: &Session) -> Result<Matrix, SystemError> {
     let count =
-        |i: &usize, here: bool| 2 * rows.row(*i).iter().filter(|(node, _)| space.own.contains(node) == here).count() as i32;
+        |i: &usize, here: bool| 2 * rows.row(*i).iter().filter(|(node, _)| space.own.contains(node) == here).count() as Index;
     let [diagonal, off_diagonal] = [true, false].map(|here| own.iter().map(|i| count(i, here)).collect::<Vec<_>>());
     Ok(Matrix::aij(session, own.len(), space.local_unknowns(), 1, &diagonal, &off_diagonal)?)
 }

@@ -1,7 +1,7 @@
 //! `B̂ᵀ (I - D̂ Ĉ)` by its columns: all but few of its rows are empty, and a matrix by rows has its tables for each of them.
 
 use crate::geometry::Point;
-use crate::petsc::{Gather, Result, Session, Transfer, Vector};
+use crate::petsc::{Gather, Index, Result, Session, Transfer, Vector};
 use crate::system::Space;
 use crate::system::space::Components;
 use std::cell::RefCell;
@@ -35,7 +35,7 @@ impl TransposedCoupling {
         let all = columns.iter().map(here).enumerate().filter(|(_, column)| !column.is_empty());
         let (multipliers, columns): (Vec<usize>, Vec<_>) = all.unzip();
         let numbers: Vec<usize> = multipliers.iter().map(|&i| number[i]).collect();
-        let wanted: Vec<i32> = numbers.iter().map(|&number| number as i32).collect();
+        let wanted: Vec<Index> = numbers.iter().map(|&number| number as Index).collect();
         let gather = RefCell::new(Gather::new(&layout, &wanted)?);
         let (columns, session) = (RefCell::new(columns), session.clone());
         Ok(Rc::new(Self { multipliers, columns, gather, own: layout.range(), count: number.len(), numbers, session }))

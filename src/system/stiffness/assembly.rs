@@ -79,6 +79,7 @@ impl<'a> Assembly<'a> {
                 self.add_strips(part, &stiffness, &mut strips);
             }
         }
+        self.add_springs(&far, &mut rows, &mut lift);
         (0..rows.nodes.len()).for_each(|k| rows.invert(k));
         rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
         strips.triangles.sort_unstable_by_key(|triangle| triangle.nodes.start);
@@ -177,6 +178,24 @@ impl<'a> Assembly<'a> {
                 rows.add(place, BlockColumn::of(node, &self.space.own, far), &block);
             }
         });
+    }
+
+    /// Adds the springs of elastic supports: they stand on sides, whose rows are stored.
+    fn add_springs(&self, far: &[usize], rows: &mut StoredRows, lift: &mut impl FnMut(usize, Point)) {
+        let (mesh, own) = (&self.scene.mesh, &self.space.own);
+        let constraint = |node: usize| self.space.constraints.get(node);
+        for springs in &self.scene.springs {
+            for edge in springs.edges(mesh) {
+                springs.stiffness(mesh, edge, &self.space.numbering, |row, node, block| {
+                    if own.contains(&row) {
+                        let place = place(&self.nodes, row - own.start).expect("a stored row");
+                        let held = constraint(row);
+                        let block = constrained(&block, held, constraint(node), row == node, |force| lift(row, force));
+                        rows.add(place, BlockColumn::of(node, own, far), &block);
+                    }
+                });
+            }
+        }
     }
 
     /// Adds the strips of a macro triangle: one stencil for each shape, and for P2 for even and odd rows.

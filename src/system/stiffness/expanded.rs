@@ -2,7 +2,7 @@
 
 use super::lattice_operator::LatticeOperator;
 use crate::element::Block;
-use crate::petsc::{Matrix, Result, Session};
+use crate::petsc::{Index, Matrix, Result, Session};
 
 impl LatticeOperator {
     /// The same with all rows stored. **Collective**
@@ -10,9 +10,9 @@ impl LatticeOperator {
         let rows = self.rows.borrow();
         let (mut near, mut far) = (vec![0; self.own.len()], vec![0; self.own.len()]);
         for (k, &node) in rows.nodes.iter().enumerate() {
-            (near[node as usize], far[node as usize]) = (rows.near.row(k).len() as i32, rows.far.row(k).len() as i32);
+            (near[node as usize], far[node as usize]) = (rows.near.row(k).len() as Index, rows.far.row(k).len() as Index);
         }
-        self.each_row(|node, couplings| near[node] = couplings.len() as i32);
+        self.each_row(|node, couplings| near[node] = couplings.len() as Index);
         let unknowns = 2 * self.own.len();
         let mut matrix = Matrix::aij(session, unknowns, unknowns, 2, &near, &far)?;
         let mut row = BlockRow::default();
@@ -37,7 +37,7 @@ impl LatticeOperator {
 /// One row of blocks on its way to a matrix.
 #[derive(Default)]
 struct BlockRow {
-    columns: Vec<i32>,
+    columns: Vec<Index>,
     blocks: Vec<Block>,
     values: Vec<f64>,
 }
@@ -47,11 +47,11 @@ impl BlockRow {
         self.columns.clear();
         self.blocks.clear();
         couplings.for_each(|(column, block)| {
-            self.columns.push(column as i32);
+            self.columns.push(column as Index);
             self.blocks.push(block);
         });
         self.values.clear();
         (0..2).for_each(|a| self.values.extend(self.blocks.iter().flat_map(|block| block[a])));
-        matrix.add_blocks(&[row as i32], &self.columns, &self.values)
+        matrix.add_blocks(&[row as Index], &self.columns, &self.values)
     }
 }

@@ -24,7 +24,7 @@ pub use stored_rows::StoredRows;
 pub use strip_set::Strips;
 
 use super::SystemError;
-use crate::petsc::{Matrix, Session};
+use crate::petsc::{Index, Matrix, Session};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -87,7 +87,7 @@ impl Stiffness {
         self.changed.insert(row);
         self.lattice.add_block(row, column, &[[block[0], block[1]], [block[2], block[3]]]);
         if self.seen == SolverView::Entries {
-            self.matrix.add_blocks(&[row as i32], &[column as i32], block)?;
+            self.matrix.add_blocks(&[row as Index], &[column as Index], block)?;
         }
         Ok(())
     }

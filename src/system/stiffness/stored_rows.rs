@@ -2,6 +2,7 @@
 
 use super::strips::inverse;
 use crate::element::Block;
+use crate::petsc::Index;
 use crate::system::space::Real;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -187,9 +188,9 @@ impl StoredRows {
     }
 
     /// The rows of single unknowns, if these are those of all nodes: columns and values.
-    pub fn scalar_rows(&self) -> Vec<(Vec<i32>, Vec<f64>)> {
+    pub fn scalar_rows(&self) -> Vec<(Vec<Index>, Vec<f64>)> {
         let row = |k: usize, a: usize| {
-            let columns = self.near.couplings(k).flat_map(|(column, _)| [2 * column as i32, 2 * column as i32 + 1]);
+            let columns = self.near.couplings(k).flat_map(|(column, _)| [2 * column as Index, 2 * column as Index + 1]);
             (columns.collect(), self.near.couplings(k).flat_map(|(_, block)| block[a]).collect())
         };
         (0..self.nodes.len()).flat_map(|k| [row(k, 0), row(k, 1)]).collect()

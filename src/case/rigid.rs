@@ -1,0 +1,159 @@
+//! `[rigid.NAME]`
+
+use toml::Value;
+
+use super::Case;
+use super::error::suggest;
+use super::model::read_surface;
+use super::section::Section;
+use super::values;
+use crate::body::{RigidNodes, RigidSet};
+use crate::contact::Pair;
+use crate::geometry::{Curve, Point};
+use crate::mesh::SurfacePart;
+
+/// What the boundaries of tools begin with.
+const PREFIX: &str = "rigid.";
+
+/// A rigid tool: a surface that moves as a rigid body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// Its surface; parts follow each other.
+    pub surface: Vec<SurfacePart>,
+    /// Its motion.
+    pub motion: RigidSet,
+}
+
+impl Tool {
+    /// Its name as a body and as a boundary of contacts: `rigid.NAME`.
+    pub fn key(&self) -> &str {
+        &self.motion.key
+    }
+
+    /// Whether a boundary is its surface, or a part of that.
+    pub fn has(&self, boundary: &str) -> bool {
+        let part = boundary.strip_prefix(self.key()).map(|rest| rest.strip_prefix('.').unwrap_or(rest));
+        match part {
+            Some("") => boundary == self.key(),
+            Some(number) => self.surface.len() > 1 && number.parse().is_ok_and(|k: usize| k >= 1 && k <= self.surface.len()),
+            None => false,
+        }
+    }
+}
+
+/// `[rigid.NAME]`
+pub fn read_tool(section: &Section) -> Option<Tool> {
+    let surface = read_parts(section);
+    let about = section.optional("about", values::point);
+    let motion = read_motion(section);
+    let (surface, (prescribed, applied)) = (surface?, motion?);
+    let about = about.map_or_else(|| middle(&surface), |[x, y]| Point::new(x, y));
+    let key = format!("{PREFIX}{}", section.name());
+    let nodes = RigidNodes::Body(key.clone());
+    Some(Tool { surface, motion: RigidSet { key, nodes, about, prescribed, applied } })
+}
+
+/// `ux`, `uy`, `angle`, `force`, `moment`: what is prescribed of the motion, and what acts on the rest.
+pub fn read_motion(section: &Section) -> Option<([Option<f64>; 3], [f64; 3])> {
+    let given = ["ux", "uy", "angle"].map(|key| section.has(key));
+    let [ux, uy, angle] = ["ux", "uy", "angle"].map(|key| section.optional(key, values::number));
+    let (has_force, has_moment) = (section.has("force"), section.has("moment"));
+    let force = section.optional("force", values::point);
+    let moment = section.optional("moment", values::number);
+    let mut sound = (force.is_some() || !has_force) && (moment.is_some() || !has_moment);
+    let [fx, fy] = force.unwrap_or_default();
+    let applied = [fx, fy, moment.unwrap_or(0.0)];
+    for (k, (component, load)) in [("ux", "force"), ("uy", "force"), ("angle", "moment")].into_iter().enumerate() {
+        if given[k] && applied[k] != 0.0 {
+            let part = ["its x component", "its y component", "it"][k];
+            section.problem(
+                &[load],
+                format!("stands beside {component}: where {component} is prescribed the {load} follows; leave {component} out, or make {part} 0"),
+            );
+            sound = false;
+        }
+    }
+    let free = [has_force, has_force, has_moment];
+    let values = [ux, uy, angle];
+    let prescribed = [0, 1, 2].map(|k| if given[k] || !free[k] { Some(values[k].unwrap_or(0.0)) } else { None });
+    sound.then_some((prescribed, applied))
+}
+
+/// `line`, `circle`, or `x`, `y`, `t`.
+fn read_parts(section: &Section) -> Option<Vec<SurfacePart>> {
+    let kinds = [section.has("line"), section.has("circle"), ["x", "y", "t"].iter().any(|key| section.has(key))];
+    if kinds.iter().filter(|given| **given).count() != 1 {
+        let words = "its surface is one of line = [[0, 1], [2, 1]], circle = { centre = [0, 0], radius = 1 }, or x, y, t; give exactly one of them";
+        section.problem(&[], words.into());
+        for key in ["line", "circle", "x", "y", "t"] {
+            section.has(key);
+        }
+        return None;
+    }
+    if kinds[0] {
+        return section.optional("line", read_line);
+    }
+    let curve = read_surface(section)?;
+    let range = curve.range();
+    Some(vec![SurfacePart { curve, range }])
+}
+
+/// Two points or more, each joined to the next.
+fn read_line(value: &Value) -> Result<Vec<SurfacePart>, String> {
+    let points = values::points(value)?;
+    if points.len() < 2 {
+        return Err("must list two points or more, as in [[0, 1], [2, 1]]".into());
+    }
+    if let Some(pair) = points.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(format!("lists the point ({}, {}) twice; list each once", pair[0][0], pair[0][1]));
+    }
+    Ok(points.windows(2).map(|pair| SurfacePart { curve: Curve::Line([pair[0], pair[1]]), range: [0.0, 1.0] }).collect())
+}
+
+/// Centre of a circle, otherwise the middle between the ends.
+fn middle(surface: &[SurfacePart]) -> Point {
+    match &surface[0].curve {
+        Curve::Circle { centre: [x, y], .. } => Point::new(*x, *y),
+        first => {
+            let last = &surface[surface.len() - 1];
+            0.5 * (first.point(surface[0].range[0]) + last.curve.point(last.range[1]))
+        }
+    }
+}
+
+/// Contacts name tools that there are, each tool is in one of them, and two tools do not press on each other.
+pub fn check_tools(tools: &[Tool], contacts: &[Pair], root: &Section) {
+    if tools.len() < root.names_below("rigid").count() || contacts.len() < root.names_below("contact").count() {
+        return; // One of them could not be read; its own error comes first.
+    }
+    let tool_of = |side: &str| tools.iter().find(|tool| tool.has(side));
+    for pair in contacts {
+        let sides = pair.between.each_ref();
+        if let Some(side) = sides.iter().find(|side| side.starts_with(PREFIX) && tool_of(side).is_none() && !tools.is_empty()) {
+            let words = format!("\"{side}\" is no rigid tool of the case; {}", suggest(side, tools.iter().map(Tool::key)));
+            root.problem(&["contact", &pair.name, "between"], words);
+        } else if sides.iter().all(|side| tool_of(side).is_some()) {
+            let words = "both sides are rigid; a tool presses on a boundary of the mesh";
+            root.problem(&["contact", &pair.name, "between"], words.into());
+        }
+    }
+    for tool in tools {
+        if !contacts.iter().any(|pair| pair.between.iter().any(|side| tool.has(side))) {
+            let name = &tool.key()[PREFIX.len()..];
+            let words = format!("nothing touches it; name it in a contact, as in between = [\"block.top\", \"{}\"]", tool.key());
+            root.problem(&["rigid", name], words);
+        }
+    }
+}
+
+impl Case {
+    /// Everything that moves as a rigid body.
+    pub fn rigid_sets(&self) -> Vec<RigidSet> {
+        self.tools.iter().map(|tool| tool.motion.clone()).collect()
+    }
+
+    /// The tool that a boundary is the surface of, or a part of that.
+    pub fn tool_of(&self, boundary: &str) -> Option<&Tool> {
+        self.tools.iter().find(|tool| tool.has(boundary))
+    }
+}

@@ -1,0 +1,33 @@
+//! What is said of points that carry forces: the displacement there has no limit in the plane.
+
+use super::report::short;
+use crate::body::{PointLoad, Support};
+use crate::geometry::Point;
+use crate::system::recovery::Evaluation;
+
+/// A support at a point that carries more than this share of all forces changes displacements by what shows.
+const LITTLE: f64 = 1e-4;
+
+/// A warning for each point that carries a force.
+pub fn loaded_points(Evaluation { problem, balance, .. }: &Evaluation) -> Vec<String> {
+    let words = |(support, reaction): (&Support, &Point)| {
+        let [x, y] = support.at.as_ref()?.place;
+        (reaction.norm() > LITTLE * balance.forces).then(|| {
+            format!(
+                "support {}: the point at ({x}, {y}) carries a force of ({}, {}): the displacement there depends on the mesh, and grows with every refinement like the logarithm of the edge length; where loads are to be carried, support a boundary",
+                support.name,
+                short(reaction.x),
+                short(reaction.y)
+            )
+        })
+    };
+    let loaded = |load: &PointLoad| {
+        let [x, y] = load.at.place;
+        format!(
+            "load {}: a force at the point ({x}, {y}) has an infinite energy, and moves its own point without limit as the mesh is refined; what is farther away than some edges is right",
+            load.name
+        )
+    };
+    let supports = problem.scene.supports.iter().zip(&balance.reactions).filter_map(words);
+    supports.chain(problem.scene.point_loads.iter().map(loaded)).collect()
+}
