@@ -199,18 +199,21 @@ fn edges_that_look_away_from_the_boundary_do_not_face_it() {
     }
 }
 
-/// The outline of the lower block around a circle in its middle, whole and with an edge left out.
+/// The outline of the lower block around a circle in its middle, whole and with an edge left out, for a part of it and for all.
 #[test]
-fn boundaries_that_close_around_a_circle_are_refused() {
+fn a_closed_boundary_needs_edges_all_around() {
     let mesh = two_blocks();
     let lower = mesh.bodies.iter().position(|name| name == "lower").expect("a body");
     let outline = |edge: &u32| mesh.edges[*edge as usize].triangles[1].is_none() && mesh.body_beside(*edge) == lower;
     let outline: Vec<u32> = (0..mesh.edges.len() as u32).filter(outline).collect();
     assert_eq!(outline.len(), 4);
     let circle = Curve::Circle { centre: [1.0, 0.5], radius: 0.4 };
-    let boundary = ContactBoundary::new(circle, [-0.1, 0.1], Point::new(1.0, 0.0));
-    let cover = |edges: &[u32]| check_cover(&mesh, &pair(SegmentRule::Auto), [edges, edges], &boundary);
-    assert!(cover(&outline).expect_err("closed").contains("\"lower.seam\" is a closed curve"));
+    let part = ContactBoundary::new(circle.clone(), [-0.1, 0.1], Point::new(1.0, 0.0));
+    let cover = |edges: &[u32]| check_cover(&mesh, &pair(SegmentRule::Auto), [edges, edges], &part);
+    let whole = ContactBoundary::new(circle, [1.0, 8.0], Point::new(1.0, 0.0));
+    let cover_all = |edges: &[u32]| check_cover(&mesh, &pair(SegmentRule::Auto), [edges, edges], &whole);
+    assert_eq!((cover(&outline), cover_all(&outline)), (Ok(()), Ok(())));
+    assert!(cover_all(&outline[1..]).expect_err("open").contains("\"lower.seam\" has a hole between"));
     let right = |edge: &u32| mesh.edges[*edge as usize].vertices.iter().all(|&vertex| mesh.vertices[vertex as usize].x == 2.0);
     let kept: Vec<u32> = outline.iter().copied().filter(right).collect();
     assert_eq!((kept.len(), cover(&kept)), (1, Ok(())), "the one before it covers the part");
