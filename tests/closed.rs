@@ -85,12 +85,15 @@ fn whole_rings_are_their_quarters() {
 fn the_seam_changes_nothing() {
     let circle = "circle = { centre = [0, 0], radius = 2 }";
     let turned = "x = \"2*cos(2*pi*5/24 - t)\"\ny = \"2*sin(2*pi*5/24 - t)\"\nt = [0, 6.283185307179586]";
-    for (order, space, stabilise, ranks) in [(1, "p0", "true", 1), (2, "p1-discontinuous", "true", 2), (2, "p1-continuous", "auto", 3)] {
+    for (order, space, stabilise, ranks) in
+        [(1, "p0", "true", 1), (2, "p1-discontinuous", "true", 2), (2, "p1-continuous", "auto", 3)]
+    {
         let run = |run: Run| {
             let run = run.set("mesh.order", order).set("contact.seam.multiplier", space).set("mesh.refine", 1).ranks(ranks);
             run.set("contact.seam.segments", 24).set("solver.tolerance", "1e-12").set("contact.seam.stabilise", stabilise)
         };
-        let [one, other] = [&[][..], &[(circle, turned)]].map(|words| converged(scene("rings_full/rings.msh", "michell.toml", words, run)));
+        let [one, other] =
+            [&[][..], &[(circle, turned)]].map(|words| converged(scene("rings_full/rings.msh", "michell.toml", words, run)));
         for path in ["/contact/seam/force", "/energy/total", "/contact/seam/pressure_max"] {
             let [a, b] = [&one, &other].map(|ended| ended.number(path));
             assert!((a / b - 1.0).abs() < 1e-9, "P{order}, {space}: {path} {a} and {b}");
@@ -205,7 +208,8 @@ fn what_goes_all_around_has_no_ends_to_grade_towards() {
         assert_eq!(ended.code, Some(2), "{}", ended.said());
         assert!(words.iter().all(|word| ended.errors.contains(word)), "{}", ended.errors);
     }
-    let ended = scene("rings_full/rings.msh", "case.toml", &[], |run| run.set("contact.seam.curve", "fit").set("contact.seam.spans", 3));
+    let ended =
+        scene("rings_full/rings.msh", "case.toml", &[], |run| run.set("contact.seam.curve", "fit").set("contact.seam.spans", 3));
     assert_eq!(ended.code, Some(2), "{}", ended.said());
     assert!(ended.errors.contains("a closed curve has 4 spans or more; give 4, or \"auto\""), "{}", ended.errors);
 }

@@ -253,7 +253,9 @@ fn a_fit_goes_around_whole_rings() {
     ];
     // Points that nothing uses any more lie on the circle, and are left out of the file's triangles.
     bodies.iter_mut().for_each(|(_, ring, _)| ring.sides[1].clear());
-    let bonded = RINGS.replace("\"flat\", uy", "[\"inner.rim\", \"outer.rim\"], uy").replace("\"upright\", ux", "[\"inner.rim\", \"outer.rim\"], ux");
+    let bonded = RINGS
+        .replace("\"flat\", uy", "[\"inner.rim\", \"outer.rim\"], uy")
+        .replace("\"upright\", ux", "[\"inner.rim\", \"outer.rim\"], ux");
     let case = bonded.replace("0.864878841841237", "4.279306881880523");
     let file = write_scene(folder.path(), &Mesh { bodies }.text(), &case);
     for (order, space, most) in [(1, "p0", 0.05), (2, "p1-discontinuous", 5e-3), (2, "p1-continuous", 5e-3)] {

@@ -151,7 +151,11 @@ impl ContactBoundary {
         let (first, last) = (self.knots[0], self.knots[self.knots.len() - 1]);
         let turns = self.period.map_or([0.0; 3], |period| [-period, 0.0, period]);
         let count = if self.period.is_some() { 3 } else { 1 };
-        turns.into_iter().take(count).map(move |turn| [from + turn, to + turn]).filter(move |part| part[0] < last && part[1] > first)
+        turns
+            .into_iter()
+            .take(count)
+            .map(move |turn| [from + turn, to + turn])
+            .filter(move |part| part[0] < last && part[1] > first)
     }
 
     /// Parameter of one full turn, if the curve closes in itself.

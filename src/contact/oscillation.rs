@@ -47,10 +47,12 @@ pub fn oscillation(boundary: &ContactBoundary, multipliers: &Multipliers, lambda
 fn go_round(samples: &mut Vec<PressureSample>, turn: f64) {
     let count = samples.len();
     let open_from = |k: usize| (0..count).take_while(|i| !samples[(k + i) % count].active).count();
-    let (from, open) = (0..count).map(|k| (k, open_from(k))).max_by_key(|&(k, open)| (open, std::cmp::Reverse(k))).unwrap_or((0, 0));
+    let (from, open) =
+        (0..count).map(|k| (k, open_from(k))).max_by_key(|&(k, open)| (open, std::cmp::Reverse(k))).unwrap_or((0, 0));
     let at = |k: usize| PressureSample { arc: samples[k % count].arc + (k / count) as f64 * turn, ..samples[k % count] };
     // A single one that is open between two that carry is part of a checkerboard.
-    let all: Vec<PressureSample> = if open > 1 { (from..from + count).map(at).collect() } else { (count - 2..2 * count + 2).map(at).collect() };
+    let all: Vec<PressureSample> =
+        if open > 1 { (from..from + count).map(at).collect() } else { (count - 2..2 * count + 2).map(at).collect() };
     *samples = all;
 }
 

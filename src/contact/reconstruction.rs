@@ -56,7 +56,8 @@ pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: 
 /// Samples all around a closed boundary, with some of the last before the first and some of the first behind the last.
 fn around(samples: &[[f64; 2]], turn: f64) -> Vec<[f64; 2]> {
     // The first and the last one may be the same end of a segment.
-    let count = if samples[samples.len() - 1][0] - samples[0][0] > turn * (1.0 - 1e-12) { samples.len() - 1 } else { samples.len() };
+    let count =
+        if samples[samples.len() - 1][0] - samples[0][0] > turn * (1.0 - 1e-12) { samples.len() - 1 } else { samples.len() };
     let more = NEIGHBOURS.min(count);
     let at = |k: usize| [samples[k % count][0] + ((k / count) as f64 - 1.0) * turn, samples[k % count][1]];
     (count - more..2 * count + more).map(at).collect()

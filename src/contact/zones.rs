@@ -65,7 +65,8 @@ impl Zone {
             let high = if k + 1 == ends.len() { outside[1] } else { half_way(ends[k][1], ends[k + 1][0]) };
             [low, high]
         };
-        let at_end = |range: &Range<usize>| [range.start == 0, range.end == boundary.segments()].map(|at| at && !boundary.is_closed());
+        let at_end =
+            |range: &Range<usize>| [range.start == 0, range.end == boundary.segments()].map(|at| at && !boundary.is_closed());
         let zone = |(k, range): (usize, &Range<usize>)| Self {
             segments: range.clone(),
             arcs: ends[k],

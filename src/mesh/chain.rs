@@ -34,7 +34,8 @@ impl MacroMesh {
         }
         let points = self.chain_points(chain);
         let (first, last) = (points[0], points[points.len() - 1]);
-        let straight = first != last && points.iter().all(|x| cross(last - first, x - first).abs() <= 1e-12 * (last - first).norm_squared());
+        let straight =
+            first != last && points.iter().all(|x| cross(last - first, x - first).abs() <= 1e-12 * (last - first).norm_squared());
         match straight {
             true => Curve::Line([first.into(), last.into()]),
             false if self.is_closed(chain) => Curve::Spline(Spline::through_closed(&points)),

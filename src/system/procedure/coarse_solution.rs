@@ -184,8 +184,7 @@ impl ContactSolution {
         }
         let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         if scene.pairs.iter().any(|pair| pair.follows()) {
-            for ((known, new), old) in
-                known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.has_free_ends())
+            for ((known, new), old) in known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.has_free_ends())
             {
                 let knots = old.boundary.knots();
                 let ends = [knots[0], knots[knots.len() - 1]];

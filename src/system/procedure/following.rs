@@ -226,7 +226,9 @@ impl Following {
                     known.segments = None;
                 }
             }
-            if contact.boundary.is_closed() && contact.pair.has_free_ends() && !settled
+            if contact.boundary.is_closed()
+                && contact.pair.has_free_ends()
+                && !settled
                 && let Some(ends) = ends_of_a_part(&solution.pressure(contact))
             {
                 (known.ends, known.segments) = (Some(ends), None);
@@ -246,7 +248,8 @@ fn differs(contact: &Contact, meeting: &Meeting) -> bool {
         // Closed sides: both are counted from the first node of the mesh.
         let (_, turn) = meeting.origin;
         let ([a, b], [c, d]) = (before.ends_by_themselves(now), meeting.ends_by_themselves(meeting.ends));
-        let apart = |a: f64, b: f64| turn.map_or((a - b).abs(), |turn| ((a - b + 0.5 * turn).rem_euclid(turn) - 0.5 * turn).abs());
+        let apart =
+            |a: f64, b: f64| turn.map_or((a - b).abs(), |turn| ((a - b + 0.5 * turn).rem_euclid(turn) - 0.5 * turn).abs());
         return contact.boundary.is_closed() != meeting.goes_round
             || !meeting.goes_round && apart(a, c).max(apart(b, d)) > SAME * (meeting.ends[1] - meeting.ends[0]);
     }

@@ -93,7 +93,8 @@ impl Procedure<'_> {
         let pressure = solved.solution.pressure(&solved.problem.contacts[at]);
         let boundary = &pressure.contact.boundary;
         let smallest = |zone: &Zone| {
-            let middle = zone.segments.clone().filter(|&k| zone.has_in_its_middle(0.5 * boundary.segment_arcs(k).iter().sum::<f64>()));
+            let middle =
+                zone.segments.clone().filter(|&k| zone.has_in_its_middle(0.5 * boundary.segment_arcs(k).iter().sum::<f64>()));
             let least = middle.map(|k| pressure.value(k, 0.5)).fold(f64::INFINITY, f64::min);
             least / pressure.peak_of(zone)
         };

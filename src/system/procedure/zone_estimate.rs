@@ -235,7 +235,11 @@ mod tests {
 
     #[test]
     fn a_zone_is_found_again_where_it_was() {
-        let at = |from: f64, to: f64| ZoneDifference { middle: Point::new(0.5 * (from + to), 0.0), length: to - from, ..difference(0.1) };
+        let at = |from: f64, to: f64| ZoneDifference {
+            middle: Point::new(0.5 * (from + to), 0.0),
+            length: to - from,
+            ..difference(0.1)
+        };
         let others = [at(0.0, 1.0), at(3.0, 4.0)];
         assert_eq!(at(3.2, 3.6).again(&others), Some(&others[1]));
         assert_eq!(at(6.0, 6.5).again(&others), None);

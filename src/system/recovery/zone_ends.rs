@@ -59,7 +59,6 @@ impl ContactPressure<'_> {
     }
 }
 
-
 #[cfg(test)]
 mod tests {
     use super::*;
