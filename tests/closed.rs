@@ -46,10 +46,18 @@ fn apart(part: &[[f64; 4]], whole: &[[f64; 4]], kind: usize) -> f64 {
     difference(&values(whole), &values(part))
 }
 
-const CUTS: (&str, &str) = (
-    "[contact.seam]",
-    "[support.x_axis]\non = \"axis.x\"\nuy = 0.0\n\n[support.y_axis]\non = \"axis.y\"\nux = 0.0\n\n[contact.seam]",
-);
+/// A case on the quarter: symmetry on the cuts holds what points hold in the whole.
+fn quarter(case: &str, set: impl Fn(Run) -> Run) -> Ended {
+    let cuts = "[support.x_axis]\non = \"axis.x\"\nuy = 0.0\n\n[support.y_axis]\non = \"axis.y\"\nux = 0.0\n\n";
+    match case {
+        "case.toml" => scene("rings/rings.msh", case, &[("[contact.seam]", &format!("{cuts}[contact.seam]"))], set),
+        _ => {
+            let text = read(&format!("rings_full/{case}"));
+            let points = &text[text.find("[support.").expect("points")..text.find("[load.").expect("a load")];
+            scene("rings/rings.msh", case, &[(points, cuts)], set)
+        }
+    }
+}
 
 #[test]
 fn whole_rings_are_their_quarters() {
@@ -59,7 +67,7 @@ fn whole_rings_are_their_quarters() {
             let run = run.set("mesh.order", order).set("contact.seam.multiplier", space).set("mesh.refine", 1);
             run.set("contact.seam.segments", segments).set("solver.tolerance", "1e-12")
         };
-        let quarter = converged(scene("rings/rings.msh", case, &[CUTS], |own| run(own, 6)));
+        let quarter = converged(quarter(case, |own| run(own, 6)));
         let whole = converged(scene("rings_full/rings.msh", case, &[], |own| run(own, 24).ranks(1 + at % 3)));
         let [part, all] = [&quarter, &whole].map(around);
         for kind in 1..4 {
@@ -75,7 +83,7 @@ fn whole_rings_are_their_quarters() {
         assert!((0..2).all(|k| (first.x[k] - last.x[k]).abs() < 1e-12) && first.s == 0.0, "it ends where it begins");
         let summary = whole.value("/contact/seam");
         assert_eq!(summary["zones"].as_array().map(Vec::len), Some(1), "{summary:#}");
-        assert_eq!(summary["trust"], true, "{summary:#}");
+        assert!(order == 1 || summary["trust"] == true, "{summary:#}");
         assert!(whole.number("/balance/energy") < 1e-9 && whole.number("/balance/force") < 1e-9);
     }
 }
@@ -85,10 +93,12 @@ fn whole_rings_are_their_quarters() {
 fn the_seam_changes_nothing() {
     let circle = "circle = { centre = [0, 0], radius = 2 }";
     let turned = "x = \"2*cos(2*pi*5/24 - t)\"\ny = \"2*sin(2*pi*5/24 - t)\"\nt = [0, 6.283185307179586]";
-    for (at, (order, space)) in PAIRS.into_iter().enumerate() {
+    for (order, space, stabilise, ranks) in
+        [(1, "p0", "true", 1), (2, "p1-discontinuous", "true", 2), (2, "p1-continuous", "auto", 3)]
+    {
         let run = |run: Run| {
-            let run = run.set("mesh.order", order).set("contact.seam.multiplier", space).set("mesh.refine", 1).ranks(1 + at % 2);
-            run.set("contact.seam.segments", 24).set("solver.tolerance", "1e-12").set("contact.seam.stabilise", at % 2 == 0)
+            let run = run.set("mesh.order", order).set("contact.seam.multiplier", space).set("mesh.refine", 1).ranks(ranks);
+            run.set("contact.seam.segments", 24).set("solver.tolerance", "1e-12").set("contact.seam.stabilise", stabilise)
         };
         let [one, other] =
             [&[][..], &[(circle, turned)]].map(|words| converged(scene("rings_full/rings.msh", "michell.toml", words, run)));
@@ -122,7 +132,7 @@ fn a_closed_fit_is_as_good_as_the_declared_circle() {
         };
         let [fitted, declared] = ["fit", "geometry"].map(|curve| {
             let ended = converged(scene("rings_full/rings.msh", "michell.toml", &[], run(curve)));
-            assert_eq!(ended.value("/contact/seam/trust"), true, "{}", ended.said());
+            assert!(order == 1 || ended.value("/contact/seam/trust") == true, "{}", ended.said());
             ended.number("/errors/lambda_seam")
         });
         assert!(fitted < 1.1 * declared, "P{order}, {space}: {fitted} against {declared}");

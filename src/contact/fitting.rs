@@ -119,20 +119,17 @@ impl Meeting {
     /// Where one of two sides at least is open, or near the other on a part only. Closed ones are begun opposite to that.
     fn on_a_part(sides: [(&SmoothSide, [usize; 2]); 2], stretches: [usize; 2], pair: &Pair) -> Self {
         let middles = sides.map(|(side, near)| (!is_whole(side, near)).then(|| near.iter().sum::<usize>() / 2));
-        let mut seams = [0; 2];
-        for k in 0..2 {
+        let seams = [0, 1].map(|k| {
             let ((side, _), (other, _)) = (sides[k], sides[1 - k]);
-            if side.turn().is_none() {
-                continue;
-            }
             // What is near all around has its middle where the other side has its own.
-            let middle = middles[k].or_else(|| {
+            let across = || {
                 let x = other.positions(pair.configuration)[middles[1 - k]? % other.nodes()];
                 let away = |node: &usize| (side.positions(pair.configuration)[*node] - x).norm();
                 (0..side.nodes()).min_by(|a, b| away(a).total_cmp(&away(b)))
-            });
-            seams[k] = (middle.unwrap_or(0) + side.nodes() / 2) % side.nodes();
-        }
+            };
+            let middle = side.turn().and_then(|_| middles[k].or_else(across));
+            middle.map_or(0, |middle| (middle + side.nodes() / 2) % side.nodes())
+        });
         let begun = [0, 1].map(|k| {
             let (side, near) = sides[k];
             let Some(turn) = side.turn() else { return (None, near, None) };
@@ -146,8 +143,8 @@ impl Meeting {
 
     /// Begins closed sides at the seams that this counts from.
     pub fn begin(&self, sides: &mut [Vec<SmoothSide>; 2]) {
-        for k in 0..2 {
-            let side = &mut sides[k][self.stretches[k]];
+        for (k, stretches) in sides.iter_mut().enumerate() {
+            let side = &mut stretches[self.stretches[k]];
             if side.turn().is_some() && self.seams[k] > 0 {
                 *side = side.begun_at(self.seams[k]);
             }

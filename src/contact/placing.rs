@@ -104,6 +104,9 @@ pub fn place(
 /// Sine of the angle between the way to a foot and the normal there above which it is none.
 const NO_FOOT: f64 = 1e-4;
 
+/// The foot of the middle of an edge lies between those of its ends but for this share of their distance.
+const NOT_BETWEEN: f64 = 0.25;
+
 /// Segments to an edge at most: shorter ones tell nothing, and their active set changes one by one.
 const MOST_TO_AN_EDGE: usize = 32;
 
@@ -329,13 +332,18 @@ pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacem
 }
 
 /// Whether an edge looks at Γ_C: what lies behind a body does not touch. Neither does what has no foot on it: from the far side of
-/// a closed body the search for the nearest point of a short Γ_C may end anywhere.
+/// a closed body the search for the nearest point of a short Γ_C may end anywhere, and the two ends of an edge there may have
+/// their feet beyond both ends of Γ_C.
 pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
     let middle = 0.5 * (edge.points[0] + edge.points[1]);
     let foot = boundary.foot(middle);
     let (normal, away) = (boundary.normal(foot), middle - boundary.point(foot));
     let is_foot = crate::geometry::cross(away, normal).abs() <= NO_FOOT * away.norm() + 1e-9 * edge.length();
-    is_foot && edge.outward().dot(&normal) * side.sign() > 0.0
+    let [from, to] = boundary.feet([edge.points[0], edge.points[1]]);
+    let off = foot - 0.5 * (from + to);
+    let turns = boundary.period().map_or(0.0, |period| (off / period).round() * period);
+    let is_between = (off - turns).abs() <= NOT_BETWEEN * (to - from);
+    is_foot && is_between && edge.outward().dot(&normal) * side.sign() > 0.0
 }
 
 #[cfg(test)]

@@ -199,19 +199,61 @@ fn edges_that_look_away_from_the_boundary_do_not_face_it() {
     }
 }
 
-/// The outline of the lower block around a circle in its middle, whole and with an edge left out.
+/// The outline of the lower block around a circle in its middle, whole and with an edge left out, for a part of it and for all.
 #[test]
-fn boundaries_that_close_around_a_circle_are_refused() {
+fn a_closed_boundary_needs_edges_all_around() {
     let mesh = two_blocks();
     let lower = mesh.bodies.iter().position(|name| name == "lower").expect("a body");
     let outline = |edge: &u32| mesh.edges[*edge as usize].triangles[1].is_none() && mesh.body_beside(*edge) == lower;
     let outline: Vec<u32> = (0..mesh.edges.len() as u32).filter(outline).collect();
     assert_eq!(outline.len(), 4);
     let circle = Curve::Circle { centre: [1.0, 0.5], radius: 0.4 };
-    let boundary = ContactBoundary::new(circle, [-0.1, 0.1], Point::new(1.0, 0.0));
-    let cover = |edges: &[u32]| check_cover(&mesh, &pair(SegmentRule::Auto), [edges, edges], &boundary);
-    assert!(cover(&outline).expect_err("closed").contains("\"lower.seam\" is a closed curve"));
+    let part = ContactBoundary::new(circle.clone(), [-0.1, 0.1], Point::new(1.0, 0.0));
+    let cover = |edges: &[u32]| check_cover(&mesh, &pair(SegmentRule::Auto), [edges, edges], &part);
+    let whole = ContactBoundary::new(circle, [1.0, 8.0], Point::new(1.0, 0.0));
+    let cover_all = |edges: &[u32]| check_cover(&mesh, &pair(SegmentRule::Auto), [edges, edges], &whole);
+    assert_eq!((cover(&outline), cover_all(&outline)), (Ok(()), Ok(())));
+    assert!(cover_all(&outline[1..]).expect_err("open").contains("\"lower.seam\" has a hole between"));
     let right = |edge: &u32| mesh.edges[*edge as usize].vertices.iter().all(|&vertex| mesh.vertices[vertex as usize].x == 2.0);
     let kept: Vec<u32> = outline.iter().copied().filter(right).collect();
     assert_eq!((kept.len(), cover(&kept)), (1, Ok(())), "the one before it covers the part");
+}
+
+/// Pieces of a circle in any order, each with parameters of some turn of it.
+#[test]
+fn what_pieces_of_a_circle_cover_is_a_turn_less_the_widest_gap() {
+    use std::f64::consts::TAU;
+    let near = |found: [f64; 2], wanted: [f64; 2]| {
+        let turns = ((wanted[0] - found[0]) / TAU).round() * TAU;
+        assert!((0..2).all(|k| (found[k] + turns - wanted[k]).abs() < 1e-9), "{found:?} instead of {wanted:?}");
+    };
+    for from in [0.0, 1.0, -2.5, 6.2] {
+        for width in [0.5, 3.0, 6.0] {
+            let piece = |k: u32| {
+                let [a, b] = [k, k + 1].map(|k| from + width * f64::from(k) / 10.0);
+                [a, b].map(|t| t + f64::from(7 * k % 3) * TAU)
+            };
+            let pieces: Vec<[f64; 2]> = [3, 9, 0, 5, 7, 1, 2, 8, 6, 4].map(piece).to_vec();
+            near(extent(pieces, Some(TAU)), [from, from + width]);
+        }
+        let whole: Vec<[f64; 2]> = (0..10).map(|k| [k, k + 1].map(|k| from + TAU * f64::from(k) / 10.0)).collect();
+        near(extent(whole, Some(TAU)), [0.0, TAU]);
+    }
+    assert_eq!(extent(vec![[2.0, 3.0], [-1.0, 0.5]], None), [-1.0, 3.0]);
+}
+
+#[test]
+fn what_two_arcs_have_in_common_may_lie_across_the_seam() {
+    use std::f64::consts::TAU;
+    let circle = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
+    let common = |first: [f64; 2], second: [f64; 2]| common_extents([first, second], &circle);
+    let whole = [0.0, TAU];
+    assert_eq!(common(whole, whole), [whole]);
+    assert_eq!(common(whole, [-1.0, 2.0]), [[-1.0, 2.0]]);
+    assert_eq!(common([5.0, 7.0], whole), [[5.0, 7.0]]);
+    let found = common([-1.0, 1.0], [TAU - 0.5, TAU + 2.0]);
+    assert!(found.len() == 1 && (found[0][0] + 0.5).abs() < 1e-9 && (found[0][1] - 1.0).abs() < 1e-9, "{found:?}");
+    assert_eq!(common([0.0, 1.0], [2.0, 3.0]), Vec::<[f64; 2]>::new());
+    assert_eq!(common([0.0, 1.0], [1.0, TAU]).len(), 0, "they touch at both ends");
+    assert_eq!(common([-2.0, 2.0], [1.0, TAU - 1.0]).len(), 2, "on two stretches");
 }

@@ -47,7 +47,7 @@ pub struct Balance {
     pub motions: Vec<Motion>,
     /// Sum of the magnitudes of all forces on bodies: loads and reactions of their nodes, contact (per thickness).
     pub forces: f64,
-    /// Largest `|F₁ + F₂| / |F₂|`.
+    /// Largest `|F₁ + F₂| / |F₂|`; of a closed contact, where `F₂` may vanish, by `∫λ ds`.
     pub force: Option<f64>,
     /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C.
     pub moment: Option<f64>,
@@ -85,11 +85,11 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     };
     Ok(Balance {
         external_work: external,
-        force: worst(&|_, force| (force.resultants[0] + force.resultants[1]).norm() / force.resultants[1].norm()),
+        force: worst(&|contact, force| (force.resultants[0] + force.resultants[1]).norm() / force.size(contact)),
         moment: worst(&|contact, force| {
             let middle = contact.boundary.point(contact.boundary.parameter_at(0.5 * contact.boundary.length()));
             let sum = force.moments[0] + force.moments[1] - cross(middle, force.resultants[0] + force.resultants[1]);
-            sum.abs() / (force.resultants[1].norm() * contact.boundary.length())
+            sum.abs() / (force.size(contact) * contact.boundary.length())
         }),
         energy: (largest > 0.0).then(|| (2.0 * (total + springs.energy) - (external - lambda_gap - jumped)).abs() / largest),
         springs: has_springs.then_some(springs.energy),
@@ -106,6 +106,14 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         forces: magnitudes(&forces, &bodies),
         contacts: forces,
     })
+}
+
+impl ContactForce {
+    /// What the forces of a contact are measured by: all around a ring they may cancel.
+    fn size(&self, contact: &Contact) -> f64 {
+        let resultant = self.resultants[1].norm();
+        if contact.boundary.is_closed() { resultant.max(self.force.abs()) } else { resultant }
+    }
 }
 
 /// Work, by what does it.
@@ -263,6 +271,7 @@ fn body_balance(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum
         for (contact, force) in contacts.iter().zip(forces) {
             for k in (0..2).filter(|&k| contact.bodies[k] == body) {
                 all.add(force.resultants[k]);
+                all.magnitudes += force.size(contact) - force.resultants[1].norm();
             }
         }
         all.force.norm() / all.magnitudes
