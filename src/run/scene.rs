@@ -246,6 +246,14 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
         let [x, y] = spot.place;
         mesh.add_point(spot).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
     }
+    let bad = case.point_loads.iter().find(|load| load.force().iter().any(|component| !component.is_finite()));
+    if let Some(load) = bad {
+        let ([x, y], file) = (load.at.place, case.file.display());
+        return Err(format!(
+            "{file}: load.{}.force: has no finite value at its point ({x}, {y}); correct the formula",
+            load.name
+        ));
+    }
     Ok(())
 }
 
