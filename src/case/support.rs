@@ -61,6 +61,7 @@ fn read_springs(section: &Section) -> Option<Springs> {
     if section.has("at") {
         let words = "stands beside stiffness: springs stand on physical curves, by their length; give on";
         section.problem(&["at"], words.into());
+        return None;
     }
     let on = section.required("on", "\"bottom\"", values::names);
     if !section.has_table("stiffness") {
