@@ -7,8 +7,8 @@
 
 use super::bisection::BisectedMesh;
 use super::connected::Connected;
-use super::spot::{NamedPoint, Place, Spot};
-use super::{MacroMesh, MacroTriangle};
+use super::located::Located;
+use super::{MacroMesh, MacroTriangle, NamedPoint, Spot};
 use crate::geometry::{Point, cross};
 use std::collections::HashSet;
 
@@ -43,7 +43,7 @@ impl MacroMesh {
 
     /// The vertex at a point of a piece, which is made if there is none.
     fn make_vertex(&mut self, piece: usize, mut x: Point) -> Option<u32> {
-        if let Some(Place::Edge(edge, t)) = self.place_in(piece, x) {
+        if let Some(Located::Edge(edge, t)) = self.place_in(piece, x) {
             x = self.edge_position(edge, t);
         }
         let mut bisected = BisectedMesh::new(self.clone());
@@ -52,7 +52,7 @@ impl MacroMesh {
         for _ in 0..=ROUNDS {
             let mesh = &bisected.mesh;
             let Some(place) = mesh.place_in(piece, x) else { break };
-            if let Place::Vertex(vertex) = place {
+            if let Located::Vertex(vertex) = place {
                 if bisected.mesh.vertices.len() > self.vertices.len() {
                     *self = bisected.mesh;
                 }
@@ -78,17 +78,17 @@ impl MacroMesh {
     }
 
     /// The triangles that a place belongs to.
-    fn triangles_around(&self, place: Place) -> Vec<u32> {
+    fn triangles_around(&self, place: Located) -> Vec<u32> {
         match place {
-            Place::Vertex(vertex) => self.triangle_at(vertex).into_iter().collect(),
-            Place::Edge(edge, _) => vec![self.beside(edge).0],
-            Place::Triangle(triangle) => vec![triangle],
+            Located::Vertex(vertex) => self.triangle_at(vertex).into_iter().collect(),
+            Located::Edge(edge, _) => vec![self.beside(edge).0],
+            Located::Triangle(triangle) => vec![triangle],
         }
     }
 
     /// The mesh with a vertex at a place, which takes the triangles around whose circumcircles hold it, or not.
-    fn inserted(&self, place: Place, x: Point, grows: bool) -> Insertion {
-        let split = if let Place::Edge(edge, t) = place { Some((edge, t)) } else { None };
+    fn inserted(&self, place: Located, x: Point, grows: bool) -> Insertion {
+        let split = if let Located::Edge(edge, t) = place { Some((edge, t)) } else { None };
         let mut cavity = self.triangles_around(place);
         let named: HashSet<u32> = self.boundaries.iter().flat_map(|boundary| boundary.edges.iter().copied()).collect();
         let mut at = 0;
