@@ -58,11 +58,13 @@ fn read_springs(section: &Section) -> Option<Springs> {
     for key in ["ux", "uy", "normal"].into_iter().filter(|key| section.has(key)) {
         section.problem(&[key], "stands beside stiffness: springs prescribe nothing; make two supports, or leave one out".into());
     }
-    if section.has("at") {
+    let on = if section.has("at") {
         let words = "stands beside stiffness: springs stand on physical curves, by their length; give on";
         section.problem(&["at"], words.into());
-    }
-    let on = section.required("on", "\"bottom\"", values::names);
+        section.optional("on", values::names)
+    } else {
+        section.required("on", "\"bottom\"", values::names)
+    };
     if !section.has_table("stiffness") {
         section.problem(&["stiffness"], "must be a table, as { normal = 100.0 } or { x = 100.0, y = 50.0 }".into());
         return None;

@@ -282,7 +282,7 @@ fn every_error_names_key_value_and_remedy() {
         ("mesh.grade={points = [[0, 3]], exponent = 0}", "one per point, above 0: u ~ r^exponent"),
         ("solver=3", "solver = 3 (--set): must be a table; write [solver]"),
         ("meshes.a=1", "meshes: unknown key; did you mean \"mesh\"?"),
-        ("cases=1", "cases: unknown key; there are title, mesh, body"),
+        ("cases=1", "cases: unknown key; there are title, mesh, gravity, body"),
         ("body.a.young=0", "body.a.young = 0 (--set): must be > 0"),
         ("body.a.young=inf", "must be a finite number"),
         ("body.a.young=soft", "body.a.young = \"soft\" (--set): must be a finite number, not of type string"),
@@ -398,6 +398,14 @@ fn every_error_names_key_value_and_remedy() {
         }
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+#[test]
+fn the_energy_of_a_force_at_a_point_cannot_be_asked_for() {
+    for asked in ["accuracy=1e-3", "accuracy.energy=1e-3"] {
+        let words = error_of(LEAST, &["load.k={at=[0, 1], force=[0, 1]}", asked]);
+        assert!(words.contains("load.k acts at a point, where the energy is infinite"), "{words}");
+    }
 }
 
 fn good() -> String {

@@ -16,6 +16,7 @@ mod grading;
 mod hierarchy;
 mod insertion;
 pub mod lattice;
+mod located;
 mod macro_mesh;
 mod numbering;
 mod origin;
