@@ -21,6 +21,11 @@ pub struct Strip {
 }
 
 impl MacroMesh {
+    /// Whether all triangles of a macro triangle at a level are translations and point reflections of one another.
+    pub fn is_even(&self, triangle: usize, level: Level) -> bool {
+        !self.is_curved(triangle) && self.shapes(triangle, level).is_one()
+    }
+
     /// The strips of a macro triangle at a level, row by row; a bent one has none.
     pub fn strips(&self, triangle: usize, level: Level) -> Vec<Strip> {
         if self.is_curved(triangle) {

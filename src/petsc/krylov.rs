@@ -110,6 +110,11 @@ impl Krylov {
         Ok(KrylovEnding { converged, iterations: iterations as usize, residual, reason: self.reason(reason)? })
     }
 
+    /// `x = A⁻¹ b` as the method gives it, whatever its reason to stop: for methods of one step. **Collective**
+    pub fn apply(&self, b: &Vector, x: &mut Vector) -> Result<()> {
+        petsc!(KSPSolve(self.raw, b.raw(), x.raw()))
+    }
+
     /// Name of the reason to stop, and what failed in the preconditioner.
     fn reason(&self, reason: ffi::KSPConvergedReason) -> Result<String> {
         let mut name = ptr::null();

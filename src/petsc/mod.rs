@@ -44,7 +44,7 @@ pub use multigrid::MultigridLevel;
 pub use partition::partition;
 pub use preconditioner::Preconditioner;
 pub use session::{Session, end_all_ranks};
-pub use shell::{Action, Operator, Product, Transfer};
+pub use shell::{Action, Operator, Product, ReplacedAction, Transfer};
 pub use stage::{Stage, StageGuard};
 pub use vector::Vector;
 pub use window::Window;

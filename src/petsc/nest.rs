@@ -58,7 +58,7 @@ impl Matrix {
     }
 
     /// Another reference.
-    fn share(&self) -> Result<Self> {
+    pub fn share(&self) -> Result<Self> {
         petsc!(PetscObjectReference(self.raw().cast()))?;
         Ok(Self::from_raw(self.session(), self.raw()))
     }

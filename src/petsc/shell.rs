@@ -138,6 +138,43 @@ impl Preconditioner {
     }
 }
 
+/// An action in place of what the kind of a preconditioner does, for as long as this lives. Set-up, options, parts and what PETSc
+/// shows of the preconditioner stay those of its kind.
+pub struct ReplacedAction {
+    preconditioner: Preconditioner,
+    before: ffi::mezha_apply,
+    _context: Box<Context<dyn Action>>,
+}
+
+impl ReplacedAction {
+    /// Puts an action in the place. **Collective**
+    pub fn new(preconditioner: Preconditioner, action: Box<dyn Action>) -> Result<Self> {
+        let mut context = Box::new(Context::<dyn Action> { action, session: preconditioner.session().clone() });
+        let mut before = None;
+        petsc!(PCSetApplicationContext(preconditioner.raw(), ptr::from_mut(&mut *context).cast()))?;
+        petsc!(mezha_replace_apply(preconditioner.raw(), Some(apply_replaced), &mut before))?;
+        Ok(Self { preconditioner, before, _context: context })
+    }
+}
+
+impl Drop for ReplacedAction {
+    /// The kind does again what it did before.
+    fn drop(&mut self) {
+        let mut replaced = None;
+        unsafe { ffi::mezha_replace_apply(self.preconditioner.raw(), self.before, &mut replaced) };
+    }
+}
+
+/// [`ReplacedAction`] as PETSc calls it.
+unsafe extern "C" fn apply_replaced(preconditioner: ffi::PC, x: ffi::Vec, y: ffi::Vec) -> Code {
+    report(|| {
+        let mut context = ptr::null_mut::<c_void>();
+        petsc!(PCGetApplicationContext(preconditioner, ptr::from_mut(&mut context).cast()))?;
+        let context = unsafe { &*context.cast::<Context<dyn Action>>() };
+        context.action.apply(&Lent::new(&context.session, x), &mut Lent::new(&context.session, y))
+    })
+}
+
 /// Drops the action with the preconditioner.
 unsafe extern "C" fn drop_action(preconditioner: ffi::PC) -> Code {
     let mut context = ptr::null_mut::<c_void>();

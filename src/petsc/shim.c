@@ -1,5 +1,6 @@
 #define _GNU_SOURCE
 #include "shim.h"
+#include <petsc/private/pcimpl.h>
 #include <dlfcn.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -25,6 +26,13 @@ PetscErrorCode mezha_callback_error(const char *message)
 PetscErrorCode mezha_log_work(double operations)
 {
   return PetscLogFlops(operations);
+}
+
+PetscErrorCode mezha_replace_apply(PC preconditioner, mezha_apply apply, mezha_apply *before)
+{
+  *before                    = preconditioner->ops->apply;
+  preconditioner->ops->apply = apply;
+  return 0;
 }
 
 /* Scotch comes with PETSc, so its development files need not be there: look its functions up. */

@@ -22,6 +22,10 @@ void mezha_keep_messages(PetscBool keep);
 const char *mezha_kept_message(void);
 /* While `ours`, the end of this process from inside a library is a failure, whatever code it chooses. */
 void mezha_end_is_ours(PetscBool ours);
+/* What a preconditioner does, in place of what its kind does: its options, its parts and what PETSc shows of it stay. */
+typedef PetscErrorCode (*mezha_apply)(PC, Vec, Vec);
+/* The present one goes to `before`. */
+PetscErrorCode mezha_replace_apply(PC preconditioner, mezha_apply apply, mezha_apply *before);
 /* Sizes that PETSc works out, and its default real tolerance. */
 static const PetscInt  mezha_determine    = PETSC_DETERMINE;
 static const PetscReal mezha_default_real = PETSC_DEFAULT;

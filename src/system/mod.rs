@@ -32,6 +32,7 @@ mod solution;
 mod solver;
 mod space;
 mod stiffness;
+mod triangle_lattice;
 mod user_options;
 
 pub use boundary_motion::BoundaryMotion;

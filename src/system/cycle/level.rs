@@ -1,8 +1,8 @@
 //! One level of the cycle: its rows, its vectors, and the way to the next coarser level.
 
 use crate::petsc::{Datum, Halo, Session};
-use crate::system::interpolation::NodeInterpolation;
-use crate::system::stiffness::{LatticeOperator, LatticeRows, Precision, StoredRows, Strips};
+use crate::system::interpolation::{InterpolationRoom, NodeInterpolation};
+use crate::system::stiffness::{EvenTriangles, LatticeOperator, LatticeRows, Precision, StoredRows, Strips};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -15,12 +15,15 @@ pub struct CycleLevel<T> {
     halo: Option<Rc<Halo>>,
     /// Interpolation from the next coarser level.
     step: Option<Rc<NodeInterpolation>>,
+    /// Whether residuals inside of even macro triangles are restricted where they are made.
+    is_fused: bool,
     /// Ranks whose sums come together on the next coarser level, which is on every rank; none if this one is, too.
     session: Option<Session>,
     /// Right-hand side and solution, but for the finest level, which works on those that it is given.
     pub b: Vec<[T; 2]>,
     pub x: Vec<[T; 2]>,
     far: Vec<[T; 2]>,
+    room: InterpolationRoom<T>,
     /// Nodes that are here.
     pub nodes: usize,
 }
@@ -28,7 +31,7 @@ pub struct CycleLevel<T> {
 /// The rows that are worked on.
 enum LevelRows<T> {
     /// Those of this rank.
-    Own { strips: Rc<Strips<T>>, stored: Rc<RefCell<StoredRows<T>>> },
+    Own { strips: Rc<Strips<T>>, even: Rc<EvenTriangles<T>>, stored: Rc<RefCell<StoredRows<T>>> },
     /// Those of all ranks.
     All(Box<StoredRows<T>>),
 }
@@ -47,11 +50,15 @@ impl<T: Precision + Datum> CycleLevel<T> {
             let nodes = all.nodes().len();
             (LevelRows::All(Box::new(all.converted())), None, nodes, 0)
         } else {
-            let rows = LevelRows::Own { strips: T::strips(lattice.strips()), stored: T::stored(lattice.rows()) };
+            let (strips, even) = (T::strips(lattice.strips()), T::even(lattice.even()));
+            let rows = LevelRows::Own { strips, even, stored: T::stored(lattice.rows()) };
             (rows, (!alone).then(|| lattice.halo().clone()), lattice.node_count(), lattice.far_count())
         };
+        let is_of_rows = |step: &Rc<NodeInterpolation>| step.is_of(lattice.even().triangles.iter().map(|of| of.inner.clone()));
+        let is_fused = matches!(rows, LevelRows::Own { .. }) && step.as_ref().is_some_and(is_of_rows);
         let session = (gathered[1] && !gathered[0] && !alone).then(|| session.clone());
-        Self { lattice, rows, halo, step, session, b: Vec::new(), x: Vec::new(), far: vec![[T::default(); 2]; far], nodes }
+        let (b, x, far) = (Vec::new(), Vec::new(), vec![[T::default(); 2]; far]);
+        Self { lattice, rows, halo, step, is_fused, session, b, x, far, room: InterpolationRoom::default(), nodes }
     }
 
     /// Makes its vectors.
@@ -71,34 +78,50 @@ impl<T: Precision + Datum> CycleLevel<T> {
 
     /// Restricts the residual `b - K x` to the next coarser level; `r` has room for it. **Collective**
     pub fn restrict_residual(&mut self, b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]], below: &mut [[T; 2]]) {
-        let Self { lattice, rows, halo, far, nodes, .. } = self;
-        let r = &mut r[..*nodes];
+        let Self { lattice, rows, halo, far, nodes, step, is_fused, session, room, .. } = self;
+        let (r, step) = (&mut r[..*nodes], step.as_ref().expect("a way down"));
         match rows {
-            LevelRows::All(rows) => rows.residual(0..rows.nodes().len(), b, x, far, r),
-            LevelRows::Own { strips, stored } => {
+            LevelRows::All(rows) => {
+                rows.residual(0..rows.nodes().len(), b, x, far, r);
+                step.restrict(r, below, room);
+            }
+            LevelRows::Own { strips, even, stored } => {
                 let stored = stored.borrow();
-                let rows = LatticeRows { strips, stored: &*stored, order: lattice.order() };
+                let rows = LatticeRows { strips, even, stored: &*stored, order: lattice.order() };
                 match halo {
-                    Some(halo) => halo.fetch(x, far, || rows.residual_in_strips(b, x, r)),
-                    None => rows.residual_in_strips(b, x, r),
+                    Some(halo) => halo.fetch(x, far, || rows.residual_inside(!*is_fused, b, x, r)),
+                    None => rows.residual_inside(!*is_fused, b, x, r),
                 }
-                stored.residual(0..stored.nodes().len(), b, x, far, r);
+                if *is_fused {
+                    stored.residual(0..stored.nodes().len(), b, x, far, r);
+                    step.restrict_from(|k, own| even.residual_of(k, b, x, far, own), r, below, room);
+                } else {
+                    rows.residual_in_others(b, x, far, r);
+                    step.restrict(r, below, room);
+                }
             }
         }
-        self.restrict(r, below);
+        if let Some(session) = session {
+            session.add_up(below.as_flattened_mut());
+        }
     }
 
     /// Restricts forces to the next coarser level. **Collective**
-    pub fn restrict(&self, fine: &[[T; 2]], below: &mut [[T; 2]]) {
-        self.step.as_ref().expect("a way down").restrict(fine, below);
+    pub fn restrict(&mut self, fine: &[[T; 2]], below: &mut [[T; 2]]) {
+        self.step.as_ref().expect("a way down").restrict(fine, below, &mut self.room);
         if let Some(session) = &self.session {
             session.add_up(below.as_flattened_mut());
         }
     }
 
+    /// Takes what the next coarser level has found. **Collective**
+    pub fn begin(&mut self, below: &[[T; 2]], x: &mut [[T; 2]]) {
+        self.step.as_ref().expect("a way up").prolong::<T, false>(below, x, &mut self.room);
+    }
+
     /// Adds what the next coarser level has found. **Collective**
     pub fn correct(&mut self, below: &[[T; 2]], x: &mut [[T; 2]]) {
-        self.step.as_ref().expect("a way up").prolong(below, x);
+        self.step.as_ref().expect("a way up").prolong::<T, true>(below, x, &mut self.room);
     }
 
     /// A symmetric Gauss-Seidel sweep over the nodes here, from `x` or from zero; those of other ranks stay as they are.
@@ -117,8 +140,8 @@ impl<T: Precision + Datum> CycleLevel<T> {
                 rows.forward(0..rows.nodes().len(), b, x, elsewhere);
                 rows.backward(0..rows.nodes().len(), b, x, elsewhere);
             }
-            LevelRows::Own { strips, stored } => {
-                LatticeRows { strips, stored: &*stored.borrow(), order: lattice.order() }.relax(b, x, elsewhere);
+            LevelRows::Own { strips, even, stored } => {
+                LatticeRows { strips, even, stored: &*stored.borrow(), order: lattice.order() }.relax(b, x, elsewhere);
             }
         }
     }

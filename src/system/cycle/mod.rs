@@ -85,8 +85,9 @@ impl<T: Precision + Datum> FullCycle<T> {
         let top = levels.len() - 1;
         for l in (1..=top).rev() {
             let (below, level) = levels.split_at_mut(l);
-            let fine = if l == top { b } else { &level[0].b };
-            level[0].restrict(fine, &mut below[l - 1].b);
+            let own = take(&mut level[0].b);
+            level[0].restrict(if l == top { b } else { &own }, &mut below[l - 1].b);
+            level[0].b = own;
         }
         coarsest.solve(&mut levels[0])?;
         for l in 1..top {
@@ -107,8 +108,7 @@ fn begin<T: Precision + Datum>(
     r: &mut [[T; 2]],
 ) -> Result<()> {
     let (level, below) = levels.split_last_mut().expect("a level");
-    x.fill([T::default(); 2]);
-    level.correct(&below[below.len() - 1].x, x);
+    level.begin(&below[below.len() - 1].x, x);
     v_cycle(levels, coarsest, b, x, r, false)
 }
 
@@ -140,6 +140,7 @@ fn v_cycle<T: Precision + Datum>(
 type Shared<T> = Rc<RefCell<FullCycle<T>>>;
 
 /// A cycle in one of the precisions, shared with the preconditioner of PETSc's that it stands behind.
+#[derive(Clone)]
 pub enum Cycle {
     /// In double precision.
     Double(Shared<f64>),
@@ -162,12 +163,18 @@ impl Cycle {
         })
     }
 
+    /// `x = M⁻¹ b` for the unknowns of this rank. **Collective**
+    pub fn apply(&self, b: &[f64], x: &mut [f64]) -> Result<()> {
+        let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
+        match self {
+            Self::Double(cycle) => cycle.borrow_mut().apply(b, x),
+            Self::Single(cycle) => cycle.borrow_mut().apply(b, x),
+        }
+    }
+
     /// What PETSc's preconditioner does.
     pub fn action(&self) -> Box<dyn Action> {
-        match self {
-            Self::Double(cycle) => Box::new(CycleAction(cycle.clone())),
-            Self::Single(cycle) => Box::new(CycleAction(cycle.clone())),
-        }
+        Box::new(CycleAction(self.clone()))
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
@@ -180,11 +187,10 @@ impl Cycle {
 }
 
 /// The cycle as PETSc's preconditioner.
-struct CycleAction<T>(Shared<T>);
+struct CycleAction(Cycle);
 
-impl<T: Precision + Datum> Action for CycleAction<T> {
+impl Action for CycleAction {
     fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        let (b, mut x) = (x.values(), y.values_mut());
-        self.0.borrow_mut().apply(b.as_chunks().0, x.as_chunks_mut().0)
+        self.0.apply(&x.values(), &mut y.values_mut())
     }
 }

@@ -89,6 +89,11 @@ impl HalvedRows {
         self.0.iter().for_each(|row| row.prolong(x, y));
     }
 
+    /// Makes zeros of the nodes of all rows.
+    pub fn clear<T: Real>(&self, y: &mut [[T; 2]]) {
+        self.0.iter().for_each(|row| y[row.first..][..row.count].fill([T::default(); 2]));
+    }
+
     /// Adds what the transposed interpolation makes of `y` to `x`.
     pub fn restrict<T: Real>(&self, y: &[[T; 2]], x: &mut [[T; 2]]) {
         self.0.iter().for_each(|row| row.restrict(y, x));

@@ -3,8 +3,9 @@
 mod halved_rows;
 mod node_interpolation;
 mod parents;
+mod whole;
 
-pub use node_interpolation::NodeInterpolation;
+pub use node_interpolation::{InterpolationRoom, NodeInterpolation};
 
 use super::auxiliary::{SMALL, auxiliary_interpolations};
 use super::user_options::want_entries;
@@ -73,7 +74,7 @@ fn interpolation(
 
 /// With all its rows stored. **Collective**
 fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, here: &Here, session: &Session) -> Result<Matrix, SystemError> {
-    let rows = NodeParents::new(scene, fine, coarse, here, |_| 0..0);
+    let rows = NodeParents::new(scene, fine, coarse, here, |_, _| 0..0);
     let mut diagonal = vec![0; fine.local_unknowns()];
     let mut off_diagonal = vec![0; fine.local_unknowns()];
     for (node, parents) in rows.iter() {

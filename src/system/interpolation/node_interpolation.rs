@@ -1,18 +1,26 @@
-//! Interpolation by nodes: halved rows inside macro triangles, and a list of the other nodes.
+//! Interpolation by nodes: whole macro triangles, halved rows inside of others, and a list of the other nodes.
 
 use super::halved_rows::{HalvedRow, HalvedRows};
 use super::parents::{Here, NodeParents};
+use super::whole;
 use crate::element::Block;
 use crate::geometry::Point;
+use crate::mesh::lattice;
 use crate::petsc::{Datum, Halo, Result, Session, Transfer, Vector};
 use crate::system::space::Real;
+use crate::system::triangle_lattice::{TriangleNodes, inner_rows, is_whole, side_nodes, zeros};
 use crate::system::{Scene, Space};
+use std::ops::Range;
 use std::rc::Rc;
 
 /// Linear interpolation from a coarse level to the next finer one. A node takes over the value of its coarse twin, or the
 /// weighted mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns
 /// of prescribed coarse ones are zero.
 pub struct NodeInterpolation {
+    /// Macro triangles whose inner nodes are worked on as a whole.
+    whole: Vec<WholeTriangle>,
+    /// Fine lattice intervals.
+    n: usize,
     halved: HalvedRows,
     /// Nodes in the middle of two parents, or on one of them twice.
     even: Vec<[u32; 3]>,
@@ -24,13 +32,56 @@ pub struct NodeInterpolation {
     far: usize,
 }
 
+/// A macro triangle whose inner nodes are worked on as a whole.
+struct WholeTriangle {
+    /// Its fine inner nodes, counted from the first that is here.
+    fine: Range<usize>,
+    coarse: TriangleNodes,
+}
+
+/// Lattices to work in: a fine one with zeros on its sides, and a coarse one.
+pub struct InterpolationRoom<T>([Vec<[T; 2]>; 2]);
+
+impl<T> Default for InterpolationRoom<T> {
+    fn default() -> Self {
+        Self([Vec::new(), Vec::new()])
+    }
+}
+
+impl<T: Real> InterpolationRoom<T> {
+    /// With room for a fine lattice with `n` intervals.
+    fn lattices(&mut self, n: usize) -> [&mut [[T; 2]]; 2] {
+        if self.0[0].is_empty() {
+            self.0 = [zeros(n), zeros(n / 2)];
+        }
+        let [fine, coarse] = &mut self.0;
+        [fine, coarse]
+    }
+}
+
 impl NodeInterpolation {
     /// To the fine nodes that are here; coarse ones of other ranks come through a halo if not all are here. **Collective**
     pub fn new(scene: &Scene, fine: &Space, coarse: &Space, here: &Here, session: &Session) -> Self {
-        let halved = HalvedRows::new(scene, fine, coarse, here.triangles, [&here.fine, &here.coarse]);
-        let left_out = |j: usize| HalvedRow::places(fine.numbering.level.intervals, j);
+        let level = fine.numbering.level;
+        let mut all: Vec<u32> = here.triangles.to_vec();
+        all.sort_unstable();
+        let (whole, others): (Vec<u32>, Vec<u32>) =
+            all.into_iter().partition(|&triangle| is_whole(level) && scene.mesh.is_even(triangle as usize, level));
+        let halved = HalvedRows::new(scene, fine, coarse, &others, [&here.fine, &here.coarse]);
+        let n = level.intervals;
+        let left_out = |triangle: u32, j: usize| match whole.binary_search(&triangle) {
+            Ok(_) if j == 0 || j + 1 >= n => 0..0,
+            Ok(_) => 1..n - j,
+            Err(_) => HalvedRow::places(n, j),
+        };
         let rows = NodeParents::new(scene, fine, coarse, here, left_out);
-        let mut far: Vec<usize> = rows.iter().flat_map(|(_, pair)| pair).filter(|node| !here.coarse.contains(node)).collect();
+        let numbers = |triangle: &u32| coarse.numbering.triangle(&scene.mesh, *triangle as usize);
+        let sides = whole.iter().flat_map(|triangle| {
+            let numbers = numbers(triangle);
+            side_nodes(n / 2).map(move |(i, j)| numbers.node(i, j))
+        });
+        let parents = rows.iter().flat_map(|(_, pair)| pair).chain(sides);
+        let mut far: Vec<usize> = parents.filter(|node| !here.coarse.contains(node)).collect();
         far.sort_unstable();
         far.dedup();
         let place = |node: usize| match here.coarse.contains(&node) {
@@ -53,21 +104,36 @@ impl NodeInterpolation {
         // All ranks take the same way here, whatever they own: a halo is made by all of them together.
         let is_shared = session.size() > 1 && !here.is_gathered;
         let halo = is_shared.then(|| Halo::new(session, &here.coarse, &far));
-        Self { halved, even, weighted, coarse: here.coarse.len(), halo, far: far.len() }
+        let pair = |triangle: &u32| {
+            let first = fine.numbering.triangle(&scene.mesh, *triangle as usize).node(1, 1) - here.fine.start;
+            let coarse = TriangleNodes::new(&numbers(triangle), coarse, &here.coarse, &far);
+            WholeTriangle { fine: first..first + lattice::inner_count(n), coarse }
+        };
+        let whole = whole.iter().map(pair).collect();
+        Self { whole, n, halved, even, weighted, coarse: here.coarse.len(), halo, far: far.len() }
     }
 
-    /// `y += P x`. **Collective**
-    pub fn prolong<T: Real + Datum>(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
+    /// Whether its whole macro triangles are these, by their inner nodes.
+    pub fn is_of(&self, inner: impl Iterator<Item = Range<usize>>) -> bool {
+        self.whole.iter().map(|triangle| triangle.fine.clone()).eq(inner)
+    }
+
+    /// `y += P x`, or `y = P x`. **Collective**
+    pub fn prolong<T: Real + Datum, const ADD: bool>(&self, x: &[[T; 2]], y: &mut [[T; 2]], room: &mut InterpolationRoom<T>) {
         let mut far = vec![[T::default(); 2]; self.far];
         match &self.halo {
-            Some(halo) => halo.fetch(x, &mut far, || self.halved.prolong(x, y)),
-            None => self.halved.prolong(x, y),
+            Some(halo) => halo.fetch(x, &mut far, || self.prolong_inside::<T, ADD>(true, x, &[], y, room)),
+            None => self.prolong_inside::<T, ADD>(true, x, &[], y, room),
         }
+        self.prolong_inside::<T, ADD>(false, x, &far, y, room);
         let (half, coarse) = (T::of(0.5), self.coarse);
         let value = |at: u32| if (at as usize) < coarse { x[at as usize] } else { far[at as usize - coarse] };
         for &[node, a, b] in &self.even {
-            let (a, b) = (value(a), value(b));
-            (0..2).for_each(|k| y[node as usize][k] += half * (a[k] + b[k]));
+            let (a, b, to) = (value(a), value(b), &mut y[node as usize]);
+            (0..2).for_each(|k| to[k] = half * (a[k] + b[k]) + if ADD { to[k] } else { T::default() });
+        }
+        if !ADD {
+            self.weighted.iter().for_each(|&(node, ..)| y[node as usize] = [T::default(); 2]);
         }
         for &(node, parent, block) in &self.weighted {
             let x = value(parent);
@@ -75,10 +141,54 @@ impl NodeInterpolation {
         }
     }
 
+    /// The same inside of macro triangles whose coarse nodes are all here, or not.
+    fn prolong_inside<T: Real, const ADD: bool>(
+        &self,
+        is_here: bool,
+        x: &[[T; 2]],
+        far: &[[T; 2]],
+        y: &mut [[T; 2]],
+        room: &mut InterpolationRoom<T>,
+    ) {
+        for triangle in self.whole.iter().filter(|triangle| triangle.coarse.is_here == is_here) {
+            let [_, coarse] = room.lattices(self.n);
+            triangle.coarse.bring(x, far, coarse);
+            whole::prolong::<T, ADD>(self.n, coarse, &mut y[triangle.fine.clone()]);
+        }
+        if is_here {
+            if !ADD {
+                self.halved.clear(y);
+            }
+            self.halved.prolong(x, y);
+        }
+    }
+
     /// `x = Pᵀ y`. **Collective**
-    pub fn restrict<T: Real + Datum>(&self, y: &[[T; 2]], x: &mut [[T; 2]]) {
+    pub fn restrict<T: Real + Datum>(&self, y: &[[T; 2]], x: &mut [[T; 2]], room: &mut InterpolationRoom<T>) {
+        let inside = |k: usize, own: &mut [[T; 2]]| {
+            let y = &y[self.whole[k].fine.clone()];
+            inner_rows(self.n).for_each(|(to, from)| own[to].copy_from_slice(&y[from]));
+        };
+        self.restrict_from(inside, y, x, room);
+    }
+
+    /// The same where `inside` brings what `y` has inside of a whole macro triangle into a lattice with zeros on its sides.
+    /// **Collective**
+    pub fn restrict_from<T: Real + Datum>(
+        &self,
+        mut inside: impl FnMut(usize, &mut [[T; 2]]),
+        y: &[[T; 2]],
+        x: &mut [[T; 2]],
+        room: &mut InterpolationRoom<T>,
+    ) {
         let mut far = vec![[T::default(); 2]; self.far];
         x.fill([T::default(); 2]);
+        for (k, triangle) in self.whole.iter().enumerate() {
+            let [fine, coarse] = room.lattices(self.n);
+            inside(k, fine);
+            whole::restrict(self.n, fine, coarse);
+            triangle.coarse.give(coarse, x, &mut far);
+        }
         let (half, coarse) = (T::of(0.5), self.coarse);
         let mut add = |at: u32, value: [T; 2]| {
             let sum = if (at as usize) < coarse { &mut x[at as usize] } else { &mut far[at as usize - coarse] };
@@ -121,23 +231,25 @@ pub struct InterpolationShell(pub Rc<NodeInterpolation>);
 
 impl Transfer for InterpolationShell {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        y.set(0.0)?;
-        self.multiply_add(x, y)
+        let (x, mut y) = (x.values(), y.values_mut());
+        self.0.prolong::<f64, false>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
+        Ok(())
     }
 
     fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let (x, mut y) = (x.values(), y.values_mut());
-        self.0.prolong::<f64>(x.as_chunks().0, y.as_chunks_mut().0);
+        self.0.prolong::<f64, true>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
         Ok(())
     }
 
     fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let (x, mut y) = (x.values(), y.values_mut());
-        self.0.restrict::<f64>(x.as_chunks().0, y.as_chunks_mut().0);
+        self.0.restrict::<f64>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
         Ok(())
     }
 
     fn work(&self) -> f64 {
-        4.0 * self.0.halved.count() as f64 + 4.0 * self.0.stored() as f64
+        4.0 * (self.0.halved.count() + self.0.whole.iter().map(|triangle| triangle.fine.len()).sum::<usize>()) as f64
+            + 4.0 * self.0.stored() as f64
     }
 }

@@ -29,8 +29,8 @@ pub struct NodeParents {
 }
 
 impl NodeParents {
-    /// Without the places `left_out` of each row of a lattice.
-    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, here: &Here, left_out: impl Fn(usize) -> Range<usize>) -> Self {
+    /// Without the places `left_out` of each row of the lattice of a macro triangle.
+    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, here: &Here, left_out: impl Fn(u32, usize) -> Range<usize>) -> Self {
         let n = fine.numbering.level.intervals;
         let mut seen = vec![false; here.fine.len()];
         let mut rows = Self { nodes: Vec::new(), graded: HashMap::new() };
@@ -38,7 +38,7 @@ impl NodeParents {
             let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
             let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
             let rest = (0..=n).flat_map(|j| {
-                let out = left_out(j);
+                let out = left_out(triangle, j);
                 (0..out.start).chain(out.end..=n - j).map(move |i| (i, j))
             });
             for (i, j) in rest {

@@ -6,6 +6,7 @@
 //! ([`Preconditioning`]). `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's own override;
 //! only the tolerance is the case's.
 
+mod block_triangle;
 mod fallback;
 mod inf_sup;
 mod linear_solve;
@@ -15,16 +16,17 @@ pub use fallback::Preconditioning;
 pub use inf_sup::inf_sup;
 pub use linear_solve::{LinearEnding, LinearSolve};
 
+use self::block_triangle::BlockTriangle;
 use self::options::{
-    CoarseSolver, FIELD_SPLIT, Options, SHORT_RECURRENCE, is_changed, is_chosen, is_method_chosen, lambda_options,
-    preconditioning_options, wants_single,
+    CoarseSolver, FIELD_SPLIT, Options, SHORT_RECURRENCE, is_changed, is_chosen, is_method_chosen, is_split_changed,
+    lambda_options, preconditioning_options, wants_single,
 };
 use super::auxiliary::GalerkinLevels;
 use super::cycle::Cycle;
 use super::interpolation::Interpolation;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
-use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, Session, Vector};
+use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, ReplacedAction, Session, Vector};
 use fallback::needed;
 use std::rc::Rc;
 
@@ -45,6 +47,8 @@ const MOST_ROUNDING: f64 = 1e-6;
 /// A solver, ready for one system.
 pub struct LinearSolver {
     krylov: Krylov,
+    /// What does the work of PETSc's fieldsplit, where no option asks for more.
+    _block_triangle: Option<ReplacedAction>,
     session: Session,
     form: Form,
     /// The converted system of the direct solver.
@@ -134,6 +138,12 @@ impl LinearSolver {
             }
             solvers[0].set_up()?;
         }
+        let mut block_triangle = None;
+        if let Some(cycle) = cycle.as_ref().filter(|_| !is_split_changed(session)) {
+            let lower = preconditioner.field_split_solvers()?.pop().expect("two fields");
+            let action = BlockTriangle::new(cycle.clone(), lower, &system.multipliers.transpose, session)?;
+            block_triangle = Some(ReplacedAction::new(krylov.preconditioner(), Box::new(action))?);
+        }
         let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
         let own = kind == "mg" || kind == "shell" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
         let is_single = is_single && cycle.is_some();
@@ -141,6 +151,7 @@ impl LinearSolver {
         let (session, form) = (session.clone(), Form::Augmented);
         Ok(Self {
             krylov,
+            _block_triangle: block_triangle,
             session,
             form,
             converted: None,
@@ -174,6 +185,7 @@ impl LinearSolver {
         let name = "direct (MUMPS)".into();
         let mut solver = Self {
             krylov,
+            _block_triangle: None,
             session: session.clone(),
             form: Form::Plain,
             converted: None,

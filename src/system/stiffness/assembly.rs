@@ -1,6 +1,7 @@
 //! Assembly of the stiffness of one level: each rank makes the whole rows of its own nodes, without a word to the others.
 
 use super::ContactNeighbours;
+use super::even_triangles::EvenTriangles;
 use super::pattern::RowColumns;
 use super::precision::Precision;
 use super::stored_rows::{BlockColumn, StoredRows, place};
@@ -10,8 +11,11 @@ use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};
 use crate::geometry::Point;
 use crate::mesh::{Strip, TriangleNumbers, lattice};
+use crate::system::triangle_lattice::{TriangleNodes, is_whole, side_nodes};
 use crate::system::{Scene, Space};
 use std::collections::BTreeMap;
+use std::ops::Range;
+use std::rc::Rc;
 
 /// A level to assemble, and what need not be.
 pub struct Assembly<'a> {
@@ -29,7 +33,9 @@ struct AssemblyPart {
     numbers: TriangleNumbers,
     /// Whether it is this rank's own; of those of others only nodes on the sides are.
     is_own: bool,
-    /// Row by row.
+    /// Whether all of its inner rows are alike and not stored.
+    is_whole: bool,
+    /// Row by row; none if it is whole.
     strips: Vec<Strip>,
 }
 
@@ -41,6 +47,7 @@ pub struct Assembled {
     pub far: Vec<usize>,
     /// The other rows.
     pub strips: Strips,
+    pub even: EvenTriangles,
 }
 
 impl<'a> Assembly<'a> {
@@ -50,8 +57,11 @@ impl<'a> Assembly<'a> {
         let part = |triangle: usize| {
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
             let is_own = scene.partition.owner(triangle as u32) == rank;
-            let strips = if is_own && with_strips { scene.mesh.strips(triangle, level) } else { Vec::new() };
-            (is_own || touches(level.intervals, space, &numbers)).then_some(AssemblyPart { triangle, numbers, is_own, strips })
+            let is_repeated = is_own && with_strips;
+            let is_whole = is_repeated && is_whole(level) && scene.mesh.is_even(triangle, level);
+            let strips = if is_repeated && !is_whole { scene.mesh.strips(triangle, level) } else { Vec::new() };
+            let part = AssemblyPart { triangle, numbers, is_own, is_whole, strips };
+            (is_own || touches(level.intervals, space, &part.numbers)).then_some(part)
         };
         let parts = (0..scene.mesh.triangles.len()).filter_map(part).collect();
         let mut assembly = Self { scene, space, parts, nodes: Vec::new() };
@@ -69,13 +79,17 @@ impl<'a> Assembly<'a> {
         let laws = self.scene.laws();
         let (mut rows, far) = self.pattern(contact);
         let mut strips = Strips::default();
+        let (mut couplings, mut triangles) = (Vec::new(), Vec::new());
         for part in &self.parts {
             let (mesh, level) = (&self.scene.mesh, self.space.numbering.level);
             let law = &laws[mesh.triangles[part.triangle].body as usize];
             let made = if part.is_own { MacroStiffness::new } else { MacroStiffness::of_sides };
             let stiffness = made(mesh, part.triangle, level, law)?;
             self.add_rows(part, &stiffness, &far, &mut rows, &mut lift);
-            if part.is_own {
+            if part.is_whole {
+                couplings.push(Couplings::of_rows(&stiffness, level.order));
+                triangles.push(TriangleNodes::new(&part.numbers, self.space, &self.space.own, &far));
+            } else if part.is_own {
                 self.add_strips(part, &stiffness, &mut strips);
             }
         }
@@ -83,7 +97,10 @@ impl<'a> Assembly<'a> {
         (0..rows.nodes.len()).for_each(|k| rows.invert(k));
         rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
         strips.triangles.sort_unstable_by_key(|triangle| triangle.nodes.start);
-        Ok(Assembled { rows, far, strips })
+        let kernels = couplings.iter().map(|couplings: &Vec<Couplings>| f64::triangle_kernel(couplings)).collect();
+        let n = self.space.numbering.level.intervals;
+        let even = EvenTriangles::new(n, Rc::new(couplings), Rc::new(kernels), triangles);
+        Ok(Assembled { rows, far, strips, even })
     }
 
     /// The stored rows with zeros, and their columns of other ranks.
@@ -113,13 +130,16 @@ impl<'a> Assembly<'a> {
         for (k, others) in of_contact() {
             others.iter().for_each(|&other| couplings.push(k, other));
         }
-        couplings.into_rows(self.nodes.clone(), own)
+        let whole = self.parts.iter().filter(|part| part.is_whole);
+        let of_sides = whole.flat_map(|part| side_nodes(level.intervals).map(|(i, j)| part.numbers.node(i, j)));
+        couplings.into_rows(self.nodes.clone(), own, of_sides)
     }
 
     /// Nodes of this rank outside of strips, ascending.
     fn stored_nodes(&self) -> Vec<u32> {
         let strips = self.parts.iter().flat_map(|part| part.strips.iter().map(move |strip| (part, strip)));
-        let mut strips: Vec<_> = strips.map(|(part, strip)| self.strip_nodes(part, strip).range()).collect();
+        let whole = self.parts.iter().filter(|part| part.is_whole).map(|part| self.inner_nodes(part));
+        let mut strips: Vec<_> = strips.map(|(part, strip)| self.strip_nodes(part, strip).range()).chain(whole).collect();
         strips.sort_unstable_by_key(|nodes| nodes.start);
         let count = self.space.own.len();
         let mut nodes = Vec::with_capacity(count - strips.iter().map(|nodes| nodes.len()).sum::<usize>());
@@ -148,7 +168,7 @@ impl<'a> Assembly<'a> {
             };
             show(k, (i, j));
         };
-        if part.is_own { outside(n, &part.strips).for_each(&mut show) } else { sides(n).for_each(&mut show) }
+        if part.is_own && !part.is_whole { outside(n, &part.strips).for_each(&mut show) } else { sides(n).for_each(&mut show) }
     }
 
     /// Adds the part that a macro triangle has in the stored rows.
@@ -178,6 +198,22 @@ impl<'a> Assembly<'a> {
                 rows.add(place, BlockColumn::of(node, &self.space.own, far), &block);
             }
         });
+        if part.is_whole && is_supported {
+            self.lift_inner(part, stiffness, lift);
+        }
+    }
+
+    /// Shows what prescribed displacements on the sides of a macro triangle do to its inner nodes.
+    fn lift_inner(&self, part: &AssemblyPart, stiffness: &MacroStiffness, lift: &mut impl FnMut(usize, Point)) {
+        let n = self.space.numbering.level.intervals;
+        for (i, j) in (1..n - 1).flat_map(|j| (1..n - j).map(move |i| (i, j))) {
+            let near = |(k, l): &(usize, usize)| !matches!(lattice::place(n, *k, *l), lattice::Place::Inside(_));
+            for ((k, l), block) in stiffness.row(i, j).filter(|(other, _)| near(other)) {
+                if let Some(column) = self.space.constraints.get(part.numbers.node(k, l)) {
+                    constrained(block, None, Some(column), false, |force| lift(part.numbers.node(i, j), force));
+                }
+            }
+        }
     }
 
     /// Adds the springs of elastic supports: they stand on sides, whose rows are stored.
@@ -217,9 +253,14 @@ impl<'a> Assembly<'a> {
                 None => strips.alike.push((at..at + 1, kind)),
             }
         }
+        strips.triangles.push(TriangleStrips { nodes: self.inner_nodes(part), alike: first..strips.alike.len() });
+    }
+
+    /// The inner nodes of a macro triangle of this rank's, counted from the first node of the rank.
+    fn inner_nodes(&self, part: &AssemblyPart) -> Range<usize> {
         let n = self.space.numbering.level.intervals;
         let start = if n < 3 { 0 } else { part.numbers.node(1, 1) - self.space.own.start };
-        strips.triangles.push(TriangleStrips { nodes: start..start + lattice::inner_count(n), alike: first..strips.alike.len() });
+        start..start + lattice::inner_count(n)
     }
 
     /// Where a strip lies among the nodes of this rank.

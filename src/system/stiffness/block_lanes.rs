@@ -4,7 +4,9 @@ use super::lanes::Lanes;
 use crate::element::Block;
 use crate::system::space::Real;
 
-/// A block for each node of a register: what it does to the component of the same name, and to the other one.
+/// A block for each node of a register: what it does to the component of the same name, and to the other one. Registers begin
+/// with lines of the cache: those that lie in two lines are read twice, and kernels read little else.
+#[repr(align(64))]
 pub struct BlockLanes<L: Lanes> {
     pub same: L::Register,
     pub other: L::Register,

@@ -39,8 +39,8 @@ impl Elastic {
             let assembly = Assembly::new(&problem.scene, space, form == Form::Augmented, session.rank());
             let assembled = assembly.assemble(&neighbours[l], lift).map_err(SystemError::from);
             let assembled = session.agree(assembled).map_err(SystemError::Case)?;
-            let Assembled { rows, far, strips } = assembled;
-            let lattice = LatticeOperator::new(rows, &space.own, far, &Rc::new(strips), session)?;
+            let Assembled { rows, far, strips, even } = assembled;
+            let lattice = LatticeOperator::new(rows, &space.own, far, &Rc::new(strips), &Rc::new(even), session)?;
             stiffness.push(Stiffness::new(lattice, seen(l, form, session), session)?);
         }
         Ok(Self { stiffness, load })

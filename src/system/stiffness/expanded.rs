@@ -12,7 +12,10 @@ impl LatticeOperator {
         for (k, &node) in rows.nodes.iter().enumerate() {
             (near[node as usize], far[node as usize]) = (rows.near.row(k).len() as Index, rows.far.row(k).len() as Index);
         }
-        self.each_row(|node, couplings| near[node] = couplings.len() as Index);
+        self.each_row(|node, couplings| {
+            near[node] = couplings.iter().filter(|(column, _)| self.own.contains(column)).count() as Index;
+            far[node] = couplings.len() as Index - near[node];
+        });
         let unknowns = 2 * self.own.len();
         let mut matrix = Matrix::aij(session, unknowns, unknowns, 2, &near, &far)?;
         let mut row = BlockRow::default();
@@ -23,9 +26,7 @@ impl LatticeOperator {
         }
         let mut inserted = Ok(());
         self.each_row(|node, couplings| {
-            let node = self.own.start + node;
-            let couplings = couplings.iter().map(|&(distance, block)| (node.wrapping_add_signed(distance), block));
-            inserted = inserted.clone().and(row.insert(&mut matrix, node, couplings));
+            inserted = inserted.clone().and(row.insert(&mut matrix, self.own.start + node, couplings.iter().copied()));
         });
         inserted?;
         matrix.assemble()?;

@@ -1,6 +1,7 @@
 //! The stiffness of a level, its rows stored or in strips: what PETSc's solvers see of it.
 
 use super::ContactNeighbours;
+use super::even_triangles::EvenTriangles;
 use super::lattice_rows::{LatticeRows, SweepOrder};
 use super::stored_rows::{BlockColumn, StoredRows};
 use super::strip_set::Strips;
@@ -17,10 +18,11 @@ pub struct LatticeOperator {
     /// The nodes of this rank.
     pub(in crate::system) own: Range<usize>,
     pub(in crate::system) strips: Rc<Strips>,
+    pub(in crate::system) even: Rc<EvenTriangles>,
     pub(in crate::system) rows: Rc<RefCell<StoredRows>>,
     /// Columns of other ranks, ascending.
     pub(in crate::system) far: Vec<usize>,
-    /// Couplings of all nodes in strips.
+    /// Couplings of all nodes in strips and in even macro triangles.
     in_strips: f64,
     /// What brings the values of the columns of other ranks.
     halo: Rc<Halo>,
@@ -29,21 +31,34 @@ pub struct LatticeOperator {
 
 impl LatticeOperator {
     /// From the stored rows and the others; `far` are the columns of other ranks. **Collective**
-    pub fn new(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, strips: &Rc<Strips>, session: &Session) -> Result<Self> {
+    pub fn new(
+        rows: StoredRows,
+        own: &Range<usize>,
+        far: Vec<usize>,
+        strips: &Rc<Strips>,
+        even: &Rc<EvenTriangles>,
+        session: &Session,
+    ) -> Result<Self> {
         let couplings = |(alike, kind): &(Range<usize>, usize)| {
             let [even, odd] = [0, 1].map(|k| strips.couplings[*kind].of(k).len());
             strips.nodes[alike.clone()].iter().map(|nodes| 0.5 * (nodes.count * (even + odd)) as f64).sum::<f64>()
         };
-        let in_strips = strips.alike.iter().map(couplings).sum();
+        let in_even = even.couplings.iter().zip(&even.triangles).map(|(couplings, triangle)| {
+            let all: usize = couplings.iter().flat_map(|couplings| [0, 1].map(|k| couplings.of(k).len())).sum();
+            (triangle.inner.len() * all) as f64 / (2 * couplings.len()) as f64
+        });
+        let in_strips = strips.alike.iter().map(couplings).chain(in_even).sum();
         let (order, halo) = (SweepOrder::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
         let rows = Rc::new(RefCell::new(rows));
-        Ok(Self { own: own.clone(), strips: strips.clone(), rows, far, in_strips, halo, order })
+        Ok(Self { own: own.clone(), strips: strips.clone(), even: even.clone(), rows, far, in_strips, halo, order })
     }
 
     /// A copy with places for the couplings of a contact boundary; the strips are the same. **Collective**
     pub fn with_places(&self, contact: &ContactNeighbours, session: &Session) -> Result<Self> {
         let (rows, far) = self.rows.borrow().with_places(contact, &self.own, &self.far);
-        Self::new(rows, &self.own, far, &self.strips, session)
+        let moved: Vec<u32> = self.far.iter().map(|node| far.binary_search(node).expect("it is among them") as u32).collect();
+        let even = if far.len() == self.far.len() { self.even.clone() } else { Rc::new(self.even.moved(self.own.len(), &moved)) };
+        Self::new(rows, &self.own, far, &self.strips, &even, session)
     }
 
     /// Adds a block to the couplings of two nodes, the row being one of this rank's. Holds after
@@ -63,7 +78,7 @@ impl LatticeOperator {
     }
 
     fn lattice_rows<'a>(&'a self, stored: &'a StoredRows) -> LatticeRows<'a, f64> {
-        LatticeRows { strips: &self.strips, stored, order: &self.order }
+        LatticeRows { strips: &self.strips, even: &self.even, stored, order: &self.order }
     }
 
     /// The stored rows.
@@ -94,11 +109,7 @@ impl LatticeOperator {
             columns.extend(couplings.iter().map(|c| c.0 as u32));
             values.extend(couplings.iter().flat_map(|c| c.1.as_flattened()));
         };
-        self.each_row(|node, couplings| {
-            let columns =
-                couplings.iter().map(|&(distance, block)| ((self.own.start + node).wrapping_add_signed(distance), block));
-            add(node, &columns.collect::<Vec<_>>());
-        });
+        self.each_row(|node, couplings| add(node, couplings));
         let rows = self.rows.borrow();
         for (k, &node) in rows.nodes.iter().enumerate() {
             let near = rows.near.couplings(k).map(|(column, block)| (self.own.start + column as usize, *block));
@@ -113,6 +124,11 @@ impl LatticeOperator {
         &self.strips
     }
 
+    /// The even macro triangles.
+    pub fn even(&self) -> &Rc<EvenTriangles> {
+        &self.even
+    }
+
     /// Makes blocks hold that were added to the rows of these nodes.
     pub fn assemble(&self, changed: impl Iterator<Item = usize>) {
         let mut rows = self.rows.borrow_mut();
@@ -122,16 +138,29 @@ impl LatticeOperator {
         }
     }
 
-    /// Shows the rows of all nodes in strips: couplings as distances in node numbers.
-    pub fn each_row(&self, mut show: impl FnMut(usize, &[(isize, Block)])) {
+    /// Shows the rows of all nodes in strips and in even macro triangles: couplings with nodes by their numbers, that with itself
+    /// first.
+    pub fn each_row(&self, mut show: impl FnMut(usize, &[(usize, Block)])) {
+        let mut row = Vec::new();
         for (strips, kind) in &self.strips.alike {
             for nodes in &self.strips.nodes[strips.clone()] {
                 let couplings = &self.strips.couplings[*kind];
-                let distances = |k| couplings.of(k).iter().map(|&(step, block)| (nodes.distance(step), block)).collect();
-                let kinds: [Vec<(isize, Block)>; 2] = [0, 1].map(distances);
-                (0..nodes.count).for_each(|k| show(nodes.first + k, &kinds[k % 2]));
+                for k in 0..nodes.count {
+                    let node = nodes.first + k;
+                    let number = |step| (self.own.start + node).wrapping_add_signed(nodes.distance(step));
+                    row.clear();
+                    row.extend(couplings.of(k).iter().map(|&(step, block)| (number(step), block)));
+                    show(node, &row);
+                }
             }
         }
+        let near = self.own.len();
+        self.even.each_row(|node, couplings| {
+            let number = |at: usize| if at < near { self.own.start + at } else { self.far[at - near] };
+            row.clear();
+            row.extend(couplings.iter().map(|&(at, block)| (number(at), block)));
+            show(node, &row);
+        });
     }
 
     /// The values of the columns of other ranks, while `meanwhile` works on rows that need none of them. **Collective**
@@ -146,16 +175,16 @@ impl Operator for Rc<LatticeOperator> {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let (x, mut y, stored) = (x.values(), y.values_mut(), self.rows.borrow());
         let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
-        let far = self.fetch(x, || self.lattice_rows(&stored).multiply_in_strips(x, y));
-        stored.multiply(0..stored.nodes().len(), x, &far, y);
+        let far = self.fetch(x, || self.lattice_rows(&stored).multiply_inside(x, y));
+        self.lattice_rows(&stored).multiply_in_others(x, &far, y);
         Ok(())
     }
 
     fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()> {
         let (b, x, mut r, stored) = (b.values(), x.values(), r.values_mut(), self.rows.borrow());
         let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
-        let far = self.fetch(x, || self.lattice_rows(&stored).residual_in_strips(b, x, r));
-        stored.residual(0..stored.nodes().len(), b, x, &far, r);
+        let far = self.fetch(x, || self.lattice_rows(&stored).residual_inside(true, b, x, r));
+        self.lattice_rows(&stored).residual_in_others(b, x, &far, r);
         Ok(())
     }
 
@@ -184,7 +213,8 @@ impl Operator for Rc<LatticeOperator> {
 
     fn norm_infinity(&self) -> Result<f64> {
         let stored = self.rows.borrow().norm_infinity();
-        Ok(self.strips.couplings.iter().map(Couplings::norm_infinity).fold(stored, f64::max))
+        let all = self.strips.couplings.iter().chain(self.even.couplings.iter().flatten());
+        Ok(all.map(Couplings::norm_infinity).fold(stored, f64::max))
     }
 
     fn work(&self) -> f64 {

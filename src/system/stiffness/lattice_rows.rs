@@ -1,5 +1,6 @@
 //! Strips and stored rows of a rank together, in some precision.
 
+use super::even_triangles::EvenTriangles;
 use super::precision::Precision;
 use super::row_kernel::{OnRows, RowTask};
 use super::stored_rows::StoredRows;
@@ -33,21 +34,38 @@ impl SweepOrder {
 /// Rows to work on.
 pub struct LatticeRows<'a, T> {
     pub strips: &'a Strips<T>,
+    pub even: &'a EvenTriangles<T>,
     pub stored: &'a StoredRows<T>,
     pub order: &'a SweepOrder,
 }
 
 impl<T: Precision> LatticeRows<'_, T> {
-    /// `y = K x` at nodes in strips.
-    pub fn multiply_in_strips(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
+    /// `y = K x` at nodes in strips and inside of even macro triangles, as far as no node of another rank is needed.
+    pub fn multiply_inside(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
         let Strips { alike, kernels, nodes, .. } = self.strips;
         alike.iter().for_each(|(strips, kind)| kernels[*kind].multiply(&nodes[strips.clone()], x, y));
+        self.even.multiply(true, x, &[], y);
     }
 
-    /// `r = b - K x` at nodes in strips.
-    pub fn residual_in_strips(&self, b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]]) {
+    /// `r = b - K x` at these nodes, those of even macro triangles being left out if not asked for.
+    pub fn residual_inside(&self, with_even: bool, b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]]) {
         let Strips { alike, kernels, nodes, .. } = self.strips;
         alike.iter().for_each(|(strips, kind)| kernels[*kind].residual(&nodes[strips.clone()], b, x, r));
+        if with_even {
+            self.even.residual(true, b, x, &[], r);
+        }
+    }
+
+    /// `y = K x` at all other nodes; `far` are the values of other ranks, none stands for zeros.
+    pub fn multiply_in_others(&self, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
+        self.even.multiply(false, x, far, y);
+        self.stored.multiply(0..self.stored.nodes().len(), x, far, y);
+    }
+
+    /// `r = b - K x` at all other nodes.
+    pub fn residual_in_others(&self, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
+        self.even.residual(false, b, x, far, r);
+        self.stored.residual(0..self.stored.nodes().len(), b, x, far, r);
     }
 
     /// A symmetric Gauss-Seidel sweep; `far` are the values of other ranks, none stands for zeros.
@@ -63,6 +81,7 @@ impl<T: Precision> LatticeRows<'_, T> {
             stored.backward(rows.clone(), b, x, far);
             parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
         }
+        self.even.relax(b, x, far);
         sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
     }
 }

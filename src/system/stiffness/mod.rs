@@ -3,6 +3,7 @@
 mod assembly;
 mod block_lanes;
 mod elastic;
+mod even_triangles;
 mod expanded;
 mod lanes;
 mod lattice_operator;
@@ -17,6 +18,7 @@ mod strip_set;
 mod strips;
 
 pub use elastic::Elastic;
+pub use even_triangles::EvenTriangles;
 pub use lattice_operator::LatticeOperator;
 pub use lattice_rows::LatticeRows;
 pub use precision::Precision;
@@ -76,9 +78,9 @@ impl Stiffness {
         (self.seen == SolverView::Entries).then_some(self.matrix)
     }
 
-    /// Whether some rows of this rank lie in strips.
+    /// Whether some rows of this rank lie in strips or in even macro triangles.
     pub fn has_strips(&self) -> bool {
-        !self.lattice.strips.nodes.is_empty()
+        !self.lattice.strips.nodes.is_empty() || !self.lattice.even.triangles.is_empty()
     }
 
     /// Adds a block to the couplings of two nodes of contact, the row being one of this rank's. Holds after

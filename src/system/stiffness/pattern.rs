@@ -36,9 +36,14 @@ impl RowColumns {
     }
 
     /// Rows of these nodes with zeros at their couplings, each once and ascending, and the nodes of other ranks among the
-    /// columns; `own` are the nodes of this rank.
-    pub fn into_rows(mut self, nodes: Vec<u32>, own: &Range<usize>) -> (StoredRows, Vec<usize>) {
-        let mut far = Vec::new();
+    /// columns and these others; `own` are the nodes of this rank.
+    pub fn into_rows(
+        mut self,
+        nodes: Vec<u32>,
+        own: &Range<usize>,
+        others: impl Iterator<Item = usize>,
+    ) -> (StoredRows, Vec<usize>) {
+        let mut far: Vec<usize> = others.filter(|node| !own.contains(node)).collect();
         // What is left of each row moves to the front of all columns.
         let mut at = 0;
         for k in 0..nodes.len() {

@@ -1,11 +1,12 @@
 //! What the cycle works with in double and in single precision: kernels, strips, stored rows.
 
+use super::even_triangles::EvenTriangles;
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{DoubleLanes, NarrowLanes, SingleLanes, WideDoubleLanes, WideSingleLanes};
 use super::lanes::{LaneWork, Lanes, PlainLanes};
 use super::row_kernel::OnRows;
 use super::stored_rows::StoredRows;
-use super::strip_kernel::{StripKernel, kernel};
+use super::strip_kernel::{StripKernel, TriangleKernel, kernel, triangle_kernel};
 use super::strip_set::Strips;
 use super::strips::Couplings;
 use crate::system::space::Real;
@@ -17,8 +18,14 @@ pub trait Precision: Real {
     /// The kernel of some couplings that suits the processor best.
     fn kernel(couplings: &Couplings) -> Box<dyn StripKernel<Self>>;
 
+    /// The kernel of the rows of an even macro triangle that suits the processor best.
+    fn triangle_kernel(couplings: &[Couplings]) -> Box<dyn TriangleKernel<Self>>;
+
     /// Strips in this precision.
     fn strips(strips: &Rc<Strips>) -> Rc<Strips<Self>>;
+
+    /// Even macro triangles in this precision.
+    fn even(even: &Rc<EvenTriangles>) -> Rc<EvenTriangles<Self>>;
 
     /// Stored rows in this precision.
     fn stored(rows: &Rc<RefCell<StoredRows>>) -> Rc<RefCell<StoredRows<Self>>>;
@@ -68,6 +75,23 @@ impl Precision for f64 {
         kernel(PlainLanes::<f64>::default(), couplings)
     }
 
+    fn triangle_kernel(couplings: &[Couplings]) -> Box<dyn TriangleKernel<Self>> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = pulp::x86::V4::try_new() {
+                return triangle_kernel(WideDoubleLanes(simd), couplings);
+            }
+            if let Some(simd) = pulp::x86::V3::try_new() {
+                return triangle_kernel(DoubleLanes(simd), couplings);
+            }
+        }
+        triangle_kernel(PlainLanes::<f64>::default(), couplings)
+    }
+
+    fn even(even: &Rc<EvenTriangles>) -> Rc<EvenTriangles> {
+        even.clone()
+    }
+
     fn strips(strips: &Rc<Strips>) -> Rc<Strips> {
         strips.clone()
     }
@@ -108,6 +132,24 @@ impl Precision for f32 {
             }
         }
         kernel(PlainLanes::<f32>::default(), couplings)
+    }
+
+    fn triangle_kernel(couplings: &[Couplings]) -> Box<dyn TriangleKernel<Self>> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = pulp::x86::V4::try_new() {
+                return triangle_kernel(WideSingleLanes(simd), couplings);
+            }
+            if let Some(simd) = pulp::x86::V3::try_new() {
+                return triangle_kernel(SingleLanes(simd), couplings);
+            }
+        }
+        triangle_kernel(PlainLanes::<f32>::default(), couplings)
+    }
+
+    fn even(even: &Rc<EvenTriangles>) -> Rc<EvenTriangles<f32>> {
+        let kernels = even.couplings.iter().map(|couplings| f32::triangle_kernel(couplings)).collect();
+        Rc::new(EvenTriangles::new(even.n, even.couplings.clone(), Rc::new(kernels), even.triangles.clone()))
     }
 
     fn strips(strips: &Rc<Strips>) -> Rc<Strips<f32>> {

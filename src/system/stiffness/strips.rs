@@ -66,6 +66,12 @@ impl Couplings {
         Self { kinds, second: order == Order::P2 && strip.j.is_multiple_of(2), up }
     }
 
+    /// The couplings of the inner nodes of an even macro triangle: of rows with even and with odd `j`, or of all.
+    pub fn of_rows(stiffness: &MacroStiffness, order: Order) -> Vec<Self> {
+        let row = |k: usize| Self::new(stiffness, order, &Strip { j: 2 + k, i: 2..4, shape: 0 });
+        (0..order.degree()).map(row).collect()
+    }
+
     /// Couplings of node `k` of a strip.
     pub fn of(&self, k: usize) -> &[(Step, Block)] {
         &self.kinds[k % 2]

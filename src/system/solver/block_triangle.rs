@@ -1,0 +1,49 @@
+//! The preconditioner of the whole system, without the copies of its parts that PETSc's fieldsplit makes.
+
+use super::super::cycle::Cycle;
+use crate::petsc::{Action, Krylov, Matrix, Result, Session, Vector, Window};
+use std::cell::RefCell;
+
+/// The inverse of the upper triangle `[A B; 0 S]`, with the cycle for the inverse of `A` and PETSc's solver of the lower field for that of
+/// `S`. This is what fieldsplit does with the same parts.
+pub struct BlockTriangle {
+    cycle: Cycle,
+    lower: Krylov,
+    coupling: Matrix,
+    room: RefCell<Room>,
+}
+
+/// What shows matrices of PETSc's parts of vectors, and room for right-hand sides.
+struct Room {
+    upper: Window,
+    lower: [Window; 2],
+    force: Vec<f64>,
+    minus: Vec<f64>,
+}
+
+impl BlockTriangle {
+    /// From the solver of the lower field and the coupling `B`. **Collective**
+    pub fn new(cycle: Cycle, lower: Krylov, coupling: &Matrix, session: &Session) -> Result<Self> {
+        let (rows, columns) = coupling.local_size();
+        let room = Room {
+            upper: Window::new(session, rows)?,
+            lower: [Window::new(session, columns)?, Window::new(session, columns)?],
+            force: vec![0.0; rows],
+            minus: vec![0.0; columns],
+        };
+        Ok(Self { cycle, lower, coupling: coupling.share()?, room: RefCell::new(room) })
+    }
+}
+
+impl Action for BlockTriangle {
+    fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        let (x, mut y) = (x.values(), y.values_mut());
+        let Room { upper, lower: [right, left], force, minus } = &mut *self.room.borrow_mut();
+        let ((f, g), (u, lambda)) = (x.split_at(force.len()), y.split_at_mut(force.len()));
+        right.read(g, |g| left.write(lambda, |lambda| self.lower.apply(g, lambda)))?;
+        minus.iter_mut().zip(&*lambda).for_each(|(minus, lambda)| *minus = -lambda);
+        force.copy_from_slice(f);
+        right.read(minus, |minus| upper.write(force, |force| self.coupling.multiply_add(minus, force)))?;
+        self.cycle.apply(force, u)
+    }
+}
