@@ -54,6 +54,25 @@ fn bad_mesh(from: &str, to: &str, words: &[&str]) {
     refused(&text, GOOD, |run| run, &[words, &["mesh.msh"]].concat());
 }
 
+/// Points and springs, against the mesh.
+#[test]
+fn points_outside_and_springs_that_push_away_are_refused() {
+    bad_key(
+        "support.pin",
+        "{ at = [9, 9], ux = 0 }",
+        &["support.pin.at = [9, 9]", "outside every body", "nearest vertex is [2, 2]"],
+    );
+    bad_key("support.pin", "{ at = [1, 1], ux = 0 }", &["support.pin.at", "write body = \"lower\" beside it"]);
+    bad_key("load.pull", "{ at = [1, 2.5], body = \"upper\", force = [0, 1] }", &["load.pull.at", "outside body \"upper\""]);
+    bad_key("load.pull", "{ at = [1, 2], force = [\"sqrt(x-2)\", 1] }", &["load.pull.force", "finite", "(1, 2)"]);
+    bad_key("support.bed", "{ on = \"right\", stiffness = { x = \"y-1\" } }", &["support.bed.stiffness: is -1 at (2, 0)"]);
+    bad_key(
+        "contact.seam.between",
+        "[[\"lower.seam\", \"right\"], \"upper.seam\"]",
+        &["\"lower.seam + right\" lies on 2 bodies"],
+    );
+}
+
 #[test]
 fn the_good_case_runs() {
     for ended in ended(&blocks().text(), GOOD, |run| run) {

@@ -2,9 +2,9 @@
 
 use toml::Value;
 
-use super::{Geometry, Union};
 use super::section::Section;
 use super::values::{self, PLANE, choice, must_be};
+use super::{Geometry, Union};
 use crate::contact::{
     Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise,
 };

@@ -38,7 +38,9 @@ pub fn read_support(section: &Section) -> Option<SupportTable> {
     let component = |key| section.optional(key, values::formula(&PLANE));
     let [ux, uy, normal] = ["ux", "uy", "normal"].map(component);
     match given {
-        [false, false, false] => section.problem(&[], "prescribes nothing; give ux, uy or normal, or stiffness = { normal = 1.0 } for springs".into()),
+        [false, false, false] => {
+            section.problem(&[], "prescribes nothing; give ux, uy or normal, or stiffness = { normal = 1.0 } for springs".into())
+        }
         [_, _, true] if given[0] || given[1] => {
             section.problem(&["normal"], "cannot stand beside ux or uy; make two supports on different curves".into());
         }
@@ -70,7 +72,9 @@ fn read_springs(section: &Section) -> Option<Springs> {
     let [x, y] = ["x", "y"].map(|key| stiffness.optional(key, spring));
     let axes = stiffness.has("x") || stiffness.has("y");
     match (stiffness.has("normal"), axes) {
-        (false, false) => stiffness.problem(&[], "holds nothing; give normal, or x and y: force per length and displacement".into()),
+        (false, false) => {
+            stiffness.problem(&[], "holds nothing; give normal, or x and y: force per length and displacement".into())
+        }
         (true, true) => stiffness.problem(&["normal"], "stands beside x or y; make two supports".into()),
         _ => {}
     }

@@ -333,7 +333,10 @@ fn every_error_names_key_value_and_remedy() {
         ("gravity={g=[0, 1, 2]}", "gravity.g = [0, 1, 2] (--set): must be two numbers [x, y]"),
         ("load.k={at=[0, 1]}", "load.k.force: missing; write force = [0.0, -1.0], per thickness"),
         ("load.k={at=[0, 1], force=1}", "load.k.force = 1 (--set): must be a list of 2 numbers"),
-        ("load.k={at=[0, 1], force=[0, 1], pressure=2}", "load.k.pressure = 2 (--set): acts on physical curves; at a point give force"),
+        (
+            "load.k={at=[0, 1], force=[0, 1], pressure=2}",
+            "load.k.pressure = 2 (--set): acts on physical curves; at a point give force",
+        ),
         ("load.l.force=[0, 1]", "load.l.force = [0, 1] (--set): acts at a point, at = [x, y]"),
         ("load.k={at=[0, 1], force=[0, 1], body='b'}", "load.k.body = \"b\" (--set): no such body"),
         ("load.l.traction=[0, 1]", "load.l.pressure = 1: stands beside traction"),

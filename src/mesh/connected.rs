@@ -1,7 +1,7 @@
 //! Meshes made of the triangles of others: edges are found again, with their shapes and their boundaries.
 
 use super::edge_shape::EdgeShape;
-use super::{Boundary, BodyPiece, MacroEdge, MacroMesh, MacroTriangle};
+use super::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle};
 use crate::geometry::Point;
 use std::collections::HashMap;
 

@@ -145,7 +145,9 @@ impl MacroMesh {
         if height <= SAGITTAS * sagitta {
             return 0.0;
         }
-        (0..3).map(|k| (corners[(k + 1) % 3] - corners[k]).angle(&(corners[(k + 2) % 3] - corners[k]))).fold(f64::INFINITY, f64::min)
+        (0..3)
+            .map(|k| (corners[(k + 1) % 3] - corners[k]).angle(&(corners[(k + 2) % 3] - corners[k])))
+            .fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -175,7 +177,9 @@ mod tests {
     fn any_point_becomes_a_vertex_of_a_decent_mesh() {
         let before = two_blocks();
         let least = (0..before.triangles.len()).map(|k| before.smallest_angle(k)).fold(f64::INFINITY, f64::min);
-        for [x, y] in [[0.4, 0.3], [1.0, 0.5], [0.003, 0.5], [1.9, 1.93], [0.7, 0.0], [0.01, 0.008], [1.3, 2.0], [1.99, 0.0], [0.9, 1.004]] {
+        for [x, y] in
+            [[0.4, 0.3], [1.0, 0.5], [0.003, 0.5], [1.9, 1.93], [0.7, 0.0], [0.01, 0.008], [1.3, 2.0], [1.99, 0.0], [0.9, 1.004]]
+        {
             let mut mesh = before.clone();
             mesh.add_point(&spot(x, y, None)).expect("a point of a body");
             let vertex = mesh.vertex_at(&spot(x, y, None)).expect("it was made");
@@ -230,7 +234,10 @@ mod tests {
     #[test]
     fn a_point_of_no_body_or_of_two_is_refused() {
         let words = |x, y, body| two_blocks().add_point(&spot(x, y, body)).expect_err("refused");
-        assert!(words(3.0, 0.5, None).contains("outside every body; the nearest vertex is [2, 0]") || words(3.0, 0.5, None).contains("[2, 1]"));
+        assert!(
+            words(3.0, 0.5, None).contains("outside every body; the nearest vertex is [2, 0]")
+                || words(3.0, 0.5, None).contains("[2, 1]")
+        );
         assert!(words(0.5, 1.5, Some("lower")).contains("outside body \"lower\""));
         assert!(words(0.0, 1.0, None).contains("write body = "), "{}", words(0.0, 1.0, None));
         assert!(two_blocks().add_point(&spot(0.0, 1.0, Some("upper"))).is_ok());

@@ -220,6 +220,14 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
         let [x, y] = spot.place;
         mesh.add_point(spot).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
     }
+    let bad = case.point_loads.iter().find(|load| load.force().iter().any(|component| !component.is_finite()));
+    if let Some(load) = bad {
+        let ([x, y], file) = (load.at.place, case.file.display());
+        return Err(format!(
+            "{file}: load.{}.force: has no finite value at its point ({x}, {y}); correct the formula",
+            load.name
+        ));
+    }
     Ok(())
 }
 
@@ -233,7 +241,10 @@ fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
                 let x = mesh.edge_position(edge, t);
                 for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
                     if !(k.is_finite() && k >= 0.0) {
-                        return Err(error(format!("is {k} at ({}, {}); a spring wants a finite number >= 0 everywhere", x.x, x.y)));
+                        return Err(error(format!(
+                            "is {k} at ({}, {}); a spring wants a finite number >= 0 everywhere",
+                            x.x, x.y
+                        )));
                     }
                     largest = largest.max(k);
                 }

@@ -65,7 +65,8 @@ impl Scene {
     pub fn has_point_load(&self, rank: usize) -> Vec<bool> {
         let loaded: Vec<u32> = self.point_loads.iter().filter_map(|load| self.mesh.vertex_at(&load.at)).collect();
         let own = self.partition.triangles_of(rank).iter();
-        own.map(|&triangle| self.mesh.triangles[triangle as usize].vertices.iter().any(|vertex| loaded.contains(vertex))).collect()
+        own.map(|&triangle| self.mesh.triangles[triangle as usize].vertices.iter().any(|vertex| loaded.contains(vertex)))
+            .collect()
     }
 
     /// Plane-strain law of each body.

@@ -6,7 +6,7 @@
 use super::across::across;
 use super::marking::marked;
 use crate::contact::Pair;
-use crate::mesh::{BisectedMesh, Cells, Origin};
+use crate::mesh::{BisectedMesh, Cells, MacroMesh, Origin};
 
 /// Rounds of refinement before the next solve, at most: parts of a third round are single cells.
 const ROUNDS: usize = 3;
@@ -26,6 +26,10 @@ const SMALL: f64 = 4000.0;
 
 /// Largest power of the fall of the indicators that errors are taken to go with.
 const MOST_PACE: f64 = 1.8;
+
+/// Macro triangles smaller than this share of the scene are not refined: rounding of their corners would turn them round. Only
+/// where a force acts at a point does an error go on to ask for it.
+const SMALLEST: f64 = 1e-10;
 
 /// Share of what is asked for at which an error that is only foreseen counts as reached.
 const SURELY: f64 = 0.8;
@@ -84,9 +88,10 @@ impl Indicators {
         self.error.map_or(grown < LEAST_GROWTH, |error| error > SURELY)
     }
 
-    /// The fewest triangles that hold a share of it.
-    fn marked(&self, share: f64) -> Vec<u32> {
-        marked(share, &self.local.iter().map(|indicator| indicator.cells.sum()).collect::<Vec<_>>())
+    /// The fewest triangles that hold a share of it, without those that are too small.
+    fn marked(&self, share: f64, too_small: &[bool]) -> Vec<u32> {
+        let count = |(indicator, &is_out): (&LocalIndicator, &bool)| if is_out { 0.0 } else { indicator.cells.sum() };
+        marked(share, &self.local.iter().zip(too_small).map(count).collect::<Vec<_>>())
     }
 }
 
@@ -152,7 +157,8 @@ pub(super) fn next_mesh(
 
 /// A mesh refined where the triangles hold a share of what is left of the errors.
 fn refined(mesh: &BisectedMesh, pairs: &[Pair], open: &[&Indicators], share: f64) -> BisectedMesh {
-    let mut chosen: Vec<u32> = open.iter().flat_map(|goal| goal.marked(share)).collect();
+    let too_small = too_small(&mesh.mesh);
+    let mut chosen: Vec<u32> = open.iter().flat_map(|goal| goal.marked(share, &too_small)).collect();
     chosen.extend(across(&mesh.mesh, pairs, &chosen));
     chosen.sort_unstable();
     chosen.dedup();
@@ -160,6 +166,13 @@ fn refined(mesh: &BisectedMesh, pairs: &[Pair], open: &[&Indicators], share: f64
         chosen = (0..mesh.mesh.triangles.len() as u32).collect();
     }
     mesh.refined(chosen.into_iter())
+}
+
+/// Which macro triangles are too small to be refined.
+fn too_small(mesh: &MacroMesh) -> Vec<bool> {
+    let size = mesh.bounds().iter().map(|[low, high]| (high - low).norm()).fold(0.0, f64::max);
+    let longest = |edges: [u32; 3]| edges.map(|edge| mesh.edge_length(edge)).into_iter().fold(0.0, f64::max);
+    mesh.triangles.iter().map(|triangle| longest(triangle.edges) < SMALLEST * size).collect()
 }
 
 /// The first candidate that is enough, or the last.
@@ -180,7 +193,7 @@ mod tests {
     use super::*;
     use crate::element::Order;
     use crate::geometry::Point;
-    use crate::mesh::{Level, MacroMesh, samples::two_blocks};
+    use crate::mesh::{Level, samples::two_blocks};
     use crate::system::node_count;
 
     fn unknowns(mesh: &BisectedMesh) -> usize {
@@ -233,6 +246,26 @@ mod tests {
         let limit = unknowns(&next.mesh) - 1;
         let less = next_mesh(&first, &[], &[far], unknowns, Some(limit)).expect("one round fits");
         assert!(unknowns(&less.mesh) <= limit);
+    }
+
+    #[test]
+    fn what_is_as_small_as_rounding_is_left_alone() {
+        let mut mesh = BisectedMesh::new(two_blocks());
+        let point = Point::new(0.0, 1.0);
+        for _ in 0..60 {
+            let goal = at(&mesh.mesh, point, 1e9);
+            mesh = refined(&mesh, &[], &[&goal], 0.6);
+            if too_small(&mesh.mesh).contains(&true) {
+                break;
+            }
+        }
+        let goal = at(&mesh.mesh, point, 1e9);
+        let least = |mesh: &BisectedMesh| {
+            let edges = 0..mesh.mesh.edges.len() as u32;
+            edges.map(|edge| mesh.mesh.edge_length(edge)).fold(f64::INFINITY, f64::min)
+        };
+        assert!(goal.marked(0.6, &too_small(&mesh.mesh)).len() < goal.marked(0.6, &vec![false; mesh.mesh.triangles.len()]).len());
+        assert!(least(&mesh) > 1e-12, "{}", least(&mesh));
     }
 
     #[test]
