@@ -21,7 +21,7 @@ impl MacroMesh {
     /// Boundaries and bodies by name; a tag is a place, from 1.
     fn physical_names(&self) -> String {
         let mut text = format!("{}\n", self.physical_curves().len() + self.bodies.len());
-        let names = self.physical_curves().iter().map(|boundary| (1, &boundary.name)).enumerate();
+        let names = self.physical_curves().into_iter().map(|boundary| (1, &boundary.name)).enumerate();
         for (place, (dimension, name)) in names.chain(self.bodies.iter().map(|name| (2, name)).enumerate()) {
             line(&mut text, format_args!("{dimension} {} \"{name}\"", place + 1));
         }

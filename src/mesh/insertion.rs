@@ -25,15 +25,15 @@ const ROUNDS: usize = 12;
 const SAGITTAS: f64 = 3.0;
 
 impl MacroMesh {
-    /// Makes a point that the case names a vertex.
+    /// Makes a point that the case names a vertex, of one of the bodies that `is_body` tells.
     ///
     /// # Errors
     /// Words, if it lies in no body, or in several.
-    pub fn add_point(&mut self, spot: &Spot) -> Result<(), String> {
+    pub fn add_point(&mut self, spot: &Spot, is_body: impl Fn(&str) -> bool + Copy) -> Result<(), String> {
         if self.vertex_at(spot).is_some() {
             return Ok(());
         }
-        let piece = self.piece_at(spot)?;
+        let piece = self.piece_at(spot, is_body)?;
         let vertex = self.make_vertex(piece, Point::from(spot.place)).ok_or_else(|| {
             "no mesh with a vertex there has decent triangles; draw a point there in the mesh, or take a point nearby".to_string()
         })?;
@@ -181,7 +181,7 @@ mod tests {
             [[0.4, 0.3], [1.0, 0.5], [0.003, 0.5], [1.9, 1.93], [0.7, 0.0], [0.01, 0.008], [1.3, 2.0], [1.99, 0.0], [0.9, 1.004]]
         {
             let mut mesh = before.clone();
-            mesh.add_point(&spot(x, y, None)).expect("a point of a body");
+            mesh.add_point(&spot(x, y, None), |_| true).expect("a point of a body");
             let vertex = mesh.vertex_at(&spot(x, y, None)).expect("it was made");
             assert!((mesh.vertices[vertex as usize] - Point::new(x, y)).norm() < 1e-12);
             assert!((whole(&mesh) - 4.0).abs() < 1e-12, "({x}, {y})");
@@ -203,11 +203,11 @@ mod tests {
         let mut mesh = two_blocks();
         let count = mesh.vertices.len();
         for place in [spot(0.0, 0.0, None), spot(1e-6, 0.0, None)] {
-            mesh.add_point(&place).expect("a corner");
+            mesh.add_point(&place, |_| true).expect("a corner");
             assert_eq!(mesh.vertices[mesh.vertex_at(&place).expect("made") as usize], Point::zeros());
         }
         assert_eq!(mesh.vertices.len(), count);
-        mesh.add_point(&spot(0.5, 0.4, None)).expect("inside");
+        mesh.add_point(&spot(0.5, 0.4, None), |_| true).expect("inside");
         let bisected = BisectedMesh::new(mesh.clone()).refined(0..mesh.triangles.len() as u32).mesh;
         let vertex = bisected.vertex_at(&spot(0.5, 0.4, None)).expect("it stays");
         assert_eq!(bisected.vertices[vertex as usize], Point::new(0.5, 0.4));
@@ -220,7 +220,7 @@ mod tests {
         mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
         let x = circle.point(circle.nearest(Point::new(0.5, 1.1)));
         let place = spot(x.x, x.y, Some("lower"));
-        mesh.add_point(&place).expect("a point of the arc");
+        mesh.add_point(&place, |_| true).expect("a point of the arc");
         let vertex = mesh.vertex_at(&place).expect("made");
         assert!((mesh.vertices[vertex as usize] - x).norm() < 1e-12);
         let seam = mesh.boundary("lower.seam").expect("named").edges.clone();
@@ -233,13 +233,14 @@ mod tests {
 
     #[test]
     fn a_point_of_no_body_or_of_two_is_refused() {
-        let words = |x, y, body| two_blocks().add_point(&spot(x, y, body)).expect_err("refused");
+        let words = |x, y, body| two_blocks().add_point(&spot(x, y, body), |_| true).expect_err("refused");
         assert!(
             words(3.0, 0.5, None).contains("outside every body; the nearest vertex is [2, 0]")
                 || words(3.0, 0.5, None).contains("[2, 1]")
         );
         assert!(words(0.5, 1.5, Some("lower")).contains("outside body \"lower\""));
         assert!(words(0.0, 1.0, None).contains("write body = "), "{}", words(0.0, 1.0, None));
-        assert!(two_blocks().add_point(&spot(0.0, 1.0, Some("upper"))).is_ok());
+        assert!(two_blocks().add_point(&spot(0.0, 1.0, Some("upper")), |_| true).is_ok());
+        assert!(two_blocks().add_point(&spot(0.0, 1.0, None), |body| body == "upper").is_ok(), "the other one cannot be meant");
     }
 }

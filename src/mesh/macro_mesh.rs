@@ -242,9 +242,8 @@ impl MacroMesh {
     }
 
     /// The physical curves of the mesh file.
-    pub fn physical_curves(&self) -> &[Boundary] {
-        let count = self.boundaries.iter().take_while(|boundary| !boundary.is_union).count();
-        &self.boundaries[..count]
+    pub fn physical_curves(&self) -> Vec<&Boundary> {
+        self.boundaries.iter().filter(|boundary| !boundary.is_union).collect()
     }
 
     /// Makes one boundary of several, under a name of its own; one of that name, if there is one, is it.

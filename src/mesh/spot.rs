@@ -50,14 +50,15 @@ impl MacroMesh {
     ///
     /// # Errors
     /// Words, if it lies in none, or in several.
-    pub(super) fn piece_at(&self, spot: &Spot) -> Result<usize, String> {
+    pub(super) fn piece_at(&self, spot: &Spot, is_body: impl Fn(&str) -> bool + Copy) -> Result<usize, String> {
         let x = Point::from(spot.place);
-        let named = |piece: &usize| spot.body.as_ref().is_none_or(|body| *body == self.bodies[self.pieces[*piece].body]);
+        let is_meant = |name: &str| is_body(name) && spot.body.as_ref().is_none_or(|body| body == name);
+        let named = |piece: &usize| is_meant(&self.bodies[self.pieces[*piece].body]);
         let all: Vec<usize> = (0..self.pieces.len()).filter(named).filter(|&piece| self.place_in(piece, x).is_some()).collect();
         let body = |piece: usize| self.bodies[self.pieces[piece].body].as_str();
         match all[..] {
             [piece] => Ok(piece),
-            [] => Err(self.outside(spot)),
+            [] => Err(self.outside(spot, is_meant)),
             [first, .., last] if body(first) == body(last) => Err(format!(
                 "lies on two pieces of body \"{}\", which nothing tells apart; take a point of one of them",
                 body(first)
@@ -72,9 +73,8 @@ impl MacroMesh {
     }
 
     /// Words for a point outside.
-    fn outside(&self, spot: &Spot) -> String {
+    fn outside(&self, spot: &Spot, is_meant: impl Fn(&str) -> bool) -> String {
         let x = Point::from(spot.place);
-        let is_meant = |body: &str| spot.body.as_ref().is_none_or(|name| name == body);
         let vertices = self.triangles.iter().filter(|triangle| is_meant(&self.bodies[triangle.body as usize]));
         let vertices = vertices.flat_map(|triangle| triangle.vertices.map(|vertex| (triangle.body, vertex)));
         let place = |vertex: u32| self.vertices[vertex as usize];

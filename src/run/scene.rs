@@ -218,7 +218,8 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     let loads = case.point_loads.iter().map(|load| (format!("load.{}.at", load.name), Some(&load.at)));
     for (key, spot) in supports.chain(loads).filter_map(|(key, spot)| Some((key, spot?))) {
         let [x, y] = spot.place;
-        mesh.add_point(spot).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
+        let is_body = |name: &str| case.bodies.iter().any(|body| body.name == name);
+        mesh.add_point(spot, is_body).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
     }
     let bad = case.point_loads.iter().find(|load| load.force().iter().any(|component| !component.is_finite()));
     if let Some(load) = bad {
