@@ -326,9 +326,11 @@ fn a_side_of_several_curves_is_one_side() {
         let file = write_scene(folder.path(), &mesh.text(), &PUNCH.replace("\"side\"", side));
         let run = settings.iter().fold(Run::file(&file), |run, (key, value)| run.set(key, value));
         let ended = run.converged();
-        let again = Run::file(&ended.out.join("case.toml")).ranks(2).converged();
         let force = ["/contact/seam/force", "/contact/seam/pressure_max"].map(|key| ended.number(key));
-        assert!((again.number("/contact/seam/force") / force[0] - 1.0).abs() < 1e-8, "{side}: the resolved case");
+        if settings.is_empty() {
+            let again = Run::file(&ended.out.join("case.toml")).ranks(2).converged();
+            assert!((again.number("/contact/seam/force") / force[0] - 1.0).abs() < 1e-8, "{side}: the resolved case");
+        }
         let written = ended.out.join("adapted.msh");
         if written.exists() {
             let text = std::fs::read_to_string(written).expect("a mesh");

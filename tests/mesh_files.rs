@@ -149,7 +149,7 @@ fn others_read_what_is_written() {
         let place = if name == "bars" { "patch_inclined" } else { name };
         let mut mesh = read_gmsh(&cases.join(place).join(format!("{name}.msh"))).expect("a mesh");
         let twice = mesh.boundaries[0].edges.clone();
-        mesh.boundaries.push(Boundary { name: "twice".into(), edges: twice });
+        mesh.boundaries.push(Boundary { name: "twice".into(), edges: twice, is_union: false });
         std::fs::write(folder.path().join(format!("{name}.msh")), mesh.to_gmsh()).expect("a mesh can be written");
         let bodies = mesh
             .bodies

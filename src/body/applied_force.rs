@@ -5,6 +5,16 @@ use crate::element::{BadJacobian, Order, edge_load, triangle_load};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
 
+/// What acts on bodies.
+pub struct Applied<'a> {
+    /// The bodies, with their forces per area.
+    pub bodies: &'a [Body],
+    /// Loads on their boundaries.
+    pub loads: &'a [Load],
+    /// Loads at their points.
+    pub point_loads: &'a [PointLoad],
+}
+
 /// Hands every nodal force of the macro triangles that `rank` owns to `add(node number, force)`; a node comes many times.
 ///
 /// # Errors
@@ -14,12 +24,11 @@ pub fn applied_forces(
     partition: &Partition,
     rank: usize,
     numbering: &Numbering,
-    bodies: &[Body],
-    loads: &[Load],
-    point_loads: &[PointLoad],
+    applied: &Applied,
     mut add: impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
-    for load in loads {
+    let Applied { bodies, loads, point_loads } = applied;
+    for load in *loads {
         let edges = load.on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
         for &edge in edges.filter(|&&edge| partition.owner(mesh.beside(edge).0) == rank) {
             for small in BoundaryEdge::all_of(mesh, edge, numbering) {
@@ -28,7 +37,7 @@ pub fn applied_forces(
             }
         }
     }
-    for load in point_loads {
+    for load in *point_loads {
         let Some(vertex) = mesh.vertex_at(&load.at) else { continue };
         if mesh.triangle_at(vertex).is_some_and(|triangle| partition.owner(triangle) == rank) {
             add(numbering.vertex(vertex), load.force());

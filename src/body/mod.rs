@@ -6,7 +6,7 @@ mod macro_stiffness;
 mod rigid;
 mod springs;
 
-pub use applied_force::applied_forces;
+pub use applied_force::{Applied, applied_forces};
 pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet};

@@ -1,7 +1,7 @@
 //! Nodal forces of all loads.
 
 use super::{Discretisation, Field, SystemError};
-use crate::body::applied_forces;
+use crate::body::{Applied, applied_forces};
 use crate::geometry::Point;
 use crate::petsc::Session;
 
@@ -18,8 +18,8 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         sum[1] += force.y;
     };
     let rank = session.rank();
-    let (loads, point_loads) = (&scene.loads, &scene.point_loads);
-    let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &scene.bodies, loads, point_loads, add);
+    let applied = Applied { bodies: &scene.bodies, loads: &scene.loads, point_loads: &scene.point_loads };
+    let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &applied, add);
     session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
     let bad = forces.own().iter().flatten().any(|force| !force.is_finite());
     if session.any(bad) {
