@@ -35,6 +35,7 @@ pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Sc
         order,
         refine,
         supports: vec![wall],
+        rigid: Vec::new(),
         springs: Vec::new(),
         loads: Vec::new(),
         point_loads: Vec::new(),
