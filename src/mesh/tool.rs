@@ -4,7 +4,7 @@
 //! and a boundary like those of any body.
 
 use super::edge_shape::EdgeShape;
-use super::macro_mesh::{BodyPiece, Boundary, MacroMesh};
+use super::macro_mesh::{BodyPiece, Boundary, MacroMesh, Surface};
 use crate::geometry::{Curve, Point, cross, turn_right};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -142,7 +142,11 @@ impl MacroMesh {
                 }
             }
         }
-        if nearest.0.is_finite() { Ok(nearest.1 > 0.0) } else { Err("its surface faces none of the boundaries that it is in contact with; move or turn it".into()) }
+        if nearest.0.is_finite() {
+            Ok(nearest.1 > 0.0)
+        } else {
+            Err("its surface faces none of the boundaries that it is in contact with; move or turn it".into())
+        }
     }
 
     /// Triangles between the surface and a row of vertices behind it.
@@ -161,7 +165,9 @@ impl MacroMesh {
         }
         self.ratios.resize(self.vertices.len(), None);
         let (body, piece, start) = (self.bodies.len() as u32, self.pieces.len() as u32, self.triangles.len() as u32);
+        let part = self.parts.len() as u32;
         self.bodies.push(name.into());
+        self.parts.push(Surface { name: name.into(), body });
         self.pieces.push(BodyPiece { body: body as usize, first: start });
         let mut known = HashMap::new();
         let mut surface = Vec::new();
@@ -179,7 +185,7 @@ impl MacroMesh {
                         places[k].x.x, places[k].x.y
                     ));
                 }
-                self.add_triangle(corners, body, 0, &mut known).map_err(|error| error.to_string())?;
+                self.add_triangle(corners, part, 0, &mut known).map_err(|error| error.to_string())?;
                 self.triangles.last_mut().expect("just added").piece = piece;
             }
             let edge = known[&[a.min(b), a.max(b)]];
@@ -315,7 +321,8 @@ mod tests {
                 assert!(((x - Point::new(1.0, 3.0)).norm() - 1.0).abs() < 1e-14, "{x}");
             }
         }
-        let open = own.iter().flat_map(|triangle| triangle.edges).filter(|&edge| mesh.edges[edge as usize].triangles[1].is_none());
+        let open =
+            own.iter().flat_map(|triangle| triangle.edges).filter(|&edge| mesh.edges[edge as usize].triangles[1].is_none());
         assert_eq!(open.count(), 2 * edges.len());
     }
 

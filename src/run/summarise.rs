@@ -89,9 +89,13 @@ pub fn balances(summary: &mut Summary, Evaluation { problem, balance, .. }: &Eva
     let names = scene.supports.iter().map(|support| &support.name).chain(scene.springs.iter().map(|springs| &springs.name));
     let told = |reaction: &Point| summary::SupportSummary { reaction: Some((*reaction).into()) };
     summary.support = names.zip(&balance.reactions).map(|(name, reaction)| (name.clone(), told(reaction))).collect();
-    let names = problem.scene.bodies.iter().map(|body| body.name.clone());
+    let bodies = &scene.bodies;
+    let names = bodies.iter().map(|body| body.name.clone());
+    let parts = scene.mesh.parts.iter().zip(&balance.strain_of_parts);
+    let parts = parts.filter(|(part, _)| bodies[part.body as usize].has_parts());
     summary.energy = summary::Energy {
         strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),
+        parts: parts.map(|(part, &u)| (part.name.clone(), Some(u))).collect(),
         total: Some(balance.strain.iter().sum()),
         stationary: balance.stationary,
         springs: balance.springs,
