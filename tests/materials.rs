@@ -137,6 +137,7 @@ fn plane_stress_is_plane_strain_of_other_constants() {
 #[test]
 fn mistakes_are_told_with_key_and_remedy() {
     let case = std::fs::read_to_string(Path::new(CASES).join("patch_layers/case.toml")).expect("the case");
+    let (case, _) = case.split_once("[exact]").expect("what is expected");
     let case = case.replace("layers.msh", &format!("{CASES}/patch_layers/layers.msh"));
     let layer = "[body.coated.part.layer]\nyoung   = 70.0\npoisson = 0.4\n";
     let table: [(&str, &str, &[&str]); 14] = [
