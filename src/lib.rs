@@ -4,7 +4,7 @@
 //!
 //! # Model
 //!
-//! Bodies 1, 2, ... in plane strain: `ε = sym ∇u`, `σ = C ε`, `div σ + b = 0`; small strain, no friction. A contact
+//! Bodies 1, 2, ... in plane strain or plane stress, each of one material or several: `ε = sym ∇u`, `σ = C ε`, `div σ + b = 0`; small strain, no friction. A contact
 //! pair names body 1 and body 2.
 //!
 //! - `Γ_C` is a curve between the two with unit normal `n` **from body 1 to body 2**. The *corresponding points*
@@ -37,7 +37,7 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | `E`, `ν` | Young's modulus, Poisson's ratio of a body; `E_c = 2 / (1/E₁ + 1/E₂)` of a pair |
+//! | `E`, `ν` | Young's modulus, Poisson's ratio of a body or a part of one; `E_c = 2 / (1/E₁ + 1/E₂)` of what lies beside a segment |
 //! | `K`, `B`, `C`, `f`, `c` | stiffness, coupling, multiplier block, loads, weighted initial gaps |
 //! | `ψ_i`, `N_j` | shape functions of multiplier `i` and of node `j` |
 //! | `H`, `h` | length of a segment, of a triangle edge |

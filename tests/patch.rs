@@ -67,6 +67,16 @@ fn inclined_line_on_refined_meshes() {
 }
 
 #[test]
+fn layers_of_two_materials_on_the_meshes_of_the_file() {
+    holds("patch_layers", &["seam"], 0);
+}
+
+#[test]
+fn layers_of_two_materials_on_refined_meshes() {
+    holds("patch_layers", &["seam"], 2);
+}
+
+#[test]
 fn three_blocks_on_the_meshes_of_the_file() {
     holds("stack", &["first", "second"], 0);
 }

@@ -49,10 +49,11 @@ def check_bodies(points, cells, kinds, point_data, cell_data, kind, body, rank):
         "stress": [x + y, x - y, x * y, 0.3 * x],
         "von_mises": 1e-7 * x + 1e7 * y,
     }
-    assert set(point_data) == set(exact) and set(cell_data) == {"body", "rank"}
+    assert set(point_data) == set(exact) and set(cell_data) == {"body", "part", "rank"}
     for name, values in exact.items():
         np.testing.assert_array_equal(point_data[name], np.array(values).T, err_msg=name)
     np.testing.assert_array_equal(cell_data["body"], body)
+    np.testing.assert_array_equal(cell_data["part"], [9, 8] * (len(body) // 2))
     np.testing.assert_array_equal(cell_data["rank"], rank)
     a, b, c = (points[cells[:, k]] for k in range(3))
     np.testing.assert_array_equal(np.cross(b - a, c - a)[:, 2], 2.0)

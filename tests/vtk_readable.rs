@@ -31,6 +31,7 @@ fn write_rectangle(path: &Path, order: Order, corner: [f64; 2], rank: i32) {
         stress: &stress,
         von_mises: &von_mises,
         body: &[7, 8],
+        part: &[9, 8],
         rank,
     };
     write_piece(path, &piece).unwrap();
@@ -67,8 +68,8 @@ fn python_reads_what_was_written() {
     let pieces = ["fields_0.vtu", "fields_1.vtu", "fields_2.vtu"];
     write_rectangle(&path(pieces[0]), Order::P2, [0.0, 0.0], 0);
     write_rectangle(&path(pieces[1]), Order::P2, [2.0, 0.0], 1);
-    let empty =
-        Piece { points: &[], cells: &[], order: Order::P2, displacement: &[], stress: &[], von_mises: &[], body: &[], rank: 2 };
+    let (order, body, part) = (Order::P2, &[], &[]);
+    let empty = Piece { points: &[], cells: &[], order, displacement: &[], stress: &[], von_mises: &[], body, part, rank: 2 };
     write_piece(&path(pieces[2]), &empty).unwrap();
     write_parallel(&path("fields.pvtu"), &pieces).unwrap();
     write_curve(&path("contact_arc.vtu"), &quarter_circle()).unwrap();

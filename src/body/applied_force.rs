@@ -1,14 +1,14 @@
 //! Nodal forces of loads and body forces.
 
-use super::{Body, Load, LoadKind, PointLoad, positions};
+use super::{BodyPart, Load, LoadKind, PointLoad, positions};
 use crate::element::{BadJacobian, Order, edge_load, triangle_load};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
 
 /// What acts on bodies.
 pub struct Applied<'a> {
-    /// The bodies, with their forces per area.
-    pub bodies: &'a [Body],
+    /// The parts of the bodies in the order of the mesh, with their forces per area.
+    pub parts: &'a [&'a BodyPart],
     /// Loads on their boundaries.
     pub loads: &'a [Load],
     /// Loads at their points.
@@ -27,7 +27,7 @@ pub fn applied_forces(
     applied: &Applied,
     mut add: impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
-    let Applied { bodies, loads, point_loads } = applied;
+    let Applied { parts, loads, point_loads } = applied;
     for load in *loads {
         let edges = load.on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
         for &edge in edges.filter(|&&edge| partition.owner(mesh.beside(edge).0) == rank) {
@@ -44,13 +44,13 @@ pub fn applied_forces(
         }
     }
     for &triangle in partition.triangles_of(rank) {
-        let body = &bodies[mesh.triangles[triangle as usize].body as usize];
-        if body.force.iter().all(|formula| formula.as_constant() == Some(0.0)) {
+        let part = parts[mesh.triangles[triangle as usize].part as usize];
+        if part.force.iter().all(|formula| formula.as_constant() == Some(0.0)) {
             continue;
         }
         match numbering.level.order {
-            Order::P1 => body_force::<3>(mesh, triangle as usize, numbering, body, &mut add)?,
-            Order::P2 => body_force::<6>(mesh, triangle as usize, numbering, body, &mut add)?,
+            Order::P1 => body_force::<3>(mesh, triangle as usize, numbering, part, &mut add)?,
+            Order::P2 => body_force::<6>(mesh, triangle as usize, numbering, part, &mut add)?,
         }
     }
     Ok(())
@@ -60,13 +60,13 @@ fn body_force<const N: usize>(
     mesh: &MacroMesh,
     triangle: usize,
     numbering: &Numbering,
-    body: &Body,
+    part: &BodyPart,
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
     let numbers = numbering.triangle(mesh, triangle);
     for small in lattice::triangles(numbering.level.intervals, numbering.level.order) {
         let nodes = small.nodes::<N>();
-        let density = |x: Point| Point::new(body.force[0].value(&[x.x, x.y]), body.force[1].value(&[x.x, x.y]));
+        let density = |x: Point| Point::new(part.force[0].value(&[x.x, x.y]), part.force[1].value(&[x.x, x.y]));
         let forces = triangle_load::<N>(&positions(mesh, triangle, numbering.level, &nodes), density)?;
         nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
     }

@@ -1,6 +1,6 @@
 //! Stiffness of one macro triangle at one level, row by row of its lattice.
 
-use crate::element::{BadJacobian, Block, Order, PlaneStrain, stiffness};
+use crate::element::{BadJacobian, Block, Order, PlaneLaw, stiffness};
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Shapes, lattice};
 
@@ -60,7 +60,7 @@ impl MacroStiffness {
     ///
     /// # Errors
     /// [`BadJacobian`] if one of its triangles is turned inside out.
-    pub fn new(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneStrain) -> Result<Self, BadJacobian> {
+    pub fn new(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneLaw) -> Result<Self, BadJacobian> {
         let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
         Self::of_shapes(mesh, triangle, level, law, shapes, false)
     }
@@ -70,7 +70,7 @@ impl MacroStiffness {
     ///
     /// # Errors
     /// As [`MacroStiffness::new`].
-    pub fn of_sides(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneStrain) -> Result<Self, BadJacobian> {
+    pub fn of_sides(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneLaw) -> Result<Self, BadJacobian> {
         let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
         let few = shapes.as_ref().is_some_and(Shapes::is_one);
         Self::of_shapes(mesh, triangle, level, law, shapes, !few)
@@ -81,7 +81,7 @@ impl MacroStiffness {
         mesh: &MacroMesh,
         triangle: usize,
         level: Level,
-        law: &PlaneStrain,
+        law: &PlaneLaw,
         shapes: Option<Shapes>,
         sides: bool,
     ) -> Result<Self, BadJacobian> {
@@ -101,7 +101,7 @@ impl MacroStiffness {
     }
 
     /// Each triangle by itself.
-    fn integrate<const N: usize>(&mut self, mesh: &MacroMesh, triangle: usize, law: &PlaneStrain) -> Result<(), BadJacobian> {
+    fn integrate<const N: usize>(&mut self, mesh: &MacroMesh, triangle: usize, law: &PlaneLaw) -> Result<(), BadJacobian> {
         let level = Level { intervals: self.n, order: self.order };
         for small in self.triangles() {
             let nodes = small.nodes::<N>();
@@ -115,7 +115,7 @@ impl MacroStiffness {
         &mut self,
         mesh: &MacroMesh,
         triangle: usize,
-        law: &PlaneStrain,
+        law: &PlaneLaw,
         shapes: &Shapes,
     ) -> Result<(), BadJacobian> {
         let mut known: [Option<[[Block; N]; N]>; Shapes::COUNT] = [None; Shapes::COUNT];
@@ -228,7 +228,7 @@ mod tests {
     use crate::geometry::Curve;
     use crate::mesh::samples::two_blocks;
 
-    const LAW: PlaneStrain = PlaneStrain { lambda: 3.0, mu: 2.0 };
+    const LAW: PlaneLaw = PlaneLaw { lambda: 3.0, mu: 2.0, across: 3.0 };
 
     /// Rows of a macro triangle, once as they are made and once with every triangle integrated by itself.
     fn both(mesh: &MacroMesh, triangle: usize, level: Level) -> [MacroStiffness; 2] {

@@ -12,35 +12,75 @@ pub use macro_stiffness::{MacroStiffness, neighbours, positions};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet};
 pub use springs::{SpringStiffness, Springs};
 
-use crate::element::PlaneStrain;
+use crate::element::{Plane, PlaneLaw};
 use crate::geometry::{Formula, Point};
 use crate::mesh::Spot;
 
-/// Linear elastic material in plane strain.
+/// Linear elastic material, and what is zero across the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Young's modulus E > 0 (stress).
     pub young: f64,
-    /// Poisson's ratio ν, -1 < ν < 0.5.
+    /// Poisson's ratio ν, -1 < ν < 0.5; 0.5 too in plane stress.
     pub poisson: f64,
+    /// Plane strain or plane stress.
+    pub plane: Plane,
 }
 
 impl Material {
-    /// Its law in plane strain.
-    pub fn law(&self) -> PlaneStrain {
-        PlaneStrain::new(self.young, self.poisson)
+    /// Its law in the plane.
+    pub fn law(&self) -> PlaneLaw {
+        PlaneLaw::new(self.young, self.poisson, self.plane)
+    }
+
+    /// Ratio by which elements lock in the plane: the one that has the same law in plane strain. It is at most 1/3 in plane
+    /// stress.
+    pub fn poisson_in_plane(&self) -> f64 {
+        match self.plane {
+            Plane::Strain => self.poisson,
+            Plane::Stress => self.poisson / (1.0 + self.poisson),
+        }
+    }
+
+    /// Stress by strain of a half-plane, `E / (1 - ν²)` in plane strain and `E` in plane stress.
+    pub fn plane_modulus(&self) -> f64 {
+        match self.plane {
+            Plane::Strain => self.young / (1.0 - self.poisson * self.poisson),
+            Plane::Stress => self.young,
+        }
     }
 }
 
-/// A body: one physical surface of the mesh.
+/// A body: what hangs together, of one material or several.
 #[derive(Clone, Debug)]
 pub struct Body {
+    /// Name in the case file.
+    pub name: String,
+    /// Its parts: one of the same name, unless the case gives parts.
+    pub parts: Vec<BodyPart>,
+}
+
+/// A part of a body: one physical surface of the mesh.
+#[derive(Clone, Debug)]
+pub struct BodyPart {
     /// Name of the physical surface.
     pub name: String,
-    /// Material of the whole body.
+    /// Its material.
     pub material: Material,
     /// Force per area, formulas of `x, y`.
     pub force: [Formula; 2],
+}
+
+impl Body {
+    /// A body of one material.
+    pub fn whole(name: String, material: Material, force: [Formula; 2]) -> Self {
+        Self { name: name.clone(), parts: vec![BodyPart { name, material, force }] }
+    }
+
+    /// Whether the case gives parts of it.
+    pub fn has_parts(&self) -> bool {
+        self.parts.iter().any(|part| part.name != self.name)
+    }
 }
 
 /// Prescribed displacement components on physical curves, or at a point.

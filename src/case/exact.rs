@@ -1,6 +1,7 @@
 //! `[exact]`: what is known of the result.
 
 use super::error::suggest;
+use super::model::region_names;
 use super::section::Section;
 use super::values::{self, PLANE};
 use crate::geometry::Formula;
@@ -62,7 +63,7 @@ pub enum LambdaExact {
 /// What is known of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyExact {
-    /// Name of the body.
+    /// Name of the body, or of a part of one.
     pub name: String,
     /// Displacement at points.
     pub displacement: Option<ExpectedDisplacement>,
@@ -161,8 +162,9 @@ pub fn check_exact(exact: &Exact, root: &Section) {
         }
     }
     for body in &exact.bodies {
-        if !root.names_below("body").any(|name| name == body.name) {
-            let words = format!("no such body; {}", suggest(&body.name, root.names_below("body")));
+        let names = region_names(root);
+        if !names.contains(&body.name.as_str()) {
+            let words = format!("no such body; {}", suggest(&body.name, names.into_iter()));
             root.problem(&["exact", "body", &body.name], words);
         }
     }

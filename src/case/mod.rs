@@ -153,7 +153,7 @@ pub struct Probe {
     pub name: String,
     /// Where (length).
     pub point: [f64; 2],
-    /// Body that is asked; two bodies may touch there.
+    /// Body that is asked, or part of one; two of them may touch there.
     pub body: String,
 }
 
@@ -206,8 +206,8 @@ impl Case {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
         let title = root.or("title", "", values::text);
         let mesh = model::read_mesh(root, &folder);
-        let gravity = gravity::read_gravity(root);
-        let bodies = root.named("body", |section| model::read_body(section, gravity));
+        let (plane, gravity) = (model::read_plane(root), gravity::read_gravity(root));
+        let bodies = root.named("body", |section| model::read_body(section, plane, gravity));
         let tools = root.named("rigid", rigid::read_tool);
         let geometries = root.named("geometry", model::read_geometry);
         let (supports, springs) = support::split(root.named("support", support::read_support));
@@ -219,6 +219,7 @@ impl Case {
         let exact = exact::read_exact(root);
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
         model::check_bodies(root);
+        model::check_parts(&bodies, root);
         gravity::check_gravity(gravity, root);
         model::check_geometries(&geometries, root);
         model::check_probes(&probes, root);

@@ -10,15 +10,21 @@ use super::gravity::{Gravity, read_weight, with_weight};
 use super::rigid::{Plate, read_plate};
 use super::section::Section;
 use super::spot::read_where;
-use super::values::{self, PLANE};
+use super::values::{self, Choice, PLANE};
 use super::{Geometry, MeshChoice, Output, Probe, Solver};
-use crate::body::{Body, Load, LoadKind, Material, PointLoad};
-use crate::element::Order;
+use crate::body::{Body, BodyPart, Load, LoadKind, Material, PointLoad};
+use crate::element::{Order, Plane};
 use crate::geometry::Curve;
 use crate::system::{SolverChoice, Tolerance};
 
 /// More refinements than fit any machine.
 const MOST_REFINEMENTS: i64 = 12;
+
+/// What may be zero across the plane.
+const PLANES: [Choice<Plane>; 2] = [("strain", Plane::Strain), ("stress", Plane::Stress)];
+
+/// What a body, or each of its parts, is given.
+const CONSTANTS: [&str; 4] = ["young", "poisson", "body_force", "density"];
 
 /// `[mesh]`
 pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
@@ -37,17 +43,66 @@ pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
     Some(MeshChoice { file: folder.join(file?), order: order?, refine: refine?, grades: grades? })
 }
 
-/// `[body.NAME]`
-pub fn read_body(section: &Section, gravity: Gravity) -> Option<Body> {
-    let young = section.required("young", "7000.0", values::positive);
-    let poisson = section.required("poisson", "0.3", |value| match values::number(value)? {
-        ratio if ratio > -1.0 && ratio < 0.5 => Ok(ratio),
-        _ => Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into()),
+/// `plane`, before all tables.
+pub fn read_plane(root: &Section) -> Plane {
+    root.or("plane", "strain", values::choice(&PLANES)).unwrap_or_default()
+}
+
+/// `[body.NAME]`; `plane` holds where it says nothing else.
+pub fn read_body(section: &Section, plane: Plane, gravity: Gravity) -> Option<Body> {
+    let plane = section.optional("plane", values::choice(&PLANES)).unwrap_or(plane);
+    let name = section.name().to_owned();
+    if !section.has("part") {
+        let part = read_part(section, plane, gravity)?;
+        return Some(Body::whole(name, part.material, part.force));
+    }
+    for key in CONSTANTS.into_iter().filter(|key| section.has(key)) {
+        section.problem(&[key], "stands beside parts of this body; give it in each of their tables".into());
+    }
+    let parts = section.named("part", |section| read_part(section, plane, gravity));
+    if section.names_below("part").next().is_none() {
+        section.problem(&["part"], format!("names no part; write [body.{name}.part.SURFACE] for each physical surface of it"));
+    }
+    if section.names_below("part").any(|part| part == name) {
+        section.problem(&["part", &name], "a part cannot have the name of its body; give the body another one".into());
+    }
+    Some(Body { name, parts })
+}
+
+/// The constants of a physical surface.
+fn read_part(section: &Section, plane: Plane, gravity: Gravity) -> Option<BodyPart> {
+    let young = section.required(CONSTANTS[0], "7000.0", values::positive);
+    let poisson = section.required(CONSTANTS[1], "0.3", |value| match (values::number(value)?, plane) {
+        (ratio, _) if ratio > -1.0 && ratio < 0.5 => Ok(ratio),
+        (0.5, Plane::Stress) => Ok(0.5),
+        (_, Plane::Strain) => {
+            Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into())
+        }
+        (_, Plane::Stress) => Err("must lie in (-1, 0.5]".into()),
     });
-    let force = section.or("body_force", vec![0.0, 0.0], values::formulas);
+    let force = section.or(CONSTANTS[2], vec![0.0, 0.0], values::formulas);
     let weight = read_weight(section, gravity);
-    let material = Material { young: young?, poisson: poisson? };
-    Some(Body { name: section.name().into(), material, force: with_weight(force?, weight?) })
+    let material = Material { young: young?, poisson: poisson?, plane };
+    Some(BodyPart { name: section.name().into(), material, force: with_weight(force?, weight?) })
+}
+
+/// A physical surface belongs to one body.
+pub fn check_parts(bodies: &[Body], root: &Section) {
+    for (at, body) in bodies.iter().enumerate() {
+        for part in body.parts.iter().filter(|_| body.has_parts()) {
+            let mut others = bodies.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, other)| other);
+            let has = |other: &&Body| other.name == part.name || other.parts.iter().any(|theirs| theirs.name == part.name);
+            if let Some(other) = others.find(has) {
+                let words = format!("body.{} has this name too; a physical surface belongs to one body", other.name);
+                root.problem(&["body", &body.name, "part", &part.name], words);
+            }
+        }
+    }
+}
+
+/// Names of all bodies, and of their parts.
+pub fn region_names<'a>(root: &Section<'a>) -> Vec<&'a str> {
+    root.names_below("body").chain(root.names_two_below("body", "part")).collect()
 }
 
 /// `[geometry.NAME]`
@@ -212,11 +267,12 @@ pub fn check_geometries(geometries: &[Geometry], root: &Section) {
     }
 }
 
-/// Probes ask bodies of the case.
+/// Probes ask bodies of the case, or parts of them.
 pub fn check_probes(probes: &[Probe], root: &Section) {
     for probe in probes {
-        if !root.names_below("body").any(|name| name == probe.body) {
-            let words = format!("no such body; {}", suggest(&probe.body, root.names_below("body")));
+        let names = region_names(root);
+        if !names.contains(&probe.body.as_str()) {
+            let words = format!("no such body; {}", suggest(&probe.body, names.into_iter()));
             root.problem(&["probe", &probe.name, "body"], words);
         }
     }

@@ -156,6 +156,13 @@ impl<'a> Section<'a> {
         self.get(key)?.as_table()?.get(name)?.as_table()
     }
 
+    /// Names of the tables under `inner` in each table under a key.
+    pub fn names_two_below(&self, key: &'static str, inner: &'static str) -> impl Iterator<Item = &'a str> {
+        let tables = self.get(key).and_then(Value::as_table).into_iter().flat_map(Table::values);
+        let inner = tables.filter_map(move |table| table.get(inner)?.as_table());
+        inner.flat_map(Table::keys).map(String::as_str)
+    }
+
     fn get(&self, key: &'static str) -> Option<&'a Value> {
         let mut asked = self.asked.borrow_mut();
         if !asked.contains(&key) {

@@ -2,6 +2,7 @@ use std::path::Path;
 
 use super::*;
 use crate::body::LoadKind;
+use crate::body::Material;
 use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule};
 
 /// Every key of the contract that can be given.
@@ -91,9 +92,11 @@ fn a_full_case_is_read() {
     assert_eq!((case.name.as_str(), case.title.as_str(), case.folder.as_path()), ("bars", "Two bars", Path::new("bars")));
     assert_eq!(case.mesh, MeshChoice { file: "bars/bars.msh".into(), order: Order::P1, refine: 3, grades: Vec::new() });
     let [lower, upper] = &case.bodies[..] else { panic!("{:?}", case.bodies) };
-    assert_eq!((lower.name.as_str(), lower.material.young, lower.material.poisson), ("lower", 7000.0, 0.227));
-    assert_eq!(lower.force[1].value(&[0.0, 2.0]), -19.62);
-    assert_eq!((upper.name.as_str(), upper.force[0].as_constant()), ("upper.left", Some(0.0)));
+    let [lower_part, upper_part] = [lower, upper].map(|body| &body.parts[0]);
+    let Material { young, poisson, .. } = lower_part.material;
+    assert_eq!((lower.name.as_str(), young, poisson), ("lower", 7000.0, 0.227));
+    assert_eq!(lower_part.force[1].value(&[0.0, 2.0]), -19.62);
+    assert_eq!((upper.name.as_str(), upper_part.force[0].as_constant()), ("upper.left", Some(0.0)));
     assert!(matches!(&case.geometries[0].curve, Curve::Parametric { y, range: [0.0, 4.0], .. } if y.value(&[2.0]) == 5.0));
     assert_eq!(case.geometries[1].curve, Curve::Circle { centre: [1.0, 2.5], radius: 0.5 });
     assert_eq!(case.geometries[1].curves, ["hole"]);
@@ -202,7 +205,7 @@ fn overrides_win_and_are_checked() {
         ],
     )
     .unwrap();
-    assert_eq!((case.bodies[0].material.young, case.bodies[1].material.poisson), (8e6, 0.0));
+    assert_eq!((case.bodies[0].parts[0].material.young, case.bodies[1].parts[0].material.poisson), (8e6, 0.0));
     assert_eq!((&case.contacts[0].segments, case.mesh.refine, case.title.as_str()), (&SegmentRule::Auto, 2, "a = b"));
     assert!(matches!(&case.contacts[0].gap, GapChoice::Formula(gap) if gap.as_constant() == Some(-1e-3)));
     assert_eq!(case.probes[1], Probe { name: "new".into(), point: [0.0, 1.0], body: "lower".into() });

@@ -23,8 +23,9 @@ pub struct Jump {
 pub type SparseRows = Vec<BTreeMap<usize, f64>>;
 
 /// Jumps of one contact boundary; none for continuous multipliers, which have no jumps. `edges` are the lengths of the
-/// edges beside each segment, `modulus` is `E_c` (stress).
-pub fn jumps(multipliers: &Multipliers, edges: &[f64], modulus: f64) -> Vec<Jump> {
+/// edges beside each segment, `moduli` the `E_c` of each multiplier (stress). Between two materials the harder one counts, for λ
+/// itself may jump there.
+pub fn jumps(multipliers: &Multipliers, edges: &[f64], moduli: &[f64]) -> Vec<Jump> {
     let neighbours: Vec<[usize; 2]> = match multipliers.space {
         MultiplierSpace::P1Continuous => Vec::new(),
         _ => {
@@ -37,7 +38,7 @@ pub fn jumps(multipliers: &Multipliers, edges: &[f64], modulus: f64) -> Vec<Jump
         let mean = |of: &dyn Fn(usize) -> f64| 0.5 * (of(rows[0]) + of(rows[1]));
         let length = mean(&|i| multipliers.length(i));
         let edge = mean(&|i| edges[multipliers.segment_of(i)]);
-        Jump { rows, weight: DELTA * edge * length / modulus }
+        Jump { rows, weight: DELTA * edge * length / moduli[rows[0]].max(moduli[rows[1]]) }
     };
     neighbours.into_iter().map(jump).collect()
 }
@@ -64,7 +65,7 @@ mod tests {
         let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [2.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
         boundary.cut(&[0.0, 0.2, 0.5, 1.0]);
         let multipliers = Multipliers::new(space, &boundary);
-        jump_matrix(jumps(&multipliers, &[0.1; 3], 7.0).iter(), multipliers.count())
+        jump_matrix(jumps(&multipliers, &[0.1; 3], &vec![7.0; multipliers.count()]).iter(), multipliers.count())
     }
 
     #[test]
@@ -86,7 +87,7 @@ mod tests {
         let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [4.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
         boundary.cut(&[0.0, 0.25, 0.5, 0.75, 1.0]);
         let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
-        let weights: Vec<f64> = jumps(&multipliers, &[0.1, 0.1, 0.01, 0.01], 7.0).iter().map(|jump| jump.weight).collect();
+        let weights: Vec<f64> = jumps(&multipliers, &[0.1, 0.1, 0.01, 0.01], &[7.0; 4]).iter().map(|jump| jump.weight).collect();
         assert!(
             (weights[0] / weights[2] - 10.0).abs() < 1e-12 && weights[0] > weights[1] && weights[1] > weights[2],
             "{weights:?}"
@@ -101,7 +102,7 @@ mod tests {
         boundary.cut(&[0.0, 0.25, 0.5, 0.75, 1.0]);
         for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous] {
             let multipliers = Multipliers::new(space, &boundary);
-            let rows = jump_matrix(jumps(&multipliers, &[0.1; 4], 7.0).iter(), multipliers.count());
+            let rows = jump_matrix(jumps(&multipliers, &[0.1; 4], &vec![7.0; multipliers.count()]).iter(), multipliers.count());
             let count = rows.len();
             for (i, row) in rows.iter().enumerate() {
                 assert_eq!(row.len(), 3, "{space:?}: {rows:?}");

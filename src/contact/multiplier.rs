@@ -146,6 +146,17 @@ impl Multipliers {
         }
     }
 
+    /// Harmonic mean of what the segments beside a multiplier have; of one segment, but for those at segment ends.
+    pub fn mean_beside(&self, multiplier: usize, of_segments: &[f64]) -> f64 {
+        let segments = of_segments.len();
+        let beside: Vec<usize> = match self.space {
+            MultiplierSpace::P1Continuous if self.closed => vec![(multiplier + segments - 1) % segments, multiplier],
+            MultiplierSpace::P1Continuous => (multiplier.saturating_sub(1)..(multiplier + 1).min(segments)).collect(),
+            _ => vec![self.segment_of(multiplier)],
+        };
+        beside.len() as f64 / beside.iter().map(|&k| 1.0 / of_segments[k]).sum::<f64>()
+    }
+
     /// `∫ψ_i ds` (length).
     pub fn integral(&self, multiplier: usize) -> f64 {
         self.integrals[multiplier]

@@ -1,12 +1,12 @@
 //! Local kernels: shape functions, stiffness, loads. They return values; callers insert them.
 
 mod load;
-mod plane_strain;
+mod plane_law;
 mod shape;
 mod stiffness;
 
 pub use load::{edge_load, triangle_load};
-pub use plane_strain::{PlaneStrain, von_mises};
+pub use plane_law::{Plane, PlaneLaw, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
 pub use stiffness::{BadJacobian, Block, Rule, SIX_POINTS, energies, jacobian, stiffness, stress};
 

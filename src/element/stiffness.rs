@@ -1,6 +1,6 @@
 //! Stiffness and stress of one triangle, straight or isoparametric.
 
-use super::PlaneStrain;
+use super::PlaneLaw;
 use super::shape::slopes;
 use crate::geometry::Point;
 use nalgebra::Matrix2;
@@ -86,7 +86,7 @@ pub fn jacobian<const N: usize>(nodes: &[Point; N], l: [f64; 3]) -> Result<([Poi
 /// [`BadJacobian`] if the map folds over at a quadrature point or, for P2, at a corner.
 /// # Source
 /// Zienkiewicz and Taylor, The Finite Element Method, vol. 1, plane elasticity.
-pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneStrain, straight: bool) -> Result<[[Block; N]; N], BadJacobian> {
+pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, straight: bool) -> Result<[[Block; N]; N], BadJacobian> {
     let mut k = [[[[0.0; 2]; 2]; N]; N];
     if !straight && N == 6 {
         for corner in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
@@ -114,11 +114,7 @@ pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneStrain, straight
 ///
 /// # Errors
 /// [`BadJacobian`] where the map folds over.
-pub fn energies<const N: usize>(
-    nodes: &[Point; N],
-    u: &[Point; N],
-    law: &PlaneStrain,
-) -> Result<[([f64; 3], f64); 3], BadJacobian> {
+pub fn energies<const N: usize>(nodes: &[Point; N], u: &[Point; N], law: &PlaneLaw) -> Result<[([f64; 3], f64); 3], BadJacobian> {
     let mut found = [([0.0; 3], 0.0); 3];
     for (place, &(l, weight)) in found.iter_mut().zip(THREE) {
         let (gradients, determinant) = jacobian(nodes, l)?;
@@ -134,12 +130,7 @@ pub fn energies<const N: usize>(
 ///
 /// # Errors
 /// [`BadJacobian`] where the map folds over.
-pub fn stress<const N: usize>(
-    nodes: &[Point; N],
-    u: &[Point; N],
-    l: [f64; 3],
-    law: &PlaneStrain,
-) -> Result<[f64; 4], BadJacobian> {
+pub fn stress<const N: usize>(nodes: &[Point; N], u: &[Point; N], l: [f64; 3], law: &PlaneLaw) -> Result<[f64; 4], BadJacobian> {
     let (gradients, _) = jacobian(nodes, l)?;
     let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
     Ok(law.stress(&gradient))
@@ -150,7 +141,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const LAW: PlaneStrain = PlaneStrain { lambda: 2.0, mu: 1.5 };
+    const LAW: PlaneLaw = PlaneLaw { lambda: 2.0, mu: 1.5, across: 2.0 };
 
     /// A P2 triangle with all midsides moved a little.
     fn curved() -> [Point; 6] {

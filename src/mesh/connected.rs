@@ -26,14 +26,16 @@ impl Connected {
             triangles: Vec::new(),
             edges: Vec::new(),
             bodies: before.bodies.clone(),
+            parts: before.parts.clone(),
             pieces,
             boundaries: Vec::new(),
+            interfaces: Vec::new(),
             points: before.points.clone(),
         };
         Self { mesh, known: HashMap::new() }
     }
 
-    /// Adds a triangle of the same body and piece as one of the mesh before.
+    /// Adds a triangle of the same part and piece as one of the mesh before.
     pub fn add(&mut self, vertices: [u32; 3], before: &MacroTriangle) {
         let triangle = self.mesh.triangles.len() as u32;
         let (mut edges, mut forward) = ([0; 3], [true; 3]);
@@ -69,17 +71,19 @@ impl Connected {
                 }
             }
         }
-        for boundary in &before.boundaries {
-            let parts = boundary.edges.iter().flat_map(|&edge| {
+        let divided_curve = |curve: &Boundary| {
+            let parts = curve.edges.iter().flat_map(|&edge| {
                 let [a, b] = before.edges[edge as usize].vertices;
                 match divided(edge as usize) {
                     None => vec![self.edge(a, b)],
                     Some((middle, _)) => vec![self.edge(a, middle), self.edge(middle, b)],
                 }
             });
-            let edges = parts.collect();
-            self.mesh.boundaries.push(Boundary { edges, ..boundary.clone() });
-        }
+            Boundary { edges: parts.collect(), ..curve.clone() }
+        };
+        let [boundaries, interfaces] =
+            [&before.boundaries, &before.interfaces].map(|all| all.iter().map(&divided_curve).collect());
+        (self.mesh.boundaries, self.mesh.interfaces) = (boundaries, interfaces);
     }
 
     fn edge(&self, a: u32, b: u32) -> u32 {

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::str::FromStr;
 
-/// Reads a Gmsh 4.1 ASCII file: physical surfaces become bodies, physical curves become boundaries.
+/// Reads a Gmsh 4.1 ASCII file: each physical surface becomes a body, physical curves become boundaries.
 ///
 /// # Errors
 /// [`MeshError`] with file and line, what was found, and the gmsh command that mends it.
@@ -28,8 +28,31 @@ pub fn read_bytes(file: &Path) -> Result<Vec<u8>, MeshError> {
 /// # Errors
 /// [`MeshError`] as of [`read_gmsh`].
 pub fn parse_gmsh(bytes: &[u8], file: &Path) -> Result<MacroMesh, MeshError> {
+    parse_joined(bytes, file, HashMap::new())
+}
+
+/// The same, where physical surfaces are joined: `joined` has the name of the body of each surface that is a part of one.
+///
+/// # Errors
+/// [`MeshError`] as of [`read_gmsh`].
+pub fn parse_joined(bytes: &[u8], file: &Path, joined: HashMap<String, String>) -> Result<MacroMesh, MeshError> {
     let text = String::from_utf8_lossy(bytes);
-    MacroMesh::build(Reader::new(file, &text).read()?, file)
+    MacroMesh::build(RawMesh { joined, ..Reader::new(file, &text).read()? }, file)
+}
+
+/// Names of the physical surfaces of a Gmsh 4.1 ASCII file that has been read, in order.
+///
+/// # Errors
+/// [`MeshError`] as of [`read_gmsh`].
+pub fn surfaces(bytes: &[u8], file: &Path) -> Result<Vec<String>, MeshError> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut names: Vec<String> = Vec::new();
+    for name in Reader::new(file, &text).read()?.triangles.into_iter().flat_map(|(_, names, _)| names) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    Ok(names)
 }
 
 /// Dimension and tag of an elementary entity of the file.

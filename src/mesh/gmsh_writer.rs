@@ -1,11 +1,11 @@
 //! Writer of Gmsh 4.1 ASCII files.
 
-use super::macro_mesh::MacroMesh;
+use super::macro_mesh::{Boundary, MacroMesh};
 use crate::geometry::Point;
 use std::fmt::Write;
 
 impl MacroMesh {
-    /// The text of a Gmsh 4.1 ASCII file of this mesh, with the names of all bodies and boundaries.
+    /// The text of a Gmsh 4.1 ASCII file of this mesh, with the names of all parts, boundaries and curves between parts.
     ///
     /// Vertices, triangles, edges and boundaries come back in this order and to the last digit from [`super::parse_gmsh`]. An
     /// edge that lies in several boundaries is a line of each. Edges are straight: a `[geometry]` of the case bends them again.
@@ -18,26 +18,26 @@ impl MacroMesh {
         text
     }
 
-    /// Boundaries and bodies by name; a tag is a place, from 1.
+    /// Boundaries, with the curves between parts after them, and parts by name; a tag is a place, from 1.
     fn physical_names(&self) -> String {
-        let mut text = format!("{}\n", self.physical_curves().len() + self.bodies.len());
-        let names = self.physical_curves().into_iter().map(|boundary| (1, &boundary.name)).enumerate();
-        for (place, (dimension, name)) in names.chain(self.bodies.iter().map(|name| (2, name)).enumerate()) {
+        let mut text = format!("{}\n", self.curves().count() + self.parts.len());
+        let names = self.curves().map(|curve| (1, &curve.name)).enumerate();
+        for (place, (dimension, name)) in names.chain(self.parts.iter().map(|part| (2, &part.name)).enumerate()) {
             line(&mut text, format_args!("{dimension} {} \"{name}\"", place + 1));
         }
         text
     }
 
-    /// One curve for each boundary, one surface for each body, each with its physical tag and the box around it.
+    /// One curve for each boundary, one surface for each part, each with its physical tag and the box around it.
     fn entities(&self) -> String {
-        let mut text = format!("0 {} {} 0\n", self.physical_curves().len(), self.bodies.len());
-        for (place, boundary) in self.physical_curves().iter().enumerate() {
+        let mut text = format!("0 {} {} 0\n", self.curves().count(), self.parts.len());
+        for (place, boundary) in self.curves().enumerate() {
             let ends = boundary.edges.iter().flat_map(|&edge| self.edges[edge as usize].vertices);
             entity(&mut text, place + 1, self.box_around(ends));
         }
-        for body in 0..self.bodies.len() {
-            let own = self.triangles.iter().filter(|triangle| triangle.body as usize == body);
-            entity(&mut text, body + 1, self.box_around(own.flat_map(|triangle| triangle.vertices)));
+        for part in 0..self.parts.len() {
+            let own = self.triangles.iter().filter(|triangle| triangle.part as usize == part);
+            entity(&mut text, part + 1, self.box_around(own.flat_map(|triangle| triangle.vertices)));
         }
         text
     }
@@ -48,13 +48,18 @@ impl MacroMesh {
         places.map(|x| [x, x]).reduce(|[low, high], [x, _]| [low.inf(&x), high.sup(&x)]).unwrap_or_default()
     }
 
-    /// Vertices in their order: a block for as many of one body as follow each other.
+    /// Boundaries, then curves between parts.
+    fn curves(&self) -> impl Iterator<Item = &Boundary> {
+        self.physical_curves().into_iter().chain(&self.interfaces)
+    }
+
+    /// Vertices in their order: a block for as many of one part as follow each other.
     fn nodes(&self) -> String {
-        let mut bodies = vec![0; self.vertices.len()];
+        let mut parts = vec![0; self.vertices.len()];
         for triangle in &self.triangles {
-            triangle.vertices.iter().for_each(|&vertex| bodies[vertex as usize] = triangle.body);
+            triangle.vertices.iter().for_each(|&vertex| parts[vertex as usize] = triangle.part);
         }
-        let (blocks, count) = (bodies.chunk_by(|a, b| a == b), self.vertices.len());
+        let (blocks, count) = (parts.chunk_by(|a, b| a == b), self.vertices.len());
         let mut text = format!("{} {count} 1 {count}\n", blocks.clone().count());
         let mut first = 0;
         for block in blocks {
@@ -68,14 +73,14 @@ impl MacroMesh {
         text
     }
 
-    /// Lines of the boundaries, then triangles in their order: a block for as many of one body as follow each other.
+    /// Lines of the curves, then triangles in their order: a block for as many of one part as follow each other.
     fn elements(&self) -> String {
-        let boundaries = self.physical_curves().iter().filter(|boundary| !boundary.edges.is_empty()).count();
-        let blocks = self.triangles.chunk_by(|a, b| a.body == b.body);
-        let count = self.triangles.len() + self.physical_curves().iter().map(|boundary| boundary.edges.len()).sum::<usize>();
-        let mut text = format!("{} {count} 1 {count}\n", boundaries + blocks.clone().count());
+        let curves = self.curves().filter(|boundary| !boundary.edges.is_empty()).count();
+        let blocks = self.triangles.chunk_by(|a, b| a.part == b.part);
+        let count = self.triangles.len() + self.curves().map(|boundary| boundary.edges.len()).sum::<usize>();
+        let mut text = format!("{} {count} 1 {count}\n", curves + blocks.clone().count());
         let mut tag = 0;
-        for (place, boundary) in self.physical_curves().iter().enumerate().filter(|(_, boundary)| !boundary.edges.is_empty()) {
+        for (place, boundary) in self.curves().enumerate().filter(|(_, boundary)| !boundary.edges.is_empty()) {
             line(&mut text, format_args!("1 {} 1 {}", place + 1, boundary.edges.len()));
             for &edge in &boundary.edges {
                 let [a, b] = self.edges[edge as usize].vertices;
@@ -84,7 +89,7 @@ impl MacroMesh {
             }
         }
         for block in blocks {
-            line(&mut text, format_args!("2 {} 2 {}", block[0].body + 1, block.len()));
+            line(&mut text, format_args!("2 {} 2 {}", block[0].part + 1, block.len()));
             for triangle in block {
                 let [a, b, c] = triangle.vertices;
                 tag += 1;
@@ -112,7 +117,7 @@ fn line(text: &mut String, words: std::fmt::Arguments) {
 mod tests {
     use super::*;
     use crate::geometry::Curve;
-    use crate::mesh::{Boundary, parse_gmsh, read_gmsh};
+    use crate::mesh::{parse_gmsh, read_gmsh};
     use std::path::Path;
 
     fn case_mesh(file: &str) -> MacroMesh {
@@ -126,7 +131,17 @@ mod tests {
     /// Everything but the file and the shapes of edges, to the last digit.
     fn content(mesh: &MacroMesh) -> String {
         let edges: Vec<_> = mesh.edges.iter().map(|edge| (edge.vertices, edge.triangles)).collect();
-        format!("{:?}", (&mesh.vertices, &mesh.triangles, edges, &mesh.bodies, &mesh.pieces, &mesh.boundaries))
+        format!(
+            "{:?}",
+            (
+                &mesh.vertices,
+                &mesh.triangles,
+                edges,
+                (&mesh.bodies, &mesh.parts),
+                &mesh.pieces,
+                (&mesh.boundaries, &mesh.interfaces)
+            )
+        )
     }
 
     #[test]

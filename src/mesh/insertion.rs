@@ -94,7 +94,9 @@ impl MacroMesh {
         let mut at = 0;
         while grows && at < cavity.len() {
             for edge in self.triangles[cavity[at] as usize].edges {
-                let beside = self.across(cavity[at], edge).filter(|other| !cavity.contains(other) && !named.contains(&edge));
+                let beside = self
+                    .across(cavity[at], edge)
+                    .filter(|other| !cavity.contains(other) && !named.contains(&edge) && !self.is_interface(edge));
                 cavity.extend(beside.filter(|&other| self.circle_holds(other, x)));
             }
             at += 1;

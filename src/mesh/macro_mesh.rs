@@ -6,12 +6,33 @@ use crate::geometry::{Point, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+/// A body, or a part of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    /// Index of the body.
+    Body(u32),
+    /// Index of the part.
+    Part(u32),
+}
+
+impl Region {
+    /// Whether a triangle belongs to it.
+    pub fn holds(self, triangle: &MacroTriangle) -> bool {
+        match self {
+            Self::Body(body) => triangle.body == body,
+            Self::Part(part) => triangle.part == part,
+        }
+    }
+}
+
 /// What a mesh file says, before it is checked. Lines are those of the file.
 #[derive(Default)]
 pub(super) struct RawMesh {
     pub vertices: Vec<Point>,
     pub triangles: Vec<([usize; 3], Vec<String>, usize)>,
     pub lines: Vec<(String, [usize; 2], usize)>,
+    /// Names of bodies, by the physical surfaces that are parts of them; other surfaces are bodies of their own.
+    pub joined: HashMap<String, String>,
 }
 
 /// A macro triangle, counter-clockwise.
@@ -25,6 +46,8 @@ pub struct MacroTriangle {
     pub forward: [bool; 3],
     /// Index of its body.
     pub body: u32,
+    /// Index of its part of the body: what its material is.
+    pub part: u32,
     /// Index of its piece of the body.
     pub piece: u32,
 }
@@ -51,7 +74,16 @@ pub struct Boundary {
     pub is_union: bool,
 }
 
-/// A part of a body whose triangles hang together by edges.
+/// A physical surface of the file: a body, or a part of one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Surface {
+    /// Name in the mesh file.
+    pub name: String,
+    /// Index of its body.
+    pub body: u32,
+}
+
+/// Triangles of a body whose edges join them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BodyPiece {
     /// Index of the body.
@@ -73,12 +105,16 @@ pub struct MacroMesh {
     pub triangles: Vec<MacroTriangle>,
     /// Edges, each once.
     pub edges: Vec<MacroEdge>,
-    /// Physical surfaces.
+    /// Names of the bodies: those of physical surfaces, or of several that the case joins.
     pub bodies: Vec<String>,
+    /// Physical surfaces: the parts of the bodies, most of which have one.
+    pub parts: Vec<Surface>,
     /// Pieces of the bodies, which hang together by edges; one for each body in most meshes.
     pub pieces: Vec<BodyPiece>,
-    /// Physical curves.
+    /// Physical curves that bound bodies.
     pub boundaries: Vec<Boundary>,
+    /// Physical curves between parts of one body.
+    pub interfaces: Vec<Boundary>,
     /// Vertices at points that the case names.
     pub points: Vec<NamedPoint>,
 }
@@ -94,15 +130,17 @@ impl MacroMesh {
             triangles: Vec::with_capacity(raw.triangles.len()),
             edges: Vec::new(),
             bodies: Vec::new(),
+            parts: Vec::new(),
             pieces: Vec::new(),
             boundaries: Vec::new(),
+            interfaces: Vec::new(),
             points: Vec::new(),
         };
         let mut known = HashMap::new();
         for (corners, names, line) in raw.triangles {
-            let body = mesh.body_of(&names, line)?;
+            let part = mesh.part_of(&names, &raw.joined, line)?;
             let corners = mesh.turned(corners, line)?;
-            mesh.add_triangle(corners, body, line, &mut known)?;
+            mesh.add_triangle(corners, part, line, &mut known)?;
         }
         if mesh.triangles.is_empty() {
             return Err(MeshError::unusable(file, "has no triangles; mesh it with `gmsh -2`"));
@@ -110,6 +148,7 @@ impl MacroMesh {
         mesh.check_bodies_are_apart()?;
         mesh.find_pieces()?;
         mesh.check_overlap()?;
+        mesh.check_parts_are_joined()?;
         let mut placed = HashSet::new();
         for (name, ends, line) in raw.lines {
             mesh.add_line(name, ends, line, &known, &mut placed)?;
@@ -121,18 +160,23 @@ impl MacroMesh {
         MeshError::Syntax { file: self.file.clone(), line, message }
     }
 
-    fn body_of(&mut self, names: &[String], line: usize) -> Result<u32, MeshError> {
+    fn part_of(&mut self, names: &[String], joined: &HashMap<String, String>, line: usize) -> Result<u32, MeshError> {
         let [name] = names else {
             let found = if names.is_empty() { "no physical surface".into() } else { names.join(", ") };
             return Err(
                 self.syntax(line, format!("a triangle must lie in exactly one physical surface (its body); found {found}"))
             );
         };
-        if let Some(body) = self.bodies.iter().position(|body| body == name) {
-            return Ok(body as u32);
+        if let Some(part) = self.parts.iter().position(|part| part.name == *name) {
+            return Ok(part as u32);
         }
-        self.bodies.push(name.clone());
-        Ok(self.bodies.len() as u32 - 1)
+        let of = joined.get(name).unwrap_or(name);
+        let body = self.bodies.iter().position(|body| body == of).unwrap_or_else(|| {
+            self.bodies.push(of.clone());
+            self.bodies.len() - 1
+        });
+        self.parts.push(Surface { name: name.clone(), body: body as u32 });
+        Ok(self.parts.len() as u32 - 1)
     }
 
     /// The corners counter-clockwise; a clockwise triangle is turned round, a flat one refused.
@@ -156,7 +200,7 @@ impl MacroMesh {
     pub(super) fn add_triangle(
         &mut self,
         vertices: [u32; 3],
-        body: u32,
+        part: u32,
         line: usize,
         known: &mut HashMap<[u32; 2], u32>,
     ) -> Result<(), MeshError> {
@@ -180,7 +224,8 @@ impl MacroMesh {
             }
             edges[k] = edge;
         }
-        self.triangles.push(MacroTriangle { vertices, edges, forward, body, piece: 0 });
+        let body = self.parts[part as usize].body;
+        self.triangles.push(MacroTriangle { vertices, edges, forward, body, part, piece: 0 });
         Ok(())
     }
 
@@ -192,10 +237,11 @@ impl MacroMesh {
                 let body = owner[vertex as usize].get_or_insert(triangle.body);
                 if *body != triangle.body {
                     let (x, names) = (self.vertices[vertex as usize], [*body, triangle.body].map(|b| &self.bodies[b as usize]));
+                    let part = &self.parts[triangle.part as usize].name;
                     return Err(MeshError::unusable(
                         &self.file,
                         format!(
-                            "bodies \"{}\" and \"{}\" share the node at ({}, {}); give each body points and lines of its own, contact joins them",
+                            "bodies \"{}\" and \"{}\" share the node at ({}, {}); give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
                             names[0], names[1], x.x, x.y
                         ),
                     ));
@@ -215,25 +261,38 @@ impl MacroMesh {
         placed: &mut HashSet<(usize, u32)>,
     ) -> Result<(), MeshError> {
         let [a, b] = ends.map(|end| end as u32);
-        let edge = match known.get(&[a.min(b), a.max(b)]) {
-            Some(&edge) if self.edges[edge as usize].triangles[1].is_none() => edge,
-            found => {
-                let place = if found.is_some() { "lies inside a body" } else { "is not an edge of a triangle" };
-                return Err(self.syntax(
-                    line,
-                    format!("a line of the physical curve \"{name}\" {place}; physical curves must bound bodies"),
-                ));
-            }
+        let refused = |place: &str| {
+            self.syntax(
+                line,
+                format!("a line of the physical curve \"{name}\" {place}; physical curves must bound bodies, or parts of them"),
+            )
         };
-        let known = self.boundaries.iter().position(|boundary| boundary.name == name);
-        let at = known.unwrap_or_else(|| {
-            self.boundaries.push(Boundary { name, edges: Vec::new(), is_union: false });
-            self.boundaries.len() - 1
+        let Some(&edge) = known.get(&[a.min(b), a.max(b)]) else { return Err(refused("is not an edge of a triangle")) };
+        let parts = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));
+        if parts[0] == parts[1] {
+            return Err(refused("lies inside a body"));
+        }
+        let (own, other) =
+            if parts[1].is_none() { (&self.boundaries, &self.interfaces) } else { (&self.interfaces, &self.boundaries) };
+        if other.iter().any(|curve| curve.name == name) {
+            return Err(refused("lies between parts of a body while others bound one: name them apart"));
+        }
+        let at = own.iter().position(|curve| curve.name == name);
+        let curves = if parts[1].is_none() { &mut self.boundaries } else { &mut self.interfaces };
+        let at = at.unwrap_or_else(|| {
+            curves.push(Boundary { name, edges: Vec::new(), is_union: false });
+            curves.len() - 1
         });
         if placed.insert((at, edge)) {
-            self.boundaries[at].edges.push(edge);
+            curves[at].edges.push(edge);
         }
         Ok(())
+    }
+
+    /// The body, or the part of one, of that name, if the mesh has it. A body of one part is both.
+    pub fn region(&self, name: &str) -> Option<Region> {
+        let body = self.bodies.iter().position(|body| body == name).map(|body| Region::Body(body as u32));
+        body.or_else(|| self.parts.iter().position(|part| part.name == name).map(|part| Region::Part(part as u32)))
     }
 
     /// The boundary of that name, if the mesh has it.
@@ -270,6 +329,12 @@ impl MacroMesh {
     /// Body of a boundary edge.
     pub fn body_beside(&self, edge: u32) -> usize {
         self.triangles[self.beside(edge).0 as usize].body as usize
+    }
+
+    /// Whether an edge lies between two parts of a body.
+    pub fn is_interface(&self, edge: u32) -> bool {
+        let [first, second] = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));
+        second.is_some() && first != second
     }
 
     /// Straight length of a macro edge.

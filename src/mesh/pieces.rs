@@ -1,9 +1,13 @@
 //! Pieces of a body: triangles that hang together by edges.
 
 use super::{BodyPiece, MacroMesh, MeshError};
+use crate::geometry::{Disc, Point, overlapping_discs};
 
 /// A body in more pieces than this is a mesh whose triangles share no nodes.
 const MOST_PIECES: usize = 100;
+
+/// Edges that lie on each other to this share of their length do so by intent.
+const SAME: f64 = 1e-6;
 
 impl MacroMesh {
     /// Finds the pieces of all bodies and gives each triangle the number of its own.
@@ -71,6 +75,40 @@ impl MacroMesh {
         Ok(())
     }
 
+    /// Parts of a body that touch must share the nodes there: nothing else joins them, and a body has no contact with itself.
+    ///
+    /// # Errors
+    /// Words with both parts and the place.
+    pub(super) fn check_parts_are_joined(&self) -> Result<(), MeshError> {
+        let is_one_of_several = |body: usize| self.parts.iter().filter(|part| part.body as usize == body).count() > 1;
+        for body in (0..self.bodies.len()).filter(|&body| is_one_of_several(body)) {
+            let outer = |edge: &u32| self.edges[*edge as usize].triangles[1].is_none() && self.body_beside(*edge) == body;
+            let edges: Vec<u32> = (0..self.edges.len() as u32).filter(outer).collect();
+            let ends = |at: usize| self.edges[edges[at] as usize].vertices.map(|vertex| self.vertices[vertex as usize]);
+            let disc = |at: usize| Disc { middle: 0.5 * (ends(at)[0] + ends(at)[1]), radius: 0.5 * self.edge_length(edges[at]) };
+            let discs: Vec<Disc> = (0..edges.len()).map(disc).collect();
+            let beside = |at: usize| &self.triangles[self.beside(edges[at]).0 as usize];
+            let mut touching = None;
+            overlapping_discs(&discs, &discs, |a, b| {
+                let [first, second] = [beside(a), beside(b)];
+                if first.part != second.part && first.piece != second.piece && lie_on_each_other(ends(a), ends(b)) {
+                    touching.get_or_insert((first.part.min(second.part), first.part.max(second.part), discs[a].middle));
+                }
+            });
+            if let Some((first, second, x)) = touching {
+                let names = [first, second].map(|part| &self.parts[part as usize].name);
+                return Err(MeshError::unusable(
+                    &self.file,
+                    format!(
+                        "parts \"{}\" and \"{}\" of body \"{}\" touch near ({}, {}) and share no nodes there, so nothing joins them; give them the same lines (`Coherence;` in Gmsh), or make them bodies with a contact between",
+                        names[0], names[1], self.bodies[body], x.x, x.y
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    }
+
     /// Piece of a boundary edge.
     pub fn piece_beside(&self, edge: u32) -> usize {
         self.triangles[self.beside(edge).0 as usize].piece as usize
@@ -86,5 +124,78 @@ impl MacroMesh {
         let corners = self.triangles[first as usize].vertices.map(|vertex| self.vertices[vertex as usize]);
         let x = (corners[0] + corners[1] + corners[2]) / 3.0;
         format!("the piece of body {name} around ({:.6}, {:.6}), which shares no edge with the rest of the body,", x.x, x.y)
+    }
+}
+
+/// Whether two straight edges have a stretch in common.
+fn lie_on_each_other(a: [Point; 2], b: [Point; 2]) -> bool {
+    let length = (b[1] - b[0]).norm();
+    let along = (b[1] - b[0]) / length;
+    let least = SAME * length.max((a[1] - a[0]).norm());
+    let seen = a.map(|x| along.dot(&(x - b[0])));
+    let off = a.map(|x| (x - b[0] - along.dot(&(x - b[0])) * along).norm());
+    off[0].max(off[1]) <= least && seen[0].max(seen[1]).min(length) - seen[0].min(seen[1]).max(0.0) > 1e3 * least
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bisection::BisectedMesh;
+    use super::super::gmsh::parse_joined;
+    use super::super::macro_mesh::RawMesh;
+    use super::super::samples::two_parts;
+    use super::*;
+    use std::path::Path;
+
+    fn build(raw: RawMesh) -> Result<MacroMesh, String> {
+        MacroMesh::build(raw, Path::new("square.msh")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn parts_keep_their_triangles_and_their_line_when_halved_and_written() {
+        let raw = two_parts();
+        let joined = raw.joined.clone();
+        let mut bisected = BisectedMesh::new(build(raw).expect("two parts of one body"));
+        for times in 0..3 {
+            let mesh = &bisected.mesh;
+            assert_eq!((mesh.bodies.join(" "), mesh.pieces.len()), ("whole".to_string(), 1));
+            let [core, film] = ["core", "film"].map(|name| mesh.region(name).expect("a part"));
+            for triangle in &mesh.triangles {
+                let middle = triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]).iter().sum::<Point>() / 3.0;
+                assert_eq!([core.holds(triangle), film.holds(triangle)], [middle.x > middle.y, middle.x < middle.y]);
+                assert!(mesh.region("whole").expect("a body").holds(triangle));
+            }
+            let between: Vec<u32> = (0..mesh.edges.len() as u32).filter(|&edge| mesh.is_interface(edge)).collect();
+            let mut named = mesh.interfaces[0].edges.clone();
+            named.sort_unstable();
+            assert!(named == between && named.len() == 1 << times, "{named:?} instead of {between:?}");
+            let again = parse_joined(mesh.to_gmsh().as_bytes(), Path::new("again.msh"), joined.clone()).expect("our own");
+            let content = |mesh: &MacroMesh| format!("{:?}", (&mesh.triangles, &mesh.parts, &mesh.boundaries, &mesh.interfaces));
+            assert_eq!(content(&again), content(mesh));
+            bisected = bisected.refined(0..mesh.triangles.len() as u32);
+        }
+    }
+
+    #[test]
+    fn bodies_stay_apart_and_parts_that_touch_are_joined() {
+        let words = build(RawMesh { joined: Default::default(), ..two_parts() }).expect_err("two bodies");
+        assert!(words.contains("\"core\" and \"film\" share the node") && words.contains("part.\"film\""), "{words}");
+        let mut raw = two_parts();
+        raw.lines.push(("bond".into(), [0, 1], 0));
+        assert!(build(raw).expect_err("a name for two kinds of lines").contains("name them apart"));
+        let mut raw = two_parts();
+        raw.lines.clear();
+        let apart = |raw: &mut RawMesh, by: f64| {
+            let moved = [0, 2, 3].map(|vertex| raw.vertices[vertex] + Point::new(-by, by));
+            raw.vertices.truncate(3);
+            raw.vertices.extend(moved);
+            raw.triangles[1].0 = [3, 4, 5];
+        };
+        apart(&mut raw, 0.0);
+        let words = build(raw).expect_err("nothing joins them");
+        assert!(words.contains("\"core\" and \"film\" of body \"whole\" touch near (0.5, 0.5)"), "{words}");
+        let mut raw = two_parts();
+        raw.lines.clear();
+        apart(&mut raw, 0.1);
+        assert_eq!(build(raw).expect("two pieces").pieces.len(), 2);
     }
 }

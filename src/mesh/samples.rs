@@ -13,6 +13,18 @@ pub fn two_blocks() -> MacroMesh {
     MacroMesh::build(raw, Path::new("blocks.msh")).expect("a good mesh")
 }
 
+/// What a file says of a unit square of two triangles, parts "core" and "film" of the body "whole", with a line "bond" between
+/// them and "bottom" below.
+pub(super) fn two_parts() -> RawMesh {
+    let names = ["core", "film"].map(str::to_string);
+    RawMesh {
+        vertices: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Point::from).into(),
+        triangles: vec![([0, 1, 2], vec![names[0].clone()], 0), ([0, 2, 3], vec![names[1].clone()], 0)],
+        lines: vec![("bond".into(), [0, 2], 0), ("bottom".into(), [0, 1], 0)],
+        joined: names.into_iter().map(|name| (name, "whole".to_string())).collect(),
+    }
+}
+
 /// One block of so many columns of width 1 over y = 0, each of two triangles.
 pub fn columns(count: usize, height: f64) -> MacroMesh {
     let mut raw = RawMesh::default();

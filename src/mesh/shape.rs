@@ -10,15 +10,17 @@ use std::sync::Arc;
 const NEAR: f64 = 1e-8;
 
 impl MacroMesh {
-    /// Gives the edges of the named boundaries the shape of a curve and moves their vertices onto it.
+    /// Gives the edges of the named boundaries, and of curves between parts, the shape of a curve and moves their vertices onto it.
     ///
     /// # Errors
     /// If a boundary does not exist, or a vertex is farther from the curve than a tenth of its edge.
     pub fn bend(&mut self, geometry: &str, boundaries: &[String], curve: &Curve) -> Result<(), MeshError> {
         let curve = Arc::new(curve.clone());
         for name in boundaries {
-            let Some(boundary) = self.boundary(name) else {
-                let known = self.physical_curves().iter().map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
+            let curves = || self.boundaries.iter().chain(&self.interfaces);
+            let Some(boundary) = curves().find(|curve| curve.name == *name) else {
+                let known = self.physical_curves().into_iter().chain(&self.interfaces);
+                let known = known.map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
                 return Err(MeshError::unusable(
                     &self.file,
                     format!("has no physical curve \"{name}\", which [geometry.{geometry}] names; it has {known}"),

@@ -4,7 +4,7 @@
 //! and a boundary like those of any body.
 
 use super::edge_shape::EdgeShape;
-use super::macro_mesh::{BodyPiece, Boundary, MacroMesh};
+use super::macro_mesh::{BodyPiece, Boundary, MacroMesh, Surface};
 use crate::geometry::{Curve, Point, cross, turn_right};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -165,7 +165,9 @@ impl MacroMesh {
         }
         self.ratios.resize(self.vertices.len(), None);
         let (body, piece, start) = (self.bodies.len() as u32, self.pieces.len() as u32, self.triangles.len() as u32);
+        let part = self.parts.len() as u32;
         self.bodies.push(name.into());
+        self.parts.push(Surface { name: name.into(), body });
         self.pieces.push(BodyPiece { body: body as usize, first: start });
         let mut known = HashMap::new();
         let mut surface = Vec::new();
@@ -183,7 +185,7 @@ impl MacroMesh {
                         places[k].x.x, places[k].x.y
                     ));
                 }
-                self.add_triangle(corners, body, 0, &mut known).map_err(|error| error.to_string())?;
+                self.add_triangle(corners, part, 0, &mut known).map_err(|error| error.to_string())?;
                 self.triangles.last_mut().expect("just added").piece = piece;
             }
             let edge = known[&[a.min(b), a.max(b)]];

@@ -278,6 +278,9 @@ pub struct SupportSummary {
 pub struct Energy {
     /// Strain energy by name of the body.
     pub strain: BTreeMap<String, Option<f64>>,
+    /// The same by name of the part, of bodies with parts; the key is missing if there are none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub parts: BTreeMap<String, Option<f64>>,
     /// Total strain energy U.
     pub total: Option<f64>,
     /// U from the stationary value of the Lagrangian, of second order in the algebraic error; not in all scenes.

@@ -35,6 +35,8 @@ pub struct Piece<'a> {
     pub von_mises: &'a [f64],
     /// Number of the body of each triangle.
     pub body: &'a [i32],
+    /// Number of the part, the physical surface, of each triangle.
+    pub part: &'a [i32],
     /// The rank, shown as a field of the triangles.
     pub rank: i32,
 }
@@ -61,7 +63,7 @@ pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S]) -> Res
             writeln!(out, "{}/>", declaration("PDataArray", "Float64", name, components, labels))?;
         }
         writeln!(out, "</PPointData>\n<PCellData>")?;
-        for name in ["body", "rank"] {
+        for name in ["body", "part", "rank"] {
             writeln!(out, "{}/>", declaration("PDataArray", "Int32", name, 1, &[]))?;
         }
         writeln!(out, "</PCellData>")?;
@@ -119,6 +121,7 @@ impl Piece<'_> {
             ("the displacement", self.displacement.len(), nodes),
             ("the stress", self.stress.len(), nodes),
             ("the von Mises stress", self.von_mises.len(), nodes),
+            ("the list of parts", self.part.len(), self.body.len()),
             ("the list of nodes of the triangles", self.cells.len(), self.body.len() * self.nodes_per_cell()),
         ];
         match lengths.into_iter().find(|(_, found, expected)| found != expected) {
@@ -140,6 +143,7 @@ impl Piece<'_> {
         write_array(out, "von_mises", 1, &[], points, self.von_mises.iter().copied())?;
         writeln!(out, "</PointData>\n<CellData>")?;
         write_array(out, "body", 1, &[], cells, self.body.iter().copied())?;
+        write_array(out, "part", 1, &[], cells, self.part.iter().copied())?;
         write_array(out, "rank", 1, &[], cells, std::iter::repeat_n(self.rank, cells))?;
         writeln!(out, "</CellData>\n</Piece>")
     }
@@ -293,6 +297,7 @@ mod tests {
             stress: &[[1.0, 2.0, 3.0, 4.0]; 3],
             von_mises: &[5.0, 6.0, 7.0],
             body: &[9],
+            part: &[7],
             rank: 4,
         };
         write_piece(&path, &piece).unwrap();
@@ -302,7 +307,7 @@ mod tests {
         assert_eq!(decoded(&text, "connectivity"), [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
         assert_eq!(decoded(&text, "offsets"), [3, 0, 0, 0]);
         assert_eq!(decoded(&text, "types"), [VTK_TRIANGLE]);
-        assert_eq!((decoded(&text, "body"), decoded(&text, "rank")), (vec![9, 0, 0, 0], vec![4, 0, 0, 0]));
+        assert_eq!(["body", "part", "rank"].map(|name| decoded(&text, name)), [9, 7, 4].map(|number| vec![number, 0, 0, 0]));
         assert!(text.contains("ComponentName3=\"ZZ\"") && SIGNS.iter().all(|sign| text.contains(sign)));
     }
 
@@ -316,6 +321,7 @@ mod tests {
             stress: &[[0.0; 4]; 3],
             von_mises: &[0.0; 3],
             body: &[0],
+            part: &[0],
             rank: 0,
         };
         let folder = tempfile::tempdir().unwrap();

@@ -1,8 +1,9 @@
 //! `mezha check` and `mezha info`.
 
 use super::{RunError, accuracy, scene};
+use crate::body::Material;
 use crate::case::Case;
-use crate::element::Order;
+use crate::element::{Order, Plane};
 use crate::mesh::Partition;
 use crate::petsc::{Session, versions};
 use crate::system::Procedure;
@@ -42,7 +43,12 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
         ),
     ];
     for body in &scene.bodies {
-        lines.push(format!("body {}: E = {}, ν = {}", body.name, body.material.young, body.material.poisson));
+        for part in &body.parts {
+            let of = if body.has_parts() { format!("{}, part {}", body.name, part.name) } else { body.name.clone() };
+            let Material { young, poisson, plane } = part.material;
+            let plane = if plane == Plane::Stress { ", plane stress" } else { "" };
+            lines.push(format!("body {of}: E = {young}, ν = {poisson}{plane}"));
+        }
     }
     for contact in &at_rest.contacts {
         lines.push(format!(

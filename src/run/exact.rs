@@ -4,6 +4,7 @@ use super::RunError;
 use super::outcome::outside;
 use crate::case::{Case, LambdaExact};
 use crate::geometry::Point;
+use crate::mesh::Region;
 use crate::system::recovery::Evaluation;
 use std::collections::BTreeMap;
 
@@ -59,22 +60,22 @@ pub fn compare(case: &Case, found: &Evaluation) -> Result<Errors, RunError> {
 
 fn compare_bodies(case: &Case, found: &Evaluation, errors: &mut Errors) -> Result<(), RunError> {
     for exact in &case.exact.bodies {
-        let body = found.problem.scene.bodies.iter().position(|body| body.name == exact.name).expect("checked names");
+        let region = found.problem.scene.mesh.region(&exact.name).expect("checked names");
         let size = largest(found);
         if let Some(displacement) = &exact.displacement {
             let mut worst: f64 = 0.0;
             for (x, value) in displacement.at.iter().zip(&displacement.value) {
-                let probed = found.probe(body, Point::new(x[0], x[1]))?.ok_or_else(|| outside(*x))?;
+                let probed = found.probe(region, Point::new(x[0], x[1]))?.ok_or_else(|| outside(*x))?;
                 worst = worst.max((probed.displacement - Point::new(value[0], value[1])).norm() / size);
             }
             errors.add(format!("displacement_{}", exact.name), worst, Some(displacement.tolerance));
         }
         if let Some(stress) = &exact.stress {
-            let [difference, whole] = found.energy_error(body, stress)?;
+            let [difference, whole] = found.energy_error(region, stress)?;
             errors.add(format!("energy_norm_{}", exact.name), (difference / whole).sqrt(), None);
         }
         if let Some(formulas) = &exact.u {
-            let error = displacement_error(found, body, formulas);
+            let error = displacement_error(found, region, formulas);
             errors.add(format!("u_{}", exact.name), error, None);
         }
     }
@@ -88,17 +89,17 @@ fn largest(Evaluation { u, session, .. }: &Evaluation) -> f64 {
     size[0]
 }
 
-/// Root mean square error of the nodal displacements of a body, relative to their root mean square. **Collective**
+/// Root mean square error of the nodal displacements of a body or a part of one, relative to their root mean square. **Collective**
 fn displacement_error(
     Evaluation { problem, u, session, .. }: &Evaluation,
-    body: usize,
+    region: Region,
     exact: &[crate::geometry::Formula; 2],
 ) -> f64 {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
     let mut sums = [0.0; 2];
     for &triangle in problem.scene.partition.triangles_of(session.rank()) {
-        if mesh.triangles[triangle as usize].body as usize != body {
+        if !region.holds(&mesh.triangles[triangle as usize]) {
             continue;
         }
         let numbers = numbering.triangle(mesh, triangle as usize);

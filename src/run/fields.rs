@@ -5,22 +5,21 @@ use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::{DrawnEdge, Facet};
 use crate::output::vtk::{Piece, write_parallel, write_piece};
-use crate::system::recovery::Evaluation;
+use crate::system::recovery::{Evaluation, NodalStress};
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Facets of the figure at most.
 const MOST_FACETS: usize = 20_000;
 
-/// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own. `stress` is (xx, yy, xy, zz) at
-/// a node of this rank's macro triangles.
-pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Result<(), RunError> {
+/// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own.
+pub fn write(folder: &Path, found: &Evaluation, stress: &NodalStress) -> Result<(), RunError> {
     let Evaluation { problem, session, u, .. } = found;
     let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
     let piece = PieceMesh::new(found);
     let points: Vec<[f64; 2]> = piece.places.clone();
-    let displacement: Vec<[f64; 2]> = piece.numbers.iter().map(|&node| u.at(node)).collect();
-    let stresses: Vec<[f64; 4]> = piece.numbers.iter().map(|&node| stress(node)).collect();
+    let displacement: Vec<[f64; 2]> = piece.nodes.iter().map(|&[_, node]| u.at(node)).collect();
+    let stresses: Vec<[f64; 4]> = piece.nodes.iter().map(|&[part, node]| stress.at(part, node)).collect();
     let mises: Vec<f64> = stresses.iter().map(|&s| von_mises(s)).collect();
     let file = folder.join(name(session.rank()));
     write_piece(
@@ -33,6 +32,7 @@ pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize) -> [f64; 
             stress: &stresses,
             von_mises: &mises,
             body: &piece.bodies,
+            part: &piece.parts,
             rank: session.rank() as i32,
         },
     )?;
@@ -45,40 +45,44 @@ pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize) -> [f64; 
 
 /// The mesh of one piece of the files: nodes and cells of the macro triangles of one rank.
 struct PieceMesh {
-    numbers: Vec<usize>,
+    /// Part and number of each node: one between two parts is there twice, for its stress has two values.
+    nodes: Vec<[usize; 2]>,
     places: Vec<[f64; 2]>,
     cells: Vec<u32>,
     bodies: Vec<i32>,
+    parts: Vec<i32>,
 }
 
 impl PieceMesh {
     fn new(Evaluation { problem, session, .. }: &Evaluation) -> Self {
         let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
         let (n, order) = (numbering.level.intervals, numbering.level.order);
-        let mut piece = Self { numbers: Vec::new(), places: Vec::new(), cells: Vec::new(), bodies: Vec::new() };
-        let mut known: HashMap<usize, u32> = HashMap::new();
+        let mut piece = Self { nodes: Vec::new(), places: Vec::new(), cells: Vec::new(), bodies: Vec::new(), parts: Vec::new() };
+        let mut known: HashMap<[usize; 2], u32> = HashMap::new();
         for &triangle in problem.scene.partition.triangles_of(session.rank()) {
             let numbers = numbering.triangle(mesh, triangle as usize);
+            let triangle_of = &mesh.triangles[triangle as usize];
             let mut local = Vec::with_capacity(lattice::node_count(n));
             for (i, j) in lattice::nodes(n) {
-                let node = numbers.node(i, j);
-                let next = piece.numbers.len() as u32;
+                let node = [triangle_of.part as usize, numbers.node(i, j)];
+                let next = piece.nodes.len() as u32;
                 let inside = matches!(lattice::place(n, i, j), lattice::Place::Inside(_));
                 let at = if inside { next } else { *known.entry(node).or_insert(next) };
                 if at == next {
                     let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
-                    piece.numbers.push(node);
+                    piece.nodes.push(node);
                     piece.places.push([x.x, x.y]);
                 }
                 local.push(at);
             }
-            let body = mesh.triangles[triangle as usize].body as i32;
+            let [body, part] = [triangle_of.body, triangle_of.part].map(|number| number as i32);
             for small in lattice::triangles(n, order) {
                 match order {
                     Order::P1 => piece.cells.extend(small.nodes::<3>().map(|(i, j)| local[lattice::index(n, i, j)])),
                     Order::P2 => piece.cells.extend(small.nodes::<6>().map(|(i, j)| local[lattice::index(n, i, j)])),
                 }
                 piece.bodies.push(body);
+                piece.parts.push(part);
             }
         }
         piece
@@ -86,7 +90,7 @@ impl PieceMesh {
 }
 
 /// Facets for the figure of the deformed bodies, coarse enough to draw, from all ranks. **Collective**
-pub fn facets(found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Vec<Facet> {
+pub fn facets(found: &Evaluation, stress: &NodalStress) -> Vec<Facet> {
     let Evaluation { problem, session, u, .. } = found;
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
@@ -104,7 +108,7 @@ pub fn facets(found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Vec<Fac
                 let node = numbers.node(i, j);
                 values.extend([x.x, x.y]);
                 values.extend(u.at(node));
-                values.push(von_mises(stress(node)));
+                values.push(von_mises(stress.at(mesh.triangles[triangle as usize].part as usize, node)));
             }
         }
     }
@@ -116,8 +120,9 @@ pub fn facets(found: &Evaluation, stress: impl Fn(usize) -> [f64; 4]) -> Vec<Fac
     session.gather_all(&values).chunks_exact(15).map(facet).collect()
 }
 
-/// Macro edges for the figure of the deformed bodies, from all ranks; none of a mesh that it shows in part. **Collective**
-pub fn macro_edges(found: &Evaluation) -> Vec<DrawnEdge> {
+/// Those macro edges that are wanted for the figure of the deformed bodies, from all ranks; none of a mesh that it shows in part.
+/// **Collective**
+pub fn macro_edges(found: &Evaluation, wanted: impl Fn(u32) -> bool) -> Vec<DrawnEdge> {
     let Evaluation { problem, session, u, .. } = found;
     let mesh = &problem.scene.mesh;
     let numbering = &problem.finest().numbering;
@@ -127,7 +132,8 @@ pub fn macro_edges(found: &Evaluation) -> Vec<DrawnEdge> {
     for &triangle in problem.scene.partition.triangles_of(session.rank()).iter().filter(|_| skip == 1) {
         let numbers = numbering.triangle(mesh, triangle as usize);
         let edges = mesh.triangles[triangle as usize].edges;
-        for side in (0..3).filter(|&side| mesh.edges[edges[side] as usize].triangles[0] == Some(triangle)) {
+        let is_own = |side: usize| mesh.edges[edges[side] as usize].triangles[0] == Some(triangle);
+        for side in (0..3).filter(|&side| is_own(side) && wanted(edges[side])) {
             for k in (0..=n).step_by(n / shown) {
                 let (i, j) = lattice::side_node(n, side, k);
                 let x = mesh.node_position(triangle as usize, numbering.level, (i, j));

@@ -182,11 +182,11 @@ impl Report {
 
     /// Bodies that P1 triangles are too stiff for.
     fn locking(&self, scene: &Scene) {
-        for body in scene.bodies.iter().filter(|body| body.material.poisson > LOCKING) {
+        for part in scene.parts().into_iter().filter(|part| part.material.poisson_in_plane() > LOCKING) {
             if scene.order == Order::P1 {
                 self.warn(&format!(
                     "body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2",
-                    body.name, body.material.poisson
+                    part.name, part.material.poisson
                 ));
             }
         }

@@ -111,8 +111,8 @@ impl Run<'_> {
             traces.push(traced);
         }
         for point in &self.case.probes {
-            let body = solved.problem.scene.bodies.iter().position(|body| body.name == point.body).expect("checked names");
-            let probed = found.probe(body, Point::new(point.point[0], point.point[1]))?.ok_or_else(|| outside(point.point))?;
+            let region = solved.problem.scene.mesh.region(&point.body).expect("checked names");
+            let probed = found.probe(region, Point::new(point.point[0], point.point[1]))?.ok_or_else(|| outside(point.point))?;
             let [xx, yy, xy, _] = probed.stress;
             let values =
                 summary::ProbeSummary { x: Some(point.point), u: Some(probed.displacement.into()), stress: Some([xx, yy, xy]) };
@@ -173,10 +173,10 @@ impl Run<'_> {
             return Ok(());
         }
         let stress = found.stress()?;
-        let at = |node: usize| stress.at(node);
-        session.agree(fields::write(folder, found, at)).map_err(RunError::Failed)?;
-        let facets = fields::facets(found, at);
-        let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found));
+        session.agree(fields::write(folder, found, &stress)).map_err(RunError::Failed)?;
+        let facets = fields::facets(found, &stress);
+        let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found, |_| true));
+        let interfaces = fields::macro_edges(found, |edge| found.problem.scene.mesh.is_interface(edge));
         if session.rank() != 0 {
             return Ok(());
         }
@@ -188,7 +188,7 @@ impl Run<'_> {
             plot::write_displacement(&folder.join(format!("displacement_{name}.svg")), title, points)?;
         }
         let lines: Vec<&[ContactPoint]> = traces.iter().map(Vec::as_slice).collect();
-        plot::write_deformed(&folder.join("deformed.svg"), title, &facets, &macro_edges, &lines)?;
+        plot::write_deformed(&folder.join("deformed.svg"), title, &facets, [&macro_edges, &interfaces], &lines)?;
         adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title, adaptation))
     }
 }

@@ -5,9 +5,11 @@ use crate::body::Body;
 use crate::case::Case;
 use crate::contact::{CurveChoice, Pair};
 use crate::geometry::{Formula, Point};
-use crate::mesh::{MacroMesh, Partition, parse_gmsh, read_bytes};
+use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces};
 use crate::petsc::Session;
 use crate::system::{self, Scene};
+use std::collections::HashMap;
+use std::path::Path;
 use std::rc::Rc;
 
 /// Parts of a macro edge at whose ends a stiffness of springs is looked at.
@@ -28,7 +30,8 @@ pub fn read_mesh_file(case: &Case) -> Result<Vec<u8>, String> {
 /// # Errors
 /// Words with file, key, value and remedy.
 pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
-    let mut mesh = parse_gmsh(bytes, &case.mesh.file).map_err(|error| error.to_string())?;
+    let mesh = parse_joined(bytes, &case.mesh.file, joined(case));
+    let mut mesh = mesh.map_err(|error| unknown_part(case, bytes).unwrap_or_else(|| error.to_string()))?;
     let names = Names { case, mesh: &mesh };
     names.check_bodies()?;
     for (key, boundaries) in names.used() {
@@ -84,6 +87,38 @@ fn add_tools(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     Ok(())
 }
 
+/// The body of each physical surface that is a part of one.
+fn joined(case: &Case) -> HashMap<String, String> {
+    let parts = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (&part.name, &body.name)));
+    parts.filter(|(part, body)| part != body).map(|(part, body)| (part.clone(), body.clone())).collect()
+}
+
+/// Words for a part that is no physical surface of a mesh: that may be why it cannot be connected.
+fn unknown_part(case: &Case, bytes: &[u8]) -> Option<String> {
+    let surfaces = surfaces(bytes, &case.mesh.file).ok()?;
+    let mut parts = case.bodies.iter().filter(|body| body.has_parts()).flat_map(surfaces_of);
+    let (key, name) = parts.find(|(_, name)| !surfaces.contains(name))?;
+    let instead = instead(&case.mesh.file, name, surfaces.iter());
+    Some(format!("{}: {key}: no physical surface \"{name}\": {instead}", case.file.display()))
+}
+
+/// The physical surfaces of a body: the key of each in the case, and its name.
+fn surfaces_of(body: &Body) -> impl Iterator<Item = (String, &String)> {
+    body.parts.iter().map(move |part| match part.name == body.name {
+        true => (format!("body.{}", body.name), &part.name),
+        false => (format!("body.{}.part.{}", body.name, part.name), &part.name),
+    })
+}
+
+/// What a mesh has instead of a name that it has not.
+fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String> + Clone) -> String {
+    let near = known.clone().min_by_key(|other| strsim::damerau_levenshtein(name, other));
+    let all: Vec<String> = known.clone().map(|other| format!("\"{other}\"")).collect();
+    let near = near.filter(|other| strsim::damerau_levenshtein(name, other) <= 3);
+    let guess = near.map_or(String::new(), |other| format!("; did you mean \"{other}\"?"));
+    format!("{} has no such name{guess} It has {}", file.display(), all.join(", "))
+}
+
 /// A scene with its macro triangles spread over the ranks. **Collective**
 pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, RunError> {
     let partition = system::spread(&mesh, &case.contacts, case.mesh.order, case.mesh.refine, session)?;
@@ -95,7 +130,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
     let body = |name: &String| match case.bodies.iter().find(|body| body.name == *name) {
         Some(body) => body.clone(),
         // What a tool consists of does not matter: it does not strain.
-        None => Body { name: name.clone(), force: [Formula::constant(0.0), Formula::constant(0.0)], ..case.bodies[0].clone() },
+        None => Body::whole(name.clone(), case.bodies[0].parts[0].material, [Formula::constant(0.0), Formula::constant(0.0)]),
     };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),
@@ -123,25 +158,17 @@ impl Names<'_> {
         format!("{}: {key}: {words}", self.case.file.display())
     }
 
-    /// What the mesh has instead of a name that it has not.
-    fn instead<'n>(&self, name: &str, known: impl Iterator<Item = &'n String> + Clone) -> String {
-        let near = known.clone().min_by_key(|other| strsim::damerau_levenshtein(name, other));
-        let all: Vec<String> = known.clone().map(|other| format!("\"{other}\"")).collect();
-        let near = near.filter(|other| strsim::damerau_levenshtein(name, other) <= 3);
-        let guess = near.map_or(String::new(), |other| format!("; did you mean \"{other}\"?"));
-        format!("{} has no such name{guess} It has {}", self.mesh.file.display(), all.join(", "))
-    }
-
     fn check_bodies(&self) -> Result<(), String> {
-        for body in &self.case.bodies {
-            if !self.mesh.bodies.contains(&body.name) {
-                let words =
-                    format!("no physical surface \"{}\": {}", body.name, self.instead(&body.name, self.mesh.bodies.iter()));
-                return Err(self.error(&format!("body.{}", body.name), &words));
+        let known = || self.mesh.parts.iter().map(|part| &part.name);
+        for (key, name) in self.case.bodies.iter().flat_map(surfaces_of) {
+            if !known().any(|other| other == name) {
+                return Err(
+                    self.error(&key, &format!("no physical surface \"{name}\": {}", instead(&self.mesh.file, name, known())))
+                );
             }
         }
-        for name in &self.mesh.bodies {
-            if !self.case.bodies.iter().any(|body| body.name == *name) {
+        for name in known() {
+            if !self.case.bodies.iter().flat_map(|body| &body.parts).any(|part| part.name == *name) {
                 let words = format!(
                     "missing, but {} has the physical surface \"{name}\"; give its young and poisson",
                     self.mesh.file.display()
@@ -168,11 +195,18 @@ impl Names<'_> {
     }
 
     fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
-        if self.mesh.boundary(name).is_some() {
+        let is_shape = key.starts_with("geometry.");
+        let is_inside = self.mesh.interfaces.iter().any(|curve| curve.name == name);
+        if self.mesh.boundary(name).is_some() || is_shape && is_inside {
             return Ok(());
         }
+        if is_inside {
+            let words =
+                format!("\"{name}\" lies between two parts of a body, where nothing can act; only [geometry] may name it");
+            return Err(self.error(key, &words));
+        }
         let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
-        Err(self.error(key, &format!("no physical curve \"{name}\": {}", self.instead(name, known))))
+        Err(self.error(key, &format!("no physical curve \"{name}\": {}", instead(&self.mesh.file, name, known))))
     }
 
     /// A boundary that stays rigid lies on one body, and nothing else touches it.
@@ -292,11 +326,20 @@ fn check_points(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
         points.map(|&point| (format!("exact.body.{}.displacement.at", exact.name), &exact.name, point))
     });
     for (key, name, [x, y]) in probes.chain(exact) {
-        let own = |triangle: &usize| mesh.bodies[mesh.triangles[*triangle].body as usize] == *name;
-        let holds = |triangle: usize| mesh.locate(triangle, Point::new(x, y)).is_some();
-        if !(0..mesh.triangles.len()).filter(own).any(holds) {
-            return Err(format!("{}: {key} = [{x}, {y}]: lies outside body \"{name}\"; move it inside", case.file.display()));
-        }
+        let own = |triangle: &usize| mesh.region(name).is_some_and(|region| region.holds(&mesh.triangles[*triangle]));
+        let holds = |triangle: &usize| mesh.locate(*triangle, Point::new(x, y)).is_some();
+        let holding = (0..mesh.triangles.len()).filter(own).filter(holds);
+        let mut parts: Vec<&String> = holding.map(|k| &mesh.parts[mesh.triangles[k].part as usize].name).collect();
+        parts.sort();
+        parts.dedup();
+        let words = match parts[..] {
+            [] => format!("lies outside body \"{name}\"; move it inside"),
+            [first, second, ..] if key.starts_with("probe.") => format!(
+                "lies between parts \"{first}\" and \"{second}\" of body \"{name}\", where the stress jumps; name one of them as the body of the probe"
+            ),
+            _ => continue,
+        };
+        return Err(format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()));
     }
     Ok(())
 }

@@ -97,9 +97,13 @@ pub fn balances(summary: &mut Summary, Evaluation { problem, balance, .. }: &Eva
             (set.key.split_once('.').map_or(set.key.as_str(), |(_, name)| name).to_string(), told)
         })
         .collect();
-    let names = problem.scene.bodies.iter().map(|body| body.name.clone());
+    let bodies = &scene.bodies;
+    let names = bodies.iter().map(|body| body.name.clone());
+    let parts = scene.mesh.parts.iter().zip(&balance.strain_of_parts);
+    let parts = parts.filter(|(part, _)| bodies[part.body as usize].has_parts());
     summary.energy = summary::Energy {
         strain: names.zip(balance.strain.iter().map(|&u| Some(u))).collect(),
+        parts: parts.map(|(part, &u)| (part.name.clone(), Some(u))).collect(),
         total: Some(balance.strain.iter().sum()),
         stationary: balance.stationary,
         springs: balance.springs,

@@ -3,6 +3,7 @@
 use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::case::{BodyExact, Case, ContactExact, LambdaExact};
 use crate::geometry::Point;
+use crate::mesh::{Region, Surface};
 use crate::petsc::Session;
 use crate::system::recovery::Evaluation;
 use crate::system::{Solved, SystemError};
@@ -62,18 +63,24 @@ fn error(case: &Case, quantity: &Quantity, found: &Evaluation) -> Result<Option<
     })
 }
 
-/// In the energy norm: by the stresses of all bodies; else by the energy, from which that of an approximation differs by the
+/// In the energy norm: by the stresses of all bodies, or of all their parts; else by the energy, from which that of an approximation differs by the
 /// square of its error where loads alone, or gaps and supports alone, do work. **Collective**
 fn energy_error(case: &Case, found: &Evaluation) -> Result<Option<f64>, SystemError> {
-    let bodies = &found.problem.scene.bodies;
-    let stresses: Option<Vec<_>> = bodies.iter().map(|body| of_body(case, &body.name)?.stress.as_ref()).collect();
+    let mesh = &found.problem.scene.mesh;
+    let stress = |name: &String| of_body(case, name)?.stress.as_ref();
+    let of_part = |(at, part): (usize, &Surface)| Some((Region::Part(at as u32), stress(&part.name)?));
+    let of_one = |(at, name): (usize, &String)| {
+        let own = mesh.parts.iter().enumerate().filter(|(_, part)| part.body as usize == at);
+        stress(name).map(|stress| vec![(Region::Body(at as u32), stress)]).or_else(|| own.map(of_part).collect())
+    };
+    let stresses: Option<Vec<Vec<_>>> = mesh.bodies.iter().enumerate().map(of_one).collect();
     let Some(stresses) = stresses else {
         let exact = case.exact.energy.zip(found.balance.stationary);
         return Ok(exact.map(|(exact, energy)| (energy / exact.value - 1.0).abs().sqrt()));
     };
     let mut sums = [0.0; 2];
-    for (body, stress) in stresses.into_iter().enumerate() {
-        let parts = found.energy_error(body, stress)?;
+    for (region, stress) in stresses.into_iter().flatten() {
+        let parts = found.energy_error(region, stress)?;
         sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
     }
     Ok(Some((sums[0] / sums[1]).sqrt()))
@@ -81,7 +88,7 @@ fn energy_error(case: &Case, found: &Evaluation) -> Result<Option<f64>, SystemEr
 
 /// Of displacement and stress at a point, by their own size. **Collective**
 fn probe_errors(case: &Case, found: &Evaluation, probe: &ProbePoint) -> Result<[Option<f64>; 2], SystemError> {
-    let at = found.problem.scene.bodies.iter().position(|body| body.name == probe.body);
+    let at = found.problem.scene.mesh.region(&probe.body);
     let (Some(exact), Some(at)) = (of_body(case, &probe.body), at) else { return Ok([None; 2]) };
     let x = [probe.point.x, probe.point.y];
     let listed = exact.displacement.as_ref().and_then(|all| {

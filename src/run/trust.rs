@@ -1,7 +1,7 @@
 //! Whether contact pressures are to be trusted, and what to do where they are not.
 
 use super::report::short;
-use crate::body::Body;
+use crate::body::BodyPart;
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, Pair, Quadrature, SegmentRule};
 use crate::element::Order;
@@ -192,9 +192,9 @@ fn stability_doubts(contact: &summary::ContactSummary, pair: &Pair, case: &Case)
 
 /// What tells that P1 triangles have locked: meshes that all lock alike have differences that say too little.
 fn locking_doubt(case: &Case) -> Option<Doubt> {
-    let locks = |body: &&Body| case.mesh.order == Order::P1 && body.material.poisson > MOST_POISSON;
-    let body = case.bodies.iter().find(locks)?;
-    let figure = format!("body {} has ν = {} with P1 triangles, at most {MOST_POISSON} wanted", body.name, body.material.poisson);
+    let locks = |part: &&BodyPart| case.mesh.order == Order::P1 && part.material.poisson_in_plane() > MOST_POISSON;
+    let part = case.bodies.iter().flat_map(|body| &body.parts).find(locks)?;
+    let figure = format!("body {} has ν = {} with P1 triangles, at most {MOST_POISSON} wanted", part.name, part.material.poisson);
     Some(Doubt { figure, remedy: "take mesh.order = 2: P1 triangles lock" })
 }
 
@@ -384,7 +384,8 @@ fn is_balanced(summary: &Summary) -> bool {
 
 /// What mends a space too rich for the displacements; P1 has locked before its multipliers are too many.
 fn stability(pair: &Pair, case: &Case) -> &'static str {
-    let locked = case.mesh.order == Order::P1 && case.bodies.iter().any(|body| body.material.poisson > super::report::LOCKING);
+    let mut parts = case.bodies.iter().flat_map(|body| &body.parts);
+    let locked = case.mesh.order == Order::P1 && parts.any(|part| part.material.poisson_in_plane() > super::report::LOCKING);
     match (locked, pair.segments == SegmentRule::Auto, pair.space) {
         (true, ..) => "take mesh.order = 2: P1 triangles lock",
         (_, true, MultiplierSpace::P1Continuous) => "take another multiplier space, or refine the mesh",

@@ -1,5 +1,6 @@
 //! A contact of the scene, placed and cut, with the edges of this rank.
 
+use super::side_materials::SideMaterials;
 use super::{Scene, SystemError};
 use crate::contact::{
     Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace, Multipliers, Pair,
@@ -24,10 +25,14 @@ pub struct Contact {
     pub multipliers: Multipliers,
     /// Number of its first multiplier among those of all contacts.
     pub first: usize,
-    /// Harmonic mean `E_c` of the two moduli (stress): it follows the softer body.
-    pub modulus: f64,
+    /// Harmonic mean `E_c` of the two moduli beside each segment (stress): it follows the softer body.
+    pub moduli: Vec<f64>,
+    /// The same for each multiplier.
+    pub multiplier_moduli: Vec<f64>,
     /// Indices of body 1 and body 2.
     pub bodies: [usize; 2],
+    /// Part of each body beside its boundary; the softest one if there are several.
+    pub parts: [usize; 2],
     /// Edges of body 1 and of body 2 whose macro triangle this rank owns.
     pub edges: [Vec<BoundaryEdge>; 2],
     /// Smallest ratio of a segment's length to the edges of the softer body that it meets.
@@ -51,6 +56,12 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// `E_c` at an arc length of Γ_C (stress).
+    pub fn modulus_at(&self, arc: f64) -> f64 {
+        let arcs = self.boundary.arcs();
+        self.moduli[arcs.partition_point(|&s| s <= arc).clamp(1, arcs.len() - 1) - 1]
+    }
+
     /// Places every contact of the scene on the finest level, on the undeformed bodies.
     ///
     /// # Errors
@@ -96,7 +107,8 @@ impl Contact {
     ) -> Result<Self, SystemError> {
         let sides = [0, 1].map(|k| scene.mesh.boundary(&pair.between[k]).map(|b| b.edges.clone()).unwrap_or_default());
         let bodies = [0, 1].map(|k: usize| scene.mesh.body_beside(sides[k][0]));
-        let young = bodies.map(|body| scene.young(body));
+        let materials = SideMaterials::new(scene, &sides);
+        let young = materials.ruling();
         let placed = place(&scene.mesh, numbering, pair, young, known, displacement)?;
         let (boundary, all) = (placed.boundary, placed.edges);
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
@@ -104,10 +116,12 @@ impl Contact {
         let segment_ratio = segment_ratio(&boundary, &all, young);
         let edge_lengths = segment_edge_lengths(&boundary, &all, young);
         let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
-        let modulus = 2.0 / (1.0 / young[0] + 1.0 / young[1]);
         let multipliers = Multipliers::new(pair.space, &boundary);
+        let moduli = materials.moduli(&boundary, &all);
+        let modulus_of = |i: usize| multipliers.mean_beside(i, &moduli);
+        let multiplier_moduli: Vec<f64> = (0..multipliers.count()).map(modulus_of).collect();
         let (multipliers, jumps) = if is_stabilised(pair, segment_ratio < SHORT * safe_ratio) {
-            let own = jumps(&multipliers, &edge_lengths, modulus);
+            let own = jumps(&multipliers, &edge_lengths, &multiplier_moduli);
             let numbered = own.into_iter().map(|jump| Jump { rows: jump.rows.map(|i| first + i), ..jump });
             (multipliers.stabilised(), numbered.collect())
         } else {
@@ -127,8 +141,10 @@ impl Contact {
             boundary,
             multipliers,
             first,
-            modulus,
+            moduli,
+            multiplier_moduli,
             bodies,
+            parts: materials.softest,
             edges,
             segment_ratio,
             edge_lengths,

@@ -28,6 +28,7 @@ mod saddle_point;
 #[cfg(test)]
 pub(crate) mod samples;
 mod scene;
+mod side_materials;
 mod solution;
 mod solver;
 mod space;

@@ -18,7 +18,7 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         sum[1] += force.y;
     };
     let rank = session.rank();
-    let applied = Applied { bodies: &scene.bodies, loads: &scene.loads, point_loads: &scene.point_loads };
+    let applied = Applied { parts: &scene.parts(), loads: &scene.loads, point_loads: &scene.point_loads };
     let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &applied, add);
     session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
     let bad = forces.own().iter().flatten().any(|force| !force.is_finite());

@@ -4,7 +4,7 @@ use super::discretisation::finest_numbering;
 use super::{Contact, Scene};
 use crate::body::{Body, Material, Support};
 use crate::contact::{Known, MultiplierSpace, Pair, SegmentRule, samples};
-use crate::element::Order;
+use crate::element::{Order, Plane};
 use crate::geometry::{Formula, Point};
 use crate::mesh::samples::two_blocks;
 use crate::mesh::{MacroMesh, Partition};
@@ -27,7 +27,7 @@ pub fn blocks(pair: Pair, upper: impl Fn(Point) -> Point, supports: Vec<Support>
     let body = |name: &String| {
         let (young, poisson) = if is_upper(name) { (6.0, 0.5) } else { (2.0, 0.0) };
         let zero = || Formula::constant(0.0);
-        Body { name: name.clone(), material: Material { young, poisson }, force: [zero(), zero()] }
+        Body::whole(name.clone(), Material { young, poisson, plane: Plane::Strain }, [zero(), zero()])
     };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),

@@ -1,10 +1,10 @@
 //! The physics that is solved: mesh, bodies, supports, loads and contacts, spread over ranks.
 
-use crate::body::{Body, Load, PointLoad, RigidNodes, RigidSet, Springs, Support};
+use crate::body::{Body, BodyPart, Load, PointLoad, RigidNodes, RigidSet, Springs, Support};
 use crate::contact::{Extent, Pair};
-use crate::element::{Order, PlaneStrain};
+use crate::element::{Order, PlaneLaw};
 use crate::geometry::Point;
-use crate::mesh::{Graph, MacroMesh, Partition};
+use crate::mesh::{Graph, MacroMesh, Partition, Surface};
 use crate::petsc::{self, Session, partition};
 use std::rc::Rc;
 
@@ -56,9 +56,17 @@ impl Scene {
         self.rigid.iter().any(|set| set.nodes == RigidNodes::Body(self.mesh.bodies[body].clone()))
     }
 
-    /// Young's modulus of a body as contacts see it: without bound for a rigid tool.
-    pub fn young(&self, body: usize) -> f64 {
-        if self.is_rigid(body) { f64::INFINITY } else { self.bodies[body].material.young }
+    /// Young's modulus of each part as contacts see it, in the order of the mesh: without bound for a rigid tool.
+    pub fn young(&self) -> Vec<f64> {
+        let bodies = self.mesh.parts.iter().map(|surface| surface.body as usize);
+        let young = |(body, part): (usize, &BodyPart)| if self.is_rigid(body) { f64::INFINITY } else { part.material.young };
+        bodies.zip(self.parts()).map(young).collect()
+    }
+
+    /// Compliance of the surface of a part (1/stress): none of a rigid tool.
+    pub fn compliance(&self, part: usize) -> f64 {
+        let is_rigid = self.is_rigid(self.mesh.parts[part].body as usize);
+        if is_rigid { 0.0 } else { 1.0 / self.parts()[part].material.plane_modulus() }
     }
 
     /// Whether each macro triangle of a rank has a corner at which a load acts: the energy there has no limit.
@@ -69,9 +77,18 @@ impl Scene {
             .collect()
     }
 
-    /// Plane-strain law of each body.
-    pub fn laws(&self) -> Vec<PlaneStrain> {
-        self.bodies.iter().map(|body| body.material.law()).collect()
+    /// The parts of all bodies, in the order of the mesh.
+    pub fn parts(&self) -> Vec<&BodyPart> {
+        let of = |surface: &Surface| {
+            let mut parts = self.bodies[surface.body as usize].parts.iter();
+            parts.find(|part| part.name == surface.name).expect("every physical surface has its constants")
+        };
+        self.mesh.parts.iter().map(of).collect()
+    }
+
+    /// The law of each part, in the order of the mesh.
+    pub fn laws(&self) -> Vec<PlaneLaw> {
+        self.parts().into_iter().map(|part| part.material.law()).collect()
     }
 
     /// Middle and half size of each piece of the bodies.

@@ -106,7 +106,7 @@ impl<'a> Definition<'a> {
         let mut elastic = Elastic::alone(problem, load, Form::Plain, session).expect("a stiffness");
         let stiffness = elastic.stiffness.pop().expect("a level").into_stored().expect("all rows");
         let scale = |contact: &Contact| -> Vec<f64> {
-            (0..contact.multipliers.count()).map(|i| contact.modulus / contact.multipliers.length(i)).collect()
+            (0..contact.multipliers.count()).map(|i| contact.multiplier_moduli[i] / contact.multipliers.length(i)).collect()
         };
         let space = problem.finest();
         let row = |coupled: &Vec<Coupled>| {
@@ -126,7 +126,7 @@ impl<'a> Definition<'a> {
         let mut product = vec![0.0; v.len()];
         for contact in &self.problem.contacts {
             for group in 0..contact.multipliers.groups() {
-                let block = contact.multipliers.augmentation(group, contact.modulus, &active[contact.range()]);
+                let block = contact.multipliers.augmentation(group, contact.moduli[0], &active[contact.range()]);
                 for (p, q, block) in block.iter().flat_map(|b| [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(p, q)| (p, q, b))) {
                     if let (Some(i), Some(j)) = (block.rows.get(p), block.rows.get(q)) {
                         product[contact.first + i] += block.values[p][q] * v[contact.first + j];
@@ -199,7 +199,7 @@ impl<'a> Definition<'a> {
         self.add_transposed(active, &transposed, &mut rows);
         for i in self.own() {
             let contact = self.problem.contact_of(i);
-            let alone = contact.multipliers.single_weight(i - contact.first, contact.modulus) / self.scale[i].powi(2);
+            let alone = contact.multipliers.single_weight(i - contact.first, contact.moduli[0]) / self.scale[i].powi(2);
             rows.push(if active[i] { self.scale[i] * difference[i] } else { -multipliers[i] / alone });
         }
         rows

@@ -1,7 +1,7 @@
 //! The two bars of example 1 without contact, for programs that use the crate's parts.
 
 use mezha::body::{Body, Material, Support};
-use mezha::element::Order;
+use mezha::element::{Order, Plane};
 use mezha::geometry::Formula;
 use mezha::mesh::{MacroMesh, read_gmsh};
 use mezha::petsc::Session;
@@ -22,11 +22,8 @@ pub fn scene(session: &Session, order: Order, refine: usize, graded: bool) -> Sc
 /// The same scene on a mesh of its own.
 pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Scene {
     let partition = spread(&mesh, &[], order, refine, session).expect("a partition");
-    let body = |name: &String| Body {
-        name: name.clone(),
-        material: Material { young: 7000.0, poisson: 0.227 },
-        force: [Formula::constant(0.0), Formula::constant(0.0)],
-    };
+    let material = Material { young: 7000.0, poisson: 0.227, plane: Plane::Strain };
+    let body = |name: &String| Body::whole(name.clone(), material, [Formula::constant(0.0), Formula::constant(0.0)]);
     let zero = Some(Formula::constant(0.0));
     let wall = Support { name: "wall".into(), on: vec!["left".into()], at: None, ux: zero, uy: None, normal: None };
     Scene {

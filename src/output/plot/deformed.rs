@@ -6,7 +6,7 @@ use plotters::element::{PathElement, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, FontTransform, RGBColor};
 
-use super::macro_edges::{DrawnEdge, macro_lines};
+use super::macro_edges::{BETWEEN, DrawnEdge, THIN, macro_lines};
 use super::outline::{loops, path_data, unmatched};
 use super::palette::{GREY, INK, viridis};
 use super::sheet::{Area, AxisSpec, DrawResult, PIXEL, Scale, Sheet, line, text_style};
@@ -40,7 +40,7 @@ const BAR_ROOM: i32 = 120;
 /// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title
 /// states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
 /// themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small. Macro edges,
-/// if there are any, are thin lines on the deformed bodies.
+/// if there are any, are thin lines on the deformed bodies, those between two materials thicker ones.
 ///
 /// # Errors
 /// There is no facet, or a number is not finite; the operating system refuses.
@@ -48,7 +48,7 @@ pub fn write_deformed(
     path: &Path,
     title: &str,
     facets: &[Facet],
-    macro_edges: &[DrawnEdge],
+    [macro_edges, interfaces]: [&[DrawnEdge]; 2],
     contacts: &[&[ContactPoint]],
 ) -> Result<(), OutputError> {
     check_facets(path, facets)?;
@@ -70,7 +70,8 @@ pub fn write_deformed(
         let place = |x: [f64; 2]| chart.backend_coord(&x.into());
         Ok(outlines(&boundary, 0.0, GREY, place)
             + &fills(facets, scale, &colours, place)
-            + &macro_lines(macro_edges, scale, place)
+            + &macro_lines(macro_edges, THIN, scale, place)
+            + &macro_lines(interfaces, BETWEEN, scale, place)
             + &outlines(&boundary, scale, INK, place))
     })
 }
@@ -329,7 +330,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deformed.svg");
         let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
-        write_deformed(&path, "blocks", facets, &[], &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
+        write_deformed(&path, "blocks", facets, [&[], &[]], &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
     }
 
     #[test]
@@ -386,12 +387,12 @@ mod tests {
         let edge = |x: f64| DrawnEdge([0.0, 0.5, 1.0].map(|y| ([x, y], [0.0, 1e-3 * y])).into());
         let mut edges = vec![edge(0.0), edge(0.25), edge(0.5)];
         edges[2].0[1].1 = [f64::NAN, 0.0];
-        write_deformed(&path, "blocks", &facets, &edges, &[]).unwrap();
+        write_deformed(&path, "blocks", &facets, [&edges, &[]], &[]).unwrap();
         let figure = std::fs::read_to_string(path).unwrap();
         let lines: Vec<&str> = figure.lines().filter(|line| line.contains("stroke-opacity")).collect();
         let [line] = lines[..] else { panic!("{lines:?}") };
         assert!(line.matches('M').count() == 2 && !line.contains("z\"") && !figure.contains("NaN"), "{line}");
-        let moved = macro_lines(&edges[1..2], 100.0, |[x, y]| ((100.0 * x) as i32, (1000.0 * y).round() as i32));
+        let moved = macro_lines(&edges[1..2], THIN, 100.0, |[x, y]| ((100.0 * x) as i32, (1000.0 * y).round() as i32));
         assert!(moved.contains("d=\"M25 0l0 1100\""), "{moved}");
         assert!(!draw(&facets).unwrap().contains("stroke-opacity"), "no mesh unless there are macro edges");
     }

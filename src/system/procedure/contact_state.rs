@@ -121,7 +121,7 @@ impl ContactState {
 /// `κ_i` of all multipliers.
 fn penalties(problem: &Discretisation) -> Vec<f64> {
     let own = |contact: &Contact| -> Vec<f64> {
-        (0..contact.multipliers.count()).map(|i| contact.multipliers.penalty(i, contact.modulus)).collect()
+        (0..contact.multipliers.count()).map(|i| contact.multipliers.penalty(i, contact.multiplier_moduli[i])).collect()
     };
     problem.contacts.iter().flat_map(own).collect()
 }

@@ -119,10 +119,10 @@ impl Duals<'_> {
             change.iter_mut().zip(before).for_each(|(now, before)| *now -= before);
         }
         let change = Field::displacement(problem, &change, session)?;
-        let Some(body) = problem.scene.bodies.iter().position(|body| body.name == point.body) else {
+        let Some(region) = problem.scene.mesh.region(&point.body) else {
             return Ok(vec![0.0; space.local_unknowns()]);
         };
-        let forces = stress_forces(problem, &change, body, point.point, session)?;
+        let forces = stress_forces(problem, &change, region, point.point, session)?;
         Ok(free_forces(space, &forces))
     }
 }
@@ -177,8 +177,8 @@ fn point_force(
     let (space, session) = (problem.finest(), system.session());
     let u = Field::displacement(problem, &solution.displacement, session)?;
     let mut force = Field::<2>::zeros(problem, session);
-    let body = problem.scene.bodies.iter().position(|body| body.name == point.body);
-    for (triangle, at) in body.map_or_else(Vec::new, |body| holding(problem, body, point.point, session)) {
+    let region = problem.scene.mesh.region(&point.body);
+    for (triangle, at) in region.map_or_else(Vec::new, |region| holding(problem, region, point.point, session)) {
         let shapes = shapes_at(problem, triangle, at);
         let moved: Point = shapes.iter().fold(Point::zeros(), |sum, (node, value)| sum + *value * u.point(*node));
         let direction = moved.try_normalize(0.0).unwrap_or(Point::y());

@@ -277,11 +277,11 @@ fn at_probe(
     apart: &Field<2>,
     session: &Session,
 ) -> Result<[f64; 2], SystemError> {
-    let Some(body) = problem.scene.bodies.iter().position(|body| body.name == point.body) else { return Ok([f64::NAN; 2]) };
-    let [whole, part] = [u, apart].map(|field| probe(problem, field, body, point.point, session));
+    let Some(region) = problem.scene.mesh.region(&point.body) else { return Ok([f64::NAN; 2]) };
+    let [whole, part] = [u, apart].map(|field| probe(problem, field, region, point.point, session));
     let (Some(whole), Some(part)) = (whole?, part?) else { return Ok([f64::NAN; 2]) };
     // Where a point lies in its triangle decides how good a stress is there: at some places it is by luck.
-    let around = stress_around(problem, apart, body, point.point, session)?;
+    let around = stress_around(problem, apart, region, point.point, session)?;
     let size = |stress: [f64; 4]| (stress[0].powi(2) + stress[1].powi(2) + 2.0 * stress[2].powi(2)).sqrt();
     Ok([part.displacement.norm() / whole.displacement.norm(), size(part.stress).max(around) / size(whole.stress)])
 }

@@ -4,7 +4,7 @@ use super::agreed;
 use super::springs::SpringForces;
 use crate::body::{Holders, MacroStiffness, Motion, RigidSet};
 use crate::contact::{Configuration, Side};
-use crate::element::PlaneStrain;
+use crate::element::PlaneLaw;
 use crate::geometry::{Point, cross};
 use crate::mesh::{EdgeNode, lattice};
 use crate::petsc::Session;
@@ -30,6 +30,8 @@ pub struct ContactForce {
 pub struct Balance {
     /// Strain energy of each body, `½∫σ:ε`.
     pub strain: Vec<f64>,
+    /// The same of each part of the bodies, in the order of the mesh.
+    pub strain_of_parts: Vec<f64>,
     /// Strain energy in all, from the stationary value of the Lagrangian: its algebraic error is the square of that of `u` and
     /// `λ`. Nothing where loads act together with gaps or prescribed displacements, a jump term is added, or springs act.
     pub stationary: Option<f64>,
@@ -63,8 +65,11 @@ pub struct Balance {
 /// [`SystemError`] from PETSc or an inverted triangle.
 pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, session: &Session) -> Result<Balance, SystemError> {
     let Discretisation { contacts, coupling, .. } = problem;
-    let (mut strain, internal) = internal_forces(problem, u, session)?;
-    session.sum(&mut strain);
+    let (mut strain_of_parts, internal) = internal_forces(problem, u, session)?;
+    session.sum(&mut strain_of_parts);
+    let mut strain = vec![0.0; problem.scene.bodies.len()];
+    let of_parts = problem.scene.mesh.parts.iter().zip(&strain_of_parts);
+    of_parts.for_each(|(part, energy)| strain[part.body as usize] += energy);
     let springs = SpringForces::new(problem, u, session)?;
     let NodeSums { work, bodies, mut reactions, rigid } =
         sum_over_nodes(problem, solution, u, &internal, &springs.nodes, session)?;
@@ -100,6 +105,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         },
         bodies: body_balance(contacts, &forces, &bodies),
         strain,
+        strain_of_parts,
         reactions,
         rigid,
         motions: rigid_motions(problem, &solution.displacement, session),
@@ -302,12 +308,12 @@ pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Ses
 pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
     let scene = &problem.scene;
     let laws = scene.laws();
-    let mut strain = vec![0.0; scene.bodies.len()];
+    let mut strain = vec![0.0; scene.mesh.parts.len()];
     let mut forces = Field::<2>::zeros(problem, session);
     let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
-        let body = scene.mesh.triangles[triangle as usize].body as usize;
+        let part = scene.mesh.triangles[triangle as usize].part as usize;
         each_force(problem, &laws, u, triangle as usize, |node, force, u| {
-            strain[body] += 0.5 * force.dot(&u);
+            strain[part] += 0.5 * force.dot(&u);
             let sum = forces.at_mut(node);
             sum[0] += force.x;
             sum[1] += force.y;
@@ -320,14 +326,14 @@ pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session
 /// Internal forces of one macro triangle: number, force and displacement of each of its nodes.
 fn each_force(
     problem: &Discretisation,
-    laws: &[PlaneStrain],
+    laws: &[PlaneLaw],
     u: &Field<2>,
     triangle: usize,
     mut take: impl FnMut(usize, Point, Point),
 ) -> Result<(), SystemError> {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
-    let law = &laws[mesh.triangles[triangle].body as usize];
+    let law = &laws[mesh.triangles[triangle].part as usize];
     let stiffness = MacroStiffness::new(mesh, triangle, numbering.level, law)?;
     let numbers = numbering.triangle(mesh, triangle);
     let local: Vec<Point> = lattice::nodes(n).map(|(i, j)| u.point(numbers.node(i, j))).collect();

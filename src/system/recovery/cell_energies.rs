@@ -2,7 +2,7 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::element::{BadJacobian, Order, PlaneStrain, energies};
+use crate::element::{BadJacobian, Order, PlaneLaw, energies};
 use crate::geometry::Point;
 use crate::mesh::{Cells, lattice};
 use crate::petsc::Session;
@@ -19,7 +19,7 @@ pub fn cell_energies(problem: &Discretisation, u: &Field<2>, session: &Session) 
     let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
     let own = problem.scene.partition.triangles_of(session.rank());
     let one = |&triangle: &u32| {
-        let law = &laws[mesh.triangles[triangle as usize].body as usize];
+        let law = &laws[mesh.triangles[triangle as usize].part as usize];
         match problem.finest().numbering.level.order {
             Order::P1 => in_triangle::<3>(problem, u, triangle as usize, law),
             Order::P2 => in_triangle::<6>(problem, u, triangle as usize, law),
@@ -32,7 +32,7 @@ fn in_triangle<const N: usize>(
     problem: &Discretisation,
     u: &Field<2>,
     triangle: usize,
-    law: &PlaneStrain,
+    law: &PlaneLaw,
 ) -> Result<Cells, BadJacobian> {
     let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
     let mut cells = Cells::default();

@@ -38,10 +38,7 @@ pub fn corners(scene: &Scene, contact: &Contact, zones: &[[f64; 2]]) -> Corners 
         let pressing = all.filter(|corner| within(boundary.arc(boundary.foot(corner.place))));
         pressing.map(|corner| corner.angle).fold(0.0, f64::max)
     });
-    let compliance = contact.bodies.map(|body| {
-        let material = &scene.bodies[body].material;
-        (1.0 - material.poisson.powi(2)) / scene.young(body)
-    });
+    let compliance = contact.parts.map(|part| scene.compliance(part));
     let part = |k: usize| sharpest[k] * compliance[k] / (compliance[0] + compliance[1]);
     let share = if matches!(contact.pair.gap, GapChoice::Closed) { WHERE_CLOSED } else { 1.0 };
     Corners { angle: sharpest[0].max(sharpest[1]), error: share * BY_A_CORNER * part(0).hypot(part(1)) }

@@ -2,7 +2,7 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::element::{Order, PlaneStrain, jacobian};
+use crate::element::{Order, PlaneLaw, jacobian};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, MacroTriangle, lattice};
 use crate::petsc::Session;
@@ -44,7 +44,7 @@ pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -
     let mut sums: Vec<TriangleIntegrals> = vec![TriangleIntegrals::default(); mesh.triangles.len()];
     let own = problem.scene.partition.triangles_of(session.rank());
     let added = own.iter().try_for_each(|&triangle| {
-        let law = &laws[mesh.triangles[triangle as usize].body as usize];
+        let law = &laws[mesh.triangles[triangle as usize].part as usize];
         sums[triangle as usize] = match problem.finest().numbering.level.order {
             Order::P1 => integrals::<3>(problem, u, triangle as usize, law)?,
             Order::P2 => integrals::<6>(problem, u, triangle as usize, law)?,
@@ -99,7 +99,7 @@ fn integrals<const N: usize>(
     problem: &Discretisation,
     u: &Field<2>,
     triangle: usize,
-    law: &PlaneStrain,
+    law: &PlaneLaw,
 ) -> Result<TriangleIntegrals, SystemError> {
     const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
     let level = problem.finest().numbering.level;

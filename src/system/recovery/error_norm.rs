@@ -2,13 +2,13 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::element::{Order, PlaneStrain, SIX_POINTS, jacobian, shape, stress};
+use crate::element::{Order, PlaneLaw, SIX_POINTS, jacobian, shape, stress};
 use crate::geometry::{Formula, Point};
-use crate::mesh::lattice;
+use crate::mesh::{Region, lattice};
 use crate::petsc::Session;
 use crate::system::{Discretisation, Field, SystemError};
 
-/// Integrals over one body (`∫(σ_h - σ):C⁻¹(σ_h - σ)`, `∫σ:C⁻¹σ`) of the computed stress against formulas
+/// Integrals over a body or a part of one (`∫(σ_h - σ):C⁻¹(σ_h - σ)`, `∫σ:C⁻¹σ`) of the computed stress against formulas
 /// `xx, yy, xy` of `x, y`. Summed over bodies, the root of their ratio is the relative energy-norm error. **Collective**
 ///
 /// # Errors
@@ -16,20 +16,20 @@ use crate::system::{Discretisation, Field, SystemError};
 pub fn energy_error(
     problem: &Discretisation,
     u: &Field<2>,
-    body: usize,
+    region: Region,
     exact: &[Formula; 3],
     session: &Session,
 ) -> Result<[f64; 2], SystemError> {
-    let law = problem.scene.bodies[body].material.law();
+    let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
     let mut sums = [0.0; 2];
     let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
-    let added =
-        own.filter(|&triangle| problem.scene.mesh.triangles[triangle].body as usize == body).try_for_each(
-            |triangle| match problem.finest().numbering.level.order {
-                Order::P1 => add::<3>(problem, u, triangle, &law, exact, &mut sums),
-                Order::P2 => add::<6>(problem, u, triangle, &law, exact, &mut sums),
-            },
-        );
+    let added = own.filter(|&triangle| region.holds(&mesh.triangles[triangle])).try_for_each(|triangle| {
+        let law = &laws[mesh.triangles[triangle].part as usize];
+        match problem.finest().numbering.level.order {
+            Order::P1 => add::<3>(problem, u, triangle, law, exact, &mut sums),
+            Order::P2 => add::<6>(problem, u, triangle, law, exact, &mut sums),
+        }
+    });
     agreed(session, added)?;
     session.sum(&mut sums);
     Ok(sums)
@@ -39,7 +39,7 @@ fn add<const N: usize>(
     problem: &Discretisation,
     u: &Field<2>,
     triangle: usize,
-    law: &PlaneStrain,
+    law: &PlaneLaw,
     exact: &[Formula; 3],
     sums: &mut [f64; 2],
 ) -> Result<(), SystemError> {

@@ -7,9 +7,10 @@ use super::error_norm::energy_error;
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::{missing_force, unresolved_force};
 use super::probe::{Probed, probe};
-use super::stress::nodal_stress;
+use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
 use crate::geometry::{Formula, Point};
+use crate::mesh::Region;
 use crate::petsc::Session;
 use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
 
@@ -79,27 +80,27 @@ impl<'a> Evaluation<'a> {
         trace_points(self.problem, pressure, &self.u, self.session)
     }
 
-    /// Values at a point of a body; nothing if it does not hold the point. **Collective**
+    /// Values at a point of a body or of a part of one; nothing if it does not hold the point. **Collective**
     ///
     /// # Errors
     /// As [`Evaluation::new`].
-    pub fn probe(&self, body: usize, x: Point) -> Result<Option<Probed>, SystemError> {
-        probe(self.problem, &self.u, body, x, self.session)
+    pub fn probe(&self, region: Region, x: Point) -> Result<Option<Probed>, SystemError> {
+        probe(self.problem, &self.u, region, x, self.session)
     }
 
-    /// Stress (xx, yy, xy, zz) at the nodes. **Collective**
+    /// Stress (xx, yy, xy, zz) at the nodes, of each part by itself. **Collective**
     ///
     /// # Errors
     /// As [`Evaluation::new`].
-    pub fn stress(&self) -> Result<Field<4>, SystemError> {
+    pub fn stress(&self) -> Result<NodalStress, SystemError> {
         nodal_stress(self.problem, &self.u, self.session)
     }
 
-    /// Error of the stress in a body, and its size, both squared in the energy norm, against formulas. **Collective**
+    /// Error of the stress in a body or a part of one, and its size, both squared in the energy norm, against formulas. **Collective**
     ///
     /// # Errors
     /// As [`Evaluation::new`].
-    pub fn energy_error(&self, body: usize, exact: &[Formula; 3]) -> Result<[f64; 2], SystemError> {
-        energy_error(self.problem, &self.u, body, exact, self.session)
+    pub fn energy_error(&self, region: Region, exact: &[Formula; 3]) -> Result<[f64; 2], SystemError> {
+        energy_error(self.problem, &self.u, region, exact, self.session)
     }
 }

@@ -23,6 +23,7 @@ pub use evaluation::Evaluation;
 pub use motion_error::MotionError;
 pub use probe::{Probed, holding, probe, shapes_at, stress_around, stress_forces};
 pub use springs::SpringForces;
+pub use stress::NodalStress;
 pub use traces::{TracePoint, trace_points};
 pub use zone_errors::{ZoneErrors, zone_errors};
 

@@ -90,7 +90,8 @@ fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f6
     let knots = contact.boundary.knots();
     let is_whole = contact.boundary.turn().is_some_and(|turn| found.length > turn * (1.0 - 1e-9));
     let ends_inside = knots[0] > contact.limits[0] && knots[knots.len() - 1] < contact.limits[1] && !is_whole;
-    contact.modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
+    let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
+    modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
 }
 
 /// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.

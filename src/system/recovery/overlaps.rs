@@ -21,11 +21,11 @@ pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint
         if overlap == 0.0 {
             sum += std::mem::take(&mut deepest);
         }
-        deepest = deepest.max(overlap);
+        deepest = deepest.max(contact.modulus_at(point.arc) * overlap);
         largest = largest.max(overlap);
     }
     sum += deepest;
-    let missing = if zones.is_empty() { largest / whole } else { 0.5 * contact.modulus * sum / force.abs() };
+    let missing = if zones.is_empty() { largest / whole } else { 0.5 * sum / force.abs() };
     Some(missing).filter(|missing| missing.is_finite())
 }
 
@@ -40,9 +40,10 @@ pub fn unresolved_force(contact: &Contact, points: &[TracePoint]) -> f64 {
     let part = |ends: &[TracePoint]| {
         let [from, to] = [ends[0].arc, ends[1].arc];
         let segment = arcs.partition_point(|&s| s <= 0.5 * (from + to)).clamp(1, arcs.len() - 1);
-        0.5 * (depth(&ends[0]) + depth(&ends[1])) * (to - from) / (arcs[segment] - arcs[segment - 1])
+        let mean = 0.5 * (depth(&ends[0]) + depth(&ends[1]));
+        contact.moduli[segment - 1] * mean * (to - from) / (arcs[segment] - arcs[segment - 1])
     };
-    contact.modulus * points.windows(2).map(part).sum::<f64>()
+    points.windows(2).map(part).sum::<f64>()
 }
 
 /// The larger one of both normal displacements.

@@ -2,8 +2,9 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::element::{Order, PlaneStrain, SIX_POINTS, shape, stress};
+use crate::element::{Order, PlaneLaw, SIX_POINTS, shape, stress};
 use crate::geometry::Point;
+use crate::mesh::Region;
 use crate::mesh::lattice::Triangle;
 use crate::petsc::Session;
 use crate::system::{Discretisation, Field, SystemError};
@@ -24,7 +25,7 @@ pub struct Probed {
     pub stress: [f64; 4],
 }
 
-/// Values at a point of a body, the same on every rank; nothing if the body does not hold the point. On an edge
+/// Values at a point of a body or of a part of one, the same on every rank; nothing if it does not hold the point. On an edge
 /// between macro triangles it is the mean over them. **Collective**
 ///
 /// # Errors
@@ -32,12 +33,12 @@ pub struct Probed {
 pub fn probe(
     problem: &Discretisation,
     u: &Field<2>,
-    body: usize,
+    region: Region,
     x: Point,
     session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
     for near in OUTSIDE {
-        let found = probe_near(problem, u, body, x, near, session)?;
+        let found = probe_near(problem, u, region, x, near, session)?;
         if found.is_some() {
             return Ok(found);
         }
@@ -49,22 +50,23 @@ pub fn probe(
 fn probe_near(
     problem: &Discretisation,
     u: &Field<2>,
-    body: usize,
+    region: Region,
     x: Point,
     near: f64,
     session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
-    let law = problem.scene.bodies[body].material.law();
+    let laws = problem.scene.laws();
     let mut sums = [0.0; 7];
     let added = problem.scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
         let triangle = triangle as usize;
-        if problem.scene.mesh.triangles[triangle].body as usize != body {
+        if !region.holds(&problem.scene.mesh.triangles[triangle]) {
             return Ok(());
         }
+        let law = law_of(problem, &laws, triangle);
         let Some(at) = problem.scene.mesh.locate_near(triangle, x, near) else { return Ok(()) };
         let values = match problem.finest().numbering.level.order {
-            Order::P1 => values_at::<3>(problem, u, triangle, at, &law)?,
-            Order::P2 => values_at::<6>(problem, u, triangle, at, &law)?,
+            Order::P1 => values_at::<3>(problem, u, triangle, at, law)?,
+            Order::P2 => values_at::<6>(problem, u, triangle, at, law)?,
         };
         values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
         Ok::<(), SystemError>(())
@@ -98,16 +100,17 @@ fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, 
 pub fn stress_around(
     problem: &Discretisation,
     u: &Field<2>,
-    body: usize,
+    region: Region,
     x: Point,
     session: &Session,
 ) -> Result<f64, SystemError> {
-    let law = problem.scene.bodies[body].material.law();
+    let laws = problem.scene.laws();
     let mut sums = [0.0; 2];
-    let added = holding(problem, body, x, session).into_iter().try_for_each(|(triangle, at)| {
+    let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
+        let law = law_of(problem, &laws, triangle);
         match problem.finest().numbering.level.order {
-            Order::P1 => add_squares::<3>(problem, u, triangle, at, &law, &mut sums),
-            Order::P2 => add_squares::<6>(problem, u, triangle, at, &law, &mut sums),
+            Order::P1 => add_squares::<3>(problem, u, triangle, at, law, &mut sums),
+            Order::P2 => add_squares::<6>(problem, u, triangle, at, law, &mut sums),
         }
     });
     agreed(session, added)?;
@@ -120,7 +123,7 @@ fn add_squares<const N: usize>(
     u: &Field<2>,
     triangle: usize,
     at: Point,
-    law: &PlaneStrain,
+    law: &PlaneLaw,
     sums: &mut [f64; 2],
 ) -> Result<(), SystemError> {
     let small = small_triangle(problem, triangle, at).0;
@@ -134,11 +137,11 @@ fn add_squares<const N: usize>(
     Ok(())
 }
 
-/// This rank's macro triangles of a body that hold a point, and its reference coordinates in them.
-pub fn holding(problem: &Discretisation, body: usize, x: Point, session: &Session) -> Vec<(usize, Point)> {
+/// This rank's macro triangles of a body, or of a part of one, that hold a point, and its reference coordinates in them.
+pub fn holding(problem: &Discretisation, region: Region, x: Point, session: &Session) -> Vec<(usize, Point)> {
     let mesh = &problem.scene.mesh;
     let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
-    let own = own.filter(|&triangle| mesh.triangles[triangle].body as usize == body);
+    let own = own.filter(|&triangle| region.holds(&mesh.triangles[triangle]));
     own.filter_map(|triangle| Some((triangle, mesh.locate(triangle, x)?))).collect()
 }
 
@@ -151,16 +154,18 @@ pub fn holding(problem: &Discretisation, body: usize, x: Point, session: &Sessio
 pub fn stress_forces(
     problem: &Discretisation,
     u: &Field<2>,
-    body: usize,
+    region: Region,
     x: Point,
     session: &Session,
 ) -> Result<Field<2>, SystemError> {
-    let law = problem.scene.bodies[body].material.law();
+    let laws = problem.scene.laws();
     let mut forces = Field::<2>::zeros(problem, session);
-    let holding = holding(problem, body, x, session);
-    let added = holding.into_iter().try_for_each(|(triangle, at)| match problem.finest().numbering.level.order {
-        Order::P1 => add_stress_forces::<3>(problem, u, triangle, at, &law, &mut forces),
-        Order::P2 => add_stress_forces::<6>(problem, u, triangle, at, &law, &mut forces),
+    let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
+        let law = law_of(problem, &laws, triangle);
+        match problem.finest().numbering.level.order {
+            Order::P1 => add_stress_forces::<3>(problem, u, triangle, at, law, &mut forces),
+            Order::P2 => add_stress_forces::<6>(problem, u, triangle, at, law, &mut forces),
+        }
     });
     agreed(session, added)?;
     forces.sum(session)
@@ -171,7 +176,7 @@ fn add_stress_forces<const N: usize>(
     u: &Field<2>,
     triangle: usize,
     at: Point,
-    law: &PlaneStrain,
+    law: &PlaneLaw,
     forces: &mut Field<2>,
 ) -> Result<(), SystemError> {
     let small = small_triangle(problem, triangle, at).0;
@@ -192,13 +197,18 @@ fn add_stress_forces<const N: usize>(
     Ok(())
 }
 
+/// The law of a macro triangle.
+fn law_of<'a>(problem: &Discretisation, laws: &'a [PlaneLaw], triangle: usize) -> &'a PlaneLaw {
+    &laws[problem.scene.mesh.triangles[triangle].part as usize]
+}
+
 /// Displacement and stress at reference coordinates of a macro triangle.
 fn values_at<const N: usize>(
     problem: &Discretisation,
     u: &Field<2>,
     triangle: usize,
     at: Point,
-    law: &PlaneStrain,
+    law: &PlaneLaw,
 ) -> Result<[f64; 6], SystemError> {
     let (small, l) = small_triangle(problem, triangle, at);
     let level = problem.finest().numbering.level;

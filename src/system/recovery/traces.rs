@@ -3,7 +3,7 @@
 use super::{agreed, nodal};
 use crate::body::positions;
 use crate::contact::{Distance, edge_overlaps, trace};
-use crate::element::{Order, PlaneStrain, stress};
+use crate::element::{Order, PlaneLaw, stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
@@ -51,7 +51,7 @@ pub fn trace_points(
     u: &Field<2>,
     session: &Session,
 ) -> Result<Vec<TracePoint>, SystemError> {
-    let contact = pressure.contact;
+    let (contact, laws) = (pressure.contact, problem.scene.laws());
     let own = [0, 1].map(|k| edge_overlaps(&contact.boundary, &contact.edges[k]));
     let (parameters, segments) =
         parameters(contact, &own.iter().flatten().flat_map(|overlap| overlap.range).collect::<Vec<_>>(), session);
@@ -65,7 +65,7 @@ pub fn trace_points(
             let last = parameters.partition_point(|&t| t <= to + tolerance);
             for at in first..last {
                 let small = &contact.edges[k][overlap.edge];
-                let values = on_edge(problem, contact, k, small, parameters[at], u)?;
+                let values = on_edge(problem, &laws, contact, k, small, parameters[at], u)?;
                 sums[at][4 * k] += 1.0;
                 values.iter().enumerate().for_each(|(i, value)| sums[at][4 * k + 1 + i] += value);
             }
@@ -125,6 +125,7 @@ fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, 
 /// Normal displacement, `n·σn` and distance of the trace on one edge of body 1 (0) or 2 (1).
 fn on_edge(
     problem: &Discretisation,
+    laws: &[PlaneLaw],
     contact: &Contact,
     body: usize,
     small: &BoundaryEdge,
@@ -136,7 +137,7 @@ fn on_edge(
     let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
         sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))
     });
-    let law = &problem.scene.bodies[contact.bodies[body]].material.law();
+    let law = &laws[problem.scene.mesh.triangles[small.triangle].part as usize];
     let s = match problem.finest().numbering.level.order {
         Order::P1 => stress_beside::<3>(problem, small, here.fraction, u, law)?,
         Order::P2 => stress_beside::<6>(problem, small, here.fraction, u, law)?,
@@ -157,7 +158,7 @@ fn stress_beside<const N: usize>(
     small: &BoundaryEdge,
     fraction: f64,
     u: &Field<2>,
-    law: &PlaneStrain,
+    law: &PlaneLaw,
 ) -> Result<[f64; 4], SystemError> {
     let x = positions(&problem.scene.mesh, small.triangle, problem.finest().numbering.level, &small.beside.nodes::<N>());
     let nodal = nodal::<N>(problem, u, small.triangle, &small.beside);

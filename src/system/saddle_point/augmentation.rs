@@ -61,7 +61,8 @@ impl Augmentation {
         let first = self.members[group][0];
         let contact = &contacts[contacts.partition_point(|contact| contact.first <= first) - 1];
         let own = contact.multipliers.group_of(first - contact.first);
-        let mut block = contact.multipliers.augmentation(own, contact.modulus, &active[contact.range()])?;
+        let modulus = contact.multiplier_moduli[first - contact.first];
+        let mut block = contact.multipliers.augmentation(own, modulus, &active[contact.range()])?;
         block.rows.iter_mut().for_each(|row| *row += contact.first);
         Some(block)
     }

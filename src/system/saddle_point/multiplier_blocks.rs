@@ -88,9 +88,8 @@ impl MultiplierBlocks {
         order.iter().enumerate().for_each(|(at, &i)| number[i] = at);
         let own: Vec<usize> = order.into_iter().filter(|&i| owners[i] == session.rank()).collect();
         let scale = |contact: &Contact| {
-            let lengths: Vec<f64> = (0..contact.multipliers.count()).map(|i| contact.multipliers.length(i)).collect();
-            let modulus = contact.modulus;
-            lengths.into_iter().map(move |length| modulus / length)
+            let moduli = contact.multiplier_moduli.iter().enumerate();
+            moduli.map(|(i, modulus)| modulus / contact.multipliers.length(i)).collect::<Vec<f64>>()
         };
         let pattern = SchurPattern::of(&problem.contacts);
         let jumps = jump_matrix(problem.jumps(), owners.len());
@@ -174,7 +173,8 @@ impl MultiplierBlocks {
         i: usize,
     ) -> Result<(), SystemError> {
         let contact = problem.contact_of(i);
-        let alone = contact.multipliers.single_weight(i - contact.first, contact.modulus) / self.scale[i].powi(2);
+        let alone = contact.multipliers.single_weight(i - contact.first, contact.multiplier_moduli[i - contact.first])
+            / self.scale[i].powi(2);
         let diagonal = if active[i] { 0.0 } else { -1.0 / alone };
         let mut corner = BTreeMap::from([(i, diagonal)]);
         corner.extend(self.jumps[i].keys().filter(|j| **j != i).map(|&j| (j, 0.0)));

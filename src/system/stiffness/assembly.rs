@@ -82,7 +82,7 @@ impl<'a> Assembly<'a> {
         let (mut couplings, mut triangles) = (Vec::new(), Vec::new());
         for part in &self.parts {
             let (mesh, level) = (&self.scene.mesh, self.space.numbering.level);
-            let law = &laws[mesh.triangles[part.triangle].body as usize];
+            let law = &laws[mesh.triangles[part.triangle].part as usize];
             let made = if part.is_own { MacroStiffness::new } else { MacroStiffness::of_sides };
             let stiffness = made(mesh, part.triangle, level, law)?;
             self.add_rows(part, &stiffness, &far, &mut rows, &mut lift);

@@ -2,14 +2,14 @@
 
 use super::*;
 use crate::body::MacroStiffness;
-use crate::element::{Order, PlaneStrain};
+use crate::element::{Order, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
 use crate::system::stiffness::lanes::PlainLanes;
 use crate::system::stiffness::strips::inverse;
 use crate::system::triangle_lattice::{row_start, zeros};
 
-const LAW: PlaneStrain = PlaneStrain { lambda: 3.0, mu: 2.0 };
+const LAW: PlaneLaw = PlaneLaw { lambda: 3.0, mu: 2.0, across: 3.0 };
 
 /// Strips of one macro triangle, its inner nodes being all nodes of a rank: couplings, and the strips that have them.
 fn strips(order: Order, intervals: usize) -> (usize, Vec<(Couplings, StripNodes)>) {
