@@ -242,7 +242,7 @@ mod tests {
         assert_eq!([2.9, 3.1, 6.1, 5.9].map(|arc| across.reaches(arc)), [true, false, true, false]);
         // Node 0 is between the last segment and the first.
         let (zones, ..) = zones_around(MultiplierSpace::P1Continuous, |k| k == 0);
-        assert_eq!(zones.iter().map(|zone| zone.segments.clone()).collect::<Vec<_>>(), [9..11]);
+        assert!(zones.len() == 1 && zones[0].segments == (9..11));
         let (all, multipliers, lambda) = zones_around(MultiplierSpace::P1Continuous, |_| true);
         assert!(all.len() == 1 && all[0].goes_round() && all[0].has_in_its_middle(0.1) && all[0].has_inside(9.9));
         near(&[all[0].force(&multipliers, &lambda)], &[55.0]);

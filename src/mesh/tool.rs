@@ -65,7 +65,7 @@ impl SurfacePart {
 }
 
 /// A vertex on the surface.
-struct Place {
+struct SurfacePoint {
     x: Point,
     /// Unit normal to the right; at a corner that of the bisector.
     right: Point,
@@ -74,7 +74,7 @@ struct Place {
 }
 
 /// An edge on the surface: its part, and the parameters of its ends.
-struct Side {
+struct SurfaceEdge {
     part: usize,
     range: [f64; 2],
 }
@@ -94,10 +94,11 @@ impl MacroMesh {
         for (number, part) in parts.iter().enumerate() {
             let shares = sizes.cut(part, is_closed)?;
             for pair in shares.windows(2) {
-                sides.push(Side { part: number, range: [part.parameter(pair[0]), part.parameter(pair[1])] });
+                sides.push(SurfaceEdge { part: number, range: [part.parameter(pair[0]), part.parameter(pair[1])] });
             }
             for (k, &share) in shares.iter().enumerate() {
-                let place = Place { x: part.point(share), right: part.right(share), depth: DEPTH * step(part, &shares, k) };
+                let place =
+                    SurfacePoint { x: part.point(share), right: part.right(share), depth: DEPTH * step(part, &shares, k) };
                 match places.last_mut() {
                     Some(last) if k == 0 => join(last, &place),
                     _ => places.push(place),
@@ -154,8 +155,8 @@ impl MacroMesh {
         &mut self,
         name: &str,
         parts: &[SurfacePart],
-        places: &[Place],
-        sides: &[Side],
+        places: &[SurfacePoint],
+        sides: &[SurfaceEdge],
         behind: f64,
     ) -> Result<(), String> {
         let first = self.vertices.len() as u32;
@@ -216,7 +217,7 @@ fn step(part: &SurfacePart, shares: &[f64], k: usize) -> f64 {
 }
 
 /// The vertex where two parts meet: the layer goes along the bisector of both normals.
-fn join(last: &mut Place, next: &Place) {
+fn join(last: &mut SurfacePoint, next: &SurfacePoint) {
     let half = last.right + next.right;
     let bisector = half / half.norm().max(f64::MIN_POSITIVE);
     let cosine = bisector.dot(&next.right).max(1.0 / LONGEST_MITRE);
