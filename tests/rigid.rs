@@ -219,3 +219,14 @@ fn mistakes_are_told() {
         assert_eq!(code, Some(2), "check, {words}: {errors}");
     }
 }
+
+/// Hertz's cylinder and both punches, each with the error of its pressure on two meshes.
+#[test]
+fn the_tools_of_the_cases_hold_their_values() {
+    for (at, case) in ["rigid_tools", "rigid_tools/rounded.toml", "rigid_tools/flat.toml"].into_iter().enumerate() {
+        let fine = Run::case(case).ranks(1 + at).converged();
+        let coarse = Run::case(case).set("mesh.refine", 2).set("exact.must_hold", false).ranks(3 - at).converged();
+        let [coarse, fine] = [coarse, fine].map(|ended| ended.number("/errors/lambda_seam"));
+        assert!(fine < coarse / 4.0, "{case}: {coarse} and {fine}");
+    }
+}

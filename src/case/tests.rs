@@ -285,7 +285,7 @@ fn every_error_names_key_value_and_remedy() {
         ("mesh.grade={points = [[0, 3]], exponent = 0}", "one per point, above 0: u ~ r^exponent"),
         ("solver=3", "solver = 3 (--set): must be a table; write [solver]"),
         ("meshes.a=1", "meshes: unknown key; did you mean \"mesh\"?"),
-        ("cases=1", "cases: unknown key; there are title, mesh, gravity, body"),
+        ("cases=1", "cases: unknown key; there are title, mesh, plane, gravity, body, rigid"),
         ("body.a.young=0", "body.a.young = 0 (--set): must be > 0"),
         ("body.a.young=inf", "must be a finite number"),
         ("body.a.young=soft", "body.a.young = \"soft\" (--set): must be a finite number, not of type string"),
@@ -297,7 +297,7 @@ fn every_error_names_key_value_and_remedy() {
         ("body.a.body_force=['1', 't']", "entry 2: column 1: found `t`; allowed here: a number, x, y"),
         (
             "body.a.left.young=1",
-            "body.a.left: unknown key; there are young, poisson, body_force, density (a name that holds dots stands in quotes)",
+            "body.a.left: unknown key; there are plane, part, young, poisson, body_force, density (a name that holds dots stands in quotes)",
         ),
         ("body.b=1", "body.b = 1 (--set): must be a table; write [body.b]"),
         ("geometry.g.curves=[]", "must list at least one physical curve"),

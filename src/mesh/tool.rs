@@ -28,8 +28,8 @@ const MOST_EDGES: f64 = 5000.0;
 /// Longest step into a corner of the surface, in depths.
 const LONGEST_MITRE: f64 = 3.0;
 
-/// Angle of a circle that nothing faces from which it is cut open there (radians, 60 degrees), and the angle that is left out.
-const LEAST_OPENING: f64 = std::f64::consts::PI / 3.0;
+/// Angle of a circle that nothing faces from which it is cut open there (radians, 90 degrees), and the angle that is left out.
+const LEAST_OPENING: f64 = std::f64::consts::FRAC_PI_2;
 const OPENING: f64 = 1e-2;
 
 /// Cosine of the angle between the normals of a tool and of a body from which they face each other.
@@ -311,15 +311,16 @@ mod tests {
     #[test]
     fn a_circle_closes_and_its_edges_lie_on_it() {
         let mut mesh = two_blocks();
-        let all: Vec<u32> = mesh.boundaries.iter().flat_map(|boundary| boundary.edges.clone()).collect();
-        mesh.add_tool("rigid.tool", &[circle([1.0, 3.0], 1.0)], &all).expect("a good surface");
+        let is_outer = |edge: &u32| mesh.edges[*edge as usize].triangles[1].is_none();
+        let all: Vec<u32> = (0..mesh.edges.len() as u32).filter(is_outer).collect();
+        mesh.add_tool("rigid.tool", &[circle([1.0, 1.0], 3.0)], &all).expect("a good surface");
         let edges = &mesh.boundary("rigid.tool").expect("added").edges;
         let own: Vec<_> = mesh.triangles.iter().filter(|triangle| triangle.body == 2).collect();
         assert_eq!(own.len(), 2 * edges.len());
         for &edge in edges {
             for t in [0.0, 0.3, 1.0] {
                 let x = mesh.edge_position(edge, t);
-                assert!(((x - Point::new(1.0, 3.0)).norm() - 1.0).abs() < 1e-14, "{x}");
+                assert!(((x - Point::new(1.0, 1.0)).norm() - 3.0).abs() < 1e-14, "{x}");
             }
         }
         let open =
