@@ -8,6 +8,7 @@ mod contact;
 pub(crate) mod error;
 mod exact;
 mod fingerprint;
+mod geometry;
 mod grade;
 mod gravity;
 mod model;
@@ -209,7 +210,7 @@ impl Case {
         let (plane, gravity) = (model::read_plane(root), gravity::read_gravity(root));
         let bodies = root.named("body", |section| model::read_body(section, plane, gravity));
         let tools = root.named("rigid", rigid::read_tool);
-        let geometries = root.named("geometry", model::read_geometry);
+        let geometries = root.named("geometry", geometry::read_geometry);
         let (supports, springs) = support::split(root.named("support", support::read_support));
         let (loads, point_loads, plates) = model::split_loads(root.named("load", model::read_load));
         let (contacts, unions) = contact::split_contacts(root.named("contact", contact::read_contact));
@@ -221,7 +222,7 @@ impl Case {
         model::check_bodies(root);
         model::check_parts(&bodies, root);
         gravity::check_gravity(gravity, root);
-        model::check_geometries(&geometries, root);
+        geometry::check_geometries(&geometries, root);
         model::check_probes(&probes, root);
         spot::check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);
         spot::check_spots("load", point_loads.iter().map(|load| (&load.name, &load.at)), root);

@@ -4,7 +4,7 @@ use toml::Value;
 
 use super::Case;
 use super::error::suggest;
-use super::model::read_surface;
+use super::geometry::read_surface;
 use super::section::Section;
 use super::values;
 use crate::body::{RigidNodes, RigidSet};

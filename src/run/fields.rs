@@ -5,21 +5,22 @@ use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::{DrawnEdge, Facet};
 use crate::output::vtk::{Piece, write_parallel, write_piece};
-use crate::system::recovery::{Evaluation, NodalStress};
+use crate::system::recovery::Evaluation;
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Facets of the figure at most.
 const MOST_FACETS: usize = 20_000;
 
-/// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own.
-pub fn write(folder: &Path, found: &Evaluation, stress: &NodalStress) -> Result<(), RunError> {
+/// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own. `stress` is that of a part at a
+/// node.
+pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4]) -> Result<(), RunError> {
     let Evaluation { problem, session, u, .. } = found;
     let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
     let piece = PieceMesh::new(found);
     let points: Vec<[f64; 2]> = piece.places.clone();
     let displacement: Vec<[f64; 2]> = piece.nodes.iter().map(|&[_, node]| u.at(node)).collect();
-    let stresses: Vec<[f64; 4]> = piece.nodes.iter().map(|&[part, node]| stress.at(part, node)).collect();
+    let stresses: Vec<[f64; 4]> = piece.nodes.iter().map(|&[part, node]| stress(part, node)).collect();
     let mises: Vec<f64> = stresses.iter().map(|&s| von_mises(s)).collect();
     let file = folder.join(name(session.rank()));
     write_piece(
@@ -90,7 +91,7 @@ impl PieceMesh {
 }
 
 /// Facets for the figure of the deformed bodies, coarse enough to draw, from all ranks. **Collective**
-pub fn facets(found: &Evaluation, stress: &NodalStress) -> Vec<Facet> {
+pub fn facets(found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4]) -> Vec<Facet> {
     let Evaluation { problem, session, u, .. } = found;
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
@@ -108,7 +109,7 @@ pub fn facets(found: &Evaluation, stress: &NodalStress) -> Vec<Facet> {
                 let node = numbers.node(i, j);
                 values.extend([x.x, x.y]);
                 values.extend(u.at(node));
-                values.push(von_mises(stress.at(mesh.triangles[triangle as usize].part as usize, node)));
+                values.push(von_mises(stress(mesh.triangles[triangle as usize].part as usize, node)));
             }
         }
     }

@@ -1,6 +1,6 @@
 //! A scene cut into unknowns: spaces of all levels, contacts, couplings.
 
-use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError, rigid_motions};
+use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError};
 use crate::contact::Jump;
 use crate::mesh::{Level, MacroMesh, Numbering, levels};
 use crate::petsc::{Index, Session};
@@ -54,17 +54,6 @@ impl Discretisation {
         self.coupling = Coupling::new(&self.scene, &contacts, session)?;
         (self.contacts, self.motion) = (contacts, motion);
         Ok(())
-    }
-
-    /// Puts the nodes of rigid sets where a solution has moved them, given by this rank's displacements in the nodes' frames: what
-    /// comes after the solve takes their displacement for a prescribed one. **Collective**
-    pub fn settle(&mut self, displacement: &[f64], session: &Session) {
-        let motions = rigid_motions(self, displacement, session);
-        let finest = self.spaces.len() - 1;
-        let Space { constraints, numbering, .. } = &mut self.spaces[finest];
-        for (set, motion) in self.scene.rigid.iter().zip(&motions) {
-            constraints.move_rigidly(&self.scene.mesh, numbering, set, motion);
-        }
     }
 
     /// Whether some contact boundary depends on the solution.

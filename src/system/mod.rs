@@ -53,7 +53,7 @@ pub use procedure::{
     AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,
     ZoneDifference, ZoneEstimate,
 };
-pub use rigid::{RigidBorder, rigid_motions};
+pub use rigid::{RigidBorder, rigid_motions, settle};
 pub use rigid_start::rigid_start;
 pub use saddle_point::{SaddlePoint, SchurPattern};
 pub use scene::{Scene, spread};

@@ -15,4 +15,4 @@ mod border;
 mod motion;
 
 pub use border::RigidBorder;
-pub use motion::rigid_motions;
+pub use motion::{rigid_motions, settle};

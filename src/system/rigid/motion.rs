@@ -3,11 +3,22 @@
 use crate::body::Motion;
 use crate::geometry::Point;
 use crate::petsc::Session;
-use crate::system::Discretisation;
+use crate::system::{Discretisation, Space};
 use nalgebra::{Matrix3, Vector3};
 
 /// Eigenvalues below this share of the largest are none: a set that is one point does not turn.
 const FLAT: f64 = 1e-12;
+
+/// Puts the nodes of rigid sets where a solution has moved them, given by this rank's displacements in the nodes' frames: what comes
+/// after the solve takes their displacement for a prescribed one. **Collective**
+pub fn settle(problem: &mut Discretisation, displacement: &[f64], session: &Session) {
+    let motions = rigid_motions(problem, displacement, session);
+    let finest = problem.spaces.len() - 1;
+    let Space { constraints, numbering, .. } = &mut problem.spaces[finest];
+    for (set, motion) in problem.scene.rigid.iter().zip(&motions) {
+        constraints.move_rigidly(&problem.scene.mesh, numbering, set, motion);
+    }
+}
 
 /// Motion of every rigid set of the scene, from this rank's displacements in the nodes' frames, those that are prescribed
 /// included: the components that are free by least squares, which are exact, the others as they are prescribed. **Collective**
