@@ -23,8 +23,13 @@ solver.tolerance = 1e-12
 const MODULUS: f64 = 1000.0 / 0.91;
 
 fn in_folder<T>(mesh: &Mesh, case: &str, with: impl FnOnce(Run) -> T) -> T {
+    in_folder_of(&mesh.text(), case, with)
+}
+
+/// The same with the text of a mesh file.
+fn in_folder_of<T>(mesh: &str, case: &str, with: impl FnOnce(Run) -> T) -> T {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    with(Run::file(&write_scene(folder.path(), &mesh.text(), case)))
+    with(Run::file(&write_scene(folder.path(), mesh, case)))
 }
 
 fn close(found: f64, wanted: f64, size: f64, words: &str) {
@@ -228,5 +233,26 @@ fn the_tools_of_the_cases_hold_their_values() {
         let coarse = Run::case(case).set("mesh.refine", 2).set("exact.must_hold", false).ranks(3 - at).converged();
         let [coarse, fine] = [coarse, fine].map(|ended| ended.number("/errors/lambda_seam"));
         assert!(fine < coarse / 4.0, "{case}: {coarse} and {fine}");
+    }
+}
+
+/// A mesh that was adapted beside a tool begins another run of the same case.
+#[test]
+fn an_adapted_mesh_is_that_of_the_bodies() {
+    let case = format!(
+        "{ROLLER}rigid.roller = {{ circle = {{ centre = [0, 3], radius = 3 }}, ux = 0.0, force = [0.0, -8.0] }}
+contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}
+[accuracy]
+pressure = 5e-3\n"
+    );
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &roller_scene(false).text(), &case);
+    let first = Run::file(&file).ranks(2).converged();
+    let text = std::fs::read_to_string(first.out.join("adapted.msh")).expect("a mesh");
+    assert!(!text.contains("rigid"), "bodies of the file alone");
+    let again = in_folder_of(&text, &case, |run| run.ranks(3).converged());
+    for path in ["/contact/seam/force", "/contact/seam/pressure_max"] {
+        let [one, other] = [&first, &again].map(|ended| ended.number(path));
+        assert!((one / other - 1.0).abs() < 5e-3, "{path}: {one} and {other}");
     }
 }

@@ -31,6 +31,7 @@ mod spline_shape;
 mod spot;
 mod strip;
 mod tool;
+mod without_tools;
 mod work;
 
 pub use bisection::BisectedMesh;

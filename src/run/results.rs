@@ -249,7 +249,8 @@ fn finish(case: &Case, summary: &Summary, mesh: &MacroMesh, folder: ResultFolder
     };
     write("case.toml", case.resolved())?;
     if summary.accuracy.as_ref().is_some_and(|steps| !steps.is_empty()) {
-        write(accuracy::ADAPTED_MESH, mesh.to_gmsh())?;
+        let own = mesh.without_tools(|name| case.tool_of(name).is_some());
+        write(accuracy::ADAPTED_MESH, own.to_gmsh())?;
     }
     summary.write(&folder.path("summary.json"))?;
     folder.commit()
