@@ -22,7 +22,8 @@ mod need;
 mod nodal_force;
 mod procedure;
 pub mod recovery;
-mod rigid;
+mod rigid_border;
+mod rigid_motion;
 mod rigid_start;
 mod saddle_point;
 #[cfg(test)]
@@ -53,7 +54,8 @@ pub use procedure::{
     AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,
     ZoneDifference, ZoneEstimate,
 };
-pub use rigid::{RigidBorder, rigid_motions, settle};
+pub use rigid_border::RigidBorder;
+pub use rigid_motion::{rigid_motions, settle};
 pub use rigid_start::rigid_start;
 pub use saddle_point::{SaddlePoint, SchurPattern};
 pub use scene::{Scene, spread};
