@@ -174,8 +174,8 @@ impl Run<'_> {
         }
         let stress = found.stress()?;
         let at_node = |part: usize, node: usize| stress.at(part, node);
-        session.agree(fields::write(folder, found, &at_node)).map_err(RunError::Failed)?;
-        let facets = fields::facets(found, &at_node);
+        session.agree(fields::write(folder, found, at_node)).map_err(RunError::Failed)?;
+        let facets = fields::facets(found, at_node);
         let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found, |_| true));
         let interfaces = fields::macro_edges(found, |edge| found.problem.scene.mesh.is_interface(edge));
         if session.rank() != 0 {
