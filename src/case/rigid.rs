@@ -8,7 +8,7 @@ use super::geometry::read_surface;
 use super::section::Section;
 use super::values;
 use crate::body::{RigidNodes, RigidSet};
-use crate::contact::Pair;
+use crate::contact::{Configuration, Pair};
 use crate::geometry::{Curve, Point};
 use crate::mesh::{MacroMesh, SurfacePart};
 
@@ -173,6 +173,22 @@ pub fn check_tools(tools: &[Tool], contacts: &[Pair], root: &Section) {
         } else if sides.iter().all(|side| tool_of(side).is_some()) {
             let words = "both sides are rigid; a tool presses on a boundary of the mesh";
             root.problem(&["contact", &pair.name, "between"], words.into());
+        }
+    }
+    for tool in tools.iter().filter(|tool| tool.motion.prescribed[2].is_none()) {
+        let name = &tool.key()[PREFIX.len()..];
+        if matches!(tool.surface[0].curve, Curve::Circle { .. }) {
+            let words = "a circle turns on what it touches: nothing but its curvature resists, which is not modelled; leave moment out, or give angle";
+            root.problem(&["rigid", name, "moment"], words.into());
+        }
+        let deformed =
+            |pair: &&Pair| pair.configuration == Configuration::Deformed && pair.between.iter().any(|side| tool.has(side));
+        if let Some(pair) = contacts.iter().find(deformed) {
+            let words = format!(
+                "contact.{} has configuration = \"deformed\", beside which a tool cannot turn freely: not available yet; leave moment out, or take \"reference\"",
+                pair.name
+            );
+            root.problem(&["rigid", name, "moment"], words);
         }
     }
     for tool in tools {

@@ -152,6 +152,9 @@ impl<'a> Restraints<'a> {
     /// A support at one point that would hold the motion, on a named boundary without contact if there is one; rather such a
     /// one that leaves no other motion free.
     fn remedy(&self, mechanism: &Mechanism, extents: &[Extent], touches: &[Touch]) -> String {
+        if let Some(tool) = self.scene.tool(self.scene.mesh.pieces[mechanism.piece].body) {
+            return format!("prescribe ux, uy or angle of {}", tool.key);
+        }
         let extent = &extents[mechanism.piece];
         let supports = support_conditions(self.scene);
         let holds_all = |at: &SupportPoint| {

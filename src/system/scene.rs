@@ -51,9 +51,15 @@ impl Scene {
         Ok(Self { mesh: Rc::new(mesh), partition, ..self.clone() })
     }
 
+    /// The rigid tool that a body is, if it is one.
+    pub fn tool(&self, body: usize) -> Option<&RigidSet> {
+        let name = &self.mesh.bodies[body];
+        self.rigid.iter().find(|set| matches!(&set.nodes, RigidNodes::Body(own) if own == name))
+    }
+
     /// Whether a body is a rigid tool.
     pub fn is_rigid(&self, body: usize) -> bool {
-        self.rigid.iter().any(|set| set.nodes == RigidNodes::Body(self.mesh.bodies[body].clone()))
+        self.tool(body).is_some()
     }
 
     /// Young's modulus of each part as contacts see it, in the order of the mesh: without bound for a rigid tool.

@@ -1,6 +1,7 @@
 //! What finite motions do to contact pressures of the linear theory.
 
 use super::{Deformation, TracePoint};
+use crate::body::RigidSet;
 use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, finite_motion};
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
@@ -8,6 +9,10 @@ use crate::system::{BoundaryMotion, Contact, Discretisation, Solution, is_needed
 
 /// A gap smaller than this share of the growth counts as large as that.
 const NO_GAP: f64 = 1e-3;
+
+/// Relative error where a tool may turn on a curved boundary: what holds it there is the force and the curvature, which the linear
+/// theory does not know.
+const UNKNOWN: f64 = 1.0;
 
 /// Growth by less than this share of the displacements is rounding.
 const ROUNDING: f64 = 1e-5;
@@ -68,20 +73,46 @@ fn one(
     let found = finite_motion(sides, turns, &contact.boundary, &contact.multipliers, &solution.multipliers[contact.range()]);
     let energy: f64 = contact.bodies.iter().map(|&body| energy[body]).sum();
     let growth: f64 = contact.bodies.iter().map(|&body| bodies[body].growth).sum();
+    let growth = growth + tool_growth(problem, solution, contact, bodies);
     if found.force <= 0.0 || energy <= 0.0 {
         return None;
     }
-    let needed = is_needed(problem, &solution.active, contact);
+    // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
+    let needed =
+        is_needed(problem, &solution.active, contact) && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
+    let rolls = !contact.boundary.is_straight() && is_between_tools(problem, contact, &|set| set.prescribed[2].is_none());
     let error = |gap: &GapError| {
         // By how much the energy, and so the force where displacements set it, is off.
         let force = if needed { 0.0 } else { (growth - gap.work).abs() / (2.0 * energy) };
-        force.max(pressure_error(contact, &found, gap))
+        let error = force.max(pressure_error(contact, &found, gap));
+        if rolls { error.max(UNKNOWN) } else { error }
     };
     Some(MotionError {
         slip: sides.map(|_| found.slip / found.length),
         slip_error: sides.map(|_| error(&found.whole)),
         rotation_error: error(&found.turning),
     })
+}
+
+/// Whether a body of the contact is a rigid tool of which this is true.
+fn is_between_tools(problem: &Discretisation, contact: &Contact, is: &dyn Fn(&RigidSet) -> bool) -> bool {
+    let scene = &problem.scene;
+    contact.bodies.iter().filter_map(|&body| scene.tool(body)).any(is)
+}
+
+/// Force times length by which tools seem to grow as they turn about their reference points: `½θ² ∫λ n·(x - x₀) ds`.
+fn tool_growth(problem: &Discretisation, solution: &Solution, contact: &Contact, bodies: &[Deformation]) -> f64 {
+    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+    let mut growth = 0.0;
+    for row in contact.range() {
+        for coupled in &problem.coupling.rows[row] {
+            if let Some(tool) = scene.tool(coupled.body) {
+                let arm = coupled.node.place(&scene.mesh, numbering) - tool.about;
+                growth += 0.5 * bodies[coupled.body].rotation.powi(2) * solution.multipliers[row] * coupled.value.dot(&arm);
+            }
+        }
+    }
+    growth
 }
 
 /// Relative error of λ by an uneven gap that is left out. On a half-plane a gap that varies by e over the half length a takes
