@@ -116,7 +116,7 @@ fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String> 
     let all: Vec<String> = known.clone().map(|other| format!("\"{other}\"")).collect();
     let near = near.filter(|other| strsim::damerau_levenshtein(name, other) <= 3);
     let guess = near.map_or(String::new(), |other| format!("; did you mean \"{other}\"?"));
-    format!("{} has no such name{guess} It has {}", file.display(), all.join(", "))
+    format!("{} has no such name{guess}; it has {}", file.display(), all.join(", "))
 }
 
 /// A scene with its macro triangles spread over the ranks. **Collective**
