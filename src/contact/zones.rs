@@ -150,14 +150,23 @@ mod tests {
     use crate::contact::MultiplierSpace;
     use crate::geometry::{Curve, Point};
 
-    /// A line of length 10 in ten segments, with the pressures 1, 2, ... on some of its multipliers.
-    fn zones(space: MultiplierSpace, active: impl Fn(usize) -> bool) -> (Vec<Zone>, Multipliers, Vec<f64>) {
-        let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [10.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+    /// A boundary cut into ten segments, with the pressures 1, 2, ... on some of its multipliers.
+    fn zones_of(
+        mut boundary: ContactBoundary,
+        space: MultiplierSpace,
+        active: impl Fn(usize) -> bool,
+    ) -> (Vec<Zone>, Multipliers, Vec<f64>) {
         boundary.cut(&(0..=10).map(|k| k as f64 / 10.0).collect::<Vec<_>>());
         let multipliers = Multipliers::new(space, &boundary);
         let active: Vec<bool> = (0..multipliers.count()).map(active).collect();
         let lambda: Vec<f64> = (0..active.len()).map(|i| if active[i] { (i + 1) as f64 } else { 0.0 }).collect();
         (Zone::all(&boundary, &multipliers, &lambda, &active), multipliers, lambda)
+    }
+
+    /// The zones of a line of length 10 in ten segments.
+    fn zones(space: MultiplierSpace, active: impl Fn(usize) -> bool) -> (Vec<Zone>, Multipliers, Vec<f64>) {
+        let boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [10.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
+        zones_of(boundary, space, active)
     }
 
     #[test]
@@ -215,12 +224,8 @@ mod tests {
     fn zones_around(space: MultiplierSpace, active: impl Fn(usize) -> bool) -> (Vec<Zone>, Multipliers, Vec<f64>) {
         let tau = std::f64::consts::TAU;
         let curve = Curve::Circle { centre: [0.0, 0.0], radius: 10.0 / tau };
-        let mut boundary = ContactBoundary::new(curve, [0.0, tau], Point::new(-1.0, 0.0));
-        boundary.cut(&(0..=10).map(|k| k as f64 / 10.0).collect::<Vec<_>>());
-        let multipliers = Multipliers::new(space, &boundary);
-        let active: Vec<bool> = (0..multipliers.count()).map(active).collect();
-        let lambda: Vec<f64> = (0..active.len()).map(|i| if active[i] { (i + 1) as f64 } else { 0.0 }).collect();
-        (Zone::all(&boundary, &multipliers, &lambda, &active), multipliers, lambda)
+        let boundary = ContactBoundary::new(curve, [0.0, tau], Point::new(-1.0, 0.0));
+        zones_of(boundary, space, active)
     }
 
     #[test]
