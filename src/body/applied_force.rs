@@ -48,26 +48,40 @@ pub fn applied_forces(
         if part.force.iter().all(|formula| formula.as_constant() == Some(0.0)) {
             continue;
         }
-        match numbering.level.order {
-            Order::P1 => body_force::<3>(mesh, triangle as usize, numbering, part, &mut add)?,
-            Order::P2 => body_force::<6>(mesh, triangle as usize, numbering, part, &mut add)?,
-        }
+        let density = |x: Point| Point::new(part.force[0].value(&[x.x, x.y]), part.force[1].value(&[x.x, x.y]));
+        body_forces(mesh, triangle as usize, numbering, density, &mut add)?;
     }
     Ok(())
 }
 
-fn body_force<const N: usize>(
+/// Nodal forces of a force per area on one macro triangle, as of [`applied_forces`].
+///
+/// # Errors
+/// [`BadJacobian`] if a triangle is turned inside out.
+pub fn body_forces(
     mesh: &MacroMesh,
     triangle: usize,
     numbering: &Numbering,
-    part: &BodyPart,
+    density: impl Fn(Point) -> Point,
+    add: &mut impl FnMut(usize, Point),
+) -> Result<(), BadJacobian> {
+    match numbering.level.order {
+        Order::P1 => small_forces::<3>(mesh, triangle, numbering, density, add),
+        Order::P2 => small_forces::<6>(mesh, triangle, numbering, density, add),
+    }
+}
+
+fn small_forces<const N: usize>(
+    mesh: &MacroMesh,
+    triangle: usize,
+    numbering: &Numbering,
+    density: impl Fn(Point) -> Point,
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
     let numbers = numbering.triangle(mesh, triangle);
     for small in lattice::triangles(numbering.level.intervals, numbering.level.order) {
         let nodes = small.nodes::<N>();
-        let density = |x: Point| Point::new(part.force[0].value(&[x.x, x.y]), part.force[1].value(&[x.x, x.y]));
-        let forces = triangle_load::<N>(&positions(mesh, triangle, numbering.level, &nodes), density)?;
+        let forces = triangle_load::<N>(&positions(mesh, triangle, numbering.level, &nodes), &density)?;
         nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
     }
     Ok(())

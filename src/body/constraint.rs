@@ -1,6 +1,6 @@
 //! Supports at the nodes of one level: which displacement components are prescribed, in which frame.
 
-use super::{MOTIONS, Motion, RigidSet, Support};
+use super::{Anchor, MOTIONS, MeanHold, Motion, RigidSet, Support};
 use crate::geometry::{Formula, Point, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use nalgebra::{Matrix2, SMatrix};
@@ -90,14 +90,27 @@ pub struct Constraints {
 }
 
 impl Constraints {
-    /// Collects what all supports and rigid sets say at the nodes of a level. Rigid sets are where the components of their motion
-    /// that are prescribed put them; see [`Constraints::move_rigidly`] for the others.
+    /// Collects what all supports, anchors of mean motions and rigid sets say at the nodes of a level. Anchors are at rest, and rigid
+    /// sets where the components of their motion that are prescribed put them; see [`Constraints::move_anchor`] and
+    /// [`Constraints::move_rigidly`] for the others.
     ///
     /// # Errors
     /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite, or a support
     /// holds a rigid set that is to move.
-    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support], rigid: &[RigidSet]) -> Result<Self, SupportError> {
+    pub fn new(
+        mesh: &MacroMesh,
+        numbering: &Numbering,
+        supports: &[Support],
+        means: &[MeanHold],
+        rigid: &[RigidSet],
+    ) -> Result<Self, SupportError> {
         let mut holds = all_holds(mesh, numbering, supports)?;
+        for hold in means {
+            for anchor in hold.anchors(mesh).unwrap_or_default() {
+                let (_, known) = holds.entry(numbering.vertex(anchor.vertex)).or_insert((anchor.place, Vec::new()));
+                add(known, HeldBy::Support(&hold.name), Point::ith(anchor.axis, 1.0), 0.0, anchor.place)?;
+            }
+        }
         for set in rigid {
             hold_rigidly(mesh, numbering, set, &mut holds)?;
         }
@@ -122,6 +135,13 @@ impl Constraints {
             if let Some(constraint) = self.nodes.get_mut(&node) {
                 constraint.value = constraint.to_frame(u).into();
             }
+        }
+    }
+
+    /// Puts an anchor of a mean motion where a displacement along its axis takes it.
+    pub fn move_anchor(&mut self, numbering: &Numbering, anchor: &Anchor, displacement: f64) {
+        if let Some(constraint) = self.nodes.get_mut(&numbering.vertex(anchor.vertex)) {
+            constraint.value[anchor.axis] = displacement;
         }
     }
 

@@ -3,12 +3,14 @@
 mod applied_force;
 mod constraint;
 mod macro_stiffness;
+mod mean_hold;
 mod rigid;
 mod springs;
 
-pub use applied_force::{Applied, applied_forces};
+pub use applied_force::{Applied, applied_forces, body_forces};
 pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
+pub use mean_hold::{Anchor, MeanHold, rigid_mode};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet};
 pub use springs::{SpringStiffness, Springs};
 

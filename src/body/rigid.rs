@@ -1,5 +1,6 @@
 //! Nodes that move together as a rigid body: those of a rigid tool, or of a boundary under a stiff plate.
 
+use super::rigid_mode;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use std::collections::BTreeMap;
@@ -34,8 +35,7 @@ pub struct RigidSet {
 impl RigidSet {
     /// Displacement at a point when component `k` of the motion is one.
     pub fn mode(&self, k: usize, x: Point) -> Point {
-        let arm = x - self.about;
-        [Point::new(1.0, 0.0), Point::new(0.0, 1.0), Point::new(-arm.y, arm.x)][k]
+        rigid_mode(self.about, k, x)
     }
 
     /// Displacement at a point.

@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use crate::accuracy::Accuracy;
-use crate::body::{Body, Load, PointLoad, Springs, Support};
+use crate::body::{Body, Load, MeanHold, PointLoad, Springs, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
@@ -63,6 +63,8 @@ pub struct Case {
     pub supports: Vec<Support>,
     /// Elastic supports.
     pub springs: Vec<Springs>,
+    /// Bodies whose mean motion is held.
+    pub means: Vec<MeanHold>,
     /// Surface loads.
     pub loads: Vec<Load>,
     /// Forces at points.
@@ -211,7 +213,7 @@ impl Case {
         let bodies = root.named("body", |section| model::read_body(section, plane, gravity));
         let tools = root.named("rigid", rigid::read_tool);
         let geometries = root.named("geometry", geometry::read_geometry);
-        let (supports, springs) = support::split(root.named("support", support::read_support));
+        let (supports, springs, means) = support::split(root.named("support", support::read_support));
         let (loads, point_loads, plates) = model::split_loads(root.named("load", model::read_load));
         let (contacts, unions) = contact::split_contacts(root.named("contact", contact::read_contact));
         let solver = model::read_solver(root);
@@ -224,6 +226,7 @@ impl Case {
         gravity::check_gravity(gravity, root);
         geometry::check_geometries(&geometries, root);
         model::check_probes(&probes, root);
+        support::check_means(&means, root);
         spot::check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);
         spot::check_spots("load", point_loads.iter().map(|load| (&load.name, &load.at)), root);
         accuracy::check_energy(accuracy.as_ref(), &point_loads, root);
@@ -241,6 +244,7 @@ impl Case {
             geometries,
             supports,
             springs,
+            means,
             loads,
             point_loads,
             plates,

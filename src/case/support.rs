@@ -2,10 +2,11 @@
 
 use toml::Value;
 
+use super::error::suggest;
 use super::section::Section;
 use super::spot::{Where, read_where};
 use super::values::{self, PLANE};
-use crate::body::{SpringStiffness, Springs, Support};
+use crate::body::{MOTIONS, MeanHold, SpringStiffness, Springs, Support};
 use crate::geometry::Formula;
 
 /// What a table `[support.NAME]` says.
@@ -14,22 +15,28 @@ pub enum SupportTable {
     Fixed(Support),
     /// Springs stand there.
     Elastic(Springs),
+    /// The mean motion of a body is held.
+    Mean(MeanHold),
 }
 
-/// The supports that prescribe displacements, and the elastic ones.
-pub fn split(all: Vec<SupportTable>) -> (Vec<Support>, Vec<Springs>) {
-    let (mut supports, mut springs) = (Vec::new(), Vec::new());
+/// The supports that prescribe displacements, the elastic ones, and those that hold mean motions.
+pub fn split(all: Vec<SupportTable>) -> (Vec<Support>, Vec<Springs>, Vec<MeanHold>) {
+    let (mut supports, mut springs, mut means) = (Vec::new(), Vec::new(), Vec::new());
     for support in all {
         match support {
             SupportTable::Fixed(support) => supports.push(support),
             SupportTable::Elastic(support) => springs.push(support),
+            SupportTable::Mean(support) => means.push(support),
         }
     }
-    (supports, springs)
+    (supports, springs, means)
 }
 
 /// `[support.NAME]`
 pub fn read_support(section: &Section) -> Option<SupportTable> {
+    if section.has("mean") {
+        return read_mean(section).map(SupportTable::Mean);
+    }
     if section.has("stiffness") {
         return read_springs(section).map(SupportTable::Elastic);
     }
@@ -51,6 +58,37 @@ pub fn read_support(section: &Section) -> Option<SupportTable> {
     }
     let Where { on, at } = place?;
     Some(SupportTable::Fixed(Support { name: section.name().into(), on, at, ux, uy, normal }))
+}
+
+/// The mean motion of a body: `mean = true` beside `body`.
+fn read_mean(section: &Section) -> Option<MeanHold> {
+    if section.optional("mean", values::boolean) == Some(false) {
+        section.problem(&["mean"], "holds a mean motion only as mean = true; leave it out for a support on = or at =".into());
+    }
+    for key in ["on", "at", "normal", "stiffness"].into_iter().filter(|key| section.has(key)) {
+        let words = "stands beside mean = true, which holds a whole body; give body, and ux, uy, angle or several of them";
+        section.problem(&[key], words.into());
+    }
+    let mean = MOTIONS.map(|key| section.optional(key, values::number));
+    if !MOTIONS.iter().any(|key| section.has(key)) {
+        section.problem(&[], "holds no mean motion; give ux, uy or angle, or several of them, as in ux = 0.0".into());
+    }
+    let body = section.required("body", "\"disc\"", values::name)?;
+    Some(MeanHold { name: section.name().into(), body, mean })
+}
+
+/// Bodies whose mean motion is held are bodies of the case, and each motion of one is held once.
+pub fn check_means(means: &[MeanHold], root: &Section) {
+    for (at, hold) in means.iter().enumerate() {
+        if !root.names_below("body").any(|known| *known == hold.body) {
+            let words = format!("no such body; {}", suggest(&hold.body, root.names_below("body")));
+            root.problem(&["support", &hold.name, "body"], words);
+        }
+        if let Some(other) = means[..at].iter().find(|other| other.body == hold.body) {
+            let words = format!("support.{} holds a mean motion of this body, too; make one support of both", other.name);
+            root.problem(&["support", &hold.name, "body"], words);
+        }
+    }
 }
 
 /// Springs: `stiffness` instead of displacements.

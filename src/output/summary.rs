@@ -271,6 +271,9 @@ pub struct SupportSummary {
     /// Its force on the bodies (per thickness).
     #[serde(deserialize_with = "numbers")]
     pub reaction: Option<[f64; 2]>,
+    /// Its moment about the middle of the body, where it holds a mean motion.
+    #[serde(default)]
+    pub moment: Option<f64>,
 }
 
 /// Energies per thickness.

@@ -5,6 +5,7 @@ mod check;
 mod exact;
 mod fields;
 mod input;
+mod means;
 mod memory;
 mod observe;
 mod outcome;

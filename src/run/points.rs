@@ -1,7 +1,7 @@
 //! What is said of points that carry forces: the displacement there has no limit in the plane.
 
 use super::report::short;
-use crate::body::{PointLoad, Support};
+use crate::body::{MeanHold, PointLoad, Support};
 use crate::geometry::Point;
 use crate::system::recovery::Evaluation;
 
@@ -28,6 +28,22 @@ pub fn loaded_points(Evaluation { problem, balance, .. }: &Evaluation) -> Vec<St
             load.name
         )
     };
+    let first = problem.scene.supports.len() + problem.scene.springs.len();
+    let driven = |(hold, (reaction, moment)): (&MeanHold, (&Point, &f64))| {
+        let reach = hold.reach(&problem.scene.mesh);
+        (reaction.norm() + moment.abs() / reach > LITTLE * balance.forces).then(|| {
+            format!(
+                "support {}: the mean motion that it holds is driven by a force of ({}, {}) and a moment of {}, which act on \"{}\" here like a weight, all over it; where loads are to be carried, support a boundary",
+                hold.name,
+                short(reaction.x),
+                short(reaction.y),
+                short(*moment),
+                hold.body
+            )
+        })
+    };
+    let means = problem.scene.means.iter().zip(balance.reactions.iter().skip(first).zip(&balance.mean_moments));
+    let means = means.filter_map(driven);
     let supports = problem.scene.supports.iter().zip(&balance.reactions).filter_map(words);
-    supports.chain(problem.scene.point_loads.iter().map(loaded)).collect()
+    supports.chain(means).chain(problem.scene.point_loads.iter().map(loaded)).collect()
 }

@@ -1,6 +1,7 @@
 //! Case and mesh brought together: names resolved, geometries applied, macro triangles spread over ranks.
 
 use super::RunError;
+use super::means::check_means;
 use crate::body::Body;
 use crate::case::Case;
 use crate::contact::{CurveChoice, Pair};
@@ -66,6 +67,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
             )
         })?;
     }
+    check_means(case, &mesh)?;
     check_springs(case, &mesh)?;
     check_points(case, &mesh)?;
     Ok(mesh)
@@ -138,6 +140,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),
+        means: case.means.clone(),
         rigid: case.rigid_sets(&mesh),
         springs: case.springs.clone(),
         loads: case.loads.clone(),

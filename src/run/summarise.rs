@@ -87,8 +87,10 @@ fn edge_count(Solved { problem, .. }: &Solved) -> usize {
 pub fn balances(summary: &mut Summary, Evaluation { problem, balance, .. }: &Evaluation) {
     let scene = &problem.scene;
     let names = scene.supports.iter().map(|support| &support.name).chain(scene.springs.iter().map(|springs| &springs.name));
-    let told = |reaction: &Point| summary::SupportSummary { reaction: Some((*reaction).into()) };
-    summary.support = names.zip(&balance.reactions).map(|(name, reaction)| (name.clone(), told(reaction))).collect();
+    let moments = names.clone().map(|_| None).chain(balance.mean_moments.iter().map(|moment| Some(*moment)));
+    let names = names.chain(scene.means.iter().map(|hold| &hold.name));
+    let told = |(reaction, moment): (&Point, _)| summary::SupportSummary { reaction: Some((*reaction).into()), moment };
+    summary.support = names.zip(balance.reactions.iter().zip(moments)).map(|(name, found)| (name.clone(), told(found))).collect();
     let rigid = scene.rigid.iter().zip(&balance.rigid).zip(&balance.motions);
     summary.rigid = rigid
         .map(|((set, &[x, y, moment]), motion)| {

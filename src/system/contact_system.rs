@@ -3,7 +3,7 @@
 use super::stiffness::Stiffness;
 use super::{
     Discretisation, Interpolation, LinearEnding, LinearSolve, LinearSolver, Preconditioning, RigidBorder, SaddlePoint,
-    SolverChoice, Space, SystemError, inf_sup, rigid_motions,
+    SolverChoice, Space, SystemError, inf_sup,
 };
 use crate::petsc::{Matrix, Session, Vector};
 use nalgebra::DVector;
@@ -132,11 +132,10 @@ impl<'a> System<'a> {
         if self.rigid.border.is_empty() {
             put(&self.blocks, self.space(), start, &mut self.unknowns);
         } else {
-            let motions = rigid_motions(self.problem, &start.displacement, &self.session);
-            let motion = self.rigid.border.free_of(&motions);
+            let motion = self.rigid.border.motion_of(self.problem, &start.displacement, &self.session);
             let back: Vec<f64> = motion.iter().map(|component| -component).collect();
             let mut displacement = start.displacement.clone();
-            self.rigid.border.displace(&self.problem.scene.rigid, &back, &mut displacement);
+            self.rigid.border.displace(self.problem, &back, &mut displacement);
             let (pressures, active) = (start.pressures.clone(), start.active.clone());
             put(&self.blocks, self.space(), &Start { displacement, pressures, active }, &mut self.unknowns);
             self.move_rigidly(motion);
@@ -179,7 +178,7 @@ impl<'a> System<'a> {
         let pressures = self.pressures();
         let product = self.with_free_displacement(|u| self.rigid.border.transposed(u, &pressures, &self.session));
         let unbalanced = self.rigid.border.unbalanced(&product, &self.rigid.motion);
-        let share = self.rigid.border.share(&unbalanced, &pressures);
+        let share = self.rigid.border.share(&unbalanced, &pressures, self.largest_displacement());
         if share > enough {
             let correction = self.rigid.border.correction(&self.rigid.products, &unbalanced);
             for (response, by) in self.rigid.responses.iter().zip(correction.iter()) {
@@ -188,6 +187,13 @@ impl<'a> System<'a> {
             self.move_rigidly(self.rigid.motion.iter().zip(correction.iter()).map(|(q, by)| q + by).collect());
         }
         Ok(share)
+    }
+
+    /// **Collective**
+    fn largest_displacement(&self) -> f64 {
+        let mut largest = [self.displacement().iter().fold(0.0f64, |largest, u| largest.max(u.abs()))];
+        self.session.max(&mut largest);
+        largest[0]
     }
 
     fn move_rigidly(&mut self, motion: Vec<f64>) {
@@ -231,13 +237,14 @@ impl<'a> System<'a> {
         }
         self.respond(tolerance)?;
         let pressures = pressures_of(&self.blocks, &x.values()[unknowns..], &self.session);
-        let unbalanced = -self.rigid.border.transposed(&x.values()[..unknowns], &pressures, &self.session);
+        let given = self.rigid.border.loaded(self.problem, load, &self.session);
+        let unbalanced = given - self.rigid.border.transposed(&x.values()[..unknowns], &pressures, &self.session);
         let motion = self.rigid.border.correction(&self.rigid.products, &unbalanced);
         for (response, by) in self.rigid.responses.iter().zip(motion.iter()) {
             x.axpy(-by, response)?;
         }
         let mut displacement = x.values()[..unknowns].to_vec();
-        self.rigid.border.displace(&self.problem.scene.rigid, motion.as_slice(), &mut displacement);
+        self.rigid.border.displace(self.problem, motion.as_slice(), &mut displacement);
         Ok(displacement)
     }
 
@@ -299,7 +306,7 @@ impl<'a> System<'a> {
                 displacement[2 * (node - space.own.start) + k] = constraint.value[k];
             }
         }
-        self.rigid.border.displace(&self.problem.scene.rigid, &self.rigid.motion, &mut displacement);
+        self.rigid.border.displace(self.problem, &self.rigid.motion, &mut displacement);
         displacement
     }
 

@@ -17,6 +17,8 @@ pub struct Discretisation {
     pub coupling: Coupling,
     /// Displacement of the boundary nodes by which contacts on deformed bodies were placed.
     pub motion: BoundaryMotion,
+    /// What holds each body whose mean motion is held: force, and moment about its middle (per thickness).
+    pub mean_forces: Vec<[f64; 3]>,
 }
 
 impl Discretisation {
@@ -43,7 +45,8 @@ impl Discretisation {
         session: &Session,
     ) -> Result<Self, SystemError> {
         let coupling = Coupling::new(&scene, &contacts, session)?;
-        Ok(Self { scene, spaces, contacts, coupling, motion })
+        let mean_forces = vec![[0.0; 3]; scene.means.len()];
+        Ok(Self { scene, spaces, contacts, coupling, motion, mean_forces })
     }
 
     /// Puts contacts in place that were placed again on moved bodies, and couples them. **Collective**

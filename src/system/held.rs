@@ -320,7 +320,9 @@ pub struct Held {
 
 /// Everything that supports prescribe at the macro vertices, and rigid sets that are not free in any component.
 pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
-    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports, &scene.rigid) else { return Vec::new() };
+    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports, &scene.means, &scene.rigid) else {
+        return Vec::new();
+    };
     let mut piece = vec![0; scene.mesh.vertices.len()];
     for triangle in &scene.mesh.triangles {
         triangle.vertices.iter().for_each(|&vertex| piece[vertex as usize] = triangle.piece as usize);

@@ -18,6 +18,8 @@ mod error;
 mod field;
 mod held;
 mod interpolation;
+mod mean_force;
+mod mean_motion;
 mod need;
 mod nodal_force;
 mod procedure;

@@ -1,11 +1,12 @@
 //! Nodal forces of all loads.
 
+use super::mean_motion::mean_weights;
 use super::{Discretisation, Field, SystemError};
 use crate::body::{Applied, applied_forces};
 use crate::geometry::Point;
 use crate::petsc::Session;
 
-/// Forces of loads and body forces at the nodes, in global axes. **Collective**
+/// Forces of loads and body forces, and of what holds mean motions, at the nodes, in global axes. **Collective**
 ///
 /// # Errors
 /// [`SystemError::Case`] if a triangle is turned inside out.
@@ -26,7 +27,14 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         let words = "load or body_force: a formula has no finite value somewhere on its boundary or body; correct it";
         return Err(SystemError::Case(words.into()));
     }
-    forces.sum(session)
+    let mut forces = forces.sum(session)?;
+    for (hold, held) in problem.scene.means.iter().zip(&problem.mean_forces) {
+        for k in hold.held().filter(|&k| held[k] != 0.0) {
+            let weights = mean_weights(problem, hold, k, session)?;
+            forces.subtract(&weights.map(|weight| weight.map(|component| -held[k] * component)));
+        }
+    }
+    Ok(forces)
 }
 
 /// Nodal forces as the right-hand side wants them: this rank's unknowns in the nodes' frames, zero where displacement

@@ -1,23 +1,32 @@
 //! The motions of rigid sets, from the displacements of their nodes.
 
+use super::mean_force::settle_means;
 use crate::body::Motion;
 use crate::geometry::Point;
 use crate::petsc::Session;
-use crate::system::{Discretisation, Space};
+use crate::system::{Discretisation, Solution, Space, SystemError};
 use nalgebra::{Matrix3, Vector3};
 
 /// Eigenvalues below this share of the largest are none: a set that is one point does not turn.
 const FLAT: f64 = 1e-12;
 
-/// Puts the nodes of rigid sets where a solution has moved them, given by this rank's displacements in the nodes' frames: what comes
-/// after the solve takes their displacement for a prescribed one. **Collective**
-pub fn settle(problem: &mut Discretisation, displacement: &[f64], session: &Session) {
+/// Puts the nodes of rigid sets, and bodies whose mean motion is held, where a solution has moved them: what comes after the solve
+/// takes their displacement for a prescribed one, and what holds a mean for a load. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc or an inverted triangle.
+pub fn settle(problem: &mut Discretisation, solution: &Solution, session: &Session) -> Result<(), SystemError> {
+    let displacement = &solution.displacement;
+    if !problem.scene.means.is_empty() {
+        settle_means(problem, solution, session)?;
+    }
     let motions = rigid_motions(problem, displacement, session);
     let finest = problem.spaces.len() - 1;
     let Space { constraints, numbering, .. } = &mut problem.spaces[finest];
     for (set, motion) in problem.scene.rigid.iter().zip(&motions) {
         constraints.move_rigidly(&problem.scene.mesh, numbering, set, motion);
     }
+    Ok(())
 }
 
 /// Motion of every rigid set of the scene, from this rank's displacements in the nodes' frames, those that are prescribed

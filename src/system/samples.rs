@@ -35,6 +35,7 @@ pub fn blocks(pair: Pair, upper: impl Fn(Point) -> Point, supports: Vec<Support>
         order: Order::P1,
         refine: 3,
         supports,
+        means: Vec::new(),
         rigid: Vec::new(),
         springs: Vec::new(),
         loads: Vec::new(),

@@ -1,6 +1,6 @@
 //! The physics that is solved: mesh, bodies, supports, loads and contacts, spread over ranks.
 
-use crate::body::{Body, BodyPart, Load, PointLoad, RigidNodes, RigidSet, Springs, Support};
+use crate::body::{Body, BodyPart, Load, MeanHold, PointLoad, RigidNodes, RigidSet, Springs, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneLaw};
 use crate::geometry::Point;
@@ -23,6 +23,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Supports.
     pub supports: Vec<Support>,
+    /// Bodies whose mean motion is held.
+    pub means: Vec<MeanHold>,
     /// Nodes that move together as rigid bodies.
     pub rigid: Vec<RigidSet>,
     /// Elastic supports.

@@ -69,8 +69,8 @@ impl Space {
     /// [`SystemError::Case`] if supports contradict each other.
     pub fn new(scene: &Scene, level: Level, rank: usize) -> Result<Self, SystemError> {
         let numbering = Numbering::new(level, &scene.partition);
-        let constraints =
-            Constraints::new(&scene.mesh, &numbering, &scene.supports, &scene.rigid).map_err(|e| SystemError::Case(e.0))?;
+        let constraints = Constraints::new(&scene.mesh, &numbering, &scene.supports, &scene.means, &scene.rigid);
+        let constraints = constraints.map_err(|e| SystemError::Case(e.0))?;
         let own = numbering.range(rank);
         Ok(Self { numbering, constraints, own })
     }

@@ -32,6 +32,7 @@ pub fn on(mesh: MacroMesh, session: &Session, order: Order, refine: usize) -> Sc
         order,
         refine,
         supports: vec![wall],
+        means: Vec::new(),
         rigid: Vec::new(),
         springs: Vec::new(),
         loads: Vec::new(),

@@ -104,7 +104,7 @@ impl OneMesh<'_> {
         let solution = self.finished(&mut system, solution, &ending, ascended)?;
         let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
         drop(system);
-        settle(problem, &solution.displacement, self.procedure.session);
+        settle(problem, &solution, self.procedure.session)?;
         Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), ascended, preconditioning, solver })
     }
 
@@ -131,7 +131,7 @@ impl OneMesh<'_> {
             match found.after {
                 After::Ended(ending) => {
                     problem.contacts.iter_mut().zip(following.found).for_each(|(contact, ends)| contact.found = Some(ends));
-                    settle(problem, &found.solution.displacement, self.procedure.session);
+                    settle(problem, &found.solution, self.procedure.session)?;
                     let MeshHistory { passes, boundaries } = history;
                     return Ok(OnMesh {
                         solution: found.solution,

@@ -41,8 +41,10 @@ pub struct Balance {
     pub contacts: Vec<ContactForce>,
     /// Energy in elastic supports, `½∫k u²`; nothing if there are none.
     pub springs: Option<f64>,
-    /// Force of each support on the bodies (per thickness), those of elastic ones after the others.
+    /// Force of each support on the bodies (per thickness), those of elastic ones and then those of mean motions after the others.
     pub reactions: Vec<Point>,
+    /// Moment of each hold of a mean motion about the middle of its body (per thickness).
+    pub mean_moments: Vec<f64>,
     /// Force of each rigid set on the bodies, and its moment about the reference point (per thickness).
     pub rigid: Vec<[f64; 3]>,
     /// Motion of each rigid set.
@@ -74,6 +76,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let NodeSums { work, bodies, mut reactions, rigid } =
         sum_over_nodes(problem, solution, u, &internal, &springs.nodes, session)?;
     reactions.extend(springs.reactions);
+    reactions.extend(problem.mean_forces.iter().map(|&[x, y, _]| Point::new(x, y)));
     let has_springs = !problem.scene.springs.is_empty();
     let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
@@ -107,9 +110,10 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         strain,
         strain_of_parts,
         reactions,
+        mean_moments: problem.mean_forces.iter().map(|&[_, _, moment]| moment).collect(),
         rigid,
         motions: rigid_motions(problem, &solution.displacement, session),
-        forces: magnitudes(&forces, &bodies),
+        forces: magnitudes(contacts, &forces, &bodies),
         contacts: forces,
     })
 }
@@ -265,8 +269,8 @@ fn set_of_nodes(problem: &Discretisation) -> HashMap<usize, (usize, Point)> {
 }
 
 /// Sum of the magnitudes of the forces on all bodies.
-fn magnitudes(forces: &[ContactForce], outer: &[ForceSum]) -> f64 {
-    let pressed: f64 = forces.iter().flat_map(|force| force.resultants).map(|resultant| resultant.norm()).sum();
+fn magnitudes(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum]) -> f64 {
+    let pressed: f64 = contacts.iter().zip(forces).map(|(contact, force)| 2.0 * force.size(contact)).sum();
     pressed + outer.iter().map(|sum| sum.magnitudes).sum::<f64>()
 }
 

@@ -1,0 +1,187 @@
+//! Bodies whose mean motion is held: the mean is what was asked for, and what holds it carries nothing where the loads balance.
+
+mod support;
+
+use support::mesh::{Block, Mesh, grid, write_scene};
+use support::{Ended, Run, mezha};
+
+const EXACT: f64 = 1e-9;
+
+fn close(found: f64, wanted: f64, size: f64, words: &str) {
+    assert!((found - wanted).abs() <= EXACT * size, "{words}: {found} instead of {wanted}");
+}
+
+fn numbers(ended: &Ended, pointer: &str) -> [f64; 2] {
+    [0, 1].map(|k| ended.number(&format!("{pointer}/{k}")))
+}
+
+/// Runs a case with P1 and P2, on 1, 2 and 3 ranks.
+fn run(mesh: &Mesh, case: &str, check: impl Fn(&str, Ended)) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for (order, ranks) in [(1, 1), (1, 3), (2, 1), (2, 2)] {
+        let ended = Run::file(&file).ranks(ranks).set("mesh.order", order).converged();
+        check(&format!("P{order}, {ranks} ranks"), ended);
+    }
+}
+
+fn carries_nothing(ended: &Ended, support: &str, size: f64, words: &str) {
+    let [x, y] = numbers(ended, &format!("/support/{support}/reaction"));
+    let moment = ended.number(&format!("/support/{support}/moment"));
+    [x, y, moment].iter().for_each(|force| close(*force, 0.0, size, &format!("{words}: {support}")));
+    assert!(!ended.errors.contains("is driven by"), "{words}: {}", ended.errors);
+}
+
+const BAR: &str = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.bar = { young = 200.0, poisson = 0.3 }
+load.left = { on = "left", traction = [-10.0, 0.0] }
+load.right = { on = "right", traction = [10.0, 0.0] }
+support.still = { body = "bar", mean = true, ux = 0.5, uy = -0.25, angle = 1e-3 }
+probe.corner = { point = [2.0, 1.0], body = "bar" }
+solver.tolerance = 1e-13
+"#;
+
+fn bar() -> Mesh {
+    Mesh { bodies: vec![("bar", grid(5, 3, 11, |u, v| [2.0 * u, v]), ["bottom", "right", "top", "left"])] }
+}
+
+#[test]
+fn a_bar_stretches_evenly_about_the_mean_motion_that_is_asked_for() {
+    run(&bar(), BAR, |words, ended| {
+        let (e, nu) = (200.0, 0.3);
+        let [along, across] = [10.0 * (1.0 - nu * nu) / e, -10.0 * nu * (1.0 + nu) / e];
+        let u = numbers(&ended, "/probe/corner/u");
+        close(u[0], 0.5 + along - 1e-3 * 0.5, 0.5, words);
+        close(u[1], -0.25 + 0.5 * across + 1e-3, 0.5, words);
+        close(ended.number("/probe/corner/stress/0"), 10.0, 10.0, words);
+        carries_nothing(&ended, "still", 10.0, words);
+        assert!(ended.number("/balance/bodies") < EXACT && ended.number("/balance/energy") < EXACT, "{words}");
+    });
+}
+
+const BLOCKS: &str = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.lower = { young = 7000.0, poisson = 0.227 }
+body.upper = { young = 3000.0, poisson = 0.3 }
+support.table = { on = "bottom", uy = 0.0 }
+support.below = { body = "lower", mean = true, ux = 0.0 }
+support.above = { body = "upper", mean = true, ux = 0.01 }
+load.top = { on = "top", pressure = 3.0 }
+contact.seam = { between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed" }
+probe.lower = { point = [1.0, 0.5], body = "lower" }
+probe.upper = { point = [1.0, 1.5], body = "upper" }
+solver.tolerance = 1e-12
+"#;
+
+fn blocks() -> Mesh {
+    let lower: Block = grid(5, 3, 11, |u, v| [2.0 * u, v]);
+    let upper: Block = grid(6, 3, 12, |u, v| [2.0 * u, 1.0 + v]);
+    Mesh {
+        bodies: vec![
+            ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
+            ("upper", upper, ["upper.seam", "right", "top", "left"]),
+        ],
+    }
+}
+
+#[test]
+fn blocks_whose_mean_shift_is_held_press_evenly() {
+    run(&blocks(), BLOCKS, |words, ended| {
+        ended.trace("seam").iter().for_each(|point| close(point.lambda, 3.0, 3.0, words));
+        carries_nothing(&ended, "below", 6.0, words);
+        carries_nothing(&ended, "above", 6.0, words);
+        // The middle of an evenly strained body moves as its mean does.
+        close(numbers(&ended, "/probe/lower/u")[0], 0.0, 1e-2, words);
+        close(numbers(&ended, "/probe/upper/u")[0], 0.01, 1e-2, words);
+        assert!(["force", "bodies", "energy"].iter().all(|key| ended.number(&format!("/balance/{key}")) < EXACT), "{words}");
+    });
+}
+
+/// The contact line is inclined: it resists the shift that is held, and a force along the line drives the upper block.
+#[test]
+fn a_mean_motion_that_contact_resists_is_as_asked_and_its_force_is_told() {
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    let turned = |mesh: Mesh| mesh.map(move |[x, y]| [cos * x - sin * y, sin * x + cos * y]);
+    let case = BLOCKS
+        .replace("support.table = { on = \"bottom\", uy = 0.0 }", "support.table = { on = \"bottom\", ux = 0.0, uy = 0.0 }")
+        .replace("support.below = { body = \"lower\", mean = true, ux = 0.0 }\n", "")
+        .replace("pressure = 3.0", "traction = [0.0, -3.0]")
+        .replace("ux = 0.01 }", "ux = 0.01, angle = 0.0 }")
+        .replace("[1.0, 0.5]", "[0.6, 0.9]")
+        .replace("[1.0, 1.5]", "[0.2, 1.8]");
+    run(&turned(blocks()), &case, |words, ended| {
+        // Two forces hold the block: that of the contact along its normal, and that of the hold along x.
+        let force = ended.number("/contact/seam/force");
+        close(force * cos, 6.0, 6.0, words);
+        let reaction = numbers(&ended, "/support/above/reaction");
+        close(reaction[0], force * sin, 6.0, words);
+        assert!(ended.errors.contains("support above: the mean motion that it holds is driven by a force of (3.46"), "{words}");
+        assert!(ended.number("/balance/bodies") < EXACT, "{words}");
+    });
+}
+
+/// Rings that nothing but their means keeps from turning.
+#[test]
+fn rings_that_may_turn_are_held_by_their_mean_turn() {
+    for ranks in [1, 2] {
+        let held =
+            Run::case("rings_full").set("support.shaft", "{ body = \"inner\", mean = true, ux = 0.0, uy = 0.0, angle = 0.0 }");
+        let held = held.set("support.housing", "{ body = \"outer\", mean = true, angle = 0.0 }");
+        let ended = held.set("exact.must_hold", false).set("solver.tolerance", 1e-12).ranks(ranks).converged();
+        carries_nothing(&ended, "shaft", 60.0, "inner");
+        carries_nothing(&ended, "housing", 60.0, "outer");
+        let pressures: Vec<f64> = ended.trace("seam").iter().map(|point| point.lambda).collect();
+        // Lamé: interference over the radial compliances of both rings at the seam, with free bore and rim.
+        let (e, nu) = (7000.0, 0.3);
+        let grow = |c: f64, a: f64| (1.0 + nu) / e * ((1.0 - 2.0 * nu) * a * 2.0 + c / 2.0);
+        let inner = grow(1.0 * 4.0 / 3.0, 4.0 / 3.0);
+        let outer = grow(4.0 * 9.0 / 5.0, 4.0 / 5.0);
+        let exact = 1e-3 / (inner + outer);
+        pressures.iter().for_each(|p| assert!((p / exact - 1.0).abs() < 5e-4, "{p} instead of {exact}"));
+    }
+}
+
+#[test]
+fn a_mean_motion_adapts() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let case = BLOCKS.replace("refine = 1", "refine = 0").replace("pressure = 3.0", "pressure = \"exp(2*x)\"");
+    let file = write_scene(folder.path(), &blocks().text(), &format!("accuracy = 4e-3\n{case}"));
+    let energies = [1, 2].map(|ranks| {
+        let ended = Run::file(&file).ranks(ranks).converged();
+        carries_nothing(&ended, "above", 1e2, "adapted");
+        assert!(ended.value("/accuracy").as_array().is_some_and(|meshes| meshes.len() > 1), "it adapts");
+        ended.number("/energy/total")
+    });
+    assert!((energies[1] / energies[0] - 1.0).abs() < 1e-8, "{energies:?}");
+}
+
+#[test]
+fn mistakes_are_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &blocks().text(), BLOCKS).display().to_string();
+    for (value, words) in [
+        ("{ body = \"upper\", mean = true }", "support.above: holds no mean motion; give ux, uy or angle"),
+        (
+            "{ body = \"uper\", mean = true, ux = 0.0 }",
+            "support.above.body = \"uper\" (--set): no such body; did you mean \"upper\"?",
+        ),
+        ("{ mean = true, ux = 0.0 }", "support.above.body: missing"),
+        ("{ body = \"upper\", mean = true, ux = \"x\" }", "support.above.ux"),
+        (
+            "{ body = \"upper\", mean = false, ux = 0.0 }",
+            "support.above.mean = false (--set): holds a mean motion only as mean = true",
+        ),
+        (
+            "{ body = \"upper\", mean = true, on = \"top\", ux = 0.0 }",
+            "support.above.on = \"top\" (--set): stands beside mean = true",
+        ),
+        ("{ body = \"lower\", mean = true, ux = 0.0 }", "support.below holds a mean motion of this body, too"),
+        ("{ body = \"lower\", mean = true, uy = 0.0 }", "holds a mean motion of this body, too"),
+    ] {
+        let (code, output, errors) = mezha(None, &["check", &file, "--set", &format!("support.above={value}")]);
+        assert!(code == Some(2) && errors.contains(words), "{value}: {code:?} {output}{errors}");
+    }
+    let (code, output, errors) = mezha(None, &["check", &file, "--set", "support.below.uy=0.0"]);
+    assert!(code == Some(2) && errors.contains("uy of \"lower\" is held at (0, 0) by support.table, too"), "{output}{errors}");
+}
