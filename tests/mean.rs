@@ -19,7 +19,7 @@ fn numbers(ended: &Ended, pointer: &str) -> [f64; 2] {
 fn run(mesh: &Mesh, case: &str, check: impl Fn(&str, Ended)) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &mesh.text(), case);
-    for (order, ranks) in [(1, 1), (1, 3), (2, 1), (2, 2)] {
+    for (order, ranks) in [(1, 1), (1, 2), (2, 2), (2, 3)] {
         let ended = Run::file(&file).ranks(ranks).set("mesh.order", order).converged();
         check(&format!("P{order}, {ranks} ranks"), ended);
     }
@@ -128,7 +128,8 @@ fn rings_that_may_turn_are_held_by_their_mean_turn() {
         let held =
             Run::case("rings_full").set("support.shaft", "{ body = \"inner\", mean = true, ux = 0.0, uy = 0.0, angle = 0.0 }");
         let held = held.set("support.housing", "{ body = \"outer\", mean = true, angle = 0.0 }");
-        let ended = held.set("exact.must_hold", false).set("solver.tolerance", 1e-12).ranks(ranks).converged();
+        let ended =
+            held.set("exact.must_hold", false).set("mesh.refine", 3).set("solver.tolerance", 1e-12).ranks(ranks).converged();
         carries_nothing(&ended, "shaft", 60.0, "inner");
         carries_nothing(&ended, "housing", 60.0, "outer");
         let pressures: Vec<f64> = ended.trace("seam").iter().map(|point| point.lambda).collect();
@@ -138,7 +139,7 @@ fn rings_that_may_turn_are_held_by_their_mean_turn() {
         let inner = grow(1.0 * 4.0 / 3.0, 4.0 / 3.0);
         let outer = grow(4.0 * 9.0 / 5.0, 4.0 / 5.0);
         let exact = 1e-3 / (inner + outer);
-        pressures.iter().for_each(|p| assert!((p / exact - 1.0).abs() < 5e-4, "{p} instead of {exact}"));
+        pressures.iter().for_each(|p| assert!((p / exact - 1.0).abs() < 3e-4, "{p} instead of {exact}"));
     }
 }
 
