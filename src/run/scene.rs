@@ -122,11 +122,11 @@ fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String> 
 /// A scene with its macro triangles spread over the ranks. **Collective**
 pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, RunError> {
     let partition = system::spread(&mesh, &case.contacts, case.mesh.order, case.mesh.refine, session)?;
-    Ok(assemble(case, mesh, partition))
+    Ok(assemble(case, Rc::new(mesh), Rc::new(partition)))
 }
 
 /// The scene of a case on a mesh that is spread already.
-pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
+pub fn assemble(case: &Case, mesh: Rc<MacroMesh>, partition: Rc<Partition>) -> Scene {
     let body = |name: &String| match case.bodies.iter().find(|body| body.name == *name) {
         Some(body) => body.clone(),
         // What a tool consists of does not matter: it does not strain.
@@ -134,7 +134,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
     };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),
-        partition: Rc::new(partition),
+        partition,
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),
@@ -143,7 +143,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         loads: case.loads.clone(),
         point_loads: case.point_loads.clone(),
         pairs: case.contacts.clone(),
-        mesh: Rc::new(mesh),
+        mesh,
     }
 }
 
