@@ -72,12 +72,8 @@ pub fn check_steps(factors: &[Factor], root: &Section) {
     if !root.has("steps") {
         return;
     }
-    if root.has("accuracy") {
-        let words = "stands beside an accuracy, which adapts the mesh to one load; adapt it to the last step without [steps], and name the adapted.msh of that result as mesh.file here";
-        root.problem(&["steps"], words.into());
-    }
-    if root.has_table("steps") && root.names_below("steps").next().is_none() {
-        let words = "holds no factor; write [steps.press] with factors = [0.5, 1.0] and scales = [\"load.top\"]";
+    if root.has("accuracy") && root.names_below("steps").next().is_some() {
+        let words = "stands beside an accuracy, which adapts the mesh to one load; adapt it without steps (--set steps={}), and name the adapted.msh of that result as mesh.file here";
         root.problem(&["steps"], words.into());
     }
     let Some(written) = root.written() else { return };
@@ -156,9 +152,8 @@ fn places(root: &Table, key: &str) -> Result<Vec<Vec<String>>, String> {
 /// A table with its path, and those of its parts, if it has any.
 fn with_parts<'t>(path: &[String], table: &'t Table) -> Vec<(Vec<String>, &'t Table)> {
     let parts = table.get("part").and_then(Value::as_table).into_iter().flatten();
-    let part = |(name, value): (&String, &'t Value)| {
-        Some(([path, &["part".to_string(), name.clone()]].concat(), value.as_table()?))
-    };
+    let part =
+        |(name, value): (&String, &'t Value)| Some(([path, &["part".to_string(), name.clone()]].concat(), value.as_table()?));
     let own = (path.to_vec(), table);
     [own].into_iter().chain(parts.filter_map(part)).collect()
 }
@@ -236,6 +231,8 @@ mod tests {
         scale(&mut table, &GRAVITY.map(String::from), 0.5);
         assert_eq!(table["gravity"]["g"].to_string(), "[0.0, -4.905]");
         scale(&mut table, &GRAVITY.map(String::from), 0.0);
-        assert!(!table.to_string().contains("density") && table.get("gravity").is_none() && table["body"]["a"].get("young").is_some());
+        assert!(
+            !table.to_string().contains("density") && table.get("gravity").is_none() && table["body"]["a"].get("young").is_some()
+        );
     }
 }

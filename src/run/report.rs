@@ -38,7 +38,14 @@ impl Report {
     pub fn new(case: &Case, options: &RunOptions, session: &Session) -> Self {
         let first = session.rank() == 0;
         let adapts = case.accuracy.is_some();
-        Self { speaks: first && !options.quiet, first, ranks: session.size(), started: options.started, adapts, of_step: String::new() }
+        Self {
+            speaks: first && !options.quiet,
+            first,
+            ranks: session.size(),
+            started: options.started,
+            adapts,
+            of_step: String::new(),
+        }
     }
 
     /// The report of a load step, which it announces.

@@ -31,7 +31,11 @@ impl Run<'_> {
             self.session.max(&mut seconds);
             rows.push(StepSummary::new(step.number, &step.factors, &summary, seconds[0]));
             if summary.status == Status::NotConverged {
-                self.report.say(&format!("step {}: NOT converged: {}", step.number, summary.reason.as_deref().unwrap_or_default()));
+                self.report.say(&format!(
+                    "step {}: NOT converged: {}",
+                    step.number,
+                    summary.reason.as_deref().unwrap_or_default()
+                ));
             }
             // What has not converged is no place to begin at.
             before = if solved.ending.is_converged() { Some(solved) } else { before };
@@ -69,7 +73,10 @@ impl Run<'_> {
         let failed: Vec<usize> = (0..rows.len()).filter(|&at| rows[at].status == Status::NotConverged).collect();
         let reason = |at: usize| rows[at].reason.as_deref().unwrap_or_default();
         match failed[..] {
-            [] => (Status::Converged, Some(format!("all {} steps; the last one: {}", rows.len(), reason(rows.len() - 1)))),
+            [] => (
+                Status::Converged,
+                Some(format!("all {} steps have converged; of the last one: {}", rows.len(), reason(rows.len() - 1))),
+            ),
             [first, ..] => {
                 let others = match failed.len() - 1 {
                     0 => String::new(),

@@ -49,7 +49,11 @@ fn block(title: &str, steps: &[StepSummary]) -> DiagramBlock {
     let (force_axis, width_axis) = ("contact force, per thickness", "contact width, unit of length");
     DiagramBlock {
         title: title.into(),
-        legend: names.iter().enumerate().map(|(style, name)| LegendRow { style, cells: vec![format!("contact {name}")] }).collect(),
+        legend: names
+            .iter()
+            .enumerate()
+            .map(|(style, name)| LegendRow { style, cells: vec![format!("contact {name}")] })
+            .collect(),
         diagrams: vec![
             diagram("Force against displacement", &way, force_axis, &|name| against(&|step, _| moved(step), force, name)),
             diagram("Width against force", force_axis, width_axis, &|name| against(&of(force), width, name)),
@@ -85,7 +89,8 @@ mod tests {
 
     fn step(number: usize) -> StepSummary {
         let force = 3.0 * number as f64;
-        let seam = StepContact { force: Some(force), width: Some(force.sqrt()), pressure_max: Some(1.0), ..StepContact::default() };
+        let seam =
+            StepContact { force: Some(force), width: Some(force.sqrt()), pressure_max: Some(1.0), ..StepContact::default() };
         let status = if number == 2 { Status::NotConverged } else { Status::Converged };
         StepSummary {
             step: number,
