@@ -120,7 +120,7 @@ fn a_cylinder_presses_as_hertz_says_in_each_step() {
 fn check_alone(ended: &Ended, change: impl Fn(Run) -> Run, tolerance: f64) {
     for step in steps(ended) {
         let file = ended.out.join(format!("steps/{:04}/case.toml", step["step"].as_u64().expect("a number")));
-        let alone = change(Run::file(&file).set("output.fields", false)).converged();
+        let alone = change(Run::file(&file).ranks(2).set("output.fields", false)).converged();
         let near = |found: f64, path: &str| {
             let wanted = alone.number(path);
             assert!((found - wanted).abs() <= tolerance * wanted.abs().max(1e-12), "{path}: {found} and {wanted}, {step:#}");
@@ -179,7 +179,7 @@ fn weights_and_gaps_are_scaled() {
         close(force + bed, weight(at), 6.0, "springs and contact carry the weight");
         assert_eq!(force > 0.0, at == 2, "the gap is closed at the whole weight alone");
     }
-    assert!((number(&all[2], "/support/bed/reaction/1") - 2.0).abs() < 0.01, "springs are pressed by the gap");
+    assert!((number(&all[2], "/support/bed/reaction/1") - 2.0).abs() < 0.1, "springs are pressed by the gap");
     assert!((number(&all[3], "/displacement_max") - 0.3).abs() < 0.01, "the wide gap stays open");
 }
 

@@ -37,11 +37,10 @@ pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, 
 pub use fingerprint::{Inputs, fingerprint};
 pub use rigid::{Plate, Tool};
 pub(crate) use section::read_text;
-pub use steps::Step;
+pub use steps::{LoadFactor, LoadStep};
 
 use overrides::{overridden, set_value};
 use section::{Log, Section};
-use steps::Factor;
 
 /// A checked case: what to solve, on which mesh, and what is known of the result.
 #[derive(Clone, Debug)]
@@ -87,9 +86,9 @@ pub struct Case {
     /// Exact or reference values.
     pub exact: Exact,
     /// Load steps, none if everything acts at once; the case itself is that of the last one.
-    pub steps: Vec<Step>,
+    pub steps: Vec<LoadStep>,
     /// What scales it from step to step.
-    factors: Vec<Factor>,
+    factors: Vec<LoadFactor>,
     /// The file with overrides and defaults written out.
     table: Table,
 }
@@ -214,9 +213,9 @@ impl Case {
                 error.problems.iter_mut().for_each(|problem| problem.words += &format!(" (in step {} of {count})", k + 1));
                 error
             })?;
-            steps.push(Step { number: k + 1, count, factors, case });
+            steps.push(LoadStep { number: k + 1, count, factors, case });
         }
-        Ok(match steps.last().map(|last: &Step| last.case.clone()) {
+        Ok(match steps.last().map(|last: &LoadStep| last.case.clone()) {
             Some(last) => Self { table: self.table, factors: self.factors, steps, ..last },
             None => self,
         })

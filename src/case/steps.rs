@@ -26,7 +26,7 @@ const GRAVITY: [&str; 2] = ["gravity", "g"];
 
 /// One load step.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub struct LoadStep {
     /// Its number, from 1.
     pub number: usize,
     /// Number of all steps.
@@ -37,7 +37,7 @@ pub struct Step {
     pub case: Case,
 }
 
-impl Step {
+impl LoadStep {
     /// `step 2 of 4 (press = 0.5)`
     pub fn words(&self) -> String {
         let factors: Vec<String> = self.factors.iter().map(|(name, value)| format!("{name} = {value}")).collect();
@@ -47,7 +47,7 @@ impl Step {
 
 /// A named factor.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Factor {
+pub struct LoadFactor {
     name: String,
     /// One value for each step.
     values: Vec<f64>,
@@ -56,7 +56,7 @@ pub struct Factor {
 }
 
 /// `[steps.NAME]`
-pub fn read_factor(section: &Section) -> Option<Factor> {
+pub fn read_factor(section: &Section) -> Option<LoadFactor> {
     let factors = section.required("factors", "[0.5, 1.0], one for each step", |value| match values::numbers(value)? {
         list if list.is_empty() => Err("must not be empty; give one number for each step, as in [0.5, 1.0]".into()),
         list if list.len() > MOST_STEPS => Err(format!("has {} steps; at most {MOST_STEPS} are possible", list.len())),
@@ -64,11 +64,11 @@ pub fn read_factor(section: &Section) -> Option<Factor> {
     });
     let wanted = "keys of loads, supports, rigid tools, contacts or bodies, as in [\"load.top\", \"contact.seam.gap\"]";
     let scales = section.required("scales", "[\"load.top\"]", values::list(wanted, values::name));
-    Some(Factor { name: section.name().into(), values: factors?, scales: scales? })
+    Some(LoadFactor { name: section.name().into(), values: factors?, scales: scales? })
 }
 
 /// All lists are equally long, everything that is scaled is there, and once only.
-pub fn check_steps(factors: &[Factor], root: &Section) {
+pub fn check_steps(factors: &[LoadFactor], root: &Section) {
     if !root.has("steps") {
         return;
     }
@@ -77,7 +77,7 @@ pub fn check_steps(factors: &[Factor], root: &Section) {
         root.problem(&["steps"], words.into());
     }
     let Some(written) = root.written() else { return };
-    let mut known: Vec<(Vec<String>, &Factor)> = Vec::new();
+    let mut known: Vec<(Vec<String>, &LoadFactor)> = Vec::new();
     for factor in factors {
         if factor.values.len() != factors[0].values.len() {
             let [own, first] = [factor, &factors[0]].map(|factor| factor.values.len());
@@ -160,7 +160,7 @@ fn with_parts<'t>(path: &[String], table: &'t Table) -> Vec<(Vec<String>, &'t Ta
 
 /// The factors of each step, and the table of the case with everything scaled; in the order of the steps. The factors are
 /// checked ones. Only the last table keeps what is expected of the result.
-pub fn tables(table: &Table, factors: &[Factor]) -> Vec<(Vec<(String, f64)>, Table)> {
+pub fn tables(table: &Table, factors: &[LoadFactor]) -> Vec<(Vec<(String, f64)>, Table)> {
     let count = factors.first().map_or(0, |factor| factor.values.len());
     let step = |k: usize| {
         let mut scaled = table.clone();

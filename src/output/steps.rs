@@ -8,7 +8,7 @@ use super::OutputError;
 use super::summary::{Status, StepSummary};
 
 /// A cell of the table with the name of its column; empty where nothing is known.
-type Cell = (String, Option<f64>);
+type RowValue = (String, Option<f64>);
 
 /// Writes `steps.csv`: a line with the names of the columns, as `summary.json` names the values, and one line per step. What a
 /// step does not know is left empty.
@@ -20,7 +20,7 @@ pub fn write_steps(path: &Path, steps: &[StepSummary]) -> Result<(), OutputError
 }
 
 fn write_rows(mut out: impl Write, steps: &[StepSummary]) -> std::io::Result<()> {
-    let rows: Vec<Vec<Cell>> = steps.iter().map(cells).collect();
+    let rows: Vec<Vec<RowValue>> = steps.iter().map(cells).collect();
     // A step that could not be solved knows fewer values than the others.
     let Some(columns) = rows.iter().max_by_key(|row| row.len()) else { return Ok(()) };
     let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
@@ -41,8 +41,8 @@ fn write_rows(mut out: impl Write, steps: &[StepSummary]) -> std::io::Result<()>
 }
 
 /// Everything of a step that is a number.
-fn cells(step: &StepSummary) -> Vec<Cell> {
-    let mut all: Vec<Cell> = Vec::new();
+fn cells(step: &StepSummary) -> Vec<RowValue> {
+    let mut all: Vec<RowValue> = Vec::new();
     let mut add = |name: String, value: Option<f64>| all.push((name, value));
     step.factors.iter().for_each(|(name, &value)| add(format!("factors.{name}"), Some(value)));
     for (name, contact) in &step.contact {

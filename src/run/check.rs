@@ -75,7 +75,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
 /// is closed everywhere.
 fn check_steps(case: &Case, last: &Scene) -> Result<Option<String>, RunError> {
     for step in case.steps.iter().rev().skip(1).rev() {
-        let scene = scene::assemble(&step.case, last.mesh.clone(), last.partition.clone());
+        let scene = scene::of_step(step, last);
         let words = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.not_held(&scene));
         if let Some(words) = words.map_err(|error| RunError::from(error).in_step(step))? {
             return Ok(Some(format!("{}: {words}", step.words())));

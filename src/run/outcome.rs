@@ -1,6 +1,6 @@
 //! How a run ends.
 
-use crate::case::{Case, Step};
+use crate::case::{Case, LoadStep};
 use crate::output::OutputError;
 use crate::petsc;
 use crate::system::SystemError;
@@ -41,7 +41,7 @@ impl RunError {
     }
 
     /// With the load step before words that begin with a key.
-    pub(super) fn in_step(self, step: &Step) -> Self {
+    pub(super) fn in_step(self, step: &LoadStep) -> Self {
         match self {
             Self::Key(words) => Self::Key(format!("{}: {words}", step.words())),
             error => error,

@@ -2,7 +2,7 @@
 
 use super::{Outcome, RunOptions, Stages, accuracy};
 use crate::accuracy::{Accuracy, AdaptedMesh};
-use crate::case::{Case, Step};
+use crate::case::{Case, LoadStep};
 use crate::element::Order;
 use crate::mesh::Numbering;
 use crate::output::Summary;
@@ -49,7 +49,7 @@ impl Report {
     }
 
     /// The report of a load step, which it announces.
-    pub fn of_step(&self, step: &Step) -> Self {
+    pub fn of_step(&self, step: &LoadStep) -> Self {
         self.say(&step.words());
         Self { of_step: format!("step {}: ", step.number), ..self.clone() }
     }

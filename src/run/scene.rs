@@ -2,7 +2,7 @@
 
 use super::RunError;
 use crate::body::Body;
-use crate::case::Case;
+use crate::case::{Case, LoadStep};
 use crate::contact::{CurveChoice, Pair};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces};
@@ -145,6 +145,11 @@ pub fn assemble(case: &Case, mesh: Rc<MacroMesh>, partition: Rc<Partition>) -> S
         pairs: case.contacts.clone(),
         mesh,
     }
+}
+
+/// The scene of a load step, on the mesh of another one.
+pub fn of_step(step: &LoadStep, other: &Scene) -> Scene {
+    assemble(&step.case, other.mesh.clone(), other.partition.clone())
 }
 
 /// Names of a case against those of its mesh.

@@ -1,10 +1,10 @@
 //! The loop over load steps: each is solved from the one before, judged by itself, and kept as a row.
 
 use super::{Run, RunError, scene};
-use crate::case::Step;
+use crate::case::LoadStep;
 use crate::output::summary::{Status, StepSummary, Summary};
 use crate::output::{OutputError, plot, vtk, write_steps};
-use crate::system::{Scene, Solved};
+use crate::system::{Procedure, Scene, Solved};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -18,14 +18,18 @@ impl Run<'_> {
     /// # Errors
     /// [`RunError`] if there is no result of a step at all.
     pub(super) fn solve_steps(&self, scene: &Scene) -> Result<Summary, RunError> {
+        // What cannot be used is told before anything is solved.
+        for step in &self.case.steps {
+            let looked = Procedure::look(&scene::of_step(step, scene), self.session.rank());
+            looked.map_err(|error| RunError::from(error).in_step(step))?;
+        }
         let mut before: Option<Solved> = None;
         let mut rows = Vec::new();
         let mut last = None;
         for step in &self.case.steps {
             let started = Instant::now();
             let run = self.of_step(step)?;
-            let scene = scene::assemble(&step.case, scene.mesh.clone(), scene.partition.clone());
-            let solved = run.solve(scene, before.as_ref()).map_err(|error| error.in_step(step))?;
+            let solved = run.solve(scene::of_step(step, scene), before.as_ref()).map_err(|error| error.in_step(step))?;
             let summary = run.summarise(&solved).map_err(|error| error.in_step(step))?;
             let mut seconds = [started.elapsed().as_secs_f64()];
             self.session.max(&mut seconds);
@@ -50,7 +54,7 @@ impl Run<'_> {
     }
 
     /// The run of one step: its files lie in a folder of their own, those of the last one where they always do. **Collective**
-    fn of_step(&self, step: &Step) -> Result<Run<'_>, RunError> {
+    fn of_step(&self, step: &LoadStep) -> Result<Run<'_>, RunError> {
         let own = self.files.join(folder(step.number));
         let make = || std::fs::create_dir_all(&own).and_then(|()| std::fs::write(own.join("case.toml"), step.case.resolved()));
         let made = if self.session.rank() == 0 { make().map_err(OutputError::io("write to", &own)) } else { Ok(()) };

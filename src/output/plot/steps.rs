@@ -8,7 +8,7 @@ use crate::output::OutputError;
 use crate::output::summary::{Status, StepContact, StepSummary};
 
 /// What is drawn of a contact.
-type OfContact = fn(&StepContact) -> Option<f64>;
+type DrawnValue = fn(&StepContact) -> Option<f64>;
 
 /// Draws `steps.svg`: contact forces against a displacement, widths against forces, widths and largest pressures over the steps.
 /// Marks of steps that have not converged are hollow.
@@ -29,7 +29,7 @@ fn block(title: &str, steps: &[StepSummary]) -> DiagramBlock {
     names.dedup();
     let (way, moved) = displacement(steps);
     let number = |step: &StepSummary| Some(step.step as f64);
-    let (force, width, peak): (OfContact, OfContact, OfContact) =
+    let (force, width, peak): (DrawnValue, DrawnValue, DrawnValue) =
         (|contact| contact.force, |contact| contact.width, |contact| contact.pressure_max);
     let diagram = |title: &str, x: &str, y: &str, marks: &dyn Fn(&str) -> Vec<Mark>| Diagram {
         title: title.into(),
@@ -38,8 +38,8 @@ fn block(title: &str, steps: &[StepSummary]) -> DiagramBlock {
         behind: Vec::new(),
         lines: names.iter().enumerate().map(|(style, name)| (style, marks(name))).collect(),
     };
-    let of = |value: OfContact| move |step: &StepSummary, name: &str| step.contact.get(name).and_then(value);
-    let against = |x: &dyn Fn(&StepSummary, &str) -> Option<f64>, y: OfContact, name: &str| {
+    let of = |value: DrawnValue| move |step: &StepSummary, name: &str| step.contact.get(name).and_then(value);
+    let against = |x: &dyn Fn(&StepSummary, &str) -> Option<f64>, y: DrawnValue, name: &str| {
         let mark = |step: &StepSummary| {
             let (x, y) = (x(step, name)?, of(y)(step, name)?);
             Some(Mark { x, y, reach: [y, y], hollow: step.status != Status::Converged })
