@@ -186,23 +186,34 @@ impl Run<'_> {
         let stress = found.stress()?;
         let at_node = |part: usize, node: usize| stress.at(part, node);
         session.agree(fields::write(folder, found, at_node)).map_err(RunError::Failed)?;
-        let facets = fields::facets(found, at_node);
+        if session.rank() == 0 {
+            let curve = |name: &str| folder.join(format!("contact_{name}.vtu"));
+            let mut pairs = found.problem.contacts.iter().zip(traces);
+            pairs.try_for_each(|(contact, points)| vtk::write_curve(&curve(&contact.pair.name), points))?;
+        }
+        if self.draws { self.write_figures(found, traces, adaptation, at_node) } else { Ok(()) }
+    }
+
+    /// Figures of the solution. **Collective**
+    fn write_figures(
+        &self,
+        found: &Evaluation,
+        traces: &[Vec<ContactPoint>],
+        adaptation: Option<&Adaptation>,
+        stress: impl Fn(usize, usize) -> [f64; 4],
+    ) -> Result<(), RunError> {
+        let (case, folder) = (self.case, &self.files);
+        let facets = fields::facets(found, stress);
         let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found, |_| true));
         let interfaces = fields::macro_edges(found, |edge| found.problem.scene.mesh.is_interface(edge));
-        if session.rank() != 0 {
+        if self.session.rank() != 0 {
             return Ok(());
         }
         let title = if case.title.is_empty() { &case.name } else { &case.title };
         for (contact, points) in found.problem.contacts.iter().zip(traces) {
             let name = &contact.pair.name;
-            vtk::write_curve(&folder.join(format!("contact_{name}.vtu")), points)?;
-            if self.draws {
-                plot::write_pressure(&folder.join(format!("pressure_{name}.svg")), title, points)?;
-                plot::write_displacement(&folder.join(format!("displacement_{name}.svg")), title, points)?;
-            }
-        }
-        if !self.draws {
-            return Ok(());
+            plot::write_pressure(&folder.join(format!("pressure_{name}.svg")), title, points)?;
+            plot::write_displacement(&folder.join(format!("displacement_{name}.svg")), title, points)?;
         }
         let lines: Vec<&[ContactPoint]> = traces.iter().map(Vec::as_slice).collect();
         plot::write_deformed(&folder.join("deformed.svg"), title, &facets, [&macro_edges, &interfaces], &lines)?;
