@@ -7,7 +7,6 @@ use crate::element::{Order, Plane};
 use crate::mesh::Partition;
 use crate::petsc::{Session, versions};
 use crate::system::{Procedure, Scene};
-use std::rc::Rc;
 
 /// What a look at a case finds.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,8 +28,8 @@ pub fn check(case: &Case) -> Result<Checked, RunError> {
 
 fn describe(case: &Case) -> Result<Checked, RunError> {
     let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
-    let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
-    let scene = scene::assemble(case, Rc::new(mesh), partition);
+    let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
+    let scene = scene::assemble(case, mesh, partition);
     let not_held_before = check_steps(case, &scene)?;
     let at_rest = Procedure::look(&scene, 0)?;
     let triangles = scene.mesh.triangles.len() * at_rest.numbering.level.triangles_per_edge().pow(2);

@@ -122,11 +122,12 @@ fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String> 
 /// A scene with its macro triangles spread over the ranks. **Collective**
 pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, RunError> {
     let partition = system::spread(&mesh, &case.contacts, case.mesh.order, case.mesh.refine, session)?;
-    Ok(assemble(case, Rc::new(mesh), Rc::new(partition)))
+    Ok(assemble(case, mesh, partition))
 }
 
 /// The scene of a case on a mesh that is spread already.
-pub fn assemble(case: &Case, mesh: Rc<MacroMesh>, partition: Rc<Partition>) -> Scene {
+pub fn assemble(case: &Case, mesh: impl Into<Rc<MacroMesh>>, partition: impl Into<Rc<Partition>>) -> Scene {
+    let mesh = mesh.into();
     let body = |name: &String| match case.bodies.iter().find(|body| body.name == *name) {
         Some(body) => body.clone(),
         // What a tool consists of does not matter: it does not strain.
@@ -134,7 +135,7 @@ pub fn assemble(case: &Case, mesh: Rc<MacroMesh>, partition: Rc<Partition>) -> S
     };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),
-        partition,
+        partition: partition.into(),
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),

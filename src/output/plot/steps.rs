@@ -10,6 +10,9 @@ use crate::output::summary::{Status, StepContact, StepSummary};
 /// What is drawn of a contact.
 type DrawnValue = fn(&StepContact) -> Option<f64>;
 
+/// What is drawn of a step.
+type OfStep<'s> = Box<dyn Fn(&StepSummary) -> Option<f64> + 's>;
+
 /// Draws `steps.svg`: contact forces against a displacement, widths against forces, widths and largest pressures over the steps.
 /// Marks of steps that have not converged are hollow.
 ///
@@ -67,7 +70,7 @@ fn block(title: &str, steps: &[StepSummary]) -> DiagramBlock {
 
 /// The displacement that says how far the scene has gone, in words and in each step: the shift of the first rigid tool or plate
 /// that is shifted, else the displacement of the first probe, else the largest one of a node.
-fn displacement(steps: &[StepSummary]) -> (String, Box<dyn Fn(&StepSummary) -> Option<f64> + '_>) {
+fn displacement(steps: &[StepSummary]) -> (String, OfStep<'_>) {
     let shift = |step: &StepSummary, name: &str| {
         step.rigid.get(name).and_then(|rigid| rigid.motion).map(|motion| motion[0].hypot(motion[1]))
     };
