@@ -73,6 +73,26 @@ fn points_outside_and_springs_that_push_away_are_refused() {
     );
 }
 
+/// Load steps, against the case and in one step.
+#[test]
+fn steps_that_scale_nothing_or_are_not_alike_are_refused() {
+    let steps = |words: &str, expected: &[&str]| bad_key("steps", words, expected);
+    steps("{ p = { factors = [], scales = [\"load.top\"] } }", &["steps.p.factors = []", "must not be empty"]);
+    steps("{ p = { factors = [0.5, nan], scales = [\"load.top\"] } }", &["steps.p.factors", "entry 2: must be a finite number"]);
+    steps("{ p = { factors = [1], scales = [\"load.topp\"] } }", &["steps.p.scales", "did you mean \"top\"?"]);
+    steps("{ p = { factors = [1], scales = [\"contact.seam.gap\"] } }", &["steps.p.scales", "gap = \"closed\""]);
+    steps(
+        "{ p = { factors = [1, 2], scales = [\"load.top\"] }, q = { factors = [1], scales = [\"support.wall\"] } }",
+        &["steps.q.factors", "lists 1 steps, but steps.p lists 2"],
+    );
+    // Two supports meet in a corner, and one of them is scaled: they contradict each other in the second step alone.
+    let corner = |run: Run| {
+        let run = run.set("support.push", "{ on = \"left\", uy = 0.1 }").set("support.table.uy", 0.1);
+        run.set("steps.p", "{ factors = [1, 2, 1], scales = [\"support.push\"] }")
+    };
+    refused(&blocks().text(), GOOD, corner, &["case.toml", "step 2 of 3 (p = 2)", "support.push", "support.table"]);
+}
+
 #[test]
 fn the_good_case_runs() {
     for ended in ended(&blocks().text(), GOOD, |run| run) {

@@ -16,6 +16,7 @@ pub(crate) mod overrides;
 mod rigid;
 pub(crate) mod section;
 mod spot;
+mod steps;
 mod support;
 pub(crate) mod values;
 
@@ -36,9 +37,10 @@ pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, 
 pub use fingerprint::{Inputs, fingerprint};
 pub use rigid::{Plate, Tool};
 pub(crate) use section::read_text;
+pub use steps::{LoadFactor, LoadStep};
 
 use overrides::{overridden, set_value};
-use section::Section;
+use section::{Log, Section};
 
 /// A checked case: what to solve, on which mesh, and what is known of the result.
 #[derive(Clone, Debug)]
@@ -85,6 +87,10 @@ pub struct Case {
     pub probes: Vec<Probe>,
     /// Exact or reference values.
     pub exact: Exact,
+    /// Load steps, none if everything acts at once; the case itself is that of the last one.
+    pub steps: Vec<LoadStep>,
+    /// What scales it from step to step.
+    factors: Vec<LoadFactor>,
     /// The file with overrides and defaults written out.
     table: Table,
 }
@@ -174,7 +180,15 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let (mut table, log) = overridden(text, file, overrides, &accuracy::SHORT)?;
+        let (table, log) = overridden(text, file, overrides, &accuracy::SHORT)?;
+        Self::from_table(table, log, file)?.with_steps()
+    }
+
+    /// Checks a table.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    fn from_table(mut table: Table, log: Log, file: &Path) -> Result<Self, CaseError> {
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let log = log.into_inner();
@@ -186,6 +200,27 @@ impl Case {
         }
         case.table = table;
         Ok(case)
+    }
+
+    /// The case with its load steps, as that of the last one; itself if it has none.
+    ///
+    /// # Errors
+    /// [`CaseError`] if a value is bad where it is scaled.
+    fn with_steps(self) -> Result<Self, CaseError> {
+        let tables = steps::tables(&self.table, &self.factors);
+        let count = tables.len();
+        let mut steps = Vec::with_capacity(count);
+        for (k, (factors, table)) in tables.into_iter().enumerate() {
+            let case = Self::from_table(table, Log::default(), &self.file).map_err(|mut error| {
+                error.problems.iter_mut().for_each(|problem| problem.words += &format!(" (in step {} of {count})", k + 1));
+                error
+            })?;
+            steps.push(LoadStep { number: k + 1, count, factors, case });
+        }
+        Ok(match steps.last().map(|last: &LoadStep| last.case.clone()) {
+            Some(last) => Self { table: self.table, factors: self.factors, steps, ..last },
+            None => self,
+        })
     }
 
     /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its
@@ -221,6 +256,7 @@ impl Case {
         let probes = root.named("probe", model::read_probe);
         let exact = exact::read_exact(root);
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
+        let factors = root.named("steps", steps::read_factor);
         model::check_bodies(root);
         model::check_parts(&bodies, root);
         gravity::check_gravity(gravity, root);
@@ -233,6 +269,7 @@ impl Case {
         contact::check_contacts(&contacts, &unions, &geometries, root);
         rigid::check_tools(&tools, &contacts, root);
         exact::check_exact(&exact, root);
+        steps::check_steps(&factors, root);
         Some(Self {
             name: name_of(file, "case.toml"),
             file: file.into(),
@@ -255,6 +292,8 @@ impl Case {
             output: output?,
             probes,
             exact,
+            steps: Vec::new(),
+            factors,
             table: Table::new(),
         })
     }

@@ -50,6 +50,11 @@ impl<'a> Section<'a> {
         self.path.last().map_or("", String::as_str)
     }
 
+    /// This table as it is written, if it is in the file.
+    pub fn written(&self) -> Option<&'a Table> {
+        self.table
+    }
+
     /// Whether a key is written in the file.
     pub fn has(&self, key: &'static str) -> bool {
         self.get(key).is_some()

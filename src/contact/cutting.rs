@@ -79,9 +79,9 @@ fn softer_edges<'a>(
     })
 }
 
-/// Length of the longest ruling edge.
+/// Length of the longest ruling edge; that of Γ_C where none lies, as far from all bodies.
 fn softer_edge_length(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> f64 {
-    softer_edges(boundary, edges, young).map(|(_, length)| length).fold(0.0, f64::max)
+    softer_edges(boundary, edges, young).map(|(_, length)| length).reduce(f64::max).unwrap_or(boundary.length())
 }
 
 /// Mean length of the ruling edges beside each segment: the `h` of the jump term.
@@ -215,6 +215,14 @@ mod tests {
         });
         let line = Curve::Line([[0.0, 1.0], [2.0, 1.0]]);
         (edges, ContactBoundary::new(line, [0.0, 1.0], Point::new(0.0, 1.0)))
+    }
+
+    #[test]
+    fn a_boundary_far_from_all_edges_is_one_segment() {
+        let (_, boundary) = graded_seam(0.5);
+        let nothing = [Vec::new(), Vec::new()];
+        let count = EdgeCount::new(&boundary, &nothing, [1.0, 1.0]);
+        assert_eq!((count.most_parts(1.5), count.even_parts(1)), (1, vec![0.0, 1.0]));
     }
 
     #[test]

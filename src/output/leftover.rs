@@ -110,7 +110,7 @@ fn host() -> String {
 
 /// Whether a run writes a file of this name.
 fn is_result_name(name: &str) -> bool {
-    const WRITTEN: [(&str, &str); 10] = [
+    const WRITTEN: [(&str, &str); 15] = [
         ("summary", ".json"),
         ("case", ".toml"),
         ("contact_", ".csv"),
@@ -120,6 +120,11 @@ fn is_result_name(name: &str) -> bool {
         ("displacement_", ".svg"),
         ("deformed", ".svg"),
         ("accuracy", ".svg"),
+        ("steps", ".csv"),
+        ("steps", ".svg"),
+        ("fields", ".pvd"),
+        ("contact_", ".pvd"),
+        ("steps", "steps"),
         ("adapted.msh", "adapted.msh"), // and no other mesh of the user's
     ];
     WRITTEN.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))

@@ -5,7 +5,9 @@
 //! | `summary.json` | [`Summary::write`] |
 //! | `contact_NAME.csv` | [`write_contact`] |
 //! | `fields.vtu`, or `fields.pvtu` and its pieces; `contact_NAME.vtu` | [`vtk`] |
-//! | `pressure_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `accuracy.svg` | [`plot`] |
+//! | `pressure_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `accuracy.svg`, `steps.svg` | [`plot`] |
+//! | `steps.csv` | [`write_steps`] |
+//! | `fields.pvd`, `contact_NAME.pvd`: the files of each load step, which lie in `steps/0001` and so on | [`vtk`] |
 //!
 //! All of it goes through a [`ResultFolder`], which appears under its name only when it is whole.
 //! Nothing here communicates: in parallel every rank writes its own piece of the fields, and rank 0 the rest.
@@ -15,12 +17,14 @@ mod error;
 mod folder;
 mod leftover;
 pub mod plot;
+mod steps;
 pub mod summary;
 pub mod vtk;
 
 pub use csv::{ContactPoint, write_contact};
 pub use error::OutputError;
 pub use folder::ResultFolder;
+pub use steps::write_steps;
 pub use summary::Summary;
 
 /// The signs of a result, as its files state them in their header.

@@ -5,8 +5,10 @@
 
 use crate::contact::zone_counts;
 mod accuracy;
+mod steps;
 
 pub use accuracy::{AccuracyStep, ContactGoals, GoalSummary, ProbeGoals};
+pub use steps::{StepContact, StepSummary};
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -46,6 +48,9 @@ pub struct Summary {
     pub support: BTreeMap<String, SupportSummary>,
     /// Energies of the solution.
     pub energy: Energy,
+    /// Largest displacement of a node (length).
+    #[serde(default)]
+    pub displacement_max: Option<f64>,
     /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
     #[serde(default)]
     pub strain_max: BTreeMap<String, Option<f64>>,
@@ -71,6 +76,9 @@ pub struct Summary {
     /// was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Vec<AccuracyStep>>,
+    /// One entry per load step; everything else is that of the last one. The key is missing if the case has no steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<Vec<StepSummary>>,
 }
 
 /// Verdict of a run.

@@ -107,6 +107,19 @@ pub fn write_curve(path: &Path, points: &[ContactPoint]) -> Result<(), OutputErr
     })
 }
 
+/// Writes a `.pvd` file, which ParaView opens as a series: times, and the file of each, by its path from the folder of the series.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn write_series<S: AsRef<str>>(path: &Path, files: &[(f64, S)]) -> Result<(), OutputError> {
+    let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+    write_file(path, "Collection", |out| {
+        files.iter().try_for_each(|(time, file)| {
+            writeln!(out, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{}\"/>", escaped(file.as_ref()))
+        })
+    })
+}
+
 impl Piece<'_> {
     fn nodes_per_cell(&self) -> usize {
         match self.order {

@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::element::{Order, Plane};
 use crate::mesh::Partition;
 use crate::petsc::{Session, versions};
-use crate::system::Procedure;
+use crate::system::{Procedure, Scene};
 
 /// What a look at a case finds.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +30,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);
+    let not_held_before = check_steps(case, &scene)?;
     let at_rest = Procedure::look(&scene, 0)?;
     let triangles = scene.mesh.triangles.len() * at_rest.numbering.level.triangles_per_edge().pow(2);
     let order = if scene.order == Order::P1 { "P1" } else { "P2" };
@@ -62,8 +63,24 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     if let Some(accuracy) = &case.accuracy {
         lines.push(format!("accuracy asked for: {}; the mesh is adapted to it", accuracy::request(accuracy)));
     }
-    let not_held = at_rest.not_held(&scene)?;
+    if let Some(last) = case.steps.last() {
+        lines.push(format!("{} load steps; the last one is {}", last.count, last.words()));
+    }
+    let not_held = not_held_before.map_or_else(|| at_rest.not_held(&scene), |words| Ok(Some(words)))?;
     Ok(Checked { words: lines.join("\n"), not_held })
+}
+
+/// Looks at all load steps but the last, which is the case itself: words for a body that can move in one of them though contact
+/// is closed everywhere.
+fn check_steps(case: &Case, last: &Scene) -> Result<Option<String>, RunError> {
+    for step in case.steps.iter().rev().skip(1).rev() {
+        let scene = scene::of_step(step, last);
+        let words = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.not_held(&scene));
+        if let Some(words) = words.map_err(|error| RunError::from(error).in_step(step))? {
+            return Ok(Some(format!("{}: {words}", step.words())));
+        }
+    }
+    Ok(None)
 }
 
 /// Versions of everything that matters.

@@ -83,7 +83,7 @@ fn compare_bodies(case: &Case, found: &Evaluation, errors: &mut Errors) -> Resul
 }
 
 /// Largest displacement of a node. **Collective**
-fn largest(Evaluation { u, session, .. }: &Evaluation) -> f64 {
+pub fn largest(Evaluation { u, session, .. }: &Evaluation) -> f64 {
     let mut size = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
     session.max(&mut size);
     size[0]

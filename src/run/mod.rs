@@ -16,6 +16,7 @@ mod run_options;
 mod scene;
 mod slivers;
 mod stages;
+mod steps;
 mod summarise;
 mod true_errors;
 mod trust;
@@ -36,6 +37,7 @@ use std::cell::RefCell;
 use std::ffi::OsString;
 use std::os::unix::ffi::OsStringExt;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 /// Solves a case and writes its results. **Collective**
 ///
@@ -49,11 +51,16 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     refuse_options(session)?;
     let (folder, files) = claim_folder(options, session)?;
     let report = Report::new(case, options, session);
-    let run = Run { case, options, session, stages: Stages::new(session)?, report, files, true_errors: RefCell::default() };
+    let stages = Rc::new(Stages::new(session)?);
+    let run = Run { case, options, session, stages, report, files, draws: true, true_errors: RefCell::default() };
     run.report.start(case);
     let scene = run.read_scene()?;
-    let solved = run.solve(scene)?;
-    run.write(&solved, folder)
+    if !case.steps.is_empty() {
+        return run.finish(run.solve_steps(&scene)?, &scene.mesh, folder);
+    }
+    let solved = run.solve(scene, None)?;
+    let summary = run.summarise(&solved)?;
+    run.finish(summary, &solved.problem.scene.mesh, folder)
 }
 
 /// What the case says is not said again to PETSc.
@@ -86,10 +93,12 @@ struct Run<'a> {
     case: &'a Case,
     options: &'a RunOptions,
     session: &'a Session,
-    stages: Stages,
+    stages: Rc<Stages>,
     report: Report,
     /// Where all ranks write their files to.
     files: PathBuf,
+    /// Whether figures are drawn of it: not of every load step.
+    draws: bool,
     /// On each mesh that was adapted, the true error of each goal as far as the case tells it.
     true_errors: RefCell<Vec<Vec<Option<f64>>>>,
 }

@@ -7,8 +7,8 @@ use crate::petsc::StageGuard;
 use crate::system::{Event, Observer, Procedure, Scene, Solved, Work};
 
 impl Run<'_> {
-    /// Solves a scene as the case wants it. **Collective**
-    pub(super) fn solve(&self, scene: Scene) -> Result<Solved, RunError> {
+    /// Solves a scene as the case wants it, from the solution of the load step before, if there is any. **Collective**
+    pub(super) fn solve(&self, scene: Scene, before: Option<&Solved>) -> Result<Solved, RunError> {
         let solver = &self.case.solver;
         let (choice, tolerance, inf_sup) = (solver.choice, solver.tolerance, solver.inf_sup);
         let accuracy = self.case.accuracy.as_ref().map(|accuracy| accuracy::limited(accuracy, self.session));
@@ -19,10 +19,10 @@ impl Run<'_> {
         }
         let procedure = Procedure { choice, tolerance, inf_sup, accuracy, session: self.session, observer: self };
         // An accuracy has a limit to its meshes.
-        if accuracy.is_none() {
+        if accuracy.is_none() && before.is_none() {
             memory::refuse_too_large(scene.refine, |refine| procedure.need(&scene, refine), self.session)?;
         }
-        Ok(procedure.solve(scene)?)
+        Ok(procedure.solve(scene, before)?)
     }
 }
 
@@ -38,7 +38,7 @@ impl Observer for Run<'_> {
     }
 
     fn enter(&self, work: Work) -> Option<StageGuard<'_>> {
-        let Stages { assemble, contact, setup, solve, output, .. } = &self.stages;
+        let Stages { assemble, contact, setup, solve, output, .. } = &*self.stages;
         let stage = match work {
             Work::Contact => contact,
             Work::Assembly => assemble,

@@ -1,6 +1,6 @@
 //! How a run ends.
 
-use crate::case::Case;
+use crate::case::{Case, LoadStep};
 use crate::output::OutputError;
 use crate::petsc;
 use crate::system::SystemError;
@@ -37,6 +37,14 @@ impl RunError {
         match self {
             Self::Input(_) | Self::Key(_) => 2,
             Self::Overtaken(_) | Self::Failed(_) => 1,
+        }
+    }
+
+    /// With the load step before words that begin with a key.
+    pub(super) fn in_step(self, step: &LoadStep) -> Self {
+        match self {
+            Self::Key(words) => Self::Key(format!("{}: {words}", step.words())),
+            error => error,
         }
     }
 

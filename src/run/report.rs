@@ -2,7 +2,7 @@
 
 use super::{Outcome, RunOptions, Stages, accuracy};
 use crate::accuracy::{Accuracy, AdaptedMesh};
-use crate::case::Case;
+use crate::case::{Case, LoadStep};
 use crate::element::Order;
 use crate::mesh::Numbering;
 use crate::output::Summary;
@@ -21,6 +21,7 @@ pub const LOCKING: f64 = 0.45;
 const SMALL_STRAIN: f64 = 0.05;
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
+#[derive(Clone)]
 pub struct Report {
     speaks: bool,
     first: bool,
@@ -28,6 +29,8 @@ pub struct Report {
     started: Instant,
     /// Whether the mesh is adapted: the one of the file, and its segments, are a beginning only.
     adapts: bool,
+    /// What warnings begin with: the load step that they are of.
+    of_step: String,
 }
 
 impl Report {
@@ -35,7 +38,20 @@ impl Report {
     pub fn new(case: &Case, options: &RunOptions, session: &Session) -> Self {
         let first = session.rank() == 0;
         let adapts = case.accuracy.is_some();
-        Self { speaks: first && !options.quiet, first, ranks: session.size(), started: options.started, adapts }
+        Self {
+            speaks: first && !options.quiet,
+            first,
+            ranks: session.size(),
+            started: options.started,
+            adapts,
+            of_step: String::new(),
+        }
+    }
+
+    /// The report of a load step, which it announces.
+    pub fn of_step(&self, step: &LoadStep) -> Self {
+        self.say(&step.words());
+        Self { of_step: format!("step {}: ", step.number), ..self.clone() }
     }
 
     /// Prints a line.
@@ -101,6 +117,10 @@ impl Report {
                     "boundary {}: length {length}, moves by {moved}, displacement by {du}, multipliers changed {flipped}",
                     step.iteration
                 ));
+            }
+            Event::Again { from_before } => {
+                let from = if *from_before { "with the step before" } else { "with the bodies at rest" };
+                self.say(&format!("not converged; begins once more, {from}"));
             }
             Event::Adapted { accuracy: asked, mesh, .. } => self.adapted(asked, mesh),
         }
@@ -176,7 +196,7 @@ impl Report {
     pub fn warn(&self, line: &str) {
         if self.first {
             // The run is worth more than the words.
-            let _ = std::io::stderr().write_all(format!("mezha: warning: {line}\n").as_bytes());
+            let _ = std::io::stderr().write_all(format!("mezha: warning: {}{line}\n", self.of_step).as_bytes());
         }
     }
 

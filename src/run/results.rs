@@ -1,6 +1,6 @@
 //! A solution made into a result folder.
 
-use super::exact::{Errors, compare};
+use super::exact::{Errors, compare, largest};
 use super::outcome::outside;
 use super::report::{memory, short};
 use super::slivers::slivers;
@@ -20,8 +20,8 @@ use std::path::Path;
 const MOST_OFF: f64 = 0.25;
 
 impl Run<'_> {
-    /// Evaluates a solution, writes everything, prints the verdict. **Collective**
-    pub(super) fn write(&self, solved: &Solved, folder: Option<ResultFolder>) -> Result<Outcome, RunError> {
+    /// Evaluates and judges a solution, and writes its files; what is left to be known are times and memory. **Collective**
+    pub(super) fn summarise(&self, solved: &Solved) -> Result<Summary, RunError> {
         let mut summary = Summary::new(&self.case.name, self.session.size());
         summarise::describe(&mut summary, self.case, solved);
         summary.estimate.energy = solved.estimate.energy;
@@ -39,16 +39,26 @@ impl Run<'_> {
         }
         reason += &remarks(&summary, status);
         summary.status = status;
-        summary.reason = Some(reason.clone());
+        summary.reason = Some(reason);
+        Ok(summary)
+    }
+
+    /// Writes what tells the whole result, and prints the verdict. **Collective**
+    pub(super) fn finish(
+        &self,
+        mut summary: Summary,
+        mesh: &MacroMesh,
+        folder: Option<ResultFolder>,
+    ) -> Result<Outcome, RunError> {
         summary.time_s = self.report.times(&self.stages, self.session);
         summary.memory_mib = memory(self.session);
-        let finished = folder.map_or(Ok(()), |folder| finish(self.case, &summary, &solved.problem.scene.mesh, folder));
+        let finished = folder.map_or(Ok(()), |folder| finish(self.case, &summary, mesh, folder));
         let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
         self.report.table(&summary);
-        let outcome = if status == Status::Converged { Outcome::Converged } else { Outcome::NotConverged };
-        self.report.verdict(outcome, &reason, &self.options.out);
+        let outcome = if summary.status == Status::Converged { Outcome::Converged } else { Outcome::NotConverged };
+        self.report.verdict(outcome, summary.reason.as_deref().unwrap_or_default(), &self.options.out);
         Ok(outcome)
     }
 
@@ -83,6 +93,7 @@ impl Run<'_> {
         let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
         summarise::balances(summary, &found);
         summarise::deformations(summary, &found);
+        summary.displacement_max = Some(largest(&found));
         self.report.large_strains(&found);
         points::loaded_points(&found).iter().for_each(|words| self.report.warn(words));
         let mut traces = Vec::new();
@@ -175,16 +186,32 @@ impl Run<'_> {
         let stress = found.stress()?;
         let at_node = |part: usize, node: usize| stress.at(part, node);
         session.agree(fields::write(folder, found, at_node)).map_err(RunError::Failed)?;
-        let facets = fields::facets(found, at_node);
+        if session.rank() == 0 {
+            let curve = |name: &str| folder.join(format!("contact_{name}.vtu"));
+            let mut pairs = found.problem.contacts.iter().zip(traces);
+            pairs.try_for_each(|(contact, points)| vtk::write_curve(&curve(&contact.pair.name), points))?;
+        }
+        if self.draws { self.write_figures(found, traces, adaptation, at_node) } else { Ok(()) }
+    }
+
+    /// Figures of the solution. **Collective**
+    fn write_figures(
+        &self,
+        found: &Evaluation,
+        traces: &[Vec<ContactPoint>],
+        adaptation: Option<&Adaptation>,
+        stress: impl Fn(usize, usize) -> [f64; 4],
+    ) -> Result<(), RunError> {
+        let (case, folder) = (self.case, &self.files);
+        let facets = fields::facets(found, stress);
         let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found, |_| true));
         let interfaces = fields::macro_edges(found, |edge| found.problem.scene.mesh.is_interface(edge));
-        if session.rank() != 0 {
+        if self.session.rank() != 0 {
             return Ok(());
         }
         let title = if case.title.is_empty() { &case.name } else { &case.title };
         for (contact, points) in found.problem.contacts.iter().zip(traces) {
             let name = &contact.pair.name;
-            vtk::write_curve(&folder.join(format!("contact_{name}.vtu")), points)?;
             plot::write_pressure(&folder.join(format!("pressure_{name}.svg")), title, points)?;
             plot::write_displacement(&folder.join(format!("displacement_{name}.svg")), title, points)?;
         }

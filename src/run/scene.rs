@@ -3,7 +3,7 @@
 use super::RunError;
 use super::means::check_means;
 use crate::body::Body;
-use crate::case::Case;
+use crate::case::{Case, LoadStep};
 use crate::contact::{CurveChoice, Pair};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces};
@@ -128,7 +128,8 @@ pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, 
 }
 
 /// The scene of a case on a mesh that is spread already.
-pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
+pub fn assemble(case: &Case, mesh: impl Into<Rc<MacroMesh>>, partition: impl Into<Rc<Partition>>) -> Scene {
+    let mesh = mesh.into();
     let body = |name: &String| match case.bodies.iter().find(|body| body.name == *name) {
         Some(body) => body.clone(),
         // What a tool consists of does not matter: it does not strain.
@@ -136,7 +137,7 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
     };
     Scene {
         bodies: mesh.bodies.iter().map(body).collect(),
-        partition: Rc::new(partition),
+        partition: partition.into(),
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),
@@ -146,8 +147,13 @@ pub fn assemble(case: &Case, mesh: MacroMesh, partition: Partition) -> Scene {
         loads: case.loads.clone(),
         point_loads: case.point_loads.clone(),
         pairs: case.contacts.clone(),
-        mesh: Rc::new(mesh),
+        mesh,
     }
+}
+
+/// The scene of a load step, on the mesh of another one.
+pub fn of_step(step: &LoadStep, other: &Scene) -> Scene {
+    assemble(&step.case, other.mesh.clone(), other.partition.clone())
 }
 
 /// Names of a case against those of its mesh.

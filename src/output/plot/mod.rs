@@ -11,6 +11,7 @@ mod macro_edges;
 mod outline;
 mod palette;
 mod sheet;
+mod steps;
 mod ticks;
 
 pub use accuracy::{Sequence, write_accuracy};
@@ -18,3 +19,4 @@ pub use along::{write_displacement, write_pressure};
 pub use deformed::{Facet, write_deformed};
 pub use diagrams::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};
 pub use macro_edges::DrawnEdge;
+pub use steps::write_step_figure;

@@ -59,14 +59,16 @@ struct First {
 }
 
 impl Procedure<'_> {
-    /// Solves a scene: on the mesh of the case, or on one that is adapted to an accuracy. **Collective**
+    /// Solves a scene: on the mesh of the case, or on one that is adapted to an accuracy. On the mesh of the case it may begin with
+    /// what was found `before`, in the load step before. **Collective**
     ///
     /// # Errors
     /// [`SystemError`] if the scene cannot be solved at all; everything else is an [`Ending`].
-    pub fn solve(&self, scene: Scene) -> Result<Solved, SystemError> {
-        match self.accuracy {
-            Some(accuracy) => self.adapt(scene, accuracy),
-            None => self.solve_on_mesh(scene, None),
+    pub fn solve(&self, scene: Scene, before: Option<&Solved>) -> Result<Solved, SystemError> {
+        match (self.accuracy, before) {
+            (Some(accuracy), _) => self.adapt(scene, accuracy),
+            (None, Some(before)) => self.solve_after(scene, before),
+            (None, None) => self.solve_on_mesh(scene, None),
         }
     }
 

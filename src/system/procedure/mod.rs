@@ -25,6 +25,7 @@ mod first_set;
 mod following;
 mod foreseen;
 mod goal_errors;
+mod load_step;
 mod marking;
 mod mesh_sequence;
 mod meshes;

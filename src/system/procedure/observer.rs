@@ -52,6 +52,11 @@ pub enum Event<'a> {
     Begin(Option<[f64; 2]>),
     /// A pass of the loop over active sets on that mesh, with the number of all multipliers.
     Passed(&'a Pass, usize),
+    /// A load step has not converged, and is solved once more.
+    Again {
+        /// Whether it begins with the step before now, or at rest.
+        from_before: bool,
+    },
     /// A contact boundary that was solved for.
     Placed(&'a BoundaryStep),
     /// One mesh of a sequence that is adapted to an accuracy was solved.

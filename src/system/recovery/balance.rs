@@ -11,6 +11,9 @@ use crate::petsc::Session;
 use crate::system::{Contact, Discretisation, Field, Solution, SystemError, nodal_forces, rigid_motions};
 use std::collections::HashMap;
 
+/// Forces on a body below this share of those on another are what a solve leaves: nothing acts on it.
+const UNLOADED: f64 = 1e-6;
+
 /// Work below this share of the largest is none: gaps measured where bodies touch are rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -276,7 +279,7 @@ fn magnitudes(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum])
 
 /// Largest sum of loads, reactions and contact forces on a body, over the sum of their magnitudes.
 fn body_balance(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum]) -> Option<f64> {
-    let ratio = |(body, &outer): (usize, &ForceSum)| {
+    let sum = |(body, &outer): (usize, &ForceSum)| {
         let mut all = outer;
         for (contact, force) in contacts.iter().zip(forces) {
             for k in (0..2).filter(|&k| contact.bodies[k] == body) {
@@ -284,9 +287,12 @@ fn body_balance(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum
                 all.magnitudes += force.size(contact) - force.resultants[1].norm();
             }
         }
-        all.force.norm() / all.magnitudes
+        (all.force.norm(), all.magnitudes)
     };
-    outer.iter().enumerate().map(ratio).filter(|v| v.is_finite()).reduce(f64::max)
+    let all: Vec<(f64, f64)> = outer.iter().enumerate().map(sum).collect();
+    let largest = all.iter().map(|(_, magnitudes)| *magnitudes).fold(0.0, f64::max);
+    let acts = |&(_, magnitudes): &(f64, f64)| magnitudes > UNLOADED * largest;
+    all.into_iter().filter(acts).map(|(sum, magnitudes)| sum / magnitudes).filter(|v| v.is_finite()).reduce(f64::max)
 }
 
 /// Strain energy of each macro triangle of this rank, in its order. **Collective**

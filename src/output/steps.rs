@@ -1,0 +1,122 @@
+//! Load steps as a table, one row each.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use super::OutputError;
+use super::summary::{Status, StepSummary};
+
+/// A cell of the table with the name of its column; empty where nothing is known.
+type RowValue = (String, Option<f64>);
+
+/// Writes `steps.csv`: a line with the names of the columns, as `summary.json` names the values, and one line per step. What a
+/// step does not know is left empty.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn write_steps(path: &Path, steps: &[StepSummary]) -> Result<(), OutputError> {
+    File::create(path).and_then(|file| write_rows(BufWriter::new(file), steps)).map_err(OutputError::io("write", path))
+}
+
+fn write_rows(mut out: impl Write, steps: &[StepSummary]) -> std::io::Result<()> {
+    let rows: Vec<Vec<RowValue>> = steps.iter().map(cells).collect();
+    // A step that could not be solved knows fewer values than the others.
+    let Some(columns) = rows.iter().max_by_key(|row| row.len()) else { return Ok(()) };
+    let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
+    writeln!(out, "step,status,iterations,{}", names.join(","))?;
+    for (step, row) in steps.iter().zip(&rows) {
+        let status = if step.status == Status::Converged { "converged" } else { "not_converged" };
+        write!(out, "{},{status},{}", step.step, step.iterations.iter().sum::<usize>())?;
+        for (name, _) in columns {
+            let value = row.iter().find(|(own, _)| own == name).and_then(|(_, value)| *value);
+            match value.filter(|value| value.is_finite()) {
+                Some(value) => write!(out, ",{value:?}")?,
+                None => write!(out, ",")?,
+            }
+        }
+        writeln!(out)?;
+    }
+    out.flush()
+}
+
+/// Everything of a step that is a number.
+fn cells(step: &StepSummary) -> Vec<RowValue> {
+    let mut all: Vec<RowValue> = Vec::new();
+    let mut add = |name: String, value: Option<f64>| all.push((name, value));
+    step.factors.iter().for_each(|(name, &value)| add(format!("factors.{name}"), Some(value)));
+    for (name, contact) in &step.contact {
+        add(format!("contact.{name}.force"), contact.force);
+        for (k, axis) in ["x", "y"].into_iter().enumerate() {
+            add(format!("contact.{name}.resultant.{axis}"), contact.resultant.map(|force| force[k]));
+        }
+        add(format!("contact.{name}.width"), contact.width);
+        add(format!("contact.{name}.pressure_max"), contact.pressure_max);
+    }
+    for (name, support) in &step.support {
+        for (k, axis) in ["x", "y"].into_iter().enumerate() {
+            add(format!("support.{name}.reaction.{axis}"), support.reaction.map(|force| force[k]));
+        }
+    }
+    for (name, rigid) in &step.rigid {
+        for (k, axis) in ["ux", "uy", "angle"].into_iter().enumerate() {
+            add(format!("rigid.{name}.motion.{axis}"), rigid.motion.map(|motion| motion[k]));
+        }
+        for (k, axis) in ["x", "y"].into_iter().enumerate() {
+            add(format!("rigid.{name}.force.{axis}"), rigid.force.map(|force| force[k]));
+        }
+        add(format!("rigid.{name}.moment"), rigid.moment);
+    }
+    for (name, probe) in &step.probe {
+        for (k, axis) in ["x", "y"].into_iter().enumerate() {
+            add(format!("probe.{name}.u.{axis}"), probe.u.map(|u| u[k]));
+        }
+        for (k, axis) in ["xx", "yy", "xy"].into_iter().enumerate() {
+            add(format!("probe.{name}.stress.{axis}"), probe.stress.map(|stress| stress[k]));
+        }
+    }
+    add("displacement_max".into(), step.displacement_max);
+    add("energy".into(), step.energy);
+    add("external_work".into(), step.external_work);
+    add("seconds".into(), step.seconds);
+    all
+}
+
+/// A name as a cell: in quotes where it holds what parts cells.
+fn quoted(name: &str) -> String {
+    match name.contains([',', '"', '\n']) {
+        true => format!("\"{}\"", name.replace('"', "\"\"")),
+        false => name.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::summary::StepContact;
+
+    fn step(number: usize) -> StepSummary {
+        let seam = StepContact { force: Some(0.1 * number as f64), width: Some(2.0), ..StepContact::default() };
+        StepSummary {
+            step: number,
+            factors: [("press".into(), 0.5 * number as f64)].into(),
+            status: Status::Converged,
+            contact: [("a,b".into(), seam)].into(),
+            iterations: vec![7, 5],
+            ..StepSummary::default()
+        }
+    }
+
+    #[test]
+    fn a_step_is_a_row_and_what_it_does_not_know_is_empty() {
+        let unsolved =
+            StepSummary { contact: Default::default(), status: Status::NotConverged, iterations: Vec::new(), ..step(1) };
+        let mut text = Vec::new();
+        write_rows(&mut text, &[unsolved, step(2)]).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines[0].starts_with("step,status,iterations,factors.press,\"contact.a,b.force\""), "{text}");
+        assert_eq!(lines[1], "1,not_converged,0,0.5,,,,,,,,,");
+        assert_eq!(lines[2], "2,converged,12,1.0,0.2,,,2.0,,,,,");
+    }
+}
