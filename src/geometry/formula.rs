@@ -12,6 +12,7 @@
 mod dual;
 mod parser;
 
+use super::{Place, Point};
 use dual::Dual;
 
 /// A formula of named variables.
@@ -26,6 +27,9 @@ pub struct Formula {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct FormulaError(pub String);
+
+/// Longest formula that is quoted in full in words.
+const LONGEST_QUOTE: usize = 60;
 
 /// Most numbers that wait on the stack at a time.
 const DEPTH: usize = 24;
@@ -90,6 +94,26 @@ impl Formula {
     /// As [`Formula::value`].
     pub fn derivative(&self, variable: usize, at: &[f64]) -> f64 {
         self.evaluate(at, Some(variable)).slope
+    }
+
+    /// Its value at a point, as a formula of x, y.
+    ///
+    /// # Errors
+    /// Words on the formula and the point, if it has no finite value there.
+    pub fn finite_value(&self, x: Point) -> Result<f64, String> {
+        let value = self.value(&[x.x, x.y]);
+        if value.is_finite() {
+            return Ok(value);
+        }
+        Err(format!("{} has no finite value at {}; correct the formula", self.quoted(), Place(x)))
+    }
+
+    /// Its text in quotes, cut if it is long.
+    fn quoted(&self) -> String {
+        match self.text.char_indices().nth(LONGEST_QUOTE) {
+            None => format!("\"{}\"", self.text),
+            Some((end, _)) => format!("\"{} ...\"", &self.text[..end]),
+        }
     }
 
     /// As it was written.
