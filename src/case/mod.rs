@@ -35,6 +35,7 @@ pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 pub use fingerprint::{Inputs, fingerprint};
 pub use rigid::{Plate, Tool};
+pub(crate) use error::listed;
 pub(crate) use section::read_text;
 
 use overrides::{overridden, set_value};
@@ -178,8 +179,9 @@ impl Case {
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let log = log.into_inner();
-        let Some(mut case) = draft.filter(|_| log.problems.is_empty()) else {
-            return Err(CaseError { file: file.into(), problems: log.problems });
+        let mut case = match draft {
+            Some(case) if log.problems.is_empty() => case,
+            draft => return Err(CaseError { file: file.into(), problems: log.problems, draft: draft.map(Box::new) }),
         };
         for (path, value) in log.defaults {
             set_value(&mut table, &path, value).expect("a default stands in a table that was just read");

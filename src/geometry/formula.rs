@@ -12,7 +12,7 @@
 mod dual;
 mod parser;
 
-use super::{Place, Point};
+use super::{Place, Point, Quote};
 use dual::Dual;
 
 /// A formula of named variables.
@@ -27,9 +27,6 @@ pub struct Formula {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct FormulaError(pub String);
-
-/// Longest formula that is quoted in full in words.
-const LONGEST_QUOTE: usize = 60;
 
 /// Most numbers that wait on the stack at a time.
 const DEPTH: usize = 24;
@@ -105,15 +102,7 @@ impl Formula {
         if value.is_finite() {
             return Ok(value);
         }
-        Err(format!("{} has no finite value at {}; correct the formula", self.quoted(), Place(x)))
-    }
-
-    /// Its text in quotes, cut if it is long.
-    fn quoted(&self) -> String {
-        match self.text.char_indices().nth(LONGEST_QUOTE) {
-            None => format!("\"{}\"", self.text),
-            Some((end, _)) => format!("\"{} ...\"", &self.text[..end]),
-        }
+        Err(format!("\"{}\" has no finite value at {}; correct the formula", Quote(&self.text), Place(x)))
     }
 
     /// As it was written.

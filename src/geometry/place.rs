@@ -1,4 +1,4 @@
-//! Numbers and places in words, for messages.
+//! Numbers, places and texts of the user's in words, for messages.
 
 use super::Point;
 use std::fmt::{self, Display, Formatter};
@@ -10,6 +10,29 @@ pub struct Rounded(pub f64);
 /// A place as `(x, y)`, both to six digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place(pub Point);
+
+/// Longest text that is quoted in full.
+const LONGEST: usize = 60;
+
+/// A text of the user's on one line, cut if it is long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quote<'a>(pub &'a str);
+
+impl<'a> Quote<'a> {
+    /// As much of it as is quoted, as it is.
+    pub fn head(&self) -> &'a str {
+        self.0.char_indices().nth(LONGEST).map_or(self.0, |(end, _)| &self.0[..end])
+    }
+}
+
+impl Display for Quote<'_> {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        for letter in self.head().chars() {
+            if letter.is_control() { write!(f, "{}", letter.escape_default())? } else { write!(f, "{letter}")? }
+        }
+        f.write_str(if self.head().len() < self.0.len() { " ..." } else { "" })
+    }
+}
 
 impl Display for Rounded {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
@@ -29,6 +52,12 @@ impl Display for Place {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_texts_are_cut_and_stay_on_one_line() {
+        assert_eq!(Quote("two\nlines").to_string(), "two\\nlines");
+        assert_eq!(Quote(&"ü".repeat(1000)).to_string(), format!("{} ...", "ü".repeat(60)));
+    }
 
     #[test]
     fn numbers_are_short_whatever_their_size() {

@@ -1,6 +1,7 @@
 //! Formula text to postfix program, by recursive descent.
 
 use super::dual::Dual;
+use crate::geometry::Quote;
 use super::{DEPTH, FormulaError, Function, Instruction};
 
 /// What a formula may call.
@@ -197,7 +198,7 @@ impl Parser<'_> {
 }
 
 fn error_at(index: usize, found: &str, words: &str) -> FormulaError {
-    FormulaError(format!("column {}: found `{found}`; {words}", index + 1))
+    FormulaError(format!("column {}: found `{}`; {words}", index + 1, Quote(found)))
 }
 
 fn is_name(c: char) -> bool {
