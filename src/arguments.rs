@@ -168,7 +168,9 @@ mod tests {
         for good in ["-ksp_view", "-a 1 -b", "-shift -1 -b -inf", "--a x", "-a 1,2,3 -b"] {
             assert_eq!(stray(good), None, "{good}");
         }
-        for (bad, word) in [("-", "-"), ("-1", "-1"), ("-a 1 2", "2"), ("ksp_view", "ksp_view"), ("-a 1 -- -b", "--"), ("-a 1 -2", "-2")] {
+        for (bad, word) in
+            [("-", "-"), ("-1", "-1"), ("-a 1 2", "2"), ("ksp_view", "ksp_view"), ("-a 1 -- -b", "--"), ("-a 1 -2", "-2")]
+        {
             assert_eq!(stray(bad).as_deref(), Some(word), "{bad}");
         }
     }

@@ -37,7 +37,9 @@ fn usage(error: &clap::Error) -> i32 {
         (Err(code), _) => return code,
         (_, true) => {
             drop(error.print());
-            nearest_command(error).iter().for_each(|name| eprintln!("  tip: did you mean `mezha {name}`?"));
+            if let Some(name) = nearest_command(error) {
+                let _ = writeln!(stderr(), "  tip: did you mean `mezha {name}`?");
+            }
         }
         (_, false) => sleep(if code == 0 { Duration::ZERO } else { PAUSE }),
     }

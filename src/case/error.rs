@@ -10,6 +10,8 @@ use crate::geometry::Quote;
 
 /// Longest value that is quoted in full.
 const LONGEST_VALUE: usize = 60;
+/// Longest words of the reader of TOML that are told: they have names of the file in them.
+const LONGEST_MESSAGE: usize = 200;
 /// Problems that are told one by one.
 const MOST_PROBLEMS: usize = 40;
 /// Names that are listed where none is near.
@@ -95,7 +97,7 @@ fn plain_syntax(message: &str) -> String {
     if message.contains("as i128") || message.contains("number too large") {
         return "a whole number has more than 18 digits; write it with a dot or an exponent, as 1e20".into();
     }
-    Quote(&message.replace('\n', ", ")).to_string()
+    message.replace('\n', ", ").chars().filter(|letter| !letter.is_control()).take(LONGEST_MESSAGE).collect()
 }
 
 /// Dotted key for people: names on one line, cut if they are long.

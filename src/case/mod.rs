@@ -31,11 +31,11 @@ use crate::element::Order;
 use crate::geometry::Curve;
 use crate::system::{SolverChoice, Tolerance};
 
+pub(crate) use error::listed;
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 pub use fingerprint::{Inputs, fingerprint};
 pub use rigid::{Plate, Tool};
-pub(crate) use error::listed;
 pub(crate) use section::read_text;
 
 use overrides::{overridden, set_value};
@@ -206,7 +206,8 @@ impl Case {
         contact::parts(&self.unions, side)
     }
 
-    /// Reads every section, then checks what lies between them. None if a value is missing or bad; the log knows why.
+    /// Reads every section, then checks what lies between them. None if there is no mesh to speak of; of what else is missing or
+    /// bad the log knows.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
         let title = root.or("title", "", values::text);
@@ -239,7 +240,7 @@ impl Case {
             name: name_of(file, "case.toml"),
             file: file.into(),
             folder,
-            title: title?,
+            title: title.unwrap_or_default(),
             mesh: mesh?,
             bodies,
             tools,
@@ -252,9 +253,9 @@ impl Case {
             plates,
             contacts,
             unions,
-            solver: solver?,
+            solver: solver.unwrap_or(Solver { choice: SolverChoice::Auto, tolerance: Tolerance::Residual(1e-8), inf_sup: None }),
             accuracy,
-            output: output?,
+            output: output.unwrap_or(Output { fields: true }),
             probes,
             exact,
             table: Table::new(),

@@ -141,7 +141,8 @@ impl<'a> Reader<'a> {
         if number.fract() == 0.0 && number.abs() < MOST_EXACT {
             return Ok(number as i64);
         }
-        Err(self.error(format!("in $Entities, found {} where a tag or a count stands; it must be a whole number", Rounded(number))))
+        Err(self
+            .error(format!("in $Entities, found {} where a tag or a count stands; it must be a whole number", Rounded(number))))
     }
 
     fn read(mut self) -> Result<RawMesh, MeshError> {

@@ -163,9 +163,10 @@ impl MacroMesh {
     fn part_of(&mut self, names: &[String], joined: &HashMap<String, String>, line: usize) -> Result<u32, MeshError> {
         let [name] = names else {
             let found = if names.is_empty() { "no physical surface".into() } else { names.join(", ") };
-            return Err(
-                self.syntax(line, format!("a triangle must lie in exactly one physical surface (its body); found {}", Quote(&found)))
-            );
+            return Err(self.syntax(
+                line,
+                format!("a triangle must lie in exactly one physical surface (its body); found {}", Quote(&found)),
+            ));
         };
         if let Some(part) = self.parts.iter().position(|part| part.name == *name) {
             return Ok(part as u32);
@@ -245,7 +246,9 @@ impl MacroMesh {
                         &self.file,
                         format!(
                             "bodies \"{}\" and \"{}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
-                            names[0], names[1], Place(x)
+                            names[0],
+                            names[1],
+                            Place(x)
                         ),
                     ));
                 }
@@ -267,7 +270,10 @@ impl MacroMesh {
         let refused = |place: &str| {
             self.syntax(
                 line,
-                format!("a line of the physical curve \"{}\" {place}; physical curves must bound bodies, or parts of them", Quote(&name)),
+                format!(
+                    "a line of the physical curve \"{}\" {place}; physical curves must bound bodies, or parts of them",
+                    Quote(&name)
+                ),
             )
         };
         let Some(&edge) = known.get(&[a.min(b), a.max(b)]) else { return Err(refused("is not an edge of a triangle")) };

@@ -41,6 +41,10 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);
+    let scene = match &case.accuracy {
+        Some(accuracy) => Procedure::first_of_sequence(scene, accuracy)?,
+        None => scene,
+    };
     let at_rest = Procedure::look(&scene, 0)?;
     check_pressures(case, &at_rest.contacts).map_err(RunError::Key)?;
     let triangles = scene.mesh.triangles.len() * at_rest.numbering.level.triangles_per_edge().pow(2);

@@ -23,7 +23,8 @@ impl Errors {
         if let Some(tolerance) = tolerance.filter(|&tolerance| error.is_nan() || error > tolerance) {
             self.missed.push(format!("{name}: relative error {error:.2e}, tolerance {tolerance:.0e}"));
         } else if !error.is_finite() {
-            self.missed.push(format!("{name}: the error is no number; what is expected is zero all over, or has no value somewhere"));
+            self.missed
+                .push(format!("{name}: the error is no number; what is expected is zero all over, or has no value somewhere"));
         }
         self.values.insert(name, Some(error));
     }

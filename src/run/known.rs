@@ -86,7 +86,8 @@ pub fn check_pressures(case: &Case, contacts: &[Contact]) -> Result<(), String> 
     for exact in &case.exact.contacts {
         let contact = contacts.iter().find(|contact| contact.pair.name == exact.name && !contact.pair.follows());
         if let (Some(LambdaExact::Formula { formula, .. }), Some(contact)) = (&exact.lambda, contact) {
-            has_values(formula, &contact.boundary).map_err(|words| format!("exact.contact.{}.lambda.formula: {words}", exact.name))?;
+            has_values(formula, &contact.boundary)
+                .map_err(|words| format!("exact.contact.{}.lambda.formula: {words}", exact.name))?;
         }
     }
     Ok(())
@@ -100,6 +101,7 @@ pub fn has_values(formula: &Formula, boundary: &ContactBoundary) -> Result<(), S
     if formula.as_constant().is_some() {
         return Ok(());
     }
-    let places = boundary.knots().windows(2).flat_map(|ends| gauss_points(8).iter().map(|(z, _)| ends[0] + z * (ends[1] - ends[0])));
+    let places =
+        boundary.knots().windows(2).flat_map(|ends| gauss_points(8).iter().map(|(z, _)| ends[0] + z * (ends[1] - ends[0])));
     places.into_iter().try_for_each(|t| formula.finite_value(boundary.point(t)).map(|_| ()))
 }

@@ -61,8 +61,10 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
         let [x, y] = grade.point;
         mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
             format!(
-                "{}: mesh.grade.points: [{x}, {y}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
+                "{}: mesh.grade.points: [{}, {}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
                 case.file.display(),
+                Rounded(x),
+                Rounded(y),
                 mesh.file.display(),
                 nearest.x,
                 nearest.y
@@ -203,9 +205,10 @@ impl Names<'_> {
         let known = || self.mesh.parts.iter().map(|part| &part.name);
         for (key, name) in self.case.bodies.iter().flat_map(surfaces_of) {
             if !known().any(|other| other == name) {
-                return Err(
-                    self.error(&key, &format!("no physical surface \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known())))
-                );
+                return Err(self.error(
+                    &key,
+                    &format!("no physical surface \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known())),
+                ));
             }
         }
         for name in known() {
@@ -320,7 +323,8 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     for (key, spot) in supports.chain(loads).filter_map(|(key, spot)| Some((key, spot?))) {
         let [x, y] = spot.place;
         let is_body = |name: &str| case.bodies.iter().any(|body| body.name == name);
-        mesh.add_point(spot, is_body).map_err(|words| format!("{}: {key} = [{}, {}]: {words}", case.file.display(), Rounded(x), Rounded(y)))?;
+        mesh.add_point(spot, is_body)
+            .map_err(|words| format!("{}: {key} = [{}, {}]: {words}", case.file.display(), Rounded(x), Rounded(y)))?;
     }
     let bad = case.point_loads.iter().find(|load| load.force().iter().any(|component| !component.is_finite()));
     if let Some(load) = bad {
@@ -345,10 +349,7 @@ fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
                 let x = mesh.edge_position(edge, t);
                 for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
                     if !(k.is_finite() && k >= 0.0) {
-                        return Err(error(format!(
-                            "is {k} at {}; a spring wants a finite number >= 0 everywhere",
-                            Place(x)
-                        )));
+                        return Err(error(format!("is {k} at {}; a spring wants a finite number >= 0 everywhere", Place(x))));
                     }
                     largest = largest.max(k);
                 }

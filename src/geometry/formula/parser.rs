@@ -1,8 +1,8 @@
 //! Formula text to postfix program, by recursive descent.
 
 use super::dual::Dual;
-use crate::geometry::Quote;
 use super::{DEPTH, FormulaError, Function, Instruction};
+use crate::geometry::Quote;
 
 /// What a formula may call.
 const FUNCTIONS: [(&str, Function); 4] =
