@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Parser, Subcommand};
+use clap::error::{ContextKind, ContextValue};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+
+use crate::geometry::Quote;
 
 /// Parallel contact of elastic bodies on a contact boundary of its own.
 #[derive(Clone, Debug, Parser, PartialEq, Eq)]
@@ -29,7 +32,7 @@ pub enum Command {
 /// Which case, with which changes.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct CaseArguments {
-    /// The case file
+    /// The case file, or its folder if it is called case.toml
     #[arg(value_name = "CASE.toml")]
     pub case: PathBuf,
     /// Override a key of the case, as in body.upper.young=7e6; may be repeated
@@ -63,7 +66,7 @@ pub struct RunArguments {
 /// Arguments of `mezha study`.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct Study {
-    /// The study file
+    /// The study file, or its folder if it is called study.toml
     #[arg(value_name = "STUDY.toml")]
     pub file: PathBuf,
     /// Folder of tables, figures and all results; runs that are there already are kept
@@ -77,7 +80,48 @@ pub struct Study {
     pub force: bool,
 }
 
+impl CaseArguments {
+    /// The case file: `case.toml` of a folder.
+    pub fn file(&self) -> PathBuf {
+        file_of(&self.case, "case.toml")
+    }
+}
+
+impl Study {
+    /// The study file: `study.toml` of a folder.
+    pub fn file(&self) -> PathBuf {
+        file_of(&self.file, "study.toml")
+    }
+}
+
+/// A file, or the usual one of a folder.
+fn file_of(path: &Path, usual: &str) -> PathBuf {
+    if path.is_dir() { path.join(usual) } else { path.to_path_buf() }
+}
+
+/// The command that is nearest to one that does not exist, if clap has none to propose.
+pub fn nearest_command(error: &clap::Error) -> Option<String> {
+    let told = error.get(ContextKind::SuggestedSubcommand).is_some();
+    let Some(ContextValue::String(found)) = error.get(ContextKind::InvalidSubcommand).filter(|_| !told) else { return None };
+    let names = Arguments::command().get_subcommands().map(|command| command.get_name().to_owned()).collect::<Vec<_>>();
+    let near = names.into_iter().map(|name| (strsim::damerau_levenshtein(Quote(found).head(), &name), name)).min()?;
+    (near.0 <= 2).then_some(near.1)
+}
+
+/// Whether PETSc takes a word for the name of an option: one minus or two, and a letter; infinity and NaN are numbers.
+fn is_option(word: &str) -> bool {
+    let name = word.strip_prefix('-').map(|rest| rest.strip_prefix('-').unwrap_or(rest));
+    name.is_some_and(|name| name.starts_with(|c: char| c.is_ascii_alphabetic())) && word.parse::<f64>().is_err()
+}
+
 impl RunArguments {
+    /// The first word for PETSc that is neither the name of an option nor the value after one: PETSc would pass over it.
+    pub fn stray_word(&self) -> Option<&str> {
+        let words = || self.petsc_options.iter().map(String::as_str);
+        let before = std::iter::once("").chain(words());
+        before.zip(words()).find(|(before, word)| !is_option(before) && !is_option(word)).map(|(_, word)| word)
+    }
+
     /// Folder of the results for a case of this name.
     pub fn folder(&self, case_name: &str) -> PathBuf {
         self.out.clone().unwrap_or_else(|| Path::new("out").join(case_name))
@@ -87,7 +131,6 @@ impl RunArguments {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
     use clap::error::ErrorKind;
 
     fn parse(line: &str) -> Result<Arguments, clap::Error> {
@@ -114,6 +157,28 @@ mod tests {
     fn results_go_to_a_folder_of_the_cases_name() {
         let Command::Run(run) = parse("mezha run bars.toml").unwrap().command else { panic!("run") };
         assert_eq!(run.folder("bars"), Path::new("out/bars"));
+    }
+
+    #[test]
+    fn words_that_petsc_would_pass_over_are_found() {
+        let stray = |line: &str| {
+            let Command::Run(run) = parse(&format!("mezha run a.toml -- {line}")).unwrap().command else { panic!("{line}") };
+            run.stray_word().map(str::to_owned)
+        };
+        for good in ["-ksp_view", "-a 1 -b", "-shift -1 -b -inf", "--a x", "-a 1,2,3 -b"] {
+            assert_eq!(stray(good), None, "{good}");
+        }
+        for (bad, word) in
+            [("-", "-"), ("-1", "-1"), ("-a 1 2", "2"), ("ksp_view", "ksp_view"), ("-a 1 -- -b", "--"), ("-a 1 -2", "-2")]
+        {
+            assert_eq!(stray(bad).as_deref(), Some(word), "{bad}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_command_is_proposed() {
+        let near = |word: &str| nearest_command(&parse(&format!("mezha {word}")).unwrap_err());
+        assert_eq!((near("rnu"), near("sutdy"), near("frobnicate")), (Some("run".into()), Some("study".into()), None));
     }
 
     #[test]

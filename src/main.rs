@@ -1,8 +1,8 @@
 //! The command `mezha`: arguments → case → run → exit code. Errors are printed and ranks ended here and nowhere else.
 
 use clap::Parser;
-use mezha::arguments::{Arguments, CaseArguments, Command, RunArguments, Study};
-use mezha::case::{Case, Inputs};
+use mezha::arguments::{Arguments, CaseArguments, Command, RunArguments, Study, nearest_command};
+use mezha::case::Inputs;
 use mezha::petsc::{self, Session, end_all_ranks, errors_are_final};
 use mezha::run::{self, Outcome, RunError, RunOptions};
 use mezha::study::{self, StudyError};
@@ -35,7 +35,12 @@ fn usage(error: &clap::Error) -> i32 {
     let session = if code == 0 { take_part() } else { Ok(None) };
     match (session, is_first_rank()) {
         (Err(code), _) => return code,
-        (_, true) => drop(error.print()),
+        (_, true) => {
+            drop(error.print());
+            if let Some(name) = nearest_command(error) {
+                let _ = writeln!(stderr(), "  tip: did you mean `mezha {name}`?");
+            }
+        }
         (_, false) => sleep(if code == 0 { Duration::ZERO } else { PAUSE }),
     }
     code
@@ -57,8 +62,8 @@ fn is_first_rank() -> bool {
 }
 
 fn run_case(arguments: &RunArguments, started: Instant) -> i32 {
-    if let Some(word) = arguments.petsc_options.first().filter(|word| !word.starts_with('-')) {
-        let words = format!("`{word}` after -- is not a PETSc option: their names begin with a minus");
+    if let Some(word) = arguments.stray_word() {
+        let words = format!("`{word}` after -- is not a PETSc option: their names begin with a minus and a letter");
         return print_once(&RunError::Input(words));
     }
     errors_are_final();
@@ -83,7 +88,7 @@ fn run_case(arguments: &RunArguments, started: Instant) -> i32 {
 
 /// Reads the case and solves it. **Collective**
 fn solve(arguments: &RunArguments, started: Instant, session: &Session) -> Result<Outcome, RunError> {
-    let CaseArguments { case, overrides } = &arguments.case;
+    let (case, overrides) = (&arguments.case.file(), &arguments.case.overrides);
     let inputs = arguments.inputs.as_deref().map(Inputs::parse).transpose();
     let inputs = inputs.map_err(|words| RunError::Input(format!("--inputs: {words}")))?;
     let case = run::read_case(case, overrides, inputs.as_ref(), session)?;
@@ -131,10 +136,7 @@ fn check_case(arguments: &CaseArguments) -> i32 {
     if !is_first_rank() {
         return 0;
     }
-    let checked = Case::read(&arguments.case, &arguments.overrides)
-        .map_err(|error| RunError::Input(error.to_string()))
-        .and_then(|case| run::check(&case));
-    match checked {
+    match run::check_file(&arguments.file(), &arguments.overrides) {
         Ok(checked) => match (say(&checked.words), checked.not_held) {
             (0, Some(words)) => {
                 // A reader that has gone away is no reason for another exit code.
@@ -152,8 +154,9 @@ fn study(arguments: &Study) -> i32 {
         let words = "a study starts its runs itself: start it without mpirun, and write ranks = [...] into the study file";
         return print_once(&RunError::Input(words.into()));
     }
-    match study::run(&arguments.file, &arguments.overrides, &arguments.out, arguments.force) {
-        Ok(()) => 0,
+    match study::run(&arguments.file(), &arguments.overrides, &arguments.out, arguments.force) {
+        Ok(true) => 0,
+        Ok(false) => 3,
         Err(StudyError::Input(words)) => print(&RunError::Input(words)),
         Err(StudyError::Failed(words)) => print(&RunError::Failed(words)),
     }

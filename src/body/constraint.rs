@@ -1,7 +1,7 @@
 //! Supports at the nodes of one level: which displacement components are prescribed, in which frame.
 
 use super::{Anchor, MOTIONS, MeanHold, Motion, RigidSet, Support};
-use crate::geometry::{Formula, Point, cross};
+use crate::geometry::{Formula, Place, Point, Rounded, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use nalgebra::{Matrix2, SMatrix};
 use std::collections::HashMap;
@@ -114,8 +114,8 @@ impl Constraints {
         for set in rigid {
             hold_rigidly(mesh, numbering, set, &mut holds)?;
         }
-        let nodes = holds.into_iter().map(|(node, (x, holds))| Ok((node, combine(x, &holds)?)));
-        let nodes: HashMap<usize, Constraint> = nodes.collect::<Result<_, _>>()?;
+        let nodes = holds.iter().map(|(&node, (x, holds))| Ok((node, combine(*x, holds)?)));
+        let nodes = nodes.collect::<Result<HashMap<usize, Constraint>, SupportError>>().map_err(|_| first_clash(&holds))?;
         let mut among = vec![0; nodes.keys().max().map_or(0, |last| last / 64 + 1)];
         nodes.keys().for_each(|&node| among[node / 64] |= 1 << (node % 64));
         Ok(Self { nodes, among })
@@ -149,6 +149,14 @@ impl Constraints {
     pub fn iter(&self) -> impl Iterator<Item = (usize, &Constraint)> {
         self.nodes.iter().map(|(&node, constraint)| (node, constraint))
     }
+}
+
+/// The contradiction farthest to the left, and lowest there: the same on every rank, and in every run.
+fn first_clash(holds: &AllHolds) -> SupportError {
+    let mut all: Vec<&(Point, Vec<Hold>)> = holds.values().collect();
+    all.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let found = all.into_iter().find_map(|(x, holds)| combine(*x, holds).err());
+    found.unwrap_or_else(|| SupportError("supports contradict each other".into()))
 }
 
 /// Holds both components of every node of a rigid set, where its prescribed motion puts it.
@@ -257,7 +265,7 @@ fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -
 /// Adds a hold; normals of one support that nearly agree at a node become their mean.
 fn add<'a>(known: &mut Vec<Hold<'a>>, by: HeldBy<'a>, direction: Point, value: f64, x: Point) -> Result<(), SupportError> {
     if !value.is_finite() {
-        return Err(SupportError(format!("{by}: its formula has no finite value at ({}, {})", x.x, x.y)));
+        return Err(SupportError(format!("{by}: its formula has no finite value at {}; correct the formula", Place(x))));
     }
     let near = |hold: &&mut Hold| hold.by == by && hold.direction.dot(&direction) > SMOOTH.cos();
     match known.iter_mut().find(near) {
@@ -292,14 +300,14 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
         if (found - hold.value).abs() > 1e-9 * (u.norm() + hold.value.abs()) {
             let others: Vec<_> = holds.iter().filter(|h| h.by != hold.by).map(|h| h.by.to_string()).collect();
             return Err(SupportError(format!(
-                "{} asks for displacement {} in direction ({:.6}, {:.6}) at ({}, {}), {} for {found}; leave one of them out there",
+                "{} asks for displacement {} in direction ({:.6}, {:.6}) at {}, {} for {}; leave one of them out there",
                 hold.by,
-                hold.value,
+                Rounded(hold.value),
                 hold.direction.x,
                 hold.direction.y,
-                x.x,
-                x.y,
-                others.join(" and ")
+                Place(x),
+                others.join(" and "),
+                Rounded(found)
             )));
         }
     }

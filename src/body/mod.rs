@@ -2,6 +2,8 @@
 
 mod applied_force;
 mod constraint;
+mod folding;
+mod formula_check;
 mod macro_stiffness;
 mod mean_hold;
 mod rigid;
@@ -9,6 +11,8 @@ mod springs;
 
 pub use applied_force::{Applied, applied_forces, body_forces};
 pub use constraint::{Constraint, Constraints, Holders, SupportError};
+pub use folding::check_folding;
+pub use formula_check::{check_body_forces, check_loads, varies};
 pub use macro_stiffness::{MacroStiffness, neighbours, positions};
 pub use mean_hold::{Anchor, MeanHold, rigid_mode};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet};

@@ -21,6 +21,9 @@ const CONFIGURATIONS: [(&str, Configuration); 2] =
     [("reference", Configuration::Reference), ("deformed", Configuration::Deformed)];
 const END_RULES: [(&str, EndRule); 2] = [("free", EndRule::Free), ("fixed", EndRule::Fixed)];
 
+/// Longest name of a contact (bytes): files take 255, and names of results have more in them.
+const LONGEST_NAME: usize = 100;
+
 /// What a table `[contact.NAME]` says.
 pub struct ReadContact {
     /// The contact; a side of several curves has one name made of theirs.
@@ -75,6 +78,10 @@ pub fn read_contact(section: &Section) -> Option<ReadContact> {
     }
     if !section.name().chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
         section.problem(&[], "its name is part of a file name; use letters, digits, - and _".into());
+    }
+    if section.name().len() > LONGEST_NAME {
+        let words = format!("its name has {} bytes and is part of a file name; use {LONGEST_NAME} at most", section.name().len());
+        section.problem(&[], words);
     }
     let sides = between?;
     let pair = Pair {
@@ -212,6 +219,13 @@ pub fn check_contacts(contacts: &[Pair], unions: &[Union], geometries: &[Geometr
         if let Some(other) = contacts[..at].iter().find(same) {
             let words = format!("contact.{} joins the same boundaries; leave one of them out", other.name);
             root.problem(&["contact", &pair.name, "between"], words);
+        }
+        if let Some(other) = contacts[..at].iter().find(|other| other.name.to_lowercase() == pair.name.to_lowercase()) {
+            let words = format!(
+                "differs from contact.{} by capital letters only: their files would be one on some disks; rename one of them",
+                other.name
+            );
+            root.problem(&["contact", &pair.name], words);
         }
     }
     for pair in contacts.iter().filter(|pair| pair.curve == CurveChoice::Geometry) {

@@ -5,8 +5,17 @@ use std::path::{Path, PathBuf};
 
 use toml::Value;
 
+use super::Case;
+use crate::geometry::Quote;
+
 /// Longest value that is quoted in full.
 const LONGEST_VALUE: usize = 60;
+/// Longest words of the reader of TOML that are told: they have names of the file in them.
+const LONGEST_MESSAGE: usize = 200;
+/// Problems that are told one by one.
+const MOST_PROBLEMS: usize = 40;
+/// Names that are listed where none is near.
+const MOST_NAMES: usize = 20;
 /// How the words begin for a key that does not exist.
 const UNKNOWN: &str = "unknown key";
 
@@ -17,6 +26,8 @@ pub struct CaseError {
     pub file: PathBuf,
     /// At least one, in the order found.
     pub problems: Vec<Problem>,
+    /// What could be read of a case all the same.
+    pub draft: Option<Box<Case>>,
 }
 
 /// One thing that is wrong with a file.
@@ -33,7 +44,7 @@ pub struct Problem {
 impl CaseError {
     /// An error of the file as a whole.
     pub(crate) fn of_file(file: &Path, words: String) -> Self {
-        Self { file: file.into(), problems: vec![Problem { key: String::new(), value: None, words }] }
+        Self { file: file.into(), problems: vec![Problem { key: String::new(), value: None, words }], draft: None }
     }
 
     /// An error of TOML itself, with a remedy if one is known.
@@ -41,7 +52,7 @@ impl CaseError {
         let before = &text[..error.span().map_or(0, |span| span.start)];
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-        let message = error.message().replace('\n', ", ");
+        let message = plain_syntax(error.message());
         Self::of_file(file, format!("line {line}, column {column}: {message}{remedy}; the file is written in TOML, see toml.io"))
     }
 }
@@ -60,11 +71,14 @@ impl Problem {
 
 impl Display for CaseError {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        for (index, problem) in self.problems.iter().enumerate() {
+        for (index, problem) in self.problems.iter().take(MOST_PROBLEMS).enumerate() {
             let separator = if index == 0 { "" } else { "\n" };
             write!(f, "{separator}{}: {problem}", self.file.display())?;
         }
-        Ok(())
+        match self.problems.len().saturating_sub(MOST_PROBLEMS) {
+            0 => Ok(()),
+            more => write!(f, "\n{}: {more} more of them; correct these first", self.file.display()),
+        }
     }
 }
 
@@ -76,6 +90,27 @@ impl Display for Problem {
             (key, Some(value)) => write!(f, "{key} = {value}: {}", self.words),
         }
     }
+}
+
+/// What the reader of TOML says, in words for those who have written the file.
+fn plain_syntax(message: &str) -> String {
+    if message.contains("as i128") || message.contains("number too large") {
+        return "a whole number has more than 18 digits; write it with a dot or an exponent, as 1e20".into();
+    }
+    message.replace('\n', ", ").chars().filter(|letter| !letter.is_control()).take(LONGEST_MESSAGE).collect()
+}
+
+/// Dotted key for people: names on one line, cut if they are long.
+pub(crate) fn told(path: &[String]) -> String {
+    let short = |name: &String| if name.chars().any(char::is_control) { format!("\"{}\"", Quote(name)) } else { cut(name) };
+    path.iter().map(short).collect::<Vec<_>>().join(".")
+}
+
+/// A name as [`dotted`] has it, but for what is too long.
+fn cut(name: &str) -> String {
+    let head = Quote(name).head();
+    let whole = dotted(&[head.to_owned()]);
+    if head.len() < name.len() { format!("{whole}...") } else { whole }
 }
 
 /// Dotted key as TOML wants it: names with dots in quotes.
@@ -90,7 +125,11 @@ pub(crate) fn dotted(path: &[String]) -> String {
 
 /// A value as TOML on one line, cut if long.
 pub(crate) fn quoted(value: &Value) -> String {
-    let text = value.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = match value {
+        Value::Float(number) => format!("{number:?}"),
+        Value::String(text) if text.len() > LONGEST_VALUE => format!("\"{}\"", Quote(text)),
+        value => value.to_string().split_whitespace().collect::<Vec<_>>().join(" "),
+    };
     match text.char_indices().nth(LONGEST_VALUE) {
         None => text,
         Some((end, _)) => format!("{} ...", &text[..end]),
@@ -100,11 +139,21 @@ pub(crate) fn quoted(value: &Value) -> String {
 /// ` did you mean "young"?` for the nearest of some names, or the list of them.
 pub(crate) fn suggest<'a>(found: &str, names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
-    let distance = |name: &str| strsim::damerau_levenshtein(&found.to_lowercase(), &name.to_lowercase());
+    let lower = |name: &str| Quote(name).head().to_lowercase();
+    let distance = |name: &str| strsim::damerau_levenshtein(&lower(found), &lower(name));
     let nearest = names.iter().min_by_key(|name| distance(name));
-    match nearest.filter(|name| distance(name) <= 1.max(found.len().max(name.len()) / 3)) {
-        Some(name) => format!("did you mean \"{name}\"?"),
+    match nearest.filter(|name| distance(name) <= 1.max(lower(found).len().max(lower(name).len()) / 3)) {
+        Some(name) => format!("did you mean \"{}\"?", Quote(name)),
         None if names.is_empty() => "there are none".into(),
-        None => format!("there are {}", names.join(", ")),
+        None => format!("there are {}", listed(names.iter().map(|name| Quote(name).to_string()))),
+    }
+}
+
+/// Names one after the other; of many the first.
+pub(crate) fn listed(names: impl Iterator<Item = String>) -> String {
+    let all: Vec<String> = names.collect();
+    match all.len().saturating_sub(MOST_NAMES) {
+        0 => all.join(", "),
+        more => format!("{} and {more} more", all[..MOST_NAMES].join(", ")),
     }
 }

@@ -6,6 +6,9 @@ use super::section::Section;
 use super::values::{self, PLANE};
 use crate::geometry::Formula;
 
+/// Errors are relative.
+const ALL_ZERO: &str = "is 0 all over: the error is relative to it; leave it out";
+
 /// Exact or reference values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exact {
@@ -116,12 +119,18 @@ fn read_lambda(section: &Section) -> Option<LambdaExact> {
     let tolerance = read_tolerance(section);
     if !section.has("formula") {
         let (at, value) = read_points(section, "[0.925057], or a formula", values::numbers)?;
+        if value.contains(&0.0) {
+            section.problem(&["value"], "holds a 0: the error is relative to each value; leave that point out".into());
+        }
         return Some(LambdaExact::Points { at, value, tolerance: tolerance? });
     }
     if section.has("at") | section.has("value") {
         section.problem(&["formula"], "stands beside at and value; give either formula or points".into());
     }
     let formula = section.required("formula", "\"1 - x^2\"", values::formula(&PLANE));
+    if formula.as_ref().is_some_and(|formula| formula.as_constant() == Some(0.0)) {
+        section.problem(&["formula"], ALL_ZERO.into());
+    }
     Some(LambdaExact::Formula { formula: formula?, tolerance: tolerance? })
 }
 
@@ -132,7 +141,12 @@ fn read_body(section: &Section) -> Option<BodyExact> {
         Some(ExpectedDisplacement { at, value, tolerance: tolerance? })
     });
     let u = section.optional("u", values::formulas);
-    let stress = section.optional("stress", values::formulas);
+    let stress = section.optional("stress", values::formulas::<3>);
+    for (key, formulas) in [("u", u.as_ref().map(|u: &[Formula; 2]| &u[..])), ("stress", stress.as_ref().map(|all| &all[..]))] {
+        if formulas.is_some_and(|all| all.iter().all(|formula| formula.as_constant() == Some(0.0))) {
+            section.problem(&[key], ALL_ZERO.into());
+        }
+    }
     Some(BodyExact { name: section.name().into(), displacement, u, stress })
 }
 

@@ -32,6 +32,7 @@ use crate::element::Order;
 use crate::geometry::Curve;
 use crate::system::{SolverChoice, Tolerance};
 
+pub(crate) use error::listed;
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 pub use fingerprint::{Inputs, fingerprint};
@@ -192,8 +193,9 @@ impl Case {
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let log = log.into_inner();
-        let Some(mut case) = draft.filter(|_| log.problems.is_empty()) else {
-            return Err(CaseError { file: file.into(), problems: log.problems });
+        let mut case = match draft {
+            Some(case) if log.problems.is_empty() => case,
+            draft => return Err(CaseError { file: file.into(), problems: log.problems, draft: draft.map(Box::new) }),
         };
         for (path, value) in log.defaults {
             set_value(&mut table, &path, value).expect("a default stands in a table that was just read");
@@ -239,7 +241,8 @@ impl Case {
         contact::parts(&self.unions, side)
     }
 
-    /// Reads every section, then checks what lies between them. None if a value is missing or bad; the log knows why.
+    /// Reads every section, then checks what lies between them. None if there is no mesh to speak of; of what else is missing or
+    /// bad the log knows.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
         let title = root.or("title", "", values::text);
@@ -274,7 +277,7 @@ impl Case {
             name: name_of(file, "case.toml"),
             file: file.into(),
             folder,
-            title: title?,
+            title: title.unwrap_or_default(),
             mesh: mesh?,
             bodies,
             tools,
@@ -287,9 +290,9 @@ impl Case {
             plates,
             contacts,
             unions,
-            solver: solver?,
+            solver: solver.unwrap_or(Solver { choice: SolverChoice::Auto, tolerance: Tolerance::Residual(1e-8), inf_sup: None }),
             accuracy,
-            output: output?,
+            output: output.unwrap_or(Output { fields: true }),
             probes,
             exact,
             steps: Vec::new(),

@@ -39,7 +39,9 @@ pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
         _ => Err(format!("must be a whole number from 0 to {MOST_REFINEMENTS}; each one quarters every triangle")),
     });
     let grades = section.optional_table("grade").map_or(Some(Vec::new()), |section| read_grade(&section, order));
-    Some(MeshChoice { file: folder.join(file?), order: order?, refine: refine?, grades: grades? })
+    // What is bad is in the log; the file alone is enough to look for names.
+    let (order, refine) = (order.unwrap_or(Order::P2), refine.unwrap_or_default());
+    Some(MeshChoice { file: folder.join(file?), order, refine, grades: grades.unwrap_or_default() })
 }
 
 /// `plane`, before all tables.

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use toml::{Table, Value};
 
-use super::error::{CaseError, Problem, dotted};
+use super::error::{CaseError, Problem, told};
 use super::section::Log;
+use crate::geometry::Quote;
 
 /// A key at the root of a file, and a key below it: a number under the first stands for a table with it under the second.
 pub type ShortForm = (&'static str, &'static str);
@@ -39,8 +40,8 @@ pub fn overridden(text: &str, file: &Path, overrides: &[String], short: &[ShortF
 fn apply_override(table: &mut Table, text: &str, short: &[ShortForm]) -> Result<Vec<String>, Problem> {
     let problem = |key: String, words: &str| Problem { key, value: None, words: words.into() };
     let wanted = "must be KEY=VALUE, as in --set body.upper.young=7e6";
-    let (key, value) = text.split_once('=').ok_or_else(|| problem(format!("--set {text}"), wanted))?;
-    let path = read_key(key).ok_or_else(|| problem(format!("--set {text}"), wanted))?;
+    let (key, value) = text.split_once('=').ok_or_else(|| problem(format!("--set {}", Quote(text)), wanted))?;
+    let path = read_key(key).ok_or_else(|| problem(format!("--set {}", Quote(text)), wanted))?;
     let value = value.trim();
     let value = value.parse::<Value>().unwrap_or_else(|_| Value::from(value));
     if path.len() > 1 {
@@ -48,7 +49,7 @@ fn apply_override(table: &mut Table, text: &str, short: &[ShortForm]) -> Result<
     }
     set_value(table, &path, value).map_err(|above| {
         let words = format!("{above} is a value, not a table; set {above} itself, or another key");
-        problem(format!("--set {}", dotted(&path)), &words)
+        problem(format!("--set {}", told(&path)), &words)
     })?;
     Ok(path)
 }
@@ -71,7 +72,7 @@ pub fn set_value(table: &mut Table, path: &[String], value: Value) -> Result<(),
     while let Some(name) = above.get(depth) {
         depth += 1;
         let next = inner.entry(name.clone()).or_insert_with(|| Value::Table(Table::new()));
-        let refused = || dotted(&above[..depth]);
+        let refused = || told(&above[..depth]);
         inner = match (next, above.get(depth)) {
             (Value::Array(list), Some(place)) => {
                 let index = place.parse::<usize>().ok().and_then(|place| place.checked_sub(1));

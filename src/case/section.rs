@@ -5,16 +5,22 @@ use std::path::Path;
 
 use toml::{Table, Value};
 
-use super::error::{CaseError, Problem, dotted, quoted, suggest};
+use super::error::{CaseError, Problem, quoted, suggest, told};
+use crate::mesh::read_regular;
+
+/// A case or a study file is never as large.
+const MOST_BYTES: u64 = 64 << 20;
 
 /// Text of a file; `kind` says which one the command wants.
 ///
 /// # Errors
 /// The file cannot be read.
 pub fn read_text(file: &Path, kind: &str) -> Result<String, CaseError> {
-    std::fs::read_to_string(file).map_err(|error| {
-        CaseError::of_file(file, format!("cannot be read: {error}; the first argument is the path of a {kind} file"))
-    })
+    let refused = |words: String| {
+        CaseError::of_file(file, format!("cannot be read: {words}; the first argument is the path of a {kind} file"))
+    };
+    let bytes = read_regular(file, MOST_BYTES).map_err(|error| refused(error.to_string()))?;
+    String::from_utf8(bytes).map_err(|_| refused("it is no text in UTF-8".into()))
 }
 
 /// What was found while reading a file.
@@ -96,7 +102,7 @@ impl<'a> Section<'a> {
     pub fn table(&self, key: &'static str) -> Section<'a> {
         let value = self.get(key);
         if value.is_some_and(|value| !value.is_table()) {
-            self.problem(&[key], format!("must be a table; write [{}]", dotted(&self.child(key))));
+            self.problem(&[key], format!("must be a table; write [{}]", told(&self.child(key))));
         }
         Section { table: value.and_then(Value::as_table), path: self.child(key), log: self.log, asked: RefCell::default() }
     }
@@ -113,7 +119,7 @@ impl<'a> Section<'a> {
         for (name, value) in tables.table.into_iter().flatten() {
             let path: Vec<String> = tables.path.iter().chain([name]).cloned().collect();
             let Some(table) = value.as_table() else {
-                tables.problem(&[name.as_str()], format!("must be a table; write [{}]", dotted(&path)));
+                tables.problem(&[name.as_str()], format!("must be a table; write [{}]", told(&path)));
                 continue;
             };
             let section = Section { table: Some(table), path, log: self.log, asked: RefCell::default() };
@@ -129,7 +135,7 @@ impl<'a> Section<'a> {
             None => return Vec::new(),
             Some(Value::Array(list)) if list.iter().all(Value::is_table) => list,
             Some(_) => {
-                self.problem(&[key], format!("must be a list of tables; write [[{}]]", dotted(&self.child(key))));
+                self.problem(&[key], format!("must be a list of tables; write [[{}]]", told(&self.child(key))));
                 return Vec::new();
             }
         };
@@ -190,7 +196,7 @@ impl<'a> Section<'a> {
         let from_command_line = log.overridden.iter().any(|overridden| path.starts_with(overridden));
         let source = if from_command_line { " (--set)" } else { "" };
         let value = value.map(|value| format!("{}{source}", quoted(value)));
-        log.problems.push(Problem { key: dotted(&path), value, words });
+        log.problems.push(Problem { key: told(&path), value, words });
     }
 
     /// Lets any key stand: this table holds names that the user chose.
@@ -205,7 +211,7 @@ impl Drop for Section<'_> {
         for (name, value) in self.table.into_iter().flatten().filter(|(name, _)| !asked.contains(&name.as_str())) {
             let remedy = suggest(name, asked.iter().copied());
             let quotes = if value.is_table() { " (a name that holds dots stands in quotes)" } else { "" };
-            let key = dotted(&self.child(name));
+            let key = told(&self.child(name));
             self.log.borrow_mut().problems.push(Problem::unknown(key, &format!("{remedy}{quotes}")));
         }
     }

@@ -3,7 +3,7 @@
 use toml::{Table, Value};
 
 use super::error::suggest;
-use crate::geometry::Formula;
+use crate::geometry::{Formula, Quote};
 
 /// Variables of formulas in the plane.
 pub const PLANE: [&str; 2] = ["x", "y"];
@@ -31,7 +31,7 @@ pub fn names(value: &Value) -> Result<Vec<String>, String> {
         return Err("must list at least one physical curve".into());
     }
     match names.iter().enumerate().find(|(index, name)| names[..*index].contains(name)) {
-        Some((_, twice)) => Err(format!("lists \"{twice}\" twice; list each physical curve once")),
+        Some((_, twice)) => Err(format!("lists \"{}\" twice; list each physical curve once", Quote(twice))),
         None => Ok(names),
     }
 }

@@ -122,20 +122,42 @@ impl Distance<'_> {
     }
 }
 
+/// Share of a segment beside its end where a gap must have a value: the end itself may lie outside by rounding.
+const BESIDE: f64 = 1e-9;
+
 /// `∫ψ_i g₀ ds` of a declared gap, a formula of `x, y`.
-pub fn declared_gap(boundary: &ContactBoundary, multipliers: &Multipliers, formula: &Formula) -> Vec<f64> {
+///
+/// # Errors
+/// Words, if the formula has no finite value at a point of the integral or at the end of a segment.
+pub fn declared_gap(boundary: &ContactBoundary, multipliers: &Multipliers, formula: &Formula) -> Result<Vec<f64>, String> {
+    check_ends(boundary, formula)?;
     let mut gap = vec![0.0; multipliers.count()];
     for (k, ends) in boundary.knots().windows(2).enumerate() {
         for (z, weight) in gauss_points(10) {
             let t = ends[0] + z * (ends[1] - ends[0]);
             let x = boundary.point(t);
             let (rows, values) = multipliers.on_segment(k, *z);
+            let declared = formula.finite_value(x)?;
             for a in 0..multipliers.per_segment() {
-                gap[rows[a]] += weight * (ends[1] - ends[0]) * boundary.speed(t) * values[a] * formula.value(&[x.x, x.y]);
+                gap[rows[a]] += weight * (ends[1] - ends[0]) * boundary.speed(t) * values[a] * declared;
             }
         }
     }
-    gap
+    Ok(gap)
+}
+
+/// A gap has a finite value at the ends of segments, where it is written out.
+fn check_ends(boundary: &ContactBoundary, formula: &Formula) -> Result<(), String> {
+    for ends in boundary.knots().windows(2) {
+        for (end, other) in [(ends[0], ends[1]), (ends[1], ends[0])] {
+            let here = boundary.point(end);
+            if formula.value(&[here.x, here.y]).is_infinite() {
+                formula.finite_value(here)?;
+            }
+            formula.finite_value(boundary.point(end + BESIDE * (other - end)))?;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -191,7 +213,16 @@ mod tests {
     #[test]
     fn a_declared_gap_is_weighted_by_the_shape_functions() {
         let (_, boundary, multipliers, _) = setting(MultiplierSpace::P1Continuous);
-        let gap = declared_gap(&boundary, &multipliers, &Formula::constant(-0.5));
+        let gap = declared_gap(&boundary, &multipliers, &Formula::constant(-0.5)).expect("a number");
         assert!((gap.iter().sum::<f64>() + 0.5 * boundary.length()).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_gap_without_a_value_at_an_end_or_inside_is_told_with_its_place() {
+        let (_, boundary, multipliers, _) = setting(MultiplierSpace::P0);
+        let of = |text| declared_gap(&boundary, &multipliers, &Formula::parse(text, &["x", "y"]).expect("a formula"));
+        assert_eq!(of("1/x").unwrap_err(), "\"1/x\" has no finite value at (0, 1); correct the formula");
+        assert!(of("sqrt(1.5-x)").unwrap_err().contains("\"sqrt(1.5-x)\" has no finite value at (1.6"));
+        assert!(of("sqrt(x)").is_ok() && of("sqrt(x + 0*y - 1e-14)").is_ok(), "an end may lie outside by rounding");
     }
 }

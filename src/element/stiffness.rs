@@ -2,7 +2,7 @@
 
 use super::PlaneLaw;
 use super::shape::slopes;
-use crate::geometry::Point;
+use crate::geometry::{Place, Point};
 use nalgebra::Matrix2;
 
 /// Coupling of two nodes: `[row component][column component]`.
@@ -10,7 +10,7 @@ pub type Block = [[f64; 2]; 2];
 
 /// A triangle whose map from the reference triangle folds over.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the triangle around ({}, {}) is turned inside out (Jacobian {jacobian:.3e})", middle.x, middle.y)]
+#[error("the triangle around {} is turned inside out (Jacobian {jacobian:.3e})", Place(*middle))]
 pub struct BadJacobian {
     /// Mean of its corners.
     pub middle: Point,
@@ -75,6 +75,21 @@ pub fn jacobian<const N: usize>(nodes: &[Point; N], l: [f64; 3]) -> Result<([Poi
     Ok((gradients, determinant))
 }
 
+/// Looks at the map of a bent triangle wherever [`stiffness`] does.
+///
+/// # Errors
+/// [`BadJacobian`] if it folds over there.
+pub fn check_map<const N: usize>(nodes: &[Point; N]) -> Result<(), BadJacobian> {
+    check_corners(nodes)?;
+    stiffness_rule::<N>(false).iter().try_for_each(|&(l, _)| jacobian(nodes, l).map(|_| ()))
+}
+
+/// A quadratic map may fold over at a corner before it does inside.
+fn check_corners<const N: usize>(nodes: &[Point; N]) -> Result<(), BadJacobian> {
+    let corners: &[[f64; 3]] = if N == 6 { &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] } else { &[] };
+    corners.iter().try_for_each(|&corner| jacobian(nodes, corner).map(|_| ()))
+}
+
 /// Stiffness of a triangle of unit thickness, `K_ab = ∫ λ g_a ⊗ g_b + μ (g_b ⊗ g_a + g_a·g_b I)` with `g_a = ∇N_a`.
 ///
 /// | argument | shape | unit |
@@ -88,10 +103,8 @@ pub fn jacobian<const N: usize>(nodes: &[Point; N], l: [f64; 3]) -> Result<([Poi
 /// Zienkiewicz and Taylor, The Finite Element Method, vol. 1, plane elasticity.
 pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, straight: bool) -> Result<[[Block; N]; N], BadJacobian> {
     let mut k = [[[[0.0; 2]; 2]; N]; N];
-    if !straight && N == 6 {
-        for corner in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
-            jacobian(nodes, corner)?;
-        }
+    if !straight {
+        check_corners(nodes)?;
     }
     for &(l, weight) in stiffness_rule::<N>(straight) {
         let (gradients, determinant) = jacobian(nodes, l)?;

@@ -12,6 +12,7 @@
 mod dual;
 mod parser;
 
+use super::{Place, Point, Quote};
 use dual::Dual;
 
 /// A formula of named variables.
@@ -90,6 +91,18 @@ impl Formula {
     /// As [`Formula::value`].
     pub fn derivative(&self, variable: usize, at: &[f64]) -> f64 {
         self.evaluate(at, Some(variable)).slope
+    }
+
+    /// Its value at a point, as a formula of x, y.
+    ///
+    /// # Errors
+    /// Words on the formula and the point, if it has no finite value there.
+    pub fn finite_value(&self, x: Point) -> Result<f64, String> {
+        let value = self.value(&[x.x, x.y]);
+        if value.is_finite() {
+            return Ok(value);
+        }
+        Err(format!("\"{}\" has no finite value at {}; correct the formula", Quote(&self.text), Place(x)))
     }
 
     /// As it was written.

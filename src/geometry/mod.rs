@@ -4,12 +4,14 @@ mod curve;
 mod formula;
 mod gauss;
 mod nearness;
+mod place;
 mod spline;
 
 pub use curve::Curve;
 pub use formula::{Formula, FormulaError};
 pub use gauss::gauss_points;
 pub use nearness::{Disc, overlapping_discs};
+pub use place::{Place, Quote, Rounded};
 pub use spline::{Spline, chord_lengths};
 
 /// A point, or a vector, of the plane (length).

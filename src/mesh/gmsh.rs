@@ -2,7 +2,8 @@
 
 use super::MeshError;
 use super::macro_mesh::{MacroMesh, RawMesh};
-use crate::geometry::Point;
+use super::regular_file::{read_regular, read_start};
+use crate::geometry::{Point, Quote, Rounded};
 use std::collections::HashMap;
 use std::path::Path;
 use std::str::FromStr;
@@ -15,12 +16,27 @@ pub fn read_gmsh(file: &Path) -> Result<MacroMesh, MeshError> {
     parse_gmsh(&read_bytes(file)?, file)
 }
 
+/// A mesh file of more bytes has more nodes than 32 bits count.
+const MOST_BYTES: u64 = 200 << 30;
+
+/// How a mesh file begins.
+const BEGIN: &str = "$MeshFormat";
+
+/// Bytes that tell whether a file is a mesh.
+const START: usize = 4096;
+
 /// The bytes of a mesh file, for [`parse_gmsh`] on all ranks.
 ///
 /// # Errors
 /// [`MeshError::Unreadable`]
 pub fn read_bytes(file: &Path) -> Result<Vec<u8>, MeshError> {
-    std::fs::read(file).map_err(|source| MeshError::Unreadable { file: file.to_path_buf(), source })
+    let unreadable = |source| MeshError::Unreadable { file: file.to_path_buf(), source };
+    let start = read_start(file, START).map_err(unreadable)?;
+    if !String::from_utf8_lossy(&start).trim_start().starts_with(BEGIN) {
+        // It is no mesh, however long it may be; the start is enough to say so.
+        return Ok(start);
+    }
+    read_regular(file, MOST_BYTES).map_err(unreadable)
 }
 
 /// The mesh of a Gmsh 4.1 ASCII file that has been read; `file` is its name in errors.
@@ -54,6 +70,9 @@ pub fn surfaces(bytes: &[u8], file: &Path) -> Result<Vec<String>, MeshError> {
     }
     Ok(names)
 }
+
+/// Whole numbers below this are exact as floating-point ones.
+const MOST_EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// Dimension and tag of an elementary entity of the file.
 type Entity = (usize, i64);
@@ -113,19 +132,29 @@ impl<'a> Reader<'a> {
         let found: Result<Vec<T>, _> = line.split_whitespace().map(str::parse).collect();
         match found {
             Ok(values) if values.len() >= least => Ok(values),
-            _ => Err(self.error(format!("in ${section}, expected {least} numbers, found `{line}`"))),
+            _ => Err(self.error(format!("in ${section}, expected {least} numbers, found `{}`", Quote(line)))),
         }
+    }
+
+    /// A tag or a count that stands among coordinates.
+    fn whole(&self, number: f64) -> Result<i64, MeshError> {
+        if number.fract() == 0.0 && number.abs() < MOST_EXACT {
+            return Ok(number as i64);
+        }
+        Err(self
+            .error(format!("in $Entities, found {} where a tag or a count stands; it must be a whole number", Rounded(number))))
     }
 
     fn read(mut self) -> Result<RawMesh, MeshError> {
         match self.next_line() {
-            Some("$MeshFormat") => self.format()?,
-            _ => return Err(self.error("not a Gmsh mesh: the first line must be $MeshFormat")),
+            Some(BEGIN) => self.format()?,
+            None => return Err(MeshError::unusable(self.file, "is empty; mesh it with `gmsh -2`, and save it as format 4.1")),
+            Some(_) => return Err(self.error("not a Gmsh mesh: the first line must be $MeshFormat")),
         }
         let mut seen = Vec::new();
         while let Some(line) = self.next_line() {
             let Some(section) = line.strip_prefix('$') else {
-                return Err(self.error(format!("expected the start of a section, found `{line}`")));
+                return Err(self.error(format!("expected the start of a section, found `{}`", Quote(line))));
             };
             match section {
                 "PhysicalNames" => self.physical_names()?,
@@ -160,7 +189,7 @@ impl<'a> Reader<'a> {
         if line.strip_prefix("$End") == Some(section) {
             return Ok(());
         }
-        Err(self.error(format!("expected $End{section}, found `{line}`")))
+        Err(self.error(format!("expected $End{section}, found `{}`", Quote(line))))
     }
 
     fn skip(&mut self, section: &str) -> Result<(), MeshError> {
@@ -196,7 +225,7 @@ impl<'a> Reader<'a> {
             let (dimension, tag) = (number(), number());
             let name = words.next().map(|word| word.trim().trim_matches('"').to_string());
             let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
-                return Err(self.error(format!("expected `dimension tag \"name\"`, found `{line}`")));
+                return Err(self.error(format!("expected `dimension tag \"name\"`, found `{}`", Quote(line))));
             };
             self.names.insert((dimension as usize, tag), name);
         }
@@ -209,13 +238,15 @@ impl<'a> Reader<'a> {
             let first = if dimension == 0 { 4 } else { 7 };
             for _ in 0..count {
                 let values: Vec<f64> = self.numbers("Entities", first + 1)?;
-                let count = values[first] as usize;
-                let tags = values.get(first + 1..first + 1 + count);
-                let Some(tags) = tags else {
-                    return Err(self.error(format!("expected {count} physical tags")));
+                let (entity, count) = (self.whole(values[0])?, self.whole(values[first])?);
+                let rest = &values[first + 1..];
+                let Some(tags) = usize::try_from(count).ok().and_then(|count| rest.get(..count)) else {
+                    let words = format!("expected {count} physical tags, found {} numbers; save the file again", rest.len());
+                    return Err(self.error(words));
                 };
-                let tags = tags.iter().map(|tag| tag.abs() as i64).collect();
-                self.physical.insert((dimension, values[0] as i64), tags);
+                // A sign tells the direction of the entity in the group.
+                let tags = tags.iter().map(|&tag| Ok(self.whole(tag)?.abs())).collect::<Result<_, MeshError>>()?;
+                self.physical.insert((dimension, entity), tags);
             }
         }
         Ok(())
@@ -235,7 +266,7 @@ impl<'a> Reader<'a> {
                     return Err(self.error(format!("node {tag} has a coordinate that is not a finite number")));
                 }
                 if x[2].abs() > 1e-12 * (x[0].abs() + x[1].abs() + 1.0) {
-                    return Err(self.error(format!("node {tag} has z = {}; the mesh must lie in the plane z = 0", x[2])));
+                    return Err(self.error(format!("node {tag} has z = {}; the mesh must lie in the plane z = 0", Rounded(x[2]))));
                 }
                 self.nodes.insert(tag, self.mesh.vertices.len());
                 self.mesh.vertices.push(Point::new(x[0], x[1]));
@@ -361,6 +392,9 @@ $EndElements
             ("0 1 0\n9", "0 1\n9", "expected 3 numbers, found `0 1`"),
             ("1 1 0\n0 1 0", "1 0 0\n0 1 0", "degenerate triangle"),
             ("1 1 0\n0", "1 1 0.5\n0", "plane z = 0"),
+            ("5 0 0 0 1 0 0 1 7 0", "5.5 0 0 0 1 0 0 1 7 0", "line 10: in $Entities, found 5.5 where a tag"),
+            ("5 0 0 0 1 0 0 1 7 0", "5 0 0 0 1 0 0 1e300 7 0", "found 1e300 where"),
+            ("5 0 0 0 1 0 0 1 7 0", "5 0 0 0 1 0 0 9 7 0", "expected 9 physical tags, found 2 numbers"),
             ("1 10 11\n", "1 11 13\n", "\"lower edge\" is not an edge of a triangle"),
             ("1 10 11\n", "1 10 12\n", "\"lower edge\" lies inside a body"),
         ];
@@ -369,5 +403,6 @@ $EndElements
             assert!(found.contains(words), "{found} instead of {words}");
         }
         assert!(read("solid\n").expect_err("no mesh").contains("not a Gmsh mesh"));
+        assert!(read("\n\n").expect_err("no mesh").contains("square.msh: is empty"));
     }
 }

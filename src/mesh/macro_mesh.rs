@@ -2,7 +2,7 @@
 
 use super::edge_shape::EdgeShape;
 use super::{MeshError, NamedPoint};
-use crate::geometry::{Point, cross};
+use crate::geometry::{Place, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -163,9 +163,10 @@ impl MacroMesh {
     fn part_of(&mut self, names: &[String], joined: &HashMap<String, String>, line: usize) -> Result<u32, MeshError> {
         let [name] = names else {
             let found = if names.is_empty() { "no physical surface".into() } else { names.join(", ") };
-            return Err(
-                self.syntax(line, format!("a triangle must lie in exactly one physical surface (its body); found {found}"))
-            );
+            return Err(self.syntax(
+                line,
+                format!("a triangle must lie in exactly one physical surface (its body); found {}", Quote(&found)),
+            ));
         };
         if let Some(part) = self.parts.iter().position(|part| part.name == *name) {
             return Ok(part as u32);
@@ -188,8 +189,11 @@ impl MacroMesh {
             return Err(self.syntax(
                 line,
                 format!(
-                    "degenerate triangle with corners ({}, {}), ({}, {}), ({}, {}): its area is {area:e}; mesh the scene again",
-                    a.x, a.y, b.x, b.y, c.x, c.y
+                    "degenerate triangle with corners {}, {}, {}: its area is {}; mesh the scene again",
+                    Place(a),
+                    Place(b),
+                    Place(c),
+                    Rounded(area)
                 ),
             ));
         }
@@ -241,8 +245,10 @@ impl MacroMesh {
                     return Err(MeshError::unusable(
                         &self.file,
                         format!(
-                            "bodies \"{}\" and \"{}\" share the node at ({}, {}); give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
-                            names[0], names[1], x.x, x.y
+                            "bodies \"{}\" and \"{}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
+                            names[0],
+                            names[1],
+                            Place(x)
                         ),
                     ));
                 }
@@ -264,7 +270,10 @@ impl MacroMesh {
         let refused = |place: &str| {
             self.syntax(
                 line,
-                format!("a line of the physical curve \"{name}\" {place}; physical curves must bound bodies, or parts of them"),
+                format!(
+                    "a line of the physical curve \"{}\" {place}; physical curves must bound bodies, or parts of them",
+                    Quote(&name)
+                ),
             )
         };
         let Some(&edge) = known.get(&[a.min(b), a.max(b)]) else { return Err(refused("is not an edge of a triangle")) };

@@ -23,6 +23,7 @@ mod origin;
 mod overlap;
 mod partition;
 mod pieces;
+mod regular_file;
 #[cfg(test)]
 pub(crate) mod samples;
 mod shape;
@@ -45,6 +46,7 @@ pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, R
 pub use numbering::{Level, Numbering, TriangleNumbers, levels};
 pub use origin::Origin;
 pub use partition::{Graph, Partition};
+pub use regular_file::read_regular;
 pub use smooth_normal::{SmoothNormals, SmoothPoint};
 pub use spline_shape::Corner;
 pub use spot::{NamedPoint, Spot};

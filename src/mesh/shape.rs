@@ -2,7 +2,7 @@
 
 use super::edge_shape::EdgeShape;
 use super::{MacroMesh, MeshError};
-use crate::geometry::{Curve, Point};
+use crate::geometry::{Curve, Place, Point, Rounded};
 use nalgebra::Matrix2;
 use std::sync::Arc;
 
@@ -46,11 +46,17 @@ impl MacroMesh {
             let [first, last] = curve.range();
             let beyond = (first - t).max(t - last) > 1e-6 * (last - first).abs() && curve.period().is_none();
             if distance > 0.1 * length || !distance.is_finite() || beyond {
+                let far = match (distance.is_finite(), distance > 0.1 * length) {
+                    (false, _) => "has no nearest point on".into(),
+                    (_, true) => format!("lies {distance:.3e} from"),
+                    _ => format!("lies beyond the range of t, from {} to {}, of", Rounded(first), Rounded(last)),
+                };
                 return Err(MeshError::unusable(
                     &self.file,
                     format!(
-                        "the node ({}, {}) lies {distance:.3e} from [geometry.{geometry}] (nearest at t = {t}); correct the formula, its range of t, or the mesh",
-                        here.x, here.y
+                        "the node {} {far} [geometry.{geometry}] (nearest at t = {}); correct the formula, its range of t, or the mesh",
+                        Place(here),
+                        Rounded(t)
                     ),
                 ));
             }

@@ -1,5 +1,6 @@
 //! `mezha check` and `mezha info`.
 
+use super::known::check_pressures;
 use super::{RunError, accuracy, scene};
 use crate::body::Material;
 use crate::case::Case;
@@ -7,6 +8,7 @@ use crate::element::{Order, Plane};
 use crate::mesh::Partition;
 use crate::petsc::{Session, versions};
 use crate::system::{Procedure, Scene};
+use std::path::Path;
 
 /// What a look at a case finds.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +17,15 @@ pub struct Checked {
     pub words: String,
     /// Words for a body that can move though contact is closed everywhere; nothing if all are held.
     pub not_held: Option<String>,
+}
+
+/// The same of a case file, after the overrides `KEY=VALUE`.
+///
+/// # Errors
+/// [`RunError::Input`] with everything that is wrong.
+pub fn check_file(file: &Path, overrides: &[String]) -> Result<Checked, RunError> {
+    let case = Case::read(file, overrides).map_err(|error| RunError::Input(scene::told_with_names(&error)))?;
+    check(&case)
 }
 
 /// Reads everything, solves nothing, and says what would be solved, and whether contact, closed everywhere, would hold all
@@ -30,8 +41,13 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);
+    let scene = match &case.accuracy {
+        Some(accuracy) => Procedure::first_of_sequence(scene, accuracy)?,
+        None => scene,
+    };
     let not_held_before = check_steps(case, &scene)?;
     let at_rest = Procedure::look(&scene, 0)?;
+    check_pressures(case, &at_rest.contacts).map_err(RunError::Key)?;
     let triangles = scene.mesh.triangles.len() * at_rest.numbering.level.triangles_per_edge().pow(2);
     let order = if scene.order == Order::P1 { "P1" } else { "P2" };
     let mut lines = vec![

@@ -1,6 +1,7 @@
 //! A solution against the exact or reference values of its case.
 
 use super::RunError;
+use super::known::has_values;
 use super::outcome::outside;
 use crate::case::{Case, LambdaExact};
 use crate::geometry::Point;
@@ -21,8 +22,17 @@ impl Errors {
     fn add(&mut self, name: String, error: f64, tolerance: Option<f64>) {
         if let Some(tolerance) = tolerance.filter(|&tolerance| error.is_nan() || error > tolerance) {
             self.missed.push(format!("{name}: relative error {error:.2e}, tolerance {tolerance:.0e}"));
+        } else if !error.is_finite() {
+            self.missed
+                .push(format!("{name}: the error is no number; what is expected is zero all over, or has no value somewhere"));
         }
         self.values.insert(name, Some(error));
+    }
+
+    /// What cannot be compared.
+    fn unknown(&mut self, name: String, words: &str) {
+        self.missed.push(format!("{name}: {words}"));
+        self.values.insert(name, None);
     }
 }
 
@@ -46,10 +56,16 @@ pub fn compare(case: &Case, found: &Evaluation) -> Result<Errors, RunError> {
         }
         let (error, tolerance) = match &exact.lambda {
             None => continue,
-            Some(LambdaExact::Formula { formula, tolerance }) => (pressure.error(formula), *tolerance),
+            Some(LambdaExact::Formula { formula, tolerance }) => {
+                if let Err(words) = has_values(formula, &problem.contacts[at].boundary) {
+                    errors.unknown(format!("lambda_{}", exact.name), &words);
+                    continue;
+                }
+                (pressure.error(formula), *tolerance)
+            }
             Some(LambdaExact::Points { at, value, tolerance }) => {
                 let one = |(x, value): (&[f64; 2], &f64)| (pressure.mean_at_foot(Point::new(x[0], x[1])) / value - 1.0).abs();
-                (at.iter().zip(value).map(one).fold(0.0, f64::max), *tolerance)
+                (at.iter().zip(value).map(one).fold(0.0, larger), *tolerance)
             }
         };
         errors.add(format!("lambda_{}", exact.name), error, Some(tolerance));
@@ -66,7 +82,9 @@ fn compare_bodies(case: &Case, found: &Evaluation, errors: &mut Errors) -> Resul
             let mut worst: f64 = 0.0;
             for (x, value) in displacement.at.iter().zip(&displacement.value) {
                 let probed = found.probe(region, Point::new(x[0], x[1]))?.ok_or_else(|| outside(*x))?;
-                worst = worst.max((probed.displacement - Point::new(value[0], value[1])).norm() / size);
+                let off = (probed.displacement - Point::new(value[0], value[1])).norm();
+                // Where nothing moves a displacement of zero is right.
+                worst = larger(worst, if off == 0.0 { 0.0 } else { off / size });
             }
             errors.add(format!("displacement_{}", exact.name), worst, Some(displacement.tolerance));
         }
@@ -75,8 +93,10 @@ fn compare_bodies(case: &Case, found: &Evaluation, errors: &mut Errors) -> Resul
             errors.add(format!("energy_norm_{}", exact.name), (difference / whole).sqrt(), None);
         }
         if let Some(formulas) = &exact.u {
-            let error = displacement_error(found, region, formulas);
-            errors.add(format!("u_{}", exact.name), error, None);
+            match displacement_error(found, region, formulas) {
+                Ok(error) => errors.add(format!("u_{}", exact.name), error, None),
+                Err(words) => errors.unknown(format!("u_{}", exact.name), &words),
+            }
         }
     }
     Ok(())
@@ -89,15 +109,23 @@ pub fn largest(Evaluation { u, session, .. }: &Evaluation) -> f64 {
     size[0]
 }
 
+/// The larger of two numbers; none if one of them is none.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
 /// Root mean square error of the nodal displacements of a body or a part of one, relative to their root mean square. **Collective**
+///
+/// # Errors
+/// Words on a node where a formula has no value, the same on every rank.
 fn displacement_error(
     Evaluation { problem, u, session, .. }: &Evaluation,
     region: Region,
     exact: &[crate::geometry::Formula; 2],
-) -> f64 {
+) -> Result<f64, String> {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
-    let mut sums = [0.0; 2];
+    let (mut sums, mut outcome) = ([0.0; 2], Ok(()));
     for &triangle in problem.scene.partition.triangles_of(session.rank()) {
         if !region.holds(&mesh.triangles[triangle as usize]) {
             continue;
@@ -106,12 +134,16 @@ fn displacement_error(
         for (i, j) in crate::mesh::lattice::nodes(n) {
             let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
             let wanted = Point::new(exact[0].value(&[x.x, x.y]), exact[1].value(&[x.x, x.y]));
+            if outcome.is_ok() && !wanted.iter().all(|component| component.is_finite()) {
+                outcome = exact.iter().try_for_each(|formula| formula.finite_value(x).map(|_| ()));
+            }
             sums[0] += (u.point(numbers.node(i, j)) - wanted).norm_squared();
             sums[1] += wanted.norm_squared();
         }
     }
+    session.agree(outcome)?;
     session.sum(&mut sums);
-    (sums[0] / sums[1]).sqrt()
+    Ok((sums[0] / sums[1]).sqrt())
 }
 
 #[cfg(test)]
@@ -127,11 +159,13 @@ mod tests {
             ("at", 0.01, Some(0.01)),
             ("above", 0.011, Some(0.01)),
             ("nan", f64::NAN, Some(0.01)),
+            ("nothing", f64::INFINITY, None),
         ] {
             errors.add(name.into(), error, tolerance);
         }
-        assert_eq!(errors.values.len(), 5);
+        assert_eq!(errors.values.len(), 6);
+        assert!(larger(0.0, f64::NAN).is_nan() && larger(f64::NAN, 1.0).is_nan() && larger(1.0, 2.0) == 2.0);
         let names: Vec<&str> = errors.missed.iter().filter_map(|words| words.split(':').next()).collect();
-        assert_eq!(names, ["above", "nan"]);
+        assert_eq!(names, ["above", "nan", "nothing"]);
     }
 }

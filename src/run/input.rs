@@ -14,7 +14,15 @@ pub fn read_case(file: &Path, overrides: &[String], wanted: Option<&Inputs>, ses
     let text = session.share(|| read_text(file, "case").map(String::into_bytes));
     refuse_change(file, &text, wanted.map(|inputs| &inputs.case))?;
     let text = String::from_utf8(text.map_err(RunError::Input)?).expect("rank 0 has read a text");
-    session.agree(Case::parse(&text, file, overrides)).map_err(RunError::Input)
+    match Case::parse(&text, file, overrides) {
+        Ok(case) => Ok(session.agree::<_, String>(Ok(case)).map_err(RunError::Input)?),
+        Err(error) => {
+            // Every rank has read the same text, so that all are here.
+            let words =
+                session.share(|| Ok::<_, String>(scene::told_with_names(&error).into_bytes())).map_err(RunError::Input)?;
+            Err(RunError::Input(String::from_utf8_lossy(&words).into_owned()))
+        }
+    }
 }
 
 /// The mesh of a case, bent, graded and checked; its file must be the one that is `wanted`, if any is. **Collective**

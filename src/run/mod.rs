@@ -5,6 +5,7 @@ mod check;
 mod exact;
 mod fields;
 mod input;
+mod known;
 mod means;
 mod memory;
 mod observe;
@@ -22,7 +23,7 @@ mod true_errors;
 mod trust;
 mod zones;
 
-pub use check::{Checked, check, info};
+pub use check::{Checked, check, check_file, info};
 pub use input::read_case;
 pub use outcome::{Outcome, RunError};
 pub use run_options::RunOptions;

@@ -1,7 +1,9 @@
 //! What a run does with the events of the solution procedure: it prints them, and times the work.
 
+use super::known::check_pressures;
 use super::true_errors::true_errors;
 use super::{Run, RunError, Stages, accuracy, memory};
+use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
 use crate::petsc::StageGuard;
 use crate::system::{Event, Observer, Procedure, Scene, Solved, Work};
@@ -21,6 +23,10 @@ impl Run<'_> {
         // An accuracy has a limit to its meshes.
         if accuracy.is_none() && before.is_none() {
             memory::refuse_too_large(scene.refine, |refine| procedure.need(&scene, refine), self.session)?;
+        }
+        if self.case.exact.contacts.iter().any(|exact| matches!(exact.lambda, Some(LambdaExact::Formula { .. }))) {
+            let at_rest = Procedure::look(&scene, self.session.rank())?;
+            check_pressures(self.case, &at_rest.contacts).map_err(RunError::Key)?;
         }
         Ok(procedure.solve(scene, before)?)
     }

@@ -1,17 +1,21 @@
 //! Case and mesh brought together: names resolved, geometries applied, macro triangles spread over ranks.
 
 use super::RunError;
+use super::known::check_exact;
 use super::means::check_means;
 use crate::body::Body;
-use crate::case::{Case, LoadStep};
+use crate::case::{Case, CaseError, LoadStep, listed};
 use crate::contact::{CurveChoice, Pair};
-use crate::geometry::{Formula, Point};
+use crate::geometry::{Formula, Place, Point, Quote, Rounded};
 use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces};
 use crate::petsc::Session;
 use crate::system::{self, Scene};
 use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
+
+/// Wrong names that are told one by one.
+const MOST_WRONG: usize = 40;
 
 /// Parts of a macro edge at whose ends a stiffness of springs is looked at.
 const SAMPLES: usize = 8;
@@ -34,11 +38,9 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     let mesh = parse_joined(bytes, &case.mesh.file, joined(case));
     let mut mesh = mesh.map_err(|error| unknown_part(case, bytes).unwrap_or_else(|| error.to_string()))?;
     let names = Names { case, mesh: &mesh };
-    names.check_bodies()?;
-    for (key, boundaries) in names.used() {
-        for name in boundaries.iter().filter(|name| !key.starts_with("contact.") || case.tool_of(name).is_none()) {
-            names.check_boundary(&key, name)?;
-        }
+    let wrong = names.wrong();
+    if !wrong.is_empty() {
+        return Err(together(&wrong));
     }
     names.check_unions()?;
     names.check_plates()?;
@@ -59,8 +61,10 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
         let [x, y] = grade.point;
         mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
             format!(
-                "{}: mesh.grade.points: [{x}, {y}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
+                "{}: mesh.grade.points: [{}, {}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
                 case.file.display(),
+                Rounded(x),
+                Rounded(y),
                 mesh.file.display(),
                 nearest.x,
                 nearest.y
@@ -70,7 +74,29 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     check_means(case, &mesh)?;
     check_springs(case, &mesh)?;
     check_points(case, &mesh)?;
+    check_exact(case, &mesh).map_err(|words| format!("{}: {words}", case.file.display()))?;
     Ok(mesh)
+}
+
+/// What is wrong with a case file, and with the names of what could be read of it against its mesh: all of it at once.
+pub fn told_with_names(error: &CaseError) -> String {
+    let names = error.draft.as_ref().map_or_else(Vec::new, |case| wrong_names(case));
+    together(&[vec![error.to_string()], names].concat())
+}
+
+/// Words for each name of a case that its mesh does not have; none if the mesh cannot be read.
+fn wrong_names(case: &Case) -> Vec<String> {
+    let mesh = read_mesh_file(case).ok().and_then(|bytes| parse_joined(&bytes, &case.mesh.file, joined(case)).ok());
+    mesh.map_or_else(Vec::new, |mesh| Names { case, mesh: &mesh }.wrong())
+}
+
+/// One line for each of them; of many the first.
+fn together(all: &[String]) -> String {
+    let first = all[..all.len().min(MOST_WRONG)].join("\n");
+    match all.len().saturating_sub(MOST_WRONG) {
+        0 => first,
+        more => format!("{first}\n{more} more of them; correct these first"),
+    }
 }
 
 /// Adds the rigid tools, as fine as what they face.
@@ -101,7 +127,7 @@ fn unknown_part(case: &Case, bytes: &[u8]) -> Option<String> {
     let mut parts = case.bodies.iter().filter(|body| body.has_parts()).flat_map(surfaces_of);
     let (key, name) = parts.find(|(_, name)| !surfaces.contains(name))?;
     let instead = instead(&case.mesh.file, name, surfaces.iter());
-    Some(format!("{}: {key}: no physical surface \"{name}\": {instead}", case.file.display()))
+    Some(format!("{}: {key}: no physical surface \"{}\": {instead}", case.file.display(), Quote(name)))
 }
 
 /// The physical surfaces of a body: the key of each in the case, and its name.
@@ -113,12 +139,16 @@ fn surfaces_of(body: &Body) -> impl Iterator<Item = (String, &String)> {
 }
 
 /// What a mesh has instead of a name that it has not.
-fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String> + Clone) -> String {
-    let near = known.clone().min_by_key(|other| strsim::damerau_levenshtein(name, other));
-    let all: Vec<String> = known.clone().map(|other| format!("\"{other}\"")).collect();
-    let near = near.filter(|other| strsim::damerau_levenshtein(name, other) <= 3);
-    let guess = near.map_or(String::new(), |other| format!("; did you mean \"{other}\"?"));
-    format!("{} has no such name{guess}; it has {}", file.display(), all.join(", "))
+fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String>) -> String {
+    let known: Vec<&String> = known.collect();
+    let file = file.display();
+    if known.is_empty() {
+        return format!("{file} has none at all; name them in the .geo file, and mesh it again");
+    }
+    let distance = |other: &String| strsim::damerau_levenshtein(Quote(name).head(), Quote(other).head());
+    let near = known.iter().min_by_key(|other| distance(other)).filter(|other| distance(other) <= 3);
+    let guess = near.map_or(String::new(), |other| format!("; did you mean \"{}\"?", Quote(other)));
+    format!("{file} has no such name{guess}; it has {}", listed(known.iter().map(|other| format!("\"{}\"", Quote(other)))))
 }
 
 /// A scene with its macro triangles spread over the ranks. **Collective**
@@ -167,13 +197,24 @@ impl Names<'_> {
         format!("{}: {key}: {words}", self.case.file.display())
     }
 
+    /// Words for each name that the mesh does not have, and for each body that the case does not.
+    fn wrong(&self) -> Vec<String> {
+        let mut wrong: Vec<String> = self.check_bodies().err().into_iter().collect();
+        for (key, boundaries) in self.used() {
+            let on_mesh = boundaries.iter().filter(|name| !key.starts_with("contact.") || self.case.tool_of(name).is_none());
+            wrong.extend(on_mesh.filter_map(|name| self.check_boundary(&key, name).err()));
+        }
+        wrong
+    }
+
     fn check_bodies(&self) -> Result<(), String> {
         let known = || self.mesh.parts.iter().map(|part| &part.name);
         for (key, name) in self.case.bodies.iter().flat_map(surfaces_of) {
             if !known().any(|other| other == name) {
-                return Err(
-                    self.error(&key, &format!("no physical surface \"{name}\": {}", instead(&self.mesh.file, name, known())))
-                );
+                return Err(self.error(
+                    &key,
+                    &format!("no physical surface \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known())),
+                ));
             }
         }
         for name in known() {
@@ -215,7 +256,7 @@ impl Names<'_> {
             return Err(self.error(key, &words));
         }
         let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
-        Err(self.error(key, &format!("no physical curve \"{name}\": {}", instead(&self.mesh.file, name, known))))
+        Err(self.error(key, &format!("no physical curve \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known))))
     }
 
     /// A boundary that stays rigid lies on one body, and nothing else touches it.
@@ -288,14 +329,17 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     for (key, spot) in supports.chain(loads).filter_map(|(key, spot)| Some((key, spot?))) {
         let [x, y] = spot.place;
         let is_body = |name: &str| case.bodies.iter().any(|body| body.name == name);
-        mesh.add_point(spot, is_body).map_err(|words| format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()))?;
+        mesh.add_point(spot, is_body)
+            .map_err(|words| format!("{}: {key} = [{}, {}]: {words}", case.file.display(), Rounded(x), Rounded(y)))?;
     }
     let bad = case.point_loads.iter().find(|load| load.force().iter().any(|component| !component.is_finite()));
     if let Some(load) = bad {
         let ([x, y], file) = (load.at.place, case.file.display());
         return Err(format!(
-            "{file}: load.{}.force: has no finite value at its point ({x}, {y}); correct the formula",
-            load.name
+            "{file}: load.{}.force: has no finite value at its point ({}, {}); correct the formula",
+            load.name,
+            Rounded(x),
+            Rounded(y)
         ));
     }
     Ok(())
@@ -311,10 +355,7 @@ fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
                 let x = mesh.edge_position(edge, t);
                 for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
                     if !(k.is_finite() && k >= 0.0) {
-                        return Err(error(format!(
-                            "is {k} at ({}, {}); a spring wants a finite number >= 0 everywhere",
-                            x.x, x.y
-                        )));
+                        return Err(error(format!("is {k} at {}; a spring wants a finite number >= 0 everywhere", Place(x))));
                     }
                     largest = largest.max(k);
                 }
@@ -348,7 +389,7 @@ fn check_points(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
             ),
             _ => continue,
         };
-        return Err(format!("{}: {key} = [{x}, {y}]: {words}", case.file.display()));
+        return Err(format!("{}: {key} = [{}, {}]: {words}", case.file.display(), Rounded(x), Rounded(y)));
     }
     Ok(())
 }

@@ -56,6 +56,11 @@ impl RunStatus {
 }
 
 impl Ended {
+    /// Whether it has left a summary.
+    pub fn has_result(&self) -> bool {
+        !self.summary.is_null()
+    }
+
     /// Whether the run converged to a pressure that can be trusted, as far as is known; the reason goes without saying then.
     pub fn is_good(&self) -> bool {
         let mut contacts = self.summary["contact"].as_object().into_iter().flat_map(|contacts| contacts.values());

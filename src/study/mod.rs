@@ -21,22 +21,24 @@ mod table;
 use std::path::Path;
 
 pub use error::StudyError;
+pub use plan::Plan;
 
 use ended::Ended;
 use execution::Execution;
 use folder::{Folder, ResultPlace, Wanted};
-use plan::{Plan, PlannedRun};
+use plan::PlannedRun;
 use progress::Progress;
 use record::{Program, Record, inputs, what};
 use repeats::with_spreads;
 use table::Table;
 
 /// Makes every run of a study that has not been made yet, and tables and figures of all in the folder `out`. A run that fails is a
-/// row too. `overrides` are `KEY=VALUE` for keys of the study; with `force` all runs are made anew.
+/// row too. `overrides` are `KEY=VALUE` for keys of the study; with `force` all runs are made anew. Tells
+/// whether any run has a result.
 ///
 /// # Errors
 /// [`StudyError`] if there is no table.
-pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result<(), StudyError> {
+pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result<bool, StudyError> {
     let plan = Plan::read(file, overrides)?;
     let program = Program::this()?;
     let folder = Folder::open(out, &plan.name, force)?;
@@ -60,7 +62,7 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     texts.extend(figure.map(|text| ("study.svg", text)));
     folder.write_tables(&texts)?;
     progress.end(&plan, &results, &out.join("study.html"));
-    Ok(())
+    Ok(results.iter().any(Ended::has_result))
 }
 
 /// Makes the runs that are not kept, one after the other, and records each as it ends.

@@ -116,7 +116,8 @@ fn owners(scene: &Scene, contact: &Contact) -> Vec<usize> {
 fn add_declared_gaps(contacts: &[Contact], gap: &mut [f64]) -> Result<(), SystemError> {
     for contact in contacts {
         if let GapChoice::Formula(formula) = &contact.pair.gap {
-            let declared = declared_gap(&contact.boundary, &contact.multipliers, formula);
+            let declared = declared_gap(&contact.boundary, &contact.multipliers, formula)
+                .map_err(|words| SystemError::Case(format!("contact.{}.gap: {words}", contact.pair.name)))?;
             declared.iter().enumerate().for_each(|(i, value)| gap[contact.first + i] += value);
         }
         if let Some(i) = gap[contact.range()].iter().position(|value| !value.is_finite()) {

@@ -1,15 +1,16 @@
 //! Nodal forces of all loads.
 
 use super::mean_motion::mean_weights;
-use super::{Discretisation, Field, SystemError};
-use crate::body::{Applied, applied_forces};
+use super::{Discretisation, Field, Scene, SystemError};
+use crate::body::{Applied, applied_forces, check_body_forces, check_loads};
 use crate::geometry::Point;
+use crate::mesh::Numbering;
 use crate::petsc::Session;
 
 /// Forces of loads and body forces, and of what holds mean motions, at the nodes, in global axes. **Collective**
 ///
 /// # Errors
-/// [`SystemError::Case`] if a triangle is turned inside out.
+/// [`SystemError::Case`] if a triangle is turned inside out, or a force has no finite value.
 pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let mut forces = Field::<2>::zeros(problem, session);
@@ -24,8 +25,8 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
     session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
     let bad = forces.own().iter().flatten().any(|force| !force.is_finite());
     if session.any(bad) {
-        let words = "load or body_force: a formula has no finite value somewhere on its boundary or body; correct it";
-        return Err(SystemError::Case(words.into()));
+        session.agree(find_bad_force(scene, numbering, rank)).map_err(SystemError::Case)?;
+        return Err(SystemError::Case("load or body_force: nodal forces are too large to be counted; make them smaller".into()));
     }
     let mut forces = forces.sum(session)?;
     for (hold, held) in problem.scene.means.iter().zip(&problem.mean_forces) {
@@ -35,6 +36,13 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         }
     }
     Ok(forces)
+}
+
+/// The load or force on this rank's macro triangles that has no finite value.
+fn find_bad_force(scene: &Scene, numbering: &Numbering, rank: usize) -> Result<(), String> {
+    check_loads(&scene.mesh, numbering, &scene.loads)?;
+    let own = scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize);
+    check_body_forces(&scene.mesh, own, numbering.level, &scene.parts())
 }
 
 /// Nodal forces as the right-hand side wants them: this rank's unknowns in the nodes' frames, zero where displacement

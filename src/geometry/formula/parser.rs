@@ -2,6 +2,7 @@
 
 use super::dual::Dual;
 use super::{DEPTH, FormulaError, Function, Instruction};
+use crate::geometry::Quote;
 
 /// What a formula may call.
 const FUNCTIONS: [(&str, Function); 4] =
@@ -197,7 +198,7 @@ impl Parser<'_> {
 }
 
 fn error_at(index: usize, found: &str, words: &str) -> FormulaError {
-    FormulaError(format!("column {}: found `{found}`; {words}", index + 1))
+    FormulaError(format!("column {}: found `{}`; {words}", index + 1, Quote(found)))
 }
 
 fn is_name(c: char) -> bool {

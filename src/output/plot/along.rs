@@ -168,7 +168,7 @@ mod tests {
     ) -> Result<String, OutputError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("figure.svg");
-        write(&path, "bars <1 & 2>", points).map(|()| std::fs::read_to_string(path).unwrap())
+        write(&path, "bars\u{1} <1 & 2>\u{1b}[0m", points).map(|()| std::fs::read_to_string(path).unwrap())
     }
 
     #[test]
@@ -177,7 +177,8 @@ mod tests {
         let blue: Vec<&str> = figure.lines().filter(|line| line.contains("polyline") && line.contains("#0072B2")).collect();
         let faint = blue.iter().filter(|line| line.contains("opacity")).count();
         assert_eq!((blue.len(), faint), (5, 1), "the legend, one jump, three runs: {blue:#?}");
-        assert!(figure.contains("bars &lt;1 &amp; 2&gt;") && figure.ends_with("</svg>\n"));
+        assert!(figure.contains("bars &lt;1 &amp; 2&gt;[0m") && figure.ends_with("</svg>\n"));
+        assert!(!figure.contains(['\u{1}', '\u{1b}']), "what XML cannot hold is left out");
         assert!(!figure.contains("peaks"));
     }
 

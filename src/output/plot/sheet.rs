@@ -116,7 +116,7 @@ impl Sheet {
              stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{below}{}",
             self.width,
             self.height,
-            content.replace(" opacity=\"1\"", ""),
+            content.replace(" opacity=\"1\"", "").replace(not_in_xml, ""),
         ))
     }
 
@@ -177,6 +177,11 @@ impl Sheet {
         mesh.draw()?;
         Ok(chart)
     }
+}
+
+/// Whether a letter may not stand in XML 1.0 (section 2.2), in whatever form.
+fn not_in_xml(letter: char) -> bool {
+    letter.is_control() && !matches!(letter, '\t' | '\n' | '\r') || matches!(letter, '\u{fffe}' | '\u{ffff}')
 }
 
 /// A line of a width in pixels.

@@ -76,6 +76,16 @@ impl Procedure<'_> {
         }
     }
 
+    /// The scene as it is solved first where its mesh is adapted to an accuracy.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if that has more unknowns than are allowed.
+    pub fn first_of_sequence(scene: Scene, accuracy: &Accuracy) -> Result<Scene, SystemError> {
+        let sequence = MeshSequence::new(scene, accuracy);
+        sequence.check_first()?;
+        Ok(sequence.scene)
+    }
+
     /// Solves the next mesh of a sequence. **Collective**
     fn solve_next(&self, sequence: &MeshSequence) -> Result<Solved, SystemError> {
         let predecessor = sequence.last().map(|(last, origins)| Predecessor::new(last, origins, self.session)).transpose()?;

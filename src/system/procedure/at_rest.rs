@@ -1,7 +1,7 @@
 //! A scene as it lies before anything is solved.
 
 use crate::mesh::Numbering;
-use crate::system::{Contact, Scene, Space, SystemError, finest_numbering, not_held_if_closed};
+use crate::system::{Contact, Scene, Space, SystemError, check_soundness, finest_numbering, not_held_if_closed};
 
 /// The mesh of the case with its contacts on bodies at rest.
 pub struct AtRest {
@@ -16,11 +16,13 @@ impl AtRest {
     ///
     /// # Errors
     /// [`SystemError::Case`] if the mesh is too fine, supports contradict each other, a boundary cannot be placed, the
-    /// boundaries of a contact do not face each other, or two contacts claim the same place.
+    /// boundaries of a contact do not face each other, two contacts claim the same place, a formula has no finite value, or a
+    /// triangle is turned inside out.
     pub fn new(scene: &Scene, rank: usize) -> Result<Self, SystemError> {
         // The space shows whether supports contradict each other.
         let Space { numbering, .. } = Space::new(scene, finest_numbering(scene)?.level, rank)?;
         let contacts = Contact::all(scene, &numbering, rank)?;
+        check_soundness(scene, &numbering, &contacts)?;
         Ok(Self { numbering, contacts })
     }
 

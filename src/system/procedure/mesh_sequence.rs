@@ -203,7 +203,14 @@ mod tests {
         let scene = sequence.scene.clone();
         let spaces = spaces(&scene, 0).expect("a small mesh");
         let coupling = Coupling { rows: Vec::new(), gap: Vec::new(), owners: Vec::new(), lost: Vec::new() };
-        let problem = Discretisation { scene, spaces, contacts: Vec::new(), coupling, motion: BoundaryMotion::default() };
+        let problem = Discretisation {
+            scene,
+            spaces,
+            contacts: Vec::new(),
+            coupling,
+            motion: BoundaryMotion::default(),
+            mean_forces: Vec::new(),
+        };
         sequence.adaptation.meshes.push(AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,
             macro_triangles: problem.scene.mesh.triangles.len(),

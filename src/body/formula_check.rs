@@ -1,0 +1,98 @@
+//! Formulas of loads and forces where they are integrated: the first that has no finite value there, in words.
+
+use super::{BodyPart, Load, LoadKind, positions};
+use crate::element::{BadJacobian, Order, edge_load, triangle_load};
+use crate::geometry::{Formula, Point};
+use crate::mesh::{BoundaryEdge, Level, MacroMesh, Numbering, lattice};
+use std::cell::RefCell;
+
+/// The first of the loads that has no finite value at a point where a level integrates it.
+///
+/// # Errors
+/// Words that begin with its key.
+pub fn check_loads(mesh: &MacroMesh, numbering: &Numbering, loads: &[Load]) -> Result<(), String> {
+    for load in loads {
+        let (key, formulas) = match &load.kind {
+            LoadKind::Pressure(pressure) => ("pressure", std::slice::from_ref(pressure)),
+            LoadKind::Traction(traction) => ("traction", traction.as_slice()),
+        };
+        let looked_at = Looked::at(formulas);
+        let edges = load.on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
+        for small in edges.flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering)) {
+            edge_load(&small.points, |x, _| looked_at.point(x));
+            looked_at.all_finite().map_err(|words| format!("load.{}.{key}: {words}", load.name))?;
+        }
+    }
+    Ok(())
+}
+
+/// The first force per area on one of these macro triangles that has no finite value at a point where a level integrates it;
+/// `parts` are those of the mesh, in its order.
+///
+/// # Errors
+/// Words that begin with its key.
+pub fn check_body_forces(
+    mesh: &MacroMesh,
+    triangles: impl Iterator<Item = usize>,
+    level: Level,
+    parts: &[&BodyPart],
+) -> Result<(), String> {
+    for triangle in triangles {
+        let number = mesh.triangles[triangle].part as usize;
+        if !varies(parts[number]) {
+            continue;
+        }
+        let looked_at = Looked::at(&parts[number].force);
+        // Where a triangle is turned inside out that is what is told.
+        let _ = match level.order {
+            Order::P1 => look::<3>(mesh, triangle, level, &looked_at),
+            Order::P2 => look::<6>(mesh, triangle, level, &looked_at),
+        };
+        looked_at.all_finite().map_err(|words| format!("{}.body_force: {words}", key_of(mesh, number)))?;
+    }
+    Ok(())
+}
+
+/// Whether a force on a part is another from point to point.
+pub fn varies(part: &BodyPart) -> bool {
+    part.force.iter().any(|formula| formula.as_constant().is_none_or(|constant| !constant.is_finite()))
+}
+
+fn look<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level, looked_at: &Looked) -> Result<(), BadJacobian> {
+    for small in lattice::triangles(level.intervals, level.order) {
+        let nodes = positions(mesh, triangle, level, &small.nodes::<N>());
+        triangle_load::<N>(&nodes, |x| looked_at.point(x))?;
+    }
+    Ok(())
+}
+
+/// The key of a part of the mesh in the case.
+fn key_of(mesh: &MacroMesh, part: usize) -> String {
+    let surface = &mesh.parts[part];
+    let body = &mesh.bodies[surface.body as usize];
+    if *body == surface.name { format!("body.{body}") } else { format!("body.{body}.part.{}", surface.name) }
+}
+
+/// Formulas that are looked at, and the words for the first that had no finite value.
+struct Looked<'a> {
+    formulas: &'a [Formula],
+    words: RefCell<Option<String>>,
+}
+
+impl<'a> Looked<'a> {
+    fn at(formulas: &'a [Formula]) -> Self {
+        Self { formulas, words: RefCell::new(None) }
+    }
+
+    /// Looks at a point; no force acts there.
+    fn point(&self, x: Point) -> Point {
+        if let Some(words) = self.formulas.iter().find_map(|formula| formula.finite_value(x).err()) {
+            self.words.borrow_mut().get_or_insert(words);
+        }
+        Point::zeros()
+    }
+
+    fn all_finite(&self) -> Result<(), String> {
+        self.words.borrow().clone().map_or(Ok(()), Err)
+    }
+}

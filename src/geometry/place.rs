@@ -1,0 +1,70 @@
+//! Numbers, places and texts of the user's in words, for messages.
+
+use super::Point;
+use std::fmt::{self, Display, Formatter};
+
+/// A number to six digits, with an exponent where it would be long without one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rounded(pub f64);
+
+/// A place as `(x, y)`, both to six digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place(pub Point);
+
+/// Longest text that is quoted in full.
+const LONGEST: usize = 60;
+
+/// A text of the user's on one line, cut if it is long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quote<'a>(pub &'a str);
+
+impl<'a> Quote<'a> {
+    /// As much of it as is quoted, as it is.
+    pub fn head(&self) -> &'a str {
+        self.0.char_indices().nth(LONGEST).map_or(self.0, |(end, _)| &self.0[..end])
+    }
+}
+
+impl Display for Quote<'_> {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        for letter in self.head().chars() {
+            if letter.is_control() { write!(f, "{}", letter.escape_default())? } else { write!(f, "{letter}")? }
+        }
+        f.write_str(if self.head().len() < self.0.len() { " ..." } else { "" })
+    }
+}
+
+impl Display for Rounded {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        // Adding zero makes zero of minus zero.
+        let short = format!("{:.5e}", self.0).parse::<f64>().unwrap_or(self.0) + 0.0;
+        let is_short = short == 0.0 || !short.is_finite() || (1e-4..1e7).contains(&short.abs());
+        if is_short { write!(f, "{short}") } else { write!(f, "{short:e}") }
+    }
+}
+
+impl Display for Place {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        write!(f, "({}, {})", Rounded(self.0.x), Rounded(self.0.y))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_texts_are_cut_and_stay_on_one_line() {
+        assert_eq!(Quote("two\nlines").to_string(), "two\\nlines");
+        assert_eq!(Quote(&"ü".repeat(1000)).to_string(), format!("{} ...", "ü".repeat(60)));
+    }
+
+    #[test]
+    fn numbers_are_short_whatever_their_size() {
+        let told = |number: f64| Rounded(number).to_string();
+        assert_eq!([2.0, -0.0, 0.25000000000102973, 1e6].map(told), ["2", "0", "0.25", "1000000"]);
+        assert_eq!([1e308, -1.0 / 3e8, 1e-5].map(told), ["1e308", "-3.33333e-9", "1e-5"]);
+        assert_eq!([f64::NAN, f64::INFINITY].map(told), ["NaN", "inf"]);
+        assert_eq!(Place(Point::new(1.0 / 3.0, -1e300)).to_string(), "(0.333333, -1e300)");
+    }
+}
