@@ -21,6 +21,7 @@ pub mod vtk;
 pub use csv::{ContactPoint, write_contact};
 pub use error::OutputError;
 pub use folder::ResultFolder;
+pub use leftover::recover;
 pub use summary::Summary;
 
 /// The signs of a result, as its files state them in their header.

@@ -1,6 +1,6 @@
 //! `mezha check` and `mezha info`.
 
-use super::{RunError, accuracy, scene};
+use super::{RunError, accuracy, memory, scene};
 use crate::body::Material;
 use crate::case::Case;
 use crate::element::{Order, Plane};
@@ -13,6 +13,8 @@ use crate::system::Procedure;
 pub struct Checked {
     /// What would be solved.
     pub words: String,
+    /// Words for a run that would be refused on this machine, for want of memory.
+    pub warning: Option<String>,
     /// Words for a body that can move though contact is closed everywhere; nothing if all are held.
     pub not_held: Option<String>,
 }
@@ -62,8 +64,12 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     if let Some(accuracy) = &case.accuracy {
         lines.push(format!("accuracy asked for: {}; the mesh is adapted to it", accuracy::request(accuracy)));
     }
+    let [need, of_macro_mesh] = Procedure::look_at_need(&scene, case.solver.choice);
+    // An accuracy has a limit to its meshes.
+    let (memory, warning) = if case.accuracy.is_none() { memory::told(need, of_macro_mesh) } else { Default::default() };
+    lines.extend((!memory.is_empty()).then_some(memory));
     let not_held = at_rest.not_held(&scene)?;
-    Ok(Checked { words: lines.join("\n"), not_held })
+    Ok(Checked { words: lines.join("\n"), warning, not_held })
 }
 
 /// Versions of everything that matters.

@@ -1,7 +1,7 @@
 //! What a run does with the events of the solution procedure: it prints them, and times the work.
 
 use super::true_errors::true_errors;
-use super::{Run, RunError, Stages, accuracy, memory};
+use super::{Run, RunError, Stages, accuracy, interruption, memory};
 use crate::contact::SegmentRule;
 use crate::petsc::StageGuard;
 use crate::system::{Event, Observer, Procedure, Scene, Solved, Work};
@@ -29,6 +29,7 @@ impl Run<'_> {
 impl Observer for Run<'_> {
     fn observe(&self, event: Event) {
         self.report.event(&event);
+        interruption::observe(&event, self.case);
         if let Event::Adapted { accuracy, solved, .. } = event {
             let _stage = self.stages.output.enter();
             let errors = true_errors(self.case, &accuracy.goals, solved, self.session);
@@ -38,6 +39,7 @@ impl Observer for Run<'_> {
     }
 
     fn enter(&self, work: Work) -> Option<StageGuard<'_>> {
+        interruption::enter(work);
         let Stages { assemble, contact, setup, solve, output, .. } = &self.stages;
         let stage = match work {
             Work::Contact => contact,

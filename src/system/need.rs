@@ -42,7 +42,7 @@ pub fn memory_need(scene: &Scene, refine: usize, choice: SolverChoice, rank: usi
     let finest = levels[levels.len() - 1];
     let nodes = |level: Level| Numbering::new(level, &scene.partition);
     let unknowns = 2.0 * nodes(finest).range(rank).len() as f64;
-    let of_macro_mesh = BY_MACRO_TRIANGLE * scene.mesh.triangles.len() as f64;
+    let of_macro_mesh = memory_of_macro_mesh(scene);
     // Where boundaries follow the solution, each has its own copy.
     let copies = if scene.pairs.iter().any(|pair| pair.follows()) { 2.0 } else { 1.0 };
     let rows =
@@ -64,6 +64,11 @@ pub fn memory_need(scene: &Scene, refine: usize, choice: SolverChoice, rank: usi
             of_macro_mesh + by_unknown * unknowns + rows(finest, nodes(finest).range(rank).len())
         }
     }
+}
+
+/// Bytes that the macro mesh of a scene takes on every rank.
+pub fn memory_of_macro_mesh(scene: &Scene) -> f64 {
+    BY_MACRO_TRIANGLE * scene.mesh.triangles.len() as f64
 }
 
 /// Nodes of a rank whose rows are not stored.
