@@ -1,11 +1,14 @@
 //! Memory that Rust cannot get: words and an exit code in the place of an abort.
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What is done when memory is refused; takes the bytes that were asked for.
 static REFUSED: OnceLock<fn(usize)> = OnceLock::new();
+/// Given back then: words and ends need some memory, too.
+static RESERVE: Mutex<Option<Vec<u8>>> = Mutex::new(None);
+const RESERVED: usize = 1 << 20;
 /// Whether it is being done: it may need memory itself.
 static ENTERED: AtomicBool = AtomicBool::new(false);
 
@@ -14,12 +17,14 @@ pub struct TellingAllocator;
 
 /// From now on `act` is called, once, when Rust cannot get memory; if it returns, the process is aborted as ever.
 pub fn when_memory_is_refused(act: fn(usize)) {
+    *RESERVE.lock().unwrap_or_else(PoisonError::into_inner) = Some(Vec::with_capacity(RESERVED));
     let _ = REFUSED.set(act);
 }
 
 #[cold]
 fn refused(bytes: usize) {
     if let Some(act) = REFUSED.get().filter(|_| !ENTERED.swap(true, Ordering::Relaxed)) {
+        drop(RESERVE.try_lock().ok().and_then(|mut reserve| reserve.take()));
         act(bytes);
     }
 }
