@@ -41,7 +41,16 @@ fn info_names_versions_and_ranks() {
 fn check_says_what_would_be_solved() {
     let (code, output, errors) = mezha(None, &["check", &case("bars_inclined")]);
     assert_eq!(code, Some(0), "{errors}");
-    for word in ["bars_inclined", "64 macro triangles", "16384 P2 triangles", "body lower", "E = 7000", "seam", "30 segments", "memory: some "] {
+    for word in [
+        "bars_inclined",
+        "64 macro triangles",
+        "16384 P2 triangles",
+        "body lower",
+        "E = 7000",
+        "seam",
+        "30 segments",
+        "memory: some ",
+    ] {
         assert!(output.contains(word), "{word} in {output}");
     }
     assert!(!output.contains("accuracy"), "{output}");

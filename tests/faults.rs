@@ -39,7 +39,8 @@ fn memory_that_is_refused_is_told_as_such() {
     let settings = "--set contact.seam.segments=auto --set exact.must_hold=false --set accuracy.energy=1e-6 --set accuracy.max_unknowns=1000000";
     for megabytes in [190, 230, 260, 300] {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let line = format!("ulimit -v {megabytes}000 && exec {MEZHA} run {bars} {settings} --set mesh.refine=5 --out result --quiet");
+        let line =
+            format!("ulimit -v {megabytes}000 && exec {MEZHA} run {bars} {settings} --set mesh.refine=5 --out result --quiet");
         let (code, _, errors) = shell(folder.path(), &line);
         assert_eq!(code, Some(1), "{megabytes}: {errors}");
         assert!(errors.contains("mezha: memory: "), "{megabytes}: {errors}");
@@ -55,6 +56,27 @@ fn a_check_tells_what_a_run_takes_and_that_it_is_too_much() {
     assert!(output.contains("memory: some ") && output.contains(" GB on one rank"), "{output}");
     assert!(errors.contains("mezha: warning: a run takes some ") && errors.contains("it would be refused here"), "{errors}");
     assert_eq!(code, Some(0), "{errors}");
+}
+
+/// The forecast is what a run takes, to a quarter.
+#[test]
+fn the_forecast_of_memory_is_true() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let settings = "--set contact.seam.segments=auto --set exact.must_hold=false --set mesh.refine=5";
+    let words = format!("{} {settings}", case("bars_inclined/even.toml"));
+    let (_, output, _) = shell(folder.path(), &format!("{MEZHA} check {words}"));
+    let told = output.lines().find_map(|line| line.strip_prefix("memory: some ")).expect("a forecast");
+    let mut numbers = told.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
+    let [first, further] = [(); 2].map(|()| numbers.next().expect("a number of MB"));
+    for (ranks, forecast) in [(1, first), (2, first + further)] {
+        let run = format!("mpirun -n {ranks} --oversubscribe --bind-to none {MEZHA} run {words} --out {ranks} --quiet");
+        let (code, _, errors) = shell(folder.path(), &run);
+        assert_eq!(code, Some(0), "{errors}");
+        let text = std::fs::read_to_string(folder.path().join(ranks.to_string()).join("summary.json")).expect("a summary");
+        let summary: Value = serde_json::from_str(&text).expect("JSON");
+        let taken = summary["memory_mib"]["sum"].as_f64().expect("a number") * 1.048576;
+        assert!((forecast / taken - 1.0).abs() < 0.25, "{ranks} ranks: {forecast} MB forecast, {taken:.0} MB taken");
+    }
 }
 
 /// A file that grows beyond `ulimit -f` is told, and is no signal.
@@ -78,7 +100,8 @@ fn the_same_command_gives_the_same_digits() {
         let run = format!("run {} {settings} --set mesh.refine={refine} --out result", case("bars_inclined/even.toml"));
         let found: BTreeSet<String> = (0..times)
             .map(|_| {
-                let (code, _, errors) = shell(folder.path(), &format!("mpirun -n 2 --oversubscribe --bind-to none {MEZHA} {run}"));
+                let (code, _, errors) =
+                    shell(folder.path(), &format!("mpirun -n 2 --oversubscribe --bind-to none {MEZHA} {run}"));
                 assert_eq!(code, Some(0), "{errors}");
                 let read = |name: &str| std::fs::read_to_string(folder.path().join("result").join(name)).expect(name);
                 let mut summary: Value = serde_json::from_str(&read("summary.json")).expect("JSON");

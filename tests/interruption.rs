@@ -74,9 +74,12 @@ fn interrupted(out: &Path) -> Value {
 
 #[test]
 fn a_run_that_a_signal_ends_tells_what_was_reached() {
-    for (ranks, signal, name) in
-        [(None, Signal::TERM, "SIGTERM"), (None, Signal::INT, "SIGINT"), (Some(1), Signal::TERM, "SIGTERM"), (Some(2), Signal::INT, "SIGTERM")]
-    {
+    for (ranks, signal, name) in [
+        (None, Signal::TERM, "SIGTERM"),
+        (None, Signal::INT, "SIGINT"),
+        (Some(1), Signal::TERM, "SIGTERM"),
+        (Some(2), Signal::INT, "SIGTERM"),
+    ] {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let child = start(folder.path(), ranks, &long_run("result"));
         wait_until(|| !names_in(folder.path()).is_empty());
@@ -123,7 +126,11 @@ fn an_older_result_does_not_pass_for_that_of_an_interrupted_run() {
     wait_until(|| names_in(folder.path()).len() == 2);
     kill_process(Pid::from_child(&child), Signal::TERM).expect("a child can be told to end");
     let (code, errors) = end(child);
-    assert_eq!((code, names_in(&out)), (Some(1), ["case.toml", "notes.md", "summary.json"].map(String::from).to_vec()), "{errors}");
+    assert_eq!(
+        (code, names_in(&out)),
+        (Some(1), ["case.toml", "notes.md", "summary.json"].map(String::from).to_vec()),
+        "{errors}"
+    );
     assert!(std::fs::read_to_string(out.join("summary.json")).expect("a summary").contains("interrupted"));
 }
 

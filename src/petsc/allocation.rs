@@ -1,8 +1,8 @@
 //! Memory that Rust cannot get: words and an exit code in the place of an abort.
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::{Mutex, OnceLock, PoisonError};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// What is done when memory is refused; takes the bytes that were asked for.
 static REFUSED: OnceLock<fn(usize)> = OnceLock::new();

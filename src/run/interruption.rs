@@ -14,8 +14,8 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::{exit, signal_name};
 use std::fs;
-use std::panic;
 use std::io::Write;
+use std::panic;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -227,7 +227,8 @@ impl Unfinished {
         summary.status = Status::Interrupted;
         summary.reason = Some(reason.clone());
         summary.time_s.total = Some(seconds);
-        let write = |name: &str, text: String| fs::write(folder.path(name), text).map_err(OutputError::io("write", &folder.path(name)));
+        let write =
+            |name: &str, text: String| fs::write(folder.path(name), text).map_err(OutputError::io("write", &folder.path(name)));
         let written = folder
             .empty()
             .and_then(|()| write("case.toml", case))

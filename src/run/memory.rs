@@ -58,7 +58,8 @@ pub fn refuse_too_large<E: Into<RunError>>(
 /// What helps where memory has run out all the same, behind words that begin with *memory*.
 pub fn remedy() -> String {
     let forecast = FORECAST.load(Ordering::Relaxed) as f64;
-    let forecast = if forecast > 0.0 { format!("; {} were forecast for all ranks together", size(forecast)) } else { String::new() };
+    let forecast =
+        if forecast > 0.0 { format!("; {} were forecast for all ranks together", size(forecast)) } else { String::new() };
     format!("{forecast}; refine less, leave more to the run (ulimit, job, other programs), or take more machines")
 }
 
@@ -68,8 +69,13 @@ pub fn told(need: f64, of_macro_mesh: f64) -> (String, Option<String>) {
     let read: Read = &|path| std::fs::read_to_string(path).ok();
     let left = of_machine(read).min(of_process(read));
     let whole = need + BY_PROCESS;
-    let words = format!("memory: some {} on one rank, and {} more for each further one", size(whole), size(of_macro_mesh + BY_PROCESS));
-    let warning = format!("a run takes some {} of memory, and {} are left on this machine: it would be refused here", size(whole), size(left));
+    let words =
+        format!("memory: some {} on one rank, and {} more for each further one", size(whole), size(of_macro_mesh + BY_PROCESS));
+    let warning = format!(
+        "a run takes some {} of memory, and {} are left on this machine: it would be refused here",
+        size(whole),
+        size(left)
+    );
     (words, (need > left).then_some(warning))
 }
 

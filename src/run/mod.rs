@@ -64,8 +64,22 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
 
 /// Outer methods that the systems can be solved with; what else PETSc has wants another side, norm or start.
 const METHODS: [&str; 16] = [
-    "gmres", "fgmres", "lgmres", "dgmres", "pgmres", "pipefgmres", "gcr", "bcgs", "fbcgs", "fbcgsr", "bcgsl", "pipebcgs", "qmrcgs",
-    "tfqmr", "tcqmr", "cgs",
+    "gmres",
+    "fgmres",
+    "lgmres",
+    "dgmres",
+    "pgmres",
+    "pipefgmres",
+    "gcr",
+    "bcgs",
+    "fbcgs",
+    "fbcgsr",
+    "bcgsl",
+    "pipebcgs",
+    "qmrcgs",
+    "tfqmr",
+    "tcqmr",
+    "cgs",
 ];
 
 /// What the case says is not said again to PETSc, and what would end in one of its crashes is not said at all.

@@ -105,7 +105,9 @@ impl<'a> Execution<'a> {
                 (status, reason.strip_prefix(&file).unwrap_or(&reason).to_owned())
             }
             Ok(Waited::Interrupted) => (RunStatus::Failed, "interrupted".into()),
-            Ok(Waited::TimedOut) => (RunStatus::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout)),
+            Ok(Waited::TimedOut) => {
+                (RunStatus::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout))
+            }
             Err(error) => (RunStatus::Failed, format!("cannot start {}: {error}", command.get_program().to_string_lossy())),
         };
         let result = if summary.is_null() { String::new() } else { result_name(number) };

@@ -3,7 +3,9 @@
 use super::observer::Observer;
 use crate::accuracy::{Accuracy, ProbePoint};
 use crate::petsc::Session;
-use crate::system::{Discretisation, Form, Scene, SolverChoice, SystemError, Tolerance, finest_numbering, memory_need, memory_of_macro_mesh};
+use crate::system::{
+    Discretisation, Form, Scene, SolverChoice, SystemError, Tolerance, finest_numbering, memory_need, memory_of_macro_mesh,
+};
 
 /// Displacement unknowns up to which a solve that failed, or whose active set was hard to find, is looked into.
 const LARGE_INF_SUP: usize = 200_000;

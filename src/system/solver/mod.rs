@@ -18,8 +18,8 @@ pub use linear_solve::{LinearEnding, LinearSolve};
 
 use self::block_triangle::BlockTriangle;
 use self::options::{
-    CoarseSolver, FIELD_SPLIT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_chosen, is_method_chosen, is_split_changed,
-    lambda_options, preconditioning_options, wants_single,
+    CoarseSolver, FIELD_SPLIT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_chosen, is_method_chosen,
+    is_split_changed, lambda_options, preconditioning_options, wants_single,
 };
 use super::auxiliary::{GalerkinLevels, SMALL};
 use super::cycle::Cycle;
@@ -110,7 +110,8 @@ impl LinearSolver {
         let is_redundant = preconditioning == Preconditioning::Factor && session.size() > 1 && unknowns <= SMALL;
         let factor: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
         let smoother = preconditioning_options(preconditioning);
-        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(method).chain(factor) {
+        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(method).chain(factor)
+        {
             petsc::options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
