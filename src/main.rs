@@ -3,8 +3,8 @@
 use clap::Parser;
 use mezha::arguments::{Arguments, CaseArguments, Command, RunArguments, Study, nearest_command};
 use mezha::case::Inputs;
-use mezha::petsc::{self, Session, end_all_ranks, errors_are_final};
-use mezha::run::{self, Outcome, RunError, RunOptions};
+use mezha::petsc::{self, Session, TellingAllocator, end_all_ranks, errors_are_final, when_memory_is_refused};
+use mezha::run::{self, Outcome, RunError, RunOptions, interruption};
 use mezha::study::{self, StudyError};
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::process::exit;
@@ -16,6 +16,9 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// How long other ranks leave the word to rank 0, where they cannot tell whether it has the same to say: the first that ends
 /// with an error makes mpirun end all others.
 const PAUSE: Duration = Duration::from_secs(1);
+
+#[global_allocator]
+static ALLOCATOR: TellingAllocator = TellingAllocator;
 
 fn main() {
     let started = Instant::now();
@@ -51,9 +54,12 @@ fn take_part() -> Result<Option<Session>, i32> {
     given_rank().map(|_| Session::start(&[], &[]).map_err(cannot_start)).transpose()
 }
 
-/// The rank that mpirun has given to this process, known before MPI has started; None without mpirun.
+/// The rank that mpirun has given to this process, known before MPI has started; None without mpirun. Where something else has
+/// set only one of the two, this process is alone.
 fn given_rank() -> Option<String> {
-    ["OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"].iter().find_map(|name| std::env::var(name).ok())
+    const GIVEN: [(&str, &str); 3] =
+        [("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"), ("PMI_RANK", "PMI_SIZE"), ("PMIX_RANK", "PMIX_NAMESPACE")];
+    GIVEN.iter().find_map(|(rank, size)| std::env::var_os(size).and_then(|_| std::env::var(rank).ok()))
 }
 
 /// Whether this process speaks for all.
@@ -66,14 +72,21 @@ fn run_case(arguments: &RunArguments, started: Instant) -> i32 {
         let words = format!("`{word}` after -- is not a PETSc option: their names begin with a minus and a letter");
         return print_once(&RunError::Input(words));
     }
+    if let Err(error) = interruption::watch(is_first_rank()) {
+        return print_once(&RunError::Failed(format!("cannot wait for signals: {error}")));
+    }
     errors_are_final();
+    when_memory_is_refused(end_without_memory);
     let session = match Session::start(&[], &arguments.petsc_options) {
         Ok(session) => session,
         Err(error) => return cannot_start(error),
     };
-    match solve(arguments, started, &session) {
+    let solved = solve(arguments, started, &session);
+    interruption::abandon();
+    match solved {
         Ok(outcome) => end(session, outcome),
         Err(RunError::Failed(words)) => {
+            interruption::abandon_alone();
             let code = print(&RunError::Failed(words));
             // The others may wait for this rank for ever.
             if session.size() > 1 { session.abort(code) } else { code }
@@ -110,6 +123,14 @@ fn end(session: Session, outcome: Outcome) -> i32 {
     }
 }
 
+/// Rust has not got so many bytes, perhaps on this rank alone: the run ends here and now.
+fn end_without_memory(bytes: usize) {
+    print(&RunError::Failed(format!("memory: {bytes} bytes more could not be got{}", run::out_of_memory_remedy())));
+    interruption::abandon_alone();
+    end_all_ranks(1);
+    interruption::exit_at_once();
+}
+
 /// PETSc has failed at its start, perhaps on this rank alone, or the ranks disagree on what to start.
 fn cannot_start(error: petsc::Error) -> i32 {
     if matches!(error, petsc::Error::UnequalWords { .. }) {
@@ -120,6 +141,7 @@ fn cannot_start(error: petsc::Error) -> i32 {
 
 /// Ends all ranks for an error of the libraries' start or end, which this rank may have alone; if all have it, rank 0 speaks.
 fn end_alone(error: &RunError) -> i32 {
+    interruption::abandon_alone();
     if !is_first_rank() {
         sleep(PAUSE);
     }
@@ -129,19 +151,20 @@ fn end_alone(error: &RunError) -> i32 {
 }
 
 fn check_case(arguments: &CaseArguments) -> i32 {
-    let _session = match take_part() {
+    let session = match take_part() {
         Ok(session) => session,
         Err(code) => return code,
     };
-    if !is_first_rank() {
+    if session.as_ref().is_some_and(|session| session.rank() > 0) {
         return 0;
     }
     match run::check_file(&arguments.file(), &arguments.overrides) {
         Ok(checked) => match (say(&checked.words), checked.not_held) {
-            (0, Some(words)) => {
+            (0, not_held) => {
                 // A reader that has gone away is no reason for another exit code.
-                let _ = writeln!(stderr(), "mezha: {words}");
-                3
+                let words = checked.warning.iter().map(|words| format!("warning: {words}")).chain(not_held.clone());
+                words.for_each(|words| drop(stderr().write_all(format!("mezha: {words}\n").as_bytes())));
+                if not_held.is_some() { 3 } else { 0 }
             }
             (code, _) => code,
         },

@@ -41,7 +41,16 @@ fn info_names_versions_and_ranks() {
 fn check_says_what_would_be_solved() {
     let (code, output, errors) = mezha(None, &["check", &case("bars_inclined")]);
     assert_eq!(code, Some(0), "{errors}");
-    for word in ["bars_inclined", "64 macro triangles", "16384 P2 triangles", "body lower", "E = 7000", "seam", "30 segments"] {
+    for word in [
+        "bars_inclined",
+        "64 macro triangles",
+        "16384 P2 triangles",
+        "body lower",
+        "E = 7000",
+        "seam",
+        "30 segments",
+        "memory: some ",
+    ] {
         assert!(output.contains(word), "{word} in {output}");
     }
     assert!(!output.contains("accuracy"), "{output}");
@@ -450,11 +459,20 @@ fn words_that_nobody_can_read_change_nothing() {
 /// A solver that does not exist, on every rank alike.
 #[test]
 fn words_of_petsc_end_the_run() {
-    for ranks in [1, 3] {
-        let ended = Run::case("patch_flat").ranks(ranks).petsc("-ksp_type nonsense").ended();
-        assert_eq!(ended.code, Some(1), "{}", ended.said());
-        assert!(ended.time < SOON && ended.errors.contains("nonsense"), "{}", ended.said());
-        assert!(!ended.out.exists());
+    for (options, code, told) in [
+        ("-pc_type nonsense", 1, "nonsense"),
+        ("-ksp_type nonsense", 2, "-ksp_type nonsense: the outer method is one"),
+        ("-ksp_type preonly", 2, "gmres, fgmres"),
+        ("-ksp_type richardson", 2, "gmres, fgmres"),
+        ("-fieldsplit_u_pc_mg_levels 50", 2, "mesh.refine"),
+        ("-fp_trap", 2, "-fp_trap"),
+    ] {
+        for ranks in [1, 3] {
+            let ended = Run::case("patch_flat").ranks(ranks).petsc(options).ended();
+            assert_eq!(ended.code, Some(code), "{}", ended.said());
+            assert!(ended.time < SOON && ended.errors.contains(told), "{}", ended.said());
+            assert_eq!(ended.left_behind(), Vec::<String>::new());
+        }
     }
 }
 

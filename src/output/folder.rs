@@ -4,11 +4,17 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::Duration;
 
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 
 use super::OutputError;
-use super::leftover::{make_hidden, recover, retire};
+use super::leftover::{make_hidden, recover, remove_empty, retire};
+
+/// How often, and after which time, it is tried to remove a folder that other ranks still write to.
+const MOST_TRIES: usize = 5;
+const PAUSE: Duration = Duration::from_millis(10);
 
 /// A result under construction: files go to a temporary folder beside the target, which takes its name at the end.
 ///
@@ -19,6 +25,8 @@ use super::leftover::{make_hidden, recover, retire};
 pub struct ResultFolder {
     target: PathBuf,
     temporary: PathBuf,
+    /// Folders above that were made for it, from the inside out.
+    made_above: Vec<PathBuf>,
     /// The result that is to be replaced; while it is open, no other folder can be taken for it.
     replaced: Option<File>,
     /// Locked while this lives, so that nobody clears the temporary away.
@@ -43,9 +51,9 @@ impl ResultFolder {
             true => Some(File::open(out).map_err(OutputError::io("open", out))?),
             false => None,
         };
-        let temporary = make_hidden(out).map_err(OutputError::io("create a folder beside", out))?;
+        let (temporary, made_above) = make_hidden(out).map_err(OutputError::io("create a folder beside", out))?;
         let lock = File::open(&temporary).ok().filter(|folder| folder.try_lock().is_ok());
-        Ok(ResultFolder { target: out.to_path_buf(), temporary, replaced, _lock: lock, committed: false })
+        Ok(ResultFolder { target: out.to_path_buf(), temporary, made_above, replaced, _lock: lock, committed: false })
     }
 
     /// The temporary folder, by its path from the root.
@@ -56,6 +64,18 @@ impl ResultFolder {
     /// Where the file `name` of this result is written to: a path in the temporary folder.
     pub fn path(&self, name: &str) -> PathBuf {
         self.temporary.join(name)
+    }
+
+    /// Removes what was written so far.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn empty(&self) -> Result<(), OutputError> {
+        for entry in fs::read_dir(&self.temporary).map_err(OutputError::io("read the folder", &self.temporary))? {
+            let path = entry.map_err(OutputError::io("read the folder", &self.temporary))?.path();
+            fs::remove_file(&path).map_err(OutputError::io("remove", &path))?;
+        }
+        Ok(())
     }
 
     /// Gives the whole result its name. A result that was there is removed; files in it that no run writes are carried over.
@@ -119,10 +139,16 @@ impl ResultFolder {
 }
 
 impl Drop for ResultFolder {
-    /// Removes an unfinished result; an error here has nobody left to tell.
+    /// Removes an unfinished result; an error here has nobody left to tell. Other ranks may still write to it for a moment.
     fn drop(&mut self) {
+        let is_left = || !self.committed && is_there(&self.temporary);
+        for _ in 0..MOST_TRIES {
+            if is_left() && fs::remove_dir_all(&self.temporary).is_err() {
+                sleep(PAUSE);
+            }
+        }
         if !self.committed {
-            let _ = fs::remove_dir_all(&self.temporary);
+            remove_empty(&self.made_above);
         }
     }
 }
@@ -201,7 +227,11 @@ mod tests {
         let folder = ResultFolder::create(&root.path().join("bars"), false).unwrap();
         fs::write(folder.path("summary.json"), "{}").unwrap();
         drop(folder);
+        drop(ResultFolder::create(&root.path().join("deep/er/bars"), false).unwrap());
         assert!(names(root.path()).is_empty());
+        let [one, other] = ["deep/one", "deep/other"].map(|out| ResultFolder::create(&root.path().join(out), false).unwrap());
+        drop(one);
+        assert!(other.temporary().is_dir(), "what somebody else has come into stays");
     }
 
     #[test]

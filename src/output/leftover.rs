@@ -25,21 +25,28 @@ struct Leftover {
 }
 
 /// Makes a hidden folder beside `out` that nobody else has, with all folders above it: `.bars.HOST-PROCESS-NUMBER.partial` for
-/// `bars`. Its path begins at the root.
+/// `bars`. Its path begins at the root. With it the folders above that were not there, from the inside out.
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn make_hidden(out: &Path) -> io::Result<PathBuf> {
+pub fn make_hidden(out: &Path) -> io::Result<(PathBuf, Vec<PathBuf>)> {
     let out = std::path::absolute(out)?;
-    out.parent().map_or(Ok(()), fs::create_dir_all)?;
+    let above: Vec<PathBuf> = out.ancestors().skip(1).take_while(|path| !path.exists()).map(Path::to_path_buf).collect();
+    out.parent().map_or(Ok(()), fs::create_dir_all).inspect_err(|_| remove_empty(&above))?;
     loop {
         let number = RandomState::new().build_hasher().finish() as u32;
         let path = out.with_file_name(format!(".{}.{}-{}-{number:08x}.{PARTIAL}", name(&out), host(), std::process::id()));
         match fs::create_dir(&path) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-            made => return made.map(|()| path),
+            made => return made.inspect_err(|_| remove_empty(&above)).map(|()| (path, above)),
         }
     }
+}
+
+/// Removes folders that nothing has come into.
+pub fn remove_empty(folders: &[PathBuf]) {
+    // One that holds something, or is gone, stays as it is.
+    folders.iter().for_each(|folder| drop(fs::remove_dir(folder)));
 }
 
 /// Clears away what killed runs of this host have left beside `out`, and brings back a result that one has set aside. What
@@ -206,7 +213,8 @@ mod tests {
     fn names_are_of_one_run_each() {
         let root = tempfile::tempdir().unwrap();
         let out = root.path().join("deep/bars");
-        let [a, b] = [0, 1].map(|_| make_hidden(&out).unwrap());
+        let [(a, above), (b, none)] = [0, 1].map(|_| make_hidden(&out).unwrap());
+        assert_eq!((above, none), (vec![root.path().join("deep")], vec![]));
         assert!(a != b && a.is_absolute() && a.is_dir() && b.is_dir());
         assert_eq!(leftovers(&out).filter(|left| left.process as u32 == std::process::id()).count(), 2);
     }

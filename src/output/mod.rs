@@ -24,6 +24,7 @@ pub mod vtk;
 pub use csv::{ContactPoint, write_contact};
 pub use error::OutputError;
 pub use folder::ResultFolder;
+pub use leftover::recover;
 pub use steps::write_steps;
 pub use summary::Summary;
 

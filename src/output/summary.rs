@@ -90,6 +90,8 @@ pub enum Status {
     /// It cannot; see the reason.
     #[default]
     NotConverged,
+    /// There is none: a signal has ended the run before. What was reached is told, and nothing else.
+    Interrupted,
 }
 
 /// The mesh after refinement.

@@ -24,6 +24,8 @@ pub(super) fn prepare() {
     }
     if launch == Launch::Alone {
         preset("OMPI_MCA_ess_singleton_isolated", "1");
+        // All processes that are isolated have the same name, and would make and remove one folder between them.
+        preset("OMPI_MCA_orte_create_session_dirs", "0");
     }
 }
 

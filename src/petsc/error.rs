@@ -3,7 +3,7 @@
 use super::ffi;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::Communicator;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -33,6 +33,12 @@ pub enum Error {
         /// Norm of the last residual.
         residual: f64,
     },
+    /// Memory has run out.
+    #[error("memory: {call} could get no more of it")]
+    OutOfMemory {
+        /// Who asked for it, in words or as the name of a C function.
+        call: String,
+    },
     /// Ranks of one run that were to do different things.
     #[error("rank {rank} was started with other words than rank 0: `{words}`; start all ranks with the same")]
     UnequalWords {
@@ -49,6 +55,8 @@ pub enum Error {
 thread_local! {
     /// What the error handler has been told since the last check: the message of the innermost failure.
     static DEEPEST: RefCell<Option<String>> = const { RefCell::new(None) };
+    /// Whether that failure was one of PETSc's allocator.
+    static NO_MEMORY: Cell<bool> = const { Cell::new(false) };
 }
 
 /// Calls a PETSc function and makes a [`Result`] of its code: `petsc!(VecSet(vector, 1.0))?`.
@@ -65,6 +73,12 @@ pub(super) use petsc;
 pub(super) fn check(call: &'static str, code: ffi::PetscErrorCode) -> Result<()> {
     if code == 0 { Ok(()) } else { Err(failure(call, code)) }
 }
+
+/// PETSc's code for memory that it cannot get (PETSC_ERR_MEM); it does not always come through.
+const OUT_OF_MEMORY: ffi::PetscErrorCode = 55;
+/// Functions of PETSc's that get memory. In 3.18 they mix up what they tell: a line number stands for the code, the name of the
+/// caller for the message.
+const ALLOCATORS: [&str; 4] = ["PetscMallocAlign", "PetscReallocAlign", "PetscTrMallocDefault", "PetscTrReallocDefault"];
 
 /// Whether an error of PETSc is the end of all ranks.
 static FINAL: AtomicBool = AtomicBool::new(false);
@@ -92,6 +106,10 @@ pub(super) fn has_others() -> bool {
 #[cold]
 fn failure(call: &'static str, code: ffi::PetscErrorCode) -> Error {
     LEAVING.store(FINAL.load(Ordering::Relaxed) && has_others(), Ordering::Relaxed);
+    if NO_MEMORY.replace(false) || code == OUT_OF_MEMORY {
+        DEEPEST.set(None);
+        return Error::OutOfMemory { call: call.into() };
+    }
     let deepest = DEEPEST.take().filter(|message| !message.is_empty());
     Error::Petsc { call, code, message: deepest.unwrap_or_else(|| general_message(code)) }
 }
@@ -133,7 +151,7 @@ pub(super) fn words(text: *const c_char) -> String {
 pub(super) unsafe extern "C" fn remember(
     _comm: mpi::ffi::MPI_Comm,
     _line: c_int,
-    _function: *const c_char,
+    function: *const c_char,
     _file: *const c_char,
     code: ffi::PetscErrorCode,
     kind: ffi::PetscErrorType,
@@ -142,6 +160,7 @@ pub(super) unsafe extern "C" fn remember(
 ) -> ffi::PetscErrorCode {
     if kind == ffi::PetscErrorType::PETSC_ERROR_INITIAL {
         DEEPEST.set(Some(words(message)));
+        NO_MEMORY.set(ALLOCATORS.contains(&words(function).as_str()));
     }
     code
 }

@@ -107,6 +107,9 @@ impl Krylov {
         petsc!(KSPGetIterationNumber(self.raw, &mut iterations))?;
         petsc!(KSPGetResidualNorm(self.raw, &mut residual))?;
         let converged = reason.0 > 0;
+        if reason == ffi::KSPConvergedReason::KSP_DIVERGED_PC_FAILED && self.preconditioner().is_out_of_memory()? {
+            return Err(Error::OutOfMemory { call: "the factorisation".into() });
+        }
         Ok(KrylovEnding { converged, iterations: iterations as usize, residual, reason: self.reason(reason)? })
     }
 

@@ -6,6 +6,7 @@
 //! added or inserted, negative ones are skipped.
 //! Functions marked **Collective** must be called by all ranks in the same order, and so must the drop of any object.
 
+mod allocation;
 mod broadcast;
 mod collective;
 mod environment;
@@ -31,6 +32,7 @@ mod vector;
 pub mod versions;
 mod window;
 
+pub use allocation::{TellingAllocator, when_memory_is_refused};
 pub use collective::Datum;
 pub use error::{Error, Result, errors_are_final};
 pub use factor::Factor;

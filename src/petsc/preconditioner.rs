@@ -57,6 +57,13 @@ impl Preconditioner {
         words(prefix)
     }
 
+    /// Whether its factorisation could not get the memory that it asked for.
+    pub(super) fn is_out_of_memory(&self) -> Result<bool> {
+        let mut reason = ffi::PCFailedReason::PC_NOERROR;
+        petsc!(PCGetFailedReason(self.raw, &mut reason))?;
+        Ok(reason == ffi::PCFailedReason::PC_FACTOR_OUTMEMORY)
+    }
+
     /// What failed when it was prepared or applied last, in words.
     pub(super) fn failure(&self) -> Result<&'static str> {
         use ffi::PCFailedReason as Reason;

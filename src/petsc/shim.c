@@ -119,7 +119,7 @@ static PetscBool end_is_ours;
 static void refuse_end(void)
 {
   if (!end_is_ours) return;
-  fputs("mezha: a library has ended the program before its end; an option such as -help intro asks PETSc to\n", stderr);
+  fputs("mezha: a library has ended the program before its end; an option such as -help intro asks PETSc to, and so may memory that a library does not get\n", stderr);
   _exit(1);
 }
 

@@ -82,7 +82,7 @@ pub fn judge(adaptation: &Adaptation, status: Status, reason: &str) -> (Status, 
             (Status::NotConverged, format!("the accuracy is not reached: {words}; {reason}"))
         }
         (Status::NotConverged, _) if adaptation.meshes.is_empty() => (status, reason.into()),
-        (Status::NotConverged, _) => (status, format!("{reason}; {}", words(adaptation))),
+        (Status::NotConverged | Status::Interrupted, _) => (status, format!("{reason}; {}", words(adaptation))),
     }
 }
 

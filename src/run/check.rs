@@ -1,7 +1,7 @@
 //! `mezha check` and `mezha info`.
 
 use super::known::check_pressures;
-use super::{RunError, accuracy, scene};
+use super::{RunError, accuracy, memory, scene};
 use crate::body::Material;
 use crate::case::Case;
 use crate::element::{Order, Plane};
@@ -15,6 +15,8 @@ use std::path::Path;
 pub struct Checked {
     /// What would be solved.
     pub words: String,
+    /// Words for a run that would be refused on this machine, for want of memory.
+    pub warning: Option<String>,
     /// Words for a body that can move though contact is closed everywhere; nothing if all are held.
     pub not_held: Option<String>,
 }
@@ -82,8 +84,12 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     if let Some(last) = case.steps.last() {
         lines.push(format!("{} load steps; the last one is {}", last.count, last.words()));
     }
+    let [need, of_macro_mesh] = Procedure::look_at_need(&scene, case.solver.choice);
+    // An accuracy has a limit to its meshes.
+    let (memory, warning) = if case.accuracy.is_none() { memory::told(need, of_macro_mesh) } else { Default::default() };
+    lines.extend((!memory.is_empty()).then_some(memory));
     let not_held = not_held_before.map_or_else(|| at_rest.not_held(&scene), |words| Ok(Some(words)))?;
-    Ok(Checked { words: lines.join("\n"), not_held })
+    Ok(Checked { words: lines.join("\n"), warning, not_held })
 }
 
 /// Looks at all load steps but the last, which is the case itself: words for a body that can move in one of them though contact

@@ -4,9 +4,16 @@
 use super::RunError;
 use crate::petsc::Session;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Where nothing tells (bytes).
 const UNKNOWN: f64 = 4e9;
+
+/// What a process takes before it has read a mesh: program and libraries.
+const BY_PROCESS: f64 = 60e6;
+
+/// What the run was forecast to take on all ranks (bytes); 0 if nothing was forecast.
+static FORECAST: AtomicU64 = AtomicU64::new(0);
 
 /// Text of a file; nothing if it cannot be read.
 type Read<'a> = &'a dyn Fn(&Path) -> Option<String>;
@@ -33,6 +40,7 @@ pub fn refuse_too_large<E: Into<RunError>>(
     let left = Left::now(session);
     let taken = |refine: usize| need(refine).map(|(unknowns, bytes)| (unknowns, left.taken(bytes, session)));
     let (unknowns, whole) = taken(refine).map_err(E::into)?;
+    FORECAST.store(whole.need as u64, Ordering::Relaxed);
     if whole.share <= 1.0 {
         return Ok(());
     }
@@ -45,6 +53,30 @@ pub fn refuse_too_large<E: Into<RunError>>(
     Err(RunError::Key(format!(
         "mesh.refine = {refine}: {unknowns} unknowns take some {need} of memory, and {left} are left; {remedy}"
     )))
+}
+
+/// What helps where memory has run out all the same, behind words that begin with *memory*.
+pub fn remedy() -> String {
+    let forecast = FORECAST.load(Ordering::Relaxed) as f64;
+    let forecast =
+        if forecast > 0.0 { format!("; {} were forecast for all ranks together", size(forecast)) } else { String::new() };
+    format!("{forecast}; refine less, leave more to the run (ulimit, job, other programs), or take more machines")
+}
+
+/// What a run takes on one rank of this machine, and what each further rank adds; with it a warning if that is not left here.
+/// `need` is that of a scene on one rank, and that of its macro mesh.
+pub fn told(need: f64, of_macro_mesh: f64) -> (String, Option<String>) {
+    let read: Read = &|path| std::fs::read_to_string(path).ok();
+    let left = of_machine(read).min(of_process(read));
+    let whole = need + BY_PROCESS;
+    let words =
+        format!("memory: some {} on one rank, and {} more for each further one", size(whole), size(of_macro_mesh + BY_PROCESS));
+    let warning = format!(
+        "a run takes some {} of memory, and {} are left on this machine: it would be refused here",
+        size(whole),
+        size(left)
+    );
+    (words, (need > left).then_some(warning))
 }
 
 /// A size as people say it.
@@ -92,11 +124,17 @@ fn of_machine(read: Read) -> f64 {
     available.into_iter().chain(groups).reduce(f64::min).unwrap_or(UNKNOWN).max(0.0)
 }
 
-/// What `ulimit -v` leaves to this process.
+/// What may be limited, and what is taken of it.
+const LIMITS: [(&str, &str); 2] = [("Max address space", "VmSize:"), ("Max data size", "VmData:")];
+
+/// What `ulimit -v` and `ulimit -d` leave to this process.
 fn of_process(read: Read) -> f64 {
-    let limit = read(Path::new("/proc/self/limits")).and_then(|text| value(&text, "Max address space"));
-    let taken = read(Path::new("/proc/self/status")).and_then(|text| value(&text, "VmSize:")).map_or(0.0, |kib| 1024.0 * kib);
-    limit.map_or(f64::INFINITY, |limit| (limit - taken).max(0.0))
+    let [limits, status] = ["limits", "status"].map(|file| read(&Path::new("/proc/self").join(file)).unwrap_or_default());
+    let left = |(limit, taken): (&str, &str)| {
+        let taken = value(&status, taken).map_or(0.0, |kib| 1024.0 * kib);
+        value(&limits, limit).map_or(f64::INFINITY, |limit| (limit - taken).max(0.0))
+    };
+    LIMITS.map(left).into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// The first number after a word at the beginning of a line; nothing if it is none, such as `unlimited`.

@@ -5,6 +5,7 @@ mod check;
 mod exact;
 mod fields;
 mod input;
+pub mod interruption;
 mod known;
 mod means;
 mod memory;
@@ -25,6 +26,7 @@ mod zones;
 
 pub use check::{Checked, check, check_file, info};
 pub use input::read_case;
+pub use memory::remedy as out_of_memory_remedy;
 pub use outcome::{Outcome, RunError};
 pub use run_options::RunOptions;
 
@@ -45,35 +47,67 @@ use std::rc::Rc;
 /// # Errors
 /// [`RunError`] if there is no result at all; nothing is left on the disk then.
 pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
-    start(case, options, session).map_err(|error| error.in_case(case))
+    start(case, options, session).map_err(|error| {
+        interruption::abandon();
+        error.in_case(case)
+    })
 }
 
 fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
     refuse_options(session)?;
     let (folder, files) = claim_folder(options, session)?;
+    interruption::begin(folder, &files, &options.out, case, session.size(), options.started);
     let report = Report::new(case, options, session);
     let stages = Rc::new(Stages::new(session)?);
     let run = Run { case, options, session, stages, report, files, draws: true, true_errors: RefCell::default() };
     run.report.start(case);
     let scene = run.read_scene()?;
     if !case.steps.is_empty() {
-        return run.finish(run.solve_steps(&scene)?, &scene.mesh, folder);
+        return run.finish(run.solve_steps(&scene)?, &scene.mesh);
     }
     let solved = run.solve(scene, None)?;
     let summary = run.summarise(&solved)?;
-    run.finish(summary, &solved.problem.scene.mesh, folder)
+    run.finish(summary, &solved.problem.scene.mesh)
 }
 
-/// What the case says is not said again to PETSc.
+/// Outer methods that the systems can be solved with; what else PETSc has wants another side, norm or start.
+const METHODS: [&str; 16] = [
+    "gmres",
+    "fgmres",
+    "lgmres",
+    "dgmres",
+    "pgmres",
+    "pipefgmres",
+    "gcr",
+    "bcgs",
+    "fbcgs",
+    "fbcgsr",
+    "bcgsl",
+    "pipebcgs",
+    "qmrcgs",
+    "tfqmr",
+    "tcqmr",
+    "cgs",
+];
+
+/// What the case says is not said again to PETSc, and what would end in one of its crashes is not said at all.
 fn refuse_options(session: &Session) -> Result<(), RunError> {
-    for (name, remedy) in
-        [("-ksp_rtol", "give `--set solver.tolerance=...`"), ("-ksp_max_it", "it is 300; a solve that needs more has failed")]
-    {
-        if petsc::options::get(session, name).is_some() {
-            return Err(RunError::Input(format!("PETSc option {name} has no effect here: {remedy}")));
-        }
+    const REFUSED: [(&str, &str); 4] = [
+        ("-ksp_rtol", "has no effect here: give `--set solver.tolerance=...`"),
+        ("-ksp_max_it", "has no effect here: it is 300; a solve that needs more has failed"),
+        ("-fieldsplit_u_pc_mg_levels", "cannot be: the levels are those of the mesh; give `--set mesh.refine=...`"),
+        ("-fp_trap", "cannot be: infinite values are looked at where they arise, and are no errors"),
+    ];
+    if let Some((name, why)) = REFUSED.iter().find(|(name, _)| petsc::options::get(session, name).is_some()) {
+        return Err(RunError::Input(format!("PETSc option {name} {why}")));
     }
-    Ok(())
+    match petsc::options::get(session, "-ksp_type").filter(|method| !METHODS.contains(&method.to_lowercase().as_str())) {
+        None => Ok(()),
+        Some(method) => Err(RunError::Input(format!(
+            "PETSc option -ksp_type {method}: the outer method is one that takes a nonsymmetric preconditioner from the right and an initial guess: {}",
+            METHODS.join(", ")
+        ))),
+    }
 }
 
 /// The folder of the results, made by rank 0, and the place that all ranks write to until it is whole. **Collective**

@@ -2,7 +2,7 @@
 
 use super::known::check_pressures;
 use super::true_errors::true_errors;
-use super::{Run, RunError, Stages, accuracy, memory};
+use super::{Run, RunError, Stages, accuracy, interruption, memory};
 use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
 use crate::petsc::StageGuard;
@@ -35,6 +35,7 @@ impl Run<'_> {
 impl Observer for Run<'_> {
     fn observe(&self, event: Event) {
         self.report.event(&event);
+        interruption::observe(&event, self.case);
         if let Event::Adapted { accuracy, solved, .. } = event {
             let _stage = self.stages.output.enter();
             let errors = true_errors(self.case, &accuracy.goals, solved, self.session);
@@ -44,6 +45,7 @@ impl Observer for Run<'_> {
     }
 
     fn enter(&self, work: Work) -> Option<StageGuard<'_>> {
+        interruption::enter(work);
         let Stages { assemble, contact, setup, solve, output, .. } = &*self.stages;
         let stage = match work {
             Work::Contact => contact,

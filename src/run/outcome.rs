@@ -1,5 +1,6 @@
 //! How a run ends.
 
+use super::memory;
 use crate::case::{Case, LoadStep};
 use crate::output::OutputError;
 use crate::petsc;
@@ -67,14 +68,15 @@ impl From<SystemError> for RunError {
         match error {
             SystemError::Case(words) => Self::Key(words),
             error @ SystemError::UnusedOptions(_) => Self::Input(error.to_string()),
-            SystemError::Petsc(error) => Self::Failed(error.to_string()),
+            SystemError::Petsc(error) => error.into(),
         }
     }
 }
 
 impl From<petsc::Error> for RunError {
     fn from(error: petsc::Error) -> Self {
-        Self::Failed(error.to_string())
+        let remedy = if matches!(error, petsc::Error::OutOfMemory { .. }) { memory::remedy() } else { String::new() };
+        Self::Failed(format!("{error}{remedy}"))
     }
 }
 

@@ -4,7 +4,7 @@ use super::exact::{Errors, compare, largest};
 use super::outcome::outside;
 use super::report::{memory, short};
 use super::slivers::slivers;
-use super::{Outcome, Run, RunError, accuracy, fields, points, summarise, trust, zones};
+use super::{Outcome, Run, RunError, accuracy, fields, interruption, points, summarise, trust, zones};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, CurveChoice, GapChoice};
@@ -44,15 +44,10 @@ impl Run<'_> {
     }
 
     /// Writes what tells the whole result, and prints the verdict. **Collective**
-    pub(super) fn finish(
-        &self,
-        mut summary: Summary,
-        mesh: &MacroMesh,
-        folder: Option<ResultFolder>,
-    ) -> Result<Outcome, RunError> {
+    pub(super) fn finish(&self, mut summary: Summary, mesh: &MacroMesh) -> Result<Outcome, RunError> {
         summary.time_s = self.report.times(&self.stages, self.session);
         summary.memory_mib = memory(self.session);
-        let finished = folder.map_or(Ok(()), |folder| finish(self.case, &summary, mesh, folder));
+        let finished = interruption::finish(|folder| finish(self.case, &summary, mesh, folder));
         let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
@@ -77,7 +72,7 @@ impl Run<'_> {
         if let Some(words) = judgement.unreliable {
             reason = match status {
                 Status::Converged => format!("pressure unreliable: {words}"),
-                Status::NotConverged => format!("{reason}; pressure unreliable: {words}"),
+                Status::NotConverged | Status::Interrupted => format!("{reason}; pressure unreliable: {words}"),
             };
             self.report.warn(&format!("pressure unreliable: {words}"));
         }

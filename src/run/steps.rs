@@ -1,6 +1,6 @@
 //! The loop over load steps: each is solved from the one before, judged by itself, and kept as a row.
 
-use super::{Run, RunError, scene};
+use super::{Run, RunError, interruption, scene};
 use crate::case::LoadStep;
 use crate::output::summary::{Status, StepSummary, Summary};
 use crate::output::{OutputError, plot, vtk, write_steps};
@@ -41,6 +41,7 @@ impl Run<'_> {
                     summary.reason.as_deref().unwrap_or_default()
                 ));
             }
+            interruption::keep_steps(&rows);
             // What has not converged is no place to begin at.
             before = if solved.ending.is_converged() { Some(solved) } else { before };
             last = Some(summary);

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Corners, Evaluation, TracePoint};
-use crate::system::{Contact, Solved};
+use crate::system::{BoundaryStep, Contact, Pass, Solved};
 
 /// From this error on λ may grow at a corner as it does towards a singular end.
 const GROWS_AT_CORNERS: f64 = 5e-3;
@@ -31,32 +31,8 @@ pub fn describe(summary: &mut Summary, case: &Case, solved: &Solved) {
         displacement: Some(2 * numbering.node_count() as u64),
         multiplier: Some(problem.multiplier_count() as u64),
     };
-    summary.outer = solved
-        .passes
-        .iter()
-        .map(|step| summary::OuterIteration {
-            iteration: step.iteration,
-            boundary: step.boundary,
-            active: Some(step.active),
-            added: Some(step.added),
-            released: Some(step.released),
-            krylov_iterations: Some(step.krylov_iterations),
-            residual: Some(step.residual),
-            max_penetration: Some(step.max_penetration),
-            du: Some(step.du),
-        })
-        .collect();
-    summary.boundaries = solved
-        .boundaries
-        .iter()
-        .map(|step| summary::BoundaryIteration {
-            iteration: step.iteration,
-            length: Some(step.length),
-            moved: step.moved,
-            du: step.du,
-            flipped: step.flipped,
-        })
-        .collect();
+    summary.outer = solved.passes.iter().map(pass).collect();
+    summary.boundaries = solved.boundaries.iter().map(boundary).collect();
     summary.solver = summary::SolverSummary {
         name: Some(case.solver.choice.name().into()),
         krylov: Some(solved.solver.clone()),
@@ -74,6 +50,32 @@ pub fn describe(summary: &mut Summary, case: &Case, solved: &Solved) {
         plain_residual: Some(solution.plain_residual),
         blas: Some(versions::blas()),
     };
+}
+
+/// A pass of the loop over active sets.
+pub fn pass(pass: &Pass) -> summary::OuterIteration {
+    summary::OuterIteration {
+        iteration: pass.iteration,
+        boundary: pass.boundary,
+        active: Some(pass.active),
+        added: Some(pass.added),
+        released: Some(pass.released),
+        krylov_iterations: Some(pass.krylov_iterations),
+        residual: Some(pass.residual),
+        max_penetration: Some(pass.max_penetration),
+        du: Some(pass.du),
+    }
+}
+
+/// A contact boundary of those that follow.
+pub fn boundary(step: &BoundaryStep) -> summary::BoundaryIteration {
+    summary::BoundaryIteration {
+        iteration: step.iteration,
+        length: Some(step.length),
+        moved: step.moved,
+        du: step.du,
+        flipped: step.flipped,
+    }
 }
 
 /// Triangle edges of the finest level: the midside nodes of P2.

@@ -7,11 +7,16 @@ use std::num::NonZero;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::{available_parallelism, sleep};
 use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+use signal_hook::low_level::signal_name;
 
 use super::ended::{Ended, RunStatus};
 use super::folder::{Folder, read_summary, result_name};
@@ -35,12 +40,39 @@ pub struct Execution<'a> {
     timeout: Duration,
     cores: usize,
     machine: String,
+    /// Number of the signal that has told this program to end; 0 if none has.
+    signal: Arc<AtomicUsize>,
+}
+
+/// How the wait for a child ended.
+#[derive(Debug, PartialEq)]
+enum Waited {
+    /// The child has ended.
+    Ended(ExitStatus),
+    /// It took too long, and was ended.
+    TimedOut,
+    /// A signal has told this program to end, and the child was ended.
+    Interrupted,
 }
 
 impl<'a> Execution<'a> {
-    /// Runs of this program, with results in the folder of the study.
-    pub fn new(program: &'a Program, folder: &'a Folder, timeout: Duration) -> Self {
-        Self { program, folder, timeout, cores: cores(), machine: machine() }
+    /// Runs of this program, with results in the folder of the study. From now on signals that would end this program end the
+    /// run that is being made.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn new(program: &'a Program, folder: &'a Folder, timeout: Duration) -> io::Result<Self> {
+        let signal = Arc::new(AtomicUsize::new(0));
+        for number in [SIGINT, SIGTERM] {
+            flag::register_usize(number, signal.clone(), number as usize)?;
+        }
+        Ok(Self { program, folder, timeout, cores: cores(), machine: machine(), signal })
+    }
+
+    /// Name of the signal that has told this program to end, if one has.
+    pub fn interrupted(&self) -> Option<&'static str> {
+        let number = self.signal.load(Ordering::Relaxed) as i32;
+        (number != 0).then(|| signal_name(number).unwrap_or("a signal"))
     }
 
     /// Makes a run of these inputs, with its result under this number; one that finds others fails. What it says on standard error
@@ -57,7 +89,7 @@ impl<'a> Execution<'a> {
         let nothing = self.folder.lock().map_or_else(Stdio::null, Stdio::from);
         command.stdin(nothing).stdout(Stdio::null()).stderr(errors);
         let start = Instant::now();
-        let ending = command.spawn().and_then(|child| wait(child, self.timeout));
+        let ending = command.spawn().and_then(|child| wait(child, self.timeout, &|| self.interrupted().is_some()));
         let wall = start.elapsed();
         let text = fs::read(&said).map_err(OutputError::io("read", &said))?;
         if text.is_empty() {
@@ -67,12 +99,15 @@ impl<'a> Execution<'a> {
         let summary = if change.is_none() { read_summary(&result) } else { Value::Null };
         let (status, reason) = match ending {
             _ if change.is_some() => (RunStatus::Failed, change.unwrap_or_default()),
-            Ok(Some(ending)) => {
+            Ok(Waited::Ended(ending)) => {
                 let (status, reason) = judge(ending, &summary, &String::from_utf8_lossy(&text));
                 let file = format!("{}: ", run.file.display());
                 (status, reason.strip_prefix(&file).unwrap_or(&reason).to_owned())
             }
-            Ok(None) => (RunStatus::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout)),
+            Ok(Waited::Interrupted) => (RunStatus::Failed, "interrupted".into()),
+            Ok(Waited::TimedOut) => {
+                (RunStatus::Timeout, format!("not finished after {:?}; raise timeout in the study file", self.timeout))
+            }
             Err(error) => (RunStatus::Failed, format!("cannot start {}: {error}", command.get_program().to_string_lossy())),
         };
         let result = if summary.is_null() { String::new() } else { result_name(number) };
@@ -105,25 +140,28 @@ fn cores() -> usize {
     tasks.unwrap_or_else(|| available_parallelism().map_or(1, NonZero::get))
 }
 
-/// How a child ended; None if it took too long and was ended.
-fn wait(mut child: Child, timeout: Duration) -> io::Result<Option<ExitStatus>> {
-    if let Some(status) = wait_for(&mut child, timeout)? {
-        return Ok(Some(status));
+/// Waits for a child until it has taken too long, or is `unwanted`; then it is ended.
+fn wait(mut child: Child, timeout: Duration, unwanted: &dyn Fn() -> bool) -> io::Result<Waited> {
+    let ended = wait_for(&mut child, timeout, unwanted)?;
+    // The child may have ended by the same signal.
+    let why = if unwanted() { Waited::Interrupted } else { Waited::TimedOut };
+    if let Some(status) = ended {
+        return Ok(if unwanted() { why } else { Waited::Ended(status) });
     }
     // The polite signal first: mpirun passes it on to the ranks.
     let asked = kill_process(Pid::from_child(&child), Signal::TERM);
-    if asked.is_err() || wait_for(&mut child, GRACE)?.is_none() {
+    if asked.is_err() || wait_for(&mut child, GRACE, &|| false)?.is_none() {
         child.kill()?;
         child.wait()?;
     }
-    Ok(None)
+    Ok(why)
 }
 
-fn wait_for(child: &mut Child, patience: Duration) -> io::Result<Option<ExitStatus>> {
+fn wait_for(child: &mut Child, patience: Duration, unwanted: &dyn Fn() -> bool) -> io::Result<Option<ExitStatus>> {
     let start = Instant::now();
     loop {
         let status = child.try_wait()?;
-        if status.is_some() || start.elapsed() > patience {
+        if status.is_some() || start.elapsed() > patience || unwanted() {
             return Ok(status);
         }
         sleep(PULSE);
@@ -219,9 +257,12 @@ mod tests {
     fn a_run_that_takes_too_long_is_ended() {
         let start = Instant::now();
         let child = Command::new("sleep").arg("60").spawn().unwrap();
-        assert_eq!(wait(child, Duration::from_millis(50)).unwrap(), None);
+        assert_eq!(wait(child, Duration::from_millis(50), &|| false).unwrap(), Waited::TimedOut);
+        assert!(start.elapsed() < GRACE);
+        let child = Command::new("sleep").arg("60").spawn().unwrap();
+        assert_eq!(wait(child, Duration::from_secs(60), &|| true).unwrap(), Waited::Interrupted);
         assert!(start.elapsed() < GRACE);
         let child = Command::new("true").spawn().unwrap();
-        assert!(wait(child, GRACE).unwrap().unwrap().success());
+        assert_eq!(wait(child, GRACE, &|| false).unwrap(), Waited::Ended(ExitStatus::from_raw(0)));
     }
 }

@@ -77,7 +77,8 @@ fn make(
     if places.iter().any(|place| place.kept.is_none()) {
         folder.remove_tables()?;
     }
-    let execution = Execution::new(program, folder, plan.timeout);
+    let execution = Execution::new(program, folder, plan.timeout)
+        .map_err(|error| StudyError::Failed(format!("cannot wait for signals: {error}")))?;
     let mut results = Vec::with_capacity(plan.runs.len());
     for (index, place) in places.into_iter().enumerate() {
         let planned = &plan.runs[index];
@@ -87,6 +88,15 @@ fn make(
                 folder.clear(place.number)?;
                 progress.begin(index, planned);
                 let ended = execution.execute(planned, &wanted[index].inputs, place.number)?;
+                if let Some(signal) = execution.interrupted() {
+                    folder.clear(place.number)?;
+                    progress.interrupted();
+                    return Err(StudyError::Failed(format!(
+                        "interrupted by {signal} in run {} of {}; the runs before are kept, and the same command goes on from there",
+                        index + 1,
+                        plan.runs.len()
+                    )));
+                }
                 progress.ended(&ended);
                 let record = Record::new(&plan.name, planned, &wanted[index].identity, plan.timeout, &ended);
                 folder.keep(place.number, &record)?;

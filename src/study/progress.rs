@@ -38,6 +38,11 @@ impl Progress {
         say(&if ended.is_good() { format!("{words}\n") } else { format!("{words}: {}\n", ended.reason) });
     }
 
+    /// That it was given up, on the same line.
+    pub fn interrupted(&self) {
+        say("interrupted\n");
+    }
+
     /// The last lines: what is asked of the results and none has, how many runs ended how, and where the page is.
     pub fn end(&self, plan: &Plan, results: &[Ended], page: &Path) {
         for path in plan.errors.iter().chain([&plan.time]).chain(&plan.columns) {

@@ -51,7 +51,7 @@ pub use error::SystemError;
 pub use field::Field;
 pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};
 pub use interpolation::{Interpolation, interpolations};
-use need::memory_need;
+use need::{memory_need, memory_of_macro_mesh};
 pub use nodal_force::{load, nodal_forces};
 pub use procedure::{
     AtRest, BoundaryStep, CoarseSolve, Ending, Estimate, Event, Failure, Observer, Pass, Procedure, Solved, Standing, Work,

@@ -3,7 +3,9 @@
 use super::observer::Observer;
 use crate::accuracy::{Accuracy, ProbePoint};
 use crate::petsc::Session;
-use crate::system::{Discretisation, Form, Scene, SolverChoice, SystemError, Tolerance, finest_numbering, memory_need};
+use crate::system::{
+    Discretisation, Form, Scene, SolverChoice, SystemError, Tolerance, finest_numbering, memory_need, memory_of_macro_mesh,
+};
 
 /// Displacement unknowns up to which a solve that failed, or whose active set was hard to find, is looked into.
 const LARGE_INF_SUP: usize = 200_000;
@@ -35,6 +37,11 @@ impl Procedure<'_> {
     pub fn need(&self, scene: &Scene, refine: usize) -> Result<(usize, f64), SystemError> {
         let unknowns = 2 * finest_numbering(&Scene { refine, ..scene.clone() })?.node_count();
         Ok((unknowns, memory_need(scene, refine, self.choice, self.session.rank())))
+    }
+
+    /// Bytes that a scene on one rank takes, and those that its macro mesh takes on each further one.
+    pub fn look_at_need(scene: &Scene, choice: SolverChoice) -> [f64; 2] {
+        [memory_need(scene, scene.refine, choice, 0), memory_of_macro_mesh(scene)]
     }
 
     /// The points that goals are set for.

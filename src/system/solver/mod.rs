@@ -18,10 +18,10 @@ pub use linear_solve::{LinearEnding, LinearSolve};
 
 use self::block_triangle::BlockTriangle;
 use self::options::{
-    CoarseSolver, FIELD_SPLIT, Options, SHORT_RECURRENCE, is_changed, is_chosen, is_method_chosen, is_split_changed,
-    lambda_options, preconditioning_options, wants_single,
+    CoarseSolver, FIELD_SPLIT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_chosen, is_method_chosen,
+    is_split_changed, lambda_options, preconditioning_options, wants_single,
 };
-use super::auxiliary::GalerkinLevels;
+use super::auxiliary::{GalerkinLevels, SMALL};
 use super::cycle::Cycle;
 use super::interpolation::Interpolation;
 use super::stiffness::Stiffness;
@@ -107,8 +107,11 @@ impl LinearSolver {
         let unknowns = system.finest_stiffness().operator().size().0;
         let is_short = preconditioning == Preconditioning::Sweep && unknowns > many && !is_method_chosen(session);
         let method: Options = if is_short { SHORT_RECURRENCE } else { &[] };
+        let is_redundant = preconditioning == Preconditioning::Factor && session.size() > 1 && unknowns <= SMALL;
+        let factor: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
         let smoother = preconditioning_options(preconditioning);
-        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(method) {
+        for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(method).chain(factor)
+        {
             petsc::options::set_default(session, name, value)?;
         }
         let krylov = Krylov::new(session, "")?;
@@ -145,7 +148,7 @@ impl LinearSolver {
             block_triangle = Some(ReplacedAction::new(krylov.preconditioner(), Box::new(action))?);
         }
         let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
-        let own = kind == "mg" || kind == "shell" || kind == "cholesky" && preconditioning == Preconditioning::Factor;
+        let own = kind == "mg" || kind == "shell" || is_factor(kind.as_ref()) && preconditioning == Preconditioning::Factor;
         let is_single = is_single && cycle.is_some();
         let name = if own { field_split_name(preconditioning, is_single) } else { format!("fieldsplit ({kind})") };
         let (session, form) = (session.clone(), Form::Augmented);
@@ -380,6 +383,11 @@ impl LinearSolver {
         let stiffness = system.finest_stiffness().operator().norm_infinity()?;
         Ok(10.0 * f64::EPSILON * stiffness * x.norm()? / norm)
     }
+}
+
+/// Whether this is the preconditioner that factorises, by all ranks together or by each for itself.
+fn is_factor(kind: &str) -> bool {
+    kind == "cholesky" || kind == "redundant"
 }
 
 /// The solver with a preconditioning, in words.

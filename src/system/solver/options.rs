@@ -74,6 +74,14 @@ pub(super) fn preconditioning_options(preconditioning: Preconditioning) -> Optio
     }
 }
 
+/// A factor of few unknowns by every rank for itself: one that ranks make together adds in the order in which their messages
+/// come, so that its last digits differ from run to run.
+pub(super) const REDUNDANT_FACTOR: Options = &[
+    ("-fieldsplit_u_pc_type", "redundant"),
+    ("-fieldsplit_u_redundant_pc_type", "cholesky"),
+    ("-fieldsplit_u_redundant_pc_factor_mat_solver_type", "mumps"),
+];
+
 /// The exact inverse of `S`, for each of its patterns.
 pub(super) fn lambda_options(pattern: SchurPattern, ranks: usize) -> Options {
     match (pattern, ranks) {

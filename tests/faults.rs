@@ -1,0 +1,125 @@
+//! What hosts do to runs: starts at the same time, memory and files that are limited, variables that others have set. The long
+//! form is `ci/faults`.
+
+mod support;
+
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
+use support::names_in;
+use support::process::finish;
+
+const MEZHA: &str = env!("CARGO_BIN_EXE_mezha");
+
+/// Runs a line of `sh` in a folder.
+fn shell(folder: &Path, line: &str) -> (Option<i32>, String, String) {
+    let mut command = Command::new("sh");
+    command.args(["-c", line]).current_dir(folder);
+    finish(command)
+}
+
+fn case(name: &str) -> String {
+    format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Processes without mpirun have no folder of MPI's in common, even where they share the one for temporary files.
+#[test]
+fn many_starts_at_once_do_not_meet() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let line = format!("seq 40 | xargs -P 8 -I{{}} sh -c '{MEZHA} info > /dev/null || echo failed'");
+    let (code, output, errors) = shell(folder.path(), &line);
+    assert_eq!((code, output.as_str()), (Some(0), ""), "{errors}");
+}
+
+/// Memory that nobody has forecast: no abort, and words that say so, whoever did not get it.
+#[test]
+fn memory_that_is_refused_is_told_as_such() {
+    let bars = case("bars_inclined/even.toml");
+    let settings = "--set contact.seam.segments=auto --set exact.must_hold=false --set accuracy.energy=1e-6 --set accuracy.max_unknowns=1000000";
+    for megabytes in [190, 230, 260, 300] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let line =
+            format!("ulimit -v {megabytes}000 && exec {MEZHA} run {bars} {settings} --set mesh.refine=5 --out result --quiet");
+        let (code, _, errors) = shell(folder.path(), &line);
+        assert_eq!(code, Some(1), "{megabytes}: {errors}");
+        assert!(errors.contains("mezha: memory: "), "{megabytes}: {errors}");
+        assert_eq!(names_in(folder.path()), Vec::<String>::new(), "{megabytes}: something is left");
+    }
+}
+
+#[test]
+fn a_check_tells_what_a_run_takes_and_that_it_is_too_much() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let check = format!("exec {MEZHA} check {} --set mesh.order=1 --set mesh.refine=9", case("bars_inclined/even.toml"));
+    let (code, output, errors) = shell(folder.path(), &format!("ulimit -v 1500000 && {check}"));
+    assert!(output.contains("memory: some ") && output.contains(" GB on one rank"), "{output}");
+    assert!(errors.contains("mezha: warning: a run takes some ") && errors.contains("it would be refused here"), "{errors}");
+    assert_eq!(code, Some(0), "{errors}");
+}
+
+/// The forecast is what a run takes, to a quarter.
+#[test]
+fn the_forecast_of_memory_is_true() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let settings = "--set contact.seam.segments=auto --set exact.must_hold=false --set mesh.refine=5";
+    let words = format!("{} {settings}", case("bars_inclined/even.toml"));
+    let (_, output, _) = shell(folder.path(), &format!("{MEZHA} check {words}"));
+    let told = output.lines().find_map(|line| line.strip_prefix("memory: some ")).expect("a forecast");
+    let mut numbers = told.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
+    let [first, further] = [(); 2].map(|()| numbers.next().expect("a number of MB"));
+    for (ranks, forecast) in [(1, first), (2, first + further)] {
+        let run = format!("mpirun -n {ranks} --oversubscribe --bind-to none {MEZHA} run {words} --out {ranks} --quiet");
+        let (code, _, errors) = shell(folder.path(), &run);
+        assert_eq!(code, Some(0), "{errors}");
+        let text = std::fs::read_to_string(folder.path().join(ranks.to_string()).join("summary.json")).expect("a summary");
+        let summary: Value = serde_json::from_str(&text).expect("JSON");
+        let taken = summary["memory_mib"]["sum"].as_f64().expect("a number") * 1.048576;
+        assert!((forecast / taken - 1.0).abs() < 0.25, "{ranks} ranks: {forecast} MB forecast, {taken:.0} MB taken");
+    }
+}
+
+/// A file that grows beyond `ulimit -f` is told, and is no signal.
+#[test]
+fn files_that_are_limited_end_a_run_in_order() {
+    // Under mpirun the limit is first that of MPI's own files.
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = format!("{MEZHA} run {} --set mesh.refine=1 --out deep/result --quiet", case("patch_flat/case.toml"));
+    let (code, _, errors) = shell(folder.path(), &format!("ulimit -f 16 && exec {run}"));
+    assert_eq!(code, Some(1), "{errors}");
+    assert!(errors.contains("mezha: cannot ") && errors.contains("File too large"), "{errors}");
+    assert_eq!(names_in(folder.path()), Vec::<String>::new(), "something is left");
+}
+
+/// Where a system is factorised and small, each rank does so by itself: MUMPS adds in the order in which messages come.
+#[test]
+fn the_same_command_gives_the_same_digits() {
+    let settings = "--set mesh.order=1 --set exact.must_hold=false --set contact.seam.segments=auto --quiet --force";
+    for (refine, times) in [(0, 8), (2, 4)] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let run = format!("run {} {settings} --set mesh.refine={refine} --out result", case("bars_inclined/even.toml"));
+        let found: BTreeSet<String> = (0..times)
+            .map(|_| {
+                let (code, _, errors) =
+                    shell(folder.path(), &format!("mpirun -n 2 --oversubscribe --bind-to none {MEZHA} {run}"));
+                assert_eq!(code, Some(0), "{errors}");
+                let read = |name: &str| std::fs::read_to_string(folder.path().join("result").join(name)).expect(name);
+                let mut summary: Value = serde_json::from_str(&read("summary.json")).expect("JSON");
+                let all = summary.as_object_mut().expect("a table");
+                ["time_s", "memory_mib", "provenance"].iter().for_each(|name| drop(all.remove(*name)));
+                format!("{summary:#}\n{}{}", read("contact_seam.csv"), read("fields_0001.vtu"))
+            })
+            .collect();
+        assert_eq!(found.len(), 1, "refine {refine}: different digits");
+    }
+}
+
+/// A rank without a number of ranks is none of mpirun's.
+#[test]
+fn a_rank_that_somebody_else_has_set_silences_nothing() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for words in ["check nosuch.toml", "run nosuch.toml", "nonsense"] {
+        let (code, _, errors) = shell(folder.path(), &format!("PMI_RANK=1 {MEZHA} {words}"));
+        assert!(code == Some(2) && !errors.is_empty(), "{words}: {code:?} {errors}");
+    }
+}
