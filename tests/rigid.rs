@@ -85,6 +85,23 @@ rigid.die = {{ line = [[3.0, 1.0], [-1.0, 1.0]], ux = 0.0, force = [0.0, -{force
     }
 }
 
+/// The same with a tool that is far longer than the block: what lies where no body is does not count.
+#[test]
+fn a_long_tool_turns_as_a_short_one() {
+    let case = |half: f64| {
+        format!(
+            "{BLOCK}support.foot = {{ at = [1.0, 0.0], ux = 0.0 }}
+contact.top = {{ between = [\"top\", \"rigid.die\"], gap = \"closed\" }}
+rigid.die = {{ line = [[-{half:?}, 1.0], [{half:?}, 1.0]], about = [1.0, 1.0], ux = 0.0, force = [0.0, -4.0], moment = -0.8 }}\n"
+        )
+    };
+    for half in [10.0, 1e4] {
+        let ended = in_folder(&block(), &case(half), Run::converged);
+        let turn = ended.number("/rigid/die/motion/2");
+        assert!((turn * MODULUS / -1.2 - 1.0).abs() < 1e-6, "{half}: {turn}");
+    }
+}
+
 /// A block with edges that shorten towards the middle of its top, and beside it a part of a ring that is a million times stiffer.
 fn roller_scene(with_ring: bool) -> Mesh {
     let flat = grid(12, 5, 31, |u, v| {
@@ -152,9 +169,52 @@ contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
 fn lambda_at(trace: &[TracePoint], s: f64) -> impl Iterator<Item = f64> {
     let near = 1e-6 * trace.last().expect("some").s;
     let holds = move |two: &&[TracePoint]| two[0].s - near <= s && s <= two[1].s + near && two[1].s > two[0].s;
-    trace.windows(2).filter(holds).map(move |two| {
-        two[0].lambda + (s - two[0].s) / (two[1].s - two[0].s) * (two[1].lambda - two[0].lambda)
-    })
+    trace
+        .windows(2)
+        .filter(holds)
+        .map(move |two| two[0].lambda + (s - two[0].s) / (two[1].s - two[0].s) * (two[1].lambda - two[0].lambda))
+}
+
+/// Where a tool and a block are drawn nearest lies beside the line of the force: one of them tilts by a hundredth before they lie
+/// on each other.
+#[test]
+fn what_must_tilt_lies_flat_in_the_end() {
+    let tool = format!(
+        "{BLOCK}support.foot = {{ at = [1.0, 0.0], ux = 0.0 }}
+rigid.die = {{ line = [[-0.5, 1.0], [2.5, 1.03]], about = [1.0, 1.0], ux = 0.0, force = [0.0, -4.0], moment = 0.0 }}
+contact.top = {{ between = [\"top\", \"rigid.die\"] }}\n"
+    );
+    let block_on_it = format!(
+        "{}support.foot = {{ at = [1.0, 0.5], ux = 0.0 }}
+load.top = {{ on = \"top\", pressure = 2.0 }}
+rigid.die = {{ line = [[-0.5, -0.03], [2.5, 0.0]] }}
+contact.top = {{ between = [\"bottom\", \"rigid.die\"] }}\n",
+        BLOCK.replace("support.bottom = { on = \"bottom\", uy = 0.0 }", "")
+    );
+    for case in [tool, block_on_it] {
+        for ranks in [1, 3] {
+            let ended = in_folder(&block(), &case, |run| run.ranks(ranks).converged());
+            let force = ended.number("/contact/top/force");
+            assert!((force - 4.0).abs() < 1e-3 && ended.number("/contact/top/pressure_max") < 2.2, "{force}: {}", ended.said());
+        }
+    }
+}
+
+/// The balances hold to nine digits at the usual tolerance.
+#[test]
+fn a_tool_is_in_balance_at_the_usual_tolerance() {
+    let usual = ROLLER.replace("solver.tolerance = 1e-10", "");
+    for motion in ["force = [0.0, -8.0]", "uy = -0.02"] {
+        let case = format!(
+            "{usual}rigid.roller = {{ circle = {{ centre = [0, 3], radius = 3 }}, ux = 0.0, {motion} }}
+contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
+        );
+        let ended = in_folder(&roller_scene(false), &case, Run::converged);
+        for (balance, most) in [("force", EXACT), ("moment", EXACT), ("bodies", EXACT), ("energy", 1e-8)] {
+            let off = ended.number(&format!("/balance/{balance}"));
+            assert!(off < most, "{motion}: {balance} off by {off}");
+        }
+    }
 }
 
 /// The force is so small beside the gap that the roller must come down first.

@@ -111,7 +111,8 @@ pub fn read_motion(section: &Section) -> Option<([Option<f64>; 3], [f64; 3])> {
 /// Whether a boundary is a rigid tool of one curve as it is written, or one line of a tool of several.
 pub fn is_one_curve(boundary: &str, root: &Section) -> bool {
     let Some(name) = boundary.strip_prefix(PREFIX) else { return false };
-    let lines = |table: &toml::Table| table.get("line").and_then(Value::as_array).map_or(1, |points| points.len().saturating_sub(1));
+    let lines =
+        |table: &toml::Table| table.get("line").and_then(Value::as_array).map_or(1, |points| points.len().saturating_sub(1));
     match root.below("rigid", name) {
         Some(table) => lines(table) == 1,
         None => name.rsplit_once('.').is_some_and(|(name, _)| root.below("rigid", name).is_some()),
@@ -189,8 +190,10 @@ pub fn check_tools(tools: &[Tool], contacts: &[Pair], root: &Section) {
         let CurveChoice::Own(of) = pair.curve else { continue };
         let side = &pair.between[if of == Side::First { 0 } else { 1 }];
         if let Some(tool) = tool_of(side).filter(|tool| tool.key() == side && tool.surface.len() > 1) {
-            let words =
-                format!("the tool has {} lines; name the one that touches in between, as \"{side}.1\", or take curve = \"fit\"", tool.surface.len());
+            let words = format!(
+                "the tool has {} lines; name the one that touches in between, as \"{side}.1\", or take curve = \"fit\"",
+                tool.surface.len()
+            );
             root.problem(&["contact", &pair.name, "curve"], words);
         }
     }

@@ -141,7 +141,8 @@ impl Meeting {
         let shifts = shifts(sides.map(|(side, _)| side), pair);
         let begun = [0, 1].map(|k| {
             let (side, near) = sides[k];
-            let from_seam = |near| if is_whole(side, near) { [0, side.nodes()] } else { counted_from(seams[k], near, side.nodes()) };
+            let from_seam =
+                |near| if is_whole(side, near) { [0, side.nodes()] } else { counted_from(seams[k], near, side.nodes()) };
             let near = if side.turn().is_some() { from_seam(near) } else { near };
             (side.laid(seams[k], shifts[k]), near)
         });

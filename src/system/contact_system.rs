@@ -270,9 +270,9 @@ impl<'a> System<'a> {
         Ok(self.residual_of(&self.unknowns)?.1)
     }
 
-    /// Norm of the nodal forces of loads and of contact, as the unknowns are. **Collective**
-    pub fn force_norm(&self) -> Result<f64, SystemError> {
-        Ok(self.blocks.force_norms(&self.pressures(), self.space())?.iter().sum())
+    /// Norm of the nodal forces of the load, and of those of contact, as the unknowns are. **Collective**
+    pub fn force_norms(&self) -> Result<[f64; 2], SystemError> {
+        self.blocks.force_norms(&self.pressures(), self.space())
     }
 
     /// Residual that displacements alone would leave. **Collective**

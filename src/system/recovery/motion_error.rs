@@ -37,9 +37,7 @@ pub fn motion_errors(
     bodies: &[Deformation],
     session: &Session,
 ) -> Vec<Option<MotionError>> {
-    let follows = |contact: &Contact| {
-        contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some()
-    };
+    let follows = |contact: &Contact| contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some();
     if !problem.contacts.iter().any(follows) {
         return problem.contacts.iter().map(|contact| one(problem, solution, contact, energy, bodies, None)).collect();
     }
