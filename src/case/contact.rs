@@ -2,15 +2,18 @@
 
 use toml::Value;
 
+use super::error::suggest;
+use super::rigid::is_one_curve;
 use super::section::Section;
 use super::values::{self, PLANE, choice, must_be};
 use super::{Geometry, Union};
 use crate::contact::{
-    Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise,
+    Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Side, Stabilise,
 };
 
 const CURVES: [(&str, CurveChoice); 3] =
     [("line", CurveChoice::Line), ("geometry", CurveChoice::Geometry), ("fit", CurveChoice::Fit)];
+const BODIES: [Side; 2] = [Side::First, Side::Second];
 const SPACES: [(&str, MultiplierSpace); 3] = [
     ("p0", MultiplierSpace::P0),
     ("p1-discontinuous", MultiplierSpace::P1Discontinuous),
@@ -48,19 +51,20 @@ pub fn split_contacts(all: Vec<ReadContact>) -> (Vec<Pair>, Vec<Union>) {
 }
 
 /// `[contact.NAME]`
-pub fn read_contact(section: &Section) -> Option<ReadContact> {
+pub fn read_contact(section: &Section, root: &Section) -> Option<ReadContact> {
     let between = section.required("between", "[\"lower.seam\", \"upper.seam\"]", read_between);
-    let curve = section.or("curve", "fit", choice(&CURVES));
+    let configuration = section.or("configuration", "reference", choice(&CONFIGURATIONS));
+    let usual_curve = usual_curve(between.as_ref(), configuration, root);
+    let curve = section.or("curve", usual_curve, read_curve(between.as_ref()));
     let gap = section.or("gap", "geometry", read_gap);
     let space = section.or("multiplier", "p1-discontinuous", choice(&SPACES));
     let segments = section.or("segments", "auto", read_segments);
     let law = section.or("law", "unilateral", choice(&LAWS));
     let quadrature = read_quadrature(section, space);
     let stabilise = section.or("stabilise", "auto", read_stabilise);
-    let configuration = section.or("configuration", "reference", choice(&CONFIGURATIONS));
     let spans = section.or("spans", "auto", read_spans);
     let grading = section.or("grading", 1, read_grading);
-    let usual_ends = if curve == Some(CurveChoice::Fit) { "free" } else { "fixed" };
+    let usual_ends = if curve.is_some_and(CurveChoice::is_found) { "free" } else { "fixed" };
     let ends = section.or("ends", usual_ends, choice(&END_RULES));
     if curve.is_some_and(|curve| curve != CurveChoice::Fit) {
         check_declared_curve(section, configuration, spans);
@@ -100,6 +104,41 @@ pub fn read_contact(section: &Section) -> Option<ReadContact> {
         ends: ends?,
     };
     Some(ReadContact { pair, sides })
+}
+
+/// Where a rigid tool of one curve is in contact, that; otherwise a fit.
+fn usual_curve(between: Option<&[Vec<String>; 2]>, configuration: Option<Configuration>, root: &Section) -> String {
+    let tool = between.and_then(|sides| sides.iter().filter_map(|side| only(side)).find(|name| is_one_curve(name, root)));
+    match tool {
+        Some(name) if configuration != Some(Configuration::Deformed) => name.into(),
+        _ => "fit".into(),
+    }
+}
+
+/// The curve of a side that is only one.
+fn only(side: &[String]) -> Option<&str> {
+    match side {
+        [name] => Some(name),
+        _ => None,
+    }
+}
+
+/// A word of [`CURVES`], or one of the two boundaries.
+fn read_curve(between: Option<&[Vec<String>; 2]>) -> impl Fn(&Value) -> Result<CurveChoice, String> {
+    let names = between.map(|sides| sides.each_ref().map(|side| only(side).map(String::from)));
+    let names: Vec<(String, Side)> =
+        names.into_iter().flatten().zip(BODIES).filter_map(|(name, side)| Some((name?, side))).collect();
+    move |value| {
+        let words = CURVES.iter().map(|(word, _)| *word);
+        let wanted = || format!("\"{}\", or one of the two boundaries", words.clone().collect::<Vec<_>>().join("\", \""));
+        let found = value.as_str().ok_or_else(|| must_be(&wanted(), value))?;
+        if let Some((_, choice)) = CURVES.iter().find(|(word, _)| *word == found) {
+            return Ok(*choice);
+        }
+        let side = names.iter().find(|(name, _)| name == found).map(|(_, side)| CurveChoice::Own(*side));
+        let all = words.clone().chain(names.iter().map(|(name, _)| name.as_str()));
+        side.ok_or_else(|| format!("must be {}; {}", wanted(), suggest(found, all)))
+    }
 }
 
 /// What a curve that is declared cannot have: it neither follows the bodies nor is it fitted.

@@ -253,7 +253,7 @@ impl Case {
         let geometries = root.named("geometry", geometry::read_geometry);
         let (supports, springs, means) = support::split(root.named("support", support::read_support));
         let (loads, point_loads, plates) = model::split_loads(root.named("load", model::read_load));
-        let (contacts, unions) = contact::split_contacts(root.named("contact", contact::read_contact));
+        let (contacts, unions) = contact::split_contacts(root.named("contact", |section| contact::read_contact(section, root)));
         let solver = model::read_solver(root);
         let output = model::read_output(root);
         let probes = root.named("probe", model::read_probe);

@@ -8,7 +8,7 @@ use super::geometry::read_surface;
 use super::section::Section;
 use super::values;
 use crate::body::{RigidNodes, RigidSet};
-use crate::contact::{Configuration, Pair};
+use crate::contact::{Configuration, CurveChoice, Pair, Side};
 use crate::geometry::{Curve, Point};
 use crate::mesh::{MacroMesh, SurfacePart};
 
@@ -108,6 +108,17 @@ pub fn read_motion(section: &Section) -> Option<([Option<f64>; 3], [f64; 3])> {
     sound.then_some((prescribed, applied))
 }
 
+/// Whether a boundary is a rigid tool of one curve as it is written, or one line of a tool of several.
+pub fn is_one_curve(boundary: &str, root: &Section) -> bool {
+    let Some(name) = boundary.strip_prefix(PREFIX) else { return false };
+    let lines =
+        |table: &toml::Table| table.get("line").and_then(Value::as_array).map_or(1, |points| points.len().saturating_sub(1));
+    match root.below("rigid", name) {
+        Some(table) => lines(table) == 1,
+        None => name.rsplit_once('.').is_some_and(|(name, _)| root.below("rigid", name).is_some()),
+    }
+}
+
 /// `line`, `circle`, or `x`, `y`, `t`.
 fn read_parts(section: &Section) -> Option<Vec<SurfacePart>> {
     let kinds = [section.has("line"), section.has("circle"), ["x", "y", "t"].iter().any(|key| section.has(key))];
@@ -173,6 +184,17 @@ pub fn check_tools(tools: &[Tool], contacts: &[Pair], root: &Section) {
         } else if sides.iter().all(|side| tool_of(side).is_some()) {
             let words = "both sides are rigid; a tool presses on a boundary of the mesh";
             root.problem(&["contact", &pair.name, "between"], words.into());
+        }
+    }
+    for pair in contacts {
+        let CurveChoice::Own(of) = pair.curve else { continue };
+        let side = &pair.between[if of == Side::First { 0 } else { 1 }];
+        if let Some(tool) = tool_of(side).filter(|tool| tool.key() == side && tool.surface.len() > 1) {
+            let words = format!(
+                "the tool has {} lines; name the one that touches in between, as \"{side}.1\", or take curve = \"fit\"",
+                tool.surface.len()
+            );
+            root.problem(&["contact", &pair.name, "curve"], words);
         }
     }
     for tool in tools.iter().filter(|tool| tool.motion.prescribed[2].is_none()) {

@@ -40,7 +40,7 @@ pub enum Distance<'a> {
     Declared,
     /// The body's smooth boundary, in pieces: where the normal meets it.
     Curves(&'a [Curve]),
-    /// The same, for a normal that meets the deformed body: where the corresponding point was before.
+    /// The same, for a normal that meets the body deformed or shifted: where the corresponding point was before.
     Places(&'a [Curve]),
 }
 

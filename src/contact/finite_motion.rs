@@ -153,22 +153,25 @@ fn left_out(sides: [&SmoothSide; 2], tilts: [f64; 2], x: Point, normal: Point) -
     let [undeformed, deformed] =
         [Configuration::Reference, Configuration::Deformed].map(|which| sides.map(|side| side.curve(which)));
     let mut feet = [0.0; 2];
-    for (foot, curve) in feet.iter_mut().zip(undeformed) {
-        *foot = curve.hit_from(curve.nearest(x), x, normal)?;
+    for ((foot, curve), side) in feet.iter_mut().zip(undeformed).zip(sides) {
+        *foot = curve.hit_from(curve.nearest(x - side.shift), x - side.shift, normal)?;
     }
     let moved = [0, 1].map(|k| deformed[k].point(feet[k]) - undeformed[k].point(feet[k]));
+    // From where corresponding points are those of Γ_C.
+    let since = [0, 1].map(|k| moved[k] - sides[k].shift);
     let mean_tilt = 0.5 * (tilts[0] + tilts[1]);
     let mut change = [0.0; 2];
     for k in 0..2 {
         // The line along which the gap is measured, as seen from the body.
         let (curve, start) = (undeformed[k], undeformed[k].point(feet[k]));
-        let origin = start + Rotation2::new(-tilts[k]) * (x + 0.5 * (moved[0] + moved[1]) - start - moved[k]);
+        let origin = start + Rotation2::new(-tilts[k]) * (x + 0.5 * (since[0] + since[1]) - start - moved[k]);
         let direction = Rotation2::new(mean_tilt - tilts[k]) * normal;
         let foot = curve.hit_from(feet[k], origin, direction)?;
         change[k] = (curve.point(foot) - origin).dot(&direction) - (start - x).dot(&normal);
     }
     let apart = moved[1] - moved[0];
-    Some([apart.dot(&turn_right(normal)).abs(), change[1] - change[0] - apart.dot(&normal)])
+    let slip = (since[1] - since[0]).dot(&turn_right(normal));
+    Some([slip.abs(), change[1] - change[0] - apart.dot(&normal)])
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
-//! Where two bodies touch or penetrate each other: the nodes whose points half-way Γ_C is fitted to, and its ends.
+//! Where two bodies touch or penetrate each other: the ends of Γ_C, and the nodes whose points half-way it is fitted to.
 
 use super::bisector::Bisector;
+use super::own_curve::{OwnCurve, shortest_way};
 use super::smooth_side::SmoothSide;
-use super::{Configuration, ContactBoundary, GapChoice, Pair};
-use crate::geometry::Point;
+use super::{Configuration, ContactBoundary, CurveChoice, GapChoice, Pair, Side};
+use crate::geometry::{Curve, Point};
 use std::ops::Range;
 
 /// Before anything is solved, nodes closer to the other body than this share of the boundary's length count as touching.
@@ -22,14 +23,17 @@ pub struct Meeting {
     pub stretches: [usize; 2],
     /// Nodes of each that the curve is fitted to, counted from its seam.
     pub nodes: [Range<usize>; 2],
-    /// Parameters of the ends of Γ_C, on body 1's stretch, from its seam.
+    /// Parameters of the ends of Γ_C: on body 1's stretch, from its seam, or on the curve of the side that Γ_C lies on.
     pub ends: [f64; 2],
     /// Node at which each stretch is begun, if it is closed: opposite to where the bodies meet.
     pub seams: [usize; 2],
-    /// Parameter of body 1's seam on the stretch as it is by itself, and the length of one turn, if it is closed.
+    /// Parameter of body 1's seam on the stretch as it is by itself, and the length of one turn, if it is closed and the ends are
+    /// counted from there.
     pub origin: (f64, Option<f64>),
     /// Whether they meet all around.
     pub goes_round: bool,
+    /// The way from each side to Γ_C, where that has its shape (length).
+    pub shifts: [Point; 2],
 }
 
 /// Nodes of one stretch that are near the other body: first and last. Of a closed one the last may lie a turn farther, and it
@@ -104,16 +108,20 @@ impl Meeting {
         let of = |k: usize| (&sides[k][stretches[k]], near[k][stretches[k]].unwrap_or([0; 2]));
         let [first, second] = [of(0), of(1)];
         if [first, second].iter().all(|(side, near)| is_whole(side, *near)) {
-            return Ok(Some(Self::around([first.0, second.0], stretches)));
+            return Ok(Some(Self::around([first.0, second.0], stretches, pair)));
         }
         Ok(Some(Self::on_a_part([first, second], stretches, pair)))
     }
 
     /// All around two closed sides.
-    fn around(sides: [&SmoothSide; 2], stretches: [usize; 2]) -> Self {
+    fn around(sides: [&SmoothSide; 2], stretches: [usize; 2], pair: &Pair) -> Self {
         let length = sides[0].length();
         let nodes = sides.map(|side| 0..side.nodes());
-        Self { stretches, nodes, ends: [0.0, length], seams: [0; 2], origin: (0.0, Some(length)), goes_round: true }
+        let (ends, origin) = match own_curve(sides, pair) {
+            Some(own) => (own.turn(), (0.0, None)),
+            None => ([0.0, length], (0.0, Some(length))),
+        };
+        Self { stretches, nodes, ends, seams: [0; 2], origin, goes_round: true, shifts: [Point::zeros(); 2] }
     }
 
     /// Where one of two sides at least is open, or near the other on a part only. Closed ones are begun opposite to that.
@@ -130,24 +138,27 @@ impl Meeting {
             let middle = side.turn().and_then(|_| middles[k].or_else(across));
             middle.map_or(0, |middle| (middle + side.nodes() / 2) % side.nodes())
         });
+        let shifts = shifts(sides.map(|(side, _)| side), pair);
         let begun = [0, 1].map(|k| {
             let (side, near) = sides[k];
-            let Some(turn) = side.turn() else { return (None, near, None) };
-            let near = if is_whole(side, near) { [0, side.nodes()] } else { counted_from(seams[k], near, side.nodes()) };
-            (Some(side.begun_at(seams[k])), near, Some(turn))
+            let from_seam =
+                |near| if is_whole(side, near) { [0, side.nodes()] } else { counted_from(seams[k], near, side.nodes()) };
+            let near = if side.turn().is_some() { from_seam(near) } else { near };
+            (side.laid(seams[k], shifts[k]), near)
         });
-        let of = |k: usize| (begun[k].0.as_ref().unwrap_or(sides[k].0), begun[k].1);
-        let origin = (sides[0].0.parameters[seams[0]], begun[0].2);
-        Self { seams, origin, ..Self::between([of(0), of(1)], stretches, pair) }
+        let of = |k: usize| (&begun[k].0, begun[k].1);
+        let meeting = Self { seams, shifts, ..Self::between([of(0), of(1)], stretches, pair) };
+        match own_curve([of(0).0, of(1).0], pair) {
+            Some(own) => Self { ends: own.ends(meeting.ends), ..meeting },
+            None => Self { origin: (sides[0].0.parameters[seams[0]], sides[0].0.turn()), ..meeting },
+        }
     }
 
-    /// Begins closed sides at the seams that this counts from.
+    /// Begins closed sides at the seams that this counts from, and tells each how far Γ_C is shifted from it.
     pub fn begin(&self, sides: &mut [Vec<SmoothSide>; 2]) {
         for (k, stretches) in sides.iter_mut().enumerate() {
             let side = &mut stretches[self.stretches[k]];
-            if side.turn().is_some() && self.seams[k] > 0 {
-                *side = side.begun_at(self.seams[k]);
-            }
+            *side = side.laid(self.seams[k], self.shifts[k]);
         }
     }
 
@@ -166,7 +177,8 @@ impl Meeting {
         let edge = first.edge_length(own[0], own[1]).max(second.edge_length(other[0], other[1]));
         let ends = [first.parameters[own[0]].max(low) - edge, first.parameters[own[1]].min(high) + edge];
         let nodes = [own, other].map(|[from, to]| from..to + 1);
-        let mut meeting = Self { stretches, nodes, ends, seams: [0; 2], origin: (0.0, None), goes_round: false };
+        let (seams, shifts) = ([0; 2], [Point::zeros(); 2]);
+        let mut meeting = Self { stretches, nodes, ends, seams, origin: (0.0, None), goes_round: false, shifts };
         meeting.reach(ends, [first, second], pair);
         meeting
     }
@@ -195,28 +207,57 @@ impl Meeting {
     pub fn depth_beyond(&self, sides: &[Vec<SmoothSide>; 2], pair: &Pair, boundary: &ContactBoundary, margin: f64) -> f64 {
         let [first, second] = [0, 1].map(|k| &sides[k][self.stretches[k]]);
         let knots = boundary.knots();
-        let [low, high] = [knots[0] - margin, knots[knots.len() - 1] + margin];
-        let beyond = (0..first.points.len()).filter(|&node| first.parameters[node] < low || first.parameters[node] > high);
+        let ends = [knots[0], knots[knots.len() - 1]];
+        let own = own_curve([first, second], pair);
+        let margins = if own.is_some() { ends.map(|t| margin / boundary.speed(t)) } else { [margin; 2] };
+        let [low, high] = [ends[0] - margins[0], ends[1] + margins[1]];
+        let place = |node: usize| own.as_ref().map_or(first.parameters[node], |own| own.node(node));
+        let beyond = (0..first.points.len()).filter(|&node| place(node) < low || place(node) > high);
         let depth = beyond.filter_map(|node| first.gap(node, second, pair, 1e-9 * second.length())).map(|gap| -gap);
         depth.fold(0.0, f64::max)
     }
 
-    /// The curve half-way between both sides, from an edge before these ends of Γ_C to an edge behind.
+    /// The curve of Γ_C and the parameters up to which both sides are there: that of one of the sides, or the curve half-way
+    /// between both, from an edge before these ends of Γ_C to an edge behind.
     ///
     /// # Errors
     /// Words, if the sides do not face each other there, or if the pair wants more spans than the nodes bear.
-    pub fn fit(&mut self, sides: &[Vec<SmoothSide>; 2], pair: &Pair, ends: [f64; 2]) -> Result<Bisector, String> {
-        let both = [0, 1].map(|k| &sides[k][self.stretches[k]]);
-        if self.goes_round {
-            return Bisector::around(both, pair);
+    pub fn curve(&mut self, sides: &[Vec<SmoothSide>; 2], pair: &Pair, ends: [f64; 2]) -> Result<(Curve, [f64; 2]), String> {
+        let both = self.sides(sides);
+        if let Some(own) = own_curve(both, pair) {
+            let limits = if self.goes_round { own.turn() } else { own.limits(0.5 * (ends[0] + ends[1])) };
+            return Ok((own.curve().clone(), limits));
         }
-        self.reach(ends, both, pair);
-        Bisector::between(both, &self.nodes, pair)
+        let found = if self.goes_round {
+            Bisector::around(both, pair)
+        } else {
+            self.reach(ends, both, pair);
+            Bisector::between(both, &self.nodes, pair)
+        };
+        found.map(|found| (found.curve, found.limits))
     }
 
     /// The two stretches that meet.
     pub fn sides<'a>(&self, sides: &'a [Vec<SmoothSide>; 2]) -> [&'a SmoothSide; 2] {
         [0, 1].map(|k| &sides[k][self.stretches[k]])
+    }
+}
+
+/// The curve of the side that Γ_C lies on, if it lies on one; closed sides are begun at their seams.
+fn own_curve<'a>(sides: [&'a SmoothSide; 2], pair: &Pair) -> Option<OwnCurve<'a>> {
+    match pair.curve {
+        CurveChoice::Own(side) => Some(OwnCurve::new(sides, side)),
+        CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => None,
+    }
+}
+
+/// How far Γ_C is shifted from the side that it has the shape of.
+fn shifts([first, second]: [&SmoothSide; 2], pair: &Pair) -> [Point; 2] {
+    let way = |side, other| shortest_way(side, other).unwrap_or_default();
+    match pair.curve {
+        CurveChoice::Own(Side::First) => [way(first, second), Point::zeros()],
+        CurveChoice::Own(Side::Second) => [Point::zeros(), way(second, first)],
+        CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => [Point::zeros(); 2],
     }
 }
 
@@ -367,6 +408,7 @@ mod tests {
             seams: [0; 2],
             origin: (0.0, None),
             goes_round: false,
+            shifts: [Point::zeros(); 2],
         };
         let sides = lowered(|x| 0.01 * x);
         // Nodes of body 1 lie at each eighth.

@@ -18,6 +18,7 @@ mod jump_term;
 mod mechanism;
 mod multiplier;
 mod oscillation;
+mod own_curve;
 mod pair;
 mod peak;
 mod placing;

@@ -1,5 +1,6 @@
 //! A contact pair as the case asks for it.
 
+use super::Side;
 use crate::geometry::{Formula, Point};
 
 /// Two boundaries that may touch, and how their contact is modelled.
@@ -49,7 +50,7 @@ impl Pair {
 
     /// Whether its contact boundary depends on the solution.
     pub fn follows(&self) -> bool {
-        self.curve == CurveChoice::Fit || self.has_free_ends()
+        self.curve.is_found() || self.has_free_ends()
     }
 
     /// Whether the ends of its contact boundary follow the pressure: a bilateral one has no end.
@@ -108,6 +109,15 @@ pub enum CurveChoice {
     Line,
     /// The declared geometry that lists both boundaries.
     Geometry,
+    /// The undeformed shape of one of the two boundaries, where they touch or penetrate: a rigid tool's own curve.
+    Own(Side),
+}
+
+impl CurveChoice {
+    /// Whether its extent is found where the boundaries touch or penetrate each other.
+    pub fn is_found(self) -> bool {
+        matches!(self, Self::Fit | Self::Own(_))
+    }
 }
 
 /// Gap of the unloaded configuration.

@@ -19,7 +19,7 @@ pub struct PlacingError {
 /// What is known of a contact boundary from the last time it was placed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Known {
-    /// Where the two sides meet, for a fitted one.
+    /// Where the two sides meet, for one that is found by that.
     pub meeting: Option<Meeting>,
     /// Parameters of its ends.
     pub ends: Option<[f64; 2]>,
@@ -35,7 +35,7 @@ pub struct Placed {
     pub boundary: ContactBoundary,
     /// Parameters beyond which one of the bodies has no boundary; infinite where both go all around.
     pub limits: [f64; 2],
-    /// What a fitted one was fitted to.
+    /// Where the two sides meet, for one that is found by that.
     pub meeting: Option<Meeting>,
     /// Edges of body 1 and of body 2 that it lies between.
     pub edges: [Vec<BoundaryEdge>; 2],
@@ -59,13 +59,13 @@ pub fn place(
     let sides = [0, 1].map(|k| mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]));
     let mut fitted = None;
     let (curve, limits) = match pair.curve {
-        CurveChoice::Fit => {
+        CurveChoice::Fit | CurveChoice::Own(_) => {
             let mut smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
             let mut meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
             meeting.begin(&mut smooth);
-            let found = meeting.fit(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
+            let found = meeting.curve(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
             fitted = Some((meeting, smooth));
-            (found.curve, found.limits)
+            found
         }
         CurveChoice::Line => line_between(mesh, pair, sides).map_err(error)?,
         CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,
@@ -79,6 +79,11 @@ pub fn place(
     }
     let middle = curve.point(0.5 * (range[0] + range[1]));
     let mut edges = all_edges(mesh, numbering, pair, displacement);
+    if let Some((meeting, _)) = &fitted {
+        for (edges, shift) in edges.iter_mut().zip(meeting.shifts).filter(|(_, shift)| *shift != Point::zeros()) {
+            *edges = std::mem::take(edges).into_iter().map(|edge| edge.moved(|_| shift)).collect();
+        }
+    }
     check_count(pair, &edges).map_err(error)?;
     let nearest = edges[0].iter().min_by(|a, b| {
         let away = |edge: &BoundaryEdge| (0.5 * (edge.points[0] + edge.points[1]) - middle).norm();
@@ -87,7 +92,7 @@ pub fn place(
     let Some(nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
     let mut boundary = ContactBoundary::new(curve, range, nearest.outward());
     check_grading(pair, &boundary).map_err(error)?;
-    if pair.curve == CurveChoice::Fit {
+    if pair.curve.is_found() {
         let [of_first, of_second] = &mut edges;
         of_first.retain(|edge| faces(&boundary, Side::First, edge));
         of_second.retain(|edge| faces(&boundary, Side::Second, edge));
@@ -95,7 +100,7 @@ pub fn place(
         check_cover(mesh, pair, sides, &boundary).map_err(error)?;
     }
     boundary.cut(&fractions(&edges, numbering.level.order, pair, young, &boundary, known.segments));
-    if let Some((meeting, smooth)) = &fitted {
+    if let Some((meeting, smooth)) = fitted.as_ref().filter(|_| pair.curve == CurveChoice::Fit) {
         check_stray(meeting.sides(smooth), &boundary, pair).map_err(error)?;
     }
     Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting), edges })

@@ -16,6 +16,7 @@ pub type Displacement<'a> = &'a dyn Fn(EdgeNode) -> Point;
 /// A smooth stretch of a body's boundary by its nodes on the finest level, from smaller to larger x (upwards if it is
 /// vertical); a closed one counter-clockwise, its last node the first again. Its parameter is the undeformed length along
 /// them, deformed or not.
+#[derive(Clone)]
 pub struct SmoothSide {
     /// Undeformed positions of the nodes on the smooth shape.
     pub places: Vec<Point>,
@@ -27,10 +28,14 @@ pub struct SmoothSide {
     hand: f64,
     /// Length of an edge, in nodes.
     degree: usize,
+    /// Its smooth shape, undeformed, as it is known: declared, straight, or a spline through the vertices of the mesh file.
+    shape: Curve,
     undeformed: Curve,
     deformed: Curve,
     /// Whether it closes in itself.
     closed: bool,
+    /// Where it lies apart from Γ_C, which has its shape: the way there (length).
+    pub shift: Point,
 }
 
 impl SmoothSide {
@@ -62,10 +67,10 @@ impl SmoothSide {
         let places: Vec<Point> = nodes.iter().map(smooth).collect();
         let points: Vec<Point> = nodes.iter().zip(&places).map(|(&node, place)| place + displacement(node)).collect();
         let (hand, degree) = (if falls { -1.0 } else { 1.0 }, numbering.level.order.degree());
-        Self::through(places, points, hand, degree, closed)
+        Self::through(stretch.curve.clone(), places, points, hand, degree, closed)
     }
 
-    fn through(mut places: Vec<Point>, mut points: Vec<Point>, hand: f64, degree: usize, closed: bool) -> Self {
+    fn through(shape: Curve, mut places: Vec<Point>, mut points: Vec<Point>, hand: f64, degree: usize, closed: bool) -> Self {
         let last = places.len() - 1;
         if closed {
             (places[last], points[last]) = (places[0], points[0]);
@@ -75,14 +80,20 @@ impl SmoothSide {
             true => Curve::Spline(Spline::through_closed_at(parameters.clone(), points)),
             false => Curve::Spline(Spline::through_at(parameters.clone(), points)),
         };
-        Self { undeformed: spline(&places), deformed: spline(&points), hand, degree, places, points, parameters, closed }
+        let (undeformed, deformed, shift) = (spline(&places), spline(&points), Point::zeros());
+        Self { places, points, parameters, hand, degree, shape, undeformed, deformed, closed, shift }
     }
 
-    /// The same closed side begun at another of its nodes.
-    pub fn begun_at(&self, node: usize) -> Self {
+    /// The same side begun at another of its nodes, if it is closed, and shifted from Γ_C.
+    pub fn laid(&self, seam: usize, shift: Point) -> Self {
+        let begun = if self.closed && seam > 0 { self.begun_at(seam) } else { self.clone() };
+        Self { shift, ..begun }
+    }
+
+    fn begun_at(&self, node: usize) -> Self {
         let count = self.places.len() - 1;
         let turned = |points: &[Point]| (0..=count).map(|k| points[(node + k) % count]).collect::<Vec<_>>();
-        Self::through(turned(&self.places), turned(&self.points), self.hand, self.degree, self.closed)
+        Self::through(self.shape.clone(), turned(&self.places), turned(&self.points), self.hand, self.degree, self.closed)
     }
 
     /// Length of one turn in the parameter, if it closes in itself.
@@ -131,6 +142,17 @@ impl SmoothSide {
         (from..=to.saturating_sub(self.degree).max(from))
             .map(|k| self.parameters[(k + self.degree).min(end)] - self.parameters[k])
             .fold(0.0, f64::max)
+    }
+
+    /// Its smooth shape, undeformed, with a parameter of its own.
+    pub fn shape(&self) -> &Curve {
+        &self.shape
+    }
+
+    /// The point of the undeformed side that is nearest to `x`, and the outward normal there.
+    pub fn nearest_place(&self, x: Point) -> (Point, Point) {
+        let t = self.undeformed.nearest(x).clamp(0.0, self.length());
+        (self.undeformed.point(t), turn_right(self.undeformed.tangent(t)) * self.hand)
     }
 
     /// The side as a curve in a configuration.

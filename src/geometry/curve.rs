@@ -35,6 +35,18 @@ pub enum Curve {
 }
 
 impl Curve {
+    /// The same curve at another place.
+    pub fn moved(&self, by: Point) -> Self {
+        let place = |[x, y]: [f64; 2]| [x + by.x, y + by.y];
+        match self {
+            same if by == Point::zeros() => same.clone(),
+            Self::Line(ends) => Self::Line(ends.map(place)),
+            Self::Circle { centre, radius } => Self::Circle { centre: place(*centre), radius: *radius },
+            Self::Parametric { x, y, range } => Self::Parametric { x: x.plus(by.x), y: y.plus(by.y), range: *range },
+            Self::Spline(spline) => Self::Spline(spline.clone().moved(by)),
+        }
+    }
+
     /// First and last parameter.
     pub fn range(&self) -> [f64; 2] {
         match self {
@@ -207,6 +219,21 @@ mod tests {
         let found = curve.hit(curve.point(t) - d * normal, normal);
         let (distance, beyond) = found.expect("a hit");
         assert!((distance - d).abs() < 1e-12 && beyond == 0.0);
+    }
+
+    #[test]
+    fn a_curve_that_is_moved_has_its_points_moved() {
+        let points: Vec<Point> = (0..9).map(|k| Point::new(f64::from(k).cos(), f64::from(k))).collect();
+        let spline = Curve::Spline(super::super::Spline::through(&points));
+        let circle = Curve::Circle { centre: [1.0, -1.0], radius: 2.0 };
+        let by = Point::new(0.3, -4.0);
+        for curve in [Curve::Line([[0.0, 3.0], [6.0, 4.0]]), circle, parabola(), spline] {
+            for t in [0.0, 0.4, 1.7] {
+                let moved = curve.moved(by);
+                assert!((moved.point(t) - curve.point(t) - by).norm() < 1e-14, "{curve:?}");
+                assert!((moved.derivative(t) - curve.derivative(t)).norm() < 1e-14, "{curve:?}");
+            }
+        }
     }
 
     #[test]

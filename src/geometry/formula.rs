@@ -69,6 +69,12 @@ impl Formula {
         Self { text: format!("{value:?}"), program: vec![Instruction::Number(value)] }
     }
 
+    /// The formula with a number added to it.
+    pub fn plus(&self, value: f64) -> Self {
+        let added = [Instruction::Number(value), Instruction::Add];
+        Self { text: format!("{} + {value:?}", self.text), program: self.program.iter().copied().chain(added).collect() }
+    }
+
     /// Its value, if no variable occurs in it.
     pub fn as_constant(&self) -> Option<f64> {
         match self.program[..] {

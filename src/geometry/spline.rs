@@ -45,6 +45,12 @@ impl Spline {
         Self::with_curvatures(knots, points, &curvature, true)
     }
 
+    /// The same spline at another place.
+    pub fn moved(mut self, by: Point) -> Self {
+        self.spans.iter_mut().for_each(|span| span[0] += by);
+        self
+    }
+
     /// The same with the length of the chords as its parameter.
     ///
     /// # Panics

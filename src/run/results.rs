@@ -7,7 +7,7 @@ use super::slivers::slivers;
 use super::{Outcome, Run, RunError, accuracy, fields, interruption, points, summarise, trust, zones};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
-use crate::contact::{Configuration, CurveChoice, GapChoice};
+use crate::contact::{Configuration, GapChoice};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use crate::output::summary::{self, Status, Summary};
@@ -104,7 +104,7 @@ impl Run<'_> {
             }
             described.unresolved_force = Some(found.unresolved_force(at, &points));
             summarise::motions(&mut described, &found, at, &points);
-            if contact.pair.curve == CurveChoice::Fit {
+            if contact.pair.curve.is_found() {
                 let counting: Vec<[f64; 2]> =
                     zones.iter().filter(|zone| zone.counts(&zones)).filter_map(|zone| zone.ends).collect();
                 summarise::corners(&mut described, &mut zones, &found.corners(at, &counting));

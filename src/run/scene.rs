@@ -5,7 +5,7 @@ use super::known::check_exact;
 use super::means::check_means;
 use crate::body::Body;
 use crate::case::{Case, CaseError, LoadStep, listed};
-use crate::contact::{CurveChoice, Pair};
+use crate::contact::Pair;
 use crate::geometry::{Formula, Place, Point, Quote, Rounded};
 use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces};
 use crate::petsc::Session;
@@ -53,7 +53,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }
     add_tools(case, &mut mesh)?;
-    let fitted = case.contacts.iter().filter(|pair| pair.curve == CurveChoice::Fit).flat_map(|pair| &pair.between);
+    let fitted = case.contacts.iter().filter(|pair| pair.curve.is_found()).flat_map(|pair| &pair.between);
     let fitted = fitted.filter(|name| case.tool_of(name).is_none());
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
     add_points(case, &mut mesh)?;

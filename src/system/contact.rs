@@ -33,7 +33,7 @@ pub struct Contact {
     pub bodies: [usize; 2],
     /// Part of each body beside its boundary; the softest one if there are several.
     pub parts: [usize; 2],
-    /// Edges of body 1 and of body 2 whose macro triangle this rank owns.
+    /// Edges of body 1 and of body 2 whose macro triangle this rank owns, where contact is modelled.
     pub edges: [Vec<BoundaryEdge>; 2],
     /// Smallest ratio of a segment's length to the edges of the softer body that it meets.
     pub segment_ratio: f64,
@@ -189,10 +189,11 @@ impl Contact {
 
     /// How the distance of a body from Γ_C is measured.
     pub fn distance(&self, body: usize) -> Distance<'_> {
+        let is_shifted = self.known.meeting.as_ref().is_some_and(|meeting| meeting.shifts[body] != Point::zeros());
         match (&self.shapes, self.pair.configuration) {
             (None, _) => Distance::Declared,
-            (Some(shapes), Configuration::Reference) => Distance::Curves(&shapes[body]),
-            (Some(shapes), Configuration::Deformed) => Distance::Places(&shapes[body]),
+            (Some(shapes), Configuration::Reference) if !is_shifted => Distance::Curves(&shapes[body]),
+            (Some(shapes), _) => Distance::Places(&shapes[body]),
         }
     }
 

@@ -270,6 +270,11 @@ impl<'a> System<'a> {
         Ok(self.residual_of(&self.unknowns)?.1)
     }
 
+    /// Norm of the nodal forces of the load, and of those of contact, as the unknowns are. **Collective**
+    pub fn force_norms(&self) -> Result<[f64; 2], SystemError> {
+        self.blocks.force_norms(&self.pressures(), self.space())
+    }
+
     /// Residual that displacements alone would leave. **Collective**
     pub fn residual_of_displacement(&self, displacement: Vec<f64>) -> Result<Residual, SystemError> {
         let mut x = self.unknowns.duplicate()?;

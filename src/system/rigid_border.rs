@@ -103,7 +103,7 @@ impl RigidBorder {
     ) -> Result<Vec<Field<2>>, SystemError> {
         let space = problem.finest();
         let places = set.places(&problem.scene.mesh, &space.numbering);
-        let arm = places.values().map(|x| (x - set.about).norm()).fold(f64::MIN_POSITIVE, f64::max);
+        let arm = arm(problem, set, &places);
         let moved = moved_nodes(problem, set, &places, session.rank());
         self.nodes.extend(moved.into_iter().map(|(node, x)| (2 * (node - space.own.start), number, x)));
         let mut rows = Vec::new();
@@ -332,6 +332,16 @@ fn moved_gaps(problem: &Discretisation, moved: impl Fn(&Coupled) -> Option<Point
         if sum.abs() <= ROUNDING * whole { 0.0 } else { sum }
     };
     problem.coupling.rows.iter().map(gap).collect()
+}
+
+/// Largest distance from the reference point at which contact acts on a set; of its nodes where none does: a tool may be far longer
+/// than what it touches.
+fn arm(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>) -> f64 {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let farthest = |x: &mut dyn Iterator<Item = &Point>| x.map(|x| (x - set.about).norm()).fold(0.0, f64::max);
+    let mut touched = problem.coupling.rows.iter().flatten().filter_map(|at| places.get(&at.node.number(mesh, numbering)));
+    let arms = [farthest(&mut touched), farthest(&mut places.values())];
+    arms.into_iter().find(|arm| *arm > 0.0).unwrap_or(f64::MIN_POSITIVE)
 }
 
 /// Nodes of this rank that move with a set, and where they are: with a tool those within its triangles, too, so that its motion

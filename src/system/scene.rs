@@ -4,7 +4,7 @@ use crate::body::{Body, BodyPart, Load, MeanHold, PointLoad, RigidNodes, RigidSe
 use crate::contact::{Extent, Pair};
 use crate::element::{Order, PlaneLaw};
 use crate::geometry::Point;
-use crate::mesh::{Graph, MacroMesh, Partition, Surface};
+use crate::mesh::{BodyPiece, Graph, MacroMesh, Partition, Surface};
 use crate::petsc::{self, Session, partition};
 use std::rc::Rc;
 
@@ -99,10 +99,28 @@ impl Scene {
         self.parts().into_iter().map(|part| part.material.law()).collect()
     }
 
-    /// Middle and half size of each piece of the bodies.
+    /// Middle and half size of each piece of the bodies. A tool counts no farther than what it faces.
     pub fn extents(&self) -> Vec<Extent> {
         let extent = |[low, high]: [Point; 2]| Extent { middle: 0.5 * (low + high), radius: 0.5 * (high - low).norm() };
-        self.mesh.bounds().into_iter().map(extent).collect()
+        let of_piece = |(own, piece): ([Point; 2], &BodyPiece)| {
+            let (own, faced) = (extent(own), self.faced_by_tool(piece.body).map(extent));
+            faced.filter(|faced| faced.radius < own.radius).unwrap_or(own)
+        };
+        self.mesh.bounds().into_iter().zip(&self.mesh.pieces).map(of_piece).collect()
+    }
+
+    /// The box around the boundaries that a tool is in contact with; nothing if a body is no tool.
+    fn faced_by_tool(&self, body: usize) -> Option<[Point; 2]> {
+        self.tool(body)?;
+        let edges = |name: &String| self.mesh.boundary(name).map(|found| found.edges.as_slice()).unwrap_or(&[]);
+        let is_own = |name: &String| edges(name).first().is_some_and(|&edge| self.mesh.body_beside(edge) == body);
+        let pairs = self.pairs.iter().filter(|pair| pair.between.iter().any(is_own));
+        let faced = pairs.flat_map(|pair| pair.between.iter().filter(|name| !is_own(name))).flat_map(edges);
+        let ends = faced.flat_map(|&edge| self.mesh.edges[edge as usize].vertices).map(|v| self.mesh.vertices[v as usize]);
+        ends.fold(None, |found, x| {
+            let [low, high] = found.unwrap_or([x, x]);
+            Some([low.inf(&x), high.sup(&x)])
+        })
     }
 }
 

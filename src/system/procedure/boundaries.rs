@@ -7,6 +7,7 @@ use super::following::{BoundaryStep, Following, NextBoundary, carried, standing,
 use super::observer::{Event, Work};
 use super::pass::Pass;
 use super::settings::Procedure;
+use super::widening::widened;
 use crate::system::{
     BoundaryMotion, Contact, Discretisation, Elastic, Form, Interpolation, Preconditioning, SaddlePoint, Solution, Start, System,
     SystemError, Tolerance, interpolations, load, nodal_forces, settle,
@@ -260,6 +261,12 @@ impl BoundaryLoop<'_, '_> {
                 self.mesh.sets(&mut system, start.take(), tolerance, position)?;
             self.history.passes.extend(passes);
             let after = match ending {
+                Ending::NotConverged(Failure::NotHeld(_)) if self.number == 1 => {
+                    match widened(system.problem(), self.mesh.procedure.session)? {
+                        Some((contacts, motion)) => After::Moved { contacts, motion, start: None, is_near: false },
+                        None => After::Ended(ending),
+                    }
+                }
                 Ending::NotConverged(_) => After::Ended(ending),
                 Ending::Converged(standing) => match self.next(system.problem(), &solution, standing, is_last)? {
                     Some(after) => after,

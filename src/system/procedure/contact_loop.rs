@@ -5,7 +5,7 @@ use super::contact_state::ContactState;
 use super::ending::{Ending, Failure, Standing};
 use super::first_set::{carried_set, first_set};
 use super::pass::Pass;
-use super::residual_scale::{LOOSE, last_residual, share};
+use super::residual_scale::{LOOSE, last_residual, share, share_of_forces};
 use super::unsettled::{going_on, places};
 use crate::contact::{ActiveSet, GapChoice, SetChange};
 use crate::system::{
@@ -140,8 +140,9 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             set.start_from(&first);
             system.set_active(set.active())?;
         }
-        let share = share(system)?;
-        let last = share * last_residual(system, tolerance)?;
+        let relative = last_residual(system, tolerance)?;
+        let share = share_of_forces(system, share(system)?, relative)?;
+        let last = share * relative;
         let is_expected =
             is_carried && (position.passes > 0 || !set.active().contains(&false) && stays_closed(&problem.contacts));
         let goal = match set.may_change() && !is_expected {
@@ -163,6 +164,9 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
                 Next::End(ending) => return self.finish(ending),
                 Next::Tighten => {
                     // A set may have come up twice because a solve was not exact: from here on that counts anew.
+                    let relative = self.last();
+                    self.share = share_of_forces(self.system, self.share, relative)?;
+                    self.tolerance = self.share * relative;
                     self.goal = self.tolerance;
                     self.set.forget();
                 }

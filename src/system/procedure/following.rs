@@ -2,7 +2,7 @@
 
 use super::change::relative_change;
 use super::ending::{Failure, HeldEnds, Standing};
-use crate::contact::{Configuration, CurveChoice, End, Known, Meeting, SmoothSide, true_end};
+use crate::contact::{Configuration, End, Known, Meeting, SmoothSide, true_end};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
@@ -207,7 +207,7 @@ impl Following {
                 all.push(Known { ends: Some(*widest), segments: None, ..known });
                 continue;
             }
-            if contact.pair.curve == CurveChoice::Fit && !settled {
+            if contact.pair.curve.is_found() && !settled {
                 let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
                 let meeting = Meeting::now(&sides, &contact.pair)
                     .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;

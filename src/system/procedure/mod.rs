@@ -36,6 +36,7 @@ mod residual_scale;
 mod settings;
 mod solved;
 mod unsettled;
+mod widening;
 mod zone_estimate;
 
 pub use at_rest::AtRest;

@@ -8,6 +8,9 @@ pub(super) const LOOSE: f64 = 1e-4;
 /// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
 const LEAST_SHARE: f64 = 1e-8;
 
+/// Residual relative to the whole right-hand side that small forces ask for, at least.
+const LEAST_RESIDUAL: f64 = 1e-13;
+
 /// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
 const FROM_START: f64 = 2e-4;
 
@@ -22,6 +25,19 @@ pub(super) fn share(system: &System) -> Result<f64, SystemError> {
     let Some(displacement) = rigid_start(system.problem(), system.session().rank()) else { return Ok(1.0) };
     let share = system.residual_of_displacement(displacement)?.relative();
     Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
+}
+
+/// The same where a rigid tool or plate acts, once the forces are known: they are small beside the right-hand side, which would
+/// close all the way that a tool goes by strain within one element. `share` is what it was before, `residual` the relative one
+/// that is wanted. **Collective**
+pub(super) fn share_of_forces(system: &System, share: f64, residual: f64) -> Result<f64, SystemError> {
+    let ([loads, pressed], whole) = (system.force_norms()?, system.residual()?.whole);
+    // Where displacements are prescribed the load is one that would strain what they move rigidly.
+    let forces = if share < 1.0 { pressed } else { loads + pressed };
+    if system.problem().scene.rigid.is_empty() || forces == 0.0 || whole == 0.0 {
+        return Ok(share);
+    }
+    Ok((forces / whole).max(LEAST_RESIDUAL / residual).min(share))
 }
 
 /// Relative residual that the last solve is to reach. A start from a coarser mesh is off by the discretisation error of

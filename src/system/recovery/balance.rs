@@ -375,6 +375,8 @@ fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solutio
     let mut sum = ContactForce::default();
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let moves = contact.pair.configuration == Configuration::Deformed;
+    // A side that is drawn apart from Γ_C will lie there.
+    let shifts = contact.known.meeting.as_ref().map_or([Point::zeros(); 2], |meeting| meeting.shifts);
     let place = |node: EdgeNode| {
         let x = node.place(mesh, &space.numbering);
         if moves { x + problem.motion.at(node, mesh, space) } else { x }
@@ -386,7 +388,7 @@ fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solutio
             let k = if coupled.side == Side::First { 0 } else { 1 };
             let force = -lambda * coupled.value;
             sum.resultants[k] += force;
-            sum.moments[k] += cross(place(coupled.node), force);
+            sum.moments[k] += cross(place(coupled.node) + shifts[k], force);
         }
     }
     sum

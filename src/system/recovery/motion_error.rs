@@ -37,11 +37,7 @@ pub fn motion_errors(
     bodies: &[Deformation],
     session: &Session,
 ) -> Vec<Option<MotionError>> {
-    let follows = |contact: &Contact| {
-        contact.pair.configuration == Configuration::Reference
-            && contact.known.meeting.is_some()
-            && !contact.boundary.is_straight()
-    };
+    let follows = |contact: &Contact| contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some();
     if !problem.contacts.iter().any(follows) {
         return problem.contacts.iter().map(|contact| one(problem, solution, contact, energy, bodies, None)).collect();
     }
@@ -80,7 +76,11 @@ fn one(
     // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
     let needed =
         is_needed(problem, &solution.active, contact) && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
-    let rolls = !contact.boundary.is_straight() && is_between_tools(problem, contact, &|set| set.prescribed[2].is_none());
+    let is_straight = match sides {
+        Some(sides) => sides.iter().all(|side| side.shape().is_line()),
+        None => contact.boundary.is_straight(),
+    };
+    let rolls = !is_straight && is_between_tools(problem, contact, &|set| set.prescribed[2].is_none());
     let error = |gap: &GapError| {
         // By how much the energy, and so the force where displacements set it, is off.
         let force = if needed { 0.0 } else { (growth - gap.work).abs() / (2.0 * energy) };

@@ -224,6 +224,26 @@ impl SaddlePoint {
         Ok(b)
     }
 
+    /// Norm of the nodal forces of the load, and of those of pressures on all multipliers. **Collective**
+    pub fn force_norms(&self, pressures: &[f64], space: &Space) -> Result<[f64; 2], SystemError> {
+        let (_, mut forces) = self.nest.create_vectors()?;
+        let unknowns = space.local_unknowns();
+        forces.set(0.0)?;
+        self.load.put(&mut forces.values_mut()[..unknowns]);
+        let loads = forces.norm()?;
+        forces.set(0.0)?;
+        let mut values = forces.values_mut();
+        for (i, pressure) in pressures.iter().enumerate().filter(|(_, pressure)| **pressure != 0.0) {
+            for &(node, value) in self.finest_rows().row(i).iter().filter(|(node, _)| space.own.contains(node)) {
+                let at = 2 * (node - space.own.start);
+                values[at] += pressure * value.x;
+                values[at + 1] += pressure * value.y;
+            }
+        }
+        drop(values);
+        Ok([loads, forces.norm()?])
+    }
+
     /// Relative residual of the plain system, from the residual `r` of this one, which becomes that: `r_u - Bᵀ D r_λ`.
     /// **Collective**
     pub fn plain_residual(&self, mut r: Vector, b: &Vector, space: &Space, session: &Session) -> Result<f64, SystemError> {

@@ -1,0 +1,99 @@
+//! Γ_C on the curve of one of its two sides: a rigid tool's own, or that of a body whose shape is known.
+//!
+//! Where the sides are drawn apart, the curve is shifted by the way between them where that is shortest: it lies on the other
+//! side there, as it will when they touch, and points of its own side correspond to it that are as far shifted. Seen from afar,
+//! the normals of a curved side would spread, or crowd, on the other.
+
+use super::{Configuration, Side, SmoothSide};
+use crate::geometry::{Curve, Point};
+
+/// Nodes of the other side that are looked at for the shortest way, at most.
+const LOOKS: usize = 200;
+
+/// Steps from one curve to the other and back on which the shortest way is made exact.
+const STEPS: usize = 60;
+
+/// A way shorter than this share of a side is none.
+const TOUCHING: f64 = 1e-9;
+
+/// The shape of one side as it carries Γ_C.
+pub struct OwnCurve<'a> {
+    /// Body 1's side and body 2's, closed ones begun at their seams.
+    sides: [&'a SmoothSide; 2],
+    curve: Curve,
+    /// Parameter at the middle of the side; on a closed curve parameters lie within half a turn from it.
+    middle: f64,
+}
+
+impl<'a> OwnCurve<'a> {
+    /// The shape of one of two sides, shifted as that is; closed ones are begun at their seams.
+    pub fn new(sides: [&'a SmoothSide; 2], of: Side) -> Self {
+        let own = if of == Side::First { 0 } else { 1 };
+        let side = sides[own];
+        let middle = side.shape().nearest(side.places[side.places.len() / 2]);
+        Self { sides, curve: side.shape().moved(side.shift), middle }
+    }
+
+    /// The curve.
+    pub fn curve(&self) -> &Curve {
+        &self.curve
+    }
+
+    /// One whole turn from the beginning of a closed curve; all of an open one.
+    pub fn turn(&self) -> [f64; 2] {
+        self.curve.range()
+    }
+
+    /// Parameters of points of body 1's side, by their parameters there: the lower first.
+    pub fn ends(&self, ends: [f64; 2]) -> [f64; 2] {
+        let [a, b] = ends.map(|t| self.foot(0, self.sides[0].curve(Configuration::Reference).point(t)));
+        [a.min(b), a.max(b)]
+    }
+
+    /// Parameter of the foot of a node of body 1's side.
+    pub fn node(&self, node: usize) -> f64 {
+        self.foot(0, self.sides[0].places[node])
+    }
+
+    /// Parameters up to which both sides are there, around a place between them.
+    pub fn limits(&self, around: f64) -> [f64; 2] {
+        let mut limits = match self.curve.period() {
+            Some(period) => [self.middle - 0.5 * period, self.middle + 0.5 * period],
+            None => [f64::NEG_INFINITY, f64::INFINITY],
+        };
+        for (k, side) in self.sides.iter().enumerate().filter(|(_, side)| side.turn().is_none()) {
+            for end in [0, side.places.len() - 1] {
+                let foot = self.foot(k, side.places[end]);
+                if foot < around {
+                    limits[0] = limits[0].max(foot);
+                } else {
+                    limits[1] = limits[1].min(foot);
+                }
+            }
+        }
+        limits
+    }
+
+    /// Parameter of the foot of a point of a side.
+    fn foot(&self, side: usize, x: Point) -> f64 {
+        let t = self.curve.nearest(x + self.sides[side].shift);
+        self.curve.period().map_or(t, |period| {
+            let way = (t - self.middle + 0.5 * period).rem_euclid(period) - 0.5 * period;
+            self.middle + way
+        })
+    }
+}
+
+/// The shortest way from a side to another, both undeformed; nothing where they touch or overlap.
+pub fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
+    let nearest = |side: &SmoothSide, x: Point| side.nearest_place(x);
+    let away = |x: &Point| (nearest(side, *x).0 - x).norm();
+    let looks = other.places.iter().step_by(other.places.len().div_ceil(LOOKS)).chain(other.places.last());
+    let mut x = *looks.min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    for _ in 0..STEPS {
+        x = nearest(other, nearest(side, x).0).0;
+    }
+    let (own, _) = nearest(side, x);
+    let (x, outward) = nearest(other, own);
+    ((own - x).dot(&outward) > TOUCHING * side.length()).then(|| x - own)
+}
