@@ -1,7 +1,7 @@
 //! Supports at the nodes of one level: which displacement components are prescribed, in which frame.
 
 use super::{Anchor, MOTIONS, MeanHold, Motion, RigidSet, Support};
-use crate::geometry::{Formula, Place, Point, Rounded, cross};
+use crate::geometry::{Coordinates, Formula, Point, Rounded, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use nalgebra::{Matrix2, SMatrix};
 use std::collections::HashMap;
@@ -265,7 +265,7 @@ fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -
 /// Adds a hold; normals of one support that nearly agree at a node become their mean.
 fn add<'a>(known: &mut Vec<Hold<'a>>, by: HeldBy<'a>, direction: Point, value: f64, x: Point) -> Result<(), SupportError> {
     if !value.is_finite() {
-        return Err(SupportError(format!("{by}: its formula has no finite value at {}; correct the formula", Place(x))));
+        return Err(SupportError(format!("{by}: its formula has no finite value at {}; correct the formula", Coordinates(x))));
     }
     let near = |hold: &&mut Hold| hold.by == by && hold.direction.dot(&direction) > SMOOTH.cos();
     match known.iter_mut().find(near) {
@@ -305,7 +305,7 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
                 Rounded(hold.value),
                 hold.direction.x,
                 hold.direction.y,
-                Place(x),
+                Coordinates(x),
                 others.join(" and "),
                 Rounded(found)
             )));

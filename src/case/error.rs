@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use toml::Value;
 
-use super::Case;
 use crate::geometry::Quote;
 
 /// Longest value that is quoted in full.
@@ -26,8 +25,6 @@ pub struct CaseError {
     pub file: PathBuf,
     /// At least one, in the order found.
     pub problems: Vec<Problem>,
-    /// What could be read of a case all the same.
-    pub draft: Option<Box<Case>>,
 }
 
 /// One thing that is wrong with a file.
@@ -44,7 +41,7 @@ pub struct Problem {
 impl CaseError {
     /// An error of the file as a whole.
     pub(crate) fn of_file(file: &Path, words: String) -> Self {
-        Self { file: file.into(), problems: vec![Problem { key: String::new(), value: None, words }], draft: None }
+        Self { file: file.into(), problems: vec![Problem { key: String::new(), value: None, words }] }
     }
 
     /// An error of TOML itself, with a remedy if one is known.

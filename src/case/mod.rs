@@ -193,9 +193,8 @@ impl Case {
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let log = log.into_inner();
-        let mut case = match draft {
-            Some(case) if log.problems.is_empty() => case,
-            draft => return Err(CaseError { file: file.into(), problems: log.problems, draft: draft.map(Box::new) }),
+        let Some(mut case) = draft.filter(|_| log.problems.is_empty()) else {
+            return Err(CaseError { file: file.into(), problems: log.problems });
         };
         for (path, value) in log.defaults {
             set_value(&mut table, &path, value).expect("a default stands in a table that was just read");
@@ -223,6 +222,12 @@ impl Case {
             Some(last) => Self { table: self.table, factors: self.factors, steps, ..last },
             None => self,
         })
+    }
+
+    /// What can be read of a text that has errors, so that more of them may be found; nothing if there is no mesh to speak of.
+    pub(crate) fn draft(text: &str, file: &Path, overrides: &[String]) -> Option<Self> {
+        let (table, log) = overridden(text, file, overrides, &accuracy::SHORT).ok()?;
+        Self::from_section(&Section::root(&table, &RefCell::new(log)), file)
     }
 
     /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its

@@ -2,7 +2,7 @@
 
 use super::PlaneLaw;
 use super::shape::slopes;
-use crate::geometry::{Place, Point};
+use crate::geometry::{Coordinates, Point};
 use nalgebra::Matrix2;
 
 /// Coupling of two nodes: `[row component][column component]`.
@@ -10,7 +10,7 @@ pub type Block = [[f64; 2]; 2];
 
 /// A triangle whose map from the reference triangle folds over.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the triangle around {} is turned inside out (Jacobian {jacobian:.3e})", Place(*middle))]
+#[error("the triangle around {} is turned inside out (Jacobian {jacobian:.3e})", Coordinates(*middle))]
 pub struct BadJacobian {
     /// Mean of its corners.
     pub middle: Point,

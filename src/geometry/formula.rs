@@ -12,7 +12,7 @@
 mod dual;
 mod parser;
 
-use super::{Place, Point, Quote};
+use super::{Coordinates, Point, Quote};
 use dual::Dual;
 
 /// A formula of named variables.
@@ -108,7 +108,7 @@ impl Formula {
         if value.is_finite() {
             return Ok(value);
         }
-        Err(format!("\"{}\" has no finite value at {}; correct the formula", Quote(&self.text), Place(x)))
+        Err(format!("\"{}\" has no finite value at {}; correct the formula", Quote(&self.text), Coordinates(x)))
     }
 
     /// As it was written.

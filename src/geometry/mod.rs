@@ -11,7 +11,7 @@ pub use curve::Curve;
 pub use formula::{Formula, FormulaError};
 pub use gauss::gauss_points;
 pub use nearness::{Disc, overlapping_discs};
-pub use place::{Place, Quote, Rounded};
+pub use place::{Coordinates, Quote, Rounded};
 pub use spline::{Spline, chord_lengths};
 
 /// A point, or a vector, of the plane (length).

@@ -9,7 +9,7 @@ pub struct Rounded(pub f64);
 
 /// A place as `(x, y)`, both to six digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place(pub Point);
+pub struct Coordinates(pub Point);
 
 /// Longest text that is quoted in full.
 const LONGEST: usize = 60;
@@ -43,7 +43,7 @@ impl Display for Rounded {
     }
 }
 
-impl Display for Place {
+impl Display for Coordinates {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         write!(f, "({}, {})", Rounded(self.0.x), Rounded(self.0.y))
     }
@@ -65,6 +65,6 @@ mod tests {
         assert_eq!([2.0, -0.0, 0.25000000000102973, 1e6].map(told), ["2", "0", "0.25", "1000000"]);
         assert_eq!([1e308, -1.0 / 3e8, 1e-5].map(told), ["1e308", "-3.33333e-9", "1e-5"]);
         assert_eq!([f64::NAN, f64::INFINITY].map(told), ["NaN", "inf"]);
-        assert_eq!(Place(Point::new(1.0 / 3.0, -1e300)).to_string(), "(0.333333, -1e300)");
+        assert_eq!(Coordinates(Point::new(1.0 / 3.0, -1e300)).to_string(), "(0.333333, -1e300)");
     }
 }

@@ -136,6 +136,15 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The line before a block of nodes or elements: dimension, entity, kind, and how many there are.
+    fn block(&mut self, section: &str) -> Result<Vec<i64>, MeshError> {
+        let block: Vec<i64> = self.numbers(section, 4)?;
+        if block[3] < 0 {
+            return Err(self.error(format!("in ${section}, expected a count of at least 0, found {}", block[3])));
+        }
+        Ok(block)
+    }
+
     /// A tag or a count that stands among coordinates.
     fn whole(&self, number: f64) -> Result<i64, MeshError> {
         if number.fract() == 0.0 && number.abs() < MOST_EXACT {
@@ -255,7 +264,7 @@ impl<'a> Reader<'a> {
     fn nodes(&mut self) -> Result<(), MeshError> {
         let blocks: usize = self.numbers("Nodes", 4)?[0];
         for _ in 0..blocks {
-            let block: Vec<i64> = self.numbers("Nodes", 4)?;
+            let block = self.block("Nodes")?;
             let mut tags = Vec::new();
             for _ in 0..block[3] {
                 tags.push(self.numbers::<i64>("Nodes", 1)?[0]);
@@ -278,7 +287,7 @@ impl<'a> Reader<'a> {
     fn elements(&mut self) -> Result<(), MeshError> {
         let blocks: usize = self.numbers("Elements", 4)?[0];
         for _ in 0..blocks {
-            let block: Vec<i64> = self.numbers("Elements", 4)?;
+            let block = self.block("Elements")?;
             let (dimension, entity, kind, count) = (block[0] as usize, block[1], block[2], block[3]);
             let corners = match kind {
                 1 => 2,

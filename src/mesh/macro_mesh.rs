@@ -2,7 +2,7 @@
 
 use super::edge_shape::EdgeShape;
 use super::{MeshError, NamedPoint};
-use crate::geometry::{Place, Point, Quote, Rounded, cross};
+use crate::geometry::{Coordinates, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -190,9 +190,9 @@ impl MacroMesh {
                 line,
                 format!(
                     "degenerate triangle with corners {}, {}, {}: its area is {}; mesh the scene again",
-                    Place(a),
-                    Place(b),
-                    Place(c),
+                    Coordinates(a),
+                    Coordinates(b),
+                    Coordinates(c),
                     Rounded(area)
                 ),
             ));
@@ -248,7 +248,7 @@ impl MacroMesh {
                             "bodies \"{}\" and \"{}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
                             names[0],
                             names[1],
-                            Place(x)
+                            Coordinates(x)
                         ),
                     ));
                 }

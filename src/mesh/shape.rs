@@ -2,7 +2,7 @@
 
 use super::edge_shape::EdgeShape;
 use super::{MacroMesh, MeshError};
-use crate::geometry::{Curve, Place, Point, Rounded};
+use crate::geometry::{Coordinates, Curve, Point, Rounded};
 use nalgebra::Matrix2;
 use std::sync::Arc;
 
@@ -55,7 +55,7 @@ impl MacroMesh {
                     &self.file,
                     format!(
                         "the node {} {far} [geometry.{geometry}] (nearest at t = {}); correct the formula, its range of t, or the mesh",
-                        Place(here),
+                        Coordinates(here),
                         Rounded(t)
                     ),
                 ));

@@ -3,7 +3,7 @@
 use super::known::check_pressures;
 use super::{RunError, accuracy, memory, scene};
 use crate::body::Material;
-use crate::case::Case;
+use crate::case::{Case, read_text};
 use crate::element::{Order, Plane};
 use crate::mesh::Partition;
 use crate::petsc::{Session, versions};
@@ -26,7 +26,9 @@ pub struct Checked {
 /// # Errors
 /// [`RunError::Input`] with everything that is wrong.
 pub fn check_file(file: &Path, overrides: &[String]) -> Result<Checked, RunError> {
-    let case = Case::read(file, overrides).map_err(|error| RunError::Input(scene::told_with_names(&error)))?;
+    let text = read_text(file, "case").map_err(|error| RunError::Input(error.to_string()))?;
+    let case = Case::parse(&text, file, overrides)
+        .map_err(|error| RunError::Input(scene::told_with_names(&error, Case::draft(&text, file, overrides))))?;
     check(&case)
 }
 

@@ -18,8 +18,9 @@ pub fn read_case(file: &Path, overrides: &[String], wanted: Option<&Inputs>, ses
         Ok(case) => Ok(session.agree::<_, String>(Ok(case)).map_err(RunError::Input)?),
         Err(error) => {
             // Every rank has read the same text, so that all are here.
-            let words =
-                session.share(|| Ok::<_, String>(scene::told_with_names(&error).into_bytes())).map_err(RunError::Input)?;
+            let words = session
+                .share(|| Ok::<_, String>(scene::told_with_names(&error, Case::draft(&text, file, overrides)).into_bytes()))
+                .map_err(RunError::Input)?;
             Err(RunError::Input(String::from_utf8_lossy(&words).into_owned()))
         }
     }

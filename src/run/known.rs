@@ -2,7 +2,7 @@
 
 use crate::case::{BodyExact, Case, ContactExact, LambdaExact};
 use crate::contact::ContactBoundary;
-use crate::geometry::{Formula, Place, Point, Rounded, gauss_points};
+use crate::geometry::{Coordinates, Formula, Point, Rounded, gauss_points};
 use crate::mesh::MacroMesh;
 use crate::system::Contact;
 
@@ -40,7 +40,7 @@ fn check_points(case: &Case, mesh: &MacroMesh, exact: &ContactExact) -> Result<(
                 Rounded(near.1),
                 pair.between[0],
                 pair.between[1],
-                Place(near.0)
+                Coordinates(near.0)
             ));
         }
     }

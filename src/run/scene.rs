@@ -6,7 +6,7 @@ use super::means::check_means;
 use crate::body::Body;
 use crate::case::{Case, CaseError, LoadStep, listed};
 use crate::contact::Pair;
-use crate::geometry::{Formula, Place, Point, Quote, Rounded};
+use crate::geometry::{Coordinates, Formula, Point, Quote, Rounded};
 use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces};
 use crate::petsc::Session;
 use crate::system::{self, Scene};
@@ -79,8 +79,8 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
 }
 
 /// What is wrong with a case file, and with the names of what could be read of it against its mesh: all of it at once.
-pub fn told_with_names(error: &CaseError) -> String {
-    let names = error.draft.as_ref().map_or_else(Vec::new, |case| wrong_names(case));
+pub fn told_with_names(error: &CaseError, draft: Option<Case>) -> String {
+    let names = draft.as_ref().map_or_else(Vec::new, wrong_names);
     together(&[vec![error.to_string()], names].concat())
 }
 
@@ -355,7 +355,10 @@ fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
                 let x = mesh.edge_position(edge, t);
                 for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
                     if !(k.is_finite() && k >= 0.0) {
-                        return Err(error(format!("is {k} at {}; a spring wants a finite number >= 0 everywhere", Place(x))));
+                        return Err(error(format!(
+                            "is {k} at {}; a spring wants a finite number >= 0 everywhere",
+                            Coordinates(x)
+                        )));
                     }
                     largest = largest.max(k);
                 }

@@ -72,7 +72,7 @@ impl Plan {
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &log), file);
         let problems = log.into_inner().problems;
-        draft.filter(|_| problems.is_empty()).ok_or(CaseError { file: file.into(), problems, draft: None })
+        draft.filter(|_| problems.is_empty()).ok_or(CaseError { file: file.into(), problems })
     }
 
     /// None if a value is missing or bad; the log knows why.
