@@ -1,5 +1,6 @@
 //! The loop over load steps: each is solved from the one before, judged by itself, and kept as a row.
 
+use super::known::check_pressures;
 use super::{Run, RunError, interruption, scene};
 use crate::case::LoadStep;
 use crate::output::summary::{Status, StepSummary, Summary};
@@ -21,7 +22,8 @@ impl Run<'_> {
         // What cannot be used is told before anything is solved.
         for step in &self.case.steps {
             let looked = Procedure::look(&scene::of_step(step, scene), self.session.rank());
-            looked.map_err(|error| RunError::from(error).in_step(step))?;
+            let at_rest = looked.map_err(|error| RunError::from(error).in_step(step))?;
+            check_pressures(&step.case, &at_rest.contacts).map_err(|words| RunError::Key(words).in_step(step))?;
         }
         let mut before: Option<Solved> = None;
         let mut rows = Vec::new();
