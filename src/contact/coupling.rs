@@ -1,27 +1,8 @@
 //! Coupling of one body's boundary to the multipliers of Γ_C, and its share of the initial gap.
 
-use super::{ContactBoundary, Multipliers, Quadrature, quadrature_points, trace};
+use super::{ContactBoundary, Multipliers, Quadrature, Side, quadrature_points, trace};
 use crate::geometry::{Curve, Formula, Point, gauss_points};
 use crate::mesh::{BoundaryEdge, EdgeNode};
-
-/// Which body of a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The body that the normal leaves.
-    First,
-    /// The body that the normal enters.
-    Second,
-}
-
-impl Side {
-    /// Sign of its displacement in the penetration `B₁u₁ - B₂u₂`.
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::First => 1.0,
-            Self::Second => -1.0,
-        }
-    }
-}
 
 /// One entry of the coupling: multiplier `i`, node `j`, and `± ∫ψ_i N_j n ds` (length), + for body 1, - for body 2.
 #[derive(Clone, Copy, Debug)]

@@ -97,3 +97,43 @@ pub fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
     let (x, outward) = nearest(other, own);
     ((own - x).dot(&outward) > TOUCHING * side.length()).then(|| x - own)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::samples::seam;
+    use crate::contact::{CurveChoice, Pair};
+    use crate::element::Order;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    /// The upper of two blocks, lifted: its flat seam is shifted onto that of the lower one, from end to end.
+    #[test]
+    fn the_curve_of_a_side_drawn_apart_lies_on_the_other_side() {
+        for (lift, shifted) in [(0.3, true), (0.0, false), (-0.1, false)] {
+            let mut mesh = two_blocks();
+            let upper = mesh.bodies.iter().position(|name| name == "upper").expect("named") as u32;
+            let of_upper = mesh.triangles.iter().filter(|triangle| triangle.body == upper).flat_map(|triangle| triangle.vertices);
+            let mut vertices: Vec<u32> = of_upper.collect();
+            vertices.sort_unstable();
+            vertices.dedup();
+            vertices.into_iter().for_each(|vertex| mesh.vertices[vertex as usize].y += lift);
+            let numbering = Numbering::new(Level { intervals: 4, order: Order::P1 }, &Rc::new(Partition::new(&mesh, &[0; 6], 1)));
+            let pair = Pair { curve: CurveChoice::Own(Side::Second), ..seam() };
+            let sides = SmoothSide::of_pair(&mesh, &numbering, &pair, &|_| Point::zeros());
+            let [first, second] = [&sides[0][0], &sides[1][0]];
+            let way = shortest_way(second, first);
+            assert_eq!(way.is_some(), shifted, "{way:?}");
+            let way = way.unwrap_or_default();
+            assert!((way - Point::new(0.0, if shifted { -lift } else { 0.0 })).norm() < 1e-12, "{way}");
+            let laid = second.laid(0, way);
+            let own = OwnCurve::new([first, &laid], Side::Second);
+            let ends = own.limits(0.5).map(|t| own.curve().point(t));
+            let y = if shifted { 1.0 } else { 1.0 + lift };
+            for (x, end) in [0.0, 2.0].into_iter().zip(if ends[0].x < ends[1].x { ends } else { [ends[1], ends[0]] }) {
+                assert!((end - Point::new(x, y)).norm() < 1e-12, "{end}");
+            }
+        }
+    }
+}
