@@ -346,3 +346,37 @@ fn a_side_of_several_curves_is_one_side() {
         assert!((one[0] / 40.0 - 1.0).abs() < 1e-2, "{one:?}");
     }
 }
+
+/// With a thickness the forces of the case and of the result are those of all of it; nothing else changes.
+#[test]
+fn a_thickness_multiplies_forces_and_energies() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let case = format!(
+        "thickness = 2.5\n{}\nload.point = {{ at = [1.0, 2.0], force = [\"0.5*x\", -1.0] }}
+exact = {{ must_hold = true, contact.seam.force = {{ value = 7.0, tolerance = 1e-8 }} }}",
+        BLOCKS.replace("support.above = { at = [0.6, 2.0], ux = 0.0 }", "support.above = { on = \"left\", ux = 0.0 }")
+    );
+    let file = write_scene(folder.path(), &blocks().text(), &case);
+    for ranks in [1, 2] {
+        let one = Run::file(&file).ranks(ranks).set("thickness", 1.0).set("solver.tolerance", 1e-12).converged();
+        let whole = Run::file(&file).ranks(ranks);
+        let whole = whole.set("load.point.force", "[\"1.25*x\", -2.5]").set("exact.contact.seam.force.value", 17.5).converged();
+        for path in [
+            "/contact/seam/force",
+            "/contact/seam/resultant/1",
+            "/contact/seam/moment",
+            "/support/table/reaction/1",
+            "/energy/total",
+            "/energy/strain/upper",
+            "/energy/external_work",
+        ] {
+            close(whole.number(path) / 2.5, one.number(path), one.number(path).abs(), path);
+        }
+        let path = "/contact/seam/pressure_max";
+        close(whole.number(path), one.number(path), one.number(path), path);
+    }
+    for value in ["0", "-1", "\"thin\"", "inf"] {
+        let (code, _, errors) = mezha(None, &["check", &file.display().to_string(), "--set", &format!("thickness={value}")]);
+        assert!(code == Some(2) && errors.contains("thickness = "), "{value}: {errors}");
+    }
+}

@@ -18,6 +18,7 @@ pub(crate) mod section;
 mod spot;
 mod steps;
 mod support;
+mod thickness;
 pub(crate) mod values;
 
 use std::cell::RefCell;
@@ -42,6 +43,7 @@ pub use steps::{LoadFactor, LoadStep};
 
 use overrides::{overridden, set_value};
 use section::{Log, Section};
+use thickness::Forces;
 
 /// A checked case: what to solve, on which mesh, and what is known of the result.
 #[derive(Clone, Debug)]
@@ -60,6 +62,9 @@ pub struct Case {
     pub bodies: Vec<Body>,
     /// Rigid tools.
     pub tools: Vec<Tool>,
+    /// Thickness that forces, moments and energies of the file and of the results are those of (length); those of this case are of
+    /// a thickness of one.
+    pub thickness: f64,
     /// True shapes of boundaries.
     pub geometries: Vec<Geometry>,
     /// Prescribed displacements.
@@ -254,15 +259,15 @@ impl Case {
         let mesh = model::read_mesh(root, &folder);
         let (plane, gravity) = (model::read_plane(root), gravity::read_gravity(root));
         let bodies = root.named("body", |section| model::read_body(section, plane, gravity));
-        let tools = root.named("rigid", rigid::read_tool);
+        let mut tools = root.named("rigid", rigid::read_tool);
         let geometries = root.named("geometry", geometry::read_geometry);
         let (supports, springs, means) = support::split(root.named("support", support::read_support));
-        let (loads, point_loads, plates) = model::split_loads(root.named("load", model::read_load));
+        let (loads, mut point_loads, mut plates) = model::split_loads(root.named("load", model::read_load));
         let (contacts, unions) = contact::split_contacts(root.named("contact", |section| contact::read_contact(section, root)));
         let solver = model::read_solver(root);
         let output = model::read_output(root);
         let probes = root.named("probe", model::read_probe);
-        let exact = exact::read_exact(root);
+        let mut exact = exact::read_exact(root);
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
         let factors = root.named("steps", steps::read_factor);
         model::check_bodies(root);
@@ -278,7 +283,11 @@ impl Case {
         rigid::check_tools(&tools, &contacts, root);
         exact::check_exact(&exact, root);
         steps::check_steps(&factors, root);
+        let thickness = thickness::read_thickness(root);
+        let forces = Forces { point_loads: &mut point_loads, plates: &mut plates, tools: &mut tools, exact: &mut exact };
+        forces.per_thickness(thickness);
         Some(Self {
+            thickness,
             name: name_of(file, "case.toml"),
             file: file.into(),
             folder,

@@ -75,6 +75,15 @@ impl Formula {
         Self { text: format!("{} + {value:?}", self.text), program: self.program.iter().copied().chain(added).collect() }
     }
 
+    /// The formula multiplied by a number.
+    pub fn times(&self, factor: f64) -> Self {
+        if let Some(value) = self.as_constant() {
+            return Self::constant(factor * value);
+        }
+        let multiplied = [Instruction::Number(factor), Instruction::Multiply];
+        Self { text: format!("({}) * {factor:?}", self.text), program: self.program.iter().copied().chain(multiplied).collect() }
+    }
+
     /// Its value, if no variable occurs in it.
     pub fn as_constant(&self) -> Option<f64> {
         match self.program[..] {

@@ -6,6 +6,7 @@
 use crate::contact::zone_counts;
 mod accuracy;
 mod steps;
+mod thickness;
 
 pub use accuracy::{AccuracyStep, ContactGoals, GoalSummary, ProbeGoals};
 pub use steps::{StepContact, StepSummary};

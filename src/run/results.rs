@@ -40,6 +40,7 @@ impl Run<'_> {
         reason += &remarks(&summary, status);
         summary.status = status;
         summary.reason = Some(reason);
+        summary.times_thickness(self.case.thickness);
         Ok(summary)
     }
 
