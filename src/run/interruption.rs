@@ -211,11 +211,11 @@ impl Unfinished {
                 iterations: passes.iter().map(|pass| pass.krylov_iterations).collect(),
             }),
             Event::Passed(pass, _) => {
-                summary.outer.push(summarise::pass(pass));
+                summary.outer.push((*pass).into());
                 summary.solver.iterations.push(pass.krylov_iterations);
                 summary.solver.residual = Some(pass.residual);
             }
-            Event::Placed(step) => summary.boundaries.push(summarise::boundary(step)),
+            Event::Placed(step) => summary.boundaries.push((*step).into()),
             Event::Adapted { accuracy, mesh, solved } => {
                 summarise::describe(summary, case, solved);
                 let one = Adaptation { meshes: vec![(*mesh).clone()], ..Adaptation::new((*accuracy).clone()) };
