@@ -291,6 +291,7 @@ mod tests {
         let unfinished = || {
             let folder = ResultFolder::create(&out, true).unwrap();
             fs::write(folder.path("fields.vtu"), "half").unwrap();
+            fs::create_dir_all(folder.path("steps/001")).unwrap();
             let mut summary = Summary::new("bars", 2);
             summary.solver.coarse.push(CoarseSolveSummary::default());
             Unfinished { folder, case: "# case".into(), summary, doing: "solving", started: Instant::now(), out: out.clone() }
