@@ -227,8 +227,10 @@ impl Unfinished {
     /// What was told of a load step that is over, or begins once more, is not of the next.
     fn forget_passes(&mut self) {
         let Summary { outer, boundaries, solver, .. } = &mut self.summary;
-        (outer.clear(), boundaries.clear());
-        (solver.coarse.clear(), solver.iterations.clear());
+        outer.clear();
+        boundaries.clear();
+        solver.coarse.clear();
+        solver.iterations.clear();
         solver.residual = None;
     }
 
