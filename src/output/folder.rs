@@ -73,7 +73,8 @@ impl ResultFolder {
     pub fn empty(&self) -> Result<(), OutputError> {
         for entry in fs::read_dir(&self.temporary).map_err(OutputError::io("read the folder", &self.temporary))? {
             let path = entry.map_err(OutputError::io("read the folder", &self.temporary))?.path();
-            fs::remove_file(&path).map_err(OutputError::io("remove", &path))?;
+            let removed = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+            removed.map_err(OutputError::io("remove", &path))?;
         }
         Ok(())
     }

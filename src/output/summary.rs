@@ -5,6 +5,7 @@
 
 use crate::contact::zone_counts;
 mod accuracy;
+mod passes;
 mod steps;
 mod thickness;
 

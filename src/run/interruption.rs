@@ -211,11 +211,11 @@ impl Unfinished {
                 iterations: passes.iter().map(|pass| pass.krylov_iterations).collect(),
             }),
             Event::Passed(pass, _) => {
-                summary.outer.push(summarise::pass(pass));
+                summary.outer.push((*pass).into());
                 summary.solver.iterations.push(pass.krylov_iterations);
                 summary.solver.residual = Some(pass.residual);
             }
-            Event::Placed(step) => summary.boundaries.push(summarise::boundary(step)),
+            Event::Placed(step) => summary.boundaries.push((*step).into()),
             Event::Adapted { accuracy, mesh, solved } => {
                 summarise::describe(summary, case, solved);
                 let one = Adaptation { meshes: vec![(*mesh).clone()], ..Adaptation::new((*accuracy).clone()) };
@@ -227,8 +227,10 @@ impl Unfinished {
     /// What was told of a load step that is over, or begins once more, is not of the next.
     fn forget_passes(&mut self) {
         let Summary { outer, boundaries, solver, .. } = &mut self.summary;
-        (outer.clear(), boundaries.clear());
-        (solver.coarse.clear(), solver.iterations.clear());
+        outer.clear();
+        boundaries.clear();
+        solver.coarse.clear();
+        solver.iterations.clear();
         solver.residual = None;
     }
 
@@ -291,6 +293,7 @@ mod tests {
         let unfinished = || {
             let folder = ResultFolder::create(&out, true).unwrap();
             fs::write(folder.path("fields.vtu"), "half").unwrap();
+            fs::create_dir_all(folder.path("steps/001")).unwrap();
             let mut summary = Summary::new("bars", 2);
             summary.solver.coarse.push(CoarseSolveSummary::default());
             Unfinished { folder, case: "# case".into(), summary, doing: "solving", started: Instant::now(), out: out.clone() }

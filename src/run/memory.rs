@@ -2,18 +2,15 @@
 //! it will do with that.
 
 use super::RunError;
+use super::forecast::{self, size};
 use crate::petsc::Session;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Where nothing tells (bytes).
 const UNKNOWN: f64 = 4e9;
 
 /// What a process takes before it has read a mesh: program and libraries.
 const BY_PROCESS: f64 = 60e6;
-
-/// What the run was forecast to take on all ranks (bytes); 0 if nothing was forecast.
-static FORECAST: AtomicU64 = AtomicU64::new(0);
 
 /// Text of a file; nothing if it cannot be read.
 type Read<'a> = &'a dyn Fn(&Path) -> Option<String>;
@@ -40,7 +37,7 @@ pub fn refuse_too_large<E: Into<RunError>>(
     let left = Left::now(session);
     let taken = |refine: usize| need(refine).map(|(unknowns, bytes)| (unknowns, left.taken(bytes, session)));
     let (unknowns, whole) = taken(refine).map_err(E::into)?;
-    FORECAST.store(whole.need as u64, Ordering::Relaxed);
+    forecast::keep(whole.need);
     if whole.share <= 1.0 {
         return Ok(());
     }
@@ -53,14 +50,6 @@ pub fn refuse_too_large<E: Into<RunError>>(
     Err(RunError::Key(format!(
         "mesh.refine = {refine}: {unknowns} unknowns take some {need} of memory, and {left} are left; {remedy}"
     )))
-}
-
-/// What helps where memory has run out all the same, behind words that begin with *memory*.
-pub fn remedy() -> String {
-    let forecast = FORECAST.load(Ordering::Relaxed) as f64;
-    let forecast =
-        if forecast > 0.0 { format!("; {} were forecast for all ranks together", size(forecast)) } else { String::new() };
-    format!("{forecast}; refine less, leave more to the run (ulimit, job, other programs), or take more machines")
 }
 
 /// What a run takes on one rank of this machine, and what each further rank adds; with it a warning if that is not left here.
@@ -77,11 +66,6 @@ pub fn told(need: f64, of_macro_mesh: f64) -> (String, Option<String>) {
         size(left)
     );
     (words, (need > left).then_some(warning))
-}
-
-/// A size as people say it.
-fn size(bytes: f64) -> String {
-    if bytes < 1e9 { format!("{:.0} MB", 1e-6 * bytes) } else { format!("{:.1} GB", 1e-9 * bytes) }
 }
 
 /// Bytes that this rank may still take.

@@ -4,6 +4,7 @@ mod accuracy;
 mod check;
 mod exact;
 mod fields;
+mod forecast;
 mod input;
 pub mod interruption;
 mod known;
@@ -25,8 +26,8 @@ mod trust;
 mod zones;
 
 pub use check::{Checked, check, check_file, info};
+pub use forecast::remedy as out_of_memory_remedy;
 pub use input::read_case;
-pub use memory::remedy as out_of_memory_remedy;
 pub use outcome::{Outcome, RunError};
 pub use run_options::RunOptions;
 

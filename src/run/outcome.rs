@@ -1,6 +1,6 @@
 //! How a run ends.
 
-use super::memory;
+use super::forecast;
 use crate::case::{Case, LoadStep};
 use crate::output::OutputError;
 use crate::petsc;
@@ -75,7 +75,7 @@ impl From<SystemError> for RunError {
 
 impl From<petsc::Error> for RunError {
     fn from(error: petsc::Error) -> Self {
-        let remedy = if matches!(error, petsc::Error::OutOfMemory { .. }) { memory::remedy() } else { String::new() };
+        let remedy = if matches!(error, petsc::Error::OutOfMemory { .. }) { forecast::remedy() } else { String::new() };
         Self::Failed(format!("{error}{remedy}"))
     }
 }

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
 use crate::system::recovery::{Corners, Evaluation, TracePoint};
-use crate::system::{BoundaryStep, Contact, Pass, Solved};
+use crate::system::{Contact, Solved};
 
 /// From this error on λ may grow at a corner as it does towards a singular end.
 const GROWS_AT_CORNERS: f64 = 5e-3;
@@ -31,8 +31,8 @@ pub fn describe(summary: &mut Summary, case: &Case, solved: &Solved) {
         displacement: Some(2 * numbering.node_count() as u64),
         multiplier: Some(problem.multiplier_count() as u64),
     };
-    summary.outer = solved.passes.iter().map(pass).collect();
-    summary.boundaries = solved.boundaries.iter().map(boundary).collect();
+    summary.outer = solved.passes.iter().map(Into::into).collect();
+    summary.boundaries = solved.boundaries.iter().map(Into::into).collect();
     summary.solver = summary::SolverSummary {
         name: Some(case.solver.choice.name().into()),
         krylov: Some(solved.solver.clone()),
@@ -50,32 +50,6 @@ pub fn describe(summary: &mut Summary, case: &Case, solved: &Solved) {
         plain_residual: Some(solution.plain_residual),
         blas: Some(versions::blas()),
     };
-}
-
-/// A pass of the loop over active sets.
-pub fn pass(pass: &Pass) -> summary::OuterIteration {
-    summary::OuterIteration {
-        iteration: pass.iteration,
-        boundary: pass.boundary,
-        active: Some(pass.active),
-        added: Some(pass.added),
-        released: Some(pass.released),
-        krylov_iterations: Some(pass.krylov_iterations),
-        residual: Some(pass.residual),
-        max_penetration: Some(pass.max_penetration),
-        du: Some(pass.du),
-    }
-}
-
-/// A contact boundary of those that follow.
-pub fn boundary(step: &BoundaryStep) -> summary::BoundaryIteration {
-    summary::BoundaryIteration {
-        iteration: step.iteration,
-        length: Some(step.length),
-        moved: step.moved,
-        du: step.du,
-        flipped: step.flipped,
-    }
 }
 
 /// Triangle edges of the finest level: the midside nodes of P2.

@@ -1,5 +1,6 @@
 //! The discrete inf-sup constant of a contact.
 
+use super::options::MOST_REDUNDANT;
 use crate::petsc::{Krylov, Session, options};
 use crate::system::{Contact, SaddlePoint, SystemError};
 
@@ -23,6 +24,13 @@ const OPTIONS: [(&str, &str); 9] = [
     ("-inf_sup_fieldsplit_lambda_pc_type", "redundant"),
 ];
 
+/// Where unknowns are few, each rank makes the factor for itself: the constant has the same digits in each run then.
+const REDUNDANT: [(&str, &str); 3] = [
+    ("-inf_sup_fieldsplit_u_pc_type", "redundant"),
+    ("-inf_sup_fieldsplit_u_redundant_pc_type", "cholesky"),
+    ("-inf_sup_fieldsplit_u_redundant_pc_factor_mat_solver_type", "mumps"),
+];
+
 /// Discrete inf-sup constants, `β² = g / (α (1 - g))` with `g` the smallest eigenvalue of `D (B K_γ⁻¹ Bᵀ)` over the
 /// active multipliers of the contact. With an exact `K_γ⁻¹` the preconditioned system has no other eigenvalues but 1,
 /// so the Ritz values of one solve with an erratic right-hand side on those multipliers show it. The cost is a
@@ -31,7 +39,10 @@ const OPTIONS: [(&str, &str); 9] = [
 /// # Errors
 /// PETSc's own.
 pub fn inf_sup(system: &SaddlePoint, contacts: &[Contact], session: &Session) -> Result<Vec<Option<f64>>, SystemError> {
-    for (name, value) in OPTIONS {
+    let unknowns = system.finest_stiffness().operator().size().0;
+    let is_redundant = session.size() > 1 && unknowns <= MOST_REDUNDANT;
+    let redundant: &[(&str, &str)] = if is_redundant { &REDUNDANT } else { &[] };
+    for (name, value) in OPTIONS.iter().chain(redundant) {
         options::set_default(session, name, value)?;
     }
     let krylov = Krylov::new(session, "inf_sup_")?;

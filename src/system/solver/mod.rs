@@ -18,10 +18,10 @@ pub use linear_solve::{LinearEnding, LinearSolve};
 
 use self::block_triangle::BlockTriangle;
 use self::options::{
-    CoarseSolver, FIELD_SPLIT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_chosen, is_method_chosen,
-    is_split_changed, lambda_options, preconditioning_options, wants_single,
+    CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_chosen,
+    is_method_chosen, is_split_changed, lambda_options, preconditioning_options, wants_single,
 };
-use super::auxiliary::{GalerkinLevels, SMALL};
+use super::auxiliary::GalerkinLevels;
 use super::cycle::Cycle;
 use super::interpolation::Interpolation;
 use super::stiffness::Stiffness;
@@ -107,7 +107,7 @@ impl LinearSolver {
         let unknowns = system.finest_stiffness().operator().size().0;
         let is_short = preconditioning == Preconditioning::Sweep && unknowns > many && !is_method_chosen(session);
         let method: Options = if is_short { SHORT_RECURRENCE } else { &[] };
-        let is_redundant = preconditioning == Preconditioning::Factor && session.size() > 1 && unknowns <= SMALL;
+        let is_redundant = preconditioning == Preconditioning::Factor && session.size() > 1 && unknowns <= MOST_REDUNDANT;
         let factor: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
         let smoother = preconditioning_options(preconditioning);
         for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(method).chain(factor)

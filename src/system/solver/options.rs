@@ -74,6 +74,9 @@ pub(super) fn preconditioning_options(preconditioning: Preconditioning) -> Optio
     }
 }
 
+/// Unknowns up to which a factor is made by every rank for itself.
+pub(super) const MOST_REDUNDANT: usize = 10_000;
+
 /// A factor of few unknowns by every rank for itself: one that ranks make together adds in the order in which their messages
 /// come, so that its last digits differ from run to run.
 pub(super) const REDUNDANT_FACTOR: Options = &[
