@@ -1,8 +1,9 @@
 //! `thickness`: the forces of a case are those of the whole thickness, while everything is solved for a thickness of one.
 
 use super::exact::Exact;
+use super::rigid::{Plate, Tool};
 use super::section::Section;
-use super::{Plate, Tool, values};
+use super::values;
 use crate::body::{PointLoad, RigidSet};
 
 /// `thickness`, before all tables; 1 if the case has none.
