@@ -43,7 +43,6 @@ pub use steps::{LoadFactor, LoadStep};
 
 use overrides::{overridden, set_value};
 use section::{Log, Section};
-use thickness::Forces;
 
 /// A checked case: what to solve, on which mesh, and what is known of the result.
 #[derive(Clone, Debug)]
@@ -284,8 +283,7 @@ impl Case {
         exact::check_exact(&exact, root);
         steps::check_steps(&factors, root);
         let thickness = thickness::read_thickness(root);
-        let forces = Forces { point_loads: &mut point_loads, plates: &mut plates, tools: &mut tools, exact: &mut exact };
-        forces.per_thickness(thickness);
+        thickness::per_thickness(thickness, &mut point_loads, &mut plates, &mut tools, &mut exact);
         Some(Self {
             thickness,
             name: name_of(file, "case.toml"),

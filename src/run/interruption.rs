@@ -2,7 +2,7 @@
 //!
 //! A thread waits for signals, since the ranks may be anywhere in a library when one comes, each at another moment, and mpirun
 //! kills them a second later. That of rank 0 writes what was reached until then; those of the others wait for this, and make sure
-//! that all ends. What is known is kept as the run goes on, in [`Unfinished`].
+//! that all ends. What is known is kept as the run goes on, in `Unfinished`.
 
 use super::{accuracy, summarise};
 use crate::accuracy::Adaptation;

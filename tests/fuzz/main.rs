@@ -28,10 +28,15 @@ const MEMORY: u64 = 2 << 20;
 /// Longest text of the project that is mutated (bytes): long meshes take long and say no more.
 const LONGEST: u64 = 40_000;
 
+/// Makes a target.
+type Make = fn() -> Target;
+
+/// Reads a text, and tells whether it was taken.
+type Read = Box<dyn Fn(&[u8]) -> bool>;
+
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
-    let targets: [(&str, fn() -> Target); 5] =
-        [("formula", formula), ("case", case), ("mesh", mesh), ("study", study), ("check", check)];
+    let targets: [(&str, Make); 5] = [("formula", formula), ("case", case), ("mesh", mesh), ("study", study), ("check", check)];
     if std::env::args().any(|word| word == "--list") {
         targets.iter().for_each(|(name, _)| println!("{name}: test"));
         return;
@@ -46,8 +51,8 @@ fn main() {
 /// A reader, and texts to begin with.
 struct Target {
     corpus: Vec<Vec<u8>>,
-    /// What is done with a text; tells whether it was taken.
-    read: Box<dyn Fn(&[u8]) -> bool>,
+    /// What is done with a text.
+    read: Read,
 }
 
 impl Target {
