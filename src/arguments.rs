@@ -178,7 +178,8 @@ mod tests {
     #[test]
     fn the_nearest_command_is_proposed() {
         let near = |word: &str| nearest_command(&parse(&format!("mezha {word}")).unwrap_err());
-        assert_eq!((near("rnu"), near("sutdy"), near("frobnicate")), (Some("run".into()), Some("study".into()), None));
+        // Of "sutdy" clap knows by itself that "study" is meant.
+        assert_eq!((near("rnu"), near("sutdy"), near("frobnicate")), (Some("run".into()), None, None));
     }
 
     #[test]

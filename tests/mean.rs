@@ -170,6 +170,10 @@ fn mistakes_are_told() {
         ("{ mean = true, ux = 0.0 }", "support.above.body: missing"),
         ("{ body = \"upper\", mean = true, ux = \"x\" }", "support.above.ux"),
         (
+            "{ body = \"upper\", mean = true, angle = 5.0 }",
+            "support.above.angle = 5.0 (--set): must be a number from -0.1 to 0.1: radians",
+        ),
+        (
             "{ body = \"upper\", mean = false, ux = 0.0 }",
             "support.above.mean = false (--set): holds a mean motion only as mean = true",
         ),

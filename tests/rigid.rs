@@ -282,6 +282,10 @@ fn mistakes_are_told() {
         (format!("{contact}rigid.die = {{ {line}, circle = {{ centre = [0, 0], radius = 1 }} }}"), "give exactly one of them"),
         (format!("{contact}rigid.die = {{ line = [[0, 1]] }}"), "rigid.die.line"),
         (format!("{contact}rigid.die = {{ line = [[0, 1], [0, 1]] }}"), "twice"),
+        (
+            "contact.top = { between = [\"top\", \"rigid.die\"] }\nrigid.die = { line = [[0, 1.06], [1, 1], [2, 1.06]] }".into(),
+            "turns by 6.9 degrees between its lines 1 and 2: a spline through its points would round that",
+        ),
         (format!("{contact}rigid.die = {{ {line}, uy = 0.1, force = [0, -1] }}"), "stands beside uy"),
         (format!("{contact}rigid.die = {{ {line}, angle = 0.1, moment = 2 }}"), "stands beside angle"),
         (format!("{contact}rigid.die = {{ circle = {{ centre = [1, 2], radius = 1 }}, force = [0, -1], moment = 0 }}"), "a circle turns on what it touches"),

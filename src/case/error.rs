@@ -123,7 +123,7 @@ pub(crate) fn dotted(path: &[String]) -> String {
 /// A value as TOML on one line, cut if long.
 pub(crate) fn quoted(value: &Value) -> String {
     let text = match value {
-        Value::Float(number) => format!("{number:?}"),
+        Value::Float(number) => format!("{number:?}").to_lowercase(),
         Value::String(text) if text.len() > LONGEST_VALUE => format!("\"{}\"", Quote(text)),
         value => value.to_string().split_whitespace().collect::<Vec<_>>().join(" "),
     };

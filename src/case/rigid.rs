@@ -9,8 +9,12 @@ use super::section::Section;
 use super::values;
 use crate::body::{RigidNodes, RigidSet};
 use crate::contact::{Configuration, CurveChoice, Pair, Side};
-use crate::geometry::{Curve, Point};
+use crate::geometry::{Curve, Point, cross};
 use crate::mesh::{MacroMesh, SurfacePart};
+
+/// Lines that turn by less than this (degrees) go straight on, and boundaries that turn by no more than that are taken for smooth.
+const STRAIGHT: f64 = 1e-4;
+const SMOOTH: f64 = 20.0;
 
 /// What the boundaries of tools begin with.
 const PREFIX: &str = "rigid.";
@@ -28,6 +32,17 @@ impl Tool {
     /// Its name as a body and as a boundary of contacts: `rigid.NAME`.
     pub fn key(&self) -> &str {
         &self.motion.key
+    }
+
+    /// The first corner (from 1) that is too blunt to be taken for one, and its angle in degrees: boundaries that turn by less than
+    /// 20 degrees are taken for smooth ones.
+    fn blunt_corner(&self) -> Option<(usize, f64)> {
+        let turn = |pair: &[SurfacePart]| {
+            let (a, b) = (pair[0].curve.tangent(pair[0].range[1]), pair[1].curve.tangent(pair[1].range[0]));
+            cross(a, b).atan2(a.dot(&b)).abs().to_degrees()
+        };
+        let mut corners = self.surface.windows(2).map(turn).enumerate().map(|(k, angle)| (k + 1, angle));
+        corners.find(|(_, angle)| (STRAIGHT..=SMOOTH).contains(angle))
     }
 
     /// Whether a boundary is its surface, or a part of that.
@@ -184,6 +199,18 @@ pub fn check_tools(tools: &[Tool], contacts: &[Pair], root: &Section) {
         } else if sides.iter().all(|side| tool_of(side).is_some()) {
             let words = "both sides are rigid; a tool presses on a boundary of the mesh";
             root.problem(&["contact", &pair.name, "between"], words.into());
+        }
+    }
+    for pair in contacts {
+        for tool in tools.iter().filter(|tool| pair.between.iter().any(|side| side == tool.key())) {
+            if let Some((k, angle)) = tool.blunt_corner() {
+                let words = format!(
+                    "the tool turns by {angle:.1} degrees between its lines {k} and {}: a spline through its points would round that; name the lines, as \"{}.{k}\", each in a contact of its own, or give the shape by formulas",
+                    k + 1,
+                    tool.key()
+                );
+                root.problem(&["contact", &pair.name, "between"], words);
+            }
         }
     }
     for pair in contacts {

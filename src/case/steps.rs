@@ -14,8 +14,8 @@ const MOST_STEPS: usize = 1000;
 
 /// Kinds of tables with values that can be scaled.
 const SCALED: [(&str, &[&str]); 5] = [
-    ("load", &["pressure", "traction", "force", "moment"]),
-    ("support", &["ux", "uy", "normal"]),
+    ("load", &["pressure", "traction", "force", "moment", "ux", "uy", "angle"]),
+    ("support", &["ux", "uy", "normal", "angle"]),
     ("rigid", &["ux", "uy", "angle", "force", "moment"]),
     ("contact", &["gap"]),
     ("body", &["body_force"]),

@@ -9,6 +9,9 @@ use super::values::{self, PLANE};
 use crate::body::{MOTIONS, MeanHold, SpringStiffness, Springs, Support};
 use crate::geometry::Formula;
 
+/// Largest mean turn that can be asked for (radians).
+const MOST_ANGLE: f64 = 0.1;
+
 /// What a table `[support.NAME]` says.
 pub enum SupportTable {
     /// Displacements are prescribed.
@@ -69,12 +72,19 @@ fn read_mean(section: &Section) -> Option<MeanHold> {
         let words = "stands beside mean = true, which holds a whole body; give body, and ux, uy, angle or several of them";
         section.problem(&[key], words.into());
     }
-    let mean = MOTIONS.map(|key| section.optional(key, values::number));
+    let mean = MOTIONS.map(|key| section.optional(key, if key == "angle" { small_angle } else { values::number }));
     if !MOTIONS.iter().any(|key| section.has(key)) {
         section.problem(&[], "holds no mean motion; give ux, uy or angle, or several of them, as in ux = 0.0".into());
     }
     let body = section.required("body", "\"disc\"", values::name)?;
     Some(MeanHold { name: section.name().into(), body, mean })
+}
+
+/// A turn that a linear theory has: beyond it a body would grow by more than half a per cent.
+fn small_angle(value: &Value) -> Result<f64, String> {
+    let wanted =
+        format!("must be a number from -{MOST_ANGLE} to {MOST_ANGLE}: radians, small ones; draw the body turned instead");
+    values::number(value).ok().filter(|angle| angle.abs() <= MOST_ANGLE).ok_or(wanted)
 }
 
 /// Bodies whose mean motion is held are bodies of the case, and each motion of one is held once.

@@ -391,7 +391,7 @@ fn every_error_names_key_value_and_remedy() {
         ("exact.contact.d={}", "exact.contact.d: no such contact; did you mean \"c\"?"),
         ("exact.contact.c.lambda.at=[[0, 0], [0, 1]]", "exact.contact.c.lambda.value = [1]: holds 1 for 2 points in at"),
         ("exact.contact.c.lambda.formula=x", "stands beside at and value"),
-        ("exact.body.b.u=[0, 0]", "exact.body.b: no such body; did you mean \"a\"?"),
+        ("exact.body.b.u=[\"x\", 0]", "exact.body.b: no such body; did you mean \"a\"?"),
         ("exact.body.a.stress=[0, 0]", "must be a list of 3 numbers or formulas of x, y, not a list of length 2"),
         ("exact.energi=1", "exact.energi: unknown key; did you mean \"energy\"?"),
     ] {

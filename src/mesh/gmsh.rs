@@ -401,7 +401,7 @@ $EndElements
             ("0 1 0\n9", "0 1\n9", "expected 3 numbers, found `0 1`"),
             ("1 1 0\n0 1 0", "1 0 0\n0 1 0", "degenerate triangle"),
             ("1 1 0\n0", "1 1 0.5\n0", "plane z = 0"),
-            ("5 0 0 0 1 0 0 1 7 0", "5.5 0 0 0 1 0 0 1 7 0", "line 10: in $Entities, found 5.5 where a tag"),
+            ("5 0 0 0 1 0 0 1 7 0", "5.5 0 0 0 1 0 0 1 7 0", "line 11: in $Entities, found 5.5 where a tag"),
             ("5 0 0 0 1 0 0 1 7 0", "5 0 0 0 1 0 0 1e300 7 0", "found 1e300 where"),
             ("5 0 0 0 1 0 0 1 7 0", "5 0 0 0 1 0 0 9 7 0", "expected 9 physical tags, found 2 numbers"),
             ("1 10 11\n", "1 11 13\n", "\"lower edge\" is not an edge of a triangle"),

@@ -86,7 +86,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     if let Some(last) = case.steps.last() {
         lines.push(format!("{} load steps; the last one is {}", last.count, last.words()));
     }
-    let [need, of_macro_mesh] = Procedure::look_at_need(&scene, case.solver.choice);
+    let [need, of_macro_mesh] = Procedure::look_at_need(&scene, case.solver.choice, case.solver.tolerance);
     // An accuracy has a limit to its meshes.
     let (memory, warning) = if case.accuracy.is_none() { memory::told(need, of_macro_mesh) } else { Default::default() };
     lines.extend((!memory.is_empty()).then_some(memory));

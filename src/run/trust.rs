@@ -161,7 +161,9 @@ fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pa
         return Verdict { doubts, unknown: None, trust: Some(false), trust_force: Some(false) };
     }
     let force = summary.estimate.contact.get(&pair.name).and_then(|own| own.force);
-    let trust_force = force.map(|error| error <= MOST_FORCE_ERROR && is_balanced(summary));
+    // Where nothing presses, meshes agree on a force of zero though the bodies overlap.
+    let pressed = !contact.zones.is_empty() || !overlaps(contact);
+    let trust_force = force.map(|error| error <= MOST_FORCE_ERROR && is_balanced(summary) && pressed);
     doubts.extend(zone_doubts(contact, trust_force, more_segments(pair)));
     doubts.extend(size_doubts(summary));
     doubts.extend(force_doubt(force));
@@ -238,10 +240,15 @@ fn zone_doubts(contact: &summary::ContactSummary, trust_force: Option<bool>, sho
             doubts.extend(wrong.map(|error| Doubt { figure: figure(error), remedy: FINER }));
         }
     }
-    let [most, most_alone] = MOST_MISSING;
-    let missing = contact.missing.filter(|missing| *missing > if zones.is_empty() { most_alone } else { most });
-    doubts.extend(missing.map(|_| Doubt { figure: "the bodies overlap where no segment presses".into(), remedy: shorter }));
+    let words = "the bodies overlap where no segment presses";
+    doubts.extend(overlaps(contact).then(|| Doubt { figure: words.into(), remedy: shorter }));
     doubts
+}
+
+/// Whether bodies overlap where no segment presses by what a force that counts would part.
+fn overlaps(contact: &summary::ContactSummary) -> bool {
+    let [most, most_alone] = MOST_MISSING;
+    contact.missing.is_some_and(|missing| missing > if contact.zones.is_empty() { most_alone } else { most })
 }
 
 /// What tells that a solution is too far from the bodies' own to have their pressure.

@@ -5,15 +5,19 @@
 //! there already when this is asked.
 
 use super::solver::MANY;
-use super::{Form, Preconditioning, Scene, SolverChoice};
+use super::{Form, Preconditioning, Scene, SolverChoice, Tolerance};
 use crate::element::Order;
 use crate::mesh::{Level, Numbering, levels};
 
 /// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve: with GMRES, of
-/// some ten iterations, and with BiCGStab, which has so many unknowns to itself. Measured as resident memory less that of the
-/// processes themselves, on one rank and on two, with fields and without, which are written after that peak: example 1 with P1 and
-/// P2 at 66 thousand to 16.8 million unknowns, and whole rings up to 0.86 million. Forecasts are within a fifth of all of these.
-const BY_UNKNOWN: [f64; 2] = [250.0, 240.0];
+/// some ten iterations; with BiCGStab, which has so many unknowns to itself; and where that does not come to a tight tolerance, so
+/// that GMRES takes its place. Measured as resident memory less that of the processes themselves, on one rank and on two, with
+/// fields and without, which are written after that peak: example 1 with P1 and P2 at 66 thousand to 16.8 million unknowns, and
+/// whole rings up to 0.86 million. Forecasts are within a fifth of all of these.
+const BY_UNKNOWN: [f64; 3] = [250.0, 165.0, 240.0];
+
+/// Relative residual below which BiCGStab mostly stops too early.
+const TIGHT: f64 = 1e-9;
 
 /// What flat triangles add to that: flexible GMRES keeps two vectors for each iteration, and CG on the levels its own. Measured
 /// on graded meshes of example 1 at 0.9 million unknowns.
@@ -41,7 +45,7 @@ const BLOCKS: [f64; 2] = [7.0, 11.5];
 const BY_FACTOR: [[f64; 2]; 2] = [[2000.0, 150.0], [2500.0, 200.0]];
 
 /// Bytes that a scene takes on a rank with so many refinements.
-pub fn memory_need(scene: &Scene, refine: usize, choice: SolverChoice, rank: usize) -> f64 {
+pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverChoice, Tolerance), rank: usize) -> f64 {
     let levels = levels(scene.order, refine);
     let finest = levels[levels.len() - 1];
     let nodes = |level: Level| Numbering::new(level, &scene.partition);
@@ -58,7 +62,8 @@ pub fn memory_need(scene: &Scene, refine: usize, choice: SolverChoice, rank: usi
             let flat = Preconditioning::of(refine + 1, &scene.mesh.ratios) != Preconditioning::Sweep;
             let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
             let is_large = !flat && 2 * nodes(finest).node_count() > MANY;
-            let by_unknown = more + BY_UNKNOWN[usize::from(is_large)];
+            let method = if is_large { 1 + usize::from(tolerance.residual() < TIGHT) } else { 0 };
+            let by_unknown = more + BY_UNKNOWN[method];
             let coarsest = nodes(levels[0]).range(rank).len() as f64 * BLOCKS[0] * BY_ENTRIES;
             of_macro_mesh + by_unknown * unknowns + coarsest + levels.iter().map(of_levels).sum::<f64>()
         }
@@ -95,7 +100,7 @@ mod tests {
     #[test]
     fn need_grows_with_the_unknowns_and_with_what_is_stored() {
         let scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new());
-        let need = |scene: &Scene, refine, choice| memory_need(scene, refine, choice, 0);
+        let need = |scene: &Scene, refine, choice| memory_need(scene, refine, (choice, Tolerance::Residual(1e-8)), 0);
         let growth = need(&scene, 9, SolverChoice::Auto) / need(&scene, 8, SolverChoice::Auto);
         assert!((3.8..4.0).contains(&growth), "{growth}");
         let mut mesh = (*scene.mesh).clone();

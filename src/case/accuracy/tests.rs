@@ -85,7 +85,7 @@ fn every_error_names_key_value_and_remedy() {
     let mut missed = Vec::new();
     let ranged = "must be a number from 1e-8 to 0.5, the relative error that is asked for";
     for (scene, overrides, expected) in [
-        (SCENE, "accuracy=1e-9", &format!("accuracy = 0.000000001 (--set): {ranged}; or a table [accuracy]")[..]),
+        (SCENE, "accuracy=1e-9", &format!("accuracy = 1e-9 (--set): {ranged}; or a table [accuracy]")[..]),
         (SCENE, "accuracy=high", "accuracy = \"high\" (--set): must be a number from"),
         (SCENE, "accuracy.energy=0.6", &format!("accuracy.energy = 0.6 (--set): {ranged}")),
         (SCENE, "accuracy.stress=nan", "accuracy.stress = nan (--set): must be a number from"),

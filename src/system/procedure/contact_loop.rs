@@ -12,6 +12,9 @@ use crate::system::{
     Contact, LinearEnding, LinearSolve, Solution, Start, System, SystemError, Tolerance, bilateral, few_that_hold, not_held,
 };
 
+/// Relative residual that any solve goes to, at least: a start from a load step that is far away may have one above 1.
+const WIDEST: f64 = 0.1;
+
 /// Share of its residual that a start from a coarser mesh is solved to before its set is looked at: what is wrong with it is
 /// seen by then.
 const LOOK: f64 = 1e-2;
@@ -147,7 +150,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             is_carried && (position.passes > 0 || !set.active().contains(&false) && stays_closed(&problem.contacts));
         let goal = match set.may_change() && !is_expected {
             false => last,
-            true if is_carried => last.max(LOOK * system.residual()?.relative()),
+            true if is_carried => last.max((LOOK * system.residual()?.relative()).min(WIDEST)),
             true => last.max(share * LOOSE),
         };
         let (before, wanted) = (system.with_free_displacement(<[f64]>::to_vec), tolerance.residual());

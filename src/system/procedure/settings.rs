@@ -36,12 +36,12 @@ impl Procedure<'_> {
     /// [`SystemError::Case`] if the mesh is too fine to be counted.
     pub fn need(&self, scene: &Scene, refine: usize) -> Result<(usize, f64), SystemError> {
         let unknowns = 2 * finest_numbering(&Scene { refine, ..scene.clone() })?.node_count();
-        Ok((unknowns, memory_need(scene, refine, self.choice, self.session.rank())))
+        Ok((unknowns, memory_need(scene, refine, (self.choice, self.tolerance), self.session.rank())))
     }
 
     /// Bytes that a scene on one rank takes, and those that its macro mesh takes on each further one.
-    pub fn look_at_need(scene: &Scene, choice: SolverChoice) -> [f64; 2] {
-        [memory_need(scene, scene.refine, choice, 0), memory_of_macro_mesh(scene)]
+    pub fn look_at_need(scene: &Scene, choice: SolverChoice, tolerance: Tolerance) -> [f64; 2] {
+        [memory_need(scene, scene.refine, (choice, tolerance), 0), memory_of_macro_mesh(scene)]
     }
 
     /// The points that goals are set for.
