@@ -16,10 +16,13 @@ const SOON: Duration = Duration::from_secs(10);
 /// `mezha` with these words in a folder, under `mpirun` if there are ranks.
 fn start(folder: &Path, ranks: Option<usize>, line: &str) -> Child {
     let mezha = env!("CARGO_BIN_EXE_mezha");
-    let mut command = Command::new(if ranks.is_some() { "mpirun" } else { mezha });
-    if let Some(ranks) = ranks {
-        command.args(["-n", &ranks.to_string(), "--oversubscribe", "--bind-to", "none", mezha]);
-    }
+    // A shell that runs the tests in the background has told them to ignore SIGINT.
+    let mut command = Command::new("env");
+    command.arg("--default-signal=INT");
+    match ranks {
+        Some(ranks) => command.args(["mpirun", "-n", &ranks.to_string(), "--oversubscribe", "--bind-to", "none", mezha]),
+        None => command.arg(mezha),
+    };
     command.args(line.split_whitespace()).current_dir(folder).envs(ENVIRONMENT);
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     command.spawn().expect("mezha starts")
