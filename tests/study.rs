@@ -55,8 +55,13 @@ impl Study {
 
     /// Makes the study, which must give a table, and reads its rows.
     fn rows(&self) -> Vec<Value> {
+        self.rows_with(0)
+    }
+
+    /// The rows of a study that ends with another exit code.
+    fn rows_with(&self, code: i32) -> Vec<Value> {
         let output = self.make(&[]);
-        assert_eq!(output.status.code(), Some(0), "{}{}", text(&output.stdout), text(&output.stderr));
+        assert_eq!(output.status.code(), Some(code), "{}{}", text(&output.stdout), text(&output.stderr));
         self.json()["rows"].as_array().expect("a list of rows").clone()
     }
 
@@ -123,7 +128,7 @@ fn a_run_that_fails_is_a_row_with_its_reason() {
 
 #[test]
 fn a_run_that_takes_too_long_is_a_row() {
-    let rows = Study::new("ranks = [1, 2]\ntimeout = 0.001").rows();
+    let rows = Study::new("ranks = [1, 2]\ntimeout = 0.001").rows_with(3);
     assert_eq!(rows.len(), 2);
     for row in rows {
         assert_eq!((&row["status"], &row["error"]), (&json!("timeout"), &Value::Null), "{row}");
@@ -394,7 +399,7 @@ fn a_study_starts_its_ranks_itself() {
     let study = Study::new("");
     let mut command = Command::new(env!("CARGO_BIN_EXE_mezha"));
     command.arg("study").arg(study.folder.path().join("patch.toml")).arg("--out").arg(study.out());
-    let output = command.env("OMPI_COMM_WORLD_RANK", "0").output().unwrap();
+    let output = command.env("OMPI_COMM_WORLD_RANK", "0").env("OMPI_COMM_WORLD_SIZE", "1").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("without mpirun"));
 }
