@@ -2,18 +2,11 @@
 
 mod support;
 
-use support::mesh::{GOOD, Mesh, grid, write_scene};
+use support::mesh::{GOOD, Mesh, grid, two_blocks, write_scene};
 use support::{Ended, Run, names_in};
 
 fn blocks() -> Mesh {
-    let lower = grid(3, 2, 1, |u, v| [2.0 * u, v]);
-    let upper = grid(4, 2, 2, |u, v| [2.0 * u, 1.0 + v]);
-    Mesh {
-        bodies: vec![
-            ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
-            ("upper", upper, ["upper.seam", "right", "top", "left"]),
-        ],
-    }
+    two_blocks([(3, 2, 1), (4, 2, 2)])
 }
 
 /// A case and a mesh in a folder of their own, run alone and on 2 ranks.

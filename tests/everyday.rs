@@ -3,28 +3,10 @@
 
 mod support;
 
-use support::mesh::{Block, Mesh, grid, write_scene};
-use support::{Ended, RANKS, Run, mezha};
+use support::mesh::{Block, Mesh, grid, two_blocks, write_scene};
+use support::{RANKS, Run, close, mezha, numbers, with_both_orders};
 
 const EXACT: f64 = 1e-9;
-
-fn close(found: f64, wanted: f64, size: f64, words: &str) {
-    assert!((found - wanted).abs() <= EXACT * size, "{words}: {found} instead of {wanted}");
-}
-
-fn numbers(ended: &Ended, pointer: &str) -> [f64; 2] {
-    [0, 1].map(|k| ended.number(&format!("{pointer}/{k}")))
-}
-
-/// Runs a case with P1 and P2, on 1, 2 and 3 ranks.
-fn run(mesh: &Mesh, case: &str, check: impl Fn(&str, Ended)) {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let file = write_scene(folder.path(), &mesh.text(), case);
-    for (order, ranks) in [(1, 1), (1, 3), (2, 1), (2, 2), (2, 3)] {
-        let ended = Run::file(&file).ranks(ranks).set("mesh.order", order).converged();
-        check(&format!("P{order}, {ranks} ranks"), ended);
-    }
-}
 
 const BAR: &str = r#"
 mesh = { file = "mesh.msh", refine = 2 }
@@ -42,7 +24,7 @@ solver.tolerance = 1e-13
 #[test]
 fn a_bar_that_is_held_by_points_inside_it_stretches_evenly() {
     let mesh = Mesh { bodies: vec![("bar", grid(5, 3, 11, |u, v| [2.0 * u, v]), ["bottom", "right", "top", "left"])] };
-    run(&mesh, BAR, |words, ended| {
+    with_both_orders(&mesh, BAR, |words, ended| {
         let (e, nu) = (200.0, 0.3);
         let [along, across] = [10.0 * (1.0 - nu * nu) / e, -10.0 * nu * (1.0 + nu) / e];
         // The bar turns until its second point is as high as it was.
@@ -78,19 +60,12 @@ solver.tolerance = 1e-12
 /// Two blocks, of unequal meshes, that a pressure holds together; each is kept from sliding by a point of its boundary, one of
 /// them on the contact.
 fn blocks() -> Mesh {
-    let lower = grid(5, 3, 11, |u, v| [2.0 * u, v]);
-    let upper = grid(6, 3, 12, |u, v| [2.0 * u, 1.0 + v]);
-    Mesh {
-        bodies: vec![
-            ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
-            ("upper", upper, ["upper.seam", "right", "top", "left"]),
-        ],
-    }
+    two_blocks([(5, 3, 11), (6, 3, 12)])
 }
 
 #[test]
 fn blocks_that_points_keep_from_sliding_press_evenly() {
-    run(&blocks(), BLOCKS, |words, ended| {
+    with_both_orders(&blocks(), BLOCKS, |words, ended| {
         for point in ended.trace("seam") {
             close(point.lambda, 3.0, 3.0, words);
         }
@@ -208,7 +183,7 @@ fn a_disc_under_two_forces_has_the_stress_of_timoshenko() {
 #[test]
 fn a_contact_carries_a_force_at_a_point() {
     let case = BLOCKS.replace("{ on = \"top\", pressure = 3.0 }", "{ at = [0.95, 2.0], force = [0.0, -6.0] }");
-    run(&blocks(), &case, |words, ended| {
+    with_both_orders(&blocks(), &case, |words, ended| {
         assert!((ended.number("/contact/seam/force") - 6.0).abs() < 6e-9, "{words}");
         assert!((ended.number("/contact/seam/moment") - 6.0 * 0.95).abs() < 1e-7, "{words}");
         assert!(["force", "bodies", "energy"].iter().all(|key| ended.number(&format!("/balance/{key}")) < EXACT), "{words}");
@@ -235,7 +210,7 @@ fn block() -> Mesh {
 fn a_block_on_springs_sinks_evenly() {
     for key in ["normal", "y"] {
         let case = ON_SPRINGS.replace("normal = 50.0", &format!("{key} = 50.0"));
-        run(&block(), &case, |words, ended| {
+        with_both_orders(&block(), &case, |words, ended| {
             let u = numbers(&ended, "/probe/corner/u");
             let (e, nu) = (200.0, 0.3);
             close(u[1], -4.0 / 50.0 - 4.0 * (1.0 - nu * nu) / e, 0.1, words);
@@ -280,14 +255,14 @@ fn a_column_weighs_what_its_density_says() {
         solver.tolerance = 1e-13
     "#;
     let even = case.replace(", body_force = [\"0\", \"0.5*y\"]", "");
-    run(&block(), &even, |words, ended| {
+    with_both_orders(&block(), &even, |words, ended| {
         let weight = 2.5 * 9.81;
         close(numbers(&ended, "/support/floor/reaction")[1], 2.0 * weight, weight, words);
         if words.starts_with("P2") {
             close(numbers(&ended, "/probe/middle/stress")[1], -0.6 * weight, weight, words);
         }
     });
-    run(&block(), case, |words, ended| {
+    with_both_orders(&block(), case, |words, ended| {
         close(numbers(&ended, "/support/floor/reaction")[1], 2.0 * (2.5 * 9.81 - 0.25), 50.0, words);
     });
 }

@@ -2,28 +2,10 @@
 
 mod support;
 
-use support::mesh::{Block, Mesh, grid, write_scene};
-use support::{Ended, Run, mezha};
+use support::mesh::{Mesh, grid, two_blocks, write_scene};
+use support::{Ended, Run, close, mezha, numbers, with_both_orders};
 
 const EXACT: f64 = 1e-9;
-
-fn close(found: f64, wanted: f64, size: f64, words: &str) {
-    assert!((found - wanted).abs() <= EXACT * size, "{words}: {found} instead of {wanted}");
-}
-
-fn numbers(ended: &Ended, pointer: &str) -> [f64; 2] {
-    [0, 1].map(|k| ended.number(&format!("{pointer}/{k}")))
-}
-
-/// Runs a case with P1 and P2, on 1, 2 and 3 ranks.
-fn run(mesh: &Mesh, case: &str, check: impl Fn(&str, Ended)) {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let file = write_scene(folder.path(), &mesh.text(), case);
-    for (order, ranks) in [(1, 1), (1, 2), (2, 2), (2, 3)] {
-        let ended = Run::file(&file).ranks(ranks).set("mesh.order", order).converged();
-        check(&format!("P{order}, {ranks} ranks"), ended);
-    }
-}
 
 fn carries_nothing(ended: &Ended, support: &str, size: f64, words: &str) {
     let [x, y] = numbers(ended, &format!("/support/{support}/reaction"));
@@ -48,7 +30,7 @@ fn bar() -> Mesh {
 
 #[test]
 fn a_bar_stretches_evenly_about_the_mean_motion_that_is_asked_for() {
-    run(&bar(), BAR, |words, ended| {
+    with_both_orders(&bar(), BAR, |words, ended| {
         let (e, nu) = (200.0, 0.3);
         let [along, across] = [10.0 * (1.0 - nu * nu) / e, -10.0 * nu * (1.0 + nu) / e];
         let u = numbers(&ended, "/probe/corner/u");
@@ -75,19 +57,12 @@ solver.tolerance = 1e-12
 "#;
 
 fn blocks() -> Mesh {
-    let lower: Block = grid(5, 3, 11, |u, v| [2.0 * u, v]);
-    let upper: Block = grid(6, 3, 12, |u, v| [2.0 * u, 1.0 + v]);
-    Mesh {
-        bodies: vec![
-            ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
-            ("upper", upper, ["upper.seam", "right", "top", "left"]),
-        ],
-    }
+    two_blocks([(5, 3, 11), (6, 3, 12)])
 }
 
 #[test]
 fn blocks_whose_mean_shift_is_held_press_evenly() {
-    run(&blocks(), BLOCKS, |words, ended| {
+    with_both_orders(&blocks(), BLOCKS, |words, ended| {
         ended.trace("seam").iter().for_each(|point| close(point.lambda, 3.0, 3.0, words));
         carries_nothing(&ended, "below", 6.0, words);
         carries_nothing(&ended, "above", 6.0, words);
@@ -110,7 +85,7 @@ fn a_mean_motion_that_contact_resists_is_as_asked_and_its_force_is_told() {
         .replace("ux = 0.01 }", "ux = 0.01, angle = 0.0 }")
         .replace("[1.0, 0.5]", "[0.6, 0.9]")
         .replace("[1.0, 1.5]", "[0.2, 1.8]");
-    run(&turned(blocks()), &case, |words, ended| {
+    with_both_orders(&turned(blocks()), &case, |words, ended| {
         // Two forces hold the block: that of the contact along its normal, and that of the hold along x.
         let force = ended.number("/contact/seam/force");
         close(force * cos, 6.0, 6.0, words);

@@ -1,8 +1,8 @@
 //! Bodies whose mean motion is held.
 //!
 //! A body that nothing drives along some rigid motion is held there without a place where it is held: its mean shift, or its mean
-//! turn, is prescribed. Vertices hold it while the system is solved, its *anchors*; the whole body is then moved rigidly to where
-//! its mean is as it was asked for. If its loads balance the anchors carry nothing.
+//! turn, is prescribed. Vertices hold it while the system is solved, its *anchors*; the whole body is moved rigidly to where its
+//! mean is as it was asked for, and a force that is spread all over it balances what drives it, so that the anchors carry nothing.
 
 use crate::geometry::{Point, cross};
 use crate::mesh::MacroMesh;

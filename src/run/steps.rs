@@ -59,7 +59,7 @@ impl Run<'_> {
     /// The run of one step: its files lie in a folder of their own, those of the last one where they always do. **Collective**
     fn of_step(&self, step: &LoadStep) -> Result<Run<'_>, RunError> {
         let own = self.files.join(folder(step.number));
-        let make = || std::fs::create_dir_all(&own).and_then(|()| std::fs::write(own.join("case.toml"), step.case.resolved()));
+        let make = || make_folder(&self.files, &own).and_then(|()| std::fs::write(own.join("case.toml"), step.case.resolved()));
         let made = if self.session.rank() == 0 { make().map_err(OutputError::io("write to", &own)) } else { Ok(()) };
         self.session.agree(made.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
         let is_last = step.number == step.count;
@@ -115,6 +115,14 @@ impl Run<'_> {
         let fields = if self.session.size() == 1 { "fields.vtu" } else { "fields.pvtu" };
         write_all(files, "fields.pvd", fields, count)?;
         names.iter().try_for_each(|name| write_all(files, &format!("contact_{name}.pvd"), &format!("contact_{name}.vtu"), count))
+    }
+}
+
+/// Makes the folder of a step. That of the result must be there: a signal may have ended the run, and taken it away.
+fn make_folder(files: &Path, own: &Path) -> std::io::Result<()> {
+    match std::fs::create_dir(files.join(FOLDER)) {
+        Err(error) if error.kind() != std::io::ErrorKind::AlreadyExists => Err(error),
+        _ => std::fs::create_dir(own),
     }
 }
 

@@ -7,7 +7,7 @@ mod launch;
 mod meshes;
 
 use launch::{Suite, named};
-use meshes::{GOOD, Mesh, grid, write_scene};
+use meshes::{GOOD, Mesh, grid, two_blocks, write_scene};
 use mezha::petsc::Session;
 use mezha::run::{self, RunError, RunOptions};
 use std::cell::RefCell;
@@ -100,14 +100,7 @@ fn main() -> std::process::ExitCode {
 }
 
 fn blocks() -> Mesh {
-    let lower = grid(3, 2, 1, |u, v| [2.0 * u, v]);
-    let upper = grid(4, 2, 2, |u, v| [2.0 * u, 1.0 + v]);
-    Mesh {
-        bodies: vec![
-            ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
-            ("upper", upper, ["upper.seam", "right", "top", "left"]),
-        ],
-    }
+    two_blocks([(3, 2, 1), (4, 2, 2)])
 }
 
 /// Rows of the table of keys: key, value, words.

@@ -174,3 +174,16 @@ pub fn write_scene(folder: &Path, mesh: &str, case: &str) -> PathBuf {
     std::fs::write(&file, case).expect("a case can be written");
     file
 }
+
+/// Two blocks of unequal meshes, one on the other, with the named boundaries `bottom`, `lower.seam`, `upper.seam`, `top`, and
+/// `left` and `right` of both; so many edges along and across each, and the seeds of their meshes.
+pub fn two_blocks([lower, upper]: [(usize, usize, u64); 2]) -> Mesh {
+    let lower = grid(lower.0, lower.1, lower.2, |u, v| [2.0 * u, v]);
+    let upper = grid(upper.0, upper.1, upper.2, |u, v| [2.0 * u, 1.0 + v]);
+    Mesh {
+        bodies: vec![
+            ("lower", lower, ["bottom", "right", "lower.seam", "left"]),
+            ("upper", upper, ["upper.seam", "right", "top", "left"]),
+        ],
+    }
+}

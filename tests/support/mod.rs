@@ -218,3 +218,23 @@ pub fn mezha_in<S: AsRef<str>>(folder: &Path, ranks: Option<usize>, words: &[S])
     command.args(words.iter().map(S::as_ref)).env("PETSC_OPTIONS", "").current_dir(folder);
     process::finish(command)
 }
+
+/// Meets an exact value to 1e-9 of a size.
+pub fn close(found: f64, wanted: f64, size: f64, words: &str) {
+    assert!((found - wanted).abs() <= 1e-9 * size, "{words}: {found} instead of {wanted}");
+}
+
+/// Both components of a vector of the summary.
+pub fn numbers(ended: &Ended, pointer: &str) -> [f64; 2] {
+    [0, 1].map(|k| ended.number(&format!("{pointer}/{k}")))
+}
+
+/// Runs a case with P1 and P2, on 1, 2 and 3 ranks, and checks each result; the words name it.
+pub fn with_both_orders(mesh: &mesh::Mesh, case: &str, check: impl Fn(&str, Ended)) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = mesh::write_scene(folder.path(), &mesh.text(), case);
+    for (order, ranks) in [(1, 1), (1, 3), (2, 1), (2, 2), (2, 3)] {
+        let ended = Run::file(&file).ranks(ranks).set("mesh.order", order).converged();
+        check(&format!("P{order}, {ranks} ranks"), ended);
+    }
+}
