@@ -13,8 +13,8 @@ const FUNCTIONS: &[&str] = &[
     // stage
     "PetscLogStage(Register|GetId|Push|Pop)",
     // vector, gather, index_set
-    "Vec(Create|SetSizes|SetType|SetOption|Duplicate|Destroy|GetArray|RestoreArray|GetArrayRead|RestoreArrayRead)",
-    "Vec(GetLocalSize|GetSize|GetOwnershipRange|SetValues|AssemblyBegin|AssemblyEnd|Set|Norm|Dot|AXPY|Copy|Scale)",
+    "Vec(Create|SetSizes|SetType|Duplicate|Destroy|GetArray|RestoreArray|GetArrayRead|RestoreArrayRead)",
+    "Vec(GetLocalSize|GetSize|GetOwnershipRange|Set|Norm|Dot|AXPY|Copy|Scale)",
     "VecCreate(Seq|SeqWithArray|MPIWithArray)|Vec(Place|Reset)Array|VecScatter(Create|Begin|End|Destroy)",
     "IS(CreateGeneral|Destroy|GetLocalSize|GetIndices|RestoreIndices)",
     // matrix, nest, shell

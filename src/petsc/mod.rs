@@ -2,8 +2,8 @@
 //!
 //! A [`Session`] starts both libraries; every other object holds a clone of it, so that both end when the last object is gone.
 //! Each wrapper owns one reference that PETSc counts, gives it back when dropped, and checks every code PETSc returns.
-//! Sizes and ranges are `usize`, indices inside arrays are [`Index`] as PETSc stores them; where values are
-//! added or inserted, negative ones are skipped.
+//! Sizes and ranges are `usize`, indices inside arrays are [`Index`] as PETSc stores them; where a matrix takes
+//! values, negative ones are skipped.
 //! Functions marked **Collective** must be called by all ranks in the same order, and so must the drop of any object.
 
 mod allocation;
@@ -23,6 +23,7 @@ mod matrix;
 mod multigrid;
 mod nest;
 pub mod options;
+mod owner_sums;
 mod partition;
 mod preconditioner;
 mod session;

@@ -21,12 +21,12 @@ impl Vector {
         let vector = Self { raw, session: session.clone() };
         petsc!(VecSetSizes(raw, length(local), ffi::mezha_determine))?;
         petsc!(VecSetType(raw, c"standard".as_ptr()))?;
-        vector.skipping_negative()
+        Ok(vector)
     }
 
     /// Takes over one reference to a vector of PETSc's.
     pub(super) fn from_raw(session: &Session, raw: ffi::Vec) -> Result<Self> {
-        Self { raw, session: session.clone() }.skipping_negative()
+        Ok(Self { raw, session: session.clone() })
     }
 
     /// A new vector of the same layout. **Collective**
@@ -34,11 +34,6 @@ impl Vector {
         let mut raw = ptr::null_mut();
         petsc!(VecDuplicate(self.raw, &mut raw))?;
         Self::from_raw(&self.session, raw)
-    }
-
-    fn skipping_negative(self) -> Result<Self> {
-        petsc!(VecSetOption(self.raw, ffi::VecOption::VEC_IGNORE_NEGATIVE_INDICES, ffi::PetscBool::PETSC_TRUE))?;
-        Ok(self)
     }
 
     pub(super) fn raw(&self) -> ffi::Vec {
@@ -57,23 +52,6 @@ impl Vector {
     /// The entries of this rank, to change.
     pub fn values_mut(&mut self) -> impl DerefMut<Target = [f64]> + '_ {
         ValuesMut::of(self.raw).expect("a vector lends its array")
-    }
-
-    /// Adds `values` to the entries `indices` (global; negative ones are skipped), of this rank or any other.
-    /// Holds after [`Vector::assemble`].
-    ///
-    /// # Panics
-    /// If there are not as many values as indices.
-    #[inline]
-    pub fn add(&mut self, indices: &[Index], values: &[f64]) -> Result<()> {
-        assert_eq!(indices.len(), values.len(), "as many values as indices");
-        petsc!(VecSetValues(self.raw, length(indices.len()), indices.as_ptr(), values.as_ptr(), ffi::InsertMode::ADD_VALUES))
-    }
-
-    /// Brings the added values to the ranks that own them. **Collective**
-    pub fn assemble(&mut self) -> Result<()> {
-        petsc!(VecAssemblyBegin(self.raw))?;
-        petsc!(VecAssemblyEnd(self.raw))
     }
 
     /// Sets every entry to `value`. **Collective**

@@ -62,13 +62,10 @@ impl<const K: usize> Field<K> {
 
     /// Adds up what all ranks have gathered at each node, and shares the sums. **Collective**
     pub fn sum(mut self, session: &Session) -> Result<Self, SystemError> {
+        let others = self.others.iter().map(|(&node, &values)| (node, values)).collect();
+        session.add_to_owners(&(self.first..self.first + self.own.len()), &mut self.own, others);
         let mut sums = Vector::new(session, K * self.own.len())?;
         sums.values_mut().copy_from_slice(self.own.as_flattened());
-        for (&node, values) in &self.others {
-            sums.add(&indices::<K>(node), values)?;
-        }
-        sums.assemble()?;
-        self.own.as_flattened_mut().copy_from_slice(&sums.values());
         self.fetch(&sums)?;
         Ok(self)
     }

@@ -26,7 +26,7 @@ fn main() -> std::process::ExitCode {
             ranks_share_what_the_first_has,
             ranks_meet,
             vector_algebra,
-            vector_adds_across_ranks,
+            owners_add_in_the_order_of_the_ranks,
             gather_fetches_any_entry,
             matrix_of_exact_counts,
             matrix_in_blocks,
@@ -158,18 +158,23 @@ fn vector_algebra(session: &Session) {
     assert!((x.norm().unwrap() - 6.0 * n.sqrt()).abs() < 1e-12);
 }
 
-fn vector_adds_across_ranks(session: &Session) {
-    let mut x = Vector::new(session, 2).unwrap();
-    let n = x.len() as Index;
-    let all: Vec<Index> = (-1..n).collect();
-    let ones = vec![1.0; all.len()];
-    x.add(&all, &ones).unwrap();
-    x.assemble().unwrap();
-    assert_eq!(*x.values(), [session.size() as f64; 2]);
-    let mut y = x.duplicate().unwrap();
-    y.add(&[-7], &[1.0]).unwrap();
-    y.assemble().unwrap();
-    assert_eq!(y.norm().unwrap(), 0.0);
+/// Numbers of very unequal size: their sum depends on the order, which is own values first and then rank after rank.
+fn owners_add_in_the_order_of_the_ranks(session: &Session) {
+    let (rank, size) = (session.rank(), session.size());
+    let part = |rank: usize, block: usize| [1e16 / 7f64.powi(2 * rank as i32 + block as i32 % 3), 1.0, rank as f64];
+    let own = 2 * rank..2 * rank + 2;
+    let far = (0..2 * size).rev().filter(|block| !own.contains(block));
+    let others: Vec<_> = far.map(|block| (block, part(rank, block))).collect();
+    let mut sums: Vec<[f64; 3]> = own.clone().map(|block| part(rank, block)).collect();
+    session.add_to_owners(&own, &mut sums, others);
+    for (block, sum) in own.zip(sums) {
+        let mut expected = part(rank, block);
+        for other in (0..size).filter(|other| *other != rank) {
+            part(other, block).iter().zip(&mut expected).for_each(|(value, sum)| *sum += value);
+        }
+        assert_eq!(sum.map(f64::to_bits), expected.map(f64::to_bits));
+    }
+    session.add_to_owners::<1>(&(0..0), &mut [], Vec::new());
 }
 
 fn gather_fetches_any_entry(session: &Session) {

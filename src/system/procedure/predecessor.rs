@@ -4,7 +4,7 @@ use super::coarse_solution::ContactSolution;
 use super::solved::Solved;
 use crate::geometry::Point;
 use crate::mesh::{Origin, lattice};
-use crate::petsc::{Index, Session, Vector};
+use crate::petsc::Session;
 use crate::system::recovery::shapes_at;
 use crate::system::{Discretisation, Field, Preconditioning, Scene, Space, Start, SystemError, spaces};
 
@@ -45,7 +45,7 @@ impl<'s> Predecessor<'s> {
     fn displacement(&self, scene: &Scene, space: &Space, session: &Session) -> Result<Vec<f64>, SystemError> {
         let n = space.numbering.level.intervals;
         // Displacement, and how often it was told: a node may lie in several triangles.
-        let mut sums = Vector::new(session, 3 * space.own.len())?;
+        let (mut sums, mut others) = (vec![[0.0; 3]; space.own.len()], Vec::new());
         let known = |origin: &Origin| self.problem.scene.partition.owner(origin.triangle) == session.rank();
         for (triangle, origin) in self.origins.iter().enumerate().filter(|(_, origin)| known(origin)) {
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
@@ -55,13 +55,16 @@ impl<'s> Predecessor<'s> {
                 let shapes = shapes_at(self.problem, origin.triangle as usize, Point::new(x, y));
                 let u: Point =
                     shapes.iter().fold(Point::zeros(), |sum, (node, value)| sum + *value * self.displacement.point(*node));
-                let first = 3 * numbers.node(i, j) as Index;
-                sums.add(&[first, first + 1, first + 2], &[u.x, u.y, 1.0])?;
+                let (node, told) = (numbers.node(i, j), [u.x, u.y, 1.0]);
+                match sums.get_mut(node.wrapping_sub(space.own.start)) {
+                    Some(sum) => (0..3).for_each(|k| sum[k] += told[k]),
+                    None => others.push((node, told)),
+                }
             }
         }
-        sums.assemble()?;
+        session.add_to_owners(&space.own, &mut sums, others);
         let mut unknowns = vec![0.0; space.local_unknowns()];
-        for (at, (u, sum)) in unknowns.chunks_exact_mut(2).zip(sums.values().chunks_exact(3)).enumerate() {
+        for (at, (u, sum)) in unknowns.chunks_exact_mut(2).zip(&sums).enumerate() {
             let in_frame = space.to_frame(space.own.start + at, Point::new(sum[0], sum[1]) / sum[2]);
             u.copy_from_slice(in_frame.as_slice());
         }

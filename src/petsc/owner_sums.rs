@@ -1,0 +1,80 @@
+//! Values of blocks that several ranks know a part of, added up by the rank that owns the block.
+
+use super::session::Session;
+use mpi::datatype::{Partition, PartitionMut};
+use mpi::traits::{CommunicatorCollectives, Equivalence};
+use std::ops::Range;
+
+impl Session {
+    /// Adds `others`, pairs of a block's global number and its `K` values, to the sums of the ranks that own those blocks. The
+    /// order of the additions does not depend on when messages come: own values first, then those of rank 0, 1, … as they are
+    /// listed there. (`VecSetValues` adds in the order of arrival, and so gives other digits in each run on three ranks.)
+    ///
+    /// | argument | what |
+    /// |---|---|
+    /// | `own` | blocks of this rank; the ranges of the ranks follow each other |
+    /// | `sums` | values of those blocks, to add to |
+    /// | `others` | blocks of any rank, in any order |
+    ///
+    /// **Collective**
+    pub fn add_to_owners<const K: usize>(
+        &self,
+        own: &Range<usize>,
+        sums: &mut [[f64; K]],
+        mut others: Vec<(usize, [f64; K])>,
+    ) {
+        others.sort_by_key(|(block, _)| *block);
+        let mut end = 0;
+        let counts: Vec<usize> = self
+            .gather_counts(own.len())
+            .into_iter()
+            .map(|count| {
+                let begin = others.partition_point(|(block, _)| *block < end);
+                end += count;
+                others.partition_point(|(block, _)| *block < end) - begin
+            })
+            .collect();
+        let blocks: Vec<u64> = others.iter().map(|(block, _)| *block as u64).collect();
+        let values: Vec<f64> = others.iter().flat_map(|(_, values)| *values).collect();
+        let arriving = self.counts_to_each(&counts);
+        let (blocks, values) = (self.to_each(&blocks, &counts, &arriving, 1), self.to_each(&values, &counts, &arriving, K));
+        for (block, values) in blocks.iter().zip(values.chunks_exact(K)) {
+            let sum = &mut sums[*block as usize - own.start];
+            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+        }
+    }
+
+    /// How many entries each rank has for this one, from how many this one has for each. **Collective**
+    fn counts_to_each(&self, counts: &[usize]) -> Vec<usize> {
+        let mut arriving = vec![0; self.size()];
+        self.world().all_to_all_into(counts, &mut arriving[..]);
+        arriving
+    }
+
+    /// Sends each rank its part of `all`, `width` values for each entry, and gives what came, rank after rank. **Collective**
+    fn to_each<T: Equivalence + Copy + Default>(
+        &self,
+        all: &[T],
+        counts: &[usize],
+        arriving: &[usize],
+        width: usize,
+    ) -> Vec<T> {
+        let ([sent, from], [received, to]) = (layout(counts, width), layout(arriving, width));
+        let mut arrived = vec![T::default(); width * arriving.iter().sum::<usize>()];
+        self.world()
+            .all_to_all_varcount_into(&Partition::new(all, sent, from), &mut PartitionMut::new(&mut arrived[..], received, to));
+        arrived
+    }
+}
+
+/// Counts and starts of consecutive parts, as MPI takes them.
+fn layout(counts: &[usize], width: usize) -> [Vec<i32>; 2] {
+    let mut end = 0;
+    let starts = counts.iter().map(|count| {
+        end += count * width;
+        end - count * width
+    });
+    let in_32_bits = |n: usize| i32::try_from(n).expect("MPI counts in 32 bits");
+    let starts = starts.map(in_32_bits).collect();
+    [counts.iter().map(|count| in_32_bits(count * width)).collect(), starts]
+}
