@@ -114,6 +114,27 @@ fn the_same_command_gives_the_same_digits() {
     }
 }
 
+/// Where three ranks and more know a part of a node's value, the order of the sum is not that of the messages: an adapted mesh
+/// begins from such sums.
+#[test]
+fn an_adapted_run_on_four_ranks_gives_the_same_digits() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let settings = "--set mesh.order=2 --set mesh.refine=1 --set accuracy.energy=1e-2 --set accuracy.max_unknowns=20000";
+    let run =
+        format!("run {} {settings} --set exact.must_hold=false --quiet --force --out result", case("bars_parabola/case.toml"));
+    let found: BTreeSet<String> = (0..6)
+        .map(|_| {
+            let (code, _, errors) = shell(folder.path(), &format!("mpirun -n 4 --oversubscribe --bind-to none {MEZHA} {run}"));
+            assert_eq!(code, Some(0), "{errors}");
+            let read = |name: &str| std::fs::read_to_string(folder.path().join("result").join(name)).expect(name);
+            let summary: Value = serde_json::from_str(&read("summary.json")).expect("JSON");
+            let [energy, contact] = ["energy", "contact"].map(|key| &summary[key]);
+            format!("{energy}\n{contact}\n{}", read("contact_seam.csv"))
+        })
+        .collect();
+    assert_eq!(found.len(), 1, "different digits");
+}
+
 /// A rank without a number of ranks is none of mpirun's.
 #[test]
 fn a_rank_that_somebody_else_has_set_silences_nothing() {

@@ -17,12 +17,7 @@ impl Session {
     /// | `others` | blocks of any rank, in any order |
     ///
     /// **Collective**
-    pub fn add_to_owners<const K: usize>(
-        &self,
-        own: &Range<usize>,
-        sums: &mut [[f64; K]],
-        mut others: Vec<(usize, [f64; K])>,
-    ) {
+    pub fn add_to_owners<const K: usize>(&self, own: &Range<usize>, sums: &mut [[f64; K]], mut others: Vec<(usize, [f64; K])>) {
         others.sort_by_key(|(block, _)| *block);
         let mut end = 0;
         let counts: Vec<usize> = self
@@ -52,13 +47,7 @@ impl Session {
     }
 
     /// Sends each rank its part of `all`, `width` values for each entry, and gives what came, rank after rank. **Collective**
-    fn to_each<T: Equivalence + Copy + Default>(
-        &self,
-        all: &[T],
-        counts: &[usize],
-        arriving: &[usize],
-        width: usize,
-    ) -> Vec<T> {
+    fn to_each<T: Equivalence + Copy + Default>(&self, all: &[T], counts: &[usize], arriving: &[usize], width: usize) -> Vec<T> {
         let ([sent, from], [received, to]) = (layout(counts, width), layout(arriving, width));
         let mut arrived = vec![T::default(); width * arriving.iter().sum::<usize>()];
         self.world()
