@@ -68,6 +68,9 @@ impl Run<'_> {
                 reason = format!("expected values are missed ({})", errors.missed.join("; "));
             }
         }
+        if let (Status::Converged, Some(words)) = (status, trust::passed_through(summary)) {
+            (status, reason) = (Status::NotConverged, words);
+        }
         summary.errors = errors.values;
         let judgement = trust::judge(summary, self.case, solved.ending.is_converged());
         if let Some(words) = judgement.unreliable {

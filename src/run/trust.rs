@@ -46,6 +46,9 @@ const LEAST_FORCE_SHARE: f64 = 0.05;
 /// largest overlap relative to the displacements.
 const MOST_MISSING: [f64; 2] = [0.1, 1e-5];
 
+/// Overlap of bodies between which nothing presses, relative to the displacements, that is no result any more.
+const MOST_PASSED: f64 = 0.05;
+
 /// Largest difference of the forces on both bodies, relative: the pressure is off by as much at least.
 const MOST_UNBALANCED: f64 = 0.01;
 
@@ -249,6 +252,19 @@ fn zone_doubts(contact: &summary::ContactSummary, trust_force: Option<bool>, sho
 fn overlaps(contact: &summary::ContactSummary) -> bool {
     let [most, most_alone] = MOST_MISSING;
     contact.missing.is_some_and(|missing| missing > if contact.zones.is_empty() { most_alone } else { most })
+}
+
+/// What makes a run one that has not converged, whatever its active set says: bodies that pass through each other where nothing
+/// presses, since no segment saw them meet.
+pub fn passed_through(summary: &Summary) -> Option<String> {
+    let is_passed = |contact: &summary::ContactSummary| {
+        contact.closed.as_ref().is_some_and(Vec::is_empty) && contact.missing.is_some_and(|missing| missing > MOST_PASSED)
+    };
+    let passed: Vec<&str> = summary.contact.iter().filter(|(_, contact)| is_passed(contact)).map(|at| at.0.as_str()).collect();
+    (!passed.is_empty()).then(|| {
+        let names = passed.join(", ");
+        format!("on contact {names} nothing presses, though the bodies overlap: its segments are too few or too long to see it")
+    })
 }
 
 /// What tells that a solution is too far from the bodies' own to have their pressure.

@@ -207,3 +207,15 @@ fn advice_names_nothing_that_an_accuracy_overrides() {
     let (.., sampled) = judged(true, rough, &[given, "accuracy=1e-3", "contact.seam.quadrature=segment"]);
     assert!(sampled.contains("take quadrature = \"cut\"") && !sampled.contains("ask for"), "{sampled}");
 }
+
+#[test]
+fn bodies_that_pass_through_each_other_are_no_result() {
+    let words = |closed: Option<Vec<[f64; 2]>>, missing| {
+        let contact = ContactSummary { closed, missing, ..ContactSummary::default() };
+        passed_through(&Summary { contact: [("seam".to_string(), contact)].into(), ..Summary::default() })
+    };
+    assert!(words(Some(vec![]), Some(0.9)).is_some_and(|words| words.starts_with("on contact seam nothing presses")));
+    assert_eq!(words(Some(vec![]), Some(1e-3)), None, "an overlap that the mesh explains");
+    assert_eq!(words(Some(vec![]), None), None, "bodies apart");
+    assert_eq!(words(Some(vec![[0.0, 0.1]]), Some(0.9)), None, "doubted, but something presses");
+}
