@@ -23,11 +23,11 @@ const FUNCTIONS: &[&str] = &[
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|GetDiagonal|CreateVecs)",
     "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange|GetOwnershipRangeColumn)",
     "MatXAIJSetPreallocation|MatPtAP|MatDiagonalSet|MatCreateNest|MatNestGetISs",
-    "MatCreateShell|MatShell(SetOperation|GetContext|SetContextDestroy)|PCShell(SetContext|GetContext|SetApply|SetDestroy|SetName)",
+    "MatCreateShell|MatShell(SetOperation|GetContext)|PCShell(SetContext|GetContext|SetApply|SetDestroy|SetName)",
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",
     "KSP(SetInitialGuessNonzero|Solve|GetConvergedReason|GetConvergedReasonString|GetIterationNumber|GetResidualNorm)",
-    "KSP(SetResidualHistory|GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
+    "KSP(GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
     "PC(Set|Get)ApplicationContext|PC(Destroy|SetType|GetType|SetFromOptions|SetUp|SetReusePreconditioner|GetOptionsPrefix|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
     "PCMG(SetLevels|SetType|SetInterpolation|GetSmoother)",
@@ -131,6 +131,7 @@ fn declarations(includes: &[PathBuf], file: &Path) {
         .blocklist_item("MPI_.*|ompi_.*")
         .raw_line("use mpi::ffi::MPI_Comm;")
         .default_enum_style(bindgen::EnumVariation::NewType { is_bitfield: false, is_global: false })
+        .constified_enum("PetscBool")
         .allowlist_var("mezha_.*")
         .allowlist_type("MatSORType")
         .layout_tests(false)

@@ -37,7 +37,7 @@ impl Vector {
     }
 
     fn skipping_negative(self) -> Result<Self> {
-        petsc!(VecSetOption(self.raw, ffi::VecOption::VEC_IGNORE_NEGATIVE_INDICES, ffi::PetscBool::PETSC_TRUE))?;
+        petsc!(VecSetOption(self.raw, ffi::VecOption::VEC_IGNORE_NEGATIVE_INDICES, ffi::flag(true)))?;
         Ok(self)
     }
 
