@@ -141,19 +141,18 @@ fn declarations(includes: &[PathBuf], file: &Path) {
         builder = builder.allowlist_function(format!("({names})"));
     }
     let bindings = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| builder.generate()))
-        .unwrap_or_else(|_| missing("libclang", "libclang1-14 libclang-common-14-dev", "bindgen could not load it"))
+        .unwrap_or_else(|_| missing("libclang", "libclang-dev", "bindgen could not load it"))
         .unwrap_or_else(|error| {
-            missing(
-                "a header of PETSc, MPI or the compiler",
-                "libpetsc-real-dev libc6-dev libclang-common-14-dev",
-                &error.to_string(),
-            )
+            missing("a header of PETSc, MPI or the compiler", "libpetsc-real-dev libc6-dev libclang-dev", &error.to_string())
         });
     bindings.write_to_file(file).expect("OUT_DIR is writable");
 }
 
 /// Ends the build: what was not found, and the Debian packages that bring it.
 fn missing(what: &str, packages: &str, detail: &str) -> ! {
-    eprintln!("\nmezha: {what} was not found. On Debian 12:\n\n    apt-get install {packages}\n\n{}\n", detail.trim());
+    eprintln!(
+        "\nmezha: {what} was not found. On Debian 12 and newer:\n\n    apt-get install {packages}\n\nFor other systems see docs/install.md.\n\n{}\n",
+        detail.trim()
+    );
     exit(1)
 }
