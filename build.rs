@@ -1,4 +1,5 @@
-//! Finds PETSc and MPI, compiles the C shim and writes the Rust declarations of the PETSc names in [`FUNCTIONS`].
+//! Finds PETSc and MPI, compiles the C shim, writes the Rust declarations of the PETSc names in [`FUNCTIONS`], and notes what the
+//! program is built from.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, exit};
@@ -22,11 +23,11 @@ const FUNCTIONS: &[&str] = &[
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|GetDiagonal|CreateVecs)",
     "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange|GetOwnershipRangeColumn)",
     "MatXAIJSetPreallocation|MatPtAP|MatDiagonalSet|MatCreateNest|MatNestGetISs",
-    "MatCreateShell|MatShell(SetOperation|GetContext|SetContextDestroy)|PCShell(SetContext|GetContext|SetApply|SetDestroy|SetName)",
+    "MatCreateShell|MatShell(SetOperation|GetContext)|PCShell(SetContext|GetContext|SetApply|SetDestroy|SetName)",
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",
     "KSP(SetInitialGuessNonzero|Solve|GetConvergedReason|GetConvergedReasonString|GetIterationNumber|GetResidualNorm)",
-    "KSP(SetResidualHistory|GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
+    "KSP(GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
     "PC(Set|Get)ApplicationContext|PC(Destroy|SetType|GetType|SetFromOptions|SetUp|SetReusePreconditioner|GetOptionsPrefix|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
     "PCMG(SetLevels|SetType|SetInterpolation|GetSmoother)",
@@ -39,10 +40,14 @@ const FUNCTIONS: &[&str] = &[
     "mezha_.*",
 ];
 
+/// What the program is built from. When one of these changes, the commit is looked up again.
+const SOURCES: [&str; 4] = ["src", "build.rs", "Cargo.toml", "Cargo.lock"];
+
 fn main() {
-    for path in ["build.rs", "src/petsc/shim.c", "src/petsc/shim.h"] {
+    for path in SOURCES {
         println!("cargo:rerun-if-changed={path}");
     }
+    origin();
     let petsc = petsc();
     let includes: Vec<PathBuf> = petsc.include_paths.iter().cloned().chain(mpi_includes()).collect();
     for path in &petsc.link_paths {
@@ -54,6 +59,36 @@ fn main() {
 
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     declarations(&includes, &out.join("petsc.rs"));
+}
+
+/// Notes the commit and the compiler for `src/origin.rs`. A commit alone rebuilds nothing: the program is the same before and
+/// after it, and says what it was built from then, as in "0123456789ab with changes". `MEZHA_COMMIT` speaks for sources that come
+/// without their repository.
+fn origin() {
+    println!("cargo:rerun-if-env-changed=MEZHA_COMMIT");
+    let given = std::env::var("MEZHA_COMMIT").ok().filter(|given| !given.trim().is_empty());
+    let commit = given.or_else(commit).unwrap_or_else(|| "unknown".into());
+    println!("cargo:rustc-env=MEZHA_COMMIT={}", commit.trim());
+
+    let compiler = std::env::var("RUSTC").ok().and_then(|rustc| first_line(Command::new(rustc).arg("--version")));
+    println!("cargo:rustc-env=MEZHA_COMPILER={}", compiler.unwrap_or_else(|| "unknown".into()));
+}
+
+/// The commit that is checked out, and whether the sources differ from it. A repository that the sources merely lie in is
+/// another project's.
+fn commit() -> Option<String> {
+    if !Path::new(".git").exists() {
+        return None;
+    }
+    let commit = first_line(Command::new("git").args(["rev-parse", "--short=12", "HEAD"]))?;
+    let same = Command::new("git").args(["diff", "--quiet", "HEAD", "--"]).args(SOURCES).status().ok()?.success();
+    Some(if same { commit } else { format!("{commit} with changes") })
+}
+
+/// The first line that a command prints, if it ends well.
+fn first_line(command: &mut Command) -> Option<String> {
+    let output = command.output().ok().filter(|output| output.status.success())?;
+    String::from_utf8_lossy(&output.stdout).lines().next().map(String::from)
 }
 
 /// PETSc: that of `PETSC_DIR` (and `PETSC_ARCH`) if it is set, as PETSc's own users say which one they mean; else what pkg-config
@@ -96,6 +131,7 @@ fn declarations(includes: &[PathBuf], file: &Path) {
         .blocklist_item("MPI_.*|ompi_.*")
         .raw_line("use mpi::ffi::MPI_Comm;")
         .default_enum_style(bindgen::EnumVariation::NewType { is_bitfield: false, is_global: false })
+        .constified_enum("PetscBool")
         .allowlist_var("mezha_.*")
         .allowlist_type("MatSORType")
         .layout_tests(false)
@@ -105,19 +141,18 @@ fn declarations(includes: &[PathBuf], file: &Path) {
         builder = builder.allowlist_function(format!("({names})"));
     }
     let bindings = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| builder.generate()))
-        .unwrap_or_else(|_| missing("libclang", "libclang1-14 libclang-common-14-dev", "bindgen could not load it"))
+        .unwrap_or_else(|_| missing("libclang", "libclang-dev", "bindgen could not load it"))
         .unwrap_or_else(|error| {
-            missing(
-                "a header of PETSc, MPI or the compiler",
-                "libpetsc-real-dev libc6-dev libclang-common-14-dev",
-                &error.to_string(),
-            )
+            missing("a header of PETSc, MPI or the compiler", "libpetsc-real-dev libc6-dev libclang-dev", &error.to_string())
         });
     bindings.write_to_file(file).expect("OUT_DIR is writable");
 }
 
 /// Ends the build: what was not found, and the Debian packages that bring it.
 fn missing(what: &str, packages: &str, detail: &str) -> ! {
-    eprintln!("\nmezha: {what} was not found. On Debian 12:\n\n    apt-get install {packages}\n\n{}\n", detail.trim());
+    eprintln!(
+        "\nmezha: {what} was not found. On Debian 12 and newer:\n\n    apt-get install {packages}\n\nFor other systems see docs/install.md.\n\n{}\n",
+        detail.trim()
+    );
     exit(1)
 }

@@ -7,9 +7,46 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use crate::geometry::Quote;
 
+/// Exit codes, and where the rest is told.
+macro_rules! afterword {
+    () => {
+        "\
+Exit codes:
+  0  converged, and every expected value that must hold does
+  1  a failure of the program, PETSc or MPI, or a signal
+  2  bad input; nothing is written
+  3  not converged, a body that nothing holds, or an expected value missed
+
+The keys of a case: docs/case.md, in packages below /usr/share/doc/mezha"
+    };
+}
+
+const EXAMPLES: &str = concat!(
+    "\
+Examples:
+  mezha check cases/bars_inclined              what would be solved
+  mezha run cases/bars_inclined                solve it on one rank, with results in out/bars_inclined
+  mpirun -n 4 mezha run cases/bars_inclined    solve it on four
+
+",
+    afterword!()
+);
+
+const RUN_EXAMPLES: &str = concat!(
+    "\
+Examples:
+  mezha run cases/bars_inclined
+  mezha run cases/bars_inclined --set mesh.refine=5 --out finer
+  mezha run cases/bars_inclined --force -- -log_view
+  mpirun -n 4 mezha run cases/bars_inclined
+
+",
+    afterword!()
+);
+
 /// Parallel contact of elastic bodies on a contact boundary of its own.
 #[derive(Clone, Debug, Parser, PartialEq, Eq)]
-#[command(name = "mezha", version, arg_required_else_help = true)]
+#[command(name = "mezha", version, arg_required_else_help = true, after_help = EXAMPLES)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -20,6 +57,7 @@ pub struct Arguments {
 #[derive(Clone, Debug, PartialEq, Eq, Subcommand)]
 pub enum Command {
     /// Solve a case and write its results; start it under mpirun for several ranks
+    #[command(after_help = RUN_EXAMPLES)]
     Run(RunArguments),
     /// Read everything, solve nothing, say what would be solved
     Check(CaseArguments),

@@ -59,6 +59,7 @@
 pub mod petsc;
 
 pub mod geometry;
+pub mod origin;
 
 pub mod accuracy;
 pub mod element;

@@ -1,6 +1,7 @@
 //! The command `mezha`: arguments → case → run → exit code. Errors are printed and ranks ended here and nowhere else.
 
 use clap::Parser;
+use clap::error::ErrorKind as UsageKind;
 use mezha::arguments::{Arguments, CaseArguments, Command, RunArguments, Study, nearest_command};
 use mezha::case::Inputs;
 use mezha::petsc::{self, Session, TellingAllocator, end_all_ranks, errors_are_final, when_memory_is_refused};
@@ -39,7 +40,10 @@ fn usage(error: &clap::Error) -> i32 {
     match (session, is_first_rank()) {
         (Err(code), _) => return code,
         (_, true) => {
-            drop(error.print());
+            match error.kind() {
+                UsageKind::DisplayVersion => return say(&run::version()),
+                _ => drop(error.print()),
+            }
             if let Some(name) = nearest_command(error) {
                 let _ = writeln!(stderr(), "  tip: did you mean `mezha {name}`?");
             }

@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Modules and their floors. A module imports from lower floors and from itself.
-const FLOORS: [(&str, u8); 14] = [
+const FLOORS: [(&str, u8); 15] = [
     ("petsc", 0),
     ("geometry", 0),
+    ("origin", 0),
     ("accuracy", 1),
     ("element", 1),
     ("mesh", 2),

@@ -116,9 +116,9 @@ fn failure(call: &'static str, code: ffi::PetscErrorCode) -> Error {
 
 /// Calls PETSc at its start or end, when [`remember`] is not in place: what PETSc would print about an error is kept instead.
 pub(super) fn with_message(call: &'static str, function: impl FnOnce() -> ffi::PetscErrorCode) -> Result<()> {
-    unsafe { ffi::mezha_keep_messages(ffi::PetscBool::PETSC_TRUE) };
+    unsafe { ffi::mezha_keep_messages(ffi::flag(true)) };
     let code = function();
-    unsafe { ffi::mezha_keep_messages(ffi::PetscBool::PETSC_FALSE) };
+    unsafe { ffi::mezha_keep_messages(ffi::flag(false)) };
     DEEPEST.set(Some(essence(&words(unsafe { ffi::mezha_kept_message() }))));
     let outcome = check(call, code);
     DEEPEST.set(None);

@@ -46,7 +46,7 @@ impl Krylov {
     }
 
     fn recording_residuals(self) -> Result<Self> {
-        petsc!(KSPSetResidualHistory(self.raw, ptr::null_mut(), ffi::mezha_determine, ffi::PetscBool::PETSC_TRUE))?;
+        petsc!(mezha_record_residuals(self.raw))?;
         Ok(self)
     }
 
@@ -63,8 +63,7 @@ impl Krylov {
 
     /// Starts from the `x` given to a solve instead of from zero. **Collective**
     pub fn set_initial_guess_nonzero(&self, nonzero: bool) -> Result<()> {
-        let flag = if nonzero { ffi::PetscBool::PETSC_TRUE } else { ffi::PetscBool::PETSC_FALSE };
-        petsc!(KSPSetInitialGuessNonzero(self.raw, flag))
+        petsc!(KSPSetInitialGuessNonzero(self.raw, ffi::flag(nonzero)))
     }
 
     /// Reads its options and those of its preconditioner. **Collective**
@@ -131,7 +130,7 @@ impl Krylov {
 
     /// Keeps what [`Krylov::eigenvalues`] needs; before the first solve. **Collective**
     pub fn keep_eigenvalues(&self) -> Result<()> {
-        petsc!(KSPSetComputeEigenvalues(self.raw, ffi::PetscBool::PETSC_TRUE))
+        petsc!(KSPSetComputeEigenvalues(self.raw, ffi::flag(true)))
     }
 
     /// Real parts of the eigenvalues of the preconditioned system as the last solve has seen them (Ritz values),

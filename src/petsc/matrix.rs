@@ -227,8 +227,7 @@ impl Matrix {
     }
 
     fn set_option(&self, option: ffi::MatOption, holds: bool) -> Result<()> {
-        let flag = if holds { ffi::PetscBool::PETSC_TRUE } else { ffi::PetscBool::PETSC_FALSE };
-        petsc!(MatSetOption(self.raw, option, flag))
+        petsc!(MatSetOption(self.raw, option, ffi::flag(holds)))
     }
 
     /// New vectors `(x, y)` that fit `y = A x`. **Collective**

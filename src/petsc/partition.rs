@@ -62,7 +62,7 @@ pub fn partition(
     if vertex_weights.iter().any(|weight| *weight != 1) {
         petsc!(MatPartitioningSetVertexWeights(partitioning.0, handed_over(vertex_weights[first..end].iter().copied())?))?;
     }
-    petsc!(MatPartitioningSetUseEdgeWeights(partitioning.0, ffi::PetscBool::PETSC_TRUE))?;
+    petsc!(MatPartitioningSetUseEdgeWeights(partitioning.0, ffi::flag(true)))?;
     // Scotch draws random numbers: from the same start, so that a partition does not depend on earlier ones.
     unsafe { ffi::mezha_restart_scotch() };
     let mut part = ptr::null_mut();

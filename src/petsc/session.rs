@@ -184,7 +184,7 @@ pub fn end_all_ranks(code: i32) {
 
 /// Whether a library that ends this process, as PETSc does after some options, cuts a run short: exit code 1 then.
 fn the_end_is_ours(ours: bool) {
-    unsafe { ffi::mezha_end_is_ours(if ours { ffi::PetscBool::PETSC_TRUE } else { ffi::PetscBool::PETSC_FALSE }) };
+    unsafe { ffi::mezha_end_is_ours(ffi::flag(ours)) };
 }
 
 /// Ranks with different words would wait for each other, or mix two cases. **Collective**

@@ -113,7 +113,7 @@ impl Matrix {
         let mut raw = ptr::null_mut();
         petsc!(MatCreateShell(session.raw(), length(rows), length(columns), any, any, context.cast(), &mut raw))?;
         let matrix = Self::from_raw(session, raw);
-        petsc!(MatShellSetContextDestroy(raw, Some(drop_context::<T>)))?;
+        petsc!(mezha_set_context_destructor(raw, Some(drop_context::<T>)))?;
         Ok(matrix)
     }
 }
@@ -218,7 +218,8 @@ fn report(action: impl FnOnce() -> Result<()>) -> Code {
 }
 
 /// Drops the action with the matrix.
-unsafe extern "C" fn drop_context<T: ?Sized>(context: *mut c_void) -> Code {
+unsafe extern "C" fn drop_context<T: ?Sized>(given: *mut c_void) -> Code {
+    let context = unsafe { ffi::mezha_context_to_destroy(given) };
     drop(unsafe { Box::from_raw(context.cast::<Context<T>>()) });
     0
 }

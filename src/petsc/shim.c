@@ -35,6 +35,29 @@ PetscErrorCode mezha_replace_apply(PC preconditioner, mezha_apply apply, mezha_a
   return 0;
 }
 
+PetscErrorCode mezha_record_residuals(KSP solver)
+{
+  return KSPSetResidualHistory(solver, NULL, PETSC_DETERMINE, PETSC_TRUE);
+}
+
+PetscErrorCode mezha_set_context_destructor(Mat shell, mezha_destructor destroy)
+{
+#if PETSC_VERSION_GE(3, 23, 0)
+  return MatShellSetContextDestroy(shell, (PetscErrorCode (*)(void **))destroy);
+#else
+  return MatShellSetContextDestroy(shell, destroy);
+#endif
+}
+
+void *mezha_context_to_destroy(void *given)
+{
+#if PETSC_VERSION_GE(3, 23, 0)
+  return *(void **)given;
+#else
+  return given;
+#endif
+}
+
 /* Scotch comes with PETSc, so its development files need not be there: look its functions up. */
 static void *scotch(const char *name)
 {

@@ -26,6 +26,12 @@ void mezha_end_is_ours(PetscBool ours);
 typedef PetscErrorCode (*mezha_apply)(PC, Vec, Vec);
 /* The present one goes to `before`. */
 PetscErrorCode mezha_replace_apply(PC preconditioner, mezha_apply apply, mezha_apply *before);
+/* Keeps the residual norm of each iteration of a solve, in memory of PETSc's. */
+PetscErrorCode mezha_record_residuals(KSP solver);
+/* What destroys the context of a shell, and the context in what it is given then: from PETSc 3.23 on, where the context is. */
+typedef PetscErrorCode (*mezha_destructor)(void *);
+PetscErrorCode mezha_set_context_destructor(Mat shell, mezha_destructor destroy);
+void *mezha_context_to_destroy(void *given);
 /* Sizes that PETSc works out, and its default real tolerance. */
 static const PetscInt  mezha_determine    = PETSC_DETERMINE;
 static const PetscReal mezha_default_real = PETSC_DEFAULT;

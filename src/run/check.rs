@@ -1,4 +1,4 @@
-//! `mezha check` and `mezha info`.
+//! `mezha check`.
 
 use super::known::check_pressures;
 use super::{RunError, accuracy, memory, scene};
@@ -6,7 +6,6 @@ use crate::body::Material;
 use crate::case::{Case, read_text};
 use crate::element::{Order, Plane};
 use crate::mesh::Partition;
-use crate::petsc::{Session, versions};
 use crate::system::{Procedure, Scene};
 use std::path::Path;
 
@@ -105,17 +104,4 @@ fn check_steps(case: &Case, last: &Scene) -> Result<Option<String>, RunError> {
         }
     }
     Ok(None)
-}
-
-/// Versions of everything that matters.
-pub fn info(session: &Session) -> String {
-    format!(
-        "mezha {}\nPETSc {}, {}-bit indices\nMPI   {}\nBLAS  {}\nranks {}",
-        env!("CARGO_PKG_VERSION"),
-        versions::petsc(),
-        versions::index_bits(),
-        versions::mpi(),
-        versions::blas(),
-        session.size()
-    )
 }

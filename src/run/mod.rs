@@ -5,6 +5,7 @@ mod check;
 mod exact;
 mod fields;
 mod forecast;
+mod info;
 mod input;
 pub mod interruption;
 mod known;
@@ -25,8 +26,9 @@ mod true_errors;
 mod trust;
 mod zones;
 
-pub use check::{Checked, check, check_file, info};
+pub use check::{Checked, check, check_file};
 pub use forecast::remedy as out_of_memory_remedy;
+pub use info::{info, version};
 pub use input::read_case;
 pub use outcome::{Outcome, RunError};
 pub use run_options::RunOptions;
