@@ -45,6 +45,8 @@ fn digits(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
             }
         }
     }
+    // A report tells times and provenance, too.
+    found.remove(Path::new("report.html"));
     // The last column of the table of steps has times.
     if let Some(table) = found.get_mut(Path::new("steps.csv")) {
         let text = String::from_utf8_lossy(table).into_owned();
