@@ -27,7 +27,7 @@ const FUNCTIONS: &[&str] = &[
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",
     "KSP(SetInitialGuessNonzero|Solve|GetConvergedReason|GetConvergedReasonString|GetIterationNumber|GetResidualNorm)",
-    "KSP(GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
+    "KSP(MonitorSet|GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
     "PC(Set|Get)ApplicationContext|PC(Destroy|SetType|GetType|SetFromOptions|SetUp|SetReusePreconditioner|GetOptionsPrefix|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
     "PCMG(SetLevels|SetType|SetInterpolation|GetSmoother)",

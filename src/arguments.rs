@@ -98,9 +98,24 @@ pub struct RunArguments {
     /// Print errors only
     #[arg(long)]
     pub quiet: bool,
+    /// Show on standard error where a long run is, in a line that is rewritten
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = ShowProgress::Auto)]
+    pub progress: ShowProgress,
     /// Options for PETSc, which win over mezha's own
     #[arg(last = true, value_name = "PETSC OPTIONS")]
     pub petsc_options: Vec<String>,
+}
+
+/// When a run shows where it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ShowProgress {
+    /// On a terminal, also that of mpirun on this host, unless the run is quiet
+    #[default]
+    Auto,
+    /// Always; for a pipe that ends at a terminal, as of srun or ssh
+    Always,
+    /// Never
+    Never,
 }
 
 /// Arguments of `mezha study`.

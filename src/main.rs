@@ -111,7 +111,8 @@ fn solve(arguments: &RunArguments, started: Instant, session: &Session) -> Resul
     let inputs = inputs.map_err(|words| RunError::Input(format!("--inputs: {words}")))?;
     let case = run::read_case(case, overrides, inputs.as_ref(), session)?;
     let out = arguments.folder(&case.name);
-    run::run(&case, &RunOptions { out, inputs, force: arguments.force, quiet: arguments.quiet, started }, session)
+    let RunArguments { force, quiet, progress, .. } = *arguments;
+    run::run(&case, &RunOptions { out, inputs, force, quiet, progress, started }, session)
 }
 
 /// Ends PETSc and MPI after a run whose result is written. **Collective**

@@ -86,7 +86,7 @@ fn usage_errors_end_with_code_2() {
 /// Every file that other tools rely on, and nothing else.
 #[test]
 fn the_result_folder_is_complete() {
-    let every = ["case.toml", "deformed.svg", "summary.json"];
+    let every = ["case.msh", "case.toml", "deformed.svg", "summary.json"];
     let of_contact = |name: &str| [format!("contact_{name}.csv"), format!("contact_{name}.vtu")].to_vec();
     let figures = |name: &str| [format!("displacement_{name}.svg"), format!("pressure_{name}.svg")].to_vec();
     for (ranks, fields) in [
@@ -114,7 +114,7 @@ fn a_result_without_fields_has_all_the_numbers() {
     for ranks in [1, 2] {
         let run = Run::case("stack").set("mesh.refine", 1).ranks(ranks);
         let (whole, bare) = (run.clone().converged(), run.set("output.fields", false).converged());
-        assert_eq!(names_in(&bare.out), ["case.toml", "contact_first.csv", "contact_second.csv", "summary.json"]);
+        assert_eq!(names_in(&bare.out), ["case.msh", "case.toml", "contact_first.csv", "contact_second.csv", "summary.json"]);
         for table in ["contact_first.csv", "contact_second.csv"] {
             let read = |ended: &support::Ended| -> Vec<f64> {
                 let text = std::fs::read_to_string(ended.out.join(table)).expect("a table");

@@ -64,13 +64,16 @@ fn children(parent: u32) -> Vec<Pid> {
     found.into_iter().filter_map(Pid::from_raw).collect()
 }
 
-/// The summary of an interrupted run, alone in its folder with its case.
+/// The summary of an interrupted run, alone in its folder with its case, and with its mesh if that was read.
 fn interrupted(out: &Path) -> Value {
-    assert_eq!(names_in(out), ["case.toml", "summary.json"]);
     let text = std::fs::read_to_string(out.join("summary.json")).expect("a summary");
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(summary["status"], "interrupted", "{text}");
     assert!(summary["contact"].as_object().is_some_and(|contacts| contacts.is_empty()) && summary["energy"]["total"].is_null());
+    let provenance = &summary["provenance"];
+    let names = ["case.msh", "case.toml", "summary.json"];
+    assert_eq!(names_in(out), names[usize::from(provenance["mesh_hash"].is_null())..]);
+    assert!(provenance["case_hash"].as_str().is_some_and(|hash| hash.len() == 64) && provenance["date"].is_string(), "{text}");
     assert!(summary["time_s"]["total"].as_f64().is_some_and(|seconds| seconds > 0.0));
     summary
 }

@@ -96,7 +96,7 @@ fn the_closing_gap_is_a_patch_test_of_all_spaces() {
         steps(&ended).iter().for_each(|step| check_closing_gap(step, &format!("P{order} and {space}")));
         let mut names = names_in(&ended.out);
         names.retain(|name| name != "steps");
-        assert_eq!(names, ["case.toml", "contact_seam.csv", "steps.csv", "summary.json"]);
+        assert_eq!(names, ["case.msh", "case.toml", "contact_seam.csv", "steps.csv", "summary.json"]);
     }
 }
 

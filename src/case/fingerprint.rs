@@ -1,5 +1,12 @@
 //! Files known again by their bytes.
 
+use sha2::{Digest, Sha256};
+
+/// The SHA-256 of some bytes in hexadecimal digits, as `sha256sum` prints it: what people compare.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// The 64-bit hash of Fowler, Noll and Vo (FNV-1a) of some texts and their lengths, in hexadecimal digits.
 pub fn fingerprint(texts: &[&[u8]]) -> String {
     let lengths: Vec<[u8; 8]> = texts.iter().map(|text| (text.len() as u64).to_le_bytes()).collect();
@@ -48,6 +55,11 @@ mod tests {
         assert_eq!(fingerprint(&[]), "cbf29ce484222325");
         assert_ne!(fingerprint(&[b"ab", b"c"]), fingerprint(&[b"a", b"bc"]));
         assert_ne!(fingerprint(&[b""]), fingerprint(&[b"", b""]));
+    }
+
+    #[test]
+    fn the_hash_is_that_of_sha256sum() {
+        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     }
 
     #[test]

@@ -37,7 +37,7 @@ use crate::system::{SolverChoice, Tolerance};
 pub(crate) use error::listed;
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
-pub use fingerprint::{Inputs, fingerprint};
+pub use fingerprint::{Inputs, fingerprint, sha256};
 pub use rigid::{Plate, Tool};
 pub(crate) use section::read_text;
 pub use steps::{LoadFactor, LoadStep};
@@ -239,12 +239,17 @@ impl Case {
     /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its
     /// absolute path.
     pub fn resolved(&self) -> String {
-        let mut table = self.table.clone();
         let mesh_file = std::path::absolute(&self.mesh.file).unwrap_or_else(|_| self.mesh.file.clone());
+        self.resolved_with_mesh(&mesh_file.to_string_lossy())
+    }
+
+    /// The same with the mesh under another name, by its path from the folder that the text is written to.
+    pub fn resolved_with_mesh(&self, mesh_file: &str) -> String {
+        let mut table = self.table.clone();
         if let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut) {
-            mesh.insert("file".into(), Value::from(mesh_file.to_string_lossy().into_owned()));
+            mesh.insert("file".into(), Value::from(mesh_file));
         }
-        format!("# Resolved by mezha {}.\n{table}", env!("CARGO_PKG_VERSION"))
+        format!("# The case as it was run: all defaults are written out. `mezha run` takes this file.\n{table}")
     }
 
     /// The physical curves of a side of a contact, from its name.

@@ -117,7 +117,7 @@ fn host() -> String {
 
 /// Whether a run writes a file of this name.
 fn is_result_name(name: &str) -> bool {
-    const WRITTEN: [(&str, &str); 15] = [
+    const WRITTEN: [(&str, &str); 16] = [
         ("summary", ".json"),
         ("case", ".toml"),
         ("contact_", ".csv"),
@@ -132,6 +132,7 @@ fn is_result_name(name: &str) -> bool {
         ("fields", ".pvd"),
         ("contact_", ".pvd"),
         ("steps", "steps"),
+        ("case.msh", "case.msh"),
         ("adapted.msh", "adapted.msh"), // and no other mesh of the user's
     ];
     WRITTEN.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
@@ -205,8 +206,10 @@ mod tests {
 
     #[test]
     fn meshes_of_the_user_are_no_results() {
-        assert!(["adapted.msh", "accuracy.svg", "summary.json"].iter().all(|name| is_result_name(name)));
-        assert!(!["adapted_fine.msh", "mesh.msh", "adapted.geo", "notes.md"].iter().any(|name| is_result_name(name)));
+        assert!(["adapted.msh", "case.msh", "accuracy.svg", "summary.json"].iter().all(|name| is_result_name(name)));
+        assert!(
+            !["adapted_fine.msh", "mesh.msh", "my_case.msh", "adapted.geo", "notes.md"].iter().any(|name| is_result_name(name))
+        );
     }
 
     #[test]

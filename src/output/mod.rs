@@ -7,6 +7,7 @@
 //! | `fields.vtu`, or `fields.pvtu` and its pieces; `contact_NAME.vtu` | [`vtk`] |
 //! | `pressure_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `accuracy.svg`, `steps.svg` | [`plot`] |
 //! | `steps.csv` | [`write_steps`] |
+//! | `case.toml`, `case.msh`: the case as it was run, and its mesh, if that is not large | `run` |
 //! | `fields.pvd`, `contact_NAME.pvd`: the files of each load step, which lie in `steps/0001` and so on | [`vtk`] |
 //!
 //! All of it goes through a [`ResultFolder`], which appears under its name only when it is whole.
@@ -16,6 +17,7 @@ mod csv;
 mod error;
 mod folder;
 mod leftover;
+mod machine;
 pub mod plot;
 mod steps;
 pub mod summary;
@@ -25,6 +27,7 @@ pub use csv::{ContactPoint, write_contact};
 pub use error::OutputError;
 pub use folder::ResultFolder;
 pub use leftover::recover;
+pub use machine::{machine, whole_machine};
 pub use steps::write_steps;
 pub use summary::Summary;
 

@@ -6,10 +6,12 @@
 use crate::contact::zone_counts;
 mod accuracy;
 mod passes;
+mod provenance;
 mod steps;
 mod thickness;
 
 pub use accuracy::{AccuracyStep, ContactGoals, GoalSummary, ProbeGoals};
+pub use provenance::Provenance;
 pub use steps::{StepContact, StepSummary};
 
 use std::collections::BTreeMap;
@@ -33,6 +35,9 @@ pub struct Summary {
     pub reason: Option<String>,
     /// Number of ranks.
     pub ranks: usize,
+    /// What made the result, and of what; null in results of older versions.
+    #[serde(default)]
+    pub provenance: Option<Provenance>,
     /// The mesh after refinement.
     pub mesh: Mesh,
     /// Sizes of the linear system.

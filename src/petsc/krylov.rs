@@ -45,6 +45,10 @@ impl Krylov {
         Self { raw, session: session.clone() }.recording_residuals()
     }
 
+    pub(super) fn raw(&self) -> ffi::KSP {
+        self.raw
+    }
+
     fn recording_residuals(self) -> Result<Self> {
         petsc!(mezha_record_residuals(self.raw))?;
         Ok(self)

@@ -31,6 +31,7 @@ mod shell;
 mod stage;
 mod vector;
 pub mod versions;
+mod watch;
 mod window;
 
 pub use allocation::{TellingAllocator, when_memory_is_refused};
@@ -50,4 +51,5 @@ pub use session::{Session, end_all_ranks};
 pub use shell::{Action, Operator, Product, ReplacedAction, Transfer};
 pub use stage::{Stage, StageGuard};
 pub use vector::Vector;
+pub use watch::{SolveAtWork, WatchedSolve, solve_at_work};
 pub use window::Window;

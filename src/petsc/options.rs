@@ -8,6 +8,9 @@ use std::ptr;
 /// Beginnings of options that PETSc reads only at its end, and of those of a later solver.
 const READ_LATER: [&str; 7] = ["-log_", "-malloc_", "-objects_", "-options_", "-memory_", "-no_signal_handler", "-inf_sup_"];
 
+/// Options that every session is started with.
+const STARTED_WITH: [&str; 2] = ["-no_signal_handler", "-options_left"];
+
 /// An option of mezha's own: its multigrid cycle works in single precision.
 pub const SINGLE_CYCLE: &str = "-fieldsplit_u_cycle_single";
 
@@ -50,6 +53,15 @@ pub fn any_of_user(session: &Session, is_like: impl Fn(&str) -> bool) -> bool {
     let options = all().expect("PETSc lists its options");
     let names = options.into_iter().map(|(name, _)| name.to_lowercase());
     names.filter(|name| !session.defaults().borrow().contains(name)).any(|name| is_like(&name))
+}
+
+/// Options of the user's, each as `-name value`: from the command line, the environment or a file that PETSc reads.
+pub fn of_user(session: &Session) -> Vec<String> {
+    let options = all().expect("PETSc lists its options");
+    let defaults = session.defaults().borrow();
+    let is_own = |name: &String| defaults.contains(&name.to_lowercase()) || STARTED_WITH.contains(&name.as_str());
+    let given = options.into_iter().filter(|(name, _)| !is_own(name));
+    given.map(|(name, value)| format!("{name} {value}").trim_end().to_owned()).collect()
 }
 
 /// Options of the user's that no object has asked for so far, each as `-name value`: a typing mistake is among them.

@@ -26,14 +26,22 @@ pub fn read_case(file: &Path, overrides: &[String], wanted: Option<&Inputs>, ses
     }
 }
 
-/// The mesh of a case, bent, graded and checked; its file must be the one that is `wanted`, if any is. **Collective**
+/// The bytes of the mesh file; it must be the one that is `wanted`, if any is. **Collective**
 ///
 /// # Errors
 /// As of [`read_case`].
-pub(super) fn read_mesh(case: &Case, wanted: Option<&Inputs>, session: &Session) -> Result<MacroMesh, RunError> {
+pub(super) fn share_mesh(case: &Case, wanted: Option<&Inputs>, session: &Session) -> Result<Vec<u8>, RunError> {
     let bytes = session.share(|| scene::read_mesh_file(case));
     refuse_change(&case.mesh.file, &bytes, wanted.map(|inputs| &inputs.mesh))?;
-    session.agree(scene::read_mesh(case, &bytes.map_err(RunError::Input)?)).map_err(RunError::Input)
+    bytes.map_err(RunError::Input)
+}
+
+/// The mesh of a case from these bytes, bent, graded and checked. **Collective**
+///
+/// # Errors
+/// As of [`read_case`].
+pub(super) fn parse_mesh(case: &Case, bytes: &[u8], session: &Session) -> Result<MacroMesh, RunError> {
+    session.agree(scene::read_mesh(case, bytes)).map_err(RunError::Input)
 }
 
 /// A file that cannot be read counts as an empty one.

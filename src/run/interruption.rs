@@ -4,7 +4,7 @@
 //! kills them a second later. That of rank 0 writes what was reached until then; those of the others wait for this, and make sure
 //! that all ends. What is known is kept as the run goes on, in `Unfinished`.
 
-use super::{accuracy, summarise};
+use super::{Origin, accuracy, progress, summarise};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::output::summary::{CoarseSolveSummary, Mesh, Status, StepSummary, Summary, Unknowns};
@@ -18,7 +18,7 @@ use std::io::Write;
 use std::panic;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -44,8 +44,8 @@ static OVER: AtomicBool = AtomicBool::new(false);
 /// A result on its way.
 struct Unfinished {
     folder: ResultFolder,
-    /// The resolved case.
-    case: String,
+    /// What it is made of, as far as it is known.
+    origin: Arc<Origin>,
     summary: Summary,
     /// What the run is doing, in words that follow *while*.
     doing: &'static str,
@@ -115,6 +115,7 @@ pub fn exit_at_once() -> ! {
 }
 
 fn say(words: &str) {
+    progress::end_at_once();
     let _ = std::io::stderr().write_all(format!("mezha: {words}\n").as_bytes());
 }
 
@@ -124,16 +125,23 @@ fn lock() -> MutexGuard<'static, Option<Unfinished>> {
 }
 
 /// Every rank learns where results go; rank 0 gives its folder out of its hands until [`finish`].
-pub fn begin(folder: Option<ResultFolder>, files: &Path, out: &Path, case: &Case, ranks: usize, started: Instant) {
+pub fn begin(folder: Option<ResultFolder>, files: &Path, out: &Path, case: &str, origin: Arc<Origin>, started: Instant) {
     let _ = PLACE.set((out.to_path_buf(), files.to_path_buf()));
     *lock() = folder.map(|folder| Unfinished {
         folder,
-        case: case.resolved(),
-        summary: Summary::new(&case.name, ranks),
+        summary: Summary::new(case, origin.provenance.ranks),
+        origin,
         doing: "reading the mesh",
         started,
         out: out.to_path_buf(),
     });
+}
+
+/// Keeps what the result is made of.
+pub fn keep_origin(origin: Arc<Origin>) {
+    if let Some(unfinished) = &mut *lock() {
+        unfinished.origin = origin;
+    }
 }
 
 /// Keeps what an event tells.
@@ -236,7 +244,7 @@ impl Unfinished {
 
     /// Makes what was reached the result, and gives the last words. If a rank has failed, there is none.
     fn interrupt(self, signal: &str) -> String {
-        let Self { folder, case, mut summary, doing, started, out } = self;
+        let Self { folder, origin, mut summary, doing, started, out } = self;
         if folder.path(FAILED).exists() {
             return format!("ended by {signal}, since another rank has failed");
         }
@@ -246,11 +254,10 @@ impl Unfinished {
         summary.status = Status::Interrupted;
         summary.reason = Some(reason.clone());
         summary.time_s.total = Some(seconds);
-        let write =
-            |name: &str, text: String| fs::write(folder.path(name), text).map_err(OutputError::io("write", &folder.path(name)));
+        summary.provenance = Some(origin.provenance.clone());
         let written = folder
             .empty()
-            .and_then(|()| write("case.toml", case))
+            .and_then(|()| origin.write(&folder))
             .and_then(|()| summary.write(&folder.path("summary.json")))
             .and_then(|()| folder.commit());
         match written {
@@ -296,7 +303,7 @@ mod tests {
             fs::create_dir_all(folder.path("steps/001")).unwrap();
             let mut summary = Summary::new("bars", 2);
             summary.solver.coarse.push(CoarseSolveSummary::default());
-            Unfinished { folder, case: "# case".into(), summary, doing: "solving", started: Instant::now(), out: out.clone() }
+            Unfinished { folder, origin: Arc::default(), summary, doing: "solving", started: Instant::now(), out: out.clone() }
         };
         let words = unfinished().interrupt("SIGTERM");
         assert!(words.starts_with("interrupted by SIGTERM after 0.0 s, while solving: coarser meshes are solved (1)"), "{words}");

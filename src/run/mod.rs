@@ -12,8 +12,10 @@ mod known;
 mod means;
 mod memory;
 mod observe;
+mod origin;
 mod outcome;
 mod points;
+mod progress;
 mod report;
 mod results;
 mod run_options;
@@ -37,6 +39,7 @@ use crate::case::Case;
 use crate::output::ResultFolder;
 use crate::petsc::{self, Session};
 use crate::system::Scene;
+use origin::Origin;
 use report::Report;
 use stages::Stages;
 use std::cell::RefCell;
@@ -44,13 +47,16 @@ use std::ffi::OsString;
 use std::os::unix::ffi::OsStringExt;
 use std::path::PathBuf;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Solves a case and writes its results. **Collective**
 ///
 /// # Errors
 /// [`RunError`] if there is no result at all; nothing is left on the disk then.
 pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
-    start(case, options, session).map_err(|error| {
+    let started = start(case, options, session);
+    progress::end();
+    started.map_err(|error| {
         interruption::abandon();
         error.in_case(case)
     })
@@ -59,12 +65,14 @@ pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outco
 fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
     refuse_options(session)?;
     let (folder, files) = claim_folder(options, session)?;
-    interruption::begin(folder, &files, &options.out, case, session.size(), options.started);
+    let origin = Origin::new(case, session);
+    interruption::begin(folder, &files, &options.out, &case.name, Arc::new(origin.clone()), options.started);
+    progress::begin(options.progress, session.rank() == 0, options.quiet, options.started);
     let report = Report::new(case, options, session);
     let stages = Rc::new(Stages::new(session)?);
-    let run = Run { case, options, session, stages, report, files, draws: true, true_errors: RefCell::default() };
-    run.report.start(case);
-    let scene = run.read_scene()?;
+    report.start(case);
+    let (scene, origin) = read_scene(case, options, origin, &stages, &report, session)?;
+    let run = Run { case, options, session, stages, report, files, origin, draws: true, true_errors: RefCell::default() };
     if !case.steps.is_empty() {
         return run.finish(run.solve_steps(&scene)?, &scene.mesh);
     }
@@ -135,17 +143,34 @@ struct Run<'a> {
     report: Report,
     /// Where all ranks write their files to.
     files: PathBuf,
+    /// What the result is made of.
+    origin: Arc<Origin>,
     /// Whether figures are drawn of it: not of every load step.
     draws: bool,
     /// On each mesh that was adapted, the true error of each goal as far as the case tells it.
     true_errors: RefCell<Vec<Vec<Option<f64>>>>,
 }
 
-impl Run<'_> {
-    /// Reads the mesh and spreads it. **Collective**
-    fn read_scene(&self) -> Result<Scene, RunError> {
-        let _stage = self.stages.mesh.enter();
-        let mesh = input::read_mesh(self.case, self.options.inputs.as_ref(), self.session)?;
-        scene::spread(self.case, mesh, self.session)
+/// Reads the mesh and spreads it. A case that lies beside its own result is told to repeat it, and must have its mesh. **Collective**
+fn read_scene(
+    case: &Case,
+    options: &RunOptions,
+    origin: Origin,
+    stages: &Stages,
+    report: &Report,
+    session: &Session,
+) -> Result<(Scene, Arc<Origin>), RunError> {
+    let _stage = stages.mesh.enter();
+    let bytes = input::share_mesh(case, options.inputs.as_ref(), session)?;
+    let origin = if session.rank() == 0 { origin.with_mesh(case, bytes.clone()) } else { origin };
+    let before = if session.rank() == 0 { origin.before(case) } else { None };
+    let refused = before.as_ref().map_or(Ok(()), |before| origin.refuse_other_mesh(case, before));
+    session.agree(refused.map_err(|error| error.to_string())).map_err(RunError::Input)?;
+    if let Some(before) = before {
+        report.repeats(&origin.provenance, &before, &case.file);
     }
+    let origin = Arc::new(origin);
+    interruption::keep_origin(origin.clone());
+    let mesh = input::parse_mesh(case, &bytes, session)?;
+    Ok((scene::spread(case, mesh, session)?, origin))
 }

@@ -2,7 +2,7 @@
 
 use super::known::check_pressures;
 use super::true_errors::true_errors;
-use super::{Run, RunError, Stages, accuracy, interruption, memory};
+use super::{Run, RunError, Stages, accuracy, interruption, memory, progress};
 use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
 use crate::petsc::StageGuard;
@@ -36,6 +36,7 @@ impl Observer for Run<'_> {
     fn observe(&self, event: Event) {
         self.report.event(&event);
         interruption::observe(&event, self.case);
+        progress::observe(&event);
         if let Event::Adapted { accuracy, solved, .. } = event {
             let _stage = self.stages.output.enter();
             let errors = true_errors(self.case, &accuracy.goals, solved, self.session);
@@ -46,6 +47,7 @@ impl Observer for Run<'_> {
 
     fn enter(&self, work: Work) -> Option<StageGuard<'_>> {
         interruption::enter(work);
+        progress::enter(work);
         let Stages { assemble, contact, setup, solve, output, .. } = &*self.stages;
         let stage = match work {
             Work::Contact => contact,

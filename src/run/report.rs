@@ -1,12 +1,12 @@
 //! What a run prints on rank 0 while it lives.
 
-use super::{Outcome, RunOptions, Stages, accuracy};
+use super::{Outcome, RunOptions, Stages, accuracy, origin, progress};
 use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::case::{Case, LoadStep};
 use crate::element::Order;
 use crate::mesh::Numbering;
 use crate::output::Summary;
-use crate::output::summary::{Memory, Time};
+use crate::output::summary::{Memory, Provenance, Time};
 use crate::petsc::Session;
 use crate::system::recovery::Evaluation;
 use crate::system::{Contact, Event, Scene};
@@ -51,6 +51,7 @@ impl Report {
     /// The report of a load step, which it announces.
     pub fn of_step(&self, step: &LoadStep) -> Self {
         self.say(&step.words());
+        progress::step(step.number, step.count);
         Self { of_step: format!("step {}: ", step.number), ..self.clone() }
     }
 
@@ -58,7 +59,7 @@ impl Report {
     pub fn say(&self, line: &str) {
         if self.speaks {
             // A reader that has gone away is no reason to stop.
-            let _ = writeln!(std::io::stdout(), "{line}");
+            let _ = progress::aside(|| writeln!(std::io::stdout(), "{line}"));
         }
     }
 
@@ -70,6 +71,12 @@ impl Report {
             env!("CARGO_PKG_VERSION"),
             if case.title.is_empty() { &case.name } else { &case.title }
         ));
+    }
+
+    /// Whether a run of the case beside a result repeats it, and if not, what differs.
+    pub fn repeats(&self, now: &Provenance, before: &Provenance, file: &Path) {
+        let (words, warns) = origin::repeats(now, before, file);
+        if warns { self.warn(&words) } else { self.say(&words) }
     }
 
     /// An event of the solution procedure.
@@ -196,7 +203,8 @@ impl Report {
     pub fn warn(&self, line: &str) {
         if self.first {
             // The run is worth more than the words.
-            let _ = std::io::stderr().write_all(format!("mezha: warning: {}{line}\n", self.of_step).as_bytes());
+            let words = format!("mezha: warning: {}{line}\n", self.of_step);
+            let _ = progress::aside(|| std::io::stderr().write_all(words.as_bytes()));
         }
     }
 
@@ -245,7 +253,8 @@ impl Report {
         match outcome {
             Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),
             Outcome::NotConverged if self.first && !self.speaks => {
-                let _ = std::io::stderr().write_all(format!("mezha: NOT converged: {reason}\n").as_bytes());
+                let words = format!("mezha: NOT converged: {reason}\n");
+                let _ = progress::aside(|| std::io::stderr().write_all(words.as_bytes()));
             }
             Outcome::NotConverged => self.say(&format!("mezha: NOT converged: {reason}")),
         }

@@ -6,7 +6,6 @@ use super::report::{memory, short};
 use super::slivers::slivers;
 use super::{Outcome, Run, RunError, accuracy, fields, interruption, points, summarise, trust, zones};
 use crate::accuracy::Adaptation;
-use crate::case::Case;
 use crate::contact::{Configuration, GapChoice};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
@@ -48,7 +47,8 @@ impl Run<'_> {
     pub(super) fn finish(&self, mut summary: Summary, mesh: &MacroMesh) -> Result<Outcome, RunError> {
         summary.time_s = self.report.times(&self.stages, self.session);
         summary.memory_mib = memory(self.session);
-        let finished = interruption::finish(|folder| finish(self.case, &summary, mesh, folder));
+        summary.provenance = Some(self.origin.provenance.clone());
+        let finished = interruption::finish(|folder| self.put_in_place(&summary, mesh, folder));
         let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
@@ -56,6 +56,18 @@ impl Run<'_> {
         let outcome = if summary.status == Status::Converged { Outcome::Converged } else { Outcome::NotConverged };
         self.report.verdict(outcome, summary.reason.as_deref().unwrap_or_default(), &self.options.out);
         Ok(outcome)
+    }
+
+    /// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place.
+    fn put_in_place(&self, summary: &Summary, mesh: &MacroMesh, folder: ResultFolder) -> Result<(), OutputError> {
+        self.origin.write(&folder)?;
+        if summary.accuracy.as_ref().is_some_and(|steps| !steps.is_empty()) {
+            let own = mesh.without_tools(|name| self.case.tool_of(name).is_some());
+            let path = folder.path(accuracy::ADAPTED_MESH);
+            std::fs::write(&path, own.to_gmsh()).map_err(OutputError::io("write", &path))?;
+        }
+        summary.write(&folder.path("summary.json"))?;
+        folder.commit()
     }
 
     /// Expected values and trust: the status, and the reason so far.
@@ -265,21 +277,6 @@ fn remarks(summary: &Summary, status: Status) -> String {
 fn write_tables(folder: &Path, contacts: &[Contact], traces: &[Vec<ContactPoint>]) -> Result<(), OutputError> {
     let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
     contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), points))
-}
-
-/// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place.
-fn finish(case: &Case, summary: &Summary, mesh: &MacroMesh, folder: ResultFolder) -> Result<(), OutputError> {
-    let write = |name: &str, text: String| {
-        let path = folder.path(name);
-        std::fs::write(&path, text).map_err(|source| OutputError::Io { action: "write", path, source })
-    };
-    write("case.toml", case.resolved())?;
-    if summary.accuracy.as_ref().is_some_and(|steps| !steps.is_empty()) {
-        let own = mesh.without_tools(|name| case.tool_of(name).is_some());
-        write(accuracy::ADAPTED_MESH, own.to_gmsh())?;
-    }
-    summary.write(&folder.path("summary.json"))?;
-    folder.commit()
 }
 
 fn contact_point(p: &TracePoint) -> ContactPoint {

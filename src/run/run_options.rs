@@ -1,5 +1,6 @@
 //! What a run is told beside its case.
 
+use crate::arguments::ShowProgress;
 use crate::case::Inputs;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -15,6 +16,8 @@ pub struct RunOptions {
     pub force: bool,
     /// Print errors only.
     pub quiet: bool,
+    /// When the run shows where it is.
+    pub progress: ShowProgress,
     /// When the program started.
     pub started: Instant,
 }

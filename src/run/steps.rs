@@ -59,13 +59,15 @@ impl Run<'_> {
     /// The run of one step: its files lie in a folder of their own, those of the last one where they always do. **Collective**
     fn of_step(&self, step: &LoadStep) -> Result<Run<'_>, RunError> {
         let own = self.files.join(folder(step.number));
-        let make = || make_folder(&self.files, &own).and_then(|()| std::fs::write(own.join("case.toml"), step.case.resolved()));
+        let text = self.origin.case_inside(&step.case, 2);
+        let make = || make_folder(&self.files, &own).and_then(|()| std::fs::write(own.join("case.toml"), text));
         let made = if self.session.rank() == 0 { make().map_err(OutputError::io("write to", &own)) } else { Ok(()) };
         self.session.agree(made.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
         let is_last = step.number == step.count;
         Ok(Run {
             case: &self.case.steps[step.number - 1].case,
             report: self.report.of_step(step),
+            origin: self.origin.clone(),
             files: if is_last { self.files.clone() } else { own },
             draws: is_last,
             stages: self.stages.clone(),

@@ -9,7 +9,6 @@ mod fit;
 mod folder;
 mod format;
 mod lines;
-mod machine;
 mod page;
 mod plan;
 mod progress;

@@ -8,6 +8,7 @@ mod meshes;
 
 use launch::{Suite, named};
 use meshes::{GOOD, Mesh, grid, two_blocks, write_scene};
+use mezha::arguments::ShowProgress;
 use mezha::petsc::Session;
 use mezha::run::{self, RunError, RunOptions};
 use std::cell::RefCell;
@@ -140,7 +141,8 @@ impl Place {
     /// What `run` says of a case.
     fn run(&self, session: &Session, file: &Path, overrides: &[String]) -> Result<(), RunError> {
         let out = self.folder.join("result");
-        let options = RunOptions { out, inputs: None, force: false, quiet: true, started: Instant::now() };
+        let options =
+            RunOptions { out, inputs: None, force: false, quiet: true, progress: ShowProgress::Auto, started: Instant::now() };
         let case = run::read_case(file, overrides, None, session)?;
         run::run(&case, &options, session).map(|_| ())
     }

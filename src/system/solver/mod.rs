@@ -26,7 +26,7 @@ use super::cycle::Cycle;
 use super::interpolation::Interpolation;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
-use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, ReplacedAction, Session, Vector};
+use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, ReplacedAction, Session, Vector, WatchedSolve};
 use fallback::needed;
 use std::rc::Rc;
 
@@ -120,6 +120,7 @@ impl LinearSolver {
         let preconditioner = krylov.preconditioner();
         preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
         krylov.set_from_options()?;
+        krylov.watch()?;
         krylov.set_up()?;
         let (mut auxiliary, mut cycle) = (GalerkinLevels::default(), None);
         if preconditioning != Preconditioning::Factor {
@@ -204,6 +205,7 @@ impl LinearSolver {
         };
         solver.refresh(system)?;
         solver.krylov.set_from_options()?;
+        solver.krylov.watch()?;
         solver.krylov.set_up()?;
         Ok(solver)
     }
@@ -271,6 +273,7 @@ impl LinearSolver {
         if r.norm()? > norm {
             x.set(0.0)?;
         }
+        let _watched = WatchedSolve::begin(norm, tolerance);
         let mut before = f64::INFINITY;
         loop {
             if !self.is_set_up {

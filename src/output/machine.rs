@@ -4,15 +4,27 @@ use std::fs;
 use std::num::NonZero;
 use std::thread::available_parallelism;
 
-/// CPU, cores and memory in words, as the system tells them.
+/// CPU, cores and memory in words, as the system tells them; cores are those that this process may use.
 pub fn machine() -> String {
-    let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
-    let cores = available_parallelism().map_or(1, NonZero::get);
-    let machine = describe(&read("/proc/cpuinfo"), cores, &read("/proc/meminfo"));
+    let machine = describe(&read("cpuinfo"), available_parallelism().map_or(1, NonZero::get), &read("meminfo"));
     match std::env::var("SLURM_JOB_NUM_NODES") {
         Ok(nodes) if nodes != "1" => format!("{nodes} nodes of {machine}"),
         _ => machine,
     }
+}
+
+/// The same of this host with all of its cores: a rank may be bound to one of them.
+pub fn whole_machine() -> String {
+    let cpuinfo = read("cpuinfo");
+    describe(&cpuinfo, cores(&cpuinfo), &read("meminfo"))
+}
+
+fn read(name: &str) -> String {
+    fs::read_to_string(format!("/proc/{name}")).unwrap_or_default()
+}
+
+fn cores(cpuinfo: &str) -> usize {
+    cpuinfo.lines().filter(|line| line.starts_with("processor")).count().max(1)
 }
 
 fn describe(cpuinfo: &str, cores: usize, meminfo: &str) -> String {
@@ -36,6 +48,7 @@ mod tests {
         let cpuinfo = "processor\t: 0\nmodel name\t: Great  CPU 9000\nprocessor\t: 1\nmodel name\t: Great CPU 9000\n";
         let meminfo = "MemTotal:       24651612 kB\nMemFree:        1 kB\n";
         assert_eq!(describe(cpuinfo, 2, meminfo), "Great CPU 9000, 2 cores, 24 GiB");
+        assert_eq!((cores(cpuinfo), cores("")), (2, 1));
         assert_eq!(describe("", 1, ""), "CPU unknown, 1 core, memory unknown");
     }
 }

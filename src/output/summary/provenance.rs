@@ -1,0 +1,81 @@
+//! Where a result comes from.
+
+use serde::{Deserialize, Serialize};
+
+/// What made a result, and of what. Nothing here is a number of the result: two runs that differ in date, host or command alone
+/// have the same digits.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Provenance {
+    /// Commit of mezha's sources; null if the build did not know it.
+    pub commit: Option<String>,
+    /// Version of PETSc.
+    pub petsc: String,
+    /// Name and version of MPI.
+    pub mpi: String,
+    /// The BLAS in use, with its file.
+    pub blas: String,
+    /// Compiler of mezha; null if the build did not know it.
+    pub compiler: Option<String>,
+    /// The command, as a shell takes it.
+    pub command: String,
+    /// The folder it was given in.
+    pub directory: String,
+    /// Options of PETSc that are the user's, from the command line, `PETSC_OPTIONS` or a file, as they stand behind `--`; may be
+    /// empty.
+    pub petsc_options: String,
+    /// SHA-256 of `case.toml` in the result folder, with `case.msh` as the name of the mesh.
+    pub case_hash: String,
+    /// SHA-256 of the mesh file; null if it was not read yet.
+    pub mesh_hash: Option<String>,
+    /// The mesh file, where it was read.
+    pub mesh_file: String,
+    /// Name of the host, or of all hosts.
+    pub host: String,
+    /// CPU, cores and memory of the first host.
+    pub cpu: String,
+    /// Number of ranks.
+    pub ranks: usize,
+    /// When the run was begun: UTC by ISO 8601.
+    pub date: String,
+}
+
+impl Provenance {
+    /// In what this run differs from one `before`, beside its time and place, one phrase for each.
+    pub fn differences(&self, before: &Self) -> Vec<String> {
+        let text = |value: &Option<String>| value.clone().unwrap_or_else(|| "unknown".into());
+        let pairs = [
+            ("ranks", self.ranks.to_string(), before.ranks.to_string()),
+            ("PETSc options", quoted(&self.petsc_options), quoted(&before.petsc_options)),
+            ("commit", text(&self.commit), text(&before.commit)),
+            ("compiler", text(&self.compiler), text(&before.compiler)),
+            ("PETSc", self.petsc.clone(), before.petsc.clone()),
+            ("MPI", self.mpi.clone(), before.mpi.clone()),
+            ("BLAS", self.blas.clone(), before.blas.clone()),
+            ("CPU", self.cpu.clone(), before.cpu.clone()),
+        ];
+        let differing = pairs.into_iter().filter(|(_, now, then)| now != then);
+        differing.map(|(what, now, then)| format!("{what}: {now} instead of {then}")).collect()
+    }
+}
+
+fn quoted(options: &str) -> String {
+    if options.is_empty() { "none".into() } else { format!("`{options}`") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_and_places_are_no_differences() {
+        let before = Provenance { ranks: 2, petsc_options: "-ksp_type gcr".into(), ..Provenance::default() };
+        let again = Provenance { date: "2026-01-01T00:00:00Z".into(), host: "there".into(), ..before.clone() };
+        assert!(again.differences(&before).is_empty());
+        let other = Provenance { ranks: 1, petsc_options: String::new(), commit: Some("abc".into()), ..before.clone() };
+        assert_eq!(
+            other.differences(&before),
+            ["ranks: 1 instead of 2", "PETSc options: none instead of `-ksp_type gcr`", "commit: abc instead of unknown"]
+        );
+    }
+}

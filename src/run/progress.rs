@@ -1,0 +1,257 @@
+//! A line on a terminal that says where a long run is, rewritten in place; nothing of it goes to a pipe unless it is asked for.
+//!
+//! A thread of rank 0 writes it to standard error; the run itself only notes what it does. So there is a sign of life in the
+//! longest assembly, and no digit depends on it.
+
+use crate::arguments::ShowProgress;
+use crate::petsc::{SolveAtWork, solve_at_work};
+use crate::system::{Event, Work};
+use rustix::fs::{Mode, OFlags};
+use std::io::{IsTerminal, Write, stderr};
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How often the line is written. A run that ends before shows nothing.
+const PULSE: Duration = Duration::from_millis(500);
+const FIRST: Duration = Duration::from_secs(1);
+
+/// Columns of the line: one that wraps could not be rewritten.
+const COLUMNS: usize = 79;
+
+/// What takes a line off a terminal.
+const ERASE: &str = "\r\x1b[K";
+
+/// Where a run is.
+#[derive(Clone, Debug, Default)]
+struct Place {
+    /// What is done, and since when.
+    doing: Option<(Work, Instant)>,
+    /// Load step, and how many there are.
+    step: Option<(usize, usize)>,
+    /// Number of the mesh that is adapted.
+    mesh: Option<usize>,
+    /// Refinement that is solved, and that of the case.
+    refine: Option<(usize, usize)>,
+    boundary: Option<usize>,
+    set: Option<usize>,
+}
+
+/// A line that is shown while this is there.
+struct Line {
+    started: Instant,
+    place: Place,
+    visible: bool,
+}
+
+static LINE: Mutex<Option<Line>> = Mutex::new(None);
+
+fn lock() -> MutexGuard<'static, Option<Line>> {
+    LINE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// From now on, on rank 0, the line is shown if it is wanted, and there is a terminal to show it on.
+pub fn begin(show: ShowProgress, is_first: bool, quiet: bool, started: Instant) {
+    let wanted = match show {
+        ShowProgress::Always => true,
+        ShowProgress::Never => false,
+        ShowProgress::Auto => !quiet && std::env::var_os("TERM").is_none_or(|term| term != "dumb") && ends_at_a_terminal(),
+    };
+    if !(is_first && wanted) {
+        return;
+    }
+    *lock() = Some(Line { started, place: Place::default(), visible: false });
+    // Without a thread there is no line, and no harm.
+    let _ = thread::Builder::new().name("progress".into()).spawn(|| {
+        thread::sleep(FIRST);
+        while draw() {
+            thread::sleep(PULSE);
+        }
+    });
+}
+
+/// Whether standard error is a terminal: this process's, or under mpirun, which hands it on through a pipe, that of mpirun. On
+/// another host than mpirun's nobody can know.
+fn ends_at_a_terminal() -> bool {
+    if stderr().is_terminal() {
+        return true;
+    }
+    let Some(parent) = rustix::process::getppid().map(|parent| PathBuf::from(format!("/proc/{parent}"))) else { return false };
+    let program = std::fs::read_to_string(parent.join("comm")).unwrap_or_default();
+    let is_mpirun = ["mpirun", "mpiexec", "orterun", "prterun"].contains(&program.trim());
+    let open = || rustix::fs::open(parent.join("fd/2"), OFlags::WRONLY | OFlags::NOCTTY | OFlags::CLOEXEC, Mode::empty());
+    is_mpirun && open().is_ok_and(|file| file.is_terminal())
+}
+
+/// Writes the line; false if there is none any more.
+fn draw() -> bool {
+    let mut line = lock();
+    let Some(line) = &mut *line else { return false };
+    let words = words(&line.place, solve_at_work(), line.started.elapsed());
+    let cut: String = words.chars().take(COLUMNS).collect();
+    line.visible = write(&format!("{ERASE}{cut}"));
+    true
+}
+
+/// Whether somebody reads it.
+fn write(text: &str) -> bool {
+    let mut stderr = stderr();
+    stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush()).is_ok()
+}
+
+/// Prints something else, with the line out of the way.
+pub fn aside<T>(print: impl FnOnce() -> T) -> T {
+    let mut line = lock();
+    if let Some(line) = line.as_mut() {
+        line.erase();
+        return print();
+    }
+    // A reader that does not read holds up the printing, and nobody else.
+    drop(line);
+    print()
+}
+
+/// The line goes, and does not come back.
+pub fn end() {
+    if let Some(mut line) = lock().take() {
+        line.erase();
+    }
+}
+
+/// The same from a thread that must not wait.
+pub fn end_at_once() {
+    if let Some(mut line) = LINE.try_lock().ok().and_then(|mut line| line.take()) {
+        line.erase();
+    }
+}
+
+/// Notes what is worked on.
+pub fn enter(work: Work) {
+    if let Some(line) = &mut *lock() {
+        line.place.doing = Some((work, Instant::now()));
+    }
+}
+
+/// Notes the load step.
+pub fn step(number: usize, count: usize) {
+    if let Some(line) = &mut *lock() {
+        line.place = Place { step: Some((number, count)), ..Place::default() };
+    }
+}
+
+/// Notes what has happened.
+pub fn observe(event: &Event) {
+    if let Some(line) = &mut *lock() {
+        line.place.observe(event);
+    }
+}
+
+impl Line {
+    fn erase(&mut self) {
+        if self.visible {
+            self.visible = false;
+            write(ERASE);
+        }
+    }
+}
+
+impl Place {
+    fn observe(&mut self, event: &Event) {
+        match event {
+            Event::AtRest { scene, .. } => self.refine = Some((0, scene.refine)),
+            Event::Coarse { refine, .. } => {
+                (self.boundary, self.set) = (None, None);
+                self.refine = self.refine.map(|(_, last)| ((refine + 1).min(last), last));
+            }
+            Event::Begin(_) => {
+                (self.boundary, self.set) = (None, Some(1));
+                self.refine = self.refine.map(|(_, last)| (last, last));
+            }
+            Event::Passed(pass, _) => self.set = Some(pass.iteration + 1),
+            Event::Placed(step) => self.boundary = Some(step.iteration + 1),
+            Event::Adapted { mesh, .. } => (self.mesh, self.refine) = (Some(mesh.number + 1), None),
+            Event::Solver(_) | Event::Again { .. } => {}
+        }
+    }
+}
+
+/// What the line says.
+fn words(place: &Place, solve: Option<SolveAtWork>, elapsed: Duration) -> String {
+    let mut words = vec![clock(elapsed)];
+    words.extend(place.step.map(|(number, count)| format!("step {number} of {count}")));
+    words.extend(place.mesh.map(|number| format!("mesh {number}")));
+    words.extend(place.refine.filter(|(now, _)| *now > 0).map(|(now, last)| format!("refine {now} of {last}")));
+    // What is looked at is over, and the numbers are those of the next.
+    if !matches!(place.doing, Some((Work::Recovery, _))) {
+        words.extend(place.boundary.map(|number| format!("boundary {number}")));
+        words.extend(place.set.map(|number| format!("set {number}")));
+    }
+    match (place.doing, solve) {
+        (Some((Work::Solve, _)), Some(solve)) if solve.iterations > 0 => words.push(solving(&solve)),
+        (Some((work, since)), _) => {
+            let doing = match work {
+                Work::Contact => "placing contacts",
+                Work::Assembly => "assembling",
+                Work::SetUp => "setting up the solver",
+                Work::Solve => "solving",
+                Work::Recovery => "looking at the solution",
+            };
+            words.push(format!("{doing} ({} s)", since.elapsed().as_secs()));
+        }
+        (None, _) => words.push("reading".into()),
+    }
+    words.join(", ")
+}
+
+/// A solve at work: iterations, residual, goal, and the time left if the logarithm of the residual goes on falling as it fell.
+fn solving(solve: &SolveAtWork) -> String {
+    let SolveAtWork { iterations, residual, tolerance, .. } = solve;
+    let left = time_left(solve, solve.started.elapsed().as_secs_f64());
+    let left = left.map_or(String::new(), |seconds| format!(", {} left", clock(Duration::from_secs_f64(seconds))));
+    format!("iteration {iterations}: residual {residual:.1e} to {tolerance:.0e}{left}")
+}
+
+/// Seconds that a solve still takes, by the model that the logarithm of its residual falls evenly in time.
+fn time_left(solve: &SolveAtWork, seconds: f64) -> Option<f64> {
+    let fallen = (solve.first / solve.residual).ln();
+    let to_fall = (solve.residual / solve.tolerance).ln();
+    let is_known = solve.iterations >= 2 && fallen > 0.0 && to_fall.is_finite();
+    is_known.then(|| (to_fall.max(0.0) * seconds / fallen).min(1e6))
+}
+
+/// `0:05`, `12:34`, `1:02:03`
+fn clock(time: Duration) -> String {
+    let seconds = time.as_secs();
+    let (hours, minutes, seconds) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
+    if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn solve(iterations: usize, first: f64, residual: f64) -> SolveAtWork {
+        SolveAtWork { started: Instant::now(), iterations, first, residual, tolerance: 1e-8, norm: 1.0 }
+    }
+
+    #[test]
+    fn the_time_left_is_that_of_a_logarithm_that_falls_evenly() {
+        let left = |iterations, first, residual| time_left(&solve(iterations, first, residual), 10.0);
+        assert!((left(5, 1.0, 1e-2).unwrap() - 30.0).abs() < 1e-9);
+        assert_eq!((left(5, 1.0, 1e-9), left(1, 1.0, 1e-2), left(5, 1.0, 2.0)), (Some(0.0), None, None));
+        assert_eq!((left(5, f64::NAN, f64::NAN), left(5, 1.0, 0.0)), (None, None));
+    }
+
+    #[test]
+    fn a_line_tells_the_place_and_fits() {
+        let doing = Some((Work::Solve, Instant::now()));
+        let place = Place { doing, refine: Some((7, 8)), set: Some(2), ..Place::default() };
+        let line = words(&place, Some(solve(12, 1.0, 3.1e-5)), Duration::from_secs(62));
+        assert_eq!(line, "1:02, refine 7 of 8, set 2, iteration 12: residual 3.1e-5 to 1e-8, 0:00 left");
+        assert!(line.len() <= COLUMNS);
+        assert_eq!(words(&Place::default(), None, Duration::ZERO), "0:00, reading");
+        let step = Place { step: Some((2, 6)), doing: Some((Work::Assembly, Instant::now())), ..Place::default() };
+        assert_eq!(words(&step, None, Duration::from_secs(3600)), "1:00:00, step 2 of 6, assembling (0 s)");
+    }
+}
