@@ -38,6 +38,27 @@ fn info_names_versions_and_ranks() {
 }
 
 #[test]
+fn version_names_commit_petsc_and_mpi_once_on_any_number_of_ranks() {
+    for (ranks, flag) in [(None, "--version"), (None, "-V"), (Some(2), "--version")] {
+        let (code, output, errors) = mezha(ranks, &[flag]);
+        assert_eq!((code, output.lines().count()), (Some(0), 3), "{output}{errors}");
+        let first = format!("mezha {}, commit {}", env!("CARGO_PKG_VERSION"), mezha::origin::COMMIT);
+        assert!(output.starts_with(&first) && output.contains("\nPETSc 3.") && output.contains("\nMPI   Open MPI"), "{output}");
+    }
+}
+
+#[test]
+fn help_has_examples_exit_codes_and_the_place_of_the_keys() {
+    for line in [&["--help"][..], &["run", "--help"]] {
+        let (code, output, _) = mezha(None, line);
+        assert_eq!(code, Some(0));
+        for word in ["Examples:\n  mezha ", "mpirun -n 4 mezha run", "Exit codes:\n  0  ", "docs/case.md"] {
+            assert!(output.contains(word), "{word} in {output}");
+        }
+    }
+}
+
+#[test]
 fn check_says_what_would_be_solved() {
     let (code, output, errors) = mezha(None, &["check", &case("bars_inclined")]);
     assert_eq!(code, Some(0), "{errors}");

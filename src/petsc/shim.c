@@ -43,7 +43,7 @@ PetscErrorCode mezha_record_residuals(KSP solver)
 PetscErrorCode mezha_set_context_destructor(Mat shell, mezha_destructor destroy)
 {
 #if PETSC_VERSION_GE(3, 23, 0)
-  return MatShellSetContextDestroy(shell, (PetscErrorCode (*)(void **))destroy);
+  return MatShellSetContextDestroy(shell, (PetscCtxDestroyFn *)destroy);
 #else
   return MatShellSetContextDestroy(shell, destroy);
 #endif
