@@ -1,10 +1,10 @@
-# A recipe for Spack. Put this folder into a repository of your own:
+# A recipe for Spack 1.0 and newer. Put this folder into a repository of your own:
 #
-#     spack repo create ~/spack-own && mkdir -p ~/spack-own/packages/mezha
-#     cp packaging/spack/package.py ~/spack-own/packages/mezha/ && spack repo add ~/spack-own
-#     spack install mezha
-#
-# or build a checkout: spack dev-build mezha@0.1.0 (it needs no `git` and no archive then).
+#     spack repo create ~/spack-own own          # and `spack repo add` the folder that it names
+#     mkdir -p FOLDER/packages/mezha && cp packaging/spack/package.py FOLDER/packages/mezha/
+#     spack dev-build mezha@0.1.0                # builds the checkout that you stand in
+
+from spack_repo.builtin.build_systems.generic import Package
 
 from spack.package import *
 
@@ -13,9 +13,9 @@ class Mezha(Package):
     """Parallel contact of elastic bodies in the plane, without friction. The contact pressure lives on a boundary of its own;
     PETSc solves the saddle-point systems with multigrid."""
 
-    license("MIT OR Apache-2.0", checked_by="mezha contributors")
+    license("MIT OR Apache-2.0")
 
-    # There is no public archive yet: `git` is to name the repository that you build from.
+    # There is no public archive yet; for `spack install` give `git` or `url` the place that you take the sources from.
     version("0.1.0")
 
     variant("int64", default=False, description="Indices of 64 bits: more than 429 million nodes")
@@ -34,7 +34,7 @@ class Mezha(Package):
     # The crate `mpi` knows Open MPI and MPICH; Open MPI alone is tested.
     conflicts("platform=windows")
 
-    def setup_build_environment(self, env):
+    def setup_build_environment(self, env: EnvironmentModifications) -> None:
         env.set("PETSC_DIR", self.spec["petsc"].prefix)
         env.unset("PETSC_ARCH")
         env.set("MPICC", self.spec["mpi"].mpicc)
