@@ -107,9 +107,12 @@ fn usage_errors_end_with_code_2() {
 /// Every file that other tools rely on, and nothing else.
 #[test]
 fn the_result_folder_is_complete() {
-    let every = ["case.msh", "case.toml", "deformed.svg", "summary.json"];
+    let every = ["case.msh", "case.toml", "deformed.svg", "report.html", "summary.json"];
     let of_contact = |name: &str| [format!("contact_{name}.csv"), format!("contact_{name}.vtu")].to_vec();
-    let figures = |name: &str| [format!("displacement_{name}.svg"), format!("pressure_{name}.svg")].to_vec();
+    let figures = |name: &str| {
+        let along = ["displacement", "gap", "pressure"].map(|figure| format!("{figure}_{name}.svg"));
+        [along.to_vec(), vec![format!("deformed_{name}_1.svg")]].concat()
+    };
     for (ranks, fields) in [
         (None, vec!["fields.vtu"]),
         (Some(1), vec!["fields.vtu"]),

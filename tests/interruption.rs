@@ -71,7 +71,7 @@ fn interrupted(out: &Path) -> Value {
     assert_eq!(summary["status"], "interrupted", "{text}");
     assert!(summary["contact"].as_object().is_some_and(|contacts| contacts.is_empty()) && summary["energy"]["total"].is_null());
     let provenance = &summary["provenance"];
-    let names = ["case.msh", "case.toml", "summary.json"];
+    let names = ["case.msh", "case.toml", "report.html", "summary.json"];
     assert_eq!(names_in(out), names[usize::from(provenance["mesh_hash"].is_null())..]);
     assert!(provenance["case_hash"].as_str().is_some_and(|hash| hash.len() == 64) && provenance["date"].is_string(), "{text}");
     assert!(summary["time_s"]["total"].as_f64().is_some_and(|seconds| seconds > 0.0));
@@ -134,7 +134,7 @@ fn an_older_result_does_not_pass_for_that_of_an_interrupted_run() {
     let (code, errors) = end(child);
     assert_eq!(
         (code, names_in(&out)),
-        (Some(1), ["case.toml", "notes.md", "summary.json"].map(String::from).to_vec()),
+        (Some(1), ["case.toml", "notes.md", "report.html", "summary.json"].map(String::from).to_vec()),
         "{errors}"
     );
     assert!(std::fs::read_to_string(out.join("summary.json")).expect("a summary").contains("interrupted"));

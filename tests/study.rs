@@ -321,15 +321,18 @@ fn figure_and_page_are_well_formed() {
         "error = 'errors.energy'\ngrid.'mesh.refine' = [0, 1, 2]\n[[curve]]\nname = 'a < b & \"c\"'\n[[curve]]\nname = 'P1'\nset = { 'mesh.order' = 1 }",
     );
     study.rows();
-    let page = study.read("study.html");
+    let page = study.read("report.html");
     for words in ["<svg ", "Pareto", "Orders and costs", "a &lt; b &amp; &quot;c&quot;", "cores", "BLAS", "patch_flat"] {
         assert!(page.contains(words), "{words} in {page}");
     }
     assert!(!page.contains("http://") || page.matches("http://").count() == page.matches("http://www.w3.org/").count());
-    let figure = study.read("study.svg");
-    assert!(page.contains(figure.trim()) && figure.matches("<polygon").count() > 8, "{figure}");
+    let content = |figure: &str| figure.trim().split_once('>').expect("a tag").1.to_owned();
+    let (first, all) = (study.read("study.svg"), study.read("study_all.svg"));
+    assert!(page.contains(&content(&first)) && page.contains(&content(&all)) && all.matches("<polygon").count() > 8, "{all}");
+    assert!(page.find("<figure>") < page.find("<table>"), "the figure stands first");
+    assert_eq!(first.matches("a &lt; b &amp; &quot;c&quot;").count(), 1, "each line bears its name: {first}");
     let program = "import sys, xml.etree.ElementTree as tree\nfor file in sys.argv[1:]: tree.parse(file)";
-    let files = ["study.svg", "study.html"].map(|name| study.out().join(name));
+    let files = ["study.svg", "study_all.svg", "report.html"].map(|name| study.out().join(name));
     match Command::new("python3").arg("-c").arg(program).args(files).output() {
         Ok(read) => assert!(read.status.success(), "{}", text(&read.stderr)),
         Err(error) => println!("skipped: nobody has read the files, since python3 does not start: {error}"),

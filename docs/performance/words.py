@@ -61,6 +61,7 @@ def speed_section(study, small):
         "So a run counts for a bound only if all finer runs of its line stay below it too. "
         f"The fastest run of all took {seconds(fastest(study))} s.",
         "![time against error](figures/speed_against_error.svg)",
+        "The other errors, and time and iterations against unknowns: [all diagrams](figures/speed_against_error_all.svg).",
     ]
     for case in unique(line["case"] for line in study["lines"]):
         lines = [line for line in study["lines"] if line["case"] == case]

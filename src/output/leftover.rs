@@ -117,13 +117,15 @@ fn host() -> String {
 
 /// Whether a run writes a file of this name.
 fn is_result_name(name: &str) -> bool {
-    const WRITTEN: [(&str, &str); 16] = [
+    const WRITTEN: [(&str, &str); 18] = [
         ("summary", ".json"),
         ("case", ".toml"),
         ("contact_", ".csv"),
         ("contact_", ".vtu"),
         ("fields", "vtu"),
+        ("report.html", "report.html"),
         ("pressure_", ".svg"),
+        ("gap_", ".svg"),
         ("displacement_", ".svg"),
         ("deformed", ".svg"),
         ("accuracy", ".svg"),

@@ -5,7 +5,8 @@
 //! | `summary.json` | [`Summary::write`] |
 //! | `contact_NAME.csv` | [`write_contact`] |
 //! | `fields.vtu`, or `fields.pvtu` and its pieces; `contact_NAME.vtu` | [`vtk`] |
-//! | `pressure_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `accuracy.svg`, `steps.svg` | [`plot`] |
+//! | `pressure_NAME.svg`, `gap_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `deformed_NAME_1.svg`, `accuracy.svg`, `steps.svg` | [`plot`] |
+//! | `report.html` | [`report`] |
 //! | `steps.csv` | [`write_steps`] |
 //! | `case.toml`, `case.msh`: the case as it was run, and its mesh, if that is not large | `run` |
 //! | `fields.pvd`, `contact_NAME.pvd`: the files of each load step, which lie in `steps/0001` and so on | [`vtk`] |
@@ -18,7 +19,9 @@ mod error;
 mod folder;
 mod leftover;
 mod machine;
+pub mod markup;
 pub mod plot;
+pub mod report;
 mod steps;
 pub mod summary;
 pub mod vtk;

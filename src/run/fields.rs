@@ -3,7 +3,7 @@
 use super::RunError;
 use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
-use crate::output::plot::{DrawnEdge, Facet};
+use crate::output::plot::{ContactZoom, DrawnEdge, Facet};
 use crate::output::vtk::{Piece, write_parallel, write_piece};
 use crate::system::recovery::Evaluation;
 use std::collections::HashMap;
@@ -11,6 +11,9 @@ use std::path::Path;
 
 /// Facets of the figure at most.
 const MOST_FACETS: usize = 20_000;
+
+/// On a lattice of every so many-th node, or more, the facets of a macro triangle may all lie beside a zoom that shows a part of it.
+const COARSE: usize = 4;
 
 /// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own. `stress` is that of a part at a
 /// node.
@@ -92,22 +95,84 @@ impl PieceMesh {
 
 /// Facets for the figure of the deformed bodies, coarse enough to draw, from all ranks. **Collective**
 pub fn facets(found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4]) -> Vec<Facet> {
-    let Evaluation { problem, session, u, .. } = found;
+    let count = found.problem.scene.mesh.triangles.len();
+    let n = found.problem.finest().numbering.level.intervals;
+    let (shown, skip) = shown(count, n);
+    let own = found.problem.scene.partition.triangles_of(found.session.rank()).iter().copied();
+    let drawn: Vec<u32> = own.filter(|&triangle| (triangle as usize).is_multiple_of(skip)).collect();
+    gather_facets(found, stress, &drawn, n / shown, |_| true)
+}
+
+/// The facets that a zoom shows, as fine as the mesh where there are not too many, from all ranks. **Collective**
+pub fn facets_of_zoom(found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4], zoom: &ContactZoom) -> Vec<Facet> {
+    let Evaluation { problem, session, .. } = found;
+    let own = problem.scene.partition.triangles_of(session.rank());
+    let mut step = problem.finest().numbering.level.intervals;
+    let mut drawn: Vec<u32> = own.iter().copied().filter(|&triangle| may_show(found, zoom, triangle)).collect();
+    loop {
+        let counts: Vec<usize> = drawn.iter().map(|&triangle| count_shown(found, zoom, triangle, step)).collect();
+        let mut count = [counts.iter().sum::<usize>() as f64];
+        session.sum(&mut count);
+        if step == 1 || 4.0 * count[0] > MOST_FACETS as f64 {
+            return gather_facets(found, stress, &drawn, step, |corners| zoom.shows(corners));
+        }
+        // On a coarse lattice a bulge may be missed.
+        let mut counts = counts.iter();
+        drawn.retain(|_| counts.next().is_some_and(|&count| count > 0) || step > COARSE);
+        step /= 2;
+    }
+}
+
+/// Whether a zoom may show a macro triangle: with the room around it for edges that are bent.
+fn may_show(Evaluation { problem, u, .. }: &Evaluation, zoom: &ContactZoom, triangle: u32) -> bool {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
-    let (shown, skip) = shown(mesh.triangles.len(), n);
-    let step = n / shown;
+    let numbers = numbering.triangle(mesh, triangle as usize);
+    let corners = [(0, 0), (n, 0), (0, n)].map(|(i, j)| {
+        let (x, u) = (mesh.node_position(triangle as usize, numbering.level, (i, j)), u.at(numbers.node(i, j)));
+        [x.x + u[0], x.y + u[1]]
+    });
+    let middle = [0, 1].map(|axis| corners.iter().map(|x| x[axis]).sum::<f64>() / 3.0);
+    zoom.shows(&corners.map(|x| [0, 1].map(|axis| middle[axis] + 3.0 * (x[axis] - middle[axis]))))
+}
+
+/// How many facets of a macro triangle a zoom shows, of a lattice of every `step`-th node.
+fn count_shown(Evaluation { problem, u, .. }: &Evaluation, zoom: &ContactZoom, triangle: u32, step: usize) -> usize {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let numbers = numbering.triangle(mesh, triangle as usize);
+    let place = |(i, j): (usize, usize)| {
+        let node = (step * i, step * j);
+        let (x, u) = (mesh.node_position(triangle as usize, numbering.level, node), u.at(numbers.node(node.0, node.1)));
+        [x.x + u[0], x.y + u[1]]
+    };
+    let facets = lattice::triangles(numbering.level.intervals / step, Order::P1);
+    facets.filter(|small| zoom.shows(&Triangle::nodes::<3>(small).map(place))).count()
+}
+
+/// Those facets of macro triangles of this rank that are wanted by their deformed corners, of lattices of every `step`-th node,
+/// from all ranks. **Collective**
+fn gather_facets(
+    Evaluation { problem, session, u, .. }: &Evaluation,
+    stress: impl Fn(usize, usize) -> [f64; 4],
+    triangles: &[u32],
+    step: usize,
+    wanted: impl Fn(&[[f64; 2]; 3]) -> bool,
+) -> Vec<Facet> {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let mut values: Vec<f64> = Vec::new();
-    for &triangle in
-        problem.scene.partition.triangles_of(session.rank()).iter().filter(|&&triangle| (triangle as usize).is_multiple_of(skip))
-    {
+    for &triangle in triangles {
         let numbers = numbering.triangle(mesh, triangle as usize);
-        for small in lattice::triangles(shown, Order::P1) {
+        for small in lattice::triangles(numbering.level.intervals / step, Order::P1) {
             let corners = Triangle::nodes::<3>(&small).map(|(i, j)| (step * i, step * j));
-            for (i, j) in corners {
+            let places = corners.map(|(i, j)| {
                 let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
-                let node = numbers.node(i, j);
-                values.extend([x.x, x.y]);
+                (numbers.node(i, j), [x.x, x.y])
+            });
+            if !wanted(&places.map(|(node, x)| [0, 1].map(|axis| x[axis] + u.at(node)[axis]))) {
+                continue;
+            }
+            for (node, x) in places {
+                values.extend(x);
                 values.extend(u.at(node));
                 values.push(von_mises(stress(mesh.triangles[triangle as usize].part as usize, node)));
             }

@@ -7,6 +7,7 @@
 use super::{Origin, accuracy, progress, summarise};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
+use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{CoarseSolveSummary, Mesh, Status, StepSummary, Summary, Unknowns};
 use crate::output::{OutputError, ResultFolder, recover};
 use crate::system::{Event, Work};
@@ -51,6 +52,10 @@ struct Unfinished {
     doing: &'static str,
     started: Instant,
     out: PathBuf,
+    /// What was warned of.
+    warnings: Vec<String>,
+    /// Title of the case, if the run leaves a report.
+    title: Option<String>,
 }
 
 /// From now on signals end this process in order; those that its parent has told it to ignore are ignored. Files that grow
@@ -125,15 +130,17 @@ fn lock() -> MutexGuard<'static, Option<Unfinished>> {
 }
 
 /// Every rank learns where results go; rank 0 gives its folder out of its hands until [`finish`].
-pub fn begin(folder: Option<ResultFolder>, files: &Path, out: &Path, case: &str, origin: Arc<Origin>, started: Instant) {
+pub fn begin(folder: Option<ResultFolder>, files: &Path, out: &Path, case: &Case, origin: Arc<Origin>, started: Instant) {
     let _ = PLACE.set((out.to_path_buf(), files.to_path_buf()));
     *lock() = folder.map(|folder| Unfinished {
         folder,
-        summary: Summary::new(case, origin.provenance.ranks),
+        summary: Summary::new(&case.name, origin.provenance.ranks),
         origin,
         doing: "reading the mesh",
         started,
         out: out.to_path_buf(),
+        warnings: Vec::new(),
+        title: case.output.fields.then(|| case.title.clone()),
     });
 }
 
@@ -159,6 +166,15 @@ pub fn keep_steps(rows: &[StepSummary]) {
     }
 }
 
+/// Keeps a warning, each once.
+pub fn keep_warning(words: &str) {
+    if let Some(unfinished) = &mut *lock()
+        && !unfinished.warnings.iter().any(|other| other == words)
+    {
+        unfinished.warnings.push(words.into());
+    }
+}
+
 /// Keeps what is worked on.
 pub fn enter(work: Work) {
     if let Some(unfinished) = &mut *lock() {
@@ -177,10 +193,10 @@ pub fn enter(work: Work) {
 ///
 /// # Errors
 /// Those of `write`.
-pub fn finish(write: impl FnOnce(ResultFolder) -> Result<(), OutputError>) -> Result<(), OutputError> {
+pub fn finish(write: impl FnOnce(ResultFolder, &[String]) -> Result<(), OutputError>) -> Result<(), OutputError> {
     let mut unfinished = lock();
     OVER.store(true, Ordering::Relaxed);
-    unfinished.take().map_or(Ok(()), |unfinished| write(unfinished.folder))
+    unfinished.take().map_or(Ok(()), |unfinished| write(unfinished.folder, &unfinished.warnings))
 }
 
 /// The run is at its end: what is there of a result that is not in its place is removed.
@@ -244,7 +260,7 @@ impl Unfinished {
 
     /// Makes what was reached the result, and gives the last words. If a rank has failed, there is none.
     fn interrupt(self, signal: &str) -> String {
-        let Self { folder, origin, mut summary, doing, started, out } = self;
+        let Self { folder, origin, mut summary, doing, started, out, warnings, title } = self;
         if folder.path(FAILED).exists() {
             return format!("ended by {signal}, since another rank has failed");
         }
@@ -255,9 +271,15 @@ impl Unfinished {
         summary.reason = Some(reason.clone());
         summary.time_s.total = Some(seconds);
         summary.provenance = Some(origin.provenance.clone());
+        let report = |title: &String| {
+            let case = origin.case();
+            let page = ReportPage { title, summary: &summary, expected: &[], contacts: &[], warnings: &warnings, case };
+            write_report(folder.temporary(), &page)
+        };
         let written = folder
             .empty()
             .and_then(|()| origin.write(&folder))
+            .and_then(|()| title.as_ref().map_or(Ok(()), report))
             .and_then(|()| summary.write(&folder.path("summary.json")))
             .and_then(|()| folder.commit());
         match written {
@@ -303,13 +325,26 @@ mod tests {
             fs::create_dir_all(folder.path("steps/001")).unwrap();
             let mut summary = Summary::new("bars", 2);
             summary.solver.coarse.push(CoarseSolveSummary::default());
-            Unfinished { folder, origin: Arc::default(), summary, doing: "solving", started: Instant::now(), out: out.clone() }
+            Unfinished {
+                folder,
+                origin: Arc::default(),
+                summary,
+                doing: "solving",
+                started: Instant::now(),
+                out: out.clone(),
+                warnings: vec!["a <warning>".into()],
+                title: Some("Two <bars>".into()),
+            }
         };
         let words = unfinished().interrupt("SIGTERM");
         assert!(words.starts_with("interrupted by SIGTERM after 0.0 s, while solving: coarser meshes are solved (1)"), "{words}");
         let written = Summary::read(&out.join("summary.json")).unwrap();
-        assert_eq!((written.status, fs::read_dir(&out).unwrap().count()), (Status::Interrupted, 2));
+        assert_eq!((written.status, fs::read_dir(&out).unwrap().count()), (Status::Interrupted, 3));
         assert_eq!(written.outer, []);
+        let page = fs::read_to_string(out.join("report.html")).unwrap();
+        for words in ["Two &lt;bars&gt;", "Interrupted", "SIGTERM after 0.0 s", "a &lt;warning&gt;"] {
+            assert!(page.contains(words), "{words}: {page}");
+        }
         fs::remove_dir_all(&out).unwrap();
         let failed = unfinished();
         fs::write(failed.folder.path(FAILED), "").unwrap();

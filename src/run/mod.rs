@@ -3,7 +3,9 @@
 mod accuracy;
 mod check;
 mod exact;
+mod expected;
 mod fields;
+mod figures;
 mod forecast;
 mod info;
 mod input;
@@ -66,7 +68,7 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     refuse_options(session)?;
     let (folder, files) = claim_folder(options, session)?;
     let origin = Origin::new(case, session);
-    interruption::begin(folder, &files, &options.out, &case.name, Arc::new(origin.clone()), options.started);
+    interruption::begin(folder, &files, &options.out, case, Arc::new(origin.clone()), options.started);
     progress::begin(options.progress, session.rank() == 0, options.quiet, options.started);
     let report = Report::new(case, options, session);
     let stages = Rc::new(Stages::new(session)?);

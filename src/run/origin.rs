@@ -55,6 +55,11 @@ impl Origin {
         Self { provenance, case: case.resolved(), mesh: None }
     }
 
+    /// The resolved case, as it is written beside the summary.
+    pub fn case(&self) -> &str {
+        &self.case
+    }
+
     /// The same with the bytes of the mesh file, on rank 0.
     pub fn with_mesh(mut self, case: &Case, bytes: Vec<u8>) -> Self {
         self.provenance.mesh_hash = Some(sha256(&bytes));

@@ -1,6 +1,6 @@
 //! What a run prints on rank 0 while it lives.
 
-use super::{Outcome, RunOptions, Stages, accuracy, origin, progress};
+use super::{Outcome, RunOptions, Stages, accuracy, interruption, origin, progress};
 use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::case::{Case, LoadStep};
 use crate::element::Order;
@@ -202,6 +202,7 @@ impl Report {
     /// A line of warning on standard error, also if the run is quiet.
     pub fn warn(&self, line: &str) {
         if self.first {
+            interruption::keep_warning(&format!("{}{line}", self.of_step));
             // The run is worth more than the words.
             let words = format!("mezha: warning: {}{line}\n", self.of_step);
             let _ = progress::aside(|| std::io::stderr().write_all(words.as_bytes()));

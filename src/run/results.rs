@@ -4,13 +4,14 @@ use super::exact::{Errors, compare, largest};
 use super::outcome::outside;
 use super::report::{memory, short};
 use super::slivers::slivers;
-use super::{Outcome, Run, RunError, accuracy, fields, interruption, points, summarise, trust, zones};
+use super::{Outcome, Run, RunError, accuracy, expected, fields, figures, interruption, points, summarise, trust, zones};
 use crate::accuracy::Adaptation;
 use crate::contact::{Configuration, GapChoice};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
+use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{self, Status, Summary};
-use crate::output::{ContactPoint, OutputError, ResultFolder, plot, vtk, write_contact};
+use crate::output::{ContactPoint, OutputError, ResultFolder, vtk, write_contact};
 use crate::system::recovery::{Evaluation, TracePoint};
 use crate::system::{Contact, Solved};
 use std::path::Path;
@@ -48,7 +49,7 @@ impl Run<'_> {
         summary.time_s = self.report.times(&self.stages, self.session);
         summary.memory_mib = memory(self.session);
         summary.provenance = Some(self.origin.provenance.clone());
-        let finished = interruption::finish(|folder| self.put_in_place(&summary, mesh, folder));
+        let finished = interruption::finish(|folder, warnings| self.put_in_place(&summary, mesh, folder, warnings));
         let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
@@ -59,8 +60,21 @@ impl Run<'_> {
     }
 
     /// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place.
-    fn put_in_place(&self, summary: &Summary, mesh: &MacroMesh, folder: ResultFolder) -> Result<(), OutputError> {
+    fn put_in_place(
+        &self,
+        summary: &Summary,
+        mesh: &MacroMesh,
+        folder: ResultFolder,
+        warnings: &[String],
+    ) -> Result<(), OutputError> {
         self.origin.write(&folder)?;
+        if self.case.output.fields {
+            let contacts = self.case.contacts.iter().map(|pair| (pair.name.clone(), figures::sides(mesh, pair)));
+            let (contacts, expected): (Vec<_>, _) = (contacts.collect(), expected::expected_values(self.case, summary));
+            let (title, case) = (self.case.title.as_str(), self.origin.case());
+            let page = ReportPage { title, summary, expected: &expected, contacts: &contacts, warnings, case };
+            write_report(folder.temporary(), &page)?;
+        }
         if summary.accuracy.as_ref().is_some_and(|steps| !steps.is_empty()) {
             let own = mesh.without_tools(|name| self.case.tool_of(name).is_some());
             let path = folder.path(accuracy::ADAPTED_MESH);
@@ -142,7 +156,7 @@ impl Run<'_> {
         }
         let errors = compare(self.case, &found)?;
         let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
-        self.write_files(&found, &traces, adaptation.as_ref())?;
+        self.write_files(&found, summary, &traces, adaptation.as_ref())?;
         Ok(errors)
     }
 
@@ -184,6 +198,7 @@ impl Run<'_> {
     fn write_files(
         &self,
         found: &Evaluation,
+        summary: &Summary,
         traces: &[Vec<ContactPoint>],
         adaptation: Option<&Adaptation>,
     ) -> Result<(), RunError> {
@@ -202,44 +217,8 @@ impl Run<'_> {
             let mut pairs = found.problem.contacts.iter().zip(traces);
             pairs.try_for_each(|(contact, points)| vtk::write_curve(&curve(&contact.pair.name), points))?;
         }
-        if self.draws { self.write_figures(found, traces, adaptation, at_node) } else { Ok(()) }
+        if self.draws { self.write_figures(found, summary, traces, adaptation, at_node) } else { Ok(()) }
     }
-
-    /// Figures of the solution. **Collective**
-    fn write_figures(
-        &self,
-        found: &Evaluation,
-        traces: &[Vec<ContactPoint>],
-        adaptation: Option<&Adaptation>,
-        stress: impl Fn(usize, usize) -> [f64; 4],
-    ) -> Result<(), RunError> {
-        let (case, folder) = (self.case, &self.files);
-        let facets = fields::facets(found, stress);
-        let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found, |_| true));
-        let interfaces = fields::macro_edges(found, |edge| found.problem.scene.mesh.is_interface(edge));
-        if self.session.rank() != 0 {
-            return Ok(());
-        }
-        let title = if case.title.is_empty() { &case.name } else { &case.title };
-        for (contact, points) in found.problem.contacts.iter().zip(traces) {
-            let name = &contact.pair.name;
-            plot::write_pressure(&folder.join(format!("pressure_{name}.svg")), title, points)?;
-            plot::write_displacement(&folder.join(format!("displacement_{name}.svg")), title, points)?;
-        }
-        let lines: Vec<&[ContactPoint]> = traces.iter().map(Vec::as_slice).collect();
-        plot::write_deformed(&folder.join("deformed.svg"), title, &facets, [&macro_edges, &interfaces], &lines)?;
-        adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title, adaptation))
-    }
-}
-
-/// Draws what was reached on each mesh, if there are two of them.
-fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result<(), RunError> {
-    let sequences = accuracy::sequences(adaptation);
-    let is_known = sequences.iter().any(|sequence| sequence.estimates.iter().any(|(_, error)| *error > 0.0));
-    if adaptation.meshes.len() >= 2 && is_known {
-        plot::write_accuracy(&folder.join("accuracy.svg"), title, &sequences)?;
-    }
-    Ok(())
 }
 
 /// How the procedure ended: the status, and its words.

@@ -1,19 +1,37 @@
-//! The figure of a study: lines as diagrams, one block for each case.
+//! The figures of a study: what an error costs, and lines as diagrams, one block for each case.
 
 use super::fit::PowerLaw;
 use super::lines::{Line, LinePoint};
 use super::plan::Plan;
 use super::repeats::Spread;
 use super::summary_path::SummaryPath;
-use crate::output::plot::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};
+use crate::output::plot::{Axis, Diagram, DiagramBlock, LegendRow, Mark, NamedDiagram, NamedLine, diagrams, named_diagrams};
 
-/// The text of `study.svg`; None if no line has two points.
+/// The text of `study.svg`: for each case, time against the first error, or against unknowns without any; None if no line has
+/// two points.
 ///
 /// # Errors
 /// It cannot be drawn, in words.
-pub fn figure(plan: &Plan, lines: &[Line]) -> Result<Option<String>, String> {
+pub fn first_figure(plan: &Plan, lines: &[Line]) -> Result<Option<String>, String> {
+    named_diagrams(&by_case(lines).iter().map(|case| case.race(plan)).collect::<Vec<_>>())
+}
+
+/// The text of `study_all.svg`: all diagrams of all cases; None if no line has two points.
+///
+/// # Errors
+/// It cannot be drawn, in words.
+pub fn all_figures(plan: &Plan, lines: &[Line]) -> Result<Option<String>, String> {
+    let block = |case: &CaseLines| {
+        let legend = case.lines.iter().map(|(style, line)| entry(plan, *style, line)).collect();
+        DiagramBlock { title: case.title.clone(), legend, diagrams: case.diagrams(plan) }
+    };
+    diagrams(&by_case(lines).iter().map(block).collect::<Vec<_>>())
+}
+
+/// The lines of each case, with styles by their names; none at all if no line has two points.
+fn by_case(lines: &[Line]) -> Vec<CaseLines<'_>> {
     if lines.iter().all(|line| line.points.len() < 2) {
-        return Ok(None);
+        return Vec::new();
     }
     let mut cases: Vec<&str> = Vec::new();
     let mut names: Vec<&str> = Vec::new();
@@ -26,15 +44,14 @@ pub fn figure(plan: &Plan, lines: &[Line]) -> Result<Option<String>, String> {
         }
     }
     let style = |line: &Line| names.iter().position(|name| *name == line.name).unwrap_or_default();
-    let block = |case: &&str| {
+    let of_case = |case: &&str| {
         let own: Vec<(usize, &Line)> =
             lines.iter().filter(|line| line.case == **case && !line.points.is_empty()).map(|line| (style(line), line)).collect();
         let title = own.first().map(|(_, line)| line.title.as_str()).filter(|title| !title.is_empty());
         let title = title.map_or((*case).to_owned(), |title| format!("{case}: {title}"));
-        let legend = own.iter().map(|(style, line)| entry(plan, *style, line)).collect();
-        DiagramBlock { title, legend, diagrams: CaseLines { lines: own }.diagrams(plan) }
+        CaseLines { title, lines: own }
     };
-    diagrams(&cases.iter().map(block).collect::<Vec<_>>())
+    cases.iter().map(of_case).collect()
 }
 
 /// A line's row in the legend: its name, its orders, its cost.
@@ -55,6 +72,8 @@ pub fn law(words: &str, law: Option<PowerLaw>) -> String {
 
 /// The lines of one case, with their styles.
 struct CaseLines<'a> {
+    /// Name and title of the case.
+    title: String,
     lines: Vec<(usize, &'a Line)>,
 }
 
@@ -69,6 +88,32 @@ impl CaseLines<'_> {
             y: axis(y),
             behind: Vec::new(),
             lines: self.lines.iter().map(|(style, line)| (*style, marks(line))).collect(),
+        }
+    }
+
+    /// What an error costs, or a size where no error is asked for.
+    fn race(&self, plan: &Plan) -> NamedDiagram {
+        let error = plan.errors.first().map(|error| error.text.as_str());
+        let place = |point: &LinePoint| match error {
+            Some(error) => Some(timed(*point.errors.get(error)?, point.time?, point)),
+            None => Some(timed(point.unknowns, point.time?, point)),
+        };
+        let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
+        let line = |(style, line): &(usize, &Line)| {
+            let mut marks: Vec<Mark> = line.points.iter().filter_map(place).collect();
+            // Names stand where a line has come farthest.
+            if error.is_some() && marks.first().zip(marks.last()).is_some_and(|(first, last)| first.x < last.x) {
+                marks.reverse();
+            }
+            NamedLine { name: line.name.clone(), style: *style, marks }
+        };
+        NamedDiagram {
+            title: self.title.clone(),
+            x: axis(&error.map_or("unknowns N".to_owned(), |error| format!("{error}, better to the right"))),
+            falling: error.is_some(),
+            y: axis(&format!("{} [s]", plan.time.text)),
+            behind: error.map_or(Vec::new(), |error| front(&self.lines, error)),
+            lines: self.lines.iter().map(line).collect(),
         }
     }
 

@@ -13,8 +13,8 @@ use super::record::{Identity, Record};
 use crate::case::Inputs;
 use crate::output::OutputError;
 
-/// What a whole study leaves, but for the runs.
-const TABLES: [&str; 5] = ["study.csv", "study.json", "study.md", "study.svg", "study.html"];
+/// What a whole study leaves, but for the runs; the last one is of older versions, which called the page so.
+const TABLES: [&str; 7] = ["study.csv", "study.json", "study.md", "study.svg", "study_all.svg", "report.html", "study.html"];
 const RUNS: &str = "runs";
 /// Held by the program, and by the run that it has started, as long as one of them lives.
 const LOCK: &str = ".lock";

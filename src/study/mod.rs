@@ -51,16 +51,21 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     let results = make(&plan, &program, &folder, &wanted, places, &progress)?;
     let table = with_spreads(Table::new(&plan, &results), &plan);
     let lines = lines::lines(&plan, &results);
-    let figure = figure::figure(&plan, &lines).map_err(|words| StudyError::Failed(format!("cannot draw study.svg: {words}")))?;
+    let draw = |name: &str, drawn: Result<Option<String>, String>| {
+        drawn.map_err(|words| StudyError::Failed(format!("cannot draw {name}: {words}")))
+    };
+    let first = draw("study.svg", figure::first_figure(&plan, &lines))?;
+    let all = draw("study_all.svg", figure::all_figures(&plan, &lines))?;
     let mut texts = vec![
         ("study.csv", format::csv(&table)),
         ("study.json", format::json(&table, &lines)),
         ("study.md", format::markdown(&table)),
-        ("study.html", page::html(&table, &lines, figure.as_deref())),
+        ("report.html", page::html(&table, &lines, [first.as_deref(), all.as_deref()])),
     ];
-    texts.extend(figure.map(|text| ("study.svg", text)));
+    texts.extend(first.map(|text| ("study.svg", text)));
+    texts.extend(all.map(|text| ("study_all.svg", text)));
     folder.write_tables(&texts)?;
-    progress.end(&plan, &results, &out.join("study.html"));
+    progress.end(&plan, &results, &out.join("report.html"));
     Ok(results.iter().any(Ended::has_result))
 }
 

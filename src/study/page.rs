@@ -1,50 +1,48 @@
-//! `study.html`: figure and tables in one file, which needs nothing else.
+//! `report.html` of a study: figures and tables in one file, which needs nothing else.
 
 use super::figure::law;
 use super::fit::{FARTHEST, FITTED};
 use super::format::{Readable, about};
 use super::lines::{Line, LinePoint};
 use super::table::Table;
+use crate::output::markup::{document, escape, figure, list, paragraph, section, table as rows};
 
-const STYLE: &str = "body { font: 15px/1.45 sans-serif; color: #262626; margin: 2em auto; padding: 0 1em; max-width: 70em }\n\
-h1, h2 { line-height: 1.2 }\n\
-table { border-collapse: collapse; font-size: 13px }\n\
-th, td { border: 1px solid #ddd; padding: .2em .5em; text-align: left }\n\
-th { background: #f4f4f4 }\n\
-td.number { text-align: right; white-space: nowrap }\n\
-div.wide { overflow-x: auto }\n\
-svg { max-width: 100%; height: auto }\n";
-
-/// The page. It is well-formed XML too.
-pub fn html(table: &Table, lines: &[Line], figure: Option<&str>) -> String {
-    let mut sections = vec![paragraph(&about(table))];
-    if let Some(figure) = figure {
-        sections.push(format!("<div class=\"wide\">\n{figure}</div>\n"));
-        sections.push(heading("Orders and costs"));
-        sections.push(paragraph(&[
-            "N is the number of unknowns, h the edge length with h² ~ 1/N.".into(),
-            format!("Exponents are fitted through the {FITTED} points of a line with most unknowns."),
-            format!("Where one of them is further from the fit than by a factor of {FARTHEST}, it is no power law."),
-        ]));
-        sections.push(laws(table, lines));
+/// The page, with the first figure and that of all diagrams, if there are any. It is well-formed XML too.
+pub fn html(table: &Table, lines: &[Line], [first, all]: [Option<&str>; 2]) -> String {
+    let mut sections = Vec::new();
+    if let Some(first) = first {
+        let words = match table.errors.first() {
+            Some(error) => format!(
+                "What an error costs: {} against {error}, which becomes better to the right. Grey: the Pareto front. Hollow marks are not to be trusted; bars reach from the fastest to the slowest repeat.",
+                table.time
+            ),
+            None => format!("What a size costs: {} against displacement unknowns.", table.time),
+        };
+        sections.push(figure(first, &words));
     }
     for error in &table.errors {
         if lines.iter().flat_map(|line| &line.points).any(|point| point.front.contains(error)) {
-            sections.push(heading(&format!("The Pareto front of {error}")));
-            sections.push(paragraph(&["No other run of the case is both as fast and as accurate.".into()]));
+            sections.push(section("front", &format!("The Pareto front of {error}")));
+            sections.push(paragraph("No other run of the case is both as fast and as accurate."));
             sections.push(front(table, lines, error));
         }
     }
-    sections.push(heading("All runs"));
-    let all = Readable::new(table);
-    let header: Vec<&str> = all.header.iter().map(String::as_str).collect();
-    sections.push(format!("<div class=\"wide\">\n{}</div>\n", rows(&header, &all.rows)));
-    format!(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <title>Study {name}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<h1>Study {name}</h1>\n{}</body>\n</html>\n",
-        sections.concat(),
-        name = escape(&table.study),
-    )
+    if first.is_some() {
+        sections.push(section("laws", "Orders and costs"));
+        sections.push(paragraph(&format!(
+            "N is the number of unknowns, h the edge length with h² ~ 1/N. Exponents are fitted through the {FITTED} points of a line with most unknowns. Where one of them is further from the fit than by a factor of {FARTHEST}, it is no power law."
+        )));
+        sections.push(laws(table, lines));
+    }
+    if let Some(all) = all {
+        sections.push(section("diagrams", "All diagrams"));
+        sections.push(figure(all, "Errors, times, iterations of all lines, case by case."));
+    }
+    sections.push(section("runs", "All runs"));
+    let readable = Readable::new(table);
+    sections.push(rows(&readable.header, &readable.rows));
+    let header = format!("<header>\n<p class=\"kind\">Study</p>\n<h1>{}</h1>\n</header>\n", escape(&table.study));
+    document(&format!("Study {}", table.study), &format!("{header}{}{}", list(&about(table)), sections.concat()))
 }
 
 /// Orders and costs of all lines.
@@ -75,31 +73,6 @@ fn front(table: &Table, lines: &[Line], error: &str) -> String {
         [line.case.clone(), line.name.clone()].into_iter().chain(numbers).chain([point.result.clone()]).collect()
     };
     rows(&header, &best.iter().map(row).collect::<Vec<_>>())
-}
-
-/// A table.
-fn rows(header: &[&str], rows: &[Vec<String>]) -> String {
-    let cell = |text: &String| {
-        let is_number = text.split([' ', '^']).next().is_some_and(|word| word.parse::<f64>().is_ok());
-        format!("<td{}>{}</td>", if is_number { " class=\"number\"" } else { "" }, escape(text))
-    };
-    let row = |cells: &Vec<String>| format!("<tr>{}</tr>\n", cells.iter().map(cell).collect::<String>());
-    let names: String = header.iter().map(|name| format!("<th>{}</th>", escape(name))).collect();
-    format!("<table>\n<tr>{names}</tr>\n{}</table>\n", rows.iter().map(row).collect::<String>())
-}
-
-fn heading(text: &str) -> String {
-    format!("<h2>{}</h2>\n", escape(text))
-}
-
-fn paragraph(sentences: &[String]) -> String {
-    format!("<p>{}</p>\n", escape(&sentences.join(" ")))
-}
-
-/// Text that is no markup.
-fn escape(text: &str) -> String {
-    let visible: String = text.chars().filter(|letter| !letter.is_control() || *letter == '\n').collect();
-    visible.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -136,12 +109,21 @@ mod tests {
         let table = Table { study: "a < b".into(), errors: vec!["errors.energy".into()], ..Table::default() };
         let table =
             Table { columns: ["status", "reason", "repeat"].map(|name| Column::new(name, ColumnKind::Main)).to_vec(), ..table };
-        let page = html(&table, std::slice::from_ref(&line), Some("<svg></svg>\n"));
-        for words in ["<h1>Study a &lt; b</h1>", "<svg></svg>", "P1 &amp; &lt;P0&gt;", "h^2.00", "too few points", "runs/004"] {
+        let page = html(&table, std::slice::from_ref(&line), [Some("<svg ></svg>\n"), Some("<svg x=\"1\"></svg>\n")]);
+        for words in [
+            "<h1>a &lt; b</h1>",
+            "></svg>",
+            "x=\"1\"></svg>",
+            "errors.energy, which becomes better",
+            "P1 &amp; &lt;P0&gt;",
+            "h^2.00",
+            "too few points",
+            "runs/004",
+        ] {
             assert!(page.contains(words), "{words}: {page}");
         }
         assert_eq!(page.matches("runs/004").count(), 1, "one of both points is on the front");
-        let bare = html(&Table { errors: Vec::new(), ..table }, &[], None);
+        let bare = html(&Table { errors: Vec::new(), ..table }, &[], [None; 2]);
         assert!(!bare.contains("svg>") && !bare.contains("Pareto") && !bare.contains("Orders"), "{bare}");
     }
 }

@@ -84,8 +84,8 @@ pub fn write_accuracy(path: &Path, title: &str, goals: &[Sequence]) -> Result<()
     let y = axis(if known { "relative error: estimated, and true (dashed)" } else { "estimated relative error" })
         .spec(points().map(|(_, error)| error).chain(goals.iter().map(|goal| goal.asked)));
     let top = TITLE + ROW * goals.len() as i32 + MARGINS[3];
-    let sheet =
-        Sheet { width: WIDTH, height: HEIGHT + ROW * goals.len() as i32, margins: [MARGINS[0], MARGINS[1], top, MARGINS[2]] };
+    let margins = [MARGINS[0], MARGINS[1], top, MARGINS[2]];
+    let sheet = Sheet { width: WIDTH, height: HEIGHT + ROW * goals.len() as i32, margins }.with_room_for(&y);
     sheet.write(path, |sheet, area| {
         sheet.draw_title(area, title)?;
         let legend: Vec<LegendRow> = goals.iter().enumerate().map(|(style, goal)| goal.entry(style)).collect();

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use plotters::element::{PathElement, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontStyle, FontTransform, RGBColor};
+use plotters::style::{Color, FontStyle, FontTransform, RGBColor, ShapeStyle};
 
+use super::along::DrawnContact;
 use super::macro_edges::{BETWEEN, DrawnEdge, THIN, macro_lines};
 use super::outline::{loops, path_data, unmatched};
 use super::palette::{GREY, INK, viridis};
@@ -28,6 +29,8 @@ pub struct Facet {
 const LEVELS: usize = 40;
 /// The largest displacement is drawn as about this fraction of the size of the bodies.
 const SHOWN_DISPLACEMENT: f64 = 0.05;
+/// Points of a contact boundary that are drawn at most, up to a factor of two.
+const MOST_POINTS: usize = 1000;
 /// Room for the plot (pixels).
 const ROOM: [f64; 2] = [640.0, 560.0];
 /// A plot is at least this large (pixels).
@@ -49,14 +52,14 @@ pub fn write_deformed(
     title: &str,
     facets: &[Facet],
     [macro_edges, interfaces]: [&[DrawnEdge]; 2],
-    contacts: &[&[ContactPoint]],
+    contacts: &[DrawnContact],
 ) -> Result<(), OutputError> {
     check_facets(path, facets)?;
     let scale = automatic_scale(facets);
     let view = View::around(facets, scale);
     let colours = Colours::of(facets);
     let boundary = boundary_edges(facets);
-    let (casing, core, undeformed) = (line(&INK, 3.0), line(&RGBColor(255, 255, 255), 1.4), line(&GREY, 0.7));
+    let ([casing, core], undeformed) = (contact_line(), line(&GREY, 0.7));
     view.sheet.write(path, |sheet, area| {
         sheet.draw_title(area, &format!("{title}, displacements × {}", number_text(scale)))?;
         let legend = [("undeformed", &[undeformed][..]), ("contact boundary", &[casing, core])];
@@ -76,7 +79,12 @@ pub fn write_deformed(
     })
 }
 
-fn check_facets(path: &Path, facets: &[Facet]) -> Result<(), OutputError> {
+/// Strokes of a contact boundary, which lie on each other.
+pub(super) fn contact_line() -> [ShapeStyle; 2] {
+    [line(&INK, 3.0), line(&RGBColor(255, 255, 255), 1.4)]
+}
+
+pub(super) fn check_facets(path: &Path, facets: &[Facet]) -> Result<(), OutputError> {
     let finite = |facet: &Facet| {
         let numbers = facet.corners.iter().chain(&facet.displacement).flatten();
         numbers.chain(&facet.von_mises).all(|number| number.is_finite())
@@ -98,7 +106,8 @@ fn automatic_scale(facets: &[Facet]) -> f64 {
 }
 
 impl Facet {
-    fn deformed(&self, scale: f64) -> [[f64; 2]; 3] {
+    /// Its corners with their displacements.
+    pub fn deformed(&self, scale: f64) -> [[f64; 2]; 3] {
         std::array::from_fn(|k| [0, 1].map(|axis| self.corners[k][axis] + scale * self.displacement[k][axis]))
     }
 }
@@ -113,10 +122,10 @@ fn bounds(facets: &[Facet], scale: f64) -> [[f64; 2]; 2] {
 }
 
 /// The part of the plane that is shown, and the sheet that shows it without distortion.
-struct View {
-    sheet: Sheet,
-    x: AxisSpec,
-    y: AxisSpec,
+pub(super) struct View {
+    pub sheet: Sheet,
+    pub x: AxisSpec,
+    pub y: AxisSpec,
 }
 
 impl View {
@@ -126,7 +135,12 @@ impl View {
         let low = [0, 1].map(|axis| before[0][axis].min(after[0][axis]));
         let high = [0, 1].map(|axis| before[1][axis].max(after[1][axis]));
         let room = 0.03 * (high[0] - low[0]).max(high[1] - low[1]);
-        let needed = [0, 1].map(|axis| high[axis] - low[axis] + 2.0 * room);
+        View::of([low.map(|x| x - room), high.map(|x| x + room)])
+    }
+
+    /// Holds a box, given by its lower left and upper right corner.
+    pub fn of([low, high]: [[f64; 2]; 2]) -> View {
+        let needed = [0, 1].map(|axis| high[axis] - low[axis]);
         let pixels_per_length = (ROOM[0] / needed[0]).min(ROOM[1] / needed[1]);
         let pixels = [0, 1].map(|axis| (needed[axis] * pixels_per_length).max(LEAST[axis]).round());
         let axis_spec = |axis: usize, name: &str| {
@@ -135,21 +149,22 @@ impl View {
             let ticks = Ticks::new(range, (pixels[axis] / 80.0).ceil() as usize);
             AxisSpec { scale: Scale::Linear, name: format!("{name} [{}]", ticks.unit("length")), range, ticks }
         };
-        let margins = [62, BAR_ROOM, 62, 54];
+        let (x, y) = (axis_spec(0, "x"), axis_spec(1, "y"));
+        let margins = [y.room().max(62), BAR_ROOM, 62, 54];
         let [width, height] = pixels.map(|pixels| pixels as i32);
         let sheet = Sheet { width: width + margins[0] + margins[1], height: height + margins[2] + margins[3], margins };
-        View { sheet, x: axis_spec(0, "x"), y: axis_spec(1, "y") }
+        View { sheet, x, y }
     }
 }
 
 /// Von Mises stress from zero to `top` in equal steps of colour; peaks above take the last one.
-struct Colours {
+pub(super) struct Colours {
     top: f64,
     peak: Option<f64>,
 }
 
 impl Colours {
-    fn of(facets: &[Facet]) -> Colours {
+    pub fn of(facets: &[Facet]) -> Colours {
         let area = |[a, b, c]: [[f64; 2]; 3]| ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])).abs();
         let weighted: Vec<(f64, f64)> =
             facets.iter().map(|facet| (facet.von_mises.iter().sum::<f64>() / 3.0, area(facet.corners))).collect();
@@ -176,7 +191,7 @@ impl Colours {
 
 /// The triangles cut into bands of colour, merged where neighbours have the same. A line of that colour closes the hairlines
 /// between merged areas.
-fn fills(facets: &[Facet], scale: f64, colours: &Colours, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+pub(super) fn fills(facets: &[Facet], scale: f64, colours: &Colours, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
     let mut edges = vec![Vec::new(); LEVELS];
     for facet in facets {
         let (corners, steps) = (facet.deformed(scale), colours.steps(facet));
@@ -218,7 +233,12 @@ fn band(corners: &[[f64; 2]; 3], values: &[f64; 3], [low, high]: [f64; 2]) -> Ve
 }
 
 /// The outlines of the bodies as one path.
-fn outlines(boundary: &[[FacetCorner; 2]], scale: f64, colour: RGBColor, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+pub(super) fn outlines(
+    boundary: &[[FacetCorner; 2]],
+    scale: f64,
+    colour: RGBColor,
+    place: impl Fn([f64; 2]) -> (i32, i32),
+) -> String {
     let placed = |points: Vec<FacetCorner>| points.into_iter().map(|node| place(node.deformed(scale))).collect();
     let loops: Vec<Vec<(i32, i32)>> = loops(boundary).into_iter().map(placed).collect();
     let RGBColor(red, green, blue) = colour;
@@ -226,48 +246,60 @@ fn outlines(boundary: &[[FacetCorner; 2]], scale: f64, colour: RGBColor, place: 
     format!("<path fill=\"none\" stroke=\"#{red:02x}{green:02x}{blue:02x}\" stroke-width=\"7\" d=\"{data}\"/>\n")
 }
 
-/// A corner of a facet in single precision, by its bits: position and displacement, so that bodies that touch keep their own
-/// corners.
+/// A corner of a facet by its bits: position, rounded, and displacement, so that bodies that touch keep their own corners.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct FacetCorner([u32; 4]);
+pub(super) struct FacetCorner([u64; 4]);
 
 impl FacetCorner {
-    fn new([x, y]: [f64; 2], [ux, uy]: [f64; 2]) -> FacetCorner {
-        FacetCorner([x, y, ux, uy].map(|number| (number as f32 + 0.0).to_bits()))
+    /// Macro triangles that share a node place it alike up to rounding; here it has one place, a multiple of `unit`.
+    fn new(x: [f64; 2], u: [f64; 2], unit: f64) -> FacetCorner {
+        let [x, y] = x.map(|x| (x / unit).round() * unit);
+        FacetCorner([x, y, u[0], u[1]].map(|number| (number + 0.0).to_bits()))
     }
 
     fn displacement(self) -> [f64; 2] {
-        [self.0[2], self.0[3]].map(|bits| f64::from(f32::from_bits(bits)))
+        [self.0[2], self.0[3]].map(f64::from_bits)
     }
 
     fn deformed(self, scale: f64) -> [f64; 2] {
         let u = self.displacement();
-        [0, 1].map(|axis| f64::from(f32::from_bits(self.0[axis])) + scale * u[axis])
+        [0, 1].map(|axis| f64::from_bits(self.0[axis]) + scale * u[axis])
     }
 }
 
 /// The edges of facets that have a body on one side only.
-fn boundary_edges(facets: &[Facet]) -> Vec<[FacetCorner; 2]> {
+pub(super) fn boundary_edges(facets: &[Facet]) -> Vec<[FacetCorner; 2]> {
+    let [low, high] = bounds(facets, 0.0);
+    let far = low.iter().chain(&high).fold(0.0, |far: f64, x| far.max(x.abs()));
+    // Coordinates of drawings are seldom halves of this.
+    let unit = (1.37e-8 * (high[0] - low[0]).max(high[1] - low[1])).max(1.37e-13 * far).max(f64::MIN_POSITIVE);
     unmatched(facets.iter().flat_map(|facet| {
-        let [a, b, c] = [0, 1, 2].map(|k| FacetCorner::new(facet.corners[k], facet.displacement[k]));
+        let [a, b, c] = [0, 1, 2].map(|k| FacetCorner::new(facet.corners[k], facet.displacement[k], unit));
         [[a, b], [b, c], [c, a]]
     }))
 }
 
-/// A contact boundary moved along with the bodies.
-fn moved_contact(contact: &[ContactPoint], boundary: &[[FacetCorner; 2]], scale: f64) -> Vec<(f64, f64)> {
-    let moved = |p: &ContactPoint| {
-        let u = displacement_near([p.x, p.y], boundary);
-        let (along, across) = (p.nx * u[1] - p.ny * u[0], 0.5 * (p.un_1 + p.un_2));
-        (p.x + scale * (across * p.nx - along * p.ny), p.y + scale * (across * p.ny + along * p.nx))
-    };
-    contact.iter().map(moved).filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
+/// A contact boundary moved along with the bodies; of many points so many that none is missed.
+pub(super) fn moved_contact(contact: &DrawnContact, boundary: &[[FacetCorner; 2]], scale: f64) -> Vec<(f64, f64)> {
+    let points = contact.points;
+    let every = points.len().div_ceil(MOST_POINTS).max(1);
+    let shown = (0..points.len()).filter(|k| k % every == 0 || k + 1 == points.len()).map(|k| &points[k]);
+    shown.map(|p| moved_point(contact, p, boundary, scale)).filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
-/// The displacement at the point of the boundary that is nearest to a point.
-fn displacement_near(point: [f64; 2], boundary: &[[FacetCorner; 2]]) -> [f64; 2] {
+/// One point of it: normal to the boundary by the mean of both bodies' normal displacements, along it with the nearest boundary.
+pub(super) fn moved_point(contact: &DrawnContact, p: &ContactPoint, boundary: &[[FacetCorner; 2]], scale: f64) -> (f64, f64) {
+    let there = if contact.is_deformed { 1.0 } else { 0.0 };
+    let u = displacement_near([p.x, p.y], boundary, there);
+    let (along, across) = (p.nx * u[1] - p.ny * u[0], 0.5 * (p.un_1 + p.un_2));
+    let left = scale - there;
+    (p.x + left * (across * p.nx - along * p.ny), p.y + left * (across * p.ny + along * p.nx))
+}
+
+/// The displacement at the point of the boundary, deformed by `there`, that is nearest to a point.
+fn displacement_near(point: [f64; 2], boundary: &[[FacetCorner; 2]], there: f64) -> [f64; 2] {
     let nearest = boundary.iter().map(|edge| {
-        let [a, b] = edge.map(|node| node.deformed(0.0));
+        let [a, b] = edge.map(|node| node.deformed(there));
         let (edge_x, edge_y) = (b[0] - a[0], b[1] - a[1]);
         let (from_x, from_y) = (point[0] - a[0], point[1] - a[1]);
         let fraction = ((from_x * edge_x + from_y * edge_y) / (edge_x * edge_x + edge_y * edge_y)).clamp(0.0, 1.0);
@@ -280,7 +312,7 @@ fn displacement_near(point: [f64; 2], boundary: &[[FacetCorner; 2]]) -> [f64; 2]
 }
 
 /// Draws the bar of colours at the right of the plot, with its ticks and its name.
-fn draw_colour_bar(sheet: &Sheet, area: &Area, colours: &Colours) -> DrawResult<()> {
+pub(super) fn draw_colour_bar(sheet: &Sheet, area: &Area, colours: &Colours) -> DrawResult<()> {
     let left = (sheet.width - BAR_ROOM + 24) * PIXEL;
     let right = left + 16 * PIXEL;
     let [top, bottom] = [sheet.margins[2], sheet.height - sheet.margins[3]].map(|y| y * PIXEL);
@@ -326,11 +358,15 @@ mod tests {
         facets
     }
 
+    fn drawn(points: &[ContactPoint]) -> DrawnContact<'_> {
+        DrawnContact { title: "blocks", bodies: ["left", "right"], points, is_deformed: false }
+    }
+
     fn draw(facets: &[Facet]) -> Result<String, OutputError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deformed.svg");
         let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
-        write_deformed(&path, "blocks", facets, [&[], &[]], &[&contact]).map(|()| std::fs::read_to_string(path).unwrap())
+        write_deformed(&path, "blocks", facets, [&[], &[]], &[drawn(&contact)]).map(|()| std::fs::read_to_string(path).unwrap())
     }
 
     #[test]
@@ -372,11 +408,25 @@ mod tests {
     }
 
     #[test]
+    fn corners_that_differ_by_rounding_are_one() {
+        let mut facets = block(0.0, 3, |_, _| [0.0, 0.0], |_, _| 1.0);
+        facets[0].corners[0] = [1e-19, -3e-18];
+        facets[3].corners[1][0] += 1e-16;
+        let edges = boundary_edges(&facets);
+        assert_eq!((edges.len(), loops(&edges).len()), (12, 1));
+    }
+
+    #[test]
     fn contact_moves_with_the_bodies() {
         let facets = block(0.0, 3, |_, y| [0.0, 0.1 * y], |_, _| 1.0);
         let point = ContactPoint { x: 1.0, y: 0.5, nx: 1.0, un_1: 0.2, un_2: 0.4, ..ContactPoint::default() };
-        let moved = moved_contact(&[point], &boundary_edges(&facets), 10.0);
+        let edges = boundary_edges(&facets);
+        let moved = moved_contact(&drawn(&[point]), &edges, 10.0);
         assert!((moved[0].0 - 4.0).abs() < 1e-6 && (moved[0].1 - 1.0).abs() < 1e-6, "{moved:?}");
+        // Where contact is modelled on the deformed bodies it lies there already.
+        let there = ContactPoint { y: 0.55, x: 1.3, ..point };
+        let moved = moved_contact(&DrawnContact { is_deformed: true, ..drawn(&[there]) }, &edges, 1.0);
+        assert_eq!(moved, [(1.3, 0.55)]);
     }
 
     #[test]

@@ -157,13 +157,14 @@ fn draw_diagram(whole: &Area, panel: &Area, diagram: &Diagram) -> DrawResult<()>
     let marks: Vec<&Mark> = diagram.marks().collect();
     let across = diagram.x.spec(marks.iter().map(|mark| mark.x));
     let up = diagram.y.spec(marks.iter().flat_map(|mark| [mark.y, mark.reach[0], mark.reach[1]]));
-    let mut chart = PANEL.draw_axes(panel, &across, &up, true)?;
+    let sheet = PANEL.with_room_for(&up);
+    let mut chart = sheet.draw_axes(panel, &across, &up, true)?;
     chart.draw_series([PathElement::new(diagram.behind.clone(), line(&GREY.mix(0.3), 7.0))])?;
     for (style, marks) in &diagram.lines {
         draw_line(whole, &mut chart, *style, &diagram.shown(marks))?;
     }
     // The frame again, over the ends of the lines.
-    let [left, right, top, bottom] = PANEL.margins.map(|margin| margin * PIXEL);
+    let [left, right, top, bottom] = sheet.margins.map(|margin| margin * PIXEL);
     let corners = [(left, top), (PANEL.width * PIXEL - right, PANEL.height * PIXEL - bottom)];
     panel.draw(&Rectangle::new(corners, line(&GREY, 0.8)))?;
     Ok(())
@@ -220,7 +221,8 @@ impl Diagram {
 }
 
 impl Axis {
-    fn shows(&self, value: f64) -> bool {
+    /// Whether it can show a value.
+    pub(super) fn shows(&self, value: f64) -> bool {
         value.is_finite() && (!self.logarithmic || value > 0.0)
     }
 

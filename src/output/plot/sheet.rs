@@ -17,6 +17,12 @@ use crate::output::OutputError;
 /// Plotters' backend takes whole coordinates and line widths; a pixel of the figure has ten of them.
 pub(super) const PIXEL: i32 = 10;
 
+/// Size of the labels of ticks (pixels).
+const LABEL: f64 = 11.0;
+/// Left of a plot, beside the labels of its ticks: the edge of the sheet, the name of the axis, the ticks and what lies between
+/// them (pixels).
+const BESIDE: f64 = 40.0;
+
 /// The whole figure.
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// A chart with its frame and axes drawn.
@@ -88,7 +94,21 @@ impl ValueFormatter<f64> for AxisSpec {
     }
 }
 
+impl AxisSpec {
+    /// Room that a vertical axis takes at the left of a plot (pixels): its name, its widest label, its ticks.
+    pub fn room(&self) -> i32 {
+        let widths = self.ticks.values.iter().map(|&value| text_width(&self.ticks.label(value), LABEL));
+        (BESIDE + widths.fold(0.0, f64::max)).ceil() as i32
+    }
+}
+
 impl Sheet {
+    /// The sheet with as much room at the left of the plot as a vertical axis takes, if that is more than it has.
+    pub fn with_room_for(&self, y: &AxisSpec) -> Sheet {
+        let [left, right, top, bottom] = self.margins;
+        Sheet { margins: [left.max(y.room()), right, top, bottom], ..*self }
+    }
+
     /// Draws a figure and writes it. `draw` returns SVG elements that go below everything that it has drawn.
     pub fn write(
         &self,
@@ -167,7 +187,7 @@ impl Sheet {
             .light_line_style(RGBColor(255, 255, 255).mix(0.0))
             .axis_style(line(&GREY, 0.8))
             .set_all_tick_mark_size(4 * PIXEL)
-            .label_style(text_style(11.0, FontStyle::Normal, INK))
+            .label_style(text_style(LABEL, FontStyle::Normal, INK))
             .axis_desc_style(text_style(12.0, FontStyle::Normal, INK))
             .x_desc(x.name.as_str())
             .y_desc(y.name.as_str());

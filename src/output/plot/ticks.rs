@@ -90,7 +90,12 @@ pub(super) fn cut_off(high: f64, mut weighted: Vec<(f64, f64)>) -> Option<f64> {
 }
 
 /// A number for people: four digits, and a power of ten where that is shorter.
-pub(super) fn number_text(number: f64) -> String {
+pub fn number_text(number: f64) -> String {
+    number_to(4, number)
+}
+
+/// The same with so many digits.
+pub fn number_to(digits: i32, number: f64) -> String {
     let magnitude = if number == 0.0 { 0 } else { (number.abs() * (1.0 + 1e-9)).log10().floor() as i32 };
     let trimmed = |number: f64, decimals: usize| {
         let text = format!("{number:.decimals$}");
@@ -98,9 +103,9 @@ pub(super) fn number_text(number: f64) -> String {
         text.replace('-', "−")
     };
     if (-3..5).contains(&magnitude) {
-        return trimmed(number, (3 - magnitude).max(0) as usize);
+        return trimmed(number, (digits - 1 - magnitude).max(0) as usize);
     }
-    match trimmed(number / 10f64.powi(magnitude), 3) {
+    match trimmed(number / 10f64.powi(magnitude), digits as usize - 1) {
         one if one == "1" => power_of_ten(magnitude),
         digits => format!("{digits} × {}", power_of_ten(magnitude)),
     }
@@ -187,5 +192,6 @@ mod tests {
         for (number, text) in cases {
             assert_eq!(number_text(number), text);
         }
+        assert_eq!([7.780021, 4.5678912e-7].map(|number| number_to(6, number)), ["7.78002", "4.56789 × 10⁻⁷"]);
     }
 }

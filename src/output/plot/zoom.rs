@@ -1,0 +1,168 @@
+//! Where two bodies touch, so large that it can be seen.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use plotters::style::RGBColor;
+
+use super::along::DrawnContact;
+use super::deformed::{
+    Colours, Facet, FacetCorner, View, boundary_edges, check_facets, contact_line, draw_colour_bar, fills, moved_contact,
+    moved_point, outlines,
+};
+use super::palette::{BLUE, INK};
+use super::sheet::{PIXEL, line};
+use super::ticks::number_text;
+use crate::output::markup::escape;
+use crate::output::{ContactPoint, OutputError};
+
+/// An interval of a contact boundary that presses, and the part of the plane around it.
+#[derive(Clone, Debug)]
+pub struct ContactZoom {
+    /// Arc lengths of its ends.
+    pub interval: [f64; 2],
+    /// Lower left and upper right corner of what is shown.
+    pub frame: [[f64; 2]; 2],
+}
+
+/// Around the interval there is so much room, by its size.
+const MARGIN: f64 = 0.5;
+/// The largest pressure is drawn so high, by the size of the interval.
+const HEIGHT: f64 = 0.28;
+/// Names of bodies stand so far from the contact, by the size of the interval.
+const AWAY: f64 = 0.38;
+/// An interval that is smaller than this beside its coordinates cannot be drawn.
+const LEAST: f64 = 1e-9;
+
+impl ContactZoom {
+    /// The zoom on an interval, in the place where the bodies have gone. `facets` are those of all bodies, however coarse. None if
+    /// the interval has no size.
+    pub fn new(contact: &DrawnContact, interval: [f64; 2], facets: &[Facet]) -> Option<Self> {
+        let boundary = boundary_edges(facets);
+        let points: Vec<ContactPoint> = pressing(contact.points, interval).copied().collect();
+        let moved = moved_contact(&DrawnContact { points: &points, ..*contact }, &boundary, 1.0);
+        let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let [low, high] =
+            moved.iter().fold(start, |[low, high], &(x, y)| [[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]]);
+        let size = (high[0] - low[0]).max(high[1] - low[1]);
+        let far = low.iter().chain(&high).fold(0.0, |far: f64, x| far.max(x.abs()));
+        let frame = [low.map(|x| x - MARGIN * size), high.map(|x| x + MARGIN * size)];
+        (size.is_finite() && size > LEAST * far).then_some(Self { interval, frame })
+    }
+
+    /// Whether a facet may be seen.
+    pub fn shows(&self, corners: &[[f64; 2]; 3]) -> bool {
+        let [low, high] = self.frame;
+        (0..2).all(|axis| corners.iter().any(|x| x[axis] >= low[axis]) && corners.iter().any(|x| x[axis] <= high[axis]))
+    }
+
+    /// The size of the interval.
+    fn size(&self) -> f64 {
+        let [low, high] = self.frame;
+        (high[0] - low[0]).max(high[1] - low[1]) / (1.0 + 2.0 * MARGIN)
+    }
+}
+
+/// Points of a contact boundary within an interval.
+fn pressing(points: &[ContactPoint], [from, to]: [f64; 2]) -> impl Iterator<Item = &ContactPoint> {
+    let tiny = 1e-9 * (to - from);
+    points.iter().filter(move |p| p.s >= from - tiny && p.s <= to + tiny)
+}
+
+/// Draws `deformed_NAME_1.svg` and so on: the bodies around an interval that presses, coloured by von Mises stress, with their
+/// names, and the pressure on the contact boundary.
+///
+/// Displacements are drawn as they are: with any other factor bodies whose gap closes would overlap, or stay apart. The facets
+/// are those that [`ContactZoom::shows`].
+///
+/// # Errors
+/// There is no facet, or a number is not finite; the operating system refuses.
+pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facets: &[Facet]) -> Result<(), OutputError> {
+    check_facets(path, facets)?;
+    let view = View::of(zoom.frame);
+    let colours = Colours::of(facets);
+    let boundary = boundary_edges(facets);
+    let ([casing, core], pressure) = (contact_line(), line(&BLUE, 1.6));
+    let whole = moved_contact(contact, &boundary, 1.0);
+    let profile = profile(zoom, contact, &boundary);
+    let largest = pressing(contact.points, zoom.interval).map(|p| p.lambda).fold(0.0, f64::max);
+    view.sheet.write(path, |sheet, area| {
+        let ends = zoom.interval.map(number_text);
+        sheet.draw_title(area, &format!("{}, s = {} to {}, displacements × 1", contact.title, ends[0], ends[1]))?;
+        let words = format!("contact pressure λ, up to {}", number_text(largest));
+        sheet.draw_legend(area, &[("contact boundary", &[casing, core]), (&words, &[pressure])])?;
+        let chart = sheet.draw_axes(area, &view.x, &view.y, false)?;
+        draw_colour_bar(sheet, area, &colours)?;
+        let place = |x: [f64; 2]| chart.backend_coord(&x.into());
+        let lines = polyline(&whole, "#262626", 30, place) + &polyline(&whole, "#ffffff", 14, place);
+        let bodies = fills(facets, 1.0, &colours, place) + &outlines(&boundary, 1.0, INK, place);
+        let names = names(zoom, contact, &boundary, place);
+        let inside = bodies + &lines + &envelope(&profile, place) + &names;
+        let [left, right, top, bottom] = sheet.margins.map(|margin| margin * PIXEL);
+        let (width, height) = (sheet.width * PIXEL - left - right, sheet.height * PIXEL - top - bottom);
+        // An element of its own cuts off what lies outside, without a name that other figures of a page might have, too.
+        Ok(format!(
+            "<svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" viewBox=\"{left} {top} {width} {height}\">\n{inside}</svg>\n"
+        ))
+    })
+}
+
+/// Points on the contact boundary where it presses, each with the tip of its pressure, which points into body 2.
+fn profile(zoom: &ContactZoom, contact: &DrawnContact, boundary: &[[FacetCorner; 2]]) -> Vec<[[f64; 2]; 2]> {
+    let points: Vec<&ContactPoint> = pressing(contact.points, zoom.interval).collect();
+    let largest = points.iter().map(|p| p.lambda).fold(0.0, f64::max);
+    let every = points.len().div_ceil(500).max(1);
+    let shown = (0..points.len()).filter(|k| k % every == 0 || k + 1 == points.len()).map(|k| points[k]);
+    let tip = |p: &ContactPoint| {
+        let (x, y) = moved_point(contact, p, boundary, 1.0);
+        let high = HEIGHT * zoom.size() * p.lambda.max(0.0) / largest;
+        [[x, y], [x + high * p.nx, y + high * p.ny]]
+    };
+    shown.map(tip).filter(|ends| ends.iter().flatten().all(|x| x.is_finite())).collect()
+}
+
+/// The pressure as an area over the contact boundary.
+fn envelope(profile: &[[[f64; 2]; 2]], place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    let tips = profile.iter().map(|[_, tip]| *tip);
+    let around: Vec<(i32, i32)> = tips.clone().chain(profile.iter().rev().map(|[foot, _]| *foot)).map(&place).collect();
+    let list = |points: Vec<(i32, i32)>| points.iter().map(|(x, y)| format!("{x},{y} ")).collect::<String>();
+    let RGBColor(red, green, blue) = BLUE;
+    let colour = format!("#{red:02x}{green:02x}{blue:02x}");
+    format!(
+        "<polygon fill=\"#fff\" fill-opacity=\"0.6\" stroke=\"none\" points=\"{}\"/>\n<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"16\" points=\"{}\"/>\n",
+        list(around),
+        list(tips.map(&place).collect())
+    )
+}
+
+fn polyline(points: &[(f64, f64)], colour: &str, width: i32, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    let mut list = String::new();
+    for &(x, y) in points {
+        let (x, y) = place([x, y]);
+        let _ = write!(list, "{x},{y} ");
+    }
+    format!("<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" points=\"{list}\"/>\n")
+}
+
+/// The names of both bodies, each on its side of the middle of the interval.
+fn names(
+    zoom: &ContactZoom,
+    contact: &DrawnContact,
+    boundary: &[[FacetCorner; 2]],
+    place: impl Fn([f64; 2]) -> (i32, i32),
+) -> String {
+    let middle = 0.5 * (zoom.interval[0] + zoom.interval[1]);
+    let distance = |p: &&ContactPoint| (p.s - middle).abs();
+    let Some(p) = pressing(contact.points, zoom.interval).min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
+        return String::new();
+    };
+    let (x, y) = moved_point(contact, p, boundary, 1.0);
+    let name = |(name, side): (&str, f64)| {
+        let (x, y) = place([x + side * AWAY * zoom.size() * p.nx, y + side * AWAY * zoom.size() * p.ny]);
+        format!(
+            "<text x=\"{x}\" y=\"{y}\" dy=\"0.35em\" text-anchor=\"middle\" font-family=\"sans-serif\" font-size=\"140\" font-weight=\"bold\" fill=\"#262626\" stroke=\"#fff\" stroke-width=\"40\" paint-order=\"stroke\">{}</text>\n",
+            escape(name)
+        )
+    };
+    contact.bodies.into_iter().zip([-1.0, 1.0]).map(name).collect()
+}

@@ -1,0 +1,80 @@
+//! The figures of a result, as they lie in its folder.
+
+use std::fs;
+use std::path::Path;
+
+use super::page::ReportPage;
+use crate::output::markup::{escape, figure, paragraph, subsection};
+use crate::output::summary::Status;
+
+/// Contacts whose figures stand in the page; those of the others lie in the folder.
+const MOST_CONTACTS: usize = 8;
+
+/// The text of a figure with a caption; nothing if there is no such figure.
+pub fn drawing(folder: &Path, name: &str, words: &str) -> String {
+    match fs::read_to_string(folder.join(name)) {
+        Ok(svg) if svg.starts_with("<svg ") => figure(&svg, words),
+        _ => String::new(),
+    }
+}
+
+/// Bodies, zooms, and what happens along each contact.
+pub fn of_solution(folder: &Path, page: &ReportPage) -> String {
+    let summary = page.summary;
+    let mut all = drawing(
+        folder,
+        "deformed.svg",
+        "The deformed bodies, coloured by von Mises stress; displacements are drawn larger than they are by the factor above.",
+    );
+    let mut names: Vec<&str> = page.contacts.iter().map(|(name, _)| name.as_str()).collect();
+    let force = |name: &str| summary.contact.get(name).and_then(|contact| contact.force).unwrap_or(0.0).abs();
+    if names.len() > MOST_CONTACTS {
+        names.sort_by(|a, b| force(b).total_cmp(&force(a)));
+        names.truncate(MOST_CONTACTS);
+    }
+    for &name in &names {
+        let own = of_contact(folder, page, name);
+        if !own.is_empty() {
+            all += &subsection(&format!("Contact {name}"));
+            all += &own;
+        }
+    }
+    let left = page.contacts.len() - names.len();
+    if left > 0 && !all.is_empty() {
+        let words = format!("These are the contacts with the largest forces; the figures of {left} others lie beside this page.");
+        all += &paragraph(&words);
+    }
+    let steps = summary.steps.as_ref().filter(|_| !all.is_empty() && summary.status != Status::Interrupted);
+    match steps.and_then(|steps| steps.last()) {
+        Some(last) => {
+            format!("<p class=\"soft\">{}</p>\n", escape(&format!("All of this is load step {}, the last one.", last.step)))
+                + &all
+        }
+        None => all,
+    }
+}
+
+/// The figures of one contact: each interval that presses, then λ, gap and displacements all along it.
+fn of_contact(folder: &Path, page: &ReportPage, name: &str) -> String {
+    let bodies = page.contacts.iter().find(|(own, _)| own == name).map(|(_, bodies)| bodies);
+    let [one, two] = bodies.map_or(["body 1", "body 2"], |bodies| bodies.each_ref().map(String::as_str));
+    let intervals = page.summary.contact.get(name).and_then(|contact| contact.closed.as_ref()).map_or(0, Vec::len);
+    let zooms = (1..=intervals).map(|number| {
+        let words = if intervals == 1 { "Where it presses".into() } else { format!("Interval {number} of those that press") };
+        let words = format!("{words}, with displacements as they are. The blue line is the contact pressure, upon the boundary.");
+        drawing(folder, &format!("deformed_{name}_{number}.svg"), &words)
+    });
+    let along = [
+        (
+            format!("pressure_{name}.svg"),
+            "Contact pressure λ, and the normal pressures of both bodies on it: they follow λ where the meshes are fine enough."
+                .into(),
+        ),
+        (
+            format!("gap_{name}.svg"),
+            format!("Gap between {one} and {two} after deformation: zero where they touch, positive where they are apart."),
+        ),
+        (format!("displacement_{name}.svg"), format!("Normal displacements, positive from {one} to {two}.")),
+    ];
+    zooms.chain(along.iter().map(|(file, words): &(String, String)| drawing(folder, file, words))).collect()
+}

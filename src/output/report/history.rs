@@ -1,0 +1,136 @@
+//! How a run came to its end: load steps, adapted meshes, contact boundaries, active sets.
+
+use std::path::Path;
+
+use super::drawings::drawing;
+use super::numbers::{count, number, trust_word};
+use super::page::ReportPage;
+use super::verdict::word;
+use crate::output::markup::{UNKNOWN, paragraph, subsection, table};
+use crate::output::summary::{AccuracyStep, BoundaryIteration, OuterIteration, StepSummary};
+
+/// Rows of a table at most; of more the first and the last are shown.
+const MOST_ROWS: usize = 60;
+const FIRST_ROWS: usize = 10;
+
+/// Everything that is known of it.
+pub fn history(folder: &Path, page: &ReportPage) -> String {
+    let summary = page.summary;
+    let mut text = String::new();
+    if let Some(steps) = &summary.steps {
+        text += &subsection("Load steps");
+        text += &drawing(
+            folder,
+            "steps.svg",
+            "Forces, widths and largest pressures over the load steps; hollow marks have not converged.",
+        );
+        text += &load_steps(steps);
+    }
+    if let Some(meshes) = &summary.accuracy {
+        text += &subsection("Meshes");
+        let words = "Errors against displacement unknowns, mesh by mesh; thin lines are what was asked for.";
+        text += &drawing(folder, "accuracy.svg", words);
+        text += &meshes_table(meshes);
+    }
+    let of_last = if summary.steps.is_some() { ", last load step" } else { "" };
+    if !summary.boundaries.is_empty() {
+        text += &subsection(&format!("Contact boundaries{of_last}"));
+        text += &boundaries(&summary.boundaries);
+    }
+    if !summary.outer.is_empty() {
+        text += &subsection(&format!("Active set{of_last}"));
+        text += &passes(&summary.outer);
+    }
+    text
+}
+
+/// A table of the first and the last rows, with a word on those between.
+fn long_table(header: &[&str], rows: Vec<Vec<String>>, place: &str) -> String {
+    if rows.len() <= MOST_ROWS {
+        return table(header, &rows);
+    }
+    let left = rows.len() - MOST_ROWS;
+    let last = rows.len() - (MOST_ROWS - FIRST_ROWS);
+    let dots = std::iter::once(vec!["…".to_owned(); header.len()]);
+    let shown: Vec<Vec<String>> = rows[..FIRST_ROWS].iter().cloned().chain(dots).chain(rows[last..].iter().cloned()).collect();
+    table(header, &shown) + &paragraph(&format!("{left} rows are left out here; all of them stand in {place}."))
+}
+
+fn load_steps(steps: &[StepSummary]) -> String {
+    let names: Vec<&String> =
+        steps.iter().max_by_key(|step| step.contact.len()).map_or(Vec::new(), |step| step.contact.keys().collect());
+    let factors: Vec<&String> = steps.first().map_or(Vec::new(), |step| step.factors.keys().collect());
+    let header: Vec<String> = ["step".to_owned(), "status".into()]
+        .into_iter()
+        .chain(factors.iter().map(|name| format!("factor of {name}")))
+        .chain(
+            names
+                .iter()
+                .flat_map(|name| [format!("force of {name}"), format!("largest λ of {name}"), format!("pressure of {name}")]),
+        )
+        .chain(["iterations".into(), "seconds".into()])
+        .collect();
+    let row = |step: &StepSummary| {
+        let mut cells = vec![step.step.to_string(), word(step.status).to_lowercase()];
+        cells.extend(factors.iter().map(|name| number(step.factors.get(*name).copied())));
+        for name in &names {
+            let contact = step.contact.get(*name);
+            cells.push(number(contact.and_then(|contact| contact.force)));
+            cells.push(number(contact.and_then(|contact| contact.pressure_max)));
+            cells.push(contact.map_or(UNKNOWN.into(), |contact| trust_word(contact.trust)));
+        }
+        cells.push(step.iterations.iter().sum::<usize>().to_string());
+        cells.push(step.seconds.map_or(UNKNOWN.into(), |seconds| format!("{seconds:.2}")));
+        cells
+    };
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    long_table(&header, steps.iter().map(row).collect(), "steps.csv")
+}
+
+fn meshes_table(meshes: &[AccuracyStep]) -> String {
+    let row = |(at, mesh): (usize, &AccuracyStep)| {
+        vec![
+            (at + 1).to_string(),
+            count(Some(mesh.macro_triangles as u64)),
+            mesh.refine.to_string(),
+            count(Some(mesh.unknowns as u64)),
+            number(mesh.energy.as_ref().and_then(|goal| goal.estimate)),
+            format!("{:.2}", mesh.seconds),
+        ]
+    };
+    let header = ["mesh", "macro triangles", "refined", "unknowns", "energy norm", "seconds so far"];
+    long_table(&header, meshes.iter().enumerate().map(row).collect(), "summary.json")
+}
+
+fn boundaries(all: &[BoundaryIteration]) -> String {
+    let row = |one: &BoundaryIteration| {
+        vec![
+            one.iteration.to_string(),
+            number(one.length),
+            number(one.moved),
+            number(one.du),
+            one.flipped.map_or(UNKNOWN.into(), |flipped| flipped.to_string()),
+        ]
+    };
+    let header = ["boundary", "length", "moves next by", "change of the displacement", "pressures that changed state"];
+    long_table(&header, all.iter().map(row).collect(), "summary.json")
+}
+
+fn passes(all: &[OuterIteration]) -> String {
+    let size = |count: Option<usize>| count.map_or(UNKNOWN.into(), |count| count.to_string());
+    let row = |pass: &OuterIteration| {
+        vec![
+            pass.iteration.to_string(),
+            size(pass.active),
+            size(pass.added),
+            size(pass.released),
+            size(pass.krylov_iterations),
+            number(pass.residual),
+            number(pass.max_penetration),
+            number(pass.du),
+        ]
+    };
+    let header =
+        ["pass", "active", "added", "released", "iterations", "residual", "largest penetration", "change of the displacement"];
+    long_table(&header, all.iter().map(row).collect(), "summary.json")
+}

@@ -1,0 +1,246 @@
+//! Tables of what the solution says.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::page::ReportPage;
+use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, subsection, table};
+use crate::output::plot::{number_text, number_to};
+use crate::output::summary::Summary;
+
+/// Intervals of one contact that are named one by one.
+const MOST_INTERVALS: usize = 6;
+
+/// A number for a cell.
+pub fn number(number: Option<f64>) -> String {
+    number.filter(|number| number.is_finite()).map_or(UNKNOWN.into(), number_text)
+}
+
+/// A number of the solution itself for a cell.
+fn exact(number: Option<f64>) -> String {
+    number.filter(|number| number.is_finite()).map_or(UNKNOWN.into(), |number| number_to(6, number))
+}
+
+/// A count in groups of three digits.
+pub fn count(count: Option<u64>) -> String {
+    let Some(count) = count else { return UNKNOWN.into() };
+    let digits = count.to_string();
+    let groups: Vec<String> = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group).into()).collect();
+    groups.join("\u{a0}")
+}
+
+fn pair(vector: Option<[f64; 2]>) -> [String; 2] {
+    [0, 1].map(|axis| exact(vector.map(|vector| vector[axis])))
+}
+
+/// Whether something can be trusted, in words that have a colour.
+pub fn trust_word(trust: Option<bool>) -> String {
+    match trust {
+        Some(true) => TRUSTED,
+        Some(false) => NOT_TRUSTED,
+        None => UNTOLD,
+    }
+    .into()
+}
+
+/// What each contact carries, and where it is closed.
+pub fn contacts(page: &ReportPage) -> String {
+    let summary = page.summary;
+    if summary.contact.is_empty() {
+        return String::new();
+    }
+    let row = |(name, [one, two]): &(String, [String; 2])| {
+        let contact = summary.contact.get(name)?;
+        let closed = contact.closed.as_deref().unwrap_or_default();
+        let width: f64 = closed.iter().map(|[from, to]| to - from).sum();
+        Some(vec![
+            name.clone(),
+            format!("{one}, {two}"),
+            exact(contact.force),
+            exact(contact.pressure_max),
+            number(contact.closed.as_ref().map(|_| width)),
+            number(contact.length),
+            trust_word(contact.trust),
+        ])
+    };
+    let rows: Vec<Vec<String>> = page.contacts.iter().filter_map(row).collect();
+    let header = ["contact", "between", "force ∫λ ds", "largest λ", "closed length", "whole length", "pressure"];
+    table(&header, &rows) + &closed(summary)
+}
+
+/// The intervals that press, as lengths and as places.
+fn closed(summary: &Summary) -> String {
+    let mut rows = Vec::new();
+    let mut left = 0;
+    for (name, contact) in &summary.contact {
+        let (arcs, places) =
+            (contact.closed.as_deref().unwrap_or_default(), contact.closed_points.as_deref().unwrap_or_default());
+        for (at, [from, to]) in arcs.iter().enumerate().take(MOST_INTERVALS) {
+            let place = |end: usize| match places.get(at) {
+                Some(ends) => {
+                    // What is rounding beside the contact is zero.
+                    let tiny = 1e-9 * contact.length.unwrap_or(0.0);
+                    let [x, y] = ends[end].map(|x| number(Some(if x.abs() < tiny { 0.0 } else { x })));
+                    format!("({x}, {y})")
+                }
+                None => UNKNOWN.into(),
+            };
+            rows.push(vec![
+                name.clone(),
+                (at + 1).to_string(),
+                number_text(*from),
+                number_text(*to),
+                number_text(to - from),
+                place(0),
+                place(1),
+            ]);
+        }
+        left += arcs.len().saturating_sub(MOST_INTERVALS);
+    }
+    if rows.is_empty() {
+        return paragraph("Nothing presses anywhere.");
+    }
+    let more = if left > 0 { paragraph(&format!("{left} more intervals stand in summary.json.")) } else { String::new() };
+    let header = ["contact", "interval", "from s", "to s", "length", "from (x, y)", "to (x, y)"];
+    subsection("Intervals in contact") + &table(&header, &rows) + &more
+}
+
+/// Forces of contacts, supports and rigid tools, balances and energies.
+pub fn forces(page: &ReportPage) -> String {
+    let summary = page.summary;
+    let mut rows = Vec::new();
+    for (name, contact) in &summary.contact {
+        let two = page.contacts.iter().find(|(own, _)| own == name).map_or("body 2", |(_, bodies)| &bodies[1]);
+        let [x, y] = pair(contact.resultant);
+        rows.push(vec![format!("contact {name}, on {two}"), x, y, exact(contact.moment), "the origin".into()]);
+    }
+    for (name, support) in &summary.support {
+        let [x, y] = pair(support.reaction);
+        let about = if support.moment.is_some() { "the middle of the body" } else { UNKNOWN };
+        rows.push(vec![format!("support {name}, on the bodies"), x, y, exact(support.moment), about.into()]);
+    }
+    for (name, rigid) in &summary.rigid {
+        let [x, y] = pair(rigid.force);
+        let about = rigid.about.map_or(UNKNOWN.into(), |[x, y]| format!("({}, {})", number_text(x), number_text(y)));
+        rows.push(vec![format!("rigid {name}, on the bodies"), x, y, exact(rigid.moment), about]);
+    }
+    let mut text = table(&["", "force x", "force y", "moment", "about"], &rows);
+    text += &motions(summary);
+    let balance = &summary.balance;
+    let balances = [
+        ("forces of each contact on its two bodies", balance.force),
+        ("moments of each contact on its two bodies", balance.moment),
+        ("loads, reactions and contact on each body", balance.bodies),
+        ("twice the strain energy and the work done", balance.energy),
+    ];
+    let rows = balances.iter().filter(|(_, value)| value.is_some());
+    let rows: Vec<Vec<String>> = rows.map(|(name, value)| vec![(*name).into(), number(*value)]).collect();
+    if !rows.is_empty() {
+        text += &subsection("Balances: what should be zero, relative");
+        text += &table(&["", "difference"], &rows);
+    }
+    text + &energies(summary)
+}
+
+fn motions(summary: &Summary) -> String {
+    let row = |(name, rigid): (&String, &crate::output::summary::RigidSummary)| {
+        let [x, y, turn] = rigid.motion?.map(|value| number(Some(value)));
+        Some(vec![name.clone(), x, y, turn])
+    };
+    let rows: Vec<Vec<String>> = summary.rigid.iter().filter_map(row).collect();
+    let table = table(&["rigid", "shift x", "shift y", "turn (radians)"], &rows);
+    if table.is_empty() { table } else { subsection("Motions of what is rigid") + &table }
+}
+
+fn energies(summary: &Summary) -> String {
+    let energy = &summary.energy;
+    let of_bodies = energy.strain.iter().map(|(name, value)| (format!("strain energy of {name}"), *value));
+    let whole = [
+        ("strain energy in all", energy.total),
+        ("energy in elastic supports", energy.springs),
+        ("work of loads and of prescribed displacements, without the factor ½", energy.external_work),
+    ];
+    let all = of_bodies.chain(whole.map(|(name, value)| (name.to_owned(), value))).filter(|(_, value)| value.is_some());
+    let rows: Vec<Vec<String>> = all.map(|(name, value)| vec![name, exact(value)]).collect();
+    let table = table(&["", "energy"], &rows);
+    if table.is_empty() { table } else { subsection("Energies") + &table }
+}
+
+/// Displacement and stress at the points asked for, and the largest values of the bodies.
+pub fn points(page: &ReportPage) -> String {
+    let summary = page.summary;
+    let row = |(name, probe): (&String, &crate::output::summary::ProbeSummary)| {
+        let ([x, y], [ux, uy]) = (pair(probe.x), pair(probe.u));
+        let stress = (0..3).map(|at| exact(probe.stress.map(|stress| stress[at])));
+        [name.clone(), x, y, ux, uy].into_iter().chain(stress).collect()
+    };
+    let rows: Vec<Vec<String>> = summary.probe.iter().map(row).collect();
+    let probes = table(&["point", "x", "y", "u x", "u y", "σ xx", "σ yy", "σ xy"], &rows);
+    let row = |(name, strain): (&String, &Option<f64>)| {
+        vec![name.clone(), number(*strain), number(summary.rotation.get(name).copied().flatten())]
+    };
+    let rows: Vec<Vec<String>> = summary.strain_max.iter().map(row).collect();
+    let bodies = table(&["body", "largest strain", "mean rotation (radians)"], &rows);
+    let largest =
+        summary.displacement_max.map(|u| paragraph(&format!("The largest displacement of a node is {}.", number_text(u))));
+    probes + &bodies + &largest.unwrap_or_default()
+}
+
+/// Sizes, solver, times and memory.
+pub fn effort(page: &ReportPage) -> String {
+    let Summary { mesh, unknowns, solver, time_s: time, memory_mib: memory, .. } = page.summary;
+    let seconds = |value: Option<f64>| value.map(|seconds| format!("{seconds:.2} s"));
+    let mib = |value: Option<f64>| value.filter(|mib| mib.is_finite()).map(|mib| format!("{mib:.0} MiB"));
+    let known = |value: Option<u64>| value.map(|_| count(value));
+    let iterations = |all: &[usize]| {
+        let words: Vec<String> = all.iter().map(usize::to_string).collect();
+        (!all.is_empty()).then(|| words.join(" "))
+    };
+    let coarse = solver
+        .coarse
+        .iter()
+        .map(|solve| (format!("iterations on refinement {}, before", solve.refine), iterations(&solve.iterations)));
+    let rows = [
+        ("triangles", known(mesh.triangles)),
+        ("order of the displacement", mesh.order.map(|order| format!("P{order}"))),
+        ("edges", mesh.h_min.zip(mesh.h_max).map(|(least, most)| format!("{} to {}", number_text(least), number_text(most)))),
+        ("displacement unknowns", known(unknowns.displacement)),
+        ("contact pressures", known(unknowns.multiplier)),
+        ("ranks", Some(page.summary.ranks.to_string())),
+        ("solver", solver.krylov.clone().or(solver.name.clone())),
+        ("iterations of each linear solve", iterations(&solver.iterations)),
+        ("relative residual", solver.residual.map(number_text)),
+        ("time in all", seconds(time.total)),
+        (
+            "time of mesh, contact, assembly",
+            time.mesh.zip(time.contact).zip(time.assemble).map(|((a, b), c)| format!("{a:.2} s, {b:.2} s, {c:.2} s")),
+        ),
+        (
+            "time of set-up, solves, output so far",
+            time.setup.zip(time.solve).zip(time.output).map(|((a, b), c)| format!("{a:.2} s, {b:.2} s, {c:.2} s")),
+        ),
+        ("memory of the largest rank", mib(memory.max_rank)),
+        ("memory in all", mib(memory.sum)),
+    ];
+    let rows = rows.map(|(name, value)| (name.to_owned(), value)).into_iter().chain(coarse);
+    let rows: Vec<Vec<String>> = rows.filter_map(|(name, value)| Some(vec![name, value?])).collect();
+    table(&["", ""], &rows)
+}
+
+/// Who has made this result, of what and where, as far as the summary tells.
+pub fn provenance(page: &ReportPage) -> String {
+    let whole = serde_json::to_value(page.summary).unwrap_or_default();
+    let Some(Value::Object(told)) = whole.get("provenance") else { return String::new() };
+    let words = |value: &Value| match value {
+        Value::Null => None,
+        Value::String(text) => Some(text.clone()),
+        Value::Array(list) if list.iter().all(Value::is_string) => {
+            Some(list.iter().filter_map(Value::as_str).collect::<Vec<_>>().join(" "))
+        }
+        other => Some(other.to_string()),
+    };
+    let rows: BTreeMap<&String, String> = told.iter().filter_map(|(key, value)| Some((key, words(value)?))).collect();
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|(key, value)| vec![key.replace('_', " "), value]).collect();
+    table(&["", ""], &rows)
+}

@@ -1,0 +1,159 @@
+//! What everybody wants to know first.
+
+use super::page::{ExpectedValue, ReportPage};
+use crate::output::Summary;
+use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, subsection, table};
+use crate::output::plot::number_text;
+use crate::output::summary::{GoalSummary, Status};
+
+/// The verdict in a word or two.
+pub fn word(status: Status) -> &'static str {
+    match status {
+        Status::Converged => "Converged",
+        Status::NotConverged => "Not converged",
+        Status::Interrupted => "Interrupted",
+    }
+}
+
+/// Status, a sentence, the reason, and what was asked for beside what was reached.
+pub fn verdict(page: &ReportPage) -> String {
+    let summary = page.summary;
+    let reason = clauses(summary.reason.as_deref().unwrap_or_default());
+    let rest = if reason.is_empty() { String::new() } else { format!("<p>{}.</p>\n", escape(&capital(&reason.join("; ")))) };
+    let class = match (summary.status, is_trusted(summary)) {
+        (Status::Converged, Trust::All) => "good",
+        (Status::Converged, _) => "open",
+        _ => "bad",
+    };
+    format!(
+        "<div class=\"verdict {class}\">\n<strong>{}</strong>\n<p>{}</p>\n</div>\n{rest}{}{}",
+        word(summary.status),
+        escape(&sentence(summary)),
+        expected(page.expected),
+        goals(summary),
+    )
+}
+
+/// Whether the pressures of all contacts can be trusted.
+enum Trust {
+    All,
+    None(Vec<String>),
+    Unknown(Vec<String>),
+}
+
+fn is_trusted(summary: &Summary) -> Trust {
+    let named = |wanted: Option<bool>| {
+        let all = summary.contact.iter().filter(|(_, contact)| contact.trust == wanted);
+        all.map(|(name, _)| name.clone()).collect::<Vec<_>>()
+    };
+    match (named(Some(false)), named(None)) {
+        (none, _) if !none.is_empty() => Trust::None(none),
+        (_, unknown) if !unknown.is_empty() => Trust::Unknown(unknown),
+        _ => Trust::All,
+    }
+}
+
+/// The verdict in a sentence.
+fn sentence(summary: &Summary) -> String {
+    let contacts = |names: &[String]| {
+        let word = if names.len() == 1 { "contact" } else { "contacts" };
+        format!("{word} {}", names.join(", "))
+    };
+    match (summary.status, is_trusted(summary)) {
+        (Status::Interrupted, _) => "A signal has ended the run: there is no result, and below stands what was reached.".into(),
+        (Status::NotConverged, _) => {
+            "This is no result to use: figures and numbers below show where the run stood when it ended.".into()
+        }
+        (Status::Converged, Trust::None(names)) => {
+            format!("The equations are solved, but the pressure of {} cannot be trusted.", contacts(&names))
+        }
+        (Status::Converged, Trust::Unknown(names)) => {
+            format!("The equations are solved; nothing tells whether the pressure of {} can be trusted.", contacts(&names))
+        }
+        (Status::Converged, Trust::All) if summary.contact.is_empty() => "The equations are solved.".into(),
+        (Status::Converged, Trust::All) => "The equations are solved, and the contact pressure can be trusted.".into(),
+    }
+}
+
+/// A reason in its parts, which semicolons outside of brackets part.
+fn clauses(reason: &str) -> Vec<String> {
+    let mut depth = 0_i32;
+    let parts = reason.split(|letter| {
+        depth += match letter {
+            '(' => 1,
+            ')' => -1,
+            _ => 0,
+        };
+        letter == ';' && depth == 0
+    });
+    parts.map(|part| part.trim().to_owned()).filter(|part| !part.is_empty()).collect()
+}
+
+/// With a capital letter at its beginning.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// The values that the case expects.
+fn expected(values: &[ExpectedValue]) -> String {
+    if values.is_empty() {
+        return String::new();
+    }
+    let row = |value: &ExpectedValue| {
+        let holds = match (value.error, value.tolerance) {
+            (Some(error), Some(most)) if error <= most => HOLDS,
+            (_, Some(_)) => MISSED,
+            _ => UNKNOWN,
+        };
+        let number = |number: Option<f64>| number.map_or(UNKNOWN.into(), number_text);
+        let known = |text: &str| if text.is_empty() { UNKNOWN.into() } else { text.to_owned() };
+        vec![
+            value.name.clone(),
+            known(&value.expected),
+            known(&value.found),
+            number(value.error),
+            number(value.tolerance),
+            holds.into(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = values.iter().map(row).collect();
+    subsection("Expected values") + &table(&["", "expected", "reached", "relative error", "allowed", ""], &rows)
+}
+
+/// The accuracy that the case asks for.
+fn goals(summary: &Summary) -> String {
+    let Some(last) = summary.accuracy.as_ref().and_then(|steps| steps.last()) else { return String::new() };
+    let mut all: Vec<(String, &Option<GoalSummary>)> = vec![("energy norm".into(), &last.energy)];
+    for (name, contact) in &last.contact {
+        let goals = [("force", &contact.force), ("pressure", &contact.pressure), ("largest pressure", &contact.peak)];
+        all.extend(goals.map(|(what, goal)| (format!("{what} of {name}"), goal)));
+        all.push((format!("ends of {name}"), &contact.ends));
+    }
+    for (name, probe) in &last.probe {
+        let goals = [("displacement", &probe.displacement), ("stress", &probe.stress)];
+        all.extend(goals.map(|(what, goal)| (format!("{what} at {name}"), goal)));
+    }
+    let number = |number: Option<f64>| number.map_or(UNKNOWN.into(), number_text);
+    let row = |(name, goal): (String, &Option<GoalSummary>)| {
+        let goal = goal.as_ref()?;
+        let holds = if goal.estimate.is_some_and(|estimate| estimate <= goal.asked) { HOLDS } else { MISSED };
+        Some(vec![name, number_text(goal.asked), number(goal.estimate), number(goal.error), holds.into()])
+    };
+    let rows: Vec<Vec<String>> = all.into_iter().filter_map(row).collect();
+    let header = ["", "error asked for", "estimated", "true", ""];
+    if rows.is_empty() { String::new() } else { subsection("Accuracy") + &table(&header, &rows) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reason_is_parted_outside_of_brackets() {
+        let reason = "the set stands; contact a (inf-sup 0.05; oscillation .2); take fewer";
+        assert_eq!(clauses(reason), ["the set stands", "contact a (inf-sup 0.05; oscillation .2)", "take fewer"]);
+        assert!(clauses("").is_empty());
+        assert_eq!((capital("äs"), capital("")), ("Äs".into(), String::new()));
+    }
+}

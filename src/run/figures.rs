@@ -1,0 +1,143 @@
+//! Figures of a solution.
+
+use super::{Run, RunError, accuracy, fields};
+use crate::accuracy::Adaptation;
+use crate::case::Case;
+use crate::contact::{Configuration, Pair};
+use crate::mesh::MacroMesh;
+use crate::output::plot::{self, ContactZoom, DrawnContact, Facet};
+use crate::output::{ContactPoint, Summary};
+use crate::system::Contact;
+use crate::system::recovery::Evaluation;
+use std::path::Path;
+
+/// Intervals that press are drawn one by one, those with the largest forces.
+const MOST_ZOOMS: usize = 6;
+
+/// An interval that is drawn: its contact, its number in it from 1, and what is shown.
+struct Drawing {
+    contact: usize,
+    number: usize,
+    zoom: ContactZoom,
+}
+
+impl Run<'_> {
+    /// Draws everything that is known of one solution. **Collective**
+    pub(super) fn write_figures(
+        &self,
+        found: &Evaluation,
+        summary: &Summary,
+        traces: &[Vec<ContactPoint>],
+        adaptation: Option<&Adaptation>,
+        stress: impl Fn(usize, usize) -> [f64; 4],
+    ) -> Result<(), RunError> {
+        let folder = &self.files;
+        let contacts = &found.problem.contacts;
+        let facets = fields::facets(found, &stress);
+        let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found, |_| true));
+        let interfaces = fields::macro_edges(found, |edge| found.problem.scene.mesh.is_interface(edge));
+        let titles: Vec<String> = contacts.iter().map(|contact| title_of(self.case, &contact.pair.name)).collect();
+        let bodies: Vec<[String; 2]> = contacts.iter().map(|contact| sides(&found.problem.scene.mesh, &contact.pair)).collect();
+        let drawn: Vec<DrawnContact> = contacts
+            .iter()
+            .enumerate()
+            .map(|(at, contact)| DrawnContact {
+                title: &titles[at],
+                bodies: bodies[at].each_ref().map(String::as_str),
+                points: &traces[at],
+                is_deformed: contact.pair.configuration == Configuration::Deformed,
+            })
+            .collect();
+        let zooms = self.zooms(summary, contacts, &drawn, &facets)?;
+        let shown: Vec<Vec<Facet>> = zooms.iter().map(|drawing| fields::facets_of_zoom(found, &stress, &drawing.zoom)).collect();
+        if self.session.rank() != 0 {
+            return Ok(());
+        }
+        for (contact, drawn) in contacts.iter().zip(&drawn) {
+            let path = |figure: &str| folder.join(format!("{figure}_{}.svg", contact.pair.name));
+            plot::write_pressure(&path("pressure"), drawn)?;
+            plot::write_gap(&path("gap"), drawn)?;
+            plot::write_displacement(&path("displacement"), drawn)?;
+        }
+        for (drawing, facets) in zooms.iter().zip(&shown).filter(|(_, facets)| !facets.is_empty()) {
+            let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
+            plot::write_zoom(&folder.join(name), &drawing.zoom, &drawn[drawing.contact], facets)?;
+        }
+        plot::write_deformed(&folder.join("deformed.svg"), title(self.case), &facets, [&macro_edges, &interfaces], &drawn)?;
+        adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation))
+    }
+
+    /// The intervals that are drawn, in the order of contacts and arc length. Rank 0 chooses. **Collective**
+    fn zooms(
+        &self,
+        summary: &Summary,
+        contacts: &[Contact],
+        drawn: &[DrawnContact],
+        facets: &[Facet],
+    ) -> Result<Vec<Drawing>, RunError> {
+        let mut all: Vec<(f64, Drawing)> = Vec::new();
+        for (at, contact) in contacts.iter().enumerate() {
+            let closed = summary.contact.get(&contact.pair.name).and_then(|contact| contact.closed.as_deref());
+            for (number, &interval) in closed.unwrap_or_default().iter().enumerate() {
+                let zoom = ContactZoom::new(&drawn[at], interval, facets);
+                let force = force_on(drawn[at].points, interval);
+                all.extend(zoom.map(|zoom| (force, Drawing { contact: at, number: number + 1, zoom })));
+            }
+        }
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        all.truncate(MOST_ZOOMS);
+        all.sort_by_key(|(_, drawing)| (drawing.contact, drawing.number));
+        let numbers = |drawing: &Drawing| {
+            let [[x0, y0], [x1, y1]] = drawing.zoom.frame;
+            let [from, to] = drawing.zoom.interval;
+            [drawing.contact as f64, drawing.number as f64, from, to, x0, y0, x1, y1]
+        };
+        let own =
+            if self.session.rank() == 0 { all.iter().flat_map(|(_, drawing)| numbers(drawing)).collect() } else { Vec::new() };
+        let read = |v: &[f64]| {
+            let zoom = ContactZoom { interval: [v[2], v[3]], frame: [[v[4], v[5]], [v[6], v[7]]] };
+            Drawing { contact: v[0] as usize, number: v[1] as usize, zoom }
+        };
+        Ok(self.session.gather_all(&own).chunks_exact(8).map(read).collect())
+    }
+}
+
+/// ∫λ ds over an interval, by trapezoids.
+fn force_on(points: &[ContactPoint], [from, to]: [f64; 2]) -> f64 {
+    let inside = points.windows(2).filter(|pair| pair[0].s >= from && pair[1].s <= to);
+    inside.map(|pair| 0.5 * (pair[0].lambda + pair[1].lambda) * (pair[1].s - pair[0].s)).sum()
+}
+
+/// What stands above the figures of a case.
+pub fn title(case: &Case) -> &str {
+    if case.title.is_empty() { &case.name } else { &case.title }
+}
+
+/// The same of a contact, which is named where there are others.
+fn title_of(case: &Case, contact: &str) -> String {
+    if case.contacts.len() == 1 { title(case).into() } else { format!("{}, contact {contact}", title(case)) }
+}
+
+/// Names of both bodies of a contact; those of its boundaries where these do not tell them apart.
+pub fn sides(mesh: &MacroMesh, pair: &Pair) -> [String; 2] {
+    let body = |boundary: &String| {
+        let edges = mesh.boundary(boundary)?.edges.iter();
+        let mut bodies = edges.filter_map(|&edge| Some(mesh.triangles[mesh.edges[edge as usize].triangles[0]? as usize].body));
+        let first = bodies.next()?;
+        bodies.all(|body| body == first).then_some(first)
+    };
+    match pair.between.each_ref().map(body) {
+        [Some(one), Some(two)] if one != two => [one, two].map(|body| mesh.bodies[body as usize].clone()),
+        _ => pair.between.clone(),
+    }
+}
+
+/// Draws what was reached on each mesh, if there are two of them.
+fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result<(), RunError> {
+    let sequences = accuracy::sequences(adaptation);
+    let is_known = sequences.iter().any(|sequence| sequence.estimates.iter().any(|(_, error)| *error > 0.0));
+    if adaptation.meshes.len() >= 2 && is_known {
+        plot::write_accuracy(&folder.join("accuracy.svg"), title, &sequences)?;
+    }
+    Ok(())
+}
