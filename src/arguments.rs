@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::error::{ContextKind, ContextValue};
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::geometry::Quote;
 
@@ -63,6 +63,8 @@ pub enum Command {
     Check(CaseArguments),
     /// Make every run of a grid that is not made yet, each a row of one table; start it without mpirun
     Study(Study),
+    /// Print the JSON Schema of case files or study files, for editors and other programs
+    Schema(SchemaArguments),
     /// Print versions of mezha, PETSc, MPI and BLAS, and the number of ranks
     Info,
 }
@@ -116,6 +118,23 @@ pub struct Study {
     /// Forget the runs in the folder, also those of another study, and make all anew
     #[arg(long)]
     pub force: bool,
+}
+
+/// Arguments of `mezha schema`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct SchemaArguments {
+    /// Which files
+    #[arg(value_enum, default_value_t = FileKind::Case)]
+    pub kind: FileKind,
+}
+
+/// The files that people write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FileKind {
+    /// Case files, for `mezha run`
+    Case,
+    /// Study files, for `mezha study`
+    Study,
 }
 
 impl CaseArguments {

@@ -2,8 +2,8 @@
 
 use clap::Parser;
 use clap::error::ErrorKind as UsageKind;
-use mezha::arguments::{Arguments, CaseArguments, Command, RunArguments, Study, nearest_command};
-use mezha::case::Inputs;
+use mezha::arguments::{Arguments, CaseArguments, Command, FileKind, RunArguments, Study, nearest_command};
+use mezha::case::{Inputs, schema};
 use mezha::petsc::{self, Session, TellingAllocator, end_all_ranks, errors_are_final, when_memory_is_refused};
 use mezha::run::{self, Outcome, RunError, RunOptions, interruption};
 use mezha::study::{self, StudyError};
@@ -28,6 +28,7 @@ fn main() {
         Command::Run(arguments) => run_case(&arguments, started),
         Command::Check(arguments) => check_case(&arguments),
         Command::Study(arguments) => study(&arguments),
+        Command::Schema(arguments) => print_schema(arguments.kind),
         Command::Info => info(),
     };
     exit(code)
@@ -173,6 +174,17 @@ fn check_case(arguments: &CaseArguments) -> i32 {
             (code, _) => code,
         },
         Err(error) => print(&error),
+    }
+}
+
+fn print_schema(kind: FileKind) -> i32 {
+    match take_part() {
+        Err(code) => code,
+        Ok(session) if session.as_ref().is_some_and(|session| session.rank() > 0) => 0,
+        Ok(_) => say(&schema::json(match kind {
+            FileKind::Case => &schema::CASE,
+            FileKind::Study => &schema::STUDY,
+        })),
     }
 }
 

@@ -1,7 +1,5 @@
 //! `[accuracy]`: relative errors that the mesh is adapted to.
 
-use toml::Value;
-
 use super::Probe;
 use super::error::suggest;
 use super::section::Section;
@@ -13,12 +11,6 @@ use crate::geometry::Point;
 
 /// A number at the root of a case under this name stands for a table with that number under this key.
 pub const SHORT: [(&str, &str); 1] = [("accuracy", "energy")];
-
-/// Relative errors that may be asked for: below, rounding begins; above, an error says nothing.
-const TOLERANCES: [f64; 2] = [1e-8, 0.5];
-
-/// Fewer unknowns than this are no mesh.
-const LEAST_UNKNOWNS: i64 = 100;
 
 /// What an empty `[accuracy]` may hold.
 const SOME_GOAL: &str = "asks for nothing; give energy = 1e-4, say, or force, pressure, peak, ends, displacement, stress";
@@ -48,20 +40,18 @@ pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[Probe]) -> Opt
         return None;
     }
     if !root.has_table("accuracy") {
-        let of_energy =
-            |value: &Value| tolerance(value).map_err(|words| format!("{words}; or a table [accuracy] of such numbers"));
-        let goals = vec![Goal { quantity: Quantity::Energy, tolerance: root.optional("accuracy", of_energy)? }];
+        let goals = vec![Goal { quantity: Quantity::Energy, tolerance: root.optional("accuracy", values::number)? }];
         return Some(Accuracy { goals, most_unknowns: None, most_seconds: None });
     }
     let section = root.table("accuracy");
-    let energy = section.optional("energy", tolerance);
+    let energy = section.optional("energy", values::number);
     let all = read_contact_goals(&section);
     let single = section.named("contact", |section| {
         Some(Single { name: section.name().into(), own: read_contact_goals(section), is_empty: is_empty(section) })
     });
-    let [displacement, stress] = ["displacement", "stress"].map(|key| section.optional(key, tolerance));
-    let most_unknowns = section.optional("max_unknowns", most_unknowns);
-    let most_seconds = section.optional("max_seconds", values::positive);
+    let [displacement, stress] = ["displacement", "stress"].map(|key| section.optional(key, values::number));
+    let most_unknowns = section.optional("max_unknowns", values::whole);
+    let most_seconds = section.optional("max_seconds", values::number);
     check_contacts(&section, root, &single);
     check_ends(&section, contacts, &single);
     if probes.is_empty() && root.names_below("probe").next().is_none() {
@@ -93,23 +83,9 @@ pub fn check_energy(accuracy: Option<&Accuracy>, loads: &[PointLoad], root: &Sec
     }
 }
 
-/// A relative error.
-fn tolerance(value: &Value) -> Result<f64, String> {
-    let [least, most] = TOLERANCES;
-    let wanted = format!("must be a number from {least:e} to {most}, the relative error that is asked for");
-    values::number(value).ok().filter(|number| (least..=most).contains(number)).ok_or(wanted)
-}
-
-fn most_unknowns(value: &Value) -> Result<usize, String> {
-    match value.as_integer() {
-        Some(count @ LEAST_UNKNOWNS..) => Ok(count as usize),
-        _ => Err(format!("must be a whole number of at least {LEAST_UNKNOWNS}, such as 100000")),
-    }
-}
-
 /// What is asked of all contacts, or of one.
 fn read_contact_goals(section: &Section) -> OfContact {
-    let [force, pressure, peak, ends] = OF_CONTACTS.map(|key| section.optional(key, tolerance));
+    let [force, pressure, peak, ends] = OF_CONTACTS.map(|key| section.optional(key, values::number));
     OfContact { force, pressure, peak, ends }
 }
 

@@ -4,6 +4,7 @@ use toml::Value;
 
 use super::error::suggest;
 use super::rigid::is_one_curve;
+use super::schema::LONGEST_NAME;
 use super::section::Section;
 use super::values::{self, PLANE, choice, must_be};
 use super::{Geometry, Union};
@@ -23,9 +24,6 @@ const LAWS: [(&str, Law); 2] = [("unilateral", Law::Unilateral), ("bilateral", L
 const CONFIGURATIONS: [(&str, Configuration); 2] =
     [("reference", Configuration::Reference), ("deformed", Configuration::Deformed)];
 const END_RULES: [(&str, EndRule); 2] = [("free", EndRule::Free), ("fixed", EndRule::Fixed)];
-
-/// Longest name of a contact (bytes): files take 255, and names of results have more in them.
-const LONGEST_NAME: usize = 100;
 
 /// What a table `[contact.NAME]` says.
 pub struct ReadContact {
@@ -52,20 +50,20 @@ pub fn split_contacts(all: Vec<ReadContact>) -> (Vec<Pair>, Vec<Union>) {
 
 /// `[contact.NAME]`
 pub fn read_contact(section: &Section, root: &Section) -> Option<ReadContact> {
-    let between = section.required("between", "[\"lower.seam\", \"upper.seam\"]", read_between);
-    let configuration = section.or("configuration", "reference", choice(&CONFIGURATIONS));
-    let usual_curve = usual_curve(between.as_ref(), configuration, root);
-    let curve = section.or("curve", usual_curve, read_curve(between.as_ref()));
-    let gap = section.or("gap", "geometry", read_gap);
-    let space = section.or("multiplier", "p1-discontinuous", choice(&SPACES));
-    let segments = section.or("segments", "auto", read_segments);
-    let law = section.or("law", "unilateral", choice(&LAWS));
+    let between = section.required("between", read_between);
+    let configuration = section.or("configuration", choice(&CONFIGURATIONS));
+    let usual_curve = || usual_curve(between.as_ref(), configuration, root);
+    let curve = section.or_else("curve", usual_curve, read_curve(between.as_ref()));
+    let gap = section.or("gap", read_gap);
+    let space = section.or("multiplier", choice(&SPACES));
+    let segments = section.or("segments", read_segments);
+    let law = section.or("law", choice(&LAWS));
     let quadrature = read_quadrature(section, space);
-    let stabilise = section.or("stabilise", "auto", read_stabilise);
-    let spans = section.or("spans", "auto", read_spans);
-    let grading = section.or("grading", 1, read_grading);
-    let usual_ends = if curve.is_some_and(CurveChoice::is_found) { "free" } else { "fixed" };
-    let ends = section.or("ends", usual_ends, choice(&END_RULES));
+    let stabilise = section.or("stabilise", read_stabilise);
+    let spans = section.or("spans", read_spans);
+    let grading = section.or("grading", read_grading);
+    let usual_ends = || if curve.is_some_and(CurveChoice::is_found) { "free" } else { "fixed" };
+    let ends = section.or_else("ends", usual_ends, choice(&END_RULES));
     if curve.is_some_and(|curve| curve != CurveChoice::Fit) {
         check_declared_curve(section, configuration, spans);
     }
@@ -88,20 +86,21 @@ pub fn read_contact(section: &Section, root: &Section) -> Option<ReadContact> {
         section.problem(&[], words);
     }
     let sides = between?;
+    // What is bad is in the log; both sides alone are enough to look for names.
     let pair = Pair {
         name: section.name().into(),
         between: sides.each_ref().map(|curves| curves.join(" + ")),
-        curve: curve?,
-        gap: gap?,
-        space: space?,
-        segments: segments?,
-        law: law?,
-        quadrature: quadrature?,
-        stabilise: stabilise?,
-        configuration: configuration?,
-        spans: spans?,
-        grading: grading?,
-        ends: ends?,
+        curve: curve.unwrap_or(CurveChoice::Fit),
+        gap: gap.unwrap_or(GapChoice::Geometry),
+        space: space.unwrap_or(MultiplierSpace::P1Discontinuous),
+        segments: segments.unwrap_or(SegmentRule::Auto),
+        law: law.unwrap_or(Law::Unilateral),
+        quadrature: quadrature.unwrap_or(Quadrature::Cut),
+        stabilise: stabilise.unwrap_or(Stabilise::Auto),
+        configuration: configuration.unwrap_or(Configuration::Reference),
+        spans: spans.flatten(),
+        grading: grading.unwrap_or([1.0; 2]),
+        ends: ends.unwrap_or(EndRule::Fixed),
     };
     Some(ReadContact { pair, sides })
 }
@@ -156,7 +155,7 @@ fn check_declared_curve(section: &Section, configuration: Option<Configuration>,
 fn read_quadrature(section: &Section, space: Option<MultiplierSpace>) -> Option<Quadrature> {
     let given = section.has("points");
     let problem = |words: &str| section.problem(&["points"], words.into());
-    let fixed = section.or("quadrature", "cut", choice(&[("cut", false), ("segment", true)]))?;
+    let fixed = section.or("quadrature", choice(&[("cut", false), ("segment", true)]))?;
     if !fixed {
         if given {
             problem(
@@ -165,10 +164,7 @@ fn read_quadrature(section: &Section, space: Option<MultiplierSpace>) -> Option<
         }
         return Some(Quadrature::Cut);
     }
-    let points = section.or("points", 5, |value| match value {
-        Value::Integer(count @ 1..=20) => Ok(*count as usize),
-        _ => Err("must be a whole number from 1 to 20".into()),
-    })?;
+    let points = section.or("points", values::whole)?;
     if points == 1 && space.is_some_and(|space| space != MultiplierSpace::P0) {
         problem("cannot tell the two values of a linear multiplier apart; give 2 or more, or multiplier = \"p0\"");
     }
@@ -200,38 +196,34 @@ fn read_gap(value: &Value) -> Result<GapChoice, String> {
 
 fn read_segments(value: &Value) -> Result<SegmentRule, String> {
     match value {
-        Value::Integer(count @ 1..) => Ok(SegmentRule::Count(*count as usize)),
-        Value::String(word) if word == "auto" => Ok(SegmentRule::Auto),
+        Value::String(_) => Ok(SegmentRule::Auto),
         Value::Array(_) => read_fractions(value),
-        _ => Err("must be \"auto\", a whole number >= 1, or fractions like [0, 0.2, 1]".into()),
+        count => values::whole(count).map(SegmentRule::Count),
     }
 }
 
 fn read_stabilise(value: &Value) -> Result<Stabilise, String> {
-    match value {
-        Value::Boolean(true) => Ok(Stabilise::On),
-        Value::Boolean(false) => Ok(Stabilise::Off),
-        Value::String(word) if word == "auto" => Ok(Stabilise::Auto),
-        other => Err(must_be("\"auto\", true or false", other)),
-    }
+    Ok(match value.as_bool() {
+        Some(true) => Stabilise::On,
+        Some(false) => Stabilise::Off,
+        None => Stabilise::Auto,
+    })
 }
 
 /// Spans of a fitted curve; None lets the data choose.
 fn read_spans(value: &Value) -> Result<Option<usize>, String> {
     match value {
-        Value::String(word) if word == "auto" => Ok(None),
-        value => values::count(value).map(Some).map_err(|words| format!("{words}, or \"auto\"")),
+        Value::String(_) => Ok(None),
+        count => values::whole(count).map(Some),
     }
 }
 
 /// One factor for both ends, or one for each.
 fn read_grading(value: &Value) -> Result<[f64; 2], String> {
-    let pair = match value {
+    match value {
         Value::Array(_) => values::point(value),
         value => values::number(value).map(|factor| [factor; 2]),
-    };
-    let wanted = "must be a number from 1 to 1000, or two of them for the first and the last end: so many times shorter are segments there";
-    pair.ok().filter(|pair| pair.iter().all(|factor| (1.0..=1000.0).contains(factor))).ok_or_else(|| wanted.into())
+    }
 }
 
 fn read_fractions(value: &Value) -> Result<SegmentRule, String> {

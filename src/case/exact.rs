@@ -90,7 +90,7 @@ pub struct ExpectedDisplacement {
 /// `[exact]`
 pub fn read_exact(root: &Section) -> Exact {
     let section = root.table("exact");
-    let must_hold = section.or("must_hold", false, values::boolean);
+    let must_hold = section.or("must_hold", values::boolean);
     let energy = read_expected(&section, "energy");
     let contacts = section.named("contact", read_contact);
     let bodies = section.named("body", read_body);
@@ -100,13 +100,13 @@ pub fn read_exact(root: &Section) -> Exact {
 /// `{ value = 1.5, tolerance = 1e-3 }`; None if it is not there.
 fn read_expected(section: &Section, key: &'static str) -> Option<Expected> {
     let expected = section.optional_table(key)?;
-    let value = expected.required("value", "1.5", values::not_zero);
+    let value = expected.required("value", values::number);
     let tolerance = read_tolerance(&expected);
     Some(Expected { value: value?, tolerance: tolerance? })
 }
 
 fn read_tolerance(section: &Section) -> Option<f64> {
-    section.required("tolerance", "1e-3", values::positive)
+    section.required("tolerance", values::number)
 }
 
 fn read_contact(section: &Section) -> Option<ContactExact> {
@@ -118,16 +118,13 @@ fn read_contact(section: &Section) -> Option<ContactExact> {
 fn read_lambda(section: &Section) -> Option<LambdaExact> {
     let tolerance = read_tolerance(section);
     if !section.has("formula") {
-        let (at, value) = read_points(section, "[0.925057], or a formula", values::numbers)?;
-        if value.contains(&0.0) {
-            section.problem(&["value"], "holds a 0: the error is relative to each value; leave that point out".into());
-        }
+        let (at, value) = read_points(section, values::numbers)?;
         return Some(LambdaExact::Points { at, value, tolerance: tolerance? });
     }
     if section.has("at") | section.has("value") {
         section.problem(&["formula"], "stands beside at and value; give either formula or points".into());
     }
-    let formula = section.required("formula", "\"1 - x^2\"", values::formula(&PLANE));
+    let formula = section.required("formula", values::formula(&PLANE));
     if formula.as_ref().is_some_and(|formula| formula.as_constant() == Some(0.0)) {
         section.problem(&["formula"], ALL_ZERO.into());
     }
@@ -137,7 +134,7 @@ fn read_lambda(section: &Section) -> Option<LambdaExact> {
 fn read_body(section: &Section) -> Option<BodyExact> {
     let displacement = section.optional_table("displacement").and_then(|displacement| {
         let tolerance = read_tolerance(&displacement);
-        let (at, value) = read_points(&displacement, "[[1e-4, -2e-4]]", values::points)?;
+        let (at, value) = read_points(&displacement, values::points)?;
         Some(ExpectedDisplacement { at, value, tolerance: tolerance? })
     });
     let u = section.optional("u", values::formulas);
@@ -151,16 +148,12 @@ fn read_body(section: &Section) -> Option<BodyExact> {
 }
 
 /// `at` and `value`, of the same length.
-fn read_points<T>(
-    section: &Section,
-    example: &str,
-    read: impl Fn(&toml::Value) -> Result<Vec<T>, String>,
-) -> Option<(Vec<[f64; 2]>, Vec<T>)> {
-    let at = section.required("at", "[[1.2, 3.2]], points on the body", values::points);
-    let value = section.required("value", example, read);
+fn read_points<T>(section: &Section, read: impl Fn(&toml::Value) -> Result<Vec<T>, String>) -> Option<(Vec<[f64; 2]>, Vec<T>)> {
+    let at = section.required("at", values::points);
+    let value = section.required("value", read);
     let (at, value) = (at?, value?);
-    if at.is_empty() || at.len() != value.len() {
-        let words = format!("holds {} for {} points in at; give one for each point, at least one", value.len(), at.len());
+    if at.len() != value.len() {
+        let words = format!("holds {} for {} points in at; give one for each point", value.len(), at.len());
         section.problem(&["value"], words);
         return None;
     }

@@ -7,9 +7,10 @@ use crate::geometry::Curve;
 
 /// `[geometry.NAME]`
 pub fn read_geometry(section: &Section) -> Option<Geometry> {
-    let curves = section.required("curves", "[\"lower.seam\", \"upper.seam\"]", values::names);
-    let curve = read_surface(section);
-    Some(Geometry { name: section.name().into(), curves: curves?, curve: curve? })
+    let curves = section.required("curves", values::names);
+    // What is bad is in the log; the curves alone are enough to look for names.
+    let curve = read_surface(section).unwrap_or(Curve::Circle { centre: [0.0; 2], radius: 1.0 });
+    Some(Geometry { name: section.name().into(), curves: curves?, curve })
 }
 
 /// A curve: `circle`, or `x`, `y`, `t`.
@@ -27,16 +28,15 @@ pub fn read_surface(section: &Section) -> Option<Curve> {
 
 fn read_circle(section: &Section) -> Option<Curve> {
     let circle = section.table("circle");
-    let centre = circle.required("centre", "[0, 0]", values::point);
-    let radius = circle.required("radius", "1.0", values::positive);
+    let centre = circle.required("centre", values::point);
+    let radius = circle.required("radius", values::number);
     Some(Curve::Circle { centre: centre?, radius: radius? })
 }
 
 fn read_parametric(section: &Section) -> Option<Curve> {
-    let either = "or circle = { centre = [0, 0], radius = 1 }";
-    let x = section.required("x", &format!("\"t\", {either}"), values::formula(&["t"]));
-    let y = section.required("y", &format!("\"t^2\", {either}"), values::formula(&["t"]));
-    let range = section.required("t", &format!("[0, 1], {either}"), |value| match values::point(value) {
+    let x = section.required("x", values::formula(&["t"]));
+    let y = section.required("y", values::formula(&["t"]));
+    let range = section.required("t", |value| match values::point(value) {
         Ok(range) if range[0] < range[1] => Ok(range),
         _ => Err("must be two ascending numbers, the range of t".into()),
     });

@@ -4,29 +4,24 @@ use toml::Value;
 
 use super::Grade;
 use super::section::Section;
-use super::values::{self, must_be};
+use super::values;
 use crate::element::Order;
 
 /// Bounds of κ that `"auto"` keeps to: smaller ones make triangles flat.
 const AUTO: [f64; 2] = [0.15, 0.5];
 
-/// Smallest κ that may be asked for: after twelve refinements edges are still longer than rounding.
-const LEAST: f64 = 0.1;
-
 /// Points and ratios of `[mesh.grade]`, for elements of some order.
 pub fn read_grade(section: &Section, order: Option<Order>) -> Option<Vec<Grade>> {
-    let points = section.required("points", "[[0, 3], [6, 4]]", values::list("points [x, y] of the mesh file", values::point));
+    let points = section.required("points", values::each(values::point));
     let count = points.as_ref().map_or(1, Vec::len);
-    let ratio = section.or("ratio", "auto", |value| match value {
-        Value::String(word) if word == "auto" => Ok(None),
-        Value::String(_) => Err(must_be("\"auto\", a number, or a list of them", value)),
-        value => one_per_point(value, count, |ratio| (LEAST..=0.5).contains(&ratio))
+    let ratio = section.or("ratio", |value| match value {
+        Value::String(_) => Ok(None),
+        value => one_per_point(value, count)
             .map(Some)
-            .map_err(|words| format!("{words} from {LEAST} to 0.5, or \"auto\"; 0.5 is the middle of the edge")),
+            .map_err(|words| format!("{words} from 0.1 to 0.5, or \"auto\"; 0.5 is the middle of the edge")),
     });
-    let exponent = section.optional("exponent", |value| {
-        one_per_point(value, count, |exponent| exponent > 0.0).map_err(|words| format!("{words} above 0: u ~ r^exponent"))
-    });
+    let exponent = section
+        .optional("exponent", |value| one_per_point(value, count).map_err(|words| format!("{words} above 0: u ~ r^exponent")));
     let ratios = match ratio? {
         Some(ratios) => ratios,
         None if !section.has("exponent") => {
@@ -51,13 +46,13 @@ fn automatic(order: Option<Order>, exponent: f64) -> Option<f64> {
 }
 
 /// A number for all points, or one for each.
-fn one_per_point(value: &Value, count: usize, good: impl Fn(f64) -> bool) -> Result<Vec<f64>, String> {
+fn one_per_point(value: &Value, count: usize) -> Result<Vec<f64>, String> {
     let wanted = || format!("must be a number, or a list of {count}, one per point,");
     let numbers = match value {
         Value::Array(_) => values::numbers(value),
         value => values::number(value).map(|number| vec![number; count]),
     };
-    numbers.ok().filter(|numbers| numbers.len() == count && numbers.iter().all(|&number| good(number))).ok_or_else(wanted)
+    numbers.ok().filter(|numbers| numbers.len() == count).ok_or_else(wanted)
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ pub fn read_gravity(root: &Section) -> Gravity {
         [0.0, 0.0] => Err("must not be [0, 0]; leave [gravity] out where nothing is heavy".into()),
         g => Ok(g),
     };
-    section.required("g", "[0.0, -9.81]", read).map_or(Gravity::Unreadable, Gravity::Acceleration)
+    section.required("g", read).map_or(Gravity::Unreadable, Gravity::Acceleration)
 }
 
 /// Force per area by the `density` of a body; none without one. Nothing if the log knows what is wrong.
@@ -32,7 +32,7 @@ pub fn read_weight(section: &Section, gravity: Gravity) -> Option<[f64; 2]> {
     if !section.has("density") {
         return Some([0.0; 2]);
     }
-    let density = section.optional("density", values::positive);
+    let density = section.optional("density", values::number);
     match gravity {
         Gravity::None => {
             section.problem(&["density"], "weighs nothing without gravity; write [gravity] with g = [0.0, -9.81]".into());

@@ -14,6 +14,7 @@ mod gravity;
 mod model;
 pub(crate) mod overrides;
 mod rigid;
+pub mod schema;
 pub(crate) mod section;
 mod spot;
 mod steps;
@@ -195,8 +196,9 @@ impl Case {
     /// [`CaseError`] with everything that is wrong.
     fn from_table(mut table: Table, log: Log, file: &Path) -> Result<Self, CaseError> {
         let log = RefCell::new(log);
-        let draft = Self::from_section(&Section::root(&table, &log), file);
-        let log = log.into_inner();
+        let draft = Self::from_section(&Section::root(&table, &schema::CASE, &log), file);
+        let mut log = log.into_inner();
+        log.add_faults(&schema::CASE, &table);
         let Some(mut case) = draft.filter(|_| log.problems.is_empty()) else {
             return Err(CaseError { file: file.into(), problems: log.problems });
         };
@@ -231,7 +233,7 @@ impl Case {
     /// What can be read of a text that has errors, so that more of them may be found; nothing if there is no mesh to speak of.
     pub(crate) fn draft(text: &str, file: &Path, overrides: &[String]) -> Option<Self> {
         let (table, log) = overridden(text, file, overrides, &accuracy::SHORT).ok()?;
-        Self::from_section(&Section::root(&table, &RefCell::new(log)), file)
+        Self::from_section(&Section::root(&table, &schema::CASE, &RefCell::new(log)), file)
     }
 
     /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its
@@ -254,7 +256,7 @@ impl Case {
     /// bad the log knows.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
         let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
-        let title = root.or("title", "", values::text);
+        let title = root.or("title", values::text);
         let mesh = model::read_mesh(root, &folder);
         let (plane, gravity) = (model::read_plane(root), gravity::read_gravity(root));
         let bodies = root.named("body", |section| model::read_body(section, plane, gravity));

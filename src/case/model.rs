@@ -14,10 +14,8 @@ use super::values::{self, Choice, PLANE};
 use super::{MeshChoice, Output, Probe, Solver};
 use crate::body::{Body, BodyPart, Load, LoadKind, Material, PointLoad};
 use crate::element::{Order, Plane};
+use crate::geometry::Formula;
 use crate::system::{SolverChoice, Tolerance};
-
-/// More refinements than fit any machine.
-const MOST_REFINEMENTS: i64 = 12;
 
 /// What may be zero across the plane.
 const PLANES: [Choice<Plane>; 2] = [("strain", Plane::Strain), ("stress", Plane::Stress)];
@@ -28,16 +26,9 @@ const CONSTANTS: [&str; 4] = ["young", "poisson", "body_force", "density"];
 /// `[mesh]`
 pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
     let section = root.table("mesh");
-    let file = section.required("file", "\"bars.msh\", a Gmsh 4.1 file", values::name);
-    let order = section.or("order", 2, |value| match value.as_integer() {
-        Some(1) => Ok(Order::P1),
-        Some(2) => Ok(Order::P2),
-        _ => Err("must be 1 or 2, the order of the displacement".into()),
-    });
-    let refine = section.or("refine", 0, |value| match value.as_integer() {
-        Some(times @ 0..=MOST_REFINEMENTS) => Ok(times as usize),
-        _ => Err(format!("must be a whole number from 0 to {MOST_REFINEMENTS}; each one quarters every triangle")),
-    });
+    let file = section.required("file", values::name);
+    let order = section.or("order", |value| Ok(if values::whole(value)? == 1 { Order::P1 } else { Order::P2 }));
+    let refine = section.or("refine", values::whole);
     let grades = section.optional_table("grade").map_or(Some(Vec::new()), |section| read_grade(&section, order));
     // What is bad is in the log; the file alone is enough to look for names.
     let (order, refine) = (order.unwrap_or(Order::P2), refine.unwrap_or_default());
@@ -46,7 +37,7 @@ pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
 
 /// `plane`, before all tables.
 pub fn read_plane(root: &Section) -> Plane {
-    root.or("plane", "strain", values::choice(&PLANES)).unwrap_or_default()
+    root.or("plane", values::choice(&PLANES)).unwrap_or_default()
 }
 
 /// `[body.NAME]`; `plane` holds where it says nothing else.
@@ -72,19 +63,19 @@ pub fn read_body(section: &Section, plane: Plane, gravity: Gravity) -> Option<Bo
 
 /// The constants of a physical surface.
 fn read_part(section: &Section, plane: Plane, gravity: Gravity) -> Option<BodyPart> {
-    let young = section.required(CONSTANTS[0], "7000.0", values::positive);
-    let poisson = section.required(CONSTANTS[1], "0.3", |value| match (values::number(value)?, plane) {
-        (ratio, _) if ratio > -1.0 && ratio < 0.5 => Ok(ratio),
-        (0.5, Plane::Stress) => Ok(0.5),
-        (_, Plane::Strain) => {
+    let young = section.required(CONSTANTS[0], values::number);
+    let poisson = section.required(CONSTANTS[1], |value| match (values::number(value)?, plane) {
+        (0.5, Plane::Strain) => {
             Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into())
         }
-        (_, Plane::Stress) => Err("must lie in (-1, 0.5]".into()),
+        (ratio, _) => Ok(ratio),
     });
-    let force = section.or(CONSTANTS[2], vec![0.0, 0.0], values::formulas);
+    let force = section.or(CONSTANTS[2], values::formulas);
     let weight = read_weight(section, gravity);
-    let material = Material { young: young?, poisson: poisson?, plane };
-    Some(BodyPart { name: section.name().into(), material, force: with_weight(force?, weight?) })
+    // What is bad is in the log; a body of this name is there.
+    let material = Material { young: young.unwrap_or(1.0), poisson: poisson.unwrap_or(0.0), plane };
+    let force = force.unwrap_or_else(|| [0.0; 2].map(Formula::constant));
+    Some(BodyPart { name: section.name().into(), material, force: with_weight(force, weight.unwrap_or_default()) })
 }
 
 /// A physical surface belongs to one body.
@@ -131,16 +122,16 @@ pub fn split_loads(all: Vec<LoadTable>) -> (Vec<Load>, Vec<PointLoad>, Vec<Plate
 
 /// `[load.NAME]`
 pub fn read_load(section: &Section) -> Option<LoadTable> {
-    let place = read_where(section, "\"top\"");
+    let place = read_where(section);
     let name = section.name().to_string();
     if section.has("at") {
         for key in ["pressure", "traction"].into_iter().filter(|key| section.has(key)) {
             section.problem(&[key], "acts on physical curves; at a point give force = [fx, fy]".into());
         }
-        let force = section.required("force", "[0.0, -1.0], per thickness", values::formulas::<2>);
+        let force = section.required("force", values::formulas::<2>);
         return Some(LoadTable::AtPoint(PointLoad { name, at: place?.at?, force: force? }));
     }
-    if section.or("rigid", false, values::boolean)? {
+    if section.or("rigid", values::boolean)? {
         return read_plate(section, place?.on).map(LoadTable::OnPlate);
     }
     for key in ["force", "moment"].into_iter().filter(|key| section.has(key)) {
@@ -156,7 +147,9 @@ pub fn read_load(section: &Section) -> Option<LoadTable> {
         [true, true] => section.problem(&["pressure"], "stands beside traction; give one of them, or two loads".into()),
         _ => {}
     }
-    Some(LoadTable::OnCurves(Load { name, on: place?.on, kind: pressure.or(traction)? }))
+    // What is bad is in the log; the curves alone are enough to look for names.
+    let kind = pressure.or(traction).unwrap_or(LoadKind::Pressure(Formula::constant(0.0)));
+    Some(LoadTable::OnCurves(Load { name, on: place?.on, kind }))
 }
 
 /// `[solver]`
@@ -164,39 +157,30 @@ pub fn read_solver(root: &Section) -> Option<Solver> {
     let section = root.table("solver");
     let choice = section.or(
         "name",
-        "auto",
         values::choice(&[
             ("auto", SolverChoice::Auto),
             ("fieldsplit", SolverChoice::FieldSplit),
             ("direct", SolverChoice::Direct),
         ]),
     );
-    let tolerance = section.or("tolerance", 1e-8, |value| match value {
-        Value::String(word) if word == "discretisation" => Ok(Tolerance::Discretisation),
-        Value::String(_) => Err("must be a number like 1e-8, or \"discretisation\"".into()),
-        _ => match values::number(value)? {
-            tolerance if (1e-16..=1e-2).contains(&tolerance) => Ok(Tolerance::Residual(tolerance)),
-            _ => Err("must lie in [1e-16, 0.01]; 1e-8 is the default".into()),
-        },
+    let tolerance = section.or("tolerance", |value| match value {
+        Value::String(_) => Ok(Tolerance::Discretisation),
+        number => values::number(number).map(Tolerance::Residual),
     });
-    let inf_sup = section.or("inf_sup", "auto", |value| match value {
-        Value::String(word) if word == "auto" => Ok(None),
-        Value::Boolean(wanted) => Ok(Some(*wanted)),
-        other => Err(values::must_be("\"auto\", true or false", other)),
-    });
+    let inf_sup = section.or("inf_sup", |value| Ok(value.as_bool()));
     Some(Solver { choice: choice?, tolerance: tolerance?, inf_sup: inf_sup? })
 }
 
 /// `[output]`
 pub fn read_output(root: &Section) -> Option<Output> {
-    let fields = root.table("output").or("fields", true, values::boolean);
+    let fields = root.table("output").or("fields", values::boolean);
     Some(Output { fields: fields? })
 }
 
 /// `[probe.NAME]`
 pub fn read_probe(section: &Section) -> Option<Probe> {
-    let point = section.required("point", "[1.0, 2.0]", values::point);
-    let body = section.required("body", "\"lower\"", values::name);
+    let point = section.required("point", values::point);
+    let body = section.required("body", values::name);
     Some(Probe { name: section.name().into(), point: point?, body: body? })
 }
 

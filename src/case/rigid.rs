@@ -156,9 +156,6 @@ fn read_parts(section: &Section) -> Option<Vec<SurfacePart>> {
 /// Two points or more, each joined to the next.
 fn read_line(value: &Value) -> Result<Vec<SurfacePart>, String> {
     let points = values::points(value)?;
-    if points.len() < 2 {
-        return Err("must list two points or more, as in [[0, 1], [2, 1]]".into());
-    }
     if let Some(pair) = points.windows(2).find(|pair| pair[0] == pair[1]) {
         return Err(format!("lists the point ({}, {}) twice; list each once", pair[0][0], pair[0][1]));
     }

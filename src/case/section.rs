@@ -1,4 +1,4 @@
-//! A table of a case or a study file that remembers which of its keys were asked for.
+//! A table of a case or a study file, read by the table of its keys, that remembers which of them were asked for.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -6,6 +6,7 @@ use std::path::Path;
 use toml::{Table, Value};
 
 use super::error::{CaseError, Problem, quoted, suggest, told};
+use super::schema::{KeyForm, TableForm};
 use crate::mesh::read_regular;
 
 /// A case or a study file is never as large.
@@ -34,12 +35,29 @@ pub struct Log {
     pub overridden: Vec<Vec<String>>,
 }
 
-/// One table of a file. When it is dropped, keys that nobody asked for are reported: read every key before giving up on one.
+impl Log {
+    /// Adds what the table of keys refuses of a file in which the readers have found nothing wrong: the table has the last word.
+    pub fn add_faults(&mut self, form: &'static TableForm, table: &Table) {
+        if self.problems.is_empty() {
+            let problem = |(key, words)| Problem { key, value: None, words };
+            self.problems.extend(form.faults(table).into_iter().map(problem));
+        }
+    }
+}
+
+/// One table of a file, read by the table of its keys, which has the form of each value and its default. When it is dropped, keys
+/// that nobody asked for are reported: read every key before giving up on one.
 ///
-/// Readers turn a value into a checked one, or into words that name the remedy; `None` means that the log knows what is wrong.
+/// Readers turn a value that has the form of its key into a checked one, or into words that name the remedy; `None` means that
+/// the log knows what is wrong.
+///
+/// # Panics
+/// Where a key is asked for that is not in the table of keys.
 pub struct Section<'a> {
     /// None: the table is not in the file, everything has its default.
     table: Option<&'a Table>,
+    /// The keys that it may have.
+    form: &'static TableForm,
     path: Vec<String>,
     log: &'a RefCell<Log>,
     asked: RefCell<Vec<&'static str>>,
@@ -47,8 +65,8 @@ pub struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// The whole file.
-    pub fn root(table: &'a Table, log: &'a RefCell<Log>) -> Self {
-        Self { table: Some(table), path: Vec::new(), log, asked: RefCell::default() }
+    pub fn root(table: &'a Table, form: &'static TableForm, log: &'a RefCell<Log>) -> Self {
+        Self { table: Some(table), form, path: Vec::new(), log, asked: RefCell::default() }
     }
 
     /// Name of this table.
@@ -71,12 +89,12 @@ impl<'a> Section<'a> {
         self.get(key).is_some_and(Value::is_table)
     }
 
-    /// A value that must be given; `example` shows how.
-    pub fn required<T>(&self, key: &'static str, example: &str, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
+    /// A value that must be given.
+    pub fn required<T>(&self, key: &'static str, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
         match self.get(key) {
             Some(value) => self.checked(key, value, read),
             None => {
-                self.problem(&[key], format!("missing; write {key} = {example}"));
+                self.problem(&[key], format!("missing; write {key} = {}", self.form_of(key).example));
                 None
             }
         }
@@ -88,11 +106,22 @@ impl<'a> Section<'a> {
     }
 
     /// A value with a default, which is read in the same way and written into the resolved case.
-    pub fn or<T>(&self, key: &'static str, default: impl Into<Value>, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
+    pub fn or<T>(&self, key: &'static str, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
+        let default = || self.form_of(key).default().unwrap_or_else(|| panic!("{key} of a {} has no default", self.form.name));
+        self.or_else(key, default, read)
+    }
+
+    /// A value with a default that other keys tell.
+    pub fn or_else<T, D: Into<Value>>(
+        &self,
+        key: &'static str,
+        default: impl FnOnce() -> D,
+        read: impl Fn(&Value) -> Result<T, String>,
+    ) -> Option<T> {
         if let Some(value) = self.get(key) {
             return self.checked(key, value, read);
         }
-        let default = default.into();
+        let default = default().into();
         let result = self.checked(key, &default, read);
         self.log.borrow_mut().defaults.push((self.child(key), default));
         result
@@ -104,7 +133,7 @@ impl<'a> Section<'a> {
         if value.is_some_and(|value| !value.is_table()) {
             self.problem(&[key], format!("must be a table; write [{}]", told(&self.child(key))));
         }
-        Section { table: value.and_then(Value::as_table), path: self.child(key), log: self.log, asked: RefCell::default() }
+        self.inner(key, self.child(key), value.and_then(Value::as_table))
     }
 
     /// The table under a key, if it is in the file.
@@ -114,18 +143,19 @@ impl<'a> Section<'a> {
 
     /// Reads every table under a key, as in `[body.lower]`, `[body.upper]`.
     pub fn named<T>(&self, key: &'static str, read: impl Fn(&Section) -> Option<T>) -> Vec<T> {
-        let tables = self.table(key);
+        let Some(value) = self.get(key) else { return Vec::new() };
+        let Some(tables) = value.as_table() else {
+            self.problem(&[key], format!("must be a table; write [{}]", told(&self.child(key))));
+            return Vec::new();
+        };
         let mut results = Vec::new();
-        for (name, value) in tables.table.into_iter().flatten() {
-            let path: Vec<String> = tables.path.iter().chain([name]).cloned().collect();
-            let Some(table) = value.as_table() else {
-                tables.problem(&[name.as_str()], format!("must be a table; write [{}]", told(&path)));
-                continue;
-            };
-            let section = Section { table: Some(table), path, log: self.log, asked: RefCell::default() };
-            results.extend(read(&section));
+        for (name, value) in tables {
+            let path: Vec<String> = self.child(key).into_iter().chain([name.clone()]).collect();
+            match value.as_table() {
+                Some(table) => results.extend(read(&self.inner(key, path, Some(table)))),
+                None => self.problem(&[key, name.as_str()], format!("must be a table; write [{}]", told(&path))),
+            }
         }
-        tables.forgive();
         results
     }
 
@@ -141,7 +171,7 @@ impl<'a> Section<'a> {
         };
         let numbered = list.iter().enumerate().map(|(index, value)| {
             let path = self.child(key).into_iter().chain([(index + 1).to_string()]).collect();
-            Section { table: value.as_table(), path, log: self.log, asked: RefCell::default() }
+            self.inner(key, path, value.as_table())
         });
         numbered.filter_map(|section| read(&section)).collect()
     }
@@ -177,17 +207,33 @@ impl<'a> Section<'a> {
     fn get(&self, key: &'static str) -> Option<&'a Value> {
         let mut asked = self.asked.borrow_mut();
         if !asked.contains(&key) {
+            self.form_of(key);
             asked.push(key);
         }
         self.table.and_then(|table| table.get(key))
+    }
+
+    /// What the table of keys says of one.
+    fn form_of(&self, key: &'static str) -> &'static KeyForm {
+        let form = self.form.key(key).unwrap_or_else(|| panic!("{key} is no key of a {}", self.form.name));
+        #[cfg(test)]
+        super::schema::note(self.form, form);
+        form
+    }
+
+    /// A table that stands under a key.
+    fn inner(&self, key: &'static str, path: Vec<String>, table: Option<&'a Table>) -> Section<'a> {
+        let form = self.form_of(key).value.table().unwrap_or_else(|| panic!("{key} of a {} is no table", self.form.name));
+        Section { table, form, path, log: self.log, asked: RefCell::default() }
     }
 
     fn child(&self, key: &str) -> Vec<String> {
         self.path.iter().cloned().chain([key.to_owned()]).collect()
     }
 
-    fn checked<T>(&self, key: &str, value: &Value, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
-        read(value).map_err(|words| self.record(&[key], Some(value), words)).ok()
+    fn checked<T>(&self, key: &'static str, value: &Value, read: impl Fn(&Value) -> Result<T, String>) -> Option<T> {
+        let result = self.form_of(key).refusal(value).map_or_else(|| read(value), Err);
+        result.map_err(|words| self.record(&[key], Some(value), words)).ok()
     }
 
     fn record(&self, below: &[&str], value: Option<&Value>, words: String) {
@@ -197,11 +243,6 @@ impl<'a> Section<'a> {
         let source = if from_command_line { " (--set)" } else { "" };
         let value = value.map(|value| format!("{}{source}", quoted(value)));
         log.problems.push(Problem { key: told(&path), value, words });
-    }
-
-    /// Lets any key stand: this table holds names that the user chose.
-    fn forgive(mut self) {
-        self.table = None;
     }
 }
 

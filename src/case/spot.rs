@@ -13,15 +13,15 @@ pub struct Where {
     pub at: Option<Spot>,
 }
 
-/// `on`, or `at` and perhaps `body`; `example` shows how `on` is written.
-pub fn read_where(section: &Section, example: &str) -> Option<Where> {
+/// `on`, or `at` and perhaps `body`.
+pub fn read_where(section: &Section) -> Option<Where> {
     let at = section.optional("at", values::point);
     let body = section.optional("body", values::name);
     if !section.has("at") {
         if section.has("body") {
             section.problem(&["body"], "stands beside at = [x, y] only: a physical curve tells its body; leave it out".into());
         }
-        let on = section.required("on", &format!("{example}, or at = [0.0, 1.0] for a point"), values::names);
+        let on = section.required("on", values::names);
         return Some(Where { on: on?, at: None });
     }
     if section.has("on") {

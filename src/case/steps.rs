@@ -9,9 +9,6 @@ use super::overrides::{read_key, set_value};
 use super::section::Section;
 use super::{Case, values};
 
-/// Steps at most.
-const MOST_STEPS: usize = 1000;
-
 /// Kinds of tables with values that can be scaled.
 const SCALED: [(&str, &[&str]); 5] = [
     ("load", &["pressure", "traction", "force", "moment", "ux", "uy", "angle"]),
@@ -57,13 +54,8 @@ pub struct LoadFactor {
 
 /// `[steps.NAME]`
 pub fn read_factor(section: &Section) -> Option<LoadFactor> {
-    let factors = section.required("factors", "[0.5, 1.0], one for each step", |value| match values::numbers(value)? {
-        list if list.is_empty() => Err("must not be empty; give one number for each step, as in [0.5, 1.0]".into()),
-        list if list.len() > MOST_STEPS => Err(format!("has {} steps; at most {MOST_STEPS} are possible", list.len())),
-        list => Ok(list),
-    });
-    let wanted = "keys of loads, supports, rigid tools, contacts or bodies, as in [\"load.top\", \"contact.seam.gap\"]";
-    let scales = section.required("scales", "[\"load.top\"]", values::list(wanted, values::name));
+    let factors = section.required("factors", values::numbers);
+    let scales = section.required("scales", values::each(values::name));
     Some(LoadFactor { name: section.name().into(), values: factors?, scales: scales? })
 }
 

@@ -9,9 +9,6 @@ use super::values::{self, PLANE};
 use crate::body::{MOTIONS, MeanHold, SpringStiffness, Springs, Support};
 use crate::geometry::Formula;
 
-/// Largest mean turn that can be asked for (radians).
-const MOST_ANGLE: f64 = 0.1;
-
 /// What a table `[support.NAME]` says.
 pub enum SupportTable {
     /// Displacements are prescribed.
@@ -43,7 +40,7 @@ pub fn read_support(section: &Section) -> Option<SupportTable> {
     if section.has("stiffness") {
         return read_springs(section).map(SupportTable::Elastic);
     }
-    let place = read_where(section, "\"bottom\"");
+    let place = read_where(section);
     let given = ["ux", "uy", "normal"].map(|key| section.has(key));
     let component = |key| section.optional(key, values::formula(&PLANE));
     let [ux, uy, normal] = ["ux", "uy", "normal"].map(component);
@@ -65,26 +62,17 @@ pub fn read_support(section: &Section) -> Option<SupportTable> {
 
 /// The mean motion of a body: `mean = true` beside `body`.
 fn read_mean(section: &Section) -> Option<MeanHold> {
-    if section.optional("mean", values::boolean) == Some(false) {
-        section.problem(&["mean"], "holds a mean motion only as mean = true; leave it out for a support on = or at =".into());
-    }
+    section.optional("mean", values::boolean);
     for key in ["on", "at", "normal", "stiffness"].into_iter().filter(|key| section.has(key)) {
         let words = "stands beside mean = true, which holds a whole body; give body, and ux, uy, angle or several of them";
         section.problem(&[key], words.into());
     }
-    let mean = MOTIONS.map(|key| section.optional(key, if key == "angle" { small_angle } else { values::number }));
+    let mean = MOTIONS.map(|key| section.optional(key, values::number));
     if !MOTIONS.iter().any(|key| section.has(key)) {
         section.problem(&[], "holds no mean motion; give ux, uy or angle, or several of them, as in ux = 0.0".into());
     }
-    let body = section.required("body", "\"disc\"", values::name)?;
+    let body = section.required("body", values::name)?;
     Some(MeanHold { name: section.name().into(), body, mean })
-}
-
-/// A turn that a linear theory has: beyond it a body would grow by more than half a per cent.
-fn small_angle(value: &Value) -> Result<f64, String> {
-    let wanted =
-        format!("must be a number from -{MOST_ANGLE} to {MOST_ANGLE}: radians, small ones; draw the body turned instead");
-    values::number(value).ok().filter(|angle| angle.abs() <= MOST_ANGLE).ok_or(wanted)
 }
 
 /// Bodies whose mean motion is held are bodies of the case, and each motion of one is held once.
@@ -111,7 +99,7 @@ fn read_springs(section: &Section) -> Option<Springs> {
         section.problem(&["at"], words.into());
         section.optional("on", values::names)
     } else {
-        section.required("on", "\"bottom\"", values::names)
+        section.required("on", values::names)
     };
     if !section.has_table("stiffness") {
         section.problem(&["stiffness"], "must be a table, as { normal = 100.0 } or { x = 100.0, y = 50.0 }".into());
@@ -128,7 +116,8 @@ fn read_springs(section: &Section) -> Option<Springs> {
         (true, true) => stiffness.problem(&["normal"], "stands beside x or y; make two supports".into()),
         _ => {}
     }
-    let kind = if axes { SpringStiffness::Axes([x, y]) } else { SpringStiffness::Normal(normal?) };
+    let kind =
+        if axes { SpringStiffness::Axes([x, y]) } else { SpringStiffness::Normal(normal.unwrap_or(Formula::constant(0.0))) };
     Some(Springs { name: section.name().into(), on: on?, stiffness: kind })
 }
 

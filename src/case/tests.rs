@@ -280,7 +280,10 @@ fn every_error_names_key_value_and_remedy() {
         ("mesh.grade.points=[[0, 3]]", "mesh.grade.exponent: missing; write exponent = 0.75, if u ~ r^0.75"),
         ("mesh.grade.ratio=0.2", "mesh.grade.points: missing; write points = [[0, 3], [6, 4]]"),
         ("mesh.grade={points = [[0, 3], [0, 3]], ratio = 0.2}", "entry 2 stands there twice"),
-        ("mesh.grade={points = [[0, 3]], ratio = 0.6}", "mesh.grade.ratio = 0.6 (--set): must be a number, or a list of 1"),
+        (
+            "mesh.grade={points = [[0, 3]], ratio = 0.6}",
+            "mesh.grade.ratio = 0.6 (--set): must be a number, or a list of them, one per point, from 0.1",
+        ),
         ("mesh.grade={points = [[0, 3]], ratio = [0.2, 0.3]}", "a list of 1, one per point, from 0.1 to 0.5, or \"auto\""),
         ("mesh.grade={points = [[0, 3]], exponent = 0}", "one per point, above 0: u ~ r^exponent"),
         ("solver=3", "solver = 3 (--set): must be a table; write [solver]"),

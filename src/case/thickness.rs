@@ -8,7 +8,7 @@ use crate::body::{PointLoad, RigidSet};
 
 /// `thickness`, before all tables; 1 if the case has none.
 pub fn read_thickness(root: &Section) -> f64 {
-    root.optional("thickness", values::positive).unwrap_or(1.0)
+    root.optional("thickness", values::number).unwrap_or(1.0)
 }
 
 /// Makes everything in a case that is a force, a moment or an energy that of a thickness of one: loads at points, boundaries that

@@ -2,7 +2,6 @@
 
 use toml::{Table, Value};
 
-use super::error::suggest;
 use crate::geometry::{Formula, Quote};
 
 /// Variables of formulas in the plane.
@@ -47,17 +46,6 @@ pub fn number(value: &Value) -> Result<f64, String> {
     number.filter(|number| number.is_finite()).ok_or_else(|| must_be("a finite number", value))
 }
 
-/// A finite number above zero.
-pub fn positive(value: &Value) -> Result<f64, String> {
-    number(value).and_then(|number| if number > 0.0 { Ok(number) } else { Err("must be > 0".into()) })
-}
-
-/// A finite number that relative errors can be measured against.
-pub fn not_zero(value: &Value) -> Result<f64, String> {
-    let remedy = "must not be 0: the error is relative to it";
-    number(value).and_then(|number| if number != 0.0 { Ok(number) } else { Err(remedy.into()) })
-}
-
 /// A list of finite numbers.
 pub fn numbers(value: &Value) -> Result<Vec<f64>, String> {
     entries(value, "a list of numbers", number)
@@ -95,16 +83,11 @@ pub fn formulas<const N: usize>(value: &Value) -> Result<[Formula; N], String> {
     entries(value, &wanted, formula(&PLANE))?.try_into().map_err(|_| must_be(&wanted, value))
 }
 
-/// One of some words.
+/// What a word stands for; the table of keys has the same words.
 pub fn choice<T: Copy>(options: &'static [Choice<T>]) -> impl Fn(&Value) -> Result<T, String> {
     move |value| {
-        let available: Vec<&str> = options.iter().map(|option| option.0).collect();
-        let all = || format!("\"{}\"", available.join("\" or \""));
-        let found = value.as_str().ok_or_else(|| must_be(&all(), value))?;
-        match options.iter().find(|option| option.0 == found) {
-            Some((_, choice)) => Ok(*choice),
-            None => Err(format!("must be {}; {}", all(), suggest(found, available.iter().copied()))),
-        }
+        let chosen = options.iter().find(|option| value.as_str() == Some(option.0));
+        chosen.map(|option| option.1).ok_or_else(|| must_be("a word that has a meaning here", value))
     }
 }
 
@@ -117,15 +100,20 @@ pub fn must_be(wanted: &str, found: &Value) -> String {
     }
 }
 
-/// A whole number of at least 1.
-pub fn count(value: &Value) -> Result<usize, String> {
-    let count = value.as_integer().and_then(|number| usize::try_from(number).ok());
-    count.filter(|count| *count > 0).ok_or_else(|| "must be a whole number of at least 1".into())
+/// A whole number that is not negative.
+pub fn whole(value: &Value) -> Result<usize, String> {
+    let number = value.as_integer().and_then(|number| usize::try_from(number).ok());
+    number.ok_or_else(|| must_be("a whole number", value))
 }
 
 /// A table.
 pub fn table(value: &Value) -> Result<Table, String> {
     value.as_table().cloned().ok_or_else(|| must_be("a table", value))
+}
+
+/// A list of some entries.
+pub fn each<T>(read: impl Fn(&Value) -> Result<T, String>) -> impl Fn(&Value) -> Result<Vec<T>, String> {
+    move |value| entries(value, "a list", &read)
 }
 
 /// A list of at least one entry, each once.

@@ -11,6 +11,7 @@
 
 mod dual;
 mod parser;
+mod spelling;
 
 use super::{Coordinates, Point, Quote};
 use dual::Dual;
@@ -62,6 +63,16 @@ impl Formula {
     pub fn parse(text: &str, variables: &[&str]) -> Result<Self, FormulaError> {
         let program = parser::parse(text, variables)?;
         Ok(Self { text: text.into(), program })
+    }
+
+    /// Whether a text is made of white space, signs, digits, these variables and known names alone, as every formula is.
+    pub fn is_spelt(text: &str, variables: &[&str]) -> bool {
+        spelling::is_spelt(text, variables)
+    }
+
+    /// The regular expression of such texts; `white` is the inside of a class of white space.
+    pub fn pattern(variables: &[&str], white: &str) -> String {
+        spelling::pattern(variables, white)
     }
 
     /// The formula that is the same everywhere.

@@ -16,15 +16,13 @@ use toml::Value;
 use super::summary_path::SummaryPath;
 use crate::case::error::{CaseError, dotted};
 use crate::case::overrides::{overridden, read_key};
+use crate::case::schema::STUDY;
 use crate::case::section::{Section, read_text};
 use crate::case::{Case, name_of, values};
 
 use moves::Moves;
 use planned::PlannedCase;
-use settings::{CASES, StudyCurve, read_curve, read_grid, read_set};
-
-/// Longest time limit of a run, in seconds: a month.
-const LONGEST: f64 = 30.0 * 86_400.0;
+use settings::{StudyCurve, read_curve, read_grid, read_set};
 
 /// A checked study: what is run, and what is asked of each result.
 #[derive(Clone, Debug)]
@@ -70,30 +68,29 @@ impl Plan {
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
         let (table, log) = overridden(text, file, overrides, &[])?;
         let log = RefCell::new(log);
-        let draft = Self::from_section(&Section::root(&table, &log), file);
-        let problems = log.into_inner().problems;
+        let draft = Self::from_section(&Section::root(&table, &STUDY, &log), file);
+        let mut log = log.into_inner();
+        log.add_faults(&STUDY, &table);
+        let problems = log.problems;
         draft.filter(|_| problems.is_empty()).ok_or(CaseError { file: file.into(), problems })
     }
 
     /// None if a value is missing or bad; the log knows why.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
-        let cases = root.required("cases", "[\"case.toml\"]", values::list(CASES, values::name));
-        let ranks = root.or("ranks", vec![1], values::list("a list of numbers of ranks", values::count));
-        let repeat = root.or("repeat", 1, values::count);
-        let timeout = root.or("timeout", 600, |value| match values::positive(value)? {
-            seconds if seconds <= LONGEST => Ok(Duration::from_secs_f64(seconds)),
-            _ => Err(format!("must be at most {LONGEST} seconds")),
-        });
+        let cases = root.required("cases", values::each(values::name));
+        let ranks = root.or("ranks", values::each(values::whole));
+        let repeat = root.or("repeat", values::whole);
+        let timeout = root.or("timeout", |value| values::number(value).map(Duration::from_secs_f64));
         let errors = root.optional("error", |value| match value {
-            Value::Array(_) => values::list("a list of paths in summary.json", SummaryPath::read)(value),
+            Value::Array(_) => values::each(SummaryPath::read)(value),
             single => Ok(vec![SummaryPath::read(single)?]),
         });
-        let time = root.or("time", "time_s.total", SummaryPath::read);
+        let time = root.or("time", SummaryPath::read);
         let along = root.optional("along", |value| match value {
-            Value::Array(_) => values::list("a list of keys of the case", read_along)(value),
+            Value::Array(_) => values::each(read_along)(value),
             single => Ok(vec![read_along(single)?]),
         });
-        let columns = root.optional("columns", values::list("a list of paths in summary.json", SummaryPath::read));
+        let columns = root.optional("columns", values::each(SummaryPath::read));
         let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
         let cases = cases?;
         let planned = find_cases(&cases, file, root);

@@ -278,12 +278,19 @@ fn scenes_are_refused_alike(session: &Session) {
 /// Keys, values and names of one file are told together.
 fn names_and_keys_are_told_at_once(session: &Session) {
     let place = Place::new(session);
-    let case = GOOD.replace("on = \"top\"", "on = \"topp\"").replace("\"upper.seam\"", "\"uper.seam\"")
-        + "extra = 1\n[solver]\ntolerance = 2\n";
-    let file = place.write(session, &blocks().text(), &case);
-    let words =
-        place.refused(session, &file, &[], &["extra: unknown key", "solver.tolerance = 2", "\"top\"?", "\"upper.seam\"?"]);
+    let case = GOOD.replace("on = \"top\"", "on = \"topp\"").replace("\"upper.seam\"", "\"uper.seam\"");
+    let more = "extra = 1\n[solver]\ntolerance = 2\n";
+    let file = place.write(session, &blocks().text(), &format!("{case}{more}"));
+    let told = ["extra: unknown key", "solver.tolerance = 2", "\"top\"?", "\"upper.seam\"?"];
+    let words = place.refused(session, &file, &[], &told);
     assert_eq!(words.lines().count(), 4, "{words}");
+    // Names are looked for where other values of their tables are bad, too; a body with a bad value is not said to be missing.
+    let case = case.replace("curve = \"line\"", "curve = \"lines\"").replace("pressure = 1.0", "pressure = \"1+\"");
+    let case = case.replace("poisson = 0.227", "poisson = 0.7");
+    let file = place.write(session, &blocks().text(), &format!("{case}{more}"));
+    let bad = ["contact.seam.curve = \"lines\"", "load.top.pressure = \"1+\"", "body.lower.poisson = 0.7"];
+    let words = place.refused(session, &file, &[], &[&told[..], &bad].concat());
+    assert_eq!(words.lines().count(), 7, "{words}");
     place.end();
 }
 

@@ -8,6 +8,11 @@ use crate::geometry::Quote;
 const FUNCTIONS: [(&str, Function); 4] =
     [("sqrt", Function::Sqrt), ("sin", Function::Sin), ("cos", Function::Cos), ("exp", Function::Exp)];
 
+/// Names of what a formula may call.
+pub fn function_names() -> impl Iterator<Item = &'static str> + Clone {
+    FUNCTIONS.iter().map(|(name, _)| *name)
+}
+
 /// Deepest nesting of parentheses, signs and powers; keeps the recursion short.
 const NESTING: usize = 64;
 

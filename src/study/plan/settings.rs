@@ -6,9 +6,6 @@ use crate::case::overrides::read_key;
 use crate::case::section::Section;
 use crate::case::values;
 
-/// What a list of case files is called.
-pub const CASES: &str = "a list of case files";
-
 /// A key of the case and what stands there: a value, or a list of values on an axis of a grid.
 #[derive(Clone, Debug)]
 pub struct Setting<T> {
@@ -66,12 +63,12 @@ pub fn read_grid(section: &Section) -> Vec<GridAxis> {
 
 /// `[[curve]]`
 pub fn read_curve(section: &Section) -> Option<StudyCurve> {
-    let name = section.required("name", "\"P1/P0\"", values::name);
+    let name = section.required("name", values::name);
     let (mut set, mut grid) = (read_set(section), read_grid(section));
     for written in set.iter_mut().map(|s| &mut s.written).chain(grid.iter_mut().map(|axis| &mut axis.written)) {
         written.splice(0..0, ["curve".into(), section.name().into()]);
     }
-    let cases = section.optional("cases", values::list(CASES, values::name));
+    let cases = section.optional("cases", values::each(values::name));
     Some(StudyCurve { name: name?, set, grid, cases })
 }
 

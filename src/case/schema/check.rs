@@ -1,0 +1,259 @@
+//! Files against the tables of keys.
+
+use toml::{Table, Value};
+
+use super::form::{Absent, EitherForm, KeyForm, LONGEST_NAME, ListForm, NamedForm, NumberRange, TableForm, TableRule, ValueForm};
+use crate::case::error::{suggest, told};
+use crate::case::values::{self, must_be};
+use crate::geometry::Formula;
+
+impl KeyForm {
+    /// Words for a value that has not the form of this key.
+    pub fn refusal(&self, value: &Value) -> Option<String> {
+        let words = self.value.refusal(value)?;
+        Some(if self.refusal.is_empty() { words } else { self.refusal.into() })
+    }
+}
+
+impl ValueForm {
+    /// Words for a value that has not this form; tables are looked into by [`TableForm::faults`].
+    pub fn refusal(&self, value: &Value) -> Option<String> {
+        match self {
+            Self::Anything => None,
+            Self::Text => values::text(value).err(),
+            Self::Name => values::name(value).err(),
+            Self::Names => values::names(value).err(),
+            Self::Boolean => values::boolean(value).err(),
+            Self::Yes => (value.as_bool() != Some(true)).then(|| "must be true".into()),
+            Self::Number(range) => values::number(value).map_or_else(Some, |number| range.refusal(number)),
+            Self::Whole(range) => whole_refusal(*range, value),
+            Self::Word(words) => word_refusal(words, value),
+            Self::Formula(variables, range) => match value {
+                Value::String(text) if Formula::is_spelt(text, variables) => None,
+                Value::String(text) => Formula::parse(text, variables).err().map(|error| error.to_string()),
+                Value::Integer(_) | Value::Float(_) => Self::Number(*range).refusal(value),
+                other => Some(must_be(&format!("a number or a formula of {}", variables.join(", ")), other)),
+            },
+            Self::List(list) => list.refusal(value),
+            Self::Either(either) => either.refusal(value),
+            Self::Table(_) | Self::Named(_) | Self::CaseKeys | Self::CaseAxes => {
+                (!value.is_table()).then(|| must_be("a table", value))
+            }
+            Self::Tables(_) => {
+                let is_list = value.as_array().is_some_and(|list| list.iter().all(Value::is_table));
+                (!is_list).then(|| must_be("a list of tables", value))
+            }
+        }
+    }
+
+    /// Whether it takes values of the type that this one has.
+    fn takes_type(&self, value: &Value) -> bool {
+        match self {
+            Self::Anything => true,
+            Self::Text | Self::Name | Self::Word(_) => value.is_str(),
+            Self::Names => value.is_str() || value.is_array(),
+            Self::Boolean | Self::Yes => value.is_bool(),
+            Self::Number(_) => value.is_integer() || value.is_float(),
+            Self::Whole(_) => value.is_integer(),
+            Self::Formula(..) => value.is_str() || value.is_integer() || value.is_float(),
+            Self::List(_) | Self::Tables(_) => value.is_array(),
+            Self::Either(either) => either.of.iter().any(|form| form.takes_type(value)),
+            Self::Table(_) | Self::Named(_) | Self::CaseKeys | Self::CaseAxes => value.is_table(),
+        }
+    }
+}
+
+impl NumberRange {
+    fn refusal(&self, number: f64) -> Option<String> {
+        let made = if self.above.is_some_and(|above| number <= above) {
+            self.above.map(|above| format!("must be > {above}"))
+        } else if self.least.is_some_and(|least| number < least) {
+            self.least.map(|least| format!("must be at least {least}"))
+        } else if self.most.is_some_and(|most| number > most) {
+            self.most.map(|most| format!("must be at most {most}"))
+        } else {
+            (!self.zero && number == 0.0).then(|| "must not be 0".into())
+        };
+        made.map(|made| if self.words.is_empty() { made } else { self.words.into() })
+    }
+}
+
+fn whole_refusal([least, most]: [i64; 2], value: &Value) -> Option<String> {
+    if value.as_integer().is_some_and(|number| (least..=most).contains(&number)) {
+        return None;
+    }
+    Some(match most {
+        i64::MAX => format!("must be a whole number of at least {least}"),
+        most => format!("must be a whole number from {least} to {most}"),
+    })
+}
+
+fn word_refusal(words: &[&str], value: &Value) -> Option<String> {
+    let all = || format!("\"{}\"", words.join("\" or \""));
+    match value.as_str() {
+        None => Some(must_be(&all(), value)),
+        Some(found) if words.contains(&found) => None,
+        Some(found) => Some(format!("must be {}; {}", all(), suggest(found, words.iter().copied()))),
+    }
+}
+
+impl ListForm {
+    fn refusal(&self, value: &Value) -> Option<String> {
+        let Some(list) = value.as_array() else { return Some(must_be(self.wanted, value)) };
+        let [least, most] = self.count;
+        if least == most && list.len() != least {
+            return Some(must_be(self.wanted, value));
+        }
+        let entry = list.iter().enumerate().find_map(|(k, entry)| Some((k + 1, self.of.refusal(entry)?)));
+        if let Some((number, words)) = entry {
+            return Some(format!("entry {number}: {words}"));
+        }
+        if list.len() < least {
+            let made = || format!("must not be empty: give {}", self.wanted);
+            return Some(if self.few.is_empty() { made() } else { self.few.into() });
+        }
+        if list.len() > most {
+            return Some(format!("has {} {}; at most {most} are possible", list.len(), self.noun));
+        }
+        let twice = |k: &usize| list[..*k].iter().any(|other| alike(other, &list[*k]));
+        let twice = (0..list.len()).find(|k| self.unique && twice(k))?;
+        Some(format!("entry {} stands there twice; list each once", twice + 1))
+    }
+}
+
+/// Whether two values are the same; 1 and 1.0 are.
+fn alike(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Integer(a), Value::Float(b)) | (Value::Float(b), Value::Integer(a)) => *a as f64 == *b,
+        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| alike(a, b)),
+        _ => a == b,
+    }
+}
+
+impl EitherForm {
+    /// A number or a list that one of the forms could be is refused by the words of that form.
+    fn refusal(&self, value: &Value) -> Option<String> {
+        if self.of.iter().any(|form| form.refusal(value).is_none()) {
+            return None;
+        }
+        match self.of.iter().find(|form| form.takes_type(value)) {
+            None => Some(must_be(self.wanted, value)),
+            Some(form @ (ValueForm::Number(_) | ValueForm::List(_) | ValueForm::Names)) => form.refusal(value),
+            Some(form @ ValueForm::Formula(..)) => {
+                Some(format!("must be {}; {}", self.wanted, form.refusal(value).unwrap_or_default()))
+            }
+            Some(_) => Some(format!("must be {}", self.wanted)),
+        }
+    }
+}
+
+impl NamedForm {
+    /// Whether a table may have this name, as far as the form goes: of letters outside of ASCII the reader says more.
+    pub fn allows(&self, name: &str) -> bool {
+        let sound = |c: char| !c.is_ascii() || c.is_ascii_alphanumeric() || "-_.".contains(c);
+        !self.in_files || name.chars().count() <= LONGEST_NAME && name.chars().all(sound)
+    }
+}
+
+impl TableForm {
+    /// Everything in a table, and in those below it, that has not the form that is wanted: key and words.
+    pub fn faults(&self, table: &Table) -> Vec<(String, String)> {
+        let mut found = Vec::new();
+        self.collect(table, &mut Vec::new(), &mut found);
+        found
+    }
+
+    fn collect(&self, table: &Table, path: &mut Vec<String>, found: &mut Vec<(String, String)>) {
+        let key = |path: &[String], name: &str| told(&[path, &[name.to_owned()]].concat());
+        for (name, value) in table {
+            match self.key(name) {
+                None => found.push((key(path, name), "unknown key".into())),
+                Some(form) => {
+                    if let Some(words) = form.refusal(value) {
+                        found.push((key(path, name), words));
+                    }
+                    path.push(name.clone());
+                    form.value.look_below(value, path, found);
+                    path.pop();
+                }
+            }
+        }
+        for form in self.all().filter(|form| form.absent == Absent::Refused && !table.contains_key(form.name)) {
+            found.push((key(path, form.name), "missing".into()));
+        }
+        found.extend(self.rules.iter().filter_map(|rule| Some((told(path), rule.broken(table)?))));
+    }
+}
+
+impl ValueForm {
+    /// Looks into the tables that stand under a key.
+    fn look_below(&self, value: &Value, path: &mut Vec<String>, found: &mut Vec<(String, String)>) {
+        match (self, value) {
+            (Self::Table(form), Value::Table(table)) => form.collect(table, path, found),
+            (Self::Tables(form), Value::Array(list)) => {
+                for (index, table) in list.iter().enumerate().filter_map(|(index, value)| Some((index, value.as_table()?))) {
+                    path.push((index + 1).to_string());
+                    form.collect(table, path, found);
+                    path.pop();
+                }
+            }
+            (Self::Named(named), Value::Table(tables)) => named.collect(tables, path, found),
+            (Self::Either(either), value) => {
+                let form = either.of.iter().find(|form| form.takes_type(value));
+                form.into_iter().for_each(|form| form.look_below(value, path, found));
+            }
+            (Self::CaseAxes, Value::Table(table)) => {
+                for (name, value) in table {
+                    path.push(name.clone());
+                    match value {
+                        Value::Table(_) => self.look_below(value, path, found),
+                        Value::Array(list) if !list.is_empty() => {}
+                        _ => found.push((told(path), "must be a list of values, as in [2, 3]".into())),
+                    }
+                    path.pop();
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+impl NamedForm {
+    fn collect(&self, tables: &Table, path: &mut Vec<String>, found: &mut Vec<(String, String)>) {
+        if tables.len() < self.least {
+            found.push((told(path), "is empty".into()));
+        }
+        for (name, value) in tables {
+            path.push(name.clone());
+            if !self.allows(name) {
+                found.push((told(path), "its name is part of a file name; use letters, digits, - and _".into()));
+            }
+            match value.as_table() {
+                Some(table) => self.table.collect(table, path, found),
+                None => found.push((told(path), must_be("a table", value))),
+            }
+            path.pop();
+        }
+    }
+}
+
+impl TableRule {
+    /// Words for a table that breaks it.
+    fn broken(&self, table: &Table) -> Option<String> {
+        let has = |key: &&str| table.contains_key(*key);
+        match self {
+            Self::OneOf(groups) if groups.iter().any(|group| group.iter().all(has)) => None,
+            Self::OneOf(groups) => {
+                let groups: Vec<String> = groups.iter().map(|group| group.join(" and ")).collect();
+                Some(format!("wants {}", groups.join(", or ")))
+            }
+            Self::Beside(key, others) if has(key) && !others.iter().any(has) => {
+                Some(format!("{key} stands beside {} only", others.join(" or ")))
+            }
+            Self::Alone(key, others) if has(key) => {
+                others.iter().find(|other| has(other)).map(|other| format!("{key} stands beside {other}; give one of them"))
+            }
+            _ => None,
+        }
+    }
+}
