@@ -70,9 +70,9 @@ impl Formula {
         spelling::is_spelt(text, variables)
     }
 
-    /// The regular expression of such texts; `white` is the inside of a class of white space.
-    pub fn pattern(variables: &[&str], white: &str) -> String {
-        spelling::pattern(variables, white)
+    /// The regular expression of such texts.
+    pub fn pattern(variables: &[&str]) -> String {
+        spelling::pattern(variables)
     }
 
     /// The formula that is the same everywhere.

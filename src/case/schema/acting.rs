@@ -3,7 +3,7 @@
 use super::form::{
     ANY, IN_PLANE, KeyForm, ListForm, NUMBER, NumberRange, POINT, POSITIVE, TableForm, TableRule, VECTOR, ValueForm, key, list,
 };
-use super::scene::SURFACE;
+use super::surface::SURFACE;
 
 /// Springs, in number or formula.
 const SPRING: ValueForm =

@@ -79,7 +79,7 @@ fn form(form: &ValueForm, definitions: &mut Definitions) -> Value {
         ValueForm::Word(words) => value!({ "enum": words }),
         ValueForm::Formula(variables, range) => {
             let mut schema = numbers(value!(["number", "string"]), range);
-            schema["pattern"] = value!(Formula::pattern(variables, WHITE));
+            schema["pattern"] = value!(Formula::pattern(variables));
             schema
         }
         ValueForm::List(list) => self::list(list, definitions),

@@ -9,6 +9,8 @@
 
 mod acting;
 mod asked;
+#[cfg(test)]
+mod asking;
 mod check;
 mod contact;
 mod form;
@@ -16,6 +18,7 @@ mod json;
 mod markdown;
 mod scene;
 mod study;
+mod surface;
 
 pub use form::{Absent, KeyForm, LONGEST_NAME, TableForm};
 pub use json::json;
@@ -28,11 +31,8 @@ pub fn faults(table: &TableForm, text: &str) -> Option<Vec<(String, String)>> {
     toml::from_str(text).ok().map(|file| table.faults(&file))
 }
 
-/// Remembers that a reader has asked for a key.
 #[cfg(test)]
-pub fn note(table: &TableForm, key: &KeyForm) {
-    tests::ASKED.with_borrow_mut(|asked| asked.insert((table.name, key.name)));
-}
+pub use asking::{never_asked, note};
 
 #[cfg(test)]
 mod tests;

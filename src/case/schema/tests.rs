@@ -1,16 +1,9 @@
-use std::cell::RefCell;
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use super::asking::tables;
 use super::form::ValueForm;
 use super::*;
 use crate::case::Case;
-use crate::study::Plan;
-
-thread_local! {
-    /// Keys that readers have asked for, with the names of their tables.
-    pub static ASKED: RefCell<BTreeSet<(&'static str, &'static str)>> = RefCell::default();
-}
 
 /// A case with what no case of the project has.
 const REST: &str = r#"
@@ -43,44 +36,14 @@ contact.c.lambda = { at = [[0, 0]], value = [1], tolerance = 1 }
 body.a = { u = ["x", "y"], stress = [1, 1, 1], displacement = { at = [[0, 0]], value = [[0, 0]], tolerance = 1 } }
 "#;
 
-/// Every table of keys, each once.
-fn tables(file: &'static TableForm) -> Vec<&'static TableForm> {
-    let mut found: Vec<&'static TableForm> = vec![file];
-    let mut next = 0;
-    while next < found.len() {
-        for inner in found[next].all().filter_map(|key| key.value.table()) {
-            if found.iter().all(|known| known.name != inner.name) {
-                found.push(inner);
-            }
-        }
-        next += 1;
-    }
-    found
-}
-
-fn files(folder: &str) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).expect("a folder");
-    entries.map(|entry| entry.expect("an entry").path()).collect()
-}
-
 /// The readers ask for every key of the table, and [`crate::case::section::Section`] panics where they ask for another one.
 #[test]
 fn readers_ask_for_every_key_of_the_table() {
-    ASKED.take();
-    assert!(
-        Case::parse(REST, Path::new("case.toml"), &[]).map(|_| ()).is_ok(),
-        "{:?}",
-        Case::parse(REST, Path::new("case.toml"), &[]).err()
-    );
-    let with_steps = REST.replace("accuracy = ", "steps.s = { factors = [1], scales = [\"load.top\"] }\n# ");
-    assert!(Case::parse(&with_steps, Path::new("case.toml"), &[]).is_ok());
-    for study in files("cases/studies").iter().filter(|file| file.extension().is_some_and(|end| end == "toml")) {
-        assert!(Plan::read(study, &[]).is_ok(), "{}", study.display());
-    }
-    let asked = ASKED.take();
-    let all = tables(&CASE).into_iter().chain(tables(&STUDY));
-    let missed: Vec<_> =
-        all.flat_map(|table| table.all().map(|key| (table.name, key.name))).filter(|key| !asked.contains(key)).collect();
+    let read = |text: &str| Case::parse(text, Path::new("case.toml"), &[]).map(drop);
+    never_asked(&CASE);
+    read(REST).expect("a good case");
+    read(&REST.replace("accuracy = ", "steps.s = { factors = [1], scales = [\"load.top\"] }\n# ")).expect("a good case");
+    let missed = never_asked(&CASE);
     assert!(missed.is_empty(), "no reader asks for {missed:?}");
 }
 

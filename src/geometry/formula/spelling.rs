@@ -10,10 +10,11 @@ fn names<'a>(variables: &'a [&'a str]) -> impl Iterator<Item = &'a str> + Clone 
     variables.iter().copied().chain(["pi"]).chain(function_names().map(|name| -> &'a str { name }))
 }
 
-/// The regular expression of the texts for which [`is_spelt`] holds; `white` is the inside of a class of white space.
-pub fn pattern(variables: &[&str], white: &str) -> String {
+/// The regular expression of the texts for which [`is_spelt`] holds, but for white space that hardly any keyboard has, which is
+/// `\s` in other words in each dialect.
+pub fn pattern(variables: &[&str]) -> String {
     let names: Vec<&str> = names(variables).collect();
-    format!("^(?:[{white}]|[{SIGNS}]|[0-9.](?:[eE][-+]?)?|{})*$", names.join("|"))
+    format!("^(?:\\s|[{SIGNS}]|[0-9.](?:[eE][-+]?)?|{})*$", names.join("|"))
 }
 
 /// Whether a text is made of white space, signs, digits and known names alone; every formula is.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::case::schema::never_asked;
 
 const CASE: &str = "mesh.file = 'a.msh'\n[body.a]\nyoung = 1\npoisson = 0.3\n";
 
@@ -56,6 +57,15 @@ fn every_combination_is_a_run() {
     let order: Vec<_> = plan.runs[..6].iter().map(|run| (run.overrides[3].as_str(), run.ranks, run.repeat)).collect();
     let (auto, direct) = ("solver.name=\"auto\"", "solver.name=\"direct\"");
     assert_eq!(order, [(auto, 1, 1), (auto, 1, 2), (auto, 2, 1), (auto, 2, 2), (direct, 1, 1), (direct, 1, 2)]);
+}
+
+/// The readers ask for every key of the table; they panic where they ask for another one.
+#[test]
+fn readers_ask_for_every_key_of_the_table() {
+    never_asked(&STUDY);
+    parse("cases = ['rings.toml']\n[[curve]]\nname = 'a'").unwrap();
+    let missed = never_asked(&STUDY);
+    assert!(missed.is_empty(), "no reader asks for {missed:?}");
 }
 
 #[test]
