@@ -50,7 +50,7 @@ fn main() {
     origin();
     let petsc = petsc();
     let includes: Vec<PathBuf> = petsc.include_paths.iter().cloned().chain(mpi_includes()).collect();
-    for path in &petsc.link_paths {
+    for path in run_time_paths(&petsc) {
         // The library of this PETSc flavour, at run time too: no environment variable is needed.
         println!("cargo:rustc-link-arg=-Wl,-rpath,{}", path.display());
     }
@@ -109,6 +109,25 @@ fn petsc() -> pkg_config::Library {
     probe("PETSc")
         .or_else(|error| probe("PETSc64").map_err(|_| error))
         .unwrap_or_else(|error| missing("PETSc 3.18 or newer", "libpetsc-real-dev pkg-config", &error.to_string()))
+}
+
+/// Where PETSc's library lies, if the loader does not look there by itself: Debian's PETSc is a folder of links into the
+/// system's own one, which packages must not depend on.
+fn run_time_paths(petsc: &pkg_config::Library) -> Vec<PathBuf> {
+    let system = |folder: &Path| {
+        let above = folder.parent().unwrap_or(folder);
+        let names = ["/lib", "/lib64", "/usr/lib", "/usr/lib64"];
+        names
+            .iter()
+            .any(|name| folder == Path::new(name) || above == Path::new(name) && folder.to_string_lossy().ends_with("-linux-gnu"))
+    };
+    let files = |path: &PathBuf| petsc.libs.iter().map(|name| path.join(format!("lib{name}.so"))).collect::<Vec<_>>();
+    let needed = |path: &&PathBuf| {
+        let real = |file: PathBuf| file.canonicalize().ok().and_then(|file| file.parent().map(Path::to_path_buf));
+        let folders: Vec<PathBuf> = files(path).into_iter().filter_map(real).collect();
+        folders.is_empty() || !folders.iter().all(|folder| system(folder))
+    };
+    petsc.link_paths.iter().filter(needed).cloned().collect()
 }
 
 /// Directories with `mpi.h`, as the compiler wrapper tells them.

@@ -7,8 +7,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-/// Reductions of an iteration: those of GMRES, all products at once and a norm.
-const REDUCTIONS: f64 = 2.0;
+/// Reductions of an iteration: those of GMRES, all products at once and a norm; and in newer PETSc than 3.18, as we met it in
+/// 3.22, one more on several ranks.
+fn reductions_of_an_iteration(ranks: usize) -> f64 {
+    let is_newer = !mezha::petsc::versions::petsc().starts_with("3.18.");
+    if is_newer && ranks > 1 { 3.0 } else { 2.0 }
+}
 
 /// Levels that are spread over the ranks, and not on every rank as a whole; see `GATHERED` in src/system/interpolation.
 const SPREAD_LEVELS: f64 = 2.0;
@@ -41,7 +45,7 @@ fn an_iteration_reduces_rarely_and_sends_each_neighbour_as_many_messages_on_any_
             let words = format!(
                 "rank {rank} of {ranks}: {reductions} reductions, {sums} sums of vectors, {others} other collectives, {messages} messages to a neighbour"
             );
-            assert!(reductions <= REDUCTIONS && sums <= SPREAD_LEVELS + 1.0 && others == 0.0, "{words}");
+            assert!(reductions <= reductions_of_an_iteration(ranks) && sums <= SPREAD_LEVELS + 1.0 && others == 0.0, "{words}");
             assert!(messages <= MOST_MESSAGES, "{words}");
             assert!(if ranks == 1 { messages == 0.0 } else { messages > 0.0 }, "{words}");
         }
