@@ -83,7 +83,7 @@ fn names_of_files_are_no_markup() {
     let text = fs::read_to_string(mesh).expect("a mesh").replace("\"lower\"", &format!("\"{name}\""));
     fs::write(folder.path().join("scene.msh"), text).expect("a mesh");
     let case = fs::read_to_string(cases.join("case.toml")).expect("a case");
-    let case = case.replace("[body.lower]", &format!("[body.\"{name}\"]"));
+    let case = case.replace("body.lower]", &format!("body.\"{name}\"]"));
     let case: String = case
         .lines()
         .map(|line| match line {
@@ -104,7 +104,7 @@ fn names_of_files_are_no_markup() {
 
 #[test]
 fn steps_adaptation_and_failure_have_their_pages() {
-    let adapted = Run::case("bars_accuracy").set("accuracy.energy", "3e-3").ended();
+    let adapted = Run::case("bars_accuracy").set("accuracy", "3e-3").ended();
     let text = page(&adapted.out);
     check_figures(&adapted, &text);
     assert!(text.contains("<h3>Accuracy</h3>") && text.contains("<h3>Meshes</h3>"));

@@ -20,9 +20,9 @@ pub fn html(table: &Table, lines: &[Line], [first, all]: [Option<&str>; 2]) -> S
         };
         sections.push(figure(first, &words));
     }
-    for error in &table.errors {
+    for (number, error) in table.errors.iter().enumerate() {
         if lines.iter().flat_map(|line| &line.points).any(|point| point.front.contains(error)) {
-            sections.push(section("front", &format!("The Pareto front of {error}")));
+            sections.push(section(&format!("front-{}", number + 1), &format!("The Pareto front of {error}")));
             sections.push(paragraph("No other run of the case is both as fast and as accurate."));
             sections.push(front(table, lines, error));
         }

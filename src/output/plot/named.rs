@@ -49,7 +49,7 @@ const MARK: f64 = 4.0;
 const WHITE: RGBColor = RGBColor(255, 255, 255);
 
 /// A part of the sheet: left, top, right, bottom (pixels).
-type Room = [f64; 4];
+type NameRoom = [f64; 4];
 
 /// The text of an SVG file with all diagrams one below the other; None if there is no mark in them.
 ///
@@ -122,8 +122,8 @@ fn draw_named(whole: &Area, part: &Area, diagram: &NamedDiagram, [top, room]: [f
 }
 
 /// Where names stand: at the ends of their lines, or as near above or below as there is room beside marks and other names.
-fn places(lines: &[NamedLine], marks: &[Vec<[f64; 2]>], [top, bottom]: [f64; 2]) -> Vec<Room> {
-    let mut taken: Vec<Room> = marks.iter().flatten().map(|[x, y]| [x - MARK, y - MARK, x + MARK, y + MARK]).collect();
+fn places(lines: &[NamedLine], marks: &[Vec<[f64; 2]>], [top, bottom]: [f64; 2]) -> Vec<NameRoom> {
+    let mut taken: Vec<NameRoom> = marks.iter().flatten().map(|[x, y]| [x - MARK, y - MARK, x + MARK, y + MARK]).collect();
     let end = |at: usize| marks[at][marks[at].len() - 1];
     // Names at the right have the least choice.
     let mut order: Vec<usize> = (0..lines.len()).collect();
@@ -135,7 +135,7 @@ fn places(lines: &[NamedLine], marks: &[Vec<[f64; 2]>], [top, bottom]: [f64; 2])
             let left = x + BESIDE;
             [left, y + away - ROW / 2.0, left + text_width(&lines[at].name, LETTERS), y + away + ROW / 2.0]
         };
-        let meets = |a: &Room, b: &Room| a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+        let meets = |a: &NameRoom, b: &NameRoom| a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
         let steps = (0..120).flat_map(|step| [-1.0, 1.0].map(|sign| room(sign * 3.0 * f64::from(step))));
         let mut inside = steps.filter(|room| room[1] >= top && room[3] <= bottom);
         let free = inside.find(|room| !taken.iter().any(|other| meets(room, other)));
@@ -146,7 +146,7 @@ fn places(lines: &[NamedLine], marks: &[Vec<[f64; 2]>], [top, bottom]: [f64; 2])
 }
 
 /// Draws a name, and a thin line to it from the end of its line if it stands away from that.
-fn draw_name(whole: &Area, one: &NamedLine, place: Room, [x, y]: [f64; 2]) -> DrawResult<()> {
+fn draw_name(whole: &Area, one: &NamedLine, place: NameRoom, [x, y]: [f64; 2]) -> DrawResult<()> {
     let pixels = |x: f64, y: f64| ((x * f64::from(PIXEL)).round() as i32, (y * f64::from(PIXEL)).round() as i32);
     let middle = 0.5 * (place[1] + place[3]);
     let paint = colour(one.style);

@@ -49,7 +49,11 @@ fn take_edge<K: Ord + Copy>(leaving: &mut BTreeMap<K, Vec<K>>, from: K) -> Optio
 pub(super) fn path_data(loops: &[Vec<(i32, i32)>]) -> String {
     let mut text = String::new();
     for points in loops {
-        let corners: Vec<(i32, i32)> = (0..points.len()).filter(|&i| is_corner(points, i)).map(|i| points[i]).collect();
+        let mut points = distinct(points);
+        if points.len() > 1 && points.first() == points.last() {
+            points.pop();
+        }
+        let corners: Vec<(i32, i32)> = (0..points.len()).filter(|&i| is_corner(&points, i)).map(|i| points[i]).collect();
         let Some(&(mut x, mut y)) = corners.first() else { continue };
         let _ = write!(text, "M{x} {y}l");
         for &(next_x, next_y) in &corners[1..] {
@@ -64,6 +68,7 @@ pub(super) fn path_data(loops: &[Vec<(i32, i32)>]) -> String {
 
 /// An open line of figure coordinates as the `d` of an SVG path; points inside straight runs are left out.
 pub(super) fn line_data(points: &[(i32, i32)]) -> String {
+    let points = distinct(points);
     let inner = |i: &usize| *i == 0 || i + 1 == points.len() || turns([points[i - 1], points[*i], points[i + 1]]);
     let corners: Vec<(i32, i32)> = (0..points.len()).filter(inner).map(|i| points[i]).collect();
     let Some(&(mut x, mut y)) = corners.first() else { return String::new() };
@@ -73,6 +78,13 @@ pub(super) fn line_data(points: &[(i32, i32)]) -> String {
         (x, y) = (next_x, next_y);
     }
     text.trim_end().to_owned()
+}
+
+/// The points without repeats: of many that fall on one place of a figure, none would be seen to turn.
+fn distinct(points: &[(i32, i32)]) -> Vec<(i32, i32)> {
+    let mut points = points.to_vec();
+    points.dedup();
+    points
 }
 
 /// Whether a loop changes its direction at a point.
@@ -125,6 +137,13 @@ mod tests {
         edges.extend([[(0, 0), (1, 0)], [(1, 0), (1, 0)], [(1, 0), (0, 0)]]);
         let found = loops(&unmatched(edges));
         assert_eq!(twice_area(&found), 6);
+    }
+
+    #[test]
+    fn corners_of_many_points_stay() {
+        let square = [(0, 0), (0, 0), (2, 0), (4, 0), (4, 0), (4, 0), (4, 4), (0, 4), (0, 0)];
+        assert_eq!(path_data(&[square.to_vec()]), "M0 0l4 0 0 4 -4 0z");
+        assert_eq!(line_data(&[(0, 0), (4, 0), (4, 0), (4, 4), (4, 4)]), "M0 0l4 0 0 4");
     }
 
     #[test]

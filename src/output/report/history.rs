@@ -12,6 +12,8 @@ use crate::output::summary::{AccuracyStep, BoundaryIteration, OuterIteration, St
 /// Rows of a table at most; of more the first and the last are shown.
 const MOST_ROWS: usize = 60;
 const FIRST_ROWS: usize = 10;
+/// Contacts that have columns in the table of load steps; all of them stand in `steps.csv`.
+const MOST_COLUMNS: usize = 4;
 
 /// Everything that is known of it.
 pub fn history(folder: &Path, page: &ReportPage) -> String {
@@ -59,6 +61,7 @@ fn long_table(header: &[&str], rows: Vec<Vec<String>>, place: &str) -> String {
 fn load_steps(steps: &[StepSummary]) -> String {
     let names: Vec<&String> =
         steps.iter().max_by_key(|step| step.contact.len()).map_or(Vec::new(), |step| step.contact.keys().collect());
+    let names = &names[..names.len().min(MOST_COLUMNS)];
     let factors: Vec<&String> = steps.first().map_or(Vec::new(), |step| step.factors.keys().collect());
     let header: Vec<String> = ["step".to_owned(), "status".into()]
         .into_iter()
@@ -73,7 +76,7 @@ fn load_steps(steps: &[StepSummary]) -> String {
     let row = |step: &StepSummary| {
         let mut cells = vec![step.step.to_string(), word(step.status).to_lowercase()];
         cells.extend(factors.iter().map(|name| number(step.factors.get(*name).copied())));
-        for name in &names {
+        for name in names {
             let contact = step.contact.get(*name);
             cells.push(number(contact.and_then(|contact| contact.force)));
             cells.push(number(contact.and_then(|contact| contact.pressure_max)));

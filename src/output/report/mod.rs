@@ -2,9 +2,11 @@
 
 mod drawings;
 mod history;
+mod layout;
 mod numbers;
 mod page;
 mod trust;
 mod verdict;
 
-pub use page::{ExpectedValue, ReportPage, write_report};
+pub use layout::write_report;
+pub use page::{ExpectedValue, ReportPage};

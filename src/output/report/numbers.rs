@@ -234,7 +234,7 @@ pub fn provenance(page: &ReportPage) -> String {
     let Some(Value::Object(told)) = whole.get("provenance") else { return String::new() };
     let words = |value: &Value| match value {
         Value::Null => None,
-        Value::String(text) => Some(text.clone()),
+        Value::String(text) => (!text.is_empty()).then(|| text.clone()),
         Value::Array(list) if list.iter().all(Value::is_string) => {
             Some(list.iter().filter_map(Value::as_str).collect::<Vec<_>>().join(" "))
         }

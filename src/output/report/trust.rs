@@ -10,8 +10,8 @@ use crate::output::summary::{Status, ZoneSummary};
 pub fn trust(page: &ReportPage) -> String {
     let summary = page.summary;
     let mut text = String::new();
-    if summary.status != Status::Converged {
-        text += &paragraph("The run has not converged, so nothing here is to be relied on.");
+    if summary.status != Status::Converged && summary.contact.is_empty() {
+        text += &paragraph("There is no solution, so there is nothing to trust.");
     }
     let row = |(name, _): &(String, [String; 2])| {
         let contact = summary.contact.get(name)?;

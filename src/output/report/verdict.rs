@@ -61,9 +61,7 @@ fn sentence(summary: &Summary) -> String {
     };
     match (summary.status, is_trusted(summary)) {
         (Status::Interrupted, _) => "A signal has ended the run: there is no result, and below stands what was reached.".into(),
-        (Status::NotConverged, _) => {
-            "This is no result to use: figures and numbers below show where the run stood when it ended.".into()
-        }
+        (Status::NotConverged, _) => not_converged(summary.reason.as_deref().unwrap_or_default()).into(),
         (Status::Converged, Trust::None(names)) => {
             format!("The equations are solved, but the pressure of {} cannot be trusted.", contacts(&names))
         }
@@ -72,6 +70,19 @@ fn sentence(summary: &Summary) -> String {
         }
         (Status::Converged, Trust::All) if summary.contact.is_empty() => "The equations are solved.".into(),
         (Status::Converged, Trust::All) => "The equations are solved, and the contact pressure can be trusted.".into(),
+    }
+}
+
+/// The sentence on a run that has not converged: the equations may be solved all the same.
+fn not_converged(reason: &str) -> &'static str {
+    match reason {
+        _ if reason.starts_with("expected values are missed") => {
+            "The equations are solved, but values that the case expects, and that must hold, are missed."
+        }
+        _ if reason.starts_with("the accuracy is not reached") => {
+            "The equations are solved, but not to the accuracy that was asked for."
+        }
+        _ => "This is no result to use: figures and numbers below show where the run stood when it ended.",
     }
 }
 

@@ -1,6 +1,8 @@
 //! Pages of every kind of run: whole, well-formed as far as tags go, and without anything that is loaded from elsewhere.
 
+use super::super::page::ExpectedValue;
 use super::*;
+use crate::output::Summary;
 use crate::output::summary::{
     AccuracyStep, BoundaryIteration, ContactEstimate, ContactSummary, GoalSummary, OuterIteration, ProbeSummary, RigidSummary,
     Status, StepContact, StepSummary, SupportSummary, ZoneSummary,
