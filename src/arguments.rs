@@ -24,7 +24,8 @@ The keys of a case: docs/case.md, in packages below /usr/share/doc/mezha"
 const EXAMPLES: &str = concat!(
     "\
 Examples:
-  mezha check cases/bars_inclined              what would be solved
+  mezha new part.msh > case.toml               a first case from a mesh
+  mezha check cases/bars_inclined              what would be solved, and a figure of it
   mezha run cases/bars_inclined                solve it on one rank, with results in out/bars_inclined
   mpirun -n 4 mezha run cases/bars_inclined    solve it on four
 

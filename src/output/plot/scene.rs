@@ -145,7 +145,7 @@ impl SceneFigure {
         let [least, most] = around(&mut self.parts.iter());
         // Of a tool that is much larger than the bodies only the part beside them.
         let near = TOOLS * (high[0] - low[0]).max(high[1] - low[1]);
-        for axis in 0..2 {
+        for axis in [0, 1] {
             (low[axis], high[axis]) = (least[axis].max(low[axis] - near), most[axis].min(high[axis] + near));
         }
         let size = [high[0] - low[0], high[1] - low[1]];
