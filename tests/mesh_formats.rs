@@ -29,9 +29,8 @@ fn area(mesh: &MacroMesh, body: &str) -> f64 {
     for triangle in mesh.triangles.iter().filter(|triangle| triangle.body == body) {
         for (edge, forward) in triangle.edges.into_iter().zip(triangle.forward) {
             for &(t, weight) in gauss_points(8).iter() {
-                let t = 0.5 * (1.0 + t);
                 let (x, slope) = (mesh.edge_position(edge, t), mesh.edge_slope(edge, t));
-                area += 0.25 * weight * (x.x * slope.y - x.y * slope.x) * if forward { 1.0 } else { -1.0 };
+                area += 0.5 * weight * (x.x * slope.y - x.y * slope.x) * if forward { 1.0 } else { -1.0 };
             }
         }
     }
