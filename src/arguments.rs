@@ -24,7 +24,8 @@ The keys of a case: docs/case.md, in packages below /usr/share/doc/mezha"
 const EXAMPLES: &str = concat!(
     "\
 Examples:
-  mezha check cases/bars_inclined              what would be solved
+  mezha new part.msh > case.toml               a first case from a mesh
+  mezha check cases/bars_inclined              what would be solved, and a figure of it
   mezha run cases/bars_inclined                solve it on one rank, with results in out/bars_inclined
   mpirun -n 4 mezha run cases/bars_inclined    solve it on four
 
@@ -59,8 +60,10 @@ pub enum Command {
     /// Solve a case and write its results; start it under mpirun for several ranks
     #[command(after_help = RUN_EXAMPLES)]
     Run(RunArguments),
-    /// Read everything, solve nothing, say what would be solved
-    Check(CaseArguments),
+    /// Read everything, solve nothing, say what would be solved, and draw it
+    Check(CheckArguments),
+    /// Write a first case for a mesh to standard output
+    New(NewArguments),
     /// Make every run of a grid that is not made yet, each a row of one table; start it without mpirun
     Study(Study),
     /// Print the JSON Schema of case files or study files, for editors and other programs
@@ -78,6 +81,25 @@ pub struct CaseArguments {
     /// Override a key of the case, as in body.upper.young=7e6; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
+}
+
+/// Arguments of `mezha check`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct CheckArguments {
+    /// The case.
+    #[command(flatten)]
+    pub case: CaseArguments,
+    /// The figure of bodies, supports, loads and contacts; by default out/NAME.check.svg, NAME the folder of the case
+    #[arg(long, value_name = "FILE.svg")]
+    pub draw: Option<PathBuf>,
+}
+
+/// Arguments of `mezha new`.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct NewArguments {
+    /// The mesh file
+    #[arg(value_name = "MESH.msh")]
+    pub mesh: PathBuf,
 }
 
 /// Arguments of `mezha run`.
@@ -156,6 +178,13 @@ impl CaseArguments {
     /// The case file: `case.toml` of a folder.
     pub fn file(&self) -> PathBuf {
         file_of(&self.case, "case.toml")
+    }
+}
+
+impl CheckArguments {
+    /// Where the figure of a case of this name goes.
+    pub fn figure(&self, case_name: &str) -> PathBuf {
+        self.draw.clone().unwrap_or_else(|| Path::new("out").join(format!("{case_name}.check.svg")))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use clap::error::ErrorKind as UsageKind;
-use mezha::arguments::{Arguments, CaseArguments, Command, FileKind, RunArguments, Study, nearest_command};
+use mezha::arguments::{Arguments, CheckArguments, Command, FileKind, NewArguments, RunArguments, Study, nearest_command};
 use mezha::case::{Inputs, schema};
 use mezha::petsc::{self, Session, TellingAllocator, end_all_ranks, errors_are_final, when_memory_is_refused};
 use mezha::run::{self, Outcome, RunError, RunOptions, interruption};
@@ -27,6 +27,7 @@ fn main() {
     let code = match arguments.command {
         Command::Run(arguments) => run_case(&arguments, started),
         Command::Check(arguments) => check_case(&arguments),
+        Command::New(arguments) => new_case(&arguments),
         Command::Study(arguments) => study(&arguments),
         Command::Schema(arguments) => print_schema(arguments.kind),
         Command::Info => info(),
@@ -156,7 +157,7 @@ fn end_alone(error: &RunError) -> i32 {
     code
 }
 
-fn check_case(arguments: &CaseArguments) -> i32 {
+fn check_case(arguments: &CheckArguments) -> i32 {
     let session = match take_part() {
         Ok(session) => session,
         Err(code) => return code,
@@ -164,16 +165,53 @@ fn check_case(arguments: &CaseArguments) -> i32 {
     if session.as_ref().is_some_and(|session| session.rank() > 0) {
         return 0;
     }
-    match run::check_file(&arguments.file(), &arguments.overrides) {
+    let (file, overrides) = (&arguments.case.file(), &arguments.case.overrides);
+    let checked = run::check_file(file, overrides);
+    let drawn = run::draw_case(file, overrides, checked.as_ref().err(), |name| arguments.figure(name));
+    let code = match checked {
         Ok(checked) => match (say(&checked.words), checked.not_held) {
             (0, not_held) => {
                 // A reader that has gone away is no reason for another exit code.
                 let words = checked.warning.iter().map(|words| format!("warning: {words}")).chain(not_held.clone());
-                words.for_each(|words| drop(stderr().write_all(format!("mezha: {words}\n").as_bytes())));
+                words.for_each(|words| tell(&words));
+                if !checked.proposals.is_empty() {
+                    say(&checked.proposals);
+                }
                 if not_held.is_some() { 3 } else { 0 }
             }
             (code, _) => code,
         },
+        Err(error) => print(&error),
+    };
+    match drawn {
+        // Words of errors stand alone on standard error, and what is asked for on standard output.
+        Ok(Some(figure)) if code == 0 || code == 3 => drop(say(&format!("figure: {}", figure.display()))),
+        Ok(Some(figure)) => tell(&format!("the figure {} shows what could be read", figure.display())),
+        Ok(None) => {}
+        Err(error) if arguments.draw.is_some() && code == 0 => return print(&error),
+        Err(error) => tell(&format!("warning: {error}")),
+    }
+    code
+}
+
+/// Says something beside the result. A reader that has gone away is no reason for another exit code.
+fn tell(words: &str) {
+    let _ = stderr().write_all(format!("mezha: {words}\n").as_bytes());
+}
+
+fn new_case(arguments: &NewArguments) -> i32 {
+    let session = match take_part() {
+        Ok(session) => session,
+        Err(code) => return code,
+    };
+    if session.as_ref().is_some_and(|session| session.rank() > 0) {
+        return 0;
+    }
+    // Where the case is written to, if that is a file.
+    let output = std::fs::read_link("/proc/self/fd/1").ok().filter(|path| path.is_file());
+    let named = run::path_from(output.as_deref().and_then(std::path::Path::parent), &arguments.mesh);
+    match run::first_case(&arguments.mesh, &named) {
+        Ok(text) => say(text.trim_end()),
         Err(error) => print(&error),
     }
 }

@@ -6,6 +6,7 @@
 mod active_set;
 mod ascent;
 mod bisector;
+mod closeness;
 mod contact_boundary;
 mod coupling;
 mod cutting;
@@ -33,6 +34,7 @@ mod zones;
 
 pub use active_set::{ActiveSet, SetChange};
 pub use ascent::{Ascent, SetSolution};
+pub use closeness::{ClosePair, close_pairs};
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, declared_gap, integrate};
 pub use cutting::{safe_ratio_of, segment_edge_lengths, segment_ratio};

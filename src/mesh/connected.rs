@@ -31,6 +31,7 @@ impl Connected {
             boundaries: Vec::new(),
             interfaces: Vec::new(),
             points: before.points.clone(),
+            has_midsides: before.has_midsides,
         };
         Self { mesh, known: HashMap::new() }
     }

@@ -1,20 +1,23 @@
 //! Writer of Gmsh 4.1 ASCII files.
 
-use super::macro_mesh::{Boundary, MacroMesh};
+use super::macro_mesh::{Boundary, MacroMesh, MacroTriangle};
 use crate::geometry::Point;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 impl MacroMesh {
     /// The text of a Gmsh 4.1 ASCII file of this mesh, with the names of all parts, boundaries and curves between parts.
     ///
     /// Vertices, triangles, edges and boundaries come back in this order and to the last digit from [`super::parse_gmsh`]. An
-    /// edge that lies in several boundaries is a line of each. Edges are straight: a `[geometry]` of the case bends them again.
+    /// edge that lies in several boundaries is a line of each. Edges are straight: a `[geometry]` of the case bends them again. Of
+    /// a mesh that midside nodes have bent, the triangles beside bent edges have midside nodes again.
     pub fn to_gmsh(&self) -> String {
         let mut text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n".to_owned();
         section(&mut text, "PhysicalNames", &self.physical_names());
         section(&mut text, "Entities", &self.entities());
-        section(&mut text, "Nodes", &self.nodes());
-        section(&mut text, "Elements", &self.elements());
+        let midsides = self.midside_tags();
+        section(&mut text, "Nodes", &self.nodes(&midsides));
+        section(&mut text, "Elements", &self.elements(&midsides));
         text
     }
 
@@ -53,14 +56,32 @@ impl MacroMesh {
         self.physical_curves().into_iter().chain(&self.interfaces)
     }
 
-    /// Vertices in their order: a block for as many of one part as follow each other.
-    fn nodes(&self) -> String {
+    /// Whether an edge is written with its midside node.
+    fn is_written_bent(&self, edge: u32) -> bool {
+        self.has_midsides && self.edges[edge as usize].shape.is_some()
+    }
+
+    /// Whether a triangle is written with its midside nodes.
+    fn has_bent_edge(&self, triangle: &MacroTriangle) -> bool {
+        triangle.edges.iter().any(|&edge| self.is_written_bent(edge))
+    }
+
+    /// Tags of the midside nodes of the edges that need one, behind those of the vertices.
+    fn midside_tags(&self) -> BTreeMap<u32, usize> {
+        let bent = self.triangles.iter().filter(|triangle| self.has_bent_edge(triangle));
+        let edges: BTreeSet<u32> = bent.flat_map(|triangle| triangle.edges).collect();
+        edges.into_iter().enumerate().map(|(k, edge)| (edge, self.vertices.len() + k + 1)).collect()
+    }
+
+    /// Vertices in their order: a block for as many of one part as follow each other. Midside nodes come behind them.
+    fn nodes(&self, midsides: &BTreeMap<u32, usize>) -> String {
         let mut parts = vec![0; self.vertices.len()];
         for triangle in &self.triangles {
             triangle.vertices.iter().for_each(|&vertex| parts[vertex as usize] = triangle.part);
         }
-        let (blocks, count) = (parts.chunk_by(|a, b| a == b), self.vertices.len());
-        let mut text = format!("{} {count} 1 {count}\n", blocks.clone().count());
+        let (blocks, count) = (parts.chunk_by(|a, b| a == b), self.vertices.len() + midsides.len());
+        let block_count = blocks.clone().count() + usize::from(!midsides.is_empty());
+        let mut text = format!("{block_count} {count} 1 {count}\n");
         let mut first = 0;
         for block in blocks {
             line(&mut text, format_args!("2 {} 0 {}", block[0] + 1, block.len()));
@@ -70,30 +91,49 @@ impl MacroMesh {
             }
             first += block.len();
         }
+        if !midsides.is_empty() {
+            line(&mut text, format_args!("2 1 0 {}", midsides.len()));
+            midsides.values().for_each(|tag| line(&mut text, format_args!("{tag}")));
+            for x in midsides.keys().map(|&edge| self.edge_position(edge, 0.5)) {
+                line(&mut text, format_args!("{:?} {:?} 0", x.x, x.y));
+            }
+        }
         text
     }
 
-    /// Lines of the curves, then triangles in their order: a block for as many of one part as follow each other.
-    fn elements(&self) -> String {
-        let curves = self.curves().filter(|boundary| !boundary.edges.is_empty()).count();
-        let blocks = self.triangles.chunk_by(|a, b| a.part == b.part);
-        let count = self.triangles.len() + self.curves().map(|boundary| boundary.edges.len()).sum::<usize>();
-        let mut text = format!("{} {count} 1 {count}\n", curves + blocks.clone().count());
+    /// Lines of the curves, then triangles in their order: a block for as many of one kind as follow each other.
+    fn elements(&self, midsides: &BTreeMap<u32, usize>) -> String {
+        let of_curves: Vec<(usize, &[u32])> = self
+            .curves()
+            .enumerate()
+            .flat_map(|(place, curve)| {
+                let alike = curve.edges.chunk_by(|&a, &b| self.is_written_bent(a) == self.is_written_bent(b));
+                alike.map(move |edges| (place + 1, edges))
+            })
+            .collect();
+        let blocks = self.triangles.chunk_by(|a, b| a.part == b.part && self.has_bent_edge(a) == self.has_bent_edge(b));
+        let count = self.triangles.len() + of_curves.iter().map(|(_, edges)| edges.len()).sum::<usize>();
+        let mut text = format!("{} {count} 1 {count}\n", of_curves.len() + blocks.clone().count());
         let mut tag = 0;
-        for (place, boundary) in self.curves().enumerate().filter(|(_, boundary)| !boundary.edges.is_empty()) {
-            line(&mut text, format_args!("1 {} 1 {}", place + 1, boundary.edges.len()));
-            for &edge in &boundary.edges {
-                let [a, b] = self.edges[edge as usize].vertices;
+        for (place, edges) in of_curves {
+            let kind = if self.is_written_bent(edges[0]) { 8 } else { 1 };
+            line(&mut text, format_args!("1 {place} {kind} {}", edges.len()));
+            for edge in edges {
+                let [a, b] = self.edges[*edge as usize].vertices;
                 tag += 1;
-                line(&mut text, format_args!("{tag} {} {}", a + 1, b + 1));
+                let middle = midsides.get(edge).filter(|_| kind == 8).map_or(String::new(), |middle| format!(" {middle}"));
+                line(&mut text, format_args!("{tag} {} {}{middle}", a + 1, b + 1));
             }
         }
         for block in blocks {
-            line(&mut text, format_args!("2 {} 2 {}", block[0].part + 1, block.len()));
+            let is_bent = self.has_bent_edge(&block[0]);
+            line(&mut text, format_args!("2 {} {} {}", block[0].part + 1, if is_bent { 9 } else { 2 }, block.len()));
             for triangle in block {
                 let [a, b, c] = triangle.vertices;
                 tag += 1;
-                line(&mut text, format_args!("{tag} {} {} {}", a + 1, b + 1, c + 1));
+                let middles = triangle.edges.iter().filter_map(|edge| midsides.get(edge)).filter(|_| is_bent);
+                let middles: String = middles.map(|middle| format!(" {middle}")).collect();
+                line(&mut text, format_args!("{tag} {} {} {}{middles}", a + 1, b + 1, c + 1));
             }
         }
         text
@@ -168,7 +208,8 @@ mod tests {
         for start in 0..7 {
             let turn = mesh.triangles.iter().skip(start).step_by(7);
             let corners = |t: &super::super::MacroTriangle| t.vertices.map(|vertex| vertex as usize);
-            raw.triangles.extend(turn.map(|t| (corners(t), vec![mesh.bodies[t.body as usize].clone()], 0)));
+            raw.triangles
+                .extend(turn.map(|t| (corners(t), vec![mesh.bodies[t.body as usize].clone()], super::super::FilePlace::Line(0))));
         }
         let mixed = MacroMesh::build(raw, Path::new("mixed.msh")).expect("the same triangles");
         assert_eq!(content(&again(&mixed)), content(&mixed));
@@ -196,5 +237,21 @@ mod tests {
         assert!(moved < 1e-15, "{moved}");
         let bent = |mesh: &MacroMesh| mesh.edges.iter().filter(|edge| edge.shape.is_some()).count();
         assert!(bent(&mesh) > 0 && bent(&read) == bent(&mesh));
+    }
+    /// A circle of midside nodes is the same circle again, also after bisection.
+    #[test]
+    fn midside_nodes_bend_it_again() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes/disc_4.1_order2_ascii.msh");
+        let mut mesh = read_gmsh(&file).expect("a mesh");
+        for _ in 0..2 {
+            let read = again(&mesh);
+            assert_eq!(content(&read), content(&mesh));
+            for edge in 0..mesh.edges.len() as u32 {
+                let off = (read.edge_position(edge, 0.3) - mesh.edge_position(edge, 0.3)).norm();
+                assert!(off < 1e-14, "edge {edge}: {off}");
+            }
+            let all = 0..mesh.triangles.len() as u32;
+            mesh = super::super::BisectedMesh::new(mesh).refined(all).mesh;
+        }
     }
 }

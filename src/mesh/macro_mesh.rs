@@ -1,7 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
 use super::edge_shape::EdgeShape;
-use super::{MeshError, NamedPoint};
+use super::{FilePlace, MeshError, NamedPoint};
 use crate::geometry::{Coordinates, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -25,12 +25,14 @@ impl Region {
     }
 }
 
-/// What a mesh file says, before it is checked. Lines are those of the file.
+/// What a mesh file says, before it is checked, each with its place in the file.
 #[derive(Default)]
 pub(super) struct RawMesh {
     pub vertices: Vec<Point>,
-    pub triangles: Vec<([usize; 3], Vec<String>, usize)>,
-    pub lines: Vec<(String, [usize; 2], usize)>,
+    pub triangles: Vec<([usize; 3], Vec<String>, FilePlace)>,
+    pub lines: Vec<(String, [usize; 2], FilePlace)>,
+    /// Midside nodes of second-order elements, by the ends of their sides, lower first.
+    pub midsides: HashMap<[usize; 2], Point>,
     /// Names of bodies, by the physical surfaces that are parts of them; other surfaces are bodies of their own.
     pub joined: HashMap<String, String>,
 }
@@ -117,6 +119,8 @@ pub struct MacroMesh {
     pub interfaces: Vec<Boundary>,
     /// Vertices at points that the case names.
     pub points: Vec<NamedPoint>,
+    /// Whether midside nodes of the file have bent edges.
+    pub has_midsides: bool,
 }
 
 impl MacroMesh {
@@ -135,12 +139,13 @@ impl MacroMesh {
             boundaries: Vec::new(),
             interfaces: Vec::new(),
             points: Vec::new(),
+            has_midsides: false,
         };
         let mut known = HashMap::new();
-        for (corners, names, line) in raw.triangles {
-            let part = mesh.part_of(&names, &raw.joined, line)?;
-            let corners = mesh.turned(corners, line)?;
-            mesh.add_triangle(corners, part, line, &mut known)?;
+        for (corners, names, place) in raw.triangles {
+            let part = mesh.part_of(&names, &raw.joined, place)?;
+            let corners = mesh.turned(corners, place)?;
+            mesh.add_triangle(corners, part, place, &mut known)?;
         }
         if mesh.triangles.is_empty() {
             return Err(MeshError::unusable(file, "has no triangles; mesh it with `gmsh -2`"));
@@ -150,21 +155,22 @@ impl MacroMesh {
         mesh.check_overlap()?;
         mesh.check_parts_are_joined()?;
         let mut placed = HashSet::new();
-        for (name, ends, line) in raw.lines {
-            mesh.add_line(name, ends, line, &known, &mut placed)?;
+        for (name, ends, place) in raw.lines {
+            mesh.add_line(name, ends, place, &known, &mut placed)?;
         }
+        mesh.bend_through_midsides(&raw.midsides)?;
         Ok(mesh)
     }
 
-    fn syntax(&self, line: usize, message: String) -> MeshError {
-        MeshError::Syntax { file: self.file.clone(), line, message }
+    fn syntax(&self, place: FilePlace, message: String) -> MeshError {
+        MeshError::Syntax { file: self.file.clone(), place, message }
     }
 
-    fn part_of(&mut self, names: &[String], joined: &HashMap<String, String>, line: usize) -> Result<u32, MeshError> {
+    fn part_of(&mut self, names: &[String], joined: &HashMap<String, String>, place: FilePlace) -> Result<u32, MeshError> {
         let [name] = names else {
             let found = if names.is_empty() { "no physical surface".into() } else { names.join(", ") };
             return Err(self.syntax(
-                line,
+                place,
                 format!("a triangle must lie in exactly one physical surface (its body); found {}", Quote(&found)),
             ));
         };
@@ -181,13 +187,13 @@ impl MacroMesh {
     }
 
     /// The corners counter-clockwise; a clockwise triangle is turned round, a flat one refused.
-    fn turned(&self, corners: [usize; 3], line: usize) -> Result<[u32; 3], MeshError> {
+    fn turned(&self, corners: [usize; 3], place: FilePlace) -> Result<[u32; 3], MeshError> {
         let [a, b, c] = corners.map(|corner| self.vertices[corner]);
         let area = 0.5 * cross(b - a, c - a);
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
         if area.abs() <= 1e-10 * longest * longest {
             return Err(self.syntax(
-                line,
+                place,
                 format!(
                     "degenerate triangle with corners {}, {}, {}: its area is {}; mesh the scene again",
                     Coordinates(a),
@@ -205,7 +211,7 @@ impl MacroMesh {
         &mut self,
         vertices: [u32; 3],
         part: u32,
-        line: usize,
+        place: FilePlace,
         known: &mut HashMap<[u32; 2], u32>,
     ) -> Result<(), MeshError> {
         let triangle = self.triangles.len() as u32;
@@ -219,7 +225,7 @@ impl MacroMesh {
                 let there = &mut self.edges[edge as usize];
                 if there.triangles[1].is_some() || there.vertices[0] == a {
                     return Err(self.syntax(
-                        line,
+                        place,
                         "overlaps a triangle before it: they lie on the same side of an edge; mesh the scene again".into(),
                     ));
                 }
@@ -262,16 +268,16 @@ impl MacroMesh {
         &mut self,
         name: String,
         ends: [usize; 2],
-        line: usize,
+        place: FilePlace,
         known: &HashMap<[u32; 2], u32>,
         placed: &mut HashSet<(usize, u32)>,
     ) -> Result<(), MeshError> {
         let [a, b] = ends.map(|end| end as u32);
-        let refused = |place: &str| {
+        let refused = |what: &str| {
             self.syntax(
-                line,
+                place,
                 format!(
-                    "a line of the physical curve \"{}\" {place}; physical curves must bound bodies, or parts of them",
+                    "a line of the physical curve \"{}\" {what}; physical curves must bound bodies, or parts of them",
                     Quote(&name)
                 ),
             )
@@ -387,6 +393,8 @@ fn drop_loose_vertices(raw: &mut RawMesh) {
     }
     raw.vertices.truncate(count);
     raw.triangles.iter_mut().flat_map(|(corners, ..)| corners).for_each(|corner| *corner = new[*corner]);
+    let midsides = std::mem::take(&mut raw.midsides).into_iter().map(|(ends, middle)| (ends.map(|end| new[end]), middle));
+    raw.midsides = midsides.filter(|(ends, _)| !ends.contains(&usize::MAX)).collect();
     for (_, ends, _) in &mut raw.lines {
         // A line whose end no triangle uses keeps an index that no edge has, and is refused with words.
         ends.iter_mut().for_each(|end| *end = new[*end].min(u32::MAX as usize));

@@ -10,6 +10,7 @@ mod chain;
 mod connected;
 mod edge_shape;
 mod edge_trace;
+mod file_place;
 mod gmsh;
 mod gmsh_writer;
 mod grading;
@@ -18,6 +19,7 @@ mod insertion;
 pub mod lattice;
 mod located;
 mod macro_mesh;
+mod midside;
 mod numbering;
 mod origin;
 mod overlap;
@@ -40,7 +42,8 @@ pub use cells::Cells;
 pub use chain::Stretch;
 pub use edge_shape::EdgeShape;
 pub use edge_trace::{BoundaryEdge, EdgeNode};
-pub use gmsh::{parse_gmsh, parse_joined, read_bytes, read_gmsh, surfaces};
+pub use file_place::FilePlace;
+pub use gmsh::{parse_gmsh, parse_joined, read_bytes, read_gmsh, surfaces, touching_surfaces};
 pub use hierarchy::Shapes;
 pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, Region, Surface};
 pub use numbering::{Level, Numbering, TriangleNumbers, levels};
@@ -67,12 +70,12 @@ pub enum MeshError {
         source: std::io::Error,
     },
     /// The text of the file is not what is expected.
-    #[error("{file}, line {line}: {message}")]
+    #[error("{file}, {place}: {message}")]
     Syntax {
         /// The mesh file.
         file: PathBuf,
-        /// Line, counted from 1.
-        line: usize,
+        /// Line or byte.
+        place: FilePlace,
         /// What was found and what to do.
         message: String,
     },

@@ -195,7 +195,7 @@ mod tests {
                 let (i, j) = (cell % CELLS, cell / CELLS);
                 let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
                 let halves = [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]];
-                raw.triangles.extend(halves.map(|half| (half, vec![body.to_string()], 0)));
+                raw.triangles.extend(halves.map(|half| (half, vec![body.to_string()], super::super::FilePlace::Line(0))));
             }
         }
         MacroMesh::build(raw, Path::new("squares.msh")).expect("a good mesh")

@@ -180,7 +180,7 @@ mod tests {
         let words = build(RawMesh { joined: Default::default(), ..two_parts() }).expect_err("two bodies");
         assert!(words.contains("\"core\" and \"film\" share the node") && words.contains("part.\"film\""), "{words}");
         let mut raw = two_parts();
-        raw.lines.push(("bond".into(), [0, 1], 0));
+        raw.lines.push(("bond".into(), [0, 1], super::super::FilePlace::Line(0)));
         assert!(build(raw).expect_err("a name for two kinds of lines").contains("name them apart"));
         let mut raw = two_parts();
         raw.lines.clear();

@@ -1,8 +1,12 @@
 //! Small meshes for unit tests.
 
+use super::FilePlace;
 use super::macro_mesh::{MacroMesh, RawMesh};
 use crate::geometry::Point;
 use std::path::Path;
+
+/// They come from no file.
+const PLACE: FilePlace = FilePlace::Line(0);
 
 /// Two blocks, `[0, 2] x [0, 1]` under `[0, 2] x [1, 2]`: one quadrangle below the line y = 1, two above, each of two
 /// triangles. Boundaries "lower.seam", "upper.seam", "bottom", "top".
@@ -19,8 +23,9 @@ pub(super) fn two_parts() -> RawMesh {
     let names = ["core", "film"].map(str::to_string);
     RawMesh {
         vertices: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Point::from).into(),
-        triangles: vec![([0, 1, 2], vec![names[0].clone()], 0), ([0, 2, 3], vec![names[1].clone()], 0)],
-        lines: vec![("bond".into(), [0, 2], 0), ("bottom".into(), [0, 1], 0)],
+        triangles: vec![([0, 1, 2], vec![names[0].clone()], PLACE), ([0, 2, 3], vec![names[1].clone()], PLACE)],
+        lines: vec![("bond".into(), [0, 2], PLACE), ("bottom".into(), [0, 1], PLACE)],
+        midsides: Default::default(),
         joined: names.into_iter().map(|name| (name, "whole".to_string())).collect(),
     }
 }
@@ -40,7 +45,7 @@ fn block(raw: &mut RawMesh, body: &str, xs: &[f64], [low, high]: [f64; 2], names
     }
     for k in 0..xs.len() - 1 {
         let [a, d, b, c] = [0, 1, 2, 3].map(|corner| first + 2 * k + corner);
-        raw.triangles.extend([[a, b, c], [a, c, d]].map(|corners| (corners, vec![body.to_string()], 0)));
-        raw.lines.extend([(names[0].to_string(), [a, b], 0), (names[1].to_string(), [d, c], 0)]);
+        raw.triangles.extend([[a, b, c], [a, c, d]].map(|corners| (corners, vec![body.to_string()], PLACE)));
+        raw.lines.extend([(names[0].to_string(), [a, b], PLACE), (names[1].to_string(), [d, c], PLACE)]);
     }
 }

@@ -3,6 +3,7 @@
 //! A tool does not strain, so what lies behind its surface does not matter. The layer gives it nodes, edges with their true shape,
 //! and a boundary like those of any body.
 
+use super::FilePlace;
 use super::edge_shape::EdgeShape;
 use super::macro_mesh::{BodyPiece, Boundary, MacroMesh, Surface};
 use crate::geometry::{Curve, Point, cross, turn_right};
@@ -186,7 +187,7 @@ impl MacroMesh {
                         places[k].x.x, places[k].x.y
                     ));
                 }
-                self.add_triangle(corners, part, 0, &mut known).map_err(|error| error.to_string())?;
+                self.add_triangle(corners, part, FilePlace::Line(0), &mut known).map_err(|error| error.to_string())?;
                 self.triangles.last_mut().expect("just added").piece = piece;
             }
             let edge = known[&[a.min(b), a.max(b)]];

@@ -52,6 +52,7 @@ impl MacroMesh {
             parts: self.parts.iter().filter(|part| !is_tool(&part.name)).cloned().collect(),
             pieces: self.pieces.iter().filter(|piece| !is_tool(&self.bodies[piece.body])).cloned().collect(),
             points: Vec::new(),
+            has_midsides: self.has_midsides,
             file: self.file.clone(),
         };
         let kept = "a triangle that is kept keeps its corners and sides";

@@ -1,11 +1,12 @@
 //! `mezha check`.
 
 use super::known::check_pressures;
+use super::proposals::{proposed_contacts, proposed_supports};
 use super::{RunError, accuracy, memory, scene};
 use crate::body::Material;
 use crate::case::{Case, read_text};
 use crate::element::{Order, Plane};
-use crate::mesh::Partition;
+use crate::mesh::{MacroMesh, Partition};
 use crate::system::{Procedure, Scene};
 use std::path::Path;
 
@@ -18,6 +19,8 @@ pub struct Checked {
     pub warning: Option<String>,
     /// Words for a body that can move though contact is closed everywhere; nothing if all are held.
     pub not_held: Option<String>,
+    /// Contacts and supports that may be missing, as TOML to paste, with words before them; empty if there is nothing to propose.
+    pub proposals: String,
 }
 
 /// The same of a case file, after the overrides `KEY=VALUE`.
@@ -90,7 +93,24 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let (memory, warning) = if case.accuracy.is_none() { memory::told(need, of_macro_mesh) } else { Default::default() };
     lines.extend((!memory.is_empty()).then_some(memory));
     let not_held = not_held_before.map_or_else(|| at_rest.not_held(&scene), |words| Ok(Some(words)))?;
-    Ok(Checked { words: lines.join("\n"), warning, not_held })
+    let proposals = proposals(case, &scene.mesh, not_held.is_some());
+    Ok(Checked { words: lines.join("\n"), warning, not_held, proposals })
+}
+
+/// What may be missing, as TOML to paste.
+fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
+    let contacts = proposed_contacts(case, mesh);
+    let supports = if is_loose { proposed_supports(case) } else { Vec::new() };
+    let mut text = String::new();
+    for (tables, words) in [
+        (contacts, "these boundaries lie close and are in no contact; if they may touch, paste this into the case:"),
+        (supports, "supports like these would hold the bodies; paste into the case what you mean:"),
+    ] {
+        if !tables.is_empty() {
+            text += &format!("\n{words}\n\n{}", tables.join("\n"));
+        }
+    }
+    text.trim_end().to_owned()
 }
 
 /// Looks at all load steps but the last, which is the case itself: words for a body that can move in one of them though contact

@@ -2,10 +2,12 @@
 
 mod accuracy;
 mod check;
+mod drawing;
 mod exact;
 mod expected;
 mod fields;
 mod figures;
+mod first_case;
 mod forecast;
 mod info;
 mod input;
@@ -18,6 +20,7 @@ mod origin;
 mod outcome;
 mod points;
 mod progress;
+mod proposals;
 mod report;
 mod results;
 mod run_options;
@@ -31,6 +34,8 @@ mod trust;
 mod zones;
 
 pub use check::{Checked, check, check_file};
+pub use drawing::draw_case;
+pub use first_case::{first_case, path_from};
 pub use forecast::remedy as out_of_memory_remedy;
 pub use info::{info, version};
 pub use input::read_case;

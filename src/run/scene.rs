@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::case::{Case, CaseError, LoadStep, listed};
 use crate::contact::Pair;
 use crate::geometry::{Coordinates, Formula, Point, Quote, Rounded};
-use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces};
+use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces, touching_surfaces};
 use crate::petsc::Session;
 use crate::system::{self, Scene};
 use std::collections::HashMap;
@@ -25,9 +25,8 @@ const SAMPLES: usize = 8;
 /// # Errors
 /// Words with file, key and remedy.
 pub fn read_mesh_file(case: &Case) -> Result<Vec<u8>, String> {
-    read_bytes(&case.mesh.file).map_err(|error| {
-        format!("{}: mesh.file: {error}; name a Gmsh 4.1 file by its path from the case file", case.file.display())
-    })
+    read_bytes(&case.mesh.file)
+        .map_err(|error| format!("{}: mesh.file: {error}; name a Gmsh file by its path from the case file", case.file.display()))
 }
 
 /// The mesh of a case from the bytes of its file: bends and grades it, and checks that every name of the case is in it.
@@ -76,6 +75,23 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     check_points(case, &mesh)?;
     check_exact(case, &mesh).map_err(|words| format!("{}: {words}", case.file.display()))?;
     Ok(mesh)
+}
+
+/// The mesh of a case that cannot be read whole: with the shapes that it can have, whatever is wrong with names. Nothing if the
+/// file is no mesh.
+pub fn read_bare_mesh(case: &Case, bytes: &[u8]) -> Option<MacroMesh> {
+    let mut mesh = parse_joined(bytes, &case.mesh.file, joined(case)).ok().or_else(|| {
+        let groups = touching_surfaces(bytes, &case.mesh.file).ok()?;
+        let together = |group: &Vec<String>| group.iter().map(|name| (name.clone(), group[0].clone())).collect::<Vec<_>>();
+        parse_joined(bytes, &case.mesh.file, groups.iter().flat_map(together).collect()).ok()
+    })?;
+    for geometry in &case.geometries {
+        let mut bent = mesh.clone();
+        if bent.bend(&geometry.name, &geometry.curves, &geometry.curve).is_ok() {
+            mesh = bent;
+        }
+    }
+    Some(mesh)
 }
 
 /// What is wrong with a case file, and with the names of what could be read of it against its mesh: all of it at once.

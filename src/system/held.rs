@@ -27,6 +27,25 @@ pub fn not_held(problem: &Discretisation, active: &[bool]) -> Option<String> {
 /// # Errors
 /// [`SystemError::Case`] if a contact cannot be integrated.
 pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Result<Option<String>, SystemError> {
+    let rows = coupled_rows(contacts)?;
+    Ok(Restraints { scene, numbering, contacts, rows: &rows }.not_held(&vec![true; rows.len()]))
+}
+
+/// A rigid motion of a piece that nothing holds there; nothing if all are held.
+///
+/// # Errors
+/// As of [`not_held_if_closed`].
+pub fn free_motion_if_closed(
+    scene: &Scene,
+    numbering: &Numbering,
+    contacts: &[Contact],
+) -> Result<Option<Mechanism>, SystemError> {
+    let rows = coupled_rows(contacts)?;
+    Ok(Restraints { scene, numbering, contacts, rows: &rows }.mechanism(&vec![true; rows.len()]))
+}
+
+/// What each multiplier couples, of contacts whose edges are all on this rank.
+fn coupled_rows(contacts: &[Contact]) -> Result<Vec<Vec<Coupled>>, SystemError> {
     let mut rows = vec![Vec::new(); contacts.last().map_or(0, |contact| contact.range().end)];
     for contact in contacts {
         for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
@@ -39,8 +58,7 @@ pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Cont
             }
         }
     }
-    let active = vec![true; rows.len()];
-    Ok(Restraints { scene, numbering, contacts, rows: &rows }.not_held(&active))
+    Ok(rows)
 }
 
 /// Whether some body could move if this contact were open: then equilibrium sets its force, and bodies that are a little

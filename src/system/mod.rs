@@ -49,7 +49,7 @@ pub use coupling::{Coupled, Coupling, bilateral};
 pub use discretisation::{Discretisation, finest_numbering, node_count, spaces};
 pub use error::SystemError;
 pub use field::Field;
-pub use held::{few_that_hold, is_needed, not_held, not_held_if_closed};
+pub use held::{few_that_hold, free_motion_if_closed, is_needed, not_held, not_held_if_closed};
 pub use interpolation::{Interpolation, interpolations};
 use need::{memory_need, memory_of_macro_mesh};
 pub use nodal_force::{load, nodal_forces};

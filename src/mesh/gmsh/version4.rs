@@ -1,0 +1,76 @@
+//! Nodes and elements of format 4.1: in blocks, one or more for each entity.
+
+use super::super::MeshError;
+use super::cursor::Cursor;
+use super::elements::{ElementKind, Elements};
+use super::groups::Groups;
+
+/// The line before a block: dimension, entity, kind, and how many there are.
+fn block(cursor: &mut Cursor, section: &str) -> Result<[i64; 4], MeshError> {
+    let [dimension, entity, kind, count] = match cursor.is_text() {
+        true => {
+            let values: Vec<i64> = cursor.line_of(section, 4)?;
+            [values[0], values[1], values[2], values[3]]
+        }
+        false => {
+            let [dimension, entity, kind] = cursor.whole(section)?;
+            [dimension, entity, kind, cursor.size(section)?]
+        }
+    };
+    if count < 0 {
+        return Err(cursor.error(format!("in ${section}, expected a count of at least 0, found {count}")));
+    }
+    Ok([dimension, entity, kind, count])
+}
+
+/// How many blocks a section has.
+fn blocks(cursor: &mut Cursor, section: &str) -> Result<i64, MeshError> {
+    if cursor.is_text() {
+        return Ok(cursor.line_of::<u64>(section, 4)?[0].try_into().unwrap_or(i64::MAX));
+    }
+    let count = cursor.size(section)?;
+    cursor.pass(section, 3, 8)?;
+    Ok(count)
+}
+
+/// Reads `$Nodes`.
+pub(super) fn read_nodes(cursor: &mut Cursor, elements: &mut Elements) -> Result<(), MeshError> {
+    const SECTION: &str = "Nodes";
+    for _ in 0..blocks(cursor, SECTION)? {
+        let [dimension, _, parametric, count] = block(cursor, SECTION)?;
+        let mut tags = Vec::new();
+        for _ in 0..count {
+            tags.push(if cursor.is_text() { cursor.line_of(SECTION, 1)?[0] } else { cursor.size(SECTION)? });
+        }
+        for tag in tags {
+            let x = if cursor.is_text() {
+                let x: Vec<f64> = cursor.line_of(SECTION, 3)?;
+                [x[0], x[1], x[2]]
+            } else {
+                let x = cursor.floats(SECTION)?;
+                cursor.pass(SECTION, if parametric == 0 { 0 } else { dimension }, 8)?;
+                x
+            };
+            elements.add_node(cursor, tag, x)?;
+        }
+    }
+    Ok(())
+}
+
+/// Reads `$Elements`.
+pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut Elements) -> Result<(), MeshError> {
+    const SECTION: &str = "Elements";
+    for _ in 0..blocks(cursor, SECTION)? {
+        let [dimension, entity, number, count] = block(cursor, SECTION)?;
+        let kind = ElementKind::of(number).map_err(|words| cursor.error(words))?;
+        let names = groups.names_of((usize::try_from(dimension).unwrap_or(usize::MAX), entity));
+        for _ in 0..count {
+            let words: Vec<i64> = match cursor.is_text() {
+                true => cursor.line_of(SECTION, 1 + kind.nodes)?,
+                false => (0..=kind.nodes).map(|_| cursor.size(SECTION)).collect::<Result<_, _>>()?,
+            };
+            elements.add(cursor, kind, &words[1..], &names)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,321 @@
+//! Curved sides of second-order elements: curves through the nodes of the mesh file.
+//!
+//! A boundary side, or one between two parts, whose midside node lies off its chord is an arc of a curve that the mesher knew.
+//! Neighbours that go on smoothly are one curve: the circle through their nodes where they lie on one, otherwise the spline
+//! through all of them. So refinement follows the body as it was drawn, and not the parabolas of the elements.
+
+use super::edge_shape::EdgeShape;
+use super::{MacroMesh, MeshError};
+use crate::geometry::{Coordinates, Curve, Point, Spline, cross};
+use nalgebra::{Matrix3, Vector3};
+use std::collections::{BTreeMap, HashMap};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// A midside node within this share of its side from the chord lies on it: files have six digits or more.
+const FLAT: f64 = 1e-6;
+
+/// Highest arc over a side as a share of the chord; a half circle has 0.5.
+const HIGHEST: f64 = 0.45;
+
+/// A midside node stands over this part of its side, on either side of the middle: nodes at a quarter are for tips of cracks.
+const MIDDLE: f64 = 0.24;
+
+/// Neighbours whose tangents differ by more (radians, 20 degrees) have a corner between them.
+const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
+
+/// Curvatures of neighbours on one smooth curve differ by this share of their sum at most.
+const JUMP: f64 = 0.5;
+
+/// Curvatures of neighbours on one circle differ by this share of their sum at most.
+const EQUAL: f64 = 1e-3;
+
+/// A curved side: first end, midside node, second end.
+#[derive(Clone, Copy)]
+struct Bow {
+    edge: u32,
+    ends: [u32; 2],
+    points: [Point; 3],
+}
+
+impl Bow {
+    fn reversed(self) -> Self {
+        let ([a, b], [x, y, z]) = (self.ends, self.points);
+        Self { ends: [b, a], points: [z, y, x], ..self }
+    }
+
+    /// Direction at the first end of the circle through the three nodes: by the inversion about this end that circle is the
+    /// straight line through the two other nodes.
+    fn tangent(&self) -> Point {
+        let [a, m, b] = self.points;
+        ((m - a) / (m - a).norm_squared() - (b - a) / (b - a).norm_squared()).normalize()
+    }
+
+    /// Signed curvature of the circle through the three nodes, positive to the left.
+    fn curvature(&self) -> f64 {
+        let [a, m, b] = self.points;
+        2.0 * cross(m - a, b - m) / ((m - a).norm() * (b - m).norm() * (b - a).norm())
+    }
+
+    fn chord(&self) -> f64 {
+        (self.points[2] - self.points[0]).norm()
+    }
+}
+
+impl MacroMesh {
+    /// Bends sides with a midside node off the chord onto curves through the nodes; `midsides` are known by the vertices at the
+    /// ends of their sides, lower first. Sides inside a part stay straight.
+    ///
+    /// # Errors
+    /// [`MeshError::Unusable`] for a midside node that no smooth curve over its side can have.
+    pub(super) fn bend_through_midsides(&mut self, midsides: &HashMap<[usize; 2], Point>) -> Result<(), MeshError> {
+        let mut bows: [Vec<Bow>; 2] = Default::default();
+        for edge in 0..self.edges.len() as u32 {
+            let is_inside = self.edges[edge as usize].triangles[1].is_some();
+            if is_inside && !self.is_interface(edge) {
+                continue;
+            }
+            let ends = self.directed(edge);
+            let key = [ends[0].min(ends[1]) as usize, ends[0].max(ends[1]) as usize];
+            if let Some(&middle) = midsides.get(&key) {
+                bows[usize::from(is_inside)].extend(self.bow(edge, ends, middle)?);
+            }
+        }
+        self.has_midsides = bows.iter().any(|bows| !bows.is_empty());
+        // Sides between parts are chains of their own.
+        for chain in bows.iter().flat_map(|bows| chains(bows)) {
+            for (curve, bows) in curves(&chain) {
+                self.bend_chain(curve, bows);
+            }
+        }
+        Ok(())
+    }
+
+    /// A curved side; nothing if it is straight.
+    fn bow(&self, edge: u32, ends: [u32; 2], middle: Point) -> Result<Option<Bow>, MeshError> {
+        let [a, b] = ends.map(|vertex| self.vertices[vertex as usize]);
+        let length = (b - a).norm();
+        let along = (middle - a).dot(&(b - a)) / (length * length);
+        let height = cross(b - a, middle - a).abs() / (length * length);
+        if height <= FLAT {
+            return Ok(None);
+        }
+        if height > HIGHEST || (along - 0.5).abs() > MIDDLE {
+            let words = format!(
+                "the midside node {} is too far from the middle of its side from {} to {}; mesh the curve with more elements, or with `gmsh -2 -order 1` and a [geometry] in the case",
+                Coordinates(middle),
+                Coordinates(a),
+                Coordinates(b)
+            );
+            return Err(MeshError::unusable(&self.file, words));
+        }
+        Ok(Some(Bow { edge, ends, points: [a, middle, b] }))
+    }
+
+    fn bend_chain(&mut self, curve: Curve, bows: &[Bow]) {
+        let knots = match &curve {
+            Curve::Spline(spline) => spline.knots().to_vec(),
+            _ => Vec::new(),
+        };
+        let curve = Arc::new(curve);
+        for (k, bow) in bows.iter().enumerate() {
+            let range = match knots.get(2 * k..2 * k + 3) {
+                Some(knots) => [knots[0], knots[2]],
+                None => self.onto(&curve, bow),
+            };
+            let straight = bow.ends == self.edges[bow.edge as usize].vertices;
+            let range = if straight { range } else { [range[1], range[0]] };
+            self.edges[bow.edge as usize].shape = Some(EdgeShape { curve: curve.clone(), range });
+        }
+    }
+
+    /// Parameters of a side's ends on a circle, which they are moved onto.
+    fn onto(&mut self, circle: &Curve, bow: &Bow) -> [f64; 2] {
+        let mut range = bow.ends.map(|vertex| circle.nearest(self.vertices[vertex as usize]));
+        range[1] = range[0] + (range[1] - range[0] + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+        for (vertex, t) in bow.ends.into_iter().zip(range) {
+            let (here, there) = (self.vertices[vertex as usize], circle.point(t));
+            if (here - there).norm() > 1e-14 * (here.norm() + bow.chord()) {
+                self.vertices[vertex as usize] = there;
+            }
+        }
+        range
+    }
+}
+
+/// Sides in rows that go on smoothly.
+fn chains(bows: &[Bow]) -> Vec<Vec<Bow>> {
+    let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (k, bow) in bows.iter().enumerate() {
+        bow.ends.iter().for_each(|&end| at.entry(end).or_default().push(k));
+    }
+    // The side that goes on behind the second end of one.
+    let next = |bow: &Bow| {
+        let &[first, second] = at[&bow.ends[1]].as_slice() else { return None };
+        let other = if bows[first].edge == bow.edge { second } else { first };
+        let other = (other, if bows[other].ends[0] == bow.ends[1] { bows[other] } else { bows[other].reversed() });
+        go_on(bow, &other.1).then_some(other)
+    };
+    let mut is_left = vec![true; bows.len()];
+    let mut found = Vec::new();
+    for start in 0..bows.len() {
+        if !is_left[start] {
+            continue;
+        }
+        is_left[start] = false;
+        let mut chain = vec![bows[start]];
+        // Backwards first, so that an open chain begins at its end.
+        for _ in 0..2 {
+            chain = chain.into_iter().rev().map(Bow::reversed).collect();
+            while let Some((k, bow)) = next(&chain[chain.len() - 1]).filter(|(k, _)| is_left[*k]) {
+                is_left[k] = false;
+                chain.push(bow);
+            }
+        }
+        found.push(chain);
+    }
+    found
+}
+
+/// Whether one side goes on as another that begins at its end.
+fn go_on(bow: &Bow, other: &Bow) -> bool {
+    let turn = (-bow.reversed().tangent()).dot(&other.tangent());
+    turn > CORNER.cos() && differ_by(bow, other) <= JUMP
+}
+
+/// Difference of the curvatures as a share of their sum.
+fn differ_by(bow: &Bow, other: &Bow) -> f64 {
+    let (a, b) = (bow.curvature(), other.curvature());
+    (a - b).abs() / (a.abs() + b.abs())
+}
+
+/// The curves of a chain, each with its sides: one circle, several, or a spline.
+fn curves(chain: &[Bow]) -> Vec<(Curve, &[Bow])> {
+    if let Some(circle) = circle_through(chain) {
+        return vec![(circle, chain)];
+    }
+    let arcs = chain.chunk_by(|a, b| differ_by(a, b) <= EQUAL);
+    let circles: Option<Vec<(Curve, &[Bow])>> =
+        arcs.map(|arc| Some((circle_through(arc).filter(|_| arc.len() > 1)?, arc))).collect();
+    circles.unwrap_or_else(|| vec![(spline_through(chain), chain)])
+}
+
+/// First ends and midside nodes of all sides, and the last end.
+fn nodes(chain: &[Bow]) -> Vec<Point> {
+    let last = chain.last().map(|bow| bow.points[2]);
+    chain.iter().flat_map(|bow| [bow.points[0], bow.points[1]]).chain(last).collect()
+}
+
+fn spline_through(chain: &[Bow]) -> Curve {
+    let (points, [first, last]) = (nodes(chain), [chain[0], chain[chain.len() - 1]]);
+    let is_closed = chain.len() > 2 && first.ends[0] == last.ends[1] && go_on(&last, &first);
+    Curve::Spline(if is_closed { Spline::through_closed(&points) } else { Spline::through(&points) })
+}
+
+/// The circle that is nearest to all nodes, by least squares of the powers of the points, if they lie on it.
+fn circle_through(chain: &[Bow]) -> Option<Curve> {
+    let points = nodes(chain);
+    let middle = points.iter().sum::<Point>() / points.len() as f64;
+    let size = points.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max);
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for x in points.iter().map(|x| (x - middle) / size) {
+        let row = Vector3::new(2.0 * x.x, 2.0 * x.y, 1.0);
+        normal += row * row.transpose();
+        right += row * x.norm_squared();
+    }
+    let found = normal.cholesky()?.solve(&right);
+    let shift = Point::new(found.x, found.y);
+    let centre = middle + size * shift;
+    let radius = size * (found.z + shift.norm_squared()).sqrt();
+    let shortest = chain.iter().map(Bow::chord).fold(f64::INFINITY, f64::min);
+    let is_near = |x: &Point| ((x - centre).norm() - radius).abs() <= FLAT * shortest;
+    (radius.is_finite() && points.iter().all(is_near)).then(|| Curve::Circle { centre: centre.into(), radius })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::FilePlace;
+    use super::super::macro_mesh::RawMesh;
+    use super::*;
+    use std::path::Path;
+
+    /// A fan of so many second-order triangles around the origin, whose rim is a curve of the angle.
+    fn fan(count: usize, rim: impl Fn(f64) -> Point) -> RawMesh {
+        let angle = |k: f64| TAU * k / count as f64;
+        let mut raw = RawMesh { vertices: vec![Point::zeros()], ..Default::default() };
+        for k in 0..count {
+            let next = (k + 1) % count;
+            raw.vertices.push(rim(angle(k as f64)));
+            raw.triangles.push(([0, k + 1, next + 1], vec!["disc".into()], FilePlace::Line(k)));
+            raw.lines.push(("rim".into(), [k + 1, next + 1], FilePlace::Line(k)));
+            raw.midsides.insert([(k + 1).min(next + 1), (k + 1).max(next + 1)], rim(angle(k as f64 + 0.5)));
+            raw.midsides.insert([0, k + 1], 0.5 * rim(angle(k as f64)));
+        }
+        raw
+    }
+
+    fn built(raw: RawMesh) -> MacroMesh {
+        MacroMesh::build(raw, Path::new("fan.msh")).expect("a good mesh")
+    }
+
+    /// Farthest points of the bent edges from a curve of the angle.
+    fn off(mesh: &MacroMesh, distance: impl Fn(Point) -> f64) -> f64 {
+        let rim = &mesh.boundary("rim").expect("named").edges;
+        let places = rim.iter().flat_map(|&edge| (0..=8).map(move |k| (edge, f64::from(k) / 8.0)));
+        places.map(|(edge, t)| distance(mesh.edge_position(edge, t))).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_fan_of_a_circle_is_the_circle_itself() {
+        let centre = Point::new(0.2, -0.1);
+        for count in [4, 5, 12] {
+            let mesh = built(fan(count, |angle| centre + 1.3 * Point::new(angle.cos(), angle.sin())));
+            let distance = off(&mesh, |x| ((x - centre).norm() - 1.3).abs());
+            assert!(distance < 1e-14, "{count} sides: {distance}");
+            let edges = mesh.boundary("rim").expect("named").edges.clone();
+            assert_eq!(mesh.stretches(&edges).len(), 1, "one curve");
+            assert!(mesh.is_closed(&mesh.stretches(&edges)[0].edges));
+            let bent = mesh.edges.iter().filter(|edge| edge.shape.is_some()).count();
+            assert_eq!(bent, count, "spokes are straight");
+        }
+    }
+
+    #[test]
+    fn an_ellipse_is_followed_to_fourth_order() {
+        let at = |angle: f64| Point::new(2.0 * angle.cos(), angle.sin());
+        let error = |count| off(&built(fan(count, at)), |x| (Point::new(0.5 * x.x, x.y).norm() - 1.0).abs());
+        let (coarse, fine) = (error(12), error(24));
+        assert!(coarse < 1e-3 && fine < coarse / 10.0, "{coarse} {fine}");
+    }
+
+    #[test]
+    fn arcs_that_go_on_with_another_radius_are_two_circles() {
+        // Half circles of radius 1 and 2 around other centres, with a common tangent at (0, -1) and a corner above.
+        let at = |angle: f64| match angle {
+            a if a <= 0.75 * TAU + 1e-9 && a >= 0.25 * TAU - 1e-9 => Point::new(a.cos(), a.sin()),
+            a => {
+                let a = if a > 0.5 * TAU { a - TAU } else { a };
+                // From (0, -1) at -90 degrees along the larger circle.
+                let turn = 0.5 * (a + 0.25 * TAU) - 0.25 * TAU;
+                Point::new(2.0 * turn.cos(), 1.0 + 2.0 * turn.sin())
+            }
+        };
+        let mesh = built(fan(16, at));
+        let distance = off(&mesh, |x| (x.norm() - 1.0).abs().min(((x - Point::new(0.0, 1.0)).norm() - 2.0).abs()));
+        assert!(distance < 1e-13, "{distance}");
+    }
+
+    #[test]
+    fn a_straight_side_stays_straight_and_a_wild_one_is_refused() {
+        let square = |angle: f64| {
+            let x = Point::new(angle.cos(), angle.sin());
+            x / x.amax()
+        };
+        let mesh = built(fan(8, square));
+        assert!(mesh.edges.iter().all(|edge| edge.shape.is_none()));
+        let mut raw = fan(8, square);
+        raw.midsides.insert([1, 2], Point::new(2.0, 0.5));
+        let words = MacroMesh::build(raw, Path::new("fan.msh")).expect_err("too high").to_string();
+        assert!(words.contains("fan.msh: the midside node (2, 0.5)") && words.contains("more elements"), "{words}");
+    }
+}

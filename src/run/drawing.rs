@@ -1,0 +1,281 @@
+//! The figure of `mezha check`: what of a case can be read, with all names.
+
+use super::{RunError, scene};
+use crate::body::{Load, LoadKind, SpringStiffness, Springs, Support};
+use crate::case::{Case, read_text};
+use crate::geometry::{Formula, Point};
+use crate::mesh::{MacroMesh, Spot};
+use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure};
+use std::path::{Path, PathBuf};
+
+/// Points of a curved edge in the figure.
+const BENDS: usize = 12;
+
+/// Macro edges that are drawn at most: more would be a grey field.
+const MOST_EDGES: usize = 12_000;
+
+/// Named boundaries that get a label at most.
+const MOST_NAMES: usize = 60;
+
+/// Lines of remarks, and their letters, at most.
+const MOST_REMARKS: usize = 8;
+const LONGEST_REMARK: usize = 84;
+
+/// Draws what can be read of a case file after the overrides `KEY=VALUE`, with the words of an error if there is one; `figure`
+/// tells from the name of the case where to. Nothing is drawn where there is no mesh to speak of.
+///
+/// # Errors
+/// [`RunError::Failed`] if the figure cannot be written.
+pub fn draw_case(
+    file: &Path,
+    overrides: &[String],
+    error: Option<&RunError>,
+    figure: impl Fn(&str) -> PathBuf,
+) -> Result<Option<PathBuf>, RunError> {
+    let Ok(text) = read_text(file, "case") else { return Ok(None) };
+    let case = Case::parse(&text, file, overrides).ok().or_else(|| Case::draft(&text, file, overrides));
+    let drawn = case.and_then(|case| Some((readable_mesh(&case)?, case)));
+    let Some((mesh, case)) = drawn else { return Ok(None) };
+    let mut content = content(&case, &mesh);
+    if let Some(error) = error {
+        content.remarks = remarks(&error.to_string(), file);
+    }
+    let Ok(svg) = content.svg() else { return Ok(None) };
+    let path = figure(&case.name);
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let written = folder.map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&path, svg));
+    written.map_err(|error| RunError::Failed(format!("{}: the figure cannot be written: {error}", path.display())))?;
+    Ok(Some(path))
+}
+
+/// The mesh of a case as it is solved on, or as far as it can be read.
+fn readable_mesh(case: &Case) -> Option<MacroMesh> {
+    let bytes = scene::read_mesh_file(case).ok()?;
+    scene::read_mesh(case, &bytes).ok().or_else(|| scene::read_bare_mesh(case, &bytes))
+}
+
+/// The lines of an error, without the name of the case file, broken where they are long.
+fn remarks(words: &str, file: &Path) -> Vec<String> {
+    let prefix = format!("{}: ", file.display());
+    let mut lines: Vec<String> = Vec::new();
+    for text in words.lines().map(|text| text.trim_start_matches(prefix.as_str())).filter(|text| !text.trim().is_empty()) {
+        lines.push(String::new());
+        for word in text.split_whitespace() {
+            let line = lines.last_mut().expect("one was just pushed");
+            if line.is_empty() {
+                line.push_str(word);
+            } else if line.chars().count() + word.chars().count() < LONGEST_REMARK {
+                line.push(' ');
+                line.push_str(word);
+            } else {
+                lines.push(format!("    {word}"));
+            }
+        }
+    }
+    lines.iter_mut().for_each(|line| *line = line.chars().take(LONGEST_REMARK + 20).collect());
+    if lines.len() > MOST_REMARKS {
+        lines.truncate(MOST_REMARKS);
+        lines.push("…".into());
+    }
+    lines
+}
+
+/// Everything of a case that has a place on its mesh.
+fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
+    let on = |names: &[String]| {
+        let curves: Vec<String> = names.iter().flat_map(|name| case.curves_of(name)).collect();
+        let mut edges: Vec<u32> = curves.iter().filter_map(|name| mesh.boundary(name)).flat_map(|b| b.edges.clone()).collect();
+        edges.dedup();
+        rows(mesh, &edges)
+    };
+    let title = if case.title.is_empty() { &case.name } else { &case.title };
+    let is_big = mesh.edges.len() > MOST_EDGES;
+    let curves = mesh.physical_curves().into_iter().filter(|boundary| !boundary.name.starts_with("rigid."));
+    let mut figure = SceneFigure {
+        title: title.clone(),
+        parts: parts(mesh),
+        edges: if is_big { Vec::new() } else { (0..mesh.edges.len() as u32).map(|edge| points(mesh, edge)).collect() },
+        boundaries: curves
+            .take(MOST_NAMES)
+            .map(|boundary| NamedRows { name: boundary.name.clone(), rows: rows(mesh, &boundary.edges) })
+            .collect(),
+        contacts: case.contacts.iter().map(|pair| NamedRows { name: pair.name.clone(), rows: on(&pair.between) }).collect(),
+        supports: supports(case, mesh, &on),
+        loads: loads(case, mesh, &on),
+        remarks: Vec::new(),
+    };
+    // What has no place on the mesh.
+    figure.contacts.retain(|contact| !contact.rows.is_empty());
+    figure.supports.retain(|support| !support.rows.is_empty());
+    figure.loads.retain(|load| !load.rows.is_empty() || load.resultant.is_some());
+    figure
+}
+
+/// Points along an edge.
+fn points(mesh: &MacroMesh, edge: u32) -> Vec<[f64; 2]> {
+    let count = if mesh.edges[edge as usize].shape.is_some() { BENDS } else { 1 };
+    (0..=count).map(|k| mesh.edge_position(edge, k as f64 / count as f64).into()).collect()
+}
+
+/// Parts of bodies with their triangles.
+fn parts(mesh: &MacroMesh) -> Vec<DrawnPart> {
+    let part = |number: usize| {
+        let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].part as usize == number).collect();
+        let around = |&triangle: &usize| {
+            let triangle = &mesh.triangles[triangle];
+            let mut all = Vec::new();
+            for (edge, forward) in triangle.edges.into_iter().zip(triangle.forward) {
+                let mut points = points(mesh, edge);
+                if !forward {
+                    points.reverse();
+                }
+                points.pop();
+                all.extend(points);
+            }
+            all
+        };
+        let surface = &mesh.parts[number];
+        let body = &mesh.bodies[surface.body as usize];
+        let name = if *body == surface.name { body.clone() } else { format!("{body}: {}", surface.name) };
+        DrawnPart {
+            is_rigid: body.starts_with("rigid."),
+            name,
+            triangles: own.iter().map(around).collect(),
+            inside: inside(mesh, &own).into(),
+        }
+    };
+    (0..mesh.parts.len()).map(part).collect()
+}
+
+/// The middle of the triangle that is farthest from the boundary of its part, by the corners of that.
+fn inside(mesh: &MacroMesh, own: &[usize]) -> Point {
+    let part = own.first().map(|&triangle| mesh.triangles[triangle].part);
+    let is_outer = |edge: u32| {
+        mesh.edges[edge as usize].triangles.iter().any(|beside| beside.map(|k| mesh.triangles[k as usize].part) != part)
+    };
+    let mut corners: Vec<Point> = Vec::new();
+    for edge in own.iter().flat_map(|&triangle| mesh.triangles[triangle].edges).filter(|&edge| is_outer(edge)) {
+        corners.extend([0.0, 0.5].map(|t| mesh.edge_position(edge, t)));
+    }
+    let step = (corners.len() / 400).max(1);
+    let middles = own.iter().step_by((own.len() / 1000).max(1)).map(|&triangle| mesh.position(triangle, 1.0 / 3.0, 1.0 / 3.0));
+    let depth = |x: &Point| corners.iter().step_by(step).map(|corner| (corner - x).norm()).fold(f64::INFINITY, f64::min);
+    middles.map(|x| (depth(&x), x)).reduce(|a, b| if b.0 > a.0 { b } else { a }).map_or_else(Point::zeros, |(_, x)| x)
+}
+
+/// Rows of points of boundary edges, one for each stretch without corners.
+fn rows(mesh: &MacroMesh, edges: &[u32]) -> Rows {
+    let row = |stretch: crate::mesh::Stretch| {
+        let mut row: Vec<BoundaryPoint> = Vec::new();
+        for &edge in &stretch.edges {
+            let triangle = &mesh.triangles[mesh.beside(edge).0 as usize];
+            let forward = triangle.forward[mesh.beside(edge).1];
+            for k in 0..=BENDS {
+                let t = k as f64 / BENDS as f64;
+                let t = if forward { t } else { 1.0 - t };
+                row.push(BoundaryPoint {
+                    place: mesh.edge_position(edge, t).into(),
+                    normal: mesh.edge_normal(edge, t).into(),
+                    traction: [0.0; 2],
+                });
+            }
+        }
+        row
+    };
+    mesh.stretches(edges).into_iter().map(row).collect()
+}
+
+/// A point as a row of its own.
+fn spot_rows(spot: &Spot) -> Rows {
+    vec![vec![BoundaryPoint { place: spot.place, normal: [0.0, -1.0], traction: [0.0; 2] }]]
+}
+
+/// A name and what is prescribed there.
+fn with_values(name: &str, components: &[(&str, Option<&Formula>)]) -> String {
+    let value = |formula: &Formula| formula.as_constant().map_or_else(|| "…".into(), |value| super::proposals::short(value));
+    let given = components.iter().filter_map(|(key, formula)| Some(format!("{key} = {}", value((*formula)?))));
+    format!("{name}: {}", given.collect::<Vec<_>>().join(", "))
+}
+
+fn supports(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnSupport> {
+    let fixed = |support: &Support| {
+        let Support { name, ux, uy, normal, at, on: curves } = support;
+        let grip = match (ux, uy, normal) {
+            (_, _, Some(_)) => Grip::Normal,
+            (Some(_), None, _) => Grip::Along([-1.0, 0.0]),
+            (None, Some(_), _) => Grip::Along([0.0, -1.0]),
+            _ => Grip::Both,
+        };
+        let name = with_values(name, &[("ux", ux.as_ref()), ("uy", uy.as_ref()), ("normal", normal.as_ref())]);
+        DrawnSupport { name, rows: at.as_ref().map_or_else(|| on(curves), spot_rows), grip }
+    };
+    let elastic = |springs: &Springs| {
+        let stiffness = match &springs.stiffness {
+            SpringStiffness::Normal(normal) => with_values(&springs.name, &[("springs, normal", Some(normal))]),
+            SpringStiffness::Axes([x, y]) => {
+                with_values(&springs.name, &[("springs, x", x.as_ref()), ("springs, y", y.as_ref())])
+            }
+        };
+        DrawnSupport { name: stiffness, rows: on(&springs.on), grip: Grip::Springs }
+    };
+    let held = case.means.iter().filter_map(|mean| {
+        let body = mesh.bodies.iter().position(|name| *name == mean.body)? as u32;
+        let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].body == body).collect();
+        let place: [f64; 2] = inside(mesh, &own).into();
+        let point = BoundaryPoint { place: [place[0], place[1]], normal: [0.0, -1.0], traction: [0.0; 2] };
+        let keys = ["ux", "uy", "angle"].into_iter().zip(mean.mean).filter_map(|(key, value)| value.map(|_| key));
+        let name = format!("{}: mean {}", mean.name, keys.collect::<Vec<_>>().join(", "));
+        Some(DrawnSupport { name, rows: vec![vec![point]], grip: Grip::Both })
+    });
+    case.supports.iter().map(fixed).chain(case.springs.iter().map(elastic)).chain(held).collect()
+}
+
+fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnLoad> {
+    let surface = |load: &Load| {
+        let mut rows = on(&load.on);
+        for point in rows.iter_mut().flatten() {
+            let value = |formula: &Formula| formula.value(&point.place);
+            point.traction = match &load.kind {
+                LoadKind::Pressure(pressure) => point.normal.map(|part| -part * value(pressure)),
+                LoadKind::Traction(traction) => [value(&traction[0]), value(&traction[1])],
+            };
+            point.traction = point.traction.map(|part| if part.is_finite() { part } else { 0.0 });
+        }
+        let name = match &load.kind {
+            LoadKind::Pressure(pressure) => with_values(&load.name, &[("pressure", Some(pressure))]),
+            LoadKind::Traction([x, y]) => with_values(&load.name, &[("tx", Some(x)), ("ty", Some(y))]),
+        };
+        DrawnLoad { name, rows, resultant: None, is_plate: false }
+    };
+    let plates = case.plates.iter().map(|plate| {
+        let rows = on(&plate.on);
+        let [fx, fy, _] = plate.motion.applied;
+        let points: Vec<&BoundaryPoint> = rows.iter().flatten().collect();
+        let middle = points.get(points.len() / 2).map_or([0.0; 2], |point| point.place);
+        let name = format!("{}: stiff plate", plate.name);
+        DrawnLoad { name, resultant: Some((middle, [fx, fy])), rows, is_plate: true }
+    });
+    let at_points = case.point_loads.iter().map(|load| {
+        let resultant = Some((load.at.place, load.force().into()));
+        DrawnLoad { name: load.name.clone(), rows: spot_rows(&load.at), resultant, is_plate: false }
+    });
+    let tools = case.tools.iter().filter_map(|tool| {
+        let [fx, fy, _] = tool.motion.applied;
+        let moved = [0, 1].map(|k| tool.motion.prescribed[k].unwrap_or(0.0));
+        let along = if fx != 0.0 || fy != 0.0 { [fx, fy] } else { moved };
+        (along != [0.0; 2]).then(|| {
+            let name = format!("{}: {}", tool.key(), if along == moved { "moves" } else { "force" });
+            DrawnLoad { name, rows: Vec::new(), resultant: Some((tool.motion.about.into(), along)), is_plate: false }
+        })
+    });
+    let weights = case.bodies.iter().flat_map(|body| &body.parts).filter_map(|part| {
+        let number = mesh.parts.iter().position(|surface| surface.name == part.name)? as u32;
+        let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].part == number).collect();
+        let place = inside(mesh, &own);
+        let force = [0, 1].map(|k| part.force[k].value(&[place.x, place.y]));
+        let acts = force.iter().all(|part| part.is_finite()) && force != [0.0; 2];
+        let name = format!("force in {}", part.name);
+        acts.then(|| DrawnLoad { name, rows: Vec::new(), resultant: Some((place.into(), force)), is_plate: false })
+    });
+    case.loads.iter().map(surface).chain(plates).chain(at_points).chain(tools).chain(weights).collect()
+}

@@ -1,0 +1,221 @@
+//! What a case may lack, as TOML to paste: contacts of boundaries that lie close, and supports of what can move.
+
+use super::scene;
+use crate::case::Case;
+use crate::contact::{ClosePair, Extent, Mechanism, close_pairs};
+use crate::geometry::Point;
+use crate::mesh::{MacroMesh, Partition};
+use crate::system::Procedure;
+use std::path::Path;
+use toml::Value;
+
+/// Supports that are proposed at most: whoever lacks more has to think anyway.
+const MOST_SUPPORTS: usize = 12;
+
+/// Components of a motion that are below this share of the largest are none.
+const FAINT: f64 = 1e-3;
+
+/// A name as a TOML string.
+pub(super) fn quoted(name: &str) -> String {
+    Value::String(name.into()).to_string()
+}
+
+/// A name as a TOML key.
+pub(super) fn key(name: &str) -> String {
+    let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
+    if is_bare { name.into() } else { quoted(name) }
+}
+
+/// Names of tables, none twice.
+#[derive(Default)]
+pub(super) struct TableNames(Vec<String>);
+
+impl TableNames {
+    pub fn of(names: impl Iterator<Item = String>) -> Self {
+        Self(names.collect())
+    }
+
+    /// This name, or with a number behind it if it is there already. Only letters that may be in file names.
+    pub fn fresh(&mut self, wish: &str) -> String {
+        let plain = |c: char| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' };
+        let wish: String = wish.chars().map(plain).take(60).collect();
+        let wish = if wish.chars().all(|c| c == '-') { "part".to_owned() } else { wish };
+        let is_new = |name: &String| !self.0.iter().any(|other| other.eq_ignore_ascii_case(name));
+        let numbered = (2..).map(|number| format!("{wish}-{number}"));
+        let name = std::iter::once(wish.clone()).chain(numbered).find(is_new).unwrap_or(wish);
+        self.0.push(name.clone());
+        name
+    }
+}
+
+/// What two boundaries are called together: what their names end with, `seam` of `lower.seam` and `upper.seam`, or both names.
+pub(super) fn common_name([first, second]: &[String; 2]) -> String {
+    let last = |name: &str| name.rsplit(['.', '_', ' ', '-']).next().unwrap_or_default().to_owned();
+    let (a, b) = (last(first), last(second));
+    if a == b && !a.is_empty() && a.len() < first.len() { a } else { format!("{first}-{second}") }
+}
+
+/// `[contact.NAME]` of a pair.
+pub(super) fn contact_table(pair: &ClosePair, names: &mut TableNames) -> String {
+    let [a, b] = pair.between.each_ref().map(|name| quoted(name));
+    format!("[contact.{}]\nbetween = [{a}, {b}]{}\n", names.fresh(&common_name(&pair.between)), distance_words(pair))
+}
+
+/// How far apart a pair is drawn, as a comment.
+fn distance_words(pair: &ClosePair) -> String {
+    match pair.distance {
+        _ if pair.share < 1e-6 => "   # they are drawn touching".into(),
+        apart if apart > 0.0 => format!("   # they are drawn {} apart", short(apart)),
+        into => format!("   # they are drawn {} into each other", short(-into)),
+    }
+}
+
+/// A length with three digits.
+pub(super) fn short(value: f64) -> String {
+    format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
+}
+
+/// Contacts that a case may have forgotten: boundaries that lie close, of bodies between which it has none.
+pub(super) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
+    let body_of = |side: &String| mesh.boundary(side).and_then(|found| found.edges.first()).map(|&edge| mesh.body_beside(edge));
+    let known = |pair: &ClosePair| {
+        case.contacts.iter().any(|contact| {
+            let mut bodies = contact.between.each_ref().map(body_of);
+            bodies.sort_unstable();
+            bodies == pair.bodies.map(Some)
+        })
+    };
+    let mut names = TableNames::of(case.contacts.iter().map(|pair| pair.name.clone()));
+    let close = |pair: &ClosePair| pair.share <= 0.02 && !known(pair);
+    close_pairs(mesh).iter().filter(|pair| close(pair)).map(|pair| contact_table(pair, &mut names)).collect()
+}
+
+/// Supports that would hold what can move though contact is closed everywhere, one after the other; none if all is held, or
+/// if that cannot be told.
+pub(super) fn proposed_supports(case: &Case) -> Vec<String> {
+    let known = case.supports.iter().map(|support| support.name.clone());
+    let known = known.chain(case.means.iter().map(|mean| mean.name.clone()));
+    let mut names = TableNames::of(known.chain(case.springs.iter().map(|springs| springs.name.clone())));
+    let (before, mut proposed) = (case.resolved(), Vec::<Proposed>::new());
+    for _ in 0..MOST_SUPPORTS {
+        let tables: Vec<String> = proposed.iter().map(Proposed::table).collect();
+        match next_support(&format!("{before}\n{}", tables.join("\n")), &case.file, &proposed, &mut names) {
+            Some(Proposed::Mean { name, body, moves }) => {
+                let same = proposed.iter_mut().find_map(|other| match other {
+                    Proposed::Mean { body: other, moves, .. } if *other == body => Some(moves),
+                    _ => None,
+                });
+                match same {
+                    Some(held) if (0..3).all(|k| held[k] || !moves[k]) => break,
+                    Some(held) => (0..3).for_each(|k| held[k] |= moves[k]),
+                    None => proposed.push(Proposed::Mean { name, body, moves }),
+                }
+            }
+            Some(point) => proposed.push(point),
+            None => break,
+        }
+    }
+    proposed.iter().map(Proposed::table).collect()
+}
+
+/// A support that is proposed.
+enum Proposed {
+    /// Of the mean motion of a body: which of its two shifts and its turn.
+    Mean { name: String, body: String, moves: [bool; 3] },
+    /// Of a point: the table.
+    Point(String),
+}
+
+impl Proposed {
+    fn table(&self) -> String {
+        match self {
+            Self::Mean { name, body, moves } => {
+                let held = ["ux", "uy", "angle"].into_iter().zip(moves).filter(|(_, moves)| **moves);
+                let keys: String = held.map(|(key, _)| format!("{key} = 0.0\n")).collect();
+                let words = "   # its mean motion: a hold that carries nothing where loads balance";
+                format!("[support.{name}]\nbody = {}{words}\nmean = true\n{keys}", quoted(body))
+            }
+            Self::Point(table) => table.clone(),
+        }
+    }
+}
+
+/// A support for the first motion that is free in a case.
+fn next_support(text: &str, file: &Path, proposed: &[Proposed], names: &mut TableNames) -> Option<Proposed> {
+    let case = Case::parse(text, file, &[]).ok()?;
+    let mesh = scene::read_mesh_file(&case).and_then(|bytes| scene::read_mesh(&case, &bytes)).ok()?;
+    let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
+    let scene = scene::assemble(&case, mesh, partition);
+    let motion = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
+    let extent = scene.extents()[motion.piece];
+    support_for(&case, &scene.mesh, &motion, extent, proposed, names)
+}
+
+/// A support that holds one free motion: of a whole body by its mean, where nothing else holds it, and else of a point, on a
+/// boundary that is in no contact if there is one.
+fn support_for(
+    case: &Case,
+    mesh: &MacroMesh,
+    motion: &Mechanism,
+    extent: Extent,
+    proposed: &[Proposed],
+    names: &mut TableNames,
+) -> Option<Proposed> {
+    let body = mesh.pieces[motion.piece].body;
+    let name = &mesh.bodies[body];
+    let boundary_piece = |name: &String| {
+        let edge = mesh.boundary(name).and_then(|boundary| boundary.edges.first());
+        edge.map(|&edge| mesh.piece_beside(edge))
+    };
+    let holds = |on: &[String]| on.iter().any(|name| boundary_piece(name) == Some(motion.piece));
+    let is_ours = |body: &String| proposed.iter().any(|own| matches!(own, Proposed::Mean { body: own, .. } if own == body));
+    let is_held = case.supports.iter().any(|support| holds(&support.on) || support.at.is_some())
+        || case.springs.iter().any(|springs| holds(&springs.on))
+        || case.plates.iter().any(|plate| holds(&plate.on))
+        || case.means.iter().any(|mean| mean.body == *name && !is_ours(&mean.body));
+    let is_whole = mesh.pieces.iter().filter(|piece| piece.body == body).count() == 1;
+    let (shift, turn) = motion.moves;
+    let parts = [shift.x, shift.y, turn * extent.radius];
+    let largest = parts.iter().fold(0.0f64, |largest, part| largest.max(part.abs()));
+    let is_free = motion.motion == "move in every direction";
+    if is_whole && !is_held {
+        let moves = parts.map(|part| is_free || part.abs() > FAINT * largest);
+        // A hold that is there already is completed.
+        let is_there = is_ours(name);
+        let fresh = if is_there { String::new() } else { names.fresh(&format!("{name}-still")) };
+        return Some(Proposed::Mean { name: fresh, body: name.clone(), moves });
+    }
+    let touched = |boundary: &str| case.contacts.iter().any(|pair| pair.between.iter().any(|side| side == boundary));
+    let is_own = |edges: &[u32]| edges.iter().all(|&edge| mesh.piece_beside(edge) == motion.piece);
+    let curves = mesh.physical_curves().into_iter().filter(|curve| !touched(&curve.name) && is_own(&curve.edges));
+    let mut vertices: Vec<u32> =
+        curves.flat_map(|curve| &curve.edges).flat_map(|&edge| mesh.edges[edge as usize].vertices).collect();
+    if vertices.is_empty() {
+        let own = mesh.triangles.iter().filter(|triangle| triangle.piece as usize == motion.piece);
+        vertices = own.flat_map(|triangle| triangle.vertices).collect();
+    }
+    // The point that moves most.
+    let size = |x: &Point| (1e6 * motion.displacement(&extent, *x).amax()).round();
+    let places = vertices.into_iter().map(|vertex| mesh.vertices[vertex as usize]);
+    let place = places.reduce(|a, b| if size(&b) > size(&a) { b } else { a })?;
+    let component = ["ux", "uy"][motion.displacement(&extent, place).iamax()];
+    let keys = if is_free { "ux = 0.0\nuy = 0.0\n".to_owned() } else { format!("{component} = 0.0\n") };
+    let [x, y] = [place.x, place.y].map(|x| format!("{x:.9e}").parse::<f64>().unwrap_or(x));
+    let fresh = names.fresh(&format!("{name}-point"));
+    Some(Proposed::Point(format!("[support.{fresh}]\nat = [{x:?}, {y:?}]\nbody = {}\n{keys}", quoted(name))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_keys_and_files() {
+        let mut names = TableNames::default();
+        let fresh = ["seam", "Seam", "a b/c", "---", "über"].map(|wish| names.fresh(wish));
+        assert_eq!(fresh, ["seam", "Seam-2", "a-b-c", "part", "-ber"]);
+        assert_eq!([key("disc"), key("half disc"), key("a.b"), key("")], ["disc", "\"half disc\"", "\"a.b\"", "\"\""]);
+        let common = |a: &str, b: &str| common_name(&[a.into(), b.into()]);
+        assert_eq!([common("lower.seam", "upper.seam"), common("top", "rim"), common("a", "b.a")], ["seam", "top-rim", "a-b.a"]);
+    }
+}

@@ -1,0 +1,144 @@
+//! `mezha new` and what `mezha check` draws and proposes, from meshes to results.
+
+mod support;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use support::mesh::{two_blocks, write_scene};
+use support::{Run, mezha, mezha_in};
+
+fn mesh(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes").join(format!("{name}.msh"))
+}
+
+/// What `mezha new` says of a mesh, written to a file beside it as a shell would.
+fn new_case(folder: &Path, mesh: &str) -> PathBuf {
+    let case = folder.join("case.toml");
+    let output = std::fs::File::create(&case).expect("a case can be written");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mezha"));
+    let ended = command.args(["new", mesh]).current_dir(folder).stdout(Stdio::from(output)).output().expect("mezha starts");
+    assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+    case
+}
+
+/// A disc on a block: two commands lead to a result that is right.
+#[test]
+fn a_first_case_runs_as_it_comes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::create_dir(folder.path().join("meshes")).expect("a folder");
+    std::fs::copy(mesh("disc_2.2_order2_binary"), folder.path().join("meshes/disc.msh")).expect("a mesh can be copied");
+    let case = new_case(folder.path(), "meshes/disc.msh");
+    let text = std::fs::read_to_string(&case).expect("a case");
+    for words in [
+        "file = \"meshes/disc.msh\"",
+        "[body.block]",
+        "[body.\"half disc\"]",
+        "between = [\"block.top\", \"disc.rim\"]   # they are drawn touching",
+        "[support.bottom]       # held: by its name",
+        "[load.top]          # pressed: by its name",
+        "#   \"disc.rim\": of half disc",
+    ] {
+        assert!(text.contains(words), "{words} in\n{text}");
+    }
+    let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+    assert_eq!(code, Some(0), "{output}{errors}");
+    let ended = Run::file(&case).ranks(2).converged();
+    // The force of the plate, and the pressure of Hertz's contact of these bodies to a few per cent: the block is no half-plane.
+    let force = 200.0;
+    assert!((ended.number("/contact/block-top-disc-rim/force") / force - 1.0).abs() < 1e-3, "{text}");
+    let stiffness = 0.5 * 210e3 / (1.0 - 0.09);
+    let hertz = (force * stiffness / std::f64::consts::PI).sqrt();
+    let found = ended.number("/contact/block-top-disc-rim/pressure_max");
+    assert!((found / hertz - 1.0).abs() < 0.06, "{found} instead of {hertz}");
+    assert_eq!(ended.value("/contact/block-top-disc-rim/trust"), true);
+}
+
+/// Every case of the project has a mesh that a first case can be made of.
+#[test]
+fn first_cases_of_many_meshes_can_be_checked() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for name in ["hertz", "rings", "stack", "coating", "wedge", "pin"] {
+        std::fs::copy(cases.join(name).join(format!("{name}.msh")), folder.path().join("mesh.msh")).expect("a mesh");
+        let case = new_case(folder.path(), "mesh.msh");
+        let (code, _, errors) = mezha_in(folder.path(), None, &["check", &case.to_string_lossy()]);
+        assert_eq!(code, Some(0), "{name}: {errors}\n{}", std::fs::read_to_string(&case).expect("a case"));
+    }
+}
+
+#[test]
+fn what_is_no_mesh_is_told() {
+    let (code, output, errors) = mezha(None, &["new", "nowhere.msh"]);
+    assert!(code == Some(2) && output.is_empty() && errors.contains("nowhere.msh: cannot be read"), "{errors}");
+    let (code, _, errors) = mezha(None, &["new", &mesh("refused_order3").to_string_lossy()]);
+    assert!(code == Some(2) && errors.contains("-order 2"), "{errors}");
+}
+
+const CASE: &str = r#"
+[mesh]
+file = "mesh.msh"
+[body.lower]
+young = 1000.0
+poisson = 0.3
+[body.upper]
+young = 1000.0
+poisson = 0.3
+[support.table]
+on = "bottom"
+ux = 0.0
+uy = 0.0
+[load.top]
+on = "top"
+pressure = 1.0
+"#;
+
+const CONTACT: &str = "[contact.seam]\nbetween = [\"lower.seam\", \"upper.seam\"]\n";
+
+#[test]
+fn a_missing_contact_and_missing_supports_are_proposed_and_heal_the_case() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mesh = two_blocks([(3, 2, 1), (2, 2, 2)]).text();
+    let file = write_scene(folder.path(), &mesh, CASE);
+    let check = || mezha_in(folder.path(), None, &["check", &file.to_string_lossy()]);
+    let (code, output, errors) = check();
+    assert_eq!(code, Some(3), "{output}{errors}");
+    assert!(output.contains(CONTACT.trim_end()), "{output}");
+    assert!(output.contains("[support.upper-still]") && output.contains("mean = true"), "{output}");
+    // What is proposed is pasted.
+    let pasted: String = output
+        .lines()
+        .skip_while(|line| !line.starts_with('['))
+        .filter(|line| !line.ends_with(':') && !line.starts_with("figure"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    std::fs::write(&file, format!("{CASE}{pasted}")).expect("a case can be written");
+    let (code, output, errors) = check();
+    assert_eq!((code, output.contains("paste")), (Some(0), false), "{output}{errors}");
+}
+
+/// The figure has every name, also where the case names a boundary that is not there.
+#[test]
+fn a_check_draws() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mesh = two_blocks([(3, 2, 1), (2, 2, 2)]).text();
+    let file = write_scene(folder.path(), &mesh, &format!("{CASE}{CONTACT}[support.guide]\non = \"top\"\nux = 0.0\n"));
+    let name = folder.path().file_name().expect("a name").to_string_lossy().into_owned();
+    let case = file.to_string_lossy().into_owned();
+    let (code, output, errors) = mezha_in(folder.path(), None, &["check", &case]);
+    assert_eq!(code, Some(0), "{output}{errors}");
+    assert!(output.ends_with(&format!("figure: out/{name}.check.svg\n")), "{output}");
+    let figure = std::fs::read_to_string(folder.path().join("out").join(format!("{name}.check.svg"))).expect("a figure");
+    for words in
+        [">lower<", ">upper<", ">contact seam<", ">table: ux = 0, uy = 0<", ">top: pressure = 1<", ">bottom<", ">lower.seam<"]
+    {
+        assert!(figure.contains(words), "{words}");
+    }
+    let (code, _, errors) =
+        mezha_in(folder.path(), None, &["check", &case, "--set", "support.table.on=botom", "--draw", "wrong.svg"]);
+    assert!(code == Some(2) && errors.contains("the figure wrong.svg shows what could be read"), "{errors}");
+    let figure = std::fs::read_to_string(folder.path().join("wrong.svg")).expect("a figure");
+    assert!(figure.contains(">bottom<") && figure.contains("no physical curve &quot;botom&quot;"), "{figure}");
+    // Nothing is written that cannot be, and only what was asked for is an error.
+    let (code, _, errors) = mezha_in(folder.path(), None, &["check", &case, "--draw", "wrong.svg/a.svg"]);
+    assert!(code == Some(1) && errors.contains("the figure cannot be written"), "{errors}");
+}
