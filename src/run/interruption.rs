@@ -4,7 +4,7 @@
 //! kills them a second later. That of rank 0 writes what was reached until then; those of the others wait for this, and make sure
 //! that all ends. What is known is kept as the run goes on, in `Unfinished`.
 
-use super::{Origin, accuracy, progress, summarise};
+use super::{ResultOrigin, accuracy, progress, summarise};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::output::report::{ReportPage, write_report};
@@ -46,7 +46,7 @@ static OVER: AtomicBool = AtomicBool::new(false);
 struct Unfinished {
     folder: ResultFolder,
     /// What it is made of, as far as it is known.
-    origin: Arc<Origin>,
+    origin: Arc<ResultOrigin>,
     summary: Summary,
     /// What the run is doing, in words that follow *while*.
     doing: &'static str,
@@ -130,7 +130,7 @@ fn lock() -> MutexGuard<'static, Option<Unfinished>> {
 }
 
 /// Every rank learns where results go; rank 0 gives its folder out of its hands until [`finish`].
-pub fn begin(folder: Option<ResultFolder>, files: &Path, out: &Path, case: &Case, origin: Arc<Origin>, started: Instant) {
+pub fn begin(folder: Option<ResultFolder>, files: &Path, out: &Path, case: &Case, origin: Arc<ResultOrigin>, started: Instant) {
     let _ = PLACE.set((out.to_path_buf(), files.to_path_buf()));
     *lock() = folder.map(|folder| Unfinished {
         folder,
@@ -145,7 +145,7 @@ pub fn begin(folder: Option<ResultFolder>, files: &Path, out: &Path, case: &Case
 }
 
 /// Keeps what the result is made of.
-pub fn keep_origin(origin: Arc<Origin>) {
+pub fn keep_origin(origin: Arc<ResultOrigin>) {
     if let Some(unfinished) = &mut *lock() {
         unfinished.origin = origin;
     }

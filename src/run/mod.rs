@@ -46,7 +46,7 @@ use crate::case::Case;
 use crate::output::ResultFolder;
 use crate::petsc::{self, Session};
 use crate::system::Scene;
-use origin::Origin;
+use origin::ResultOrigin;
 use report::Report;
 use stages::Stages;
 use std::cell::RefCell;
@@ -72,7 +72,7 @@ pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outco
 fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
     refuse_options(session)?;
     let (folder, files) = claim_folder(options, session)?;
-    let origin = Origin::new(case, session);
+    let origin = ResultOrigin::new(case, session);
     interruption::begin(folder, &files, &options.out, case, Arc::new(origin.clone()), options.started);
     progress::begin(options.progress, session.rank() == 0, options.quiet, options.started);
     let report = Report::new(case, options, session);
@@ -151,7 +151,7 @@ struct Run<'a> {
     /// Where all ranks write their files to.
     files: PathBuf,
     /// What the result is made of.
-    origin: Arc<Origin>,
+    origin: Arc<ResultOrigin>,
     /// Whether figures are drawn of it: not of every load step.
     draws: bool,
     /// On each mesh that was adapted, the true error of each goal as far as the case tells it.
@@ -162,11 +162,11 @@ struct Run<'a> {
 fn read_scene(
     case: &Case,
     options: &RunOptions,
-    origin: Origin,
+    origin: ResultOrigin,
     stages: &Stages,
     report: &Report,
     session: &Session,
-) -> Result<(Scene, Arc<Origin>), RunError> {
+) -> Result<(Scene, Arc<ResultOrigin>), RunError> {
     let _stage = stages.mesh.enter();
     let bytes = input::share_mesh(case, options.inputs.as_ref(), session)?;
     let origin = if session.rank() == 0 { origin.with_mesh(case, bytes.clone()) } else { origin };

@@ -22,7 +22,7 @@ const MOST_HOSTS: usize = 8;
 
 /// What a result is made of.
 #[derive(Clone, Debug, Default)]
-pub struct Origin {
+pub struct ResultOrigin {
     /// As the summary tells it.
     pub provenance: Provenance,
     /// The resolved case, as it is written beside the summary.
@@ -31,7 +31,7 @@ pub struct Origin {
     mesh: Option<Vec<u8>>,
 }
 
-impl Origin {
+impl ResultOrigin {
     /// What is known before the mesh is read. **Collective**
     pub fn new(case: &Case, session: &Session) -> Self {
         let petsc_options = options::of_user(session).join(" ");

@@ -25,7 +25,7 @@ const ERASE: &str = "\r\x1b[K";
 
 /// Where a run is.
 #[derive(Clone, Debug, Default)]
-struct Place {
+struct RunPlace {
     /// What is done, and since when.
     doing: Option<(Work, Instant)>,
     /// Load step, and how many there are.
@@ -39,15 +39,15 @@ struct Place {
 }
 
 /// A line that is shown while this is there.
-struct Line {
+struct ProgressLine {
     started: Instant,
-    place: Place,
+    place: RunPlace,
     visible: bool,
 }
 
-static LINE: Mutex<Option<Line>> = Mutex::new(None);
+static LINE: Mutex<Option<ProgressLine>> = Mutex::new(None);
 
-fn lock() -> MutexGuard<'static, Option<Line>> {
+fn lock() -> MutexGuard<'static, Option<ProgressLine>> {
     LINE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -61,7 +61,7 @@ pub fn begin(show: ShowProgress, is_first: bool, quiet: bool, started: Instant) 
     if !(is_first && wanted) {
         return;
     }
-    *lock() = Some(Line { started, place: Place::default(), visible: false });
+    *lock() = Some(ProgressLine { started, place: RunPlace::default(), visible: false });
     // Without a thread there is no line, and no harm.
     let _ = thread::Builder::new().name("progress".into()).spawn(|| {
         thread::sleep(FIRST);
@@ -136,7 +136,7 @@ pub fn enter(work: Work) {
 /// Notes the load step.
 pub fn step(number: usize, count: usize) {
     if let Some(line) = &mut *lock() {
-        line.place = Place { step: Some((number, count)), ..Place::default() };
+        line.place = RunPlace { step: Some((number, count)), ..RunPlace::default() };
     }
 }
 
@@ -147,7 +147,7 @@ pub fn observe(event: &Event) {
     }
 }
 
-impl Line {
+impl ProgressLine {
     fn erase(&mut self) {
         if self.visible {
             self.visible = false;
@@ -156,7 +156,7 @@ impl Line {
     }
 }
 
-impl Place {
+impl RunPlace {
     fn observe(&mut self, event: &Event) {
         match event {
             Event::AtRest { scene, .. } => self.refine = Some((0, scene.refine)),
@@ -177,7 +177,7 @@ impl Place {
 }
 
 /// What the line says.
-fn words(place: &Place, solve: Option<SolveAtWork>, elapsed: Duration) -> String {
+fn words(place: &RunPlace, solve: Option<SolveAtWork>, elapsed: Duration) -> String {
     let mut words = vec![clock(elapsed)];
     words.extend(place.step.map(|(number, count)| format!("step {number} of {count}")));
     words.extend(place.mesh.map(|number| format!("mesh {number}")));
@@ -246,12 +246,12 @@ mod tests {
     #[test]
     fn a_line_tells_the_place_and_fits() {
         let doing = Some((Work::Solve, Instant::now()));
-        let place = Place { doing, refine: Some((7, 8)), set: Some(2), ..Place::default() };
+        let place = RunPlace { doing, refine: Some((7, 8)), set: Some(2), ..RunPlace::default() };
         let line = words(&place, Some(solve(12, 1.0, 3.1e-5)), Duration::from_secs(62));
         assert_eq!(line, "1:02, refine 7 of 8, set 2, iteration 12: residual 3.1e-5 to 1e-8, 0:00 left");
         assert!(line.len() <= COLUMNS);
-        assert_eq!(words(&Place::default(), None, Duration::ZERO), "0:00, reading");
-        let step = Place { step: Some((2, 6)), doing: Some((Work::Assembly, Instant::now())), ..Place::default() };
+        assert_eq!(words(&RunPlace::default(), None, Duration::ZERO), "0:00, reading");
+        let step = RunPlace { step: Some((2, 6)), doing: Some((Work::Assembly, Instant::now())), ..RunPlace::default() };
         assert_eq!(words(&step, None, Duration::from_secs(3600)), "1:00:00, step 2 of 6, assembling (0 s)");
     }
 }
