@@ -292,7 +292,7 @@ mod tests {
     fn arcs_that_go_on_with_another_radius_are_two_circles() {
         // Half circles of radius 1 and 2 around other centres, with a common tangent at (0, -1) and a corner above.
         let at = |angle: f64| match angle {
-            a if a <= 0.75 * TAU + 1e-9 && a >= 0.25 * TAU - 1e-9 => Point::new(a.cos(), a.sin()),
+            a if (0.25 * TAU - 1e-9..=0.75 * TAU + 1e-9).contains(&a) => Point::new(a.cos(), a.sin()),
             a => {
                 let a = if a > 0.5 * TAU { a - TAU } else { a };
                 // From (0, -1) at -90 degrees along the larger circle.

@@ -192,7 +192,7 @@ fn spot_rows(spot: &Spot) -> Rows {
 
 /// A name and what is prescribed there.
 fn with_values(name: &str, components: &[(&str, Option<&Formula>)]) -> String {
-    let value = |formula: &Formula| formula.as_constant().map_or_else(|| "…".into(), |value| super::proposals::short(value));
+    let value = |formula: &Formula| formula.as_constant().map_or_else(|| "…".into(), super::proposals::short);
     let given = components.iter().filter_map(|(key, formula)| Some(format!("{key} = {}", value((*formula)?))));
     format!("{name}: {}", given.collect::<Vec<_>>().join(", "))
 }

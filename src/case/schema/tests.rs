@@ -71,7 +71,8 @@ fn words_have_meanings_and_defaults_their_form() {
         };
         for word in forms.iter().flat_map(|form| if let ValueForm::Word(words) = form { words } else { &[][..] }) {
             let set = format!("{}{}={word}", place(table.name), key.name);
-            let words = Case::parse(least, Path::new("case.toml"), &[set.clone()]).err().map(|error| error.to_string());
+            let words =
+                Case::parse(least, Path::new("case.toml"), std::slice::from_ref(&set)).err().map(|error| error.to_string());
             let meant = words.as_ref().is_none_or(|words| !words.contains("meaning") && !words.contains("must be \""));
             assert!(meant, "{set}: {words:?}");
         }
