@@ -40,6 +40,8 @@ struct Sight {
     place: Point,
     normal: Point,
     spacing: f64,
+    /// Whether it is an end of an edge, where boundaries that look elsewhere may meet.
+    is_end: bool,
 }
 
 /// A boundary that lies on one body.
@@ -61,16 +63,17 @@ impl<'a> NamedSide<'a> {
             let spacing = step as f64 * mesh.edge_length(edge) / PLACES as f64;
             (0..=PLACES).map(move |k| {
                 let t = k as f64 / PLACES as f64;
-                Sight { place: mesh.edge_position(edge, t), normal: mesh.edge_normal(edge, t), spacing }
+                let is_end = k == 0 || k == PLACES;
+                Sight { place: mesh.edge_position(edge, t), normal: mesh.edge_normal(edge, t), spacing, is_end }
             })
         };
         let length = boundary.edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
         Some(Self { boundary, body, length, sights: boundary.edges.iter().step_by(step).flat_map(on_edge).collect() })
     }
 
-    /// Least distance along a normal at which another side is faced within `reach`.
+    /// Least distance along a normal at which another side is faced within `reach`, over a length.
     fn distance(&self, other: &Self, reach: f64) -> Option<f64> {
-        let mut least: Option<f64> = None;
+        let (mut least, mut is_faced) = (None::<f64>, false);
         for a in &self.sights {
             for b in other.sights.iter().filter(|b| a.normal.dot(&b.normal) < OPPOSITE) {
                 let way = b.place - a.place;
@@ -78,12 +81,13 @@ impl<'a> NamedSide<'a> {
                 let aside = (way - along * a.normal).norm();
                 // What lies behind is an overlap only if it is small.
                 let near = (-CLOSE * reach..=reach).contains(&along) && aside <= 0.5 * along.abs() + a.spacing + b.spacing;
+                is_faced |= near && !a.is_end && !b.is_end;
                 if near && least.is_none_or(|least| along.abs() < least.abs()) {
                     least = Some(along);
                 }
             }
         }
-        least
+        least.filter(|_| is_faced)
     }
 }
 
