@@ -132,8 +132,10 @@ fn an_older_result_does_not_pass_for_that_of_an_interrupted_run() {
     wait_until(|| names_in(folder.path()).len() == 2);
     kill_process(Pid::from_child(&child), Signal::TERM).expect("a child can be told to end");
     let (code, errors) = end(child);
+    // The mesh is there if it was read before the signal came.
+    let left: Vec<String> = names_in(&out).into_iter().filter(|name| name != "case.msh").collect();
     assert_eq!(
-        (code, names_in(&out)),
+        (code, left),
         (Some(1), ["case.toml", "notes.md", "report.html", "summary.json"].map(String::from).to_vec()),
         "{errors}"
     );
