@@ -290,19 +290,25 @@ mod tests {
 
     #[test]
     fn arcs_that_go_on_with_another_radius_are_two_circles() {
-        // Half circles of radius 1 and 2 around other centres, with a common tangent at (0, -1) and a corner above.
-        let at = |angle: f64| match angle {
-            a if (0.25 * TAU - 1e-9..=0.75 * TAU + 1e-9).contains(&a) => Point::new(a.cos(), a.sin()),
-            a => {
-                let a = if a > 0.5 * TAU { a - TAU } else { a };
-                // From (0, -1) at -90 degrees along the larger circle.
-                let turn = 0.5 * (a + 0.25 * TAU) - 0.25 * TAU;
-                Point::new(2.0 * turn.cos(), 1.0 + 2.0 * turn.sin())
+        // From (0, 1) along a half circle of radius 1 to (0, -1), from there with the same tangent along a quarter of radius 2 to
+        // (2, 1), and straight back.
+        let at = |angle: f64| {
+            let share = (angle / TAU + 0.25 + 1e-9).rem_euclid(1.0) - 1e-9;
+            match share {
+                share if share >= 0.5 - 1e-9 => Point::new(angle.cos(), angle.sin()),
+                share if share >= 0.375 => Point::new(2.0 - (share - 0.375) * 16.0, 1.0),
+                share => {
+                    let turn = (share / 0.375 - 1.0) * 0.25 * TAU;
+                    Point::new(2.0 * turn.cos(), 1.0 + 2.0 * turn.sin())
+                }
             }
         };
         let mesh = built(fan(16, at));
-        let distance = off(&mesh, |x| (x.norm() - 1.0).abs().min(((x - Point::new(0.0, 1.0)).norm() - 2.0).abs()));
+        let arcs = |x: Point| (x.norm() - 1.0).abs().min(((x - Point::new(0.0, 1.0)).norm() - 2.0).abs());
+        let distance = off(&mesh, |x| arcs(x).min((x.y - 1.0).abs()));
         assert!(distance < 1e-13, "{distance}");
+        let bent = mesh.edges.iter().filter_map(|edge| edge.shape.as_ref());
+        assert!(bent.clone().all(|shape| matches!(*shape.curve, Curve::Circle { .. })) && bent.count() == 14);
     }
 
     #[test]

@@ -160,7 +160,8 @@ mod tests {
         assert_eq!(halves([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), first, "a square: the first corner decides");
         assert_eq!(halves([[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [1.0, 1.0]]), second, "the shorter diagonal");
         assert_eq!(halves([[0.0, 0.0], [1.0, 1.0], [1.0, 2.0], [0.0, 1.0]]), second);
-        assert_eq!(halves([[0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 1.5]]), first);
+        assert_eq!(halves([[0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 1.5]]), second);
+        assert_eq!(halves([[0.0, 1.5], [0.0, 1.0], [1.0, 1.0], [1.0, 2.0]]), first, "the same from another corner");
         // A corner that points inwards: one diagonal lies outside.
         assert_eq!(halves([[0.0, 0.0], [2.0, 0.0], [0.4, 0.4], [0.0, 2.0]]), first);
         assert_eq!(halves([[2.0, 0.0], [0.4, 0.4], [0.0, 2.0], [0.0, 0.0]]), second);
