@@ -234,7 +234,7 @@ order = 2
         );
         let accuracy = match self.pairs.is_empty() {
             true => "energy = 0.02            # the mesh is adapted until the energy norm is good to 2 %",
-            false => "pressure = 0.05          # the mesh is adapted until the contact pressure is good to 5 %",
+            false => "pressure = 0.02          # the mesh is adapted until the contact pressure is good to 2 %",
         };
         let _ = write!(text, "\n[accuracy]\n{accuracy}\nmax_unknowns = 200000\n");
     }

@@ -58,7 +58,7 @@ static MESH: TableForm = TableForm {
     sentence: "",
     keys: &[&[
         key("file", ValueForm::Name, "A Gmsh file, 2.2 or 4.1, ASCII or binary, relative to the case; see [meshes.md](meshes.md). Physical surfaces are bodies, or [parts](#materials-and-the-plane) of bodies, physical curves boundaries. A body may be of several pieces, if each is held.")
-            .required("\"bars.msh\", a Gmsh 4.1 file"),
+            .required("\"bars.msh\", a mesh file of Gmsh"),
         key("order", ValueForm::Whole([1, 2]), "Order of the displacement: P1 or P2.")
             .or("2")
             .refused("must be 1 or 2, the order of the displacement"),
