@@ -21,6 +21,7 @@ import json
 import os
 import shutil
 import subprocess
+import warnings
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,7 +29,7 @@ from typing import Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-__all__ = ["Contact", "Fields", "MezhaError", "NotConverged", "Result", "Step", "Study", "run", "study"]
+__all__ = ["Contact", "Fields", "MezhaError", "MezhaWarning", "NotConverged", "Result", "Step", "Study", "run", "study"]
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -58,6 +59,10 @@ class NotConverged(MezhaError):
     def __init__(self, words: str, code: int, command: Sequence[str], result: "Result"):
         super().__init__(words, code, command)
         self.result = result
+
+
+class MezhaWarning(UserWarning):
+    """What the program warns of: pressures that are not to be trusted, say. The words are its own."""
 
 
 @dataclass(frozen=True)
@@ -118,16 +123,46 @@ class Fields:
 
 
 class _Files:
-    """The files of one solution."""
+    """The files of one solution, and its row of the summary."""
 
     folder: Path
+    summary: dict
+
+    @property
+    def status(self) -> str:
+        """`converged`, `not_converged` or `interrupted`."""
+        return self.summary["status"]
+
+    @property
+    def reason(self) -> str:
+        """The verdict in words."""
+        return self.summary["reason"]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the equations of contact are solved. How good the mesh is for that is another question: see `trusted`."""
+        return self.status == "converged"
+
+    @property
+    def trusted(self) -> bool:
+        """Whether the run has converged, and the pressure of every contact is to be trusted.
+
+        It is false, too, where nothing tells: where `trust` of a contact is null. Forces may be good all the same: see
+        `trust_force` in `summary["contact"]`. A run of load steps is trusted if all of them are.
+        """
+        rows = [self.summary, *(self.summary.get("steps") or [])]
+        return self.converged and all(contact["trust"] is True for row in rows for contact in row["contact"].values())
+
+    def _interrupted(self) -> str:
+        """Why files may be missing that other results have; empty if the run has come to its end."""
+        return f": the run was interrupted: {self.reason}" if self.status == "interrupted" else ""
 
     def contact(self, name: str) -> Contact:
         """The contact of this name, from `contact_NAME.csv`."""
         file = self.folder / f"contact_{name}.csv"
         if not file.is_file():
             found = sorted(other.stem[len("contact_") :] for other in self.folder.glob("contact_*.csv"))
-            raise KeyError(f"{self.folder} has no contact {name!r}; it has {', '.join(found) or 'none'}")
+            raise KeyError(f"{self.folder} has no contact {name!r}; it has {', '.join(found) or 'none'}{self._interrupted()}")
         with open(file, encoding="utf-8") as lines:
             rows = [line for line in lines if not line.startswith("#")]
         columns = dict(zip(rows[0].strip().split(","), np.loadtxt(rows[1:], delimiter=",", ndmin=2).T))
@@ -142,7 +177,8 @@ class _Files:
         elif whole.is_file():
             pieces = [whole]
         else:
-            raise FileNotFoundError(f"{self.folder} has no fields; was it run with output.fields = false?")
+            why = self._interrupted() or "; was it run with output.fields = false?"
+            raise FileNotFoundError(f"{self.folder} has no fields{why}")
         read = [_read_piece(piece) for piece in pieces]
         starts = np.cumsum([0] + [len(piece["points"]) for piece in read])
         for piece, start in zip(read, starts):
@@ -168,7 +204,7 @@ class Step(_Files):
         self.factors: Mapping[str, float] = summary["factors"]
 
     def __repr__(self) -> str:
-        return f"<step {self.number}: {self.summary['status']}>"
+        return f"<step {self.number}: {self.status}>"
 
 
 class Result(_Files):
@@ -189,21 +225,6 @@ class Result(_Files):
 
     def __repr__(self) -> str:
         return f"<result of {self.summary['case']} in {self.folder}: {self.status}>"
-
-    @property
-    def status(self) -> str:
-        """`converged`, `not_converged` or `interrupted`."""
-        return self.summary["status"]
-
-    @property
-    def converged(self) -> bool:
-        """Whether the result can be used."""
-        return self.status == "converged"
-
-    @property
-    def reason(self) -> str:
-        """The verdict in words."""
-        return self.summary["reason"]
 
     @property
     def provenance(self) -> Optional[dict]:
@@ -256,8 +277,16 @@ class Study:
         return np.array([number(row.get(name)) for row in self.rows], dtype=float)
 
     def result(self, index: int) -> Result:
-        """The result of the run in this row, from 0."""
-        return Result(self.folder / self.rows[index]["result"])
+        """The result of the run in this row, from 0.
+
+        Raises:
+            MezhaError: the run of this row has left none; the words are the reason of the row.
+        """
+        row = self.rows[index]
+        if not row["result"]:
+            code = 2 if row["status"] == "refused" else 1
+            raise MezhaError(f"row {index} of {self.folder} has no result ({row['status']}): {row['reason']}", code, [])
+        return Result(self.folder / row["result"])
 
 
 def run(
@@ -275,7 +304,7 @@ def run(
 
     Args:
         case: the case file, or its folder if it is called case.toml. A result folder is one, too: it repeats its run.
-        ranks: processes under mpirun; 1 is run without it.
+        ranks: processes under mpirun, at least 1; 1 is run without it.
         out: folder of the result; by default out/NAME in the working directory, as on the command line.
         force: replace a result that is there.
         petsc: options for PETSc, one word each, as in `["-ksp_type", "gcr"]`.
@@ -287,7 +316,13 @@ def run(
     Raises:
         NotConverged: the run has not converged; the exception has its result.
         MezhaError: it has no result; the words are the program's.
+        FileNotFoundError: there is no such program, or no mpirun.
+
+    Warns:
+        MezhaWarning: each warning of the program, such as that of pressures that are not to be trusted.
     """
+    if isinstance(ranks, bool) or not isinstance(ranks, (int, np.integer)) or ranks < 1:
+        raise ValueError(f"ranks = {ranks!r}: must be a whole number of at least 1, the number of processes")
     case = Path(case)
     out = Path(out) if out is not None else Path("out") / _name(case)
     words = ["run", str(case), "--out", str(out)]
@@ -335,15 +370,23 @@ def study(
     return Study(out)
 
 
+_WARNING = "mezha: warning: "
+
+
 def _finish(command: Sequence[str], verbose: bool) -> "subprocess.CompletedProcess[str]":
-    """Runs a command to its end."""
+    """Runs a command of the caller's caller to its end, and hands on what the program warns of."""
     output = None if verbose else subprocess.PIPE
-    return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.PIPE, text=True, errors="replace")
+    ended = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.PIPE, text=True, errors="replace")
+    for line in ended.stderr.splitlines():
+        if line.startswith(_WARNING):
+            warnings.warn(line[len(_WARNING) :], MezhaWarning, stacklevel=3)
+    return ended
 
 
 def _own_words(ended: "subprocess.CompletedProcess[str]") -> str:
     """What the program has said of an error: its own words, if there are any among those of mpirun."""
-    said = ended.stderr.strip() or (ended.stdout or "").strip()
+    lines = [line for line in ended.stderr.splitlines() if not line.startswith(_WARNING)]
+    said = "\n".join(lines).strip() or (ended.stdout or "").strip()
     begin = said.find("mezha: ")
     if begin < 0:
         return said or f"exit code {ended.returncode}, without a word"
@@ -353,10 +396,12 @@ def _own_words(ended: "subprocess.CompletedProcess[str]") -> str:
 
 def _program(given: Optional[PathLike]) -> str:
     """The program: the one that is given, that of the environment, of a clone around this file, or of PATH."""
-    if given is not None:
-        return str(given)
-    if os.environ.get("MEZHA"):
-        return os.environ["MEZHA"]
+    named = str(given) if given is not None else os.environ.get("MEZHA")
+    if named:
+        # mpirun would tell this in words of its own.
+        if shutil.which(named) is None:
+            raise FileNotFoundError(f"{named} is no program that can be run; give `program`, or MEZHA, the path of mezha")
+        return named
     beside = Path(__file__).resolve().parent.parent / "target" / "release" / "mezha"
     found = str(beside) if beside.is_file() else shutil.which("mezha")
     if found is None:

@@ -4,6 +4,7 @@ import json
 import os
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,8 @@ FIRST = ROOT / "docs" / "first"
 
 class WithFolder(unittest.TestCase):
     def setUp(self):
+        # Meshes are coarse here, of which the program warns.
+        warnings.simplefilter("ignore", mezha.MezhaWarning)
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
@@ -58,14 +61,31 @@ class Results(WithFolder):
         heights = [step.fields().displacement[:, 1].min() for step in steps]
         self.assertTrue(np.all(np.diff(heights) < 0))
         self.assertEqual(steps[5].factors, {"press": 1.0})
+        self.assertTrue(result.trusted and steps[1].trusted)
+        # One bad step is enough.
+        result.summary["steps"][1]["contact"]["seam"]["trust"] = False
+        self.assertTrue(result.converged and steps[5].trusted and not steps[1].trusted and not result.trusted)
 
     def test_a_run_without_fields_says_so(self):
-        result = mezha.run(FIRST, 1, out=self.folder / "bare", mesh__refine=0, output__fields=False)
+        with self.assertWarnsRegex(mezha.MezhaWarning, "^pressure unreliable: contact seam") as warned:
+            result = mezha.run(FIRST, 1, out=self.folder / "bare", mesh__refine=0, output__fields=False)
+        self.assertEqual(Path(warned.filename).name, Path(__file__).name)
+        self.assertTrue(result.converged and not result.trusted)
         self.assertGreater(len(result.contact("seam").s), 5)
         with self.assertRaisesRegex(FileNotFoundError, "output.fields"):
             result.fields()
         with self.assertRaisesRegex(FileNotFoundError, "summary.json"):
             mezha.Result(self.folder)
+
+    def test_an_interrupted_run_says_why_files_are_missing(self):
+        summary = {"case": "a", "status": "interrupted", "reason": "SIGTERM after 3.0 s", "contact": {}}
+        (self.folder / "summary.json").write_text(json.dumps(summary))
+        result = mezha.Result(self.folder)
+        self.assertFalse(result.converged or result.trusted)
+        with self.assertRaisesRegex(FileNotFoundError, "no fields: the run was interrupted: SIGTERM"):
+            result.fields()
+        with self.assertRaisesRegex(KeyError, "interrupted: SIGTERM"):
+            result.contact("seam")
 
 
 class Errors(WithFolder):
@@ -78,6 +98,14 @@ class Errors(WithFolder):
             self.assertIn('did you mean "young"?', words)
             self.assertNotIn("mpirun", words)
             self.assertIn("body.strip.yuong=1.0", told.exception.command)
+
+    def test_ranks_and_program_are_looked_at_first(self):
+        for ranks in (0, -1, 1.5, True):
+            with self.assertRaisesRegex(ValueError, "a whole number of at least 1"):
+                mezha.run(FIRST, ranks, out=self.folder / "no")
+        for ranks in (1, 2):
+            with self.assertRaisesRegex(FileNotFoundError, "no-mezha is no program"):
+                mezha.run(FIRST, ranks, out=self.folder / "no", program=self.folder / "no-mezha")
 
     def test_what_has_not_converged_has_a_result(self):
         sets = {"exact.must_hold": True, "exact.contact.seam.force.value": 51.0}
@@ -105,6 +133,15 @@ class Studies(WithFolder):
         self.assertEqual(study.result(1).summary["mesh"]["triangles"], 4 * study.result(0).summary["mesh"]["triangles"])
         with self.assertRaisesRegex(KeyError, "no column 'x'"):
             study.column("x")
+
+    def test_a_row_without_a_result_tells_why(self):
+        text = "cases = [%s]\nranks = [1]\n[grid]\n'mesh.refine' = [0, 99]\n"
+        (self.folder / "study.toml").write_text(text % json.dumps(str(FIRST / "case.toml")))
+        study = mezha.study(self.folder, self.folder / "made")
+        self.assertEqual(study.result(0).status, "converged")
+        with self.assertRaisesRegex(mezha.MezhaError, "row 1 .*refused.*from 0 to 12") as told:
+            study.result(1)
+        self.assertEqual(told.exception.code, 2)
 
 
 class Values(unittest.TestCase):

@@ -44,6 +44,9 @@ fn usage(error: &clap::Error) -> i32 {
         (_, true) => {
             match error.kind() {
                 UsageKind::DisplayVersion => return say(&run::version()),
+                // mpirun gives its ranks terminals of its own, wherever their words go in the end: no colours there.
+                _ if given_rank().is_some() && !error.use_stderr() => drop(write!(stdout(), "{}", error.render())),
+                _ if given_rank().is_some() => drop(write!(stderr(), "{}", error.render())),
                 _ => drop(error.print()),
             }
             if let Some(name) = nearest_command(error) {
@@ -172,7 +175,7 @@ fn check_case(arguments: &CheckArguments) -> i32 {
         Ok(checked) => match (say(&checked.words), checked.not_held) {
             (0, not_held) => {
                 // A reader that has gone away is no reason for another exit code.
-                let words = checked.warning.iter().map(|words| format!("warning: {words}")).chain(not_held.clone());
+                let words = checked.warnings.iter().map(|words| format!("warning: {words}")).chain(not_held.clone());
                 words.for_each(|words| tell(&words));
                 if !checked.proposals.is_empty() {
                     say(&checked.proposals);

@@ -65,6 +65,29 @@ fn help_has_examples_exit_codes_and_the_place_of_the_keys() {
     }
 }
 
+/// mpirun gives its ranks terminals of its own, though the words end in a file.
+#[test]
+fn words_that_mpirun_hands_on_have_no_colours() {
+    for (line, code) in [("--help", 0), ("run --help", 0), ("run --forec", 2)] {
+        let ended = mezha(Some(2), &words(line));
+        let said = format!("{}{}", ended.1, ended.2);
+        assert!(ended.0 == Some(code) && said.contains("Usage: mezha"), "{line}: {said}");
+        assert!(!said.contains('\u{1b}'), "{line}: {said:?}");
+    }
+}
+
+#[test]
+fn angles_beyond_small_ones_are_warned_of_by_check() {
+    let turned = |angle: &str| {
+        let set = format!("rigid.punch.angle={angle}");
+        mezha(None, &["check", "cases/rigid_tools/flat.toml", "--set", "mesh.refine=0", "--set", &set])
+    };
+    let (code, _, errors) = turned("7");
+    assert!(code == Some(0) && errors.contains("mezha: warning: rigid.punch.angle = 7: radians, of which 0.2"), "{errors}");
+    let (code, _, errors) = turned("0.1");
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+}
+
 #[test]
 fn check_says_what_would_be_solved() {
     let (code, output, errors) = mezha(None, &["check", &case("bars_inclined")]);

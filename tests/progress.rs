@@ -44,6 +44,19 @@ fn a_terminal_shows_where_a_run_is() {
     }
 }
 
+/// The window is asked for its size: on a narrow one the line does not wrap.
+#[test]
+fn a_narrow_terminal_gets_a_short_line() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = format!("{} {LONG} --out {}", env!("CARGO_BIN_EXE_mezha"), folder.path().join("result").display());
+    for run in [run.clone(), format!("mpirun -n 1 {run}")] {
+        let said = on_a_terminal(&format!("stty cols 30; {run}"), folder.path());
+        let lines = said.split("\r\u{1b}[K").map(|rest| rest.split(['\r', '\n', '\u{1b}']).next().unwrap_or_default());
+        let lengths: Vec<usize> = lines.filter(|line| line.starts_with("0:")).map(|line| line.chars().count()).collect();
+        assert!(lengths.contains(&29) && lengths.iter().all(|length| *length <= 29), "{lengths:?}: {said}");
+    }
+}
+
 #[test]
 fn a_pipe_gets_nothing_unless_it_asks() {
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -4,7 +4,7 @@ use toml::Value;
 
 use super::error::suggest;
 use super::rigid::is_one_curve;
-use super::schema::LONGEST_NAME;
+use super::schema::{LONGEST_NAME, NO_FILE_NAME};
 use super::section::Section;
 use super::values::{self, PLANE, choice, must_be};
 use super::{Geometry, Union};
@@ -78,8 +78,9 @@ pub fn read_contact(section: &Section, root: &Section) -> Option<ReadContact> {
         let words = "\"p1-continuous\" has no jumps to weigh; take fewer segments, or another multiplier";
         section.problem(&["stabilise"], words.into());
     }
-    if !section.name().chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
-        section.problem(&[], "its name is part of a file name; use letters, digits, - and _".into());
+    let name = section.name();
+    if ["", ".", ".."].contains(&name) || !name.chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
+        section.problem(&[], NO_FILE_NAME.into());
     }
     if section.name().len() > LONGEST_NAME {
         let words = format!("its name has {} bytes and is part of a file name; use {LONGEST_NAME} at most", section.name().len());

@@ -233,7 +233,8 @@ impl Case {
     /// What can be read of a text that has errors, so that more of them may be found; nothing if there is no mesh to speak of.
     pub(crate) fn draft(text: &str, file: &Path, overrides: &[String]) -> Option<Self> {
         let (table, log) = overridden(text, file, overrides, &accuracy::SHORT).ok()?;
-        Self::from_section(&Section::root(&table, &schema::CASE, &RefCell::new(log)), file)
+        let draft = Self::from_section(&Section::root(&table, &schema::CASE, &RefCell::new(log)), file);
+        draft.map(|draft| Self { table, ..draft })
     }
 
     /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its

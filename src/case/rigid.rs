@@ -256,6 +256,13 @@ impl Case {
         self.tools.iter().map(|tool| tool.motion.clone()).chain(self.plates.iter().map(plate)).collect()
     }
 
+    /// Whether a boundary is named after a table `[rigid.NAME]` of the file, whether or not that could be read.
+    pub(crate) fn writes_tool_of(&self, boundary: &str) -> bool {
+        let names = self.table.get("rigid").and_then(Value::as_table).into_iter().flat_map(toml::Table::keys);
+        let of = |name: &String| boundary.strip_prefix(PREFIX).and_then(|rest| rest.strip_prefix(name.as_str()));
+        names.filter_map(of).any(|rest| rest.is_empty() || rest.starts_with('.'))
+    }
+
     /// The tool that a boundary is the surface of, or a part of that.
     pub fn tool_of(&self, boundary: &str) -> Option<&Tool> {
         self.tools.iter().find(|tool| tool.has(boundary))

@@ -121,8 +121,9 @@ fn places(root: &Table, key: &str) -> Result<Vec<Vec<String>>, String> {
     };
     let tables = root.get(kind).and_then(Value::as_table);
     let Some(table) = tables.and_then(|tables| tables.get(name)).and_then(Value::as_table) else {
-        let names = tables.into_iter().flat_map(Table::keys).map(String::as_str);
-        return Err(format!("is not in the case; {}", suggest(name, names)));
+        let with = |name: &String| dotted(&[&path[..1], std::slice::from_ref(name), &path[2..]].concat());
+        let known: Vec<String> = tables.into_iter().flat_map(Table::keys).map(with).collect();
+        return Err(format!("is not in the case; {}", suggest(key, known.iter().map(String::as_str))));
     };
     if let Some(single) = single.filter(|single| !keys.contains(single)) {
         return Err(format!("cannot be scaled: of a {kind} that is {}, not {single}", keys.join(", ")));

@@ -349,6 +349,8 @@ fn every_error_names_key_value_and_remedy() {
         ("load.k.on=top", "load.k: loads nothing; give pressure or traction"),
         ("contact.c.between=['p', 'p']", "must name two different curves"),
         ("contact.'a/b'={between=['p', 'r'], curve='line'}", "contact.\"a/b\": its name is part of a file name; use"),
+        ("contact.\"\"={between=['p', 'r'], curve='line'}", "contact.\"\": its name is part of a file name; use"),
+        ("contact.'..'={between=['p', 'r'], curve='line'}", "contact.\"..\": its name is part of a file name; use"),
         ("contact.c.between=[['p', 'p'], 'q']", "lists \"p\" twice; list each physical curve once"),
         ("contact.c.between=[['p', 'q'], 'q']", "must name two different curves"),
         ("contact.c.between=[[], 'q']", "must list at least one physical curve"),
@@ -420,7 +422,11 @@ fn every_error_of_steps_names_key_value_and_remedy() {
         (format!("{{p = {{factors = [{many}], {press}}}}}"), "has 1001 steps; at most 1000 are possible"),
         ("{p = {factors = [1]}}".into(), "steps.p.scales: missing; write scales = [\"load.top\"]"),
         ("{p = {factors = [1], scales = []}}".into(), "steps.p.scales = [] (--set): must not be empty: give keys of loads"),
-        ("{p = {factors = [1], scales = ['load.k']}}".into(), "\"load.k\" is not in the case; did you mean \"l\"?"),
+        ("{p = {factors = [1], scales = ['load.k']}}".into(), "\"load.k\" is not in the case; did you mean \"load.l\"?"),
+        (
+            "{p = {factors = [1], scales = ['load.k.pressure']}}".into(),
+            "\"load.k.pressure\" is not in the case; did you mean \"load.l.pressure\"?",
+        ),
         (
             "{p = {factors = [1], scales = ['probe.p']}}".into(),
             "\"probe.p\" cannot be scaled; what can is load.NAME, support.NAME",

@@ -116,15 +116,35 @@ pub fn each<T>(read: impl Fn(&Value) -> Result<T, String>) -> impl Fn(&Value) ->
     move |value| entries(value, "a list", &read)
 }
 
-/// A list of at least one entry, each once.
-pub fn list<T: PartialEq>(wanted: &str, read: impl Fn(&Value) -> Result<T, String>) -> impl Fn(&Value) -> Result<Vec<T>, String> {
-    move |value| {
-        let list = entries(value, wanted, &read)?;
-        match list.iter().enumerate().find(|(index, entry)| list[..*index].contains(entry)) {
-            _ if list.is_empty() => Err(format!("must not be empty: give {wanted}")),
-            Some((index, _)) => Err(format!("entry {} stands there twice; list each once", index + 1)),
-            None => Ok(list),
+/// A list of at least one value, each once.
+pub fn list(wanted: &str, value: &Value) -> Result<Vec<Value>, String> {
+    let list = entries(value, wanted, |entry| Ok(entry.clone()))?;
+    match twice(&list) {
+        _ if list.is_empty() => Err(format!("must not be empty: give {wanted}")),
+        Some(number) => Err(told_twice(number)),
+        None => Ok(list),
+    }
+}
+
+/// The number, from 1, of the first entry that is the same as one before.
+pub fn twice(list: &[Value]) -> Option<usize> {
+    (0..list.len()).find(|&k| list[..k].iter().any(|other| alike(other, &list[k]))).map(|k| k + 1)
+}
+
+/// Words for an entry that stands in a list twice.
+pub fn told_twice(number: usize) -> String {
+    format!("entry {number} stands there twice; list each once")
+}
+
+/// Whether two values are the same; 1 and 1.0 are.
+fn alike(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Integer(a), Value::Float(b)) | (Value::Float(b), Value::Integer(a)) => *a as f64 == *b,
+        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| alike(a, b)),
+        (Value::Table(a), Value::Table(b)) => {
+            a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| alike(a, b)))
         }
+        _ => a == b,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::known::check_pressures;
 use super::proposals::{proposed_contacts, proposed_supports};
+use super::turns::far_turns;
 use super::{RunError, accuracy, memory, scene};
 use crate::body::Material;
 use crate::case::{Case, read_text};
@@ -15,8 +16,8 @@ use std::path::Path;
 pub struct Checked {
     /// What would be solved.
     pub words: String,
-    /// Words for a run that would be refused on this machine, for want of memory.
-    pub warning: Option<String>,
+    /// Words for tools and plates that turn too far, and for a run that would be refused on this machine, for want of memory.
+    pub warnings: Vec<String>,
     /// Words for a body that can move though contact is closed everywhere; nothing if all are held.
     pub not_held: Option<String>,
     /// Contacts and supports that may be missing, as TOML to paste, with words before them; empty if there is nothing to propose.
@@ -92,9 +93,10 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     // An accuracy has a limit to its meshes.
     let (memory, warning) = if case.accuracy.is_none() { memory::told(need, of_macro_mesh) } else { Default::default() };
     lines.extend((!memory.is_empty()).then_some(memory));
+    let warnings = far_turns(case).into_iter().chain(warning).collect();
     let not_held = not_held_before.map_or_else(|| at_rest.not_held(&scene), |words| Ok(Some(words)))?;
     let proposals = proposals(case, &scene.mesh, not_held.is_some());
-    Ok(Checked { words: lines.join("\n"), warning, not_held, proposals })
+    Ok(Checked { words: lines.join("\n"), warnings, not_held, proposals })
 }
 
 /// What may be missing, as TOML to paste.

@@ -227,7 +227,7 @@ impl Unfinished {
                     multiplier: Some(multipliers as u64),
                 };
             }
-            Event::Solver(_) | Event::Begin(_) => {}
+            Event::Solver(_) | Event::Begin(_) | Event::Refinement { .. } => {}
             Event::Again { .. } => self.forget_passes(),
             Event::Coarse { refine, unknowns, passes, .. } => summary.solver.coarse.push(CoarseSolveSummary {
                 refine: *refine,

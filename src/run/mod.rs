@@ -31,6 +31,7 @@ mod steps;
 mod summarise;
 mod true_errors;
 mod trust;
+mod turns;
 mod zones;
 
 pub use check::{Checked, check, check_file};
@@ -78,6 +79,7 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let report = Report::new(case, options, session);
     let stages = Rc::new(Stages::new(session)?);
     report.start(case);
+    turns::far_turns(case).iter().for_each(|words| report.warn(words));
     let (scene, origin) = read_scene(case, options, origin, &stages, &report, session)?;
     let run = Run { case, options, session, stages, report, files, origin, draws: true, true_errors: RefCell::default() };
     if !case.steps.is_empty() {

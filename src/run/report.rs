@@ -101,6 +101,7 @@ impl Report {
                 ));
                 passes.iter().for_each(|pass| self.fallback(pass.fallback.as_deref()));
             }
+            Event::Refinement { .. } => {}
             Event::Begin(follows) => self.head(*follows),
             Event::Passed(pass, all) => {
                 self.say(&format!(

@@ -4,7 +4,9 @@ use super::exact::{Errors, compare, largest};
 use super::outcome::outside;
 use super::report::{memory, short};
 use super::slivers::slivers;
-use super::{Outcome, Run, RunError, accuracy, expected, fields, figures, interruption, points, summarise, trust, zones};
+use super::{
+    Outcome, Run, RunError, accuracy, expected, fields, figures, interruption, points, progress, summarise, trust, zones,
+};
 use crate::accuracy::Adaptation;
 use crate::contact::{Configuration, GapChoice};
 use crate::geometry::Point;
@@ -13,7 +15,7 @@ use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, vtk, write_contact};
 use crate::system::recovery::{Evaluation, TracePoint};
-use crate::system::{Contact, Solved};
+use crate::system::{Contact, Solved, Work};
 use std::path::Path;
 
 /// Share of the drawn distance by which a declared gap may differ from it.
@@ -67,6 +69,7 @@ impl Run<'_> {
         folder: ResultFolder,
         warnings: &[String],
     ) -> Result<(), OutputError> {
+        progress::write_files();
         self.origin.write(&folder)?;
         if self.case.output.fields {
             let contacts = self.case.contacts.iter().map(|pair| (pair.name.clone(), figures::sides(mesh, pair)));
@@ -115,6 +118,7 @@ impl Run<'_> {
 
     /// Fields, traces, balances and errors; their files too. **Collective**
     fn evaluate(&self, summary: &mut Summary, solved: &Solved) -> Result<Errors, RunError> {
+        progress::enter(Work::Recovery);
         let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
         summarise::balances(summary, &found);
         summarise::deformations(summary, &found);
@@ -211,6 +215,7 @@ impl Run<'_> {
         }
         let stress = found.stress()?;
         let at_node = |part: usize, node: usize| stress.at(part, node);
+        progress::write_files();
         session.agree(fields::write(folder, found, at_node)).map_err(RunError::Failed)?;
         if session.rank() == 0 {
             let curve = |name: &str| folder.join(format!("contact_{name}.vtu"));

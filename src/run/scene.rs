@@ -217,7 +217,7 @@ impl Names<'_> {
     fn wrong(&self) -> Vec<String> {
         let mut wrong: Vec<String> = self.check_bodies().err().into_iter().collect();
         for (key, boundaries) in self.used() {
-            let on_mesh = boundaries.iter().filter(|name| !key.starts_with("contact.") || self.case.tool_of(name).is_none());
+            let on_mesh = boundaries.iter().filter(|name| !key.starts_with("contact.") || !self.case.writes_tool_of(name));
             wrong.extend(on_mesh.filter_map(|name| self.check_boundary(&key, name).err()));
         }
         wrong

@@ -68,7 +68,7 @@ const MOST_CORNER_ERROR: f64 = 0.04;
 const MOST_STRAIN: f64 = 0.2;
 
 /// Largest mean rotation of a body (radians): forces and lengths are off by half its square.
-const MOST_ROTATION: f64 = 0.2;
+pub(super) const MOST_ROTATION: f64 = 0.2;
 
 /// Largest ν of P1 triangles whose pressure may be believed.
 const MOST_POISSON: f64 = 0.495;

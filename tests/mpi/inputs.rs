@@ -293,6 +293,12 @@ fn names_and_keys_are_told_at_once(session: &Session) {
     let bad = ["contact.seam.curve = \"lines\"", "load.top.pressure = \"1+\"", "body.lower.poisson = 0.7"];
     let words = place.refused(session, &file, &[], &[&told[..], &bad].concat());
     assert_eq!(words.lines().count(), 7, "{words}");
+    // A tool that cannot be read is no name that the mesh lacks.
+    let case = GOOD.replace("\"upper.seam\"", "\"rigid.die\"");
+    let file =
+        place.write(session, &blocks().text(), &format!("{case}rigid.die = {{ line = [[0, 1], [2, 1]], uy = \"down\" }}\n"));
+    let words = place.refused(session, &file, &[], &["rigid.die.uy = \"down\""]);
+    assert_eq!(words.lines().count(), 1, "{words}");
     place.end();
 }
 

@@ -2,7 +2,9 @@
 
 use toml::{Table, Value};
 
-use super::form::{Absent, EitherForm, KeyForm, LONGEST_NAME, ListForm, NamedForm, NumberRange, TableForm, TableRule, ValueForm};
+use super::form::{
+    Absent, EitherForm, KeyForm, LONGEST_NAME, ListForm, NO_FILE_NAME, NamedForm, NumberRange, TableForm, TableRule, ValueForm,
+};
 use crate::case::error::{suggest, told};
 use crate::case::values::{self, must_be};
 use crate::geometry::Formula;
@@ -115,18 +117,7 @@ impl ListForm {
         if list.len() > most {
             return Some(format!("has {} {}; at most {most} are possible", list.len(), self.noun));
         }
-        let twice = |k: &usize| list[..*k].iter().any(|other| alike(other, &list[*k]));
-        let twice = (0..list.len()).find(|k| self.unique && twice(k))?;
-        Some(format!("entry {} stands there twice; list each once", twice + 1))
-    }
-}
-
-/// Whether two values are the same; 1 and 1.0 are.
-fn alike(a: &Value, b: &Value) -> bool {
-    match (a, b) {
-        (Value::Integer(a), Value::Float(b)) | (Value::Float(b), Value::Integer(a)) => *a as f64 == *b,
-        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| alike(a, b)),
-        _ => a == b,
+        values::twice(list).filter(|_| self.unique).map(values::told_twice)
     }
 }
 
@@ -151,7 +142,8 @@ impl NamedForm {
     /// Whether a table may have this name, as far as the form goes: of letters outside of ASCII the reader says more.
     pub fn allows(&self, name: &str) -> bool {
         let sound = |c: char| !c.is_ascii() || c.is_ascii_alphanumeric() || "-_.".contains(c);
-        !self.in_files || name.chars().count() <= LONGEST_NAME && name.chars().all(sound)
+        let is_name = !["", ".", ".."].contains(&name);
+        !self.in_files || is_name && name.chars().count() <= LONGEST_NAME && name.chars().all(sound)
     }
 }
 
@@ -207,7 +199,9 @@ impl ValueForm {
                     path.push(name.clone());
                     match value {
                         Value::Table(_) => self.look_below(value, path, found),
-                        Value::Array(list) if !list.is_empty() => {}
+                        Value::Array(list) if !list.is_empty() => {
+                            found.extend(values::twice(list).map(|number| (told(path), values::told_twice(number))));
+                        }
                         _ => found.push((told(path), "must be a list of values, as in [2, 3]".into())),
                     }
                     path.pop();
@@ -226,7 +220,7 @@ impl NamedForm {
         for (name, value) in tables {
             path.push(name.clone());
             if !self.allows(name) {
-                found.push((told(path), "its name is part of a file name; use letters, digits, - and _".into()));
+                found.push((told(path), NO_FILE_NAME.into()));
             }
             match value.as_table() {
                 Some(table) => self.table.collect(table, path, found),

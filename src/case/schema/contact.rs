@@ -7,7 +7,7 @@ const GRADING: ValueForm = ValueForm::Number(NumberRange { least: Some(1.0), mos
 
 pub static CONTACT: TableForm = TableForm {
     name: "contact",
-    sentence: "NAME is part of file names: letters, digits, `-`, `_` and `.`, 100 bytes at most, and no two that differ by capital letters only.",
+    sentence: "NAME is part of file names: letters, digits, `-`, `_` and `.`, neither `.` nor `..` alone, 100 bytes at most, and no two that differ by capital letters only.",
     keys: &[&[
         key(
             "between",

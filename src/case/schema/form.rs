@@ -151,6 +151,9 @@ pub enum TableRule {
 
 /// Longest name that is a part of file names (bytes): files take 255, and names of results have more in them.
 pub const LONGEST_NAME: usize = 100;
+/// Words for a name that cannot be a part of them.
+pub const NO_FILE_NAME: &str =
+    "its name is part of a file name; use letters, digits, `-`, `_` and `.`, but neither `.` nor `..` alone";
 /// Any number.
 pub const ANY: NumberRange = NumberRange { least: None, above: None, most: None, zero: true, words: "" };
 /// Numbers above zero.

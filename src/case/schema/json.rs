@@ -92,7 +92,7 @@ fn form(form: &ValueForm, definitions: &mut Definitions) -> Value {
         ValueForm::Named(named) => self::named(named, definitions),
         ValueForm::CaseKeys => value!({ "type": "object" }),
         ValueForm::CaseAxes => {
-            let axis = value!({ "type": "array", "minItems": 1 });
+            let axis = value!({ "type": "array", "minItems": 1, "uniqueItems": true });
             let axes = value!({ "type": "object", "additionalProperties": { "anyOf": [axis, { "$ref": "#/$defs/axes" }] } });
             definitions.insert("axes", axes);
             value!({ "$ref": "#/$defs/axes" })
@@ -135,7 +135,8 @@ fn named(named: &NamedForm, definitions: &mut Definitions) -> Value {
         schema["minProperties"] = value!(named.least);
     }
     if named.in_files {
-        schema["propertyNames"] = value!({ "pattern": IN_FILES, "maxLength": LONGEST_NAME });
+        schema["propertyNames"] =
+            value!({ "pattern": IN_FILES, "minLength": 1, "maxLength": LONGEST_NAME, "not": { "enum": [".", ".."] } });
     }
     schema
 }

@@ -20,7 +20,7 @@ mod scene;
 mod study;
 mod surface;
 
-pub use form::{Absent, KeyForm, LONGEST_NAME, TableForm};
+pub use form::{Absent, KeyForm, LONGEST_NAME, NO_FILE_NAME, TableForm};
 pub use json::json;
 pub use markdown::markdown;
 pub use scene::CASE;

@@ -95,6 +95,7 @@ fn faults_are_those_of_the_form() {
         (&format!("{good}load.l = {{ on = 'p', pressure = 1, about = [0, 1] }}"), "load.l: about stands beside rigid only"),
         (&format!("{good}load.l.on = 'p'"), "load.l: wants pressure, or traction"),
         (&format!("{good}contact.'a/b' = {{ between = ['p', 'q'] }}"), "contact.\"a/b\": its name is part of a file name"),
+        (&format!("{good}contact.'.' = {{ between = ['p', 'q'] }}"), "contact.\".\": its name is part of a file name"),
         (&format!("{good}accuracy.max_seconds = -1\naccuracy.energy = 0.1"), "accuracy.max_seconds: must be > 0"),
         (&format!("{good}exact.energy = {{ value = 0, tolerance = 1 }}"), "exact.energy.value: must not be 0"),
     ] {

@@ -53,7 +53,7 @@ pub fn read_grid(section: &Section) -> Vec<GridAxis> {
     let mut axes = Vec::new();
     for setting in settings(&table, &["grid"], section) {
         let below: Vec<&str> = setting.written.iter().map(String::as_str).collect();
-        match values::list("a list of values, as in [2, 3]", |value| Ok(value.clone()))(&setting.value) {
+        match values::list("a list of values, as in [2, 3]", &setting.value) {
             Ok(value) => axes.push(Setting { written: setting.written, path: setting.path, value }),
             Err(words) => section.problem(&below, words),
         }

@@ -216,6 +216,8 @@ fn errors_name_key_value_and_remedy() {
             "grid.\"mesh.refine\" = 3: must be a list of values, as in [2, 3], not of type integer",
         ),
         ("CASES\ngrid.'mesh.refine' = []", "must not be empty"),
+        ("CASES\ngrid.'mesh.refine' = [0, 1, 0]", "entry 3 stands there twice; list each once"),
+        ("CASES\ngrid.'mesh.grade' = [{ points = [[0, 1]] }, { points = [[0, 1.0]] }]", "entry 2 stands there twice"),
         ("CASES\ngrid.'mesh..refine' = [1]", "grid.\"mesh..refine\" = [1]: must be a key of the case with dots"),
         (
             "CASES\ngrid.'mesh.refin' = [1, 2]",

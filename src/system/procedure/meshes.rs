@@ -85,13 +85,16 @@ impl Procedure<'_> {
         self.observer.observe(Event::AtRest { scene: &scene, at_rest: &at_rest });
         let mut first = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
         let mut coarser = Coarser { predecessor, ..Coarser::default() };
+        let take_up = |refine: usize| self.observer.observe(Event::Refinement { refine, last: scene.refine });
         for times in (1..=COARSER.min(scene.refine)).rev() {
+            take_up(scene.refine - times);
             match self.coarse_mesh(scene.coarser(times), &mut first, &mut coarser) {
                 // The mesh is too coarse for the scene; the case's own may do.
                 Err(SystemError::Case(_)) => coarser.differences.clear(),
                 outcome => outcome?,
             }
         }
+        take_up(scene.refine);
         let (problem, start) = self.refine(scene, at_rest.contacts, &coarser)?;
         if let (None, Some(words)) = (&start, not_held_at_all(&problem)) {
             return Ok(Solved::nothing(problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));

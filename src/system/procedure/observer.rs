@@ -34,6 +34,13 @@ pub enum Event<'a> {
     },
     /// The solver is chosen; in words.
     Solver(&'a str),
+    /// A mesh of the way to that of the case is taken up.
+    Refinement {
+        /// Its refinement.
+        refine: usize,
+        /// That of the case.
+        last: usize,
+    },
     /// A coarser mesh was solved first.
     Coarse {
         /// Its refinement.
