@@ -9,9 +9,9 @@ use std::time::Duration;
 
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 
+use super::leftover::{make_hidden, recover, remove_empty, retire};
 use super::own_files::{OwnFiles, SUMMARY, names_within};
 use super::{OutputError, Summary};
-use super::leftover::{make_hidden, recover, remove_empty, retire};
 
 /// How often, and after which time, it is tried to remove a folder that other ranks still write to.
 const MOST_TRIES: usize = 5;
@@ -356,7 +356,10 @@ mod tests {
             write_result(&root.path().join(out), true, out).unwrap();
             assert_eq!(case_in(&root.path().join(out)), out);
         }
-        assert_eq!((names(root.path()), names(&root.path().join("deep"))), (vec!["deep".into(), "fresh".into()], vec!["fresh".into()]));
+        assert_eq!(
+            (names(root.path()), names(&root.path().join("deep"))),
+            (vec!["deep".into(), "fresh".into()], vec!["fresh".into()])
+        );
     }
 
     #[test]

@@ -250,8 +250,15 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let [old, new] = ["old", "new"].map(|folder| root.path().join(folder));
         let own = ["summary.json", "case.toml", "steps/0001/contact_a.csv", "contact_a.csv"];
-        let mine =
-            ["case_mine.toml", "contact_measured.csv", "deformed_paper.svg", "steps/mine.txt", "paper/case.toml", "case.msh", "same"];
+        let mine = [
+            "case_mine.toml",
+            "contact_measured.csv",
+            "deformed_paper.svg",
+            "steps/mine.txt",
+            "paper/case.toml",
+            "case.msh",
+            "same",
+        ];
         for name in own.iter().chain(&mine) {
             fs::create_dir_all(old.join(name).parent().unwrap()).unwrap();
             fs::write(old.join(name), name).unwrap();
@@ -261,7 +268,9 @@ mod tests {
             fs::set_permissions(old.join(folder), Permissions::from_mode(0o555)).unwrap();
         }
         fs::create_dir_all(&new).unwrap();
-        [("case.toml", "new"), ("case.msh", "new"), ("same", "same")].iter().for_each(|(name, text)| fs::write(new.join(name), text).unwrap());
+        [("case.toml", "new"), ("case.msh", "new"), ("same", "same")]
+            .iter()
+            .for_each(|(name, text)| fs::write(new.join(name), text).unwrap());
         retire(&old, &new, &OwnFiles::of(&old).unwrap()).unwrap();
         let mut expected = mine.map(|name| if name == "case.msh" { "case.msh.old" } else { name }).to_vec();
         expected.extend(["case.toml", "case.msh"]);

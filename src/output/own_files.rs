@@ -114,7 +114,8 @@ mod tests {
             fs::write(folder.path().join(SUMMARY), text).unwrap();
             assert!(OwnFiles::of(folder.path()).is_none(), "{text}");
         }
-        fs::write(folder.path().join(SUMMARY), r#"{"mezha": "0.1", "status": "converged", "files": ["steps/0001/a.csv"]}"#).unwrap();
+        fs::write(folder.path().join(SUMMARY), r#"{"mezha": "0.1", "status": "converged", "files": ["steps/0001/a.csv"]}"#)
+            .unwrap();
         let own = OwnFiles::of(folder.path()).unwrap();
         assert!(["summary.json", "steps/0001/a.csv"].iter().all(|name| own.has(Path::new(name))));
         assert!(own.has_within(Path::new("steps")) && !own.has_within(Path::new("step")) && !own.has(Path::new("case.toml")));
@@ -134,7 +135,9 @@ mod tests {
             "case.toml contact_seam.csv contact_seam.vtu deformed.svg deformed_seam_1.svg deformed_seam_2.svg displacement_seam.svg fields.vtu gap_seam.svg pressure_seam.svg"
         );
         let all = names(json!({"ranks": 2, "contact": contact, "accuracy": [], "steps": [{}], "provenance": {"mesh_hash": "a"}}));
-        for name in ["fields_0001.vtu", "fields.pvtu", "adapted.msh", "case.msh", "steps/0001/fields_0000.vtu", "contact_seam.pvd"] {
+        for name in
+            ["fields_0001.vtu", "fields.pvtu", "adapted.msh", "case.msh", "steps/0001/fields_0000.vtu", "contact_seam.pvd"]
+        {
             assert!(all.split(' ').any(|other| other == name), "{name}: {all}");
         }
         assert!(!all.contains("fields.vtu") && !all.contains("0002"), "{all}");
