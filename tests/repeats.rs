@@ -102,7 +102,24 @@ fn a_result_folder_alone_repeats_its_run() {
         for key in ["case_hash", "mesh_hash", "petsc_options", "ranks", "petsc", "mpi", "blas", "cpu", "host"] {
             assert!(!then[key].is_null() && then[key] == now[key], "{key}: {then} {now}");
         }
+        if case == "cases/closing_gap" {
+            a_changed_mesh_is_refused_for_a_step(root);
+        }
     }
+}
+
+/// A load step names the mesh of its result; `check` refuses what `run` refuses.
+fn a_changed_mesh_is_refused_for_a_step(root: &Path) {
+    let checked = |more: &[&str]| mezha_in(root, None, &[&["check", "copy/scene/steps/0001"], more].concat());
+    assert_ne!(checked(&[]).0, Some(2));
+    let mesh = root.join("copy/scene/case.msh");
+    let text = std::fs::read_to_string(&mesh).expect("a mesh");
+    std::fs::write(&mesh, text + "\n").expect("a file");
+    let run = mezha_in(root, None, &["run", "copy/scene/steps/0001", "--out", "never"]);
+    for (code, _, errors) in [run, checked(&[])] {
+        assert!(code == Some(2) && errors.contains("the result with this load step"), "{code:?} {errors}");
+    }
+    assert_ne!(checked(&["--set", "mesh.refine=0"]).0, Some(2), "another case");
 }
 
 #[test]
@@ -140,6 +157,39 @@ fn what_is_not_the_same_run_is_told() {
     );
     assert_eq!(errors.matches("mezha: ").count(), 1, "{errors}");
     assert!(!root.join("never").exists());
+    let (code, _, errors) = mezha_in(root, None, &["check", "result"]);
+    assert!(code == Some(2) && errors.contains("has changed"), "{errors}");
+
+    let said = run(root, 1, "run result --out another --set mesh.file=../source/scene/strip.msh");
+    assert!(!said.contains("the result beside"), "another mesh file: {said}");
+    let (code, output, errors) = mezha_in(root, None, &["check", "another"]);
+    assert_eq!(code, Some(0), "{output}{errors}");
+}
+
+/// A mesh above 4 MiB is not copied, but where it lies in the result that is replaced there may be no other. Files of the user's
+/// stay, whatever their names are.
+#[test]
+fn replacing_a_result_keeps_what_it_has_not_written() {
+    let root = copied("docs/first", &["case.toml", "strip.msh"]);
+    let root = root.path();
+    let coarse = "--set mesh.refine=1 --set output.fields=false";
+    run(root, 1, &format!("run source/scene --out result {coarse} --set title=first"));
+    let result = root.join("result");
+    let written = names_in(&result);
+    let files: Vec<String> = serde_json::from_value(summary(&result)["files"].clone()).expect("a list");
+    assert_eq!(files, written);
+    let mesh = std::fs::read_to_string(result.join("case.msh")).expect("a mesh") + &"\n".repeat(5 << 20);
+    std::fs::write(result.join("case.msh"), &mesh).expect("a file");
+    let mine = ["case_mine.toml", "contact_measured.csv", "steps/mine.txt", "summary_mine.json"];
+    std::fs::create_dir(result.join("steps")).expect("a folder");
+    mine.iter().for_each(|name| std::fs::write(result.join(name), name).expect("a file"));
+    run(root, 1, "run result --set title=second --out result/. --force");
+    assert_eq!(summary(&result)["files"], serde_json::json!(files));
+    mine.iter().for_each(|name| assert_eq!(&std::fs::read_to_string(result.join(name)).expect("a file"), name));
+    assert!(std::fs::read_to_string(result.join("case.msh")).expect("a mesh") == mesh, "the large mesh is gone");
+    let said = run(root, 1, "run result --out again");
+    assert!(said.contains("repeats the result beside the case file"), "{said}");
+    assert!(!root.join("again/case.msh").exists());
 }
 
 /// Runs of a study lie in folders like any other.

@@ -10,7 +10,7 @@ pub enum OutputError {
     #[error("`{}` already holds a result; replace it with --force, or choose another folder with --out", .0.display())]
     HoldsResult(PathBuf),
     /// The folder holds files, but no result: they are somebody else's, even with `--force`.
-    #[error("`{}` holds files but no summary.json, so it is not a result that may be replaced; choose another folder with --out", .0.display())]
+    #[error("`{}` holds files but no summary.json of mezha, so it is not a result that may be replaced; choose another folder with --out", .0.display())]
     HoldsOtherFiles(PathBuf),
     /// The target exists and is not a folder.
     #[error("`{}` is not a folder (or a link to one); choose another one with --out", .0.display())]
@@ -24,6 +24,20 @@ pub enum OutputError {
         .0.display()
     )]
     Overtaken(PathBuf),
+    /// The new result is whole and in its place, and not all of the one before could be removed.
+    #[error(
+        "the new result is in place in `{}`, but what was there before cannot be cleared away: {source}; what is left of it is in `{}`: take from there what is yours, and remove it",
+        target.display(),
+        old.display()
+    )]
+    Remains {
+        /// The folder of the new result.
+        target: PathBuf,
+        /// Where the rest of the old one is.
+        old: PathBuf,
+        /// What could not be done.
+        source: Box<OutputError>,
+    },
     /// The operating system refused.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {

@@ -9,8 +9,9 @@ use std::time::Duration;
 
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 
-use super::OutputError;
 use super::leftover::{make_hidden, recover, remove_empty, retire};
+use super::own_files::{OwnFiles, SUMMARY, names_within};
+use super::{OutputError, Summary};
 
 /// How often, and after which time, it is tried to remove a folder that other ranks still write to.
 const MOST_TRIES: usize = 5;
@@ -31,13 +32,15 @@ pub struct ResultFolder {
     replaced: Option<File>,
     /// Locked while this lives, so that nobody clears the temporary away.
     _lock: Option<File>,
+    /// A file of the replaced result that stays.
+    kept: Option<PathBuf>,
     committed: bool,
 }
 
 impl ResultFolder {
     /// Makes the temporary folder for the target `out`, with all folders above it.
     ///
-    /// The target may be missing or empty; if it holds a result (a `summary.json`) it is replaced with `force` only,
+    /// The target may be missing or empty; if it holds a result (a `summary.json` of mezha) it is replaced with `force` only,
     /// and if it holds anything else, never. What killed runs of this host have left beside it is cleared first.
     ///
     /// # Errors
@@ -46,6 +49,8 @@ impl ResultFolder {
         if out.file_name().is_none() {
             return Err(OutputError::NoName(out.to_path_buf()));
         }
+        // Without dots and slashes at its end, which a folder cannot be renamed to.
+        let out = &out.components().collect::<PathBuf>();
         recover(out);
         let replaced = match holds_result(out, force)? {
             true => Some(File::open(out).map_err(OutputError::io("open", out))?),
@@ -53,7 +58,7 @@ impl ResultFolder {
         };
         let (temporary, made_above) = make_hidden(out).map_err(OutputError::io("create a folder beside", out))?;
         let lock = File::open(&temporary).ok().filter(|folder| folder.try_lock().is_ok());
-        Ok(ResultFolder { target: out.to_path_buf(), temporary, made_above, replaced, _lock: lock, committed: false })
+        Ok(ResultFolder { target: out.to_path_buf(), temporary, made_above, replaced, _lock: lock, kept: None, committed: false })
     }
 
     /// The temporary folder, by its path from the root.
@@ -64,6 +69,24 @@ impl ResultFolder {
     /// Where the file `name` of this result is written to: a path in the temporary folder.
     pub fn path(&self, name: &str) -> PathBuf {
         self.temporary.join(name)
+    }
+
+    /// Writes the summary, with a list of all files of this result: it is the last of them.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn write_summary(&self, summary: &Summary) -> Result<(), OutputError> {
+        let mut files = names_within(&self.temporary)?;
+        files.push(SUMMARY.into());
+        files.sort();
+        files.dedup();
+        Summary { files, ..summary.clone() }.write(&self.path(SUMMARY))
+    }
+
+    /// If this file is one of the result that is to be replaced, it stays.
+    pub fn keep(&mut self, file: &Path) {
+        let inside = |folder: PathBuf| file.canonicalize().ok()?.strip_prefix(folder).ok().map(Path::to_path_buf);
+        self.kept = self.target.canonicalize().ok().and_then(inside);
     }
 
     /// Removes what was written so far.
@@ -79,17 +102,28 @@ impl ResultFolder {
         Ok(())
     }
 
-    /// Gives the whole result its name. A result that was there is removed; files in it that no run writes are carried over.
+    /// Gives the whole result its name. A result that was there is removed; files in it that it has not written are carried over.
     ///
     /// # Errors
-    /// [`OutputError::Overtaken`] if the target is no longer what it was at the start; else the operating system refuses.
+    /// [`OutputError::Overtaken`] if the target is no longer what it was at the start; [`OutputError::Remains`] if the new result
+    /// is in its place, and not all of the old one could be removed; else the operating system refuses.
     pub fn commit(mut self) -> Result<(), OutputError> {
         let left = match &self.replaced {
             Some(seen) if is_there(&self.target) => self.replace(seen)?,
             _ => self.appear()?,
         };
         self.committed = true;
-        left.map_or(Ok(()), |old| retire(&old, &self.target))
+        left.map_or(Ok(()), |old| {
+            let retired = self.retire(&old);
+            retired.map_err(|error| OutputError::Remains { target: self.target.clone(), old, source: Box::new(error) })
+        })
+    }
+
+    /// Removes the result that was replaced.
+    fn retire(&self, old: &Path) -> Result<(), OutputError> {
+        let own = OwnFiles::of(old).unwrap_or_default();
+        let own = self.kept.iter().fold(own, |own, kept| own.without(kept));
+        retire(old, &self.target, &own)
     }
 
     /// Takes the name of a target that is missing or empty: a folder never replaces one that holds anything.
@@ -126,7 +160,7 @@ impl ResultFolder {
             match self.appear() {
                 Ok(_) => return Ok(Some(old)),
                 // The one that has come instead is the newer one.
-                Err(error @ OutputError::Overtaken(_)) => return retire(&old, &self.target).and(Err(error)),
+                Err(error @ OutputError::Overtaken(_)) => return self.retire(&old).and(Err(error)),
                 Err(error) => return fs::rename(&old, &self.target).map_err(OutputError::io("restore", &old)).and(Err(error)),
             }
         }
@@ -182,7 +216,7 @@ fn holds_result(out: &Path, force: bool) -> Result<bool, OutputError> {
         return Err(OutputError::NotAFolder(out.to_path_buf()));
     }
     let empty = fs::read_dir(out).map_err(OutputError::io("read the folder", out))?.next().is_none();
-    let holds_result = out.join("summary.json").is_file();
+    let holds_result = OwnFiles::of(out).is_some();
     match (empty, holds_result, force) {
         (true, _, _) => Ok(false),
         (_, true, true) => Ok(true),
@@ -195,10 +229,20 @@ fn holds_result(out: &Path, force: bool) -> Result<bool, OutputError> {
 mod tests {
     use super::*;
 
-    fn write_result(out: &Path, force: bool, text: &str) -> Result<(), OutputError> {
+    fn write_result(out: &Path, force: bool, case: &str) -> Result<(), OutputError> {
         let folder = ResultFolder::create(out, force)?;
-        fs::write(folder.path("summary.json"), text).unwrap();
+        write_case(&folder, case);
         folder.commit()
+    }
+
+    /// A summary that tells the name of a case.
+    fn write_case(folder: &ResultFolder, case: &str) {
+        folder.write_summary(&Summary::new(case, 1)).unwrap();
+    }
+
+    /// The case of the result in a folder.
+    fn case_in(folder: &Path) -> String {
+        Summary::read(&folder.join("summary.json")).unwrap().case
     }
 
     fn names(folder: &Path) -> Vec<String> {
@@ -239,13 +283,15 @@ mod tests {
     fn result_is_replaced_by_force_alone() {
         let root = tempfile::tempdir().unwrap();
         let out = root.path().join("bars");
-        write_result(&out, false, "first").unwrap();
-        fs::write(out.join("fields_7.vtu"), "of the first").unwrap();
+        let first = ResultFolder::create(&out, false).unwrap();
+        fs::write(first.path("fields_7.vtu"), "of the first").unwrap();
+        write_case(&first, "first");
+        first.commit().unwrap();
         let refusal = write_result(&out, false, "second").unwrap_err();
         assert!(matches!(refusal, OutputError::HoldsResult(_)) && refusal.to_string().contains("--force"));
-        assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "first");
+        assert_eq!(case_in(&out), "first");
         write_result(&out, true, "second").unwrap();
-        assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "second");
+        assert_eq!(case_in(&out), "second");
         assert_eq!(names(&out), ["summary.json"]);
         assert_eq!(names(root.path()), ["bars"]);
     }
@@ -256,7 +302,7 @@ mod tests {
         let out = root.path().join("bars");
         write_result(&out, false, "first").unwrap();
         drop(ResultFolder::create(&out, true).unwrap());
-        assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "first");
+        assert_eq!(case_in(&out), "first");
     }
 
     #[test]
@@ -274,6 +320,46 @@ mod tests {
             assert!(matches!(write_result(&out, force, "third"), Err(OutputError::HoldsOtherFiles(_))));
         }
         assert_eq!(fs::read_to_string(out.join("notes.md")).unwrap(), "mine");
+    }
+
+    #[test]
+    fn a_summary_of_another_program_is_no_result() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("summary.json"), "[1, 2, 3]").unwrap();
+        let refusal = write_result(root.path(), true, "mine").unwrap_err();
+        assert!(matches!(refusal, OutputError::HoldsOtherFiles(_)), "{refusal}");
+    }
+
+    /// A run that was interrupted before it has read its mesh has no copy of it.
+    #[test]
+    fn a_file_that_is_needed_stays() {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("bars");
+        let write = |kept: &[&str], mesh: bool| {
+            let mut folder = ResultFolder::create(&out, true).unwrap();
+            kept.iter().for_each(|name| folder.keep(&out.join(name)));
+            if mesh {
+                fs::write(folder.path("case.msh"), "mesh").unwrap();
+            }
+            write_case(&folder, "next");
+            folder.commit().unwrap();
+        };
+        write(&[], true);
+        write(&["case.msh"], false);
+        assert_eq!(names(&out), ["case.msh", "summary.json"]);
+    }
+
+    #[test]
+    fn a_target_may_end_with_a_dot() {
+        let root = tempfile::tempdir().unwrap();
+        for out in ["fresh/.", "fresh/./", "deep/./fresh/"] {
+            write_result(&root.path().join(out), true, out).unwrap();
+            assert_eq!(case_in(&root.path().join(out)), out);
+        }
+        assert_eq!(
+            (names(root.path()), names(&root.path().join("deep"))),
+            (vec!["deep".into(), "fresh".into()], vec!["fresh".into()])
+        );
     }
 
     #[test]
@@ -297,14 +383,14 @@ mod tests {
             }
             let [first, second] = ["first", "second"].map(|text| {
                 let folder = ResultFolder::create(&out, force).unwrap();
-                fs::write(folder.path("summary.json"), text).unwrap();
+                write_case(&folder, text);
                 folder
             });
             assert_ne!(first.temporary(), second.temporary());
             first.commit().unwrap();
             let refusal = second.commit().unwrap_err();
             assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
-            assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "first");
+            assert_eq!(case_in(&out), "first");
             assert_eq!(names(root.path()), ["bars"]);
         }
     }
@@ -315,7 +401,7 @@ mod tests {
         let out = root.path().join("bars");
         write_result(&out, false, "first").unwrap();
         let folder = ResultFolder::create(&out, true).unwrap();
-        fs::write(folder.path("summary.json"), "second").unwrap();
+        write_case(&folder, "second");
         fs::remove_dir_all(&out).unwrap();
         folder.commit().unwrap();
         assert_eq!((names(&out), names(root.path())), (vec!["summary.json".into()], vec!["bars".into()]));
@@ -328,14 +414,14 @@ mod tests {
         let out = root.path().join("bars");
         write_result(&out, false, "first").unwrap();
         let [a, b] = [0, 1].map(|_| ResultFolder::create(&out, true).unwrap());
-        fs::write(a.path("summary.json"), "second").unwrap();
+        write_case(&a, "second");
         let old = a.replace_in_two_steps(a.replaced.as_ref().unwrap()).unwrap().unwrap();
-        assert_eq!(fs::read_to_string(old.join("summary.json")).unwrap(), "first");
-        retire(&old, &out).unwrap();
+        assert_eq!(case_in(&old), "first");
+        a.retire(&old).unwrap();
         let refusal = b.replace_in_two_steps(b.replaced.as_ref().unwrap()).unwrap_err();
         assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
         drop((a, b));
-        assert_eq!(fs::read_to_string(out.join("summary.json")).unwrap(), "second");
+        assert_eq!(case_in(&out), "second");
         assert_eq!(names(root.path()), ["bars"]);
     }
 
@@ -351,7 +437,7 @@ mod tests {
                 let Ok(folder) = ResultFolder::create(&out, true) else { continue };
                 let text = format!("{runner} {round}");
                 fs::write(folder.path("contact_a.csv"), &text).unwrap();
-                fs::write(folder.path("summary.json"), &text).unwrap();
+                write_case(&folder, &text);
                 match folder.commit() {
                     Ok(()) => won += 1,
                     Err(OutputError::Overtaken(_)) => {}
@@ -364,8 +450,7 @@ mod tests {
             let runners: Vec<_> = (0..4).map(|runner| scope.spawn(move || write(runner))).collect();
             runners.into_iter().map(|runner| runner.join().unwrap()).sum()
         });
-        let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
-        assert!(won > 0 && read("summary.json") == read("contact_a.csv"));
+        assert!(won > 0 && case_in(&out) == fs::read_to_string(out.join("contact_a.csv")).unwrap());
         assert_eq!((names(&out).len(), names(root.path())), (2, vec!["bars".into()]));
     }
 }

@@ -1,8 +1,9 @@
 //! What runs leave beside their results: for a while each, and for ever if they are killed.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, Permissions, TryLockError};
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, ErrorKind};
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
 use rustix::io::Errno;
@@ -10,11 +11,14 @@ use rustix::process::{Pid, test_kill_process};
 use rustix::system::uname;
 
 use super::OutputError;
+use super::own_files::OwnFiles;
 
 /// Ending of a result under construction, or of one that it has just replaced.
 const PARTIAL: &str = "partial";
 /// Ending of a result that is being replaced, where that takes two steps.
 const OLD: &str = "old";
+/// What the owner of a folder needs to change it.
+const OWNER: u32 = 0o700;
 
 /// A hidden folder beside a target, and who has made it.
 struct Leftover {
@@ -56,25 +60,82 @@ pub fn recover(out: &Path) {
         // Others may do the same at the same time.
         let _ = match (left.is_old, out.is_dir()) {
             (true, false) => fs::rename(&left.path, out).map_err(OutputError::io("restore", out)),
-            (_, true) => retire(&left.path, out),
-            (false, false) => fs::remove_dir_all(&left.path).map_err(OutputError::io("remove", &left.path)),
+            (is_old, true) if is_old || OwnFiles::of(&left.path).is_some() => {
+                retire(&left.path, out, &OwnFiles::of(&left.path).unwrap_or_default())
+            }
+            // Without a summary it was never a result.
+            _ => fs::remove_dir_all(&left.path).map_err(OutputError::io("remove", &left.path)),
         };
     }
 }
 
-/// Carries files that no run writes from the old folder to the new one, then removes the old folder.
+/// Carries all files that the old result has not written from its folder to the new one, then removes the old folder.
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn retire(old: &Path, new: &Path) -> Result<(), OutputError> {
-    for entry in fs::read_dir(old).map_err(OutputError::io("read the folder", old))? {
-        let name = entry.map_err(OutputError::io("read the folder", old))?.file_name();
+pub fn retire(old: &Path, new: &Path, own: &OwnFiles) -> Result<(), OutputError> {
+    carry_over(old, new, Path::new(""), own)?;
+    fs::remove_dir_all(old).map_err(OutputError::io("remove", old))
+}
+
+/// The same of the files within the folder `inner` of both; what the old result has written stays where it is. A file whose name
+/// the new result has, too, gets another one.
+fn carry_over(old: &Path, new: &Path, inner: &Path, own: &OwnFiles) -> Result<(), OutputError> {
+    let folder = old.join(inner);
+    make_writable(&folder);
+    for entry in fs::read_dir(&folder).map_err(OutputError::io("read the folder", &folder))? {
+        let entry = entry.map_err(OutputError::io("read the folder", &folder))?;
+        let name = inner.join(entry.file_name());
         let (from, to) = (old.join(&name), new.join(&name));
-        if !is_result_name(&name.to_string_lossy()) && !to.exists() {
-            fs::rename(&from, &to).map_err(OutputError::io("carry over", &from))?;
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        if is_folder && (own.has_within(&name) || to.is_dir()) {
+            carry_over(old, new, &name, own)?;
+        } else if is_folder || !own.has(&name) && !is_equal(&from, &to) {
+            let make = || to.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| rename(&from, &free_name(&to), is_folder));
+            make().map_err(OutputError::io("carry over", &from))?;
         }
     }
-    fs::remove_dir_all(old).map_err(OutputError::io("remove", old))
+    Ok(())
+}
+
+/// Gives a file or a folder another name. Who owns a folder may do so even if it is read-only.
+fn rename(from: &Path, to: &Path, is_folder: bool) -> io::Result<()> {
+    match (fs::rename(from, to), from.symlink_metadata()) {
+        (Err(error), Ok(before)) if is_folder && error.kind() == ErrorKind::PermissionDenied => {
+            make_writable(from);
+            fs::rename(from, to)?;
+            fs::set_permissions(to, before.permissions())
+        }
+        (renamed, _) => renamed,
+    }
+}
+
+/// Lets the owner of a folder change it; where this process must not allow it, the next step tells.
+fn make_writable(folder: &Path) {
+    if let Ok(found) = folder.metadata()
+        && found.permissions().mode() & OWNER != OWNER
+    {
+        let _ = fs::set_permissions(folder, Permissions::from_mode(found.permissions().mode() | OWNER));
+    }
+}
+
+/// Whether both are files of the same content.
+fn is_equal(one: &Path, other: &Path) -> bool {
+    let length = |path: &Path| path.symlink_metadata().ok().filter(|found| found.is_file()).map(|found| found.len());
+    length(one).is_some()
+        && length(one) == length(other)
+        && matches!((fs::read(one), fs::read(other)), (Ok(one), Ok(other)) if one == other)
+}
+
+/// The path itself, or, where there is something, with `.old`, `.old2` and so on.
+fn free_name(path: &Path) -> PathBuf {
+    let numbered = (1..).map(|number: usize| match number {
+        1 => ".old".into(),
+        _ => format!(".old{number}"),
+    });
+    let paths = numbered.map(|ending| path.with_file_name(format!("{}{ending}", name(path))));
+    let mut all = [path.to_path_buf()].into_iter().chain(paths);
+    all.find(|path| path.symlink_metadata().is_err()).unwrap_or_else(|| path.to_path_buf())
 }
 
 /// All hidden folders of runs beside `out`.
@@ -115,34 +176,11 @@ fn host() -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect()
 }
 
-/// Whether a run writes a file of this name.
-fn is_result_name(name: &str) -> bool {
-    const WRITTEN: [(&str, &str); 18] = [
-        ("summary", ".json"),
-        ("case", ".toml"),
-        ("contact_", ".csv"),
-        ("contact_", ".vtu"),
-        ("fields", "vtu"),
-        ("report.html", "report.html"),
-        ("pressure_", ".svg"),
-        ("gap_", ".svg"),
-        ("displacement_", ".svg"),
-        ("deformed", ".svg"),
-        ("accuracy", ".svg"),
-        ("steps", ".csv"),
-        ("steps", ".svg"),
-        ("fields", ".pvd"),
-        ("contact_", ".pvd"),
-        ("steps", "steps"),
-        ("case.msh", "case.msh"),
-        ("adapted.msh", "adapted.msh"), // and no other mesh of the user's
-    ];
-    WRITTEN.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::own_files::names_within;
     use super::*;
+    use serde_json::json;
     use std::process::Command;
 
     /// A process that was there once.
@@ -206,12 +244,43 @@ mod tests {
         assert!(!path.exists());
     }
 
+    /// Folders may be read-only, and names resemble those of results.
     #[test]
-    fn meshes_of_the_user_are_no_results() {
-        assert!(["adapted.msh", "case.msh", "accuracy.svg", "summary.json"].iter().all(|name| is_result_name(name)));
-        assert!(
-            !["adapted_fine.msh", "mesh.msh", "my_case.msh", "adapted.geo", "notes.md"].iter().any(|name| is_result_name(name))
-        );
+    fn what_the_result_has_not_written_is_carried_over() {
+        let root = tempfile::tempdir().unwrap();
+        let [old, new] = ["old", "new"].map(|folder| root.path().join(folder));
+        let own = ["summary.json", "case.toml", "steps/0001/contact_a.csv", "contact_a.csv"];
+        let mine = [
+            "case_mine.toml",
+            "contact_measured.csv",
+            "deformed_paper.svg",
+            "steps/mine.txt",
+            "paper/case.toml",
+            "case.msh",
+            "same",
+        ];
+        for name in own.iter().chain(&mine) {
+            fs::create_dir_all(old.join(name).parent().unwrap()).unwrap();
+            fs::write(old.join(name), name).unwrap();
+        }
+        fs::write(old.join("summary.json"), json!({"mezha": "0", "status": "converged", "files": own}).to_string()).unwrap();
+        for folder in ["steps/0001", "steps", "paper", ""] {
+            fs::set_permissions(old.join(folder), Permissions::from_mode(0o555)).unwrap();
+        }
+        fs::create_dir_all(&new).unwrap();
+        [("case.toml", "new"), ("case.msh", "new"), ("same", "same")]
+            .iter()
+            .for_each(|(name, text)| fs::write(new.join(name), text).unwrap());
+        retire(&old, &new, &OwnFiles::of(&old).unwrap()).unwrap();
+        let mut expected = mine.map(|name| if name == "case.msh" { "case.msh.old" } else { name }).to_vec();
+        expected.extend(["case.toml", "case.msh"]);
+        expected.sort();
+        assert_eq!(names_within(&new).unwrap(), expected);
+        let read = |name: &str| fs::read_to_string(new.join(name)).unwrap();
+        assert_eq!([read("case.msh.old"), read("case.msh"), read("case.toml")], ["case.msh", "new", "new"]);
+        assert_eq!(new.join("paper").metadata().unwrap().permissions().mode() & 0o777, 0o555);
+        assert!(!old.exists());
+        make_writable(&new.join("paper"));
     }
 
     #[test]

@@ -20,6 +20,7 @@ mod folder;
 mod leftover;
 mod machine;
 pub mod markup;
+mod own_files;
 pub mod plot;
 pub mod report;
 mod steps;

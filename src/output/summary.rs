@@ -38,6 +38,9 @@ pub struct Summary {
     /// What made the result, and of what; null in results of older versions.
     #[serde(default)]
     pub provenance: Option<Provenance>,
+    /// Names of all files of the result, relative to its folder, sorted: a run that replaces it removes these and no others.
+    #[serde(default)]
+    pub files: Vec<String>,
     /// The mesh after refinement.
     pub mesh: Mesh,
     /// Sizes of the linear system.

@@ -3,7 +3,7 @@
 use super::known::check_pressures;
 use super::proposals::{proposed_contacts, proposed_supports};
 use super::turns::far_turns;
-use super::{RunError, accuracy, memory, scene};
+use super::{RunError, accuracy, memory, origin, scene};
 use crate::body::Material;
 use crate::case::{Case, read_text};
 use crate::element::{Order, Plane};
@@ -45,7 +45,9 @@ pub fn check(case: &Case) -> Result<Checked, RunError> {
 }
 
 fn describe(case: &Case) -> Result<Checked, RunError> {
-    let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
+    let bytes = scene::read_mesh_file(case).map_err(RunError::Input)?;
+    origin::result_before(case, &bytes).map_err(RunError::Input)?;
+    let mesh = scene::read_mesh(case, &bytes).map_err(RunError::Input)?;
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = scene::assemble(case, mesh, partition);
     let scene = match &case.accuracy {

@@ -260,9 +260,13 @@ impl Unfinished {
 
     /// Makes what was reached the result, and gives the last words. If a rank has failed, there is none.
     fn interrupt(self, signal: &str) -> String {
-        let Self { folder, origin, mut summary, doing, started, out, warnings, title } = self;
+        let Self { mut folder, origin, mut summary, doing, started, out, warnings, title } = self;
         if folder.path(FAILED).exists() {
             return format!("ended by {signal}, since another rank has failed");
+        }
+        if origin.provenance.mesh_hash.is_none() {
+            // The mesh has not been read, so that there is no copy of it.
+            folder.keep(Path::new(&origin.provenance.mesh_file));
         }
         let seconds = started.elapsed().as_secs_f64();
         let reached = reached(&summary);
@@ -280,7 +284,7 @@ impl Unfinished {
             .empty()
             .and_then(|()| origin.write(&folder))
             .and_then(|()| title.as_ref().map_or(Ok(()), report))
-            .and_then(|()| summary.write(&folder.path("summary.json")))
+            .and_then(|()| folder.write_summary(&summary))
             .and_then(|()| folder.commit());
         match written {
             Ok(()) => format!("{reason}; summary.json in {} tells so", out.display()),

@@ -171,12 +171,11 @@ fn read_scene(
 ) -> Result<(Scene, Arc<ResultOrigin>), RunError> {
     let _stage = stages.mesh.enter();
     let bytes = input::share_mesh(case, options.inputs.as_ref(), session)?;
-    let origin = if session.rank() == 0 { origin.with_mesh(case, bytes.clone()) } else { origin };
-    let before = if session.rank() == 0 { origin.before(case) } else { None };
-    let refused = before.as_ref().map_or(Ok(()), |before| origin.refuse_other_mesh(case, before));
-    session.agree(refused.map_err(|error| error.to_string())).map_err(RunError::Input)?;
+    let origin = if session.rank() == 0 { origin.with_mesh(case, bytes.clone(), &options.out) } else { origin };
+    let before = if session.rank() == 0 { origin::result_before(case, &bytes) } else { Ok(None) };
+    let before = session.agree(before).map_err(RunError::Input)?;
     if let Some(before) = before {
-        report.repeats(&origin.provenance, &before, &case.file);
+        report.repeats(&origin.provenance, &before, case);
     }
     let origin = Arc::new(origin);
     interruption::keep_origin(origin.clone());

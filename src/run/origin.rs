@@ -1,13 +1,13 @@
 //! What a result is made of: provenance, the case as it is run, and its mesh. With these a result folder repeats its run.
 
-use super::RunError;
+use crate::accuracy::Accuracy;
 use crate::case::{Case, sha256};
 use crate::origin::{COMMIT, COMPILER};
 use crate::output::summary::Provenance;
 use crate::output::{OutputError, ResultFolder, Summary, whole_machine};
 use crate::petsc::{Session, options, versions};
 use rustix::system::uname;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 /// The mesh of a case, in the folder of its result.
@@ -34,7 +34,7 @@ pub struct ResultOrigin {
 impl ResultOrigin {
     /// What is known before the mesh is read. **Collective**
     pub fn new(case: &Case, session: &Session) -> Self {
-        let petsc_options = options::of_user(session).join(" ");
+        let petsc_options = options::of_user(session).iter().map(|option| in_shell(option)).collect::<Vec<_>>().join(" ");
         let provenance = Provenance {
             commit: known(COMMIT),
             petsc: versions::petsc(),
@@ -44,7 +44,8 @@ impl ResultOrigin {
             command: command(session.size()),
             directory: std::env::current_dir().map_or_else(|_| String::new(), |folder| folder.display().to_string()),
             petsc_options,
-            case_hash: sha256(case.resolved_with_mesh(MESH).as_bytes()),
+            case_hash: case_hash(case),
+            step_hashes: case.steps.iter().map(|step| case_hash(&step.case)).collect(),
             mesh_hash: None,
             mesh_file: std::path::absolute(&case.mesh.file).unwrap_or_else(|_| case.mesh.file.clone()).display().to_string(),
             host: hosts(session),
@@ -60,10 +61,11 @@ impl ResultOrigin {
         &self.case
     }
 
-    /// The same with the bytes of the mesh file, on rank 0.
-    pub fn with_mesh(mut self, case: &Case, bytes: Vec<u8>) -> Self {
+    /// The same with the bytes of the mesh file, on rank 0, for a result in the folder `out`.
+    pub fn with_mesh(mut self, case: &Case, bytes: Vec<u8>, out: &Path) -> Self {
         self.provenance.mesh_hash = Some(sha256(&bytes));
-        if bytes.len() <= MOST_COPIED {
+        // A result that is replaced may have the only copy of the mesh.
+        if bytes.len() <= MOST_COPIED || is_within(&case.mesh.file, out) {
             self.case = case.resolved_with_mesh(MESH);
             self.mesh = Some(bytes);
         }
@@ -75,28 +77,6 @@ impl ResultOrigin {
         match &self.mesh {
             Some(_) => step.resolved_with_mesh(&format!("{}{MESH}", "../".repeat(levels))),
             None => step.resolved(),
-        }
-    }
-
-    /// What made the result that lies beside a case file, if that file is in a result folder and still the same; on rank 0.
-    pub fn before(&self, case: &Case) -> Option<Provenance> {
-        let summary = case.file.with_file_name("summary.json");
-        let before = Summary::read(&summary).ok()?.provenance?;
-        (before.case_hash == self.provenance.case_hash).then_some(before)
-    }
-
-    /// Refuses another mesh than that of the result beside an unchanged case.
-    ///
-    /// # Errors
-    /// [`RunError::Input`] with both hashes and the remedy.
-    pub fn refuse_other_mesh(&self, case: &Case, before: &Provenance) -> Result<(), RunError> {
-        match (&self.provenance.mesh_hash, &before.mesh_hash) {
-            (Some(now), Some(then)) if now != then => Err(RunError::Input(format!(
-                "{}: mesh.file = {}: the mesh has changed since the result beside the case was made (SHA-256 {then} then, {now} now), so that the run cannot be repeated; put the old mesh back, or copy case.toml and the mesh to a folder of their own to run the new one",
-                case.file.display(),
-                case.mesh.file.display()
-            ))),
-            _ => Ok(()),
         }
     }
 
@@ -114,21 +94,92 @@ impl ResultOrigin {
     }
 }
 
-/// What is said of a run that may repeat the result beside its case: the words, and whether they are a warning.
-pub fn repeats(now: &Provenance, before: &Provenance, file: &Path) -> (String, bool) {
+/// What made the result that a case file lies beside, if case and name of the mesh are still the same; None of a load step too,
+/// whose run begins elsewhere. On rank 0.
+///
+/// # Errors
+/// The mesh file has another SHA-256 than that of the result, also of a load step in its folder; words with both and the remedy.
+pub fn result_before(case: &Case, mesh: &[u8]) -> Result<Option<Provenance>, String> {
+    let beside = case.file.parent().unwrap_or(Path::new(""));
+    let hash = case_hash(case);
+    let read = |folder: &Path| Summary::read(&folder.join("summary.json")).ok()?.provenance;
+    let above = beside.join("../..");
+    let whole = read(beside).filter(|before| before.case_hash == hash);
+    let is_whole = whole.is_some();
+    let step = || read(&above).filter(|before| before.step_hashes.contains(&hash));
+    let Some(before) = whole.or_else(step) else { return Ok(None) };
+    let copy = if is_whole { beside } else { &above }.join(MESH);
+    let named = if copy.is_file() { copy } else { PathBuf::from(&before.mesh_file) };
+    if !is_same_file(&case.mesh.file, &named) {
+        return Ok(None);
+    }
+    let now = sha256(mesh);
+    match &before.mesh_hash {
+        Some(then) if *then != now => Err(format!(
+            "{}: mesh.file = {}: the mesh has changed since {} was made (SHA-256 {then} then, {now} now), so that the run cannot be repeated; put the old mesh back, or copy case.toml and the mesh to a folder of their own to run the new one",
+            case.file.display(),
+            case.mesh.file.display(),
+            if is_whole { "the result beside the case" } else { "the result with this load step" }
+        )),
+        _ => Ok(Some(before).filter(|_| is_whole)),
+    }
+}
+
+/// What may end the meshes of an accuracy elsewhere in another run: time and memory that are left. Empty if nothing does.
+pub fn may_end_elsewhere(accuracy: Option<&Accuracy>) -> String {
+    let Some(accuracy) = accuracy else { return String::new() };
+    let time = accuracy.most_seconds.map(|_| "time (accuracy.max_seconds)");
+    let memory = accuracy.most_unknowns.is_none().then_some("memory (accuracy.max_unknowns is not given)");
+    let all: Vec<&str> = time.into_iter().chain(memory).collect();
+    if all.is_empty() { String::new() } else { format!(", unless {} ends it on another mesh", all.join(" or ")) }
+}
+
+/// What is said of a run that may repeat the result beside its case: the words, and whether they are a warning. `unless` follows
+/// where it does repeat it.
+pub fn repeats(now: &Provenance, before: &Provenance, file: &Path, unless: &str) -> (String, bool) {
     let differences = now.differences(before);
     if differences.is_empty() {
-        return ("repeats the result beside the case file".into(), false);
+        return (format!("repeats the result beside the case file{unless}"), false);
     }
     let mut words = format!("not the same run as the result beside the case file: {}", differences.join("; "));
     let needs_options = now.petsc_options != before.petsc_options;
     if needs_options {
-        let mpirun = if before.ranks > 1 { format!("mpirun -n {} ", before.ranks) } else { String::new() };
-        let file = shlex::try_quote(&file.to_string_lossy()).map_or_else(|_| String::new(), |word| word.into_owned());
-        let options = if before.petsc_options.is_empty() { String::new() } else { format!(" -- {}", before.petsc_options) };
-        words += &format!("; `{mpirun}mezha run {file}{options}` repeats it");
+        words += &format!(
+            "; `{}` repeats it",
+            repeating(before, file, std::env::var_os("PETSC_OPTIONS").is_some_and(|all| !all.is_empty()))
+        );
     }
     (words, needs_options)
+}
+
+/// The command that repeats a run; options of the environment, if there are some now, are no part of it.
+fn repeating(before: &Provenance, file: &Path, has_environment: bool) -> String {
+    let environment = if has_environment { "env -u PETSC_OPTIONS " } else { "" };
+    let mpirun = if before.ranks > 1 { format!("mpirun -n {} ", before.ranks) } else { String::new() };
+    let file = shlex::try_quote(&file.to_string_lossy()).map_or_else(|_| String::new(), |word| word.into_owned());
+    let options = if before.petsc_options.is_empty() { String::new() } else { format!(" -- {}", before.petsc_options) };
+    format!("{environment}{mpirun}mezha run {file}{options}")
+}
+
+/// `-name value` as a shell takes it: a value may have blanks.
+fn in_shell(option: &str) -> String {
+    let words: Vec<&str> = option.splitn(2, ' ').collect();
+    shlex::try_join(words).unwrap_or_else(|_| option.to_owned())
+}
+
+/// SHA-256 of a resolved case whose mesh lies beside it.
+fn case_hash(case: &Case) -> String {
+    sha256(case.resolved_with_mesh(MESH).as_bytes())
+}
+
+/// Whether both paths lead to one file.
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
+}
+
+/// Whether a file lies in a folder, or in one within.
+fn is_within(file: &Path, folder: &Path) -> bool {
+    matches!((file.canonicalize(), folder.canonicalize()), (Ok(file), Ok(folder)) if file.starts_with(&folder))
 }
 
 /// A word that the build knew.
@@ -176,12 +227,35 @@ mod tests {
     #[test]
     fn a_run_with_other_options_is_told_how_to_repeat() {
         let before = Provenance { ranks: 2, petsc_options: "-ksp_type gcr".into(), ..Provenance::default() };
-        assert_eq!(repeats(&before, &before, Path::new("x")), ("repeats the result beside the case file".into(), false));
+        let said = repeats(&before, &before, Path::new("x"), ", unless");
+        assert_eq!(said, ("repeats the result beside the case file, unless".into(), false));
         let now = Provenance { petsc_options: String::new(), ..before.clone() };
-        let (words, warns) = repeats(&now, &before, Path::new("out/a b/case.toml"));
-        assert!(warns && words.ends_with("`mpirun -n 2 mezha run 'out/a b/case.toml' -- -ksp_type gcr` repeats it"), "{words}");
+        let (words, warns) = repeats(&now, &before, Path::new("out/a b/case.toml"), "");
+        assert!(warns && words.ends_with("mpirun -n 2 mezha run 'out/a b/case.toml' -- -ksp_type gcr` repeats it"), "{words}");
         let fewer = Provenance { ranks: 1, ..before.clone() };
-        let (words, warns) = repeats(&fewer, &before, Path::new("x"));
+        let (words, warns) = repeats(&fewer, &before, Path::new("x"), "");
         assert!(!warns && words.ends_with("ranks: 1 instead of 2"), "{words}");
+    }
+
+    #[test]
+    fn a_command_that_repeats_can_be_copied() {
+        let options = ["-ksp_type gcr", "-log_view :a b.txt", "-ksp_monitor"].map(in_shell).join(" ");
+        assert_eq!(options, "-ksp_type gcr -log_view ':a b.txt' -ksp_monitor");
+        let before = Provenance { ranks: 1, petsc_options: options, ..Provenance::default() };
+        let words = repeating(&before, Path::new("x"), false);
+        assert_eq!(words, "mezha run x -- -ksp_type gcr -log_view ':a b.txt' -ksp_monitor");
+        let bare = Provenance { ranks: 2, ..Provenance::default() };
+        assert_eq!(repeating(&bare, Path::new("x"), true), "env -u PETSC_OPTIONS mpirun -n 2 mezha run x");
+    }
+
+    #[test]
+    fn limits_of_time_and_memory_are_told() {
+        let limited = |most_unknowns, most_seconds| Accuracy { goals: Vec::new(), most_unknowns, most_seconds };
+        assert_eq!(may_end_elsewhere(None), "");
+        assert_eq!(may_end_elsewhere(Some(&limited(Some(1000), None))), "");
+        assert_eq!(
+            may_end_elsewhere(Some(&limited(None, Some(1.0)))),
+            ", unless time (accuracy.max_seconds) or memory (accuracy.max_unknowns is not given) ends it on another mesh"
+        );
     }
 }

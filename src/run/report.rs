@@ -74,8 +74,9 @@ impl Report {
     }
 
     /// Whether a run of the case beside a result repeats it, and if not, what differs.
-    pub fn repeats(&self, now: &Provenance, before: &Provenance, file: &Path) {
-        let (words, warns) = origin::repeats(now, before, file);
+    pub fn repeats(&self, now: &Provenance, before: &Provenance, case: &Case) {
+        let unless = origin::may_end_elsewhere(case.accuracy.as_ref());
+        let (words, warns) = origin::repeats(now, before, &case.file, &unless);
         if warns { self.warn(&words) } else { self.say(&words) }
     }
 

@@ -83,7 +83,7 @@ impl Run<'_> {
             let path = folder.path(accuracy::ADAPTED_MESH);
             std::fs::write(&path, own.to_gmsh()).map_err(OutputError::io("write", &path))?;
         }
-        summary.write(&folder.path("summary.json"))?;
+        folder.write_summary(summary)?;
         folder.commit()
     }
 

@@ -26,6 +26,9 @@ pub struct Provenance {
     pub petsc_options: String,
     /// SHA-256 of `case.toml` in the result folder, with `case.msh` as the name of the mesh.
     pub case_hash: String,
+    /// The same of the case of each load step; the key is missing if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub step_hashes: Vec<String>,
     /// SHA-256 of the mesh file; null if it was not read yet.
     pub mesh_hash: Option<String>,
     /// The mesh file, where it was read.

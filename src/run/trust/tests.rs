@@ -211,7 +211,7 @@ fn advice_names_nothing_that_an_accuracy_overrides() {
 #[test]
 fn bodies_that_pass_through_each_other_are_no_result() {
     let words = |closed: Option<Vec<[f64; 2]>>, missing| {
-        let contact = ContactSummary { closed, missing, ..ContactSummary::default() };
+        let contact = ContactSummary { closed, missing, force: Some(0.0), ..ContactSummary::default() };
         passed_through(&Summary { contact: [("seam".to_string(), contact)].into(), ..Summary::default() })
     };
     assert!(words(Some(vec![]), Some(0.9)).is_some_and(|words| words.starts_with("on contact seam nothing presses")));
