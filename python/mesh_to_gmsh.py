@@ -13,6 +13,7 @@ become physical curves:
 Second-order elements stay so: mezha takes curved sides from their midside nodes.
 """
 
+import os
 import sys
 from collections import Counter, defaultdict
 
@@ -95,7 +96,14 @@ def side(block, cell, number):
 def converted(file):
     """The mesh of a file with physical groups."""
     know_plane_strain()
+    if not os.path.isfile(file):
+        sys.exit(f"{file}: no such file")
+    if str(file).lower().endswith(".msh"):
+        sys.exit(f"{file}: mezha reads the files of Gmsh itself")
     mesh = meshio.read(file)
+    heights = mesh.points[:, 2:]
+    if heights.size and np.ptp(heights) > 1e-9 * np.ptp(mesh.points, axis=0).max():
+        sys.exit(f"{file}: does not lie in a plane z = constant; turn it into one, since mezha drops the coordinate z")
     sets, sides = cell_sets(mesh, file), {}
     if str(file).lower().endswith((".e", ".exo", ".ex2", ".g")):
         blocks, sides = exodus_sets(file, mesh)

@@ -36,7 +36,7 @@ fn a_first_case_runs_as_it_comes() {
         "between = [\"block.top\", \"disc.rim\"]   # they are drawn touching",
         "[support.bottom]       # held: by its name",
         "[load.top]          # pressed: by its name",
-        "#   \"disc.rim\": of half disc",
+        "#   \"disc.rim\": of \"half disc\"",
     ] {
         assert!(text.contains(words), "{words} in\n{text}");
     }
@@ -138,7 +138,13 @@ fn a_check_draws() {
     assert!(code == Some(2) && errors.contains("the figure wrong.svg shows what could be read"), "{errors}");
     let figure = std::fs::read_to_string(folder.path().join("wrong.svg")).expect("a figure");
     assert!(figure.contains(">bottom<") && figure.contains("no physical curve &quot;botom&quot;"), "{figure}");
-    // Nothing is written that cannot be, and only what was asked for is an error.
-    let (code, _, errors) = mezha_in(folder.path(), None, &["check", &case, "--draw", "wrong.svg/a.svg"]);
-    assert!(code == Some(1) && errors.contains("the figure cannot be written"), "{errors}");
+    // A figure takes the place of a figure at most, and of no file of the user's; folders are not made.
+    let before = std::fs::read_to_string(&file).expect("the case");
+    for (draw, words) in
+        [("wrong.svg/a.svg", "cannot be written"), ("nowhere/a.svg", "cannot be written"), (case.as_str(), "no figure")]
+    {
+        let (code, _, errors) = mezha_in(folder.path(), None, &["check", &case, "--draw", draw]);
+        assert!(code == Some(2) && errors.contains(words), "{draw}: {code:?} {errors}");
+    }
+    assert_eq!(std::fs::read_to_string(&file).expect("the case"), before);
 }

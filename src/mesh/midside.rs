@@ -30,6 +30,10 @@ const JUMP: f64 = 0.5;
 /// Curvatures of neighbours on one circle differ by this share of their sum at most.
 const EQUAL: f64 = 1e-3;
 
+/// Tangents of neighbours on one circle differ by this angle (radians) at most: two arcs that differ by more have a corner
+/// between them, however blunt, since circles tell their tangents to all digits.
+const KINK: f64 = 1e-3;
+
 /// A curved side: first end, midside node, second end.
 #[derive(Clone, Copy)]
 struct Bow {
@@ -179,8 +183,12 @@ fn chains(bows: &[Bow]) -> Vec<Vec<Bow>> {
 
 /// Whether one side goes on as another that begins at its end.
 fn go_on(bow: &Bow, other: &Bow) -> bool {
-    let turn = (-bow.reversed().tangent()).dot(&other.tangent());
-    turn > CORNER.cos() && differ_by(bow, other) <= JUMP
+    turns_by_less(CORNER, bow, other) && differ_by(bow, other) <= JUMP
+}
+
+/// Whether the tangents of a side and of the one that begins at its end differ by less than an angle (radians).
+fn turns_by_less(angle: f64, bow: &Bow, other: &Bow) -> bool {
+    (-bow.reversed().tangent()).dot(&other.tangent()) > angle.cos()
 }
 
 /// Difference of the curvatures as a share of their sum.
@@ -194,7 +202,7 @@ fn curves(chain: &[Bow]) -> Vec<(Curve, &[Bow])> {
     if let Some(circle) = circle_through(chain) {
         return vec![(circle, chain)];
     }
-    let arcs = chain.chunk_by(|a, b| differ_by(a, b) <= EQUAL);
+    let arcs = chain.chunk_by(|a, b| differ_by(a, b) <= EQUAL && turns_by_less(KINK, a, b));
     let circles: Option<Vec<(Curve, &[Bow])>> =
         arcs.map(|arc| Some((circle_through(arc).filter(|_| arc.len() > 1)?, arc))).collect();
     circles.unwrap_or_else(|| vec![(spline_through(chain), chain)])
@@ -309,6 +317,21 @@ mod tests {
         assert!(distance < 1e-13, "{distance}");
         let bent = mesh.edges.iter().filter_map(|edge| edge.shape.as_ref());
         assert!(bent.clone().all(|shape| matches!(*shape.curve, Curve::Circle { .. })) && bent.count() == 14);
+    }
+
+    /// A lens of two arcs of one radius, whose corners turn by less than five degrees: no spline goes around them.
+    #[test]
+    fn a_blunt_corner_between_two_arcs_stays_one() {
+        let shift = 0.04;
+        let at = |angle: f64| {
+            let radius = (1.0 - (shift * angle.sin()).powi(2)).sqrt() - shift * angle.cos().abs();
+            radius * Point::new(angle.cos(), angle.sin())
+        };
+        let mesh = built(fan(24, at));
+        let distance = off(&mesh, |x| (Point::new(x.x.abs() + shift, x.y).norm() - 1.0).abs());
+        assert!(distance < 1e-13, "{distance}");
+        let bent = mesh.edges.iter().filter_map(|edge| edge.shape.as_ref());
+        assert!(bent.clone().all(|shape| matches!(*shape.curve, Curve::Circle { .. })) && bent.count() == 24);
     }
 
     #[test]

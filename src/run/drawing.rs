@@ -25,7 +25,7 @@ const LONGEST_REMARK: usize = 84;
 /// tells from the name of the case where to. Nothing is drawn where there is no mesh to speak of.
 ///
 /// # Errors
-/// [`RunError::Failed`] if the figure cannot be written.
+/// [`RunError::Input`] if the figure cannot be written, or would take the place of something else.
 pub fn draw_case(
     file: &Path,
     overrides: &[String],
@@ -42,10 +42,21 @@ pub fn draw_case(
     }
     let Ok(svg) = content.svg() else { return Ok(None) };
     let path = figure(&case.name);
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let written = folder.map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&path, svg));
-    written.map_err(|error| RunError::Failed(format!("{}: the figure cannot be written: {error}", path.display())))?;
+    write_figure(&path, &svg)?;
     Ok(Some(path))
+}
+
+/// Writes a figure, in the place of an older one at most.
+fn write_figure(path: &Path, svg: &str) -> Result<(), RunError> {
+    let is_other = std::fs::read(path).is_ok_and(|bytes| !bytes.starts_with(b"<svg") && !bytes.starts_with(b"<?xml"));
+    if is_other {
+        let words = "is there already, and no figure; name another file, as in --draw scene.svg";
+        return Err(RunError::Input(format!("{} {words}", path.display())));
+    }
+    // The folder of results is made anew; one that the user names has to be there.
+    let results = path.parent().filter(|folder| *folder == Path::new("out"));
+    let written = results.map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(path, svg));
+    written.map_err(|error| RunError::Input(format!("{}: the figure cannot be written: {error}", path.display())))
 }
 
 /// The mesh of a case as it is solved on, or as far as it can be read.
@@ -90,10 +101,10 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
     };
     let title = if case.title.is_empty() { &case.name } else { &case.title };
     let is_big = mesh.edges.len() > MOST_EDGES;
-    let curves = mesh.physical_curves().into_iter().filter(|boundary| !boundary.name.starts_with("rigid."));
+    let curves = mesh.physical_curves().into_iter().filter(|boundary| case.tool_of(&boundary.name).is_none());
     let mut figure = SceneFigure {
         title: title.clone(),
-        parts: parts(mesh),
+        parts: parts(case, mesh),
         edges: if is_big { Vec::new() } else { (0..mesh.edges.len() as u32).map(|edge| points(mesh, edge)).collect() },
         boundaries: curves
             .take(MOST_NAMES)
@@ -118,7 +129,7 @@ fn points(mesh: &MacroMesh, edge: u32) -> Vec<[f64; 2]> {
 }
 
 /// Parts of bodies with their triangles.
-fn parts(mesh: &MacroMesh) -> Vec<DrawnPart> {
+fn parts(case: &Case, mesh: &MacroMesh) -> Vec<DrawnPart> {
     let part = |number: usize| {
         let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].part as usize == number).collect();
         let around = |&triangle: &usize| {
@@ -138,7 +149,7 @@ fn parts(mesh: &MacroMesh) -> Vec<DrawnPart> {
         let body = &mesh.bodies[surface.body as usize];
         let name = if *body == surface.name { body.clone() } else { format!("{body}: {}", surface.name) };
         DrawnPart {
-            is_rigid: body.starts_with("rigid."),
+            is_rigid: case.tool_of(body).is_some(),
             name,
             triangles: own.iter().map(around).collect(),
             inside: inside(mesh, &own).into(),

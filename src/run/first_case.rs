@@ -358,7 +358,7 @@ angle = 0.0               # and does not turn
                 text,
                 "#   {}: of {}, length {}, x from {} to {}, y from {} to {}",
                 quoted(curve.name),
-                self.mesh.bodies[curve.body],
+                quoted(&self.mesh.bodies[curve.body]),
                 short(curve.length),
                 short(low.x),
                 short(high.x),

@@ -10,7 +10,7 @@ use std::path::Path;
 use toml::Value;
 
 /// Supports that are proposed at most: whoever lacks more has to think anyway.
-const MOST_SUPPORTS: usize = 12;
+const MOST_SUPPORTS: usize = 100;
 
 /// Components of a motion that are below this share of the largest are none.
 const FAINT: f64 = 1e-3;
