@@ -72,7 +72,7 @@ fn steps_that_scale_nothing_or_are_not_alike_are_refused() {
     let steps = |words: &str, expected: &[&str]| bad_key("steps", words, expected);
     steps("{ p = { factors = [], scales = [\"load.top\"] } }", &["steps.p.factors = []", "must not be empty"]);
     steps("{ p = { factors = [0.5, nan], scales = [\"load.top\"] } }", &["steps.p.factors", "entry 2: must be a finite number"]);
-    steps("{ p = { factors = [1], scales = [\"load.topp\"] } }", &["steps.p.scales", "did you mean \"top\"?"]);
+    steps("{ p = { factors = [1], scales = [\"load.topp\"] } }", &["steps.p.scales", "did you mean \"load.top\"?"]);
     steps("{ p = { factors = [1], scales = [\"contact.seam.gap\"] } }", &["steps.p.scales", "gap = \"closed\""]);
     steps(
         "{ p = { factors = [1, 2], scales = [\"load.top\"] }, q = { factors = [1], scales = [\"support.wall\"] } }",

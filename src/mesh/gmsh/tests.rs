@@ -88,7 +88,7 @@ fn what_cannot_be_read_is_refused_with_line_and_remedy() {
         ("4.1 0 8", "4 0 8", "line 2: mesh format 4 is not read, only 2.2 and 4.1; convert it with `gmsh square.msh"),
         ("4.1 0 8", "4.1 1 4", "line 2: expected `4.1 0 8` for ASCII or `4.1 1 8` for binary, found `4.1 1 4`"),
         ("4.1 0 8", "4.1 1 8", "line 2: the order of bytes of this binary file is not known"),
-        ("4.1 0 8", "2.2 0 8", "in $Nodes, expected 1 numbers"),
+        ("4.1 0 8", "2.2 0 8", "line 16: node 2 has z = 5"),
         ("2 6 2 2", "2 6 3 2", "in $Elements, expected 5 numbers"),
         ("2 6 2 2", "2 6 4 2", "mesh the plane scene with `gmsh -2`"),
         ("2 6 2 2", "2 6 21 2", "`gmsh -2 -order 2`"),
