@@ -125,7 +125,8 @@ fn an_older_result_does_not_pass_for_that_of_an_interrupted_run() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("result");
     std::fs::create_dir(&out).expect("a folder");
-    for (name, text) in [("summary.json", "{\"status\": \"converged\"}"), ("fields.vtu", "old"), ("notes.md", "mine")] {
+    let summary = r#"{"mezha": "0.1.0", "status": "converged", "files": ["fields.vtu", "summary.json"]}"#;
+    for (name, text) in [("summary.json", summary), ("fields.vtu", "old"), ("notes.md", "mine")] {
         std::fs::write(out.join(name), text).expect("a file");
     }
     let child = start(folder.path(), None, &format!("{} --force", long_run("result")));
