@@ -258,9 +258,10 @@ fn overlaps(contact: &summary::ContactSummary) -> bool {
 /// presses, since no segment saw them meet.
 pub fn passed_through(summary: &Summary) -> Option<String> {
     let is_passed = |contact: &summary::ContactSummary| {
-        // A contact that just touches has a force, however small, and overlaps by nothing but rounding.
+        // Bodies that just touch overlap by nothing but rounding, which is worth no force.
+        let is_worth = contact.unresolved_force.is_some_and(|force| force > 0.0);
         let is_idle = contact.force == Some(0.0) && contact.closed.as_ref().is_some_and(Vec::is_empty);
-        is_idle && contact.missing.is_some_and(|missing| missing > MOST_PASSED)
+        is_idle && is_worth && contact.missing.is_some_and(|missing| missing > MOST_PASSED)
     };
     let passed: Vec<&str> = summary.contact.iter().filter(|(_, contact)| is_passed(contact)).map(|at| at.0.as_str()).collect();
     (!passed.is_empty()).then(|| {

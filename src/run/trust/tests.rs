@@ -211,7 +211,8 @@ fn advice_names_nothing_that_an_accuracy_overrides() {
 #[test]
 fn bodies_that_pass_through_each_other_are_no_result() {
     let words = |closed: Option<Vec<[f64; 2]>>, missing| {
-        let contact = ContactSummary { closed, missing, force: Some(0.0), ..ContactSummary::default() };
+        let (force, unresolved_force) = (Some(0.0), Some(0.1));
+        let contact = ContactSummary { closed, missing, force, unresolved_force, ..ContactSummary::default() };
         passed_through(&Summary { contact: [("seam".to_string(), contact)].into(), ..Summary::default() })
     };
     assert!(words(Some(vec![]), Some(0.9)).is_some_and(|words| words.starts_with("on contact seam nothing presses")));
