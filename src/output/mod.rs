@@ -14,6 +14,7 @@
 //! All of it goes through a [`ResultFolder`], which appears under its name only when it is whole.
 //! Nothing here communicates: in parallel every rank writes its own piece of the fields, and rank 0 the rest.
 
+mod clock;
 mod csv;
 mod error;
 mod folder;
@@ -27,6 +28,7 @@ mod steps;
 pub mod summary;
 pub mod vtk;
 
+pub use clock::clock;
 pub use csv::{ContactPoint, write_contact};
 pub use error::OutputError;
 pub use folder::ResultFolder;

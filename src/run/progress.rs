@@ -4,6 +4,7 @@
 //! longest assembly, and no digit depends on it.
 
 use crate::arguments::ShowProgress;
+use crate::output::clock;
 use crate::petsc::{SolveAtWork, solve_at_work};
 use crate::system::{Event, Work};
 use rustix::fs::{Mode, OFlags};
@@ -246,13 +247,6 @@ fn time_left(solve: &SolveAtWork, seconds: f64) -> Option<f64> {
     let to_fall = (solve.residual / solve.tolerance).ln();
     let is_known = solve.iterations >= 2 && fallen > 0.0 && to_fall > 0.0 && to_fall.is_finite();
     is_known.then(|| (to_fall * seconds / fallen).min(1e6))
-}
-
-/// `0:05`, `12:34`, `1:02:03`
-fn clock(time: Duration) -> String {
-    let seconds = time.as_secs();
-    let (hours, minutes, seconds) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
-    if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }
 }
 
 #[cfg(test)]

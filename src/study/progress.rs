@@ -2,11 +2,12 @@
 
 use std::io::{Write, stdout};
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::ended::{Ended, RunStatus};
 use super::folder::ResultPlace;
 use super::plan::{Plan, PlannedRun};
+use crate::output::clock;
 
 /// Prints to standard output; a reader that has gone away is no reason to stop.
 pub struct Progress {
@@ -90,24 +91,9 @@ fn count(number: usize, thing: &str) -> String {
     if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
 }
 
-/// `0:05`, `12:34`, `1:02:03`
-fn clock(time: Duration) -> String {
-    let seconds = time.as_secs();
-    let (hours, minutes, seconds) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
-    if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn times_read_like_a_clock() {
-        let table = [(0, "0:00"), (65, "1:05"), (3599, "59:59"), (3600, "1:00:00"), (90_061, "25:01:01")];
-        for (seconds, words) in table {
-            assert_eq!(clock(Duration::from_secs(seconds)), words);
-        }
-    }
 
     #[test]
     fn a_run_is_told_by_what_moves() {
