@@ -45,7 +45,21 @@ impl Halo {
 
     /// Brings the values of the far nodes, in their order, and does `meanwhile` what needs none of them. **Collective**
     pub fn fetch<T: Datum>(&self, x: &[[T; 2]], far: &mut [[T; 2]], meanwhile: impl FnOnce()) {
-        let sent: Vec<[T; 2]> = self.sent.iter().map(|&node| x[node as usize]).collect();
+        self.bring(&self.sent(x), far, meanwhile);
+    }
+
+    /// The same where `meanwhile` changes the values here: other ranks get those of before. **Collective**
+    pub fn fetch_before<T: Datum>(&self, x: &mut [[T; 2]], far: &mut [[T; 2]], meanwhile: impl FnOnce(&mut [[T; 2]])) {
+        let sent = self.sent(x);
+        self.bring(&sent, far, || meanwhile(x));
+    }
+
+    /// The values that other ranks need.
+    fn sent<T: Datum>(&self, x: &[[T; 2]]) -> Vec<[T; 2]> {
+        self.sent.iter().map(|&node| x[node as usize]).collect()
+    }
+
+    fn bring<T: Datum>(&self, sent: &[[T; 2]], far: &mut [[T; 2]], meanwhile: impl FnOnce()) {
         let from: Vec<(i32, Range<usize>)> = parts(&self.from).collect();
         exchange(&self.session, (sent.as_flattened(), &twice(&self.to)), (far.as_flattened_mut(), &twice(&from)), meanwhile);
     }

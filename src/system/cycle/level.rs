@@ -128,20 +128,21 @@ impl<T: Precision + Datum> CycleLevel<T> {
     /// **Collective**
     pub fn relax(&mut self, b: &[[T; 2]], x: &mut [[T; 2]], from_zero: bool) {
         let Self { lattice, rows, halo, far, .. } = self;
-        let mut elsewhere: &[[T; 2]] = &[];
         if from_zero {
             x.fill([T::default(); 2]);
-        } else if let Some(halo) = halo {
-            halo.fetch(x, far, || ());
-            elsewhere = far;
         }
         match rows {
             LevelRows::All(rows) => {
-                rows.forward(0..rows.nodes().len(), b, x, elsewhere);
-                rows.backward(0..rows.nodes().len(), b, x, elsewhere);
+                rows.forward(0..rows.nodes().len(), b, x, &[]);
+                rows.backward(0..rows.nodes().len(), b, x, &[]);
             }
             LevelRows::Own { strips, even, stored } => {
-                LatticeRows { strips, even, stored: &*stored.borrow(), order: lattice.order() }.relax(b, x, elsewhere);
+                let rows = LatticeRows { strips, even, stored: &*stored.borrow(), order: lattice.order() };
+                match halo.as_ref().filter(|_| !from_zero) {
+                    Some(halo) => halo.fetch_before(x, far, |x| rows.begin_to_relax(b, x)),
+                    None => rows.begin_to_relax(b, x),
+                }
+                rows.end_to_relax(b, x, if from_zero { &[] } else { far });
             }
         }
     }

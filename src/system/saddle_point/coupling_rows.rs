@@ -1,6 +1,7 @@
 //! Rows of `B` on every level, in the nodes' frames: `B_l = B_{l+1} P_{l+1}`, without any matrix product.
 
 use crate::contact::DiagonalBlock;
+use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh};
 use crate::system::{Coupled, Discretisation, Space};
@@ -127,17 +128,20 @@ impl CouplingRows {
         neighbours
     }
 
-    /// Hands the 2 x 2 blocks of `Bᵀ D B` to `add(row node, column node, block row by row)`.
-    pub fn weighted_square(&self, weights: &[DiagonalBlock], mut add: impl FnMut(usize, usize, [f64; 4])) {
+    /// Hands the rows of `Bᵀ D B` to `add(row node, couplings)`, each in parts that are to be summed; a coupling is a column node and
+    /// its block.
+    pub fn weighted_square(&self, weights: &[DiagonalBlock], mut add: impl FnMut(usize, &[(usize, Block)])) {
+        let mut couplings = Vec::new();
         for block in weights {
             for (p, &i) in block.rows.iter().enumerate() {
-                for (q, &j) in block.rows.iter().enumerate() {
-                    for &(a, left) in self.row(i) {
-                        for &(b, right) in self.row(j) {
-                            let d = block.values[p][q];
-                            add(a, b, [d * left.x * right.x, d * left.x * right.y, d * left.y * right.x, d * left.y * right.y]);
-                        }
+                for &(row, left) in self.row(i) {
+                    couplings.clear();
+                    for (q, &j) in block.rows.iter().enumerate() {
+                        let weighted = block.values[p][q] * left;
+                        let of = |right: &Point| [weighted.x, weighted.y].map(|v| [v * right.x, v * right.y]);
+                        couplings.extend(self.row(j).iter().map(|(column, right)| (*column, of(right))));
                     }
+                    add(row, &couplings);
                 }
             }
         }

@@ -136,9 +136,9 @@ impl SaddlePoint {
         }
         for ((matrix, rows), space) in self.stiffness.iter_mut().zip(&self.rows).zip(&problem.spaces) {
             let mut result = Ok(());
-            rows.weighted_square(change, |a, b, values| {
-                if space.own.contains(&a) && result.is_ok() {
-                    result = matrix.add_block(a, b, &values);
+            rows.weighted_square(change, |row, couplings| {
+                if space.own.contains(&row) && result.is_ok() {
+                    result = matrix.add_to_row(row, couplings);
                 }
             });
             result?;

@@ -134,9 +134,11 @@ impl MultiplierBlocks {
             let at = [self.number[i] as Index];
             let here = own_rows.contains(&self.number[i]);
             let scale = if active[i] { self.scale[i] } else { 0.0 };
-            for &(node, value) in rows.row(i).iter().filter(|_| here) {
-                let columns = [2 * node as Index, 2 * node as Index + 1];
-                self.coupling.insert(&at, &columns, &[value.x * scale, value.y * scale])?;
+            if here {
+                let row = rows.row(i).iter();
+                let (columns, values): (Vec<_>, Vec<_>) =
+                    row.map(|(node, v)| ([2 * *node as Index, 2 * *node as Index + 1], [v.x * scale, v.y * scale])).unzip();
+                self.coupling.insert(&at, columns.as_flattened(), values.as_flattened())?;
             }
             let column = corrected(rows, augmentation, &self.jumps, i);
             if let Some(transposed) = &self.transposed {

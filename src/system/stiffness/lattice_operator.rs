@@ -61,15 +61,16 @@ impl LatticeOperator {
         Self::new(rows, &self.own, far, &self.strips, &even, session)
     }
 
-    /// Adds a block to the couplings of two nodes, the row being one of this rank's. Holds after
-    /// [`LatticeOperator::assemble`].
+    /// Adds blocks to the couplings of a node, one of this rank's, with others. Holds after [`LatticeOperator::assemble`].
     ///
     /// # Panics
-    /// If there is no place for it: rows of contact have places.
-    pub fn add_block(&self, row: usize, column: usize, block: &Block) {
+    /// If there is no place for one: rows of contact have places.
+    pub fn add_to_row(&self, row: usize, couplings: &[(usize, Block)]) {
         let mut rows = self.rows.borrow_mut();
         let k = rows.place(row - self.own.start).expect("rows of contact are stored");
-        rows.add(k, BlockColumn::of(column, &self.own, &self.far), block);
+        for (column, block) in couplings {
+            rows.add(k, BlockColumn::of(*column, &self.own, &self.far), block);
+        }
     }
 
     /// In which order rows are worked on.
@@ -191,11 +192,15 @@ impl Operator for Rc<LatticeOperator> {
     fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()> {
         let (b, mut x, stored) = (b.values(), x.values_mut(), self.rows.borrow());
         let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
-        let far = if from_zero { Vec::new() } else { self.fetch(x, || ()) };
+        let (rows, mut far) = (self.lattice_rows(&stored), Vec::new());
         if from_zero {
             x.fill([0.0; 2]);
+            rows.begin_to_relax(b, x);
+        } else {
+            far.resize(self.far.len(), [0.0; 2]);
+            self.halo.fetch_before(x, &mut far, |x| rows.begin_to_relax(b, x));
         }
-        self.lattice_rows(&stored).relax(b, x, &far);
+        rows.end_to_relax(b, x, &far);
         Ok(())
     }
 

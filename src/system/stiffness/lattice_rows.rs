@@ -9,13 +9,16 @@ use std::ops::Range;
 
 /// Which stored rows belong to nodes on sides of macro triangles, and which lie inside of one.
 ///
-/// A sweep goes forward through the sides, then forward and backward through one macro triangle after the other, and backward
-/// through the sides. Macro triangles do not couple to each other: so this is one symmetric sweep through all nodes, and on the
-/// way back those of a triangle are still in the cache.
+/// A sweep goes forward through the sides, those first that need no node of another rank: meanwhile the values of these arrive.
+/// Then it goes forward and backward through one macro triangle after the other, and backward through the sides. Macro triangles
+/// do not couple to each other: so this is one symmetric sweep through all nodes, and on the way back those of a triangle are
+/// still in the cache.
 #[derive(Clone, Debug, Default)]
 pub struct SweepOrder {
-    /// Stored rows on sides.
-    sides: Vec<Range<usize>>,
+    /// Stored rows on sides that need no node of another rank.
+    near_sides: Vec<Range<usize>>,
+    /// The others.
+    far_sides: Vec<Range<usize>>,
     /// Stored rows inside of each macro triangle.
     inside: Vec<Range<usize>>,
 }
@@ -27,7 +30,16 @@ impl SweepOrder {
         let inside: Vec<Range<usize>> = strips.triangles.iter().map(|t| at(t.nodes.start)..at(t.nodes.end)).collect();
         let starts = std::iter::once(0).chain(inside.iter().map(|range| range.end));
         let ends = inside.iter().map(|range| range.start).chain([rows.nodes().len()]);
-        Self { sides: starts.zip(ends).map(|(start, end)| start..end).filter(|range| !range.is_empty()).collect(), inside }
+        let mut sides = [Vec::new(), Vec::new()];
+        for k in starts.zip(ends).flat_map(|(start, end)| start..end) {
+            let of_kind: &mut Vec<Range<usize>> = &mut sides[usize::from(rows.needs_far(k))];
+            match of_kind.last_mut().filter(|last| last.end == k) {
+                Some(last) => last.end += 1,
+                None => of_kind.push(k..k + 1),
+            }
+        }
+        let [near_sides, far_sides] = sides;
+        Self { near_sides, far_sides, inside }
     }
 }
 
@@ -68,10 +80,15 @@ impl<T: Precision> LatticeRows<'_, T> {
         self.stored.residual(0..self.stored.nodes().len(), b, x, far, r);
     }
 
-    /// A symmetric Gauss-Seidel sweep; `far` are the values of other ranks, none stands for zeros.
-    pub fn relax(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        let (stored, SweepOrder { sides, inside }) = (self.stored, self.order);
-        sides.iter().for_each(|range| stored.forward(range.clone(), b, x, far));
+    /// The first part of a symmetric Gauss-Seidel sweep: forward through the sides that need no node of another rank.
+    pub fn begin_to_relax(&self, b: &[[T; 2]], x: &mut [[T; 2]]) {
+        self.order.near_sides.iter().for_each(|range| self.stored.forward(range.clone(), b, x, &[]));
+    }
+
+    /// The rest of it; `far` are the values of other ranks, none stands for zeros.
+    pub fn end_to_relax(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        let (stored, SweepOrder { near_sides, far_sides, inside }) = (self.stored, self.order);
+        far_sides.iter().for_each(|range| stored.forward(range.clone(), b, x, far));
         for (triangle, rows) in self.strips.triangles.iter().zip(inside) {
             let parts = &self.strips.alike[triangle.alike.clone()];
             let (kernels, nodes) = (&self.strips.kernels, &self.strips.nodes);
@@ -82,7 +99,9 @@ impl<T: Precision> LatticeRows<'_, T> {
             parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
         }
         self.even.relax(b, x, far);
-        sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
+        for sides in [far_sides, near_sides] {
+            sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
+        }
     }
 }
 

@@ -26,6 +26,7 @@ pub use stored_rows::StoredRows;
 pub use strip_set::Strips;
 
 use super::SystemError;
+use crate::element::Block;
 use crate::petsc::{Index, Matrix, Session};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -47,8 +48,8 @@ pub struct Stiffness {
     lattice: Rc<LatticeOperator>,
     matrix: Matrix,
     seen: SolverView,
-    /// Nodes of this rank whose rows have been added to since they were assembled.
-    changed: BTreeSet<usize>,
+    /// Nodes of this rank whose rows have been added to since they were assembled, each perhaps several times.
+    changed: Vec<usize>,
 }
 
 impl Stiffness {
@@ -60,7 +61,7 @@ impl Stiffness {
             SolverView::Entries => lattice.expanded(session)?,
         };
         matrix.set_positive_definite(true)?;
-        Ok(Self { lattice, matrix, seen, changed: BTreeSet::new() })
+        Ok(Self { lattice, matrix, seen, changed: Vec::new() })
     }
 
     /// What solvers see.
@@ -83,20 +84,24 @@ impl Stiffness {
         !self.lattice.strips.nodes.is_empty() || !self.lattice.even.triangles.is_empty()
     }
 
-    /// Adds a block to the couplings of two nodes of contact, the row being one of this rank's. Holds after
-    /// [`Stiffness::assemble`].
-    pub fn add_block(&mut self, row: usize, column: usize, block: &[f64; 4]) -> Result<(), SystemError> {
-        self.changed.insert(row);
-        self.lattice.add_block(row, column, &[[block[0], block[1]], [block[2], block[3]]]);
+    /// Adds blocks to the couplings of a node of contact, one of this rank's, with others; each is a column node and its block.
+    /// Holds after [`Stiffness::assemble`].
+    pub fn add_to_row(&mut self, row: usize, couplings: &[(usize, Block)]) -> Result<(), SystemError> {
+        self.changed.push(row);
+        self.lattice.add_to_row(row, couplings);
         if self.seen == SolverView::Entries {
-            self.matrix.add_blocks(&[row as Index], &[column as Index], block)?;
+            for (column, block) in couplings {
+                self.matrix.add_blocks(&[row as Index], &[*column as Index], block.as_flattened())?;
+            }
         }
         Ok(())
     }
 
     /// Makes added blocks hold; the work is that of the rows that they are in. **Collective**
     pub fn assemble(&mut self) -> Result<(), SystemError> {
-        self.lattice.assemble(std::mem::take(&mut self.changed).into_iter());
+        self.changed.sort_unstable();
+        self.changed.dedup();
+        self.lattice.assemble(self.changed.drain(..));
         // Of a shell PETSc is told that values have changed. It forgets what else it knew.
         self.matrix.assemble()?;
         Ok(self.matrix.set_positive_definite(true)?)

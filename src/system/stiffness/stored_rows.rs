@@ -229,6 +229,11 @@ impl StoredRows {
         *sum = [0, 1].map(|a| [0, 1].map(|b| sum[a][b] + block[a][b]));
     }
 
+    /// Whether row `k` has columns of other ranks.
+    pub fn needs_far(&self, k: usize) -> bool {
+        !self.far.row(k).is_empty()
+    }
+
     /// The row of a node, if it is stored; the node is counted from this rank's first.
     pub fn place(&self, node: usize) -> Option<usize> {
         place(&self.nodes, node)
