@@ -2,7 +2,7 @@
 
 use crate::petsc::{Datum, Halo, Session};
 use crate::system::interpolation::{InterpolationRoom, NodeInterpolation};
-use crate::system::stiffness::{EvenTriangles, LatticeOperator, LatticeRows, Precision, StoredRows, Strips};
+use crate::system::stiffness::{EvenTriangles, LatticeOperator, LatticeRows, Precision, StoredRows, Strips, Sweep};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -124,17 +124,19 @@ impl<T: Precision + Datum> CycleLevel<T> {
         self.step.as_ref().expect("a way up").prolong::<T, true>(below, x, &mut self.room);
     }
 
-    /// A symmetric Gauss-Seidel sweep over the nodes here, from `x` or from zero; those of other ranks stay as they are.
-    /// **Collective**
-    pub fn relax(&mut self, b: &[[T; 2]], x: &mut [[T; 2]], from_zero: bool) {
+    /// A Gauss-Seidel sweep over the nodes here, from `x` or from zero; those of other ranks stay as they are. **Collective**
+    pub fn relax(&mut self, sweep: Sweep, b: &[[T; 2]], x: &mut [[T; 2]], from_zero: bool) {
         let Self { lattice, rows, halo, far, .. } = self;
         if from_zero {
             x.fill([T::default(); 2]);
         }
         match rows {
             LevelRows::All(rows) => {
-                rows.forward(0..rows.nodes().len(), b, x, &[]);
-                rows.backward(0..rows.nodes().len(), b, x, &[]);
+                let all = 0..rows.nodes().len();
+                rows.forward(all.clone(), b, x, &[]);
+                if sweep == Sweep::Symmetric {
+                    rows.backward(all, b, x, &[]);
+                }
             }
             LevelRows::Own { strips, even, stored } => {
                 let rows = LatticeRows { strips, even, stored: &*stored.borrow(), order: lattice.order() };
@@ -142,7 +144,7 @@ impl<T: Precision + Datum> CycleLevel<T> {
                     Some(halo) => halo.fetch_before(x, far, |x| rows.begin_to_relax(b, x)),
                     None => rows.begin_to_relax(b, x),
                 }
-                rows.end_to_relax(b, x, if from_zero { &[] } else { far });
+                rows.end_to_relax(sweep, b, x, if from_zero { &[] } else { far });
             }
         }
     }

@@ -10,7 +10,7 @@ mod level;
 
 use super::SystemError;
 use super::interpolation::{Interpolation, NodeInterpolation, is_gathered};
-use super::stiffness::{Precision, Stiffness};
+use super::stiffness::{Precision, Stiffness, Sweep};
 use crate::petsc::{Action, Datum, Result, Session, Vector};
 use coarsest::Coarsest;
 use level::CycleLevel;
@@ -18,8 +18,9 @@ use std::cell::RefCell;
 use std::mem::take;
 use std::rc::Rc;
 
-/// Full multigrid: on each level, from the coarsest one up, a V-cycle with one symmetric Gauss-Seidel sweep before and one
-/// after the coarse correction, from what the coarser level has found.
+/// Full multigrid: on each level, from the coarsest one up, a V-cycle with one Gauss-Seidel sweep before and one after the coarse
+/// correction, from what the coarser level has found. Sweeps are symmetric; before the coarse corrections of levels below the
+/// finest one they go forward alone, which costs no iteration and saves a quarter of the sweeps there.
 pub struct FullCycle<T> {
     coarsest: Coarsest,
     /// The coarsest first; that one has no sweeps.
@@ -92,10 +93,10 @@ impl<T: Precision + Datum> FullCycle<T> {
         coarsest.solve(&mut levels[0])?;
         for l in 1..top {
             let (b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
-            begin(&mut levels[..=l], coarsest, &b, &mut x, r)?;
+            begin(&mut levels[..=l], coarsest, Sweep::Forward, &b, &mut x, r)?;
             (levels[l].b, levels[l].x) = (b, x);
         }
-        begin(levels, coarsest, b, x, r)
+        begin(levels, coarsest, Sweep::Symmetric, b, x, r)
     }
 }
 
@@ -103,37 +104,38 @@ impl<T: Precision + Datum> FullCycle<T> {
 fn begin<T: Precision + Datum>(
     levels: &mut [CycleLevel<T>],
     coarsest: &mut Coarsest,
+    before: Sweep,
     b: &[[T; 2]],
     x: &mut [[T; 2]],
     r: &mut [[T; 2]],
 ) -> Result<()> {
     let (level, below) = levels.split_last_mut().expect("a level");
     level.begin(&below[below.len() - 1].x, x);
-    v_cycle(levels, coarsest, b, x, r, false)
+    level.relax(before, b, x, false);
+    correct(levels, coarsest, b, x, r)
 }
 
-/// A V-cycle on the last of these levels and those below, from its `x` or from zero. **Collective**
-fn v_cycle<T: Precision + Datum>(
+/// What follows the first sweep of a V-cycle on the last of these levels and those below. **Collective**
+fn correct<T: Precision + Datum>(
     levels: &mut [CycleLevel<T>],
     coarsest: &mut Coarsest,
     b: &[[T; 2]],
     x: &mut [[T; 2]],
     r: &mut [[T; 2]],
-    from_zero: bool,
 ) -> Result<()> {
     let (level, below) = levels.split_last_mut().expect("a level");
-    level.relax(b, x, from_zero);
     let last = below.len() - 1;
     level.restrict_residual(b, x, r, &mut below[last].b);
     if last == 0 {
         coarsest.solve(&mut below[0])?;
     } else {
         let (next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
-        v_cycle(below, coarsest, &next, &mut correction, r, true)?;
+        below[last].relax(Sweep::Forward, &next, &mut correction, true);
+        correct(below, coarsest, &next, &mut correction, r)?;
         (below[last].b, below[last].x) = (next, correction);
     }
     level.correct(&below[last].x, x);
-    level.relax(b, x, false);
+    level.relax(Sweep::Symmetric, b, x, false);
     Ok(())
 }
 

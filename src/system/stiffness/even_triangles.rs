@@ -2,6 +2,7 @@
 //! worked on in a lattice of its own.
 
 use super::block_lanes::product;
+use super::lattice_rows::Sweep;
 use super::strip_kernel::{RowsOf, TriangleKernel};
 use super::strips::Couplings;
 use crate::element::Block;
@@ -78,13 +79,13 @@ impl<T: Real> EvenTriangles<T> {
         clear_sides(self.n, r);
     }
 
-    /// A symmetric Gauss-Seidel sweep over the inner nodes of one macro triangle after the other: they do not couple.
-    pub fn relax(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+    /// A Gauss-Seidel sweep over the inner nodes of one macro triangle after the other: they do not couple.
+    pub fn relax(&self, sweep: Sweep, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         let [own_b, own_x] = &mut *self.room.borrow_mut();
         for (triangle, kernel) in self.triangles.iter().zip(&*self.kernels) {
             triangle.bring_sides(x, far, own_x);
             let (rows, b) = right_hand_side(triangle, b, own_b);
-            kernel.relax(self.n, rows, b, &mut x[triangle.inner.clone()], own_x);
+            kernel.relax(self.n, sweep, rows, b, &mut x[triangle.inner.clone()], own_x);
         }
     }
 }

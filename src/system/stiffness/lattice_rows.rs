@@ -43,6 +43,15 @@ impl SweepOrder {
     }
 }
 
+/// Which halves of a symmetric Gauss-Seidel sweep are done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sweep {
+    /// The first one alone, in the order of the nodes.
+    Forward,
+    /// Both.
+    Symmetric,
+}
+
 /// Rows to work on.
 pub struct LatticeRows<'a, T> {
     pub strips: &'a Strips<T>,
@@ -80,13 +89,13 @@ impl<T: Precision> LatticeRows<'_, T> {
         self.stored.residual(0..self.stored.nodes().len(), b, x, far, r);
     }
 
-    /// The first part of a symmetric Gauss-Seidel sweep: forward through the sides that need no node of another rank.
+    /// The first part of a Gauss-Seidel sweep: forward through the sides that need no node of another rank.
     pub fn begin_to_relax(&self, b: &[[T; 2]], x: &mut [[T; 2]]) {
         self.order.near_sides.iter().for_each(|range| self.stored.forward(range.clone(), b, x, &[]));
     }
 
     /// The rest of it; `far` are the values of other ranks, none stands for zeros.
-    pub fn end_to_relax(&self, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+    pub fn end_to_relax(&self, sweep: Sweep, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         let (stored, SweepOrder { near_sides, far_sides, inside }) = (self.stored, self.order);
         far_sides.iter().for_each(|range| stored.forward(range.clone(), b, x, far));
         for (triangle, rows) in self.strips.triangles.iter().zip(inside) {
@@ -95,12 +104,16 @@ impl<T: Precision> LatticeRows<'_, T> {
             // Strips come first: what they bring into the cache the stored rows find there.
             parts.iter().for_each(|(strips, kind)| kernels[*kind].forward(&nodes[strips.clone()], b, x));
             stored.forward(rows.clone(), b, x, far);
-            stored.backward(rows.clone(), b, x, far);
-            parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
+            if sweep == Sweep::Symmetric {
+                stored.backward(rows.clone(), b, x, far);
+                parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
+            }
         }
-        self.even.relax(b, x, far);
-        for sides in [far_sides, near_sides] {
-            sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
+        self.even.relax(sweep, b, x, far);
+        if sweep == Sweep::Symmetric {
+            for sides in [far_sides, near_sides] {
+                sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
+            }
         }
     }
 }

@@ -4,6 +4,7 @@
 //! Registers begin at the first node of a row, which lies on a side, and reach behind its last one: values of nodes on sides are
 //! put into the recurrence as known, and what a register holds behind them stays as it is.
 
+use super::super::lattice_rows::Sweep;
 use super::*;
 use crate::mesh::lattice;
 use crate::system::triangle_lattice::row_start;
@@ -39,8 +40,8 @@ pub trait TriangleKernel<T> {
     /// `r = b - K x`, into a lattice; what `r` has at other nodes is lost. `rows` says where `b` lies.
     fn residual(&self, n: usize, rows: RowsOf, b: &[[T; 2]], inner: &[[T; 2]], x: &mut [[T; 2]], r: &mut [[T; 2]]);
 
-    /// A symmetric Gauss-Seidel sweep, row by row; nodes on the sides stay as they are.
-    fn relax(&self, n: usize, rows: RowsOf, b: &[[T; 2]], inner: &mut [[T; 2]], x: &mut [[T; 2]]);
+    /// A Gauss-Seidel sweep, row by row; nodes on the sides stay as they are.
+    fn relax(&self, n: usize, sweep: Sweep, rows: RowsOf, b: &[[T; 2]], inner: &mut [[T; 2]], x: &mut [[T; 2]]);
 }
 
 /// The kernel with given registers: couplings of rows with even and with odd `j`; the first one stands for all if there is
@@ -60,6 +61,17 @@ pub fn triangle_kernel<L: Lanes>(lanes: L, couplings: &[Couplings]) -> Box<dyn T
 struct RowKernels<L: Lanes, const EVEN: usize, const SECOND: bool, const ODD: usize> {
     even: UnrolledKernel<L, EVEN, SECOND>,
     odd: Option<UnrolledKernel<L, ODD, false>>,
+}
+
+impl<L: Lanes, const EVEN: usize, const SECOND: bool, const ODD: usize> RowKernels<L, EVEN, SECOND, ODD> {
+    /// Relaxes the inner nodes of row `j`; `b` begins with the row.
+    #[inline(always)]
+    fn relax_row(&self, way: Way, (n, j): (usize, usize), ends: &RowEnds<L>, b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+        match self.odd.as_ref().filter(|_| j % 2 == 1) {
+            Some(odd) => odd.relax_row(way, (n, j), ends, b, x),
+            None => self.even.relax_row(way, (n, j), ends, b, x),
+        }
+    }
 }
 
 /// Ones and zeros that tell the nodes of a row's first and last registers apart.
@@ -229,7 +241,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
 enum TriangleTask<'a, T> {
     Multiply { inner: &'a [[T; 2]], room: &'a mut [[T; 2]], y: &'a mut [[T; 2]] },
     Residual { rows: RowsOf, b: &'a [[T; 2]], inner: &'a [[T; 2]], r: &'a mut [[T; 2]] },
-    Relax { rows: RowsOf, b: &'a [[T; 2]], inner: &'a mut [[T; 2]] },
+    Relax { sweep: Sweep, rows: RowsOf, b: &'a [[T; 2]], inner: &'a mut [[T; 2]] },
 }
 
 /// A task on a macro triangle, with the lattice of its values.
@@ -243,7 +255,8 @@ struct OnLattice<'a, L: Lanes, const EVEN: usize, const SECOND: bool, const ODD:
 impl<L: Lanes, const EVEN: usize, const SECOND: bool, const ODD: usize> LaneWork for OnLattice<'_, L, EVEN, SECOND, ODD> {
     #[inline(always)]
     fn work(self) {
-        let Self { kernels: RowKernels { even, odd }, n, x, task } = self;
+        let Self { kernels, n, x, task } = self;
+        let RowKernels { even, odd } = kernels;
         let odd_row = |j: usize| odd.as_ref().filter(|_| j % 2 == 1);
         // Rows that a row reaches are in the lattice before it is worked on.
         let ahead = if SECOND { 2 } else { 1 };
@@ -275,24 +288,22 @@ impl<L: Lanes, const EVEN: usize, const SECOND: bool, const ODD: usize> LaneWork
                     }
                 }
             }
-            TriangleTask::Relax { rows, b, inner } => {
+            TriangleTask::Relax { sweep, rows, b, inner } => {
                 let ends = RowEnds::new(even.lanes);
-                for j in 1..n - 1 {
-                    bring(j, inner, x);
-                    let b = &b[rows.start(n, j)..];
-                    match odd_row(j) {
-                        Some(odd) => odd.relax_row(Way::Forward, (n, j), &ends, b, x),
-                        None => even.relax_row(Way::Forward, (n, j), &ends, b, x),
-                    }
-                }
-                for j in (1..n - 1).rev() {
-                    let b = &b[rows.start(n, j)..];
-                    match odd_row(j) {
-                        Some(odd) => odd.relax_row(Way::Backward, (n, j), &ends, b, x),
-                        None => even.relax_row(Way::Backward, (n, j), &ends, b, x),
-                    }
+                let take = |j: usize, x: &[[L::Real; 2]], inner: &mut [[L::Real; 2]]| {
                     let (from, to) = inner_row(n, j);
                     inner[to].copy_from_slice(&x[from]);
+                };
+                for j in 1..n - 1 {
+                    bring(j, inner, x);
+                    kernels.relax_row(Way::Forward, (n, j), &ends, &b[rows.start(n, j)..], x);
+                    if sweep == Sweep::Forward {
+                        take(j, x, inner);
+                    }
+                }
+                for j in (1..n - 1).rev().filter(|_| sweep == Sweep::Symmetric) {
+                    kernels.relax_row(Way::Backward, (n, j), &ends, &b[rows.start(n, j)..], x);
+                    take(j, x, inner);
                 }
             }
         }
@@ -325,7 +336,15 @@ impl<L: Lanes, const EVEN: usize, const SECOND: bool, const ODD: usize> Triangle
         self.even.lanes.run(OnLattice { kernels: self, n, x, task: TriangleTask::Residual { rows, b, inner, r } });
     }
 
-    fn relax(&self, n: usize, rows: RowsOf, b: &[[L::Real; 2]], inner: &mut [[L::Real; 2]], x: &mut [[L::Real; 2]]) {
-        self.even.lanes.run(OnLattice { kernels: self, n, x, task: TriangleTask::Relax { rows, b, inner } });
+    fn relax(
+        &self,
+        n: usize,
+        sweep: Sweep,
+        rows: RowsOf,
+        b: &[[L::Real; 2]],
+        inner: &mut [[L::Real; 2]],
+        x: &mut [[L::Real; 2]],
+    ) {
+        self.even.lanes.run(OnLattice { kernels: self, n, x, task: TriangleTask::Relax { sweep, rows, b, inner } });
     }
 }

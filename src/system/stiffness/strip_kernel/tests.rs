@@ -5,6 +5,7 @@ use crate::body::MacroStiffness;
 use crate::element::{Order, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
+use crate::system::stiffness::Sweep;
 use crate::system::stiffness::lanes::PlainLanes;
 use crate::system::stiffness::strips::inverse;
 use crate::system::triangle_lattice::{row_start, zeros};
@@ -97,7 +98,6 @@ fn check_triangles<L: Lanes>(lanes: L, tolerance: f64) {
         let (b, start) = (vector::<L::Real>(count, 5), vector::<L::Real>(count, 99));
         let inner: Vec<_> = (1..n - 1).flat_map(|j| (1..n - j).map(move |i| (i, j))).collect();
         let of = |j: usize| &couplings[j % couplings.len()];
-        let mut expected = start.clone();
         // What a node gets from the others, by the places of these.
         let residual = |(i, j): (usize, usize), b: [f64; 2], x: &[[L::Real; 2]], own: bool| {
             let mut sum = b;
@@ -108,12 +108,16 @@ fn check_triangles<L: Lanes>(lanes: L, tolerance: f64) {
             }
             sum
         };
-        for &(i, j) in inner.iter().chain(inner.iter().rev()) {
+        let relax = |x: &mut Vec<[L::Real; 2]>, (i, j): (usize, usize)| {
             let at = row_start(n, j) + i;
-            let sum = residual((i, j), b[at].map(Real::double), &expected, false);
+            let sum = residual((i, j), b[at].map(Real::double), x, false);
             let inverse = inverse(&of(j).of(i)[0].1).expect("a diagonal");
-            expected[at] = [0, 1].map(|a| L::Real::of(inverse[a][0] * sum[0] + inverse[a][1] * sum[1]));
-        }
+            x[at] = [0, 1].map(|a| L::Real::of(inverse[a][0] * sum[0] + inverse[a][1] * sum[1]));
+        };
+        let mut forward = start.clone();
+        inner.iter().for_each(|&node| relax(&mut forward, node));
+        let mut symmetric = forward.clone();
+        inner.iter().rev().for_each(|&node| relax(&mut symmetric, node));
         let packed_start: Vec<_> = inner.iter().map(|&(i, j)| start[row_start(n, j) + i]).collect();
         // Inner nodes come from the vector: what the lattice has of them before is nothing.
         let mut sides = start.clone();
@@ -130,16 +134,20 @@ fn check_triangles<L: Lanes>(lanes: L, tolerance: f64) {
             *to = b[row_start(n, *j) + i];
         }
         for (rows, b) in [(RowsOf::Lattice, &b), (RowsOf::Inner(before), &packed)] {
-            let (mut x, mut found) = (sides.clone(), packed_start.clone());
-            kernel.relax(n, rows, b, &mut found, &mut x);
-            near("lattice", &x, &expected);
+            for (sweep, expected) in [(Sweep::Forward, &forward), (Sweep::Symmetric, &symmetric)] {
+                let (mut x, mut found) = (sides.clone(), packed_start.clone());
+                kernel.relax(n, sweep, rows, b, &mut found, &mut x);
+                near("lattice", &x, expected);
+                for (found, (i, j)) in found.iter().zip(&inner) {
+                    near("sweep", &[*found], &[expected[row_start(n, *j) + i]]);
+                }
+            }
             let (mut x, mut r, mut y, mut room) = (sides.clone(), start.clone(), packed_start.clone(), start.clone());
             kernel.residual(n, rows, b, &packed_start, &mut x, &mut r);
             kernel.multiply(n, &packed_start, &mut x, &mut room, &mut y);
             for (k, &(i, j)) in inner.iter().enumerate() {
                 let at = row_start(n, j) + i;
                 let own = if matches!(rows, RowsOf::Lattice) { b[at] } else { b[before + k] };
-                near("sweep", &[found[k]], &[expected[at]]);
                 near("residual", &[r[at]], &[residual((i, j), own.map(Real::double), &start, true).map(Real::of)]);
                 near("product", &[y[k]], &[residual((i, j), [0.0; 2], &start, true).map(|v| L::Real::of(-v))]);
             }
