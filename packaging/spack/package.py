@@ -40,7 +40,6 @@ class Mezha(Package):
         env.set("MPICC", self.spec["mpi"].mpicc)
         env.prepend_path("PATH", self.spec["mpi"].prefix.bin)
         env.set("LIBCLANG_PATH", self.spec["llvm"].prefix.lib)
-        env.set("CARGO_HOME", join_path(self.stage.path, "cargo"))
         env.set("MEZHA_COMMIT", "Spack {0}".format(self.spec.format("{name}@{version}/{hash:7}")))
 
     def install(self, spec, prefix):
