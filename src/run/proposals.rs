@@ -4,7 +4,7 @@ use super::scene;
 use crate::case::Case;
 use crate::contact::{ClosePair, Extent, Mechanism, close_pairs};
 use crate::geometry::Point;
-use crate::mesh::{MacroMesh, Partition};
+use crate::mesh::MacroMesh;
 use crate::system::Procedure;
 use std::path::Path;
 use toml::Value;
@@ -144,8 +144,8 @@ impl Proposed {
 fn next_support(text: &str, file: &Path, proposed: &[Proposed], names: &mut TableNames) -> Option<Proposed> {
     let case = Case::parse(text, file, &[]).ok()?;
     let mesh = scene::read_mesh_file(&case).and_then(|bytes| scene::read_mesh(&case, &bytes)).ok()?;
-    let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
-    let scene = scene::assemble(&case, mesh, partition);
+    // As `check` looks at it: contacts that are found on the first refined mesh may not be found on that of the file.
+    let scene = scene::first(&case, mesh).ok()?;
     let motion = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
     let extent = scene.extents()[motion.piece];
     support_for(&case, &scene.mesh, &motion, extent, proposed, names)
