@@ -1,7 +1,7 @@
 //! The text of a first case.
 
-use super::super::proposals::{TableNames, contact_table, key, quoted, short};
-use super::guesses::{Guesses, POISSON, PRESSED, Press, YOUNG};
+use super::super::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
+use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
 use super::named_curve::{HELD, LOADED, MIRRORED, NamedCurve};
 use super::node_circle::NodeCircle;
 use std::fmt::Write;
@@ -26,12 +26,13 @@ impl Draft<'_> {
         let mut text = String::new();
         let mut tables = TableNames::default();
         self.head(&mut text, named);
-        let weight = self.guesses.weight().filter(|_| press != Press::Nothing);
-        self.bodies(&mut text, weight);
+        let weights = if press == Press::Nothing { Vec::new() } else { self.guesses.weights() };
+        self.bodies(&mut text, &weights);
         self.circles(&mut text);
         self.contacts(&mut text);
         self.supports(&mut text, &mut tables);
-        if weight.is_none() {
+        self.guides(&mut text, &weights, &mut tables);
+        if weights.is_empty() || self.guesses.pressed().is_some() {
             self.load(&mut text, press);
         }
         self.wanted_names(&mut text);
@@ -81,13 +82,13 @@ order = 2
         let _ = write!(text, "\n[accuracy]\n{accuracy}\nmax_unknowns = 200000\n");
     }
 
-    fn bodies(&self, text: &mut String, weight: Option<(usize, f64)>) {
+    fn bodies(&self, text: &mut String, weights: &[Weight]) {
         for (group, name) in self.groups.iter().zip(self.names) {
             let mut material =
                 format!("young = {YOUNG:?}         # example: steel, in MPa\npoisson = {POISSON:?}            # example\n");
-            if let Some((_, force)) = weight.filter(|(body, _)| self.guesses.mesh.bodies[*body] == *name) {
+            if let Some(weight) = weights.iter().find(|weight| self.guesses.mesh.bodies[weight.body] == *name) {
                 let words = "# example: presses the body down, force for each volume";
-                let _ = writeln!(material, "body_force = [0.0, {:?}]    {words}", -force);
+                let _ = writeln!(material, "body_force = [0.0, {:?}]    {words}", -weight.force);
             }
             match &group[..] {
                 [only] => {
@@ -149,15 +150,23 @@ order = 2
                 quoted(curve.name)
             );
         }
-        if let Some(body) = self.guesses.foundation() {
-            let name = &self.guesses.mesh.bodies[body];
-            let _ = write!(
-                text,
-                "\n# No named boundary looks like one that is held, so the mean motion of the lowest body is. That carries the load all over\n# the body; where it stands on something, name that line in the mesh, hold it, and leave this out.\n[support.{}]\nbody = {}\nmean = true\nux = 0.0\nuy = 0.0\nangle = 0.0\n",
-                tables.fresh(&format!("{name}-still")),
-                quoted(name)
-            );
+        if let Some((body, motions)) = self.guesses.foundation() {
+            *text += "\n# No named boundary looks like one that is held, so the mean motion of the lowest body is. That carries the load all over\n# the body; where it stands on something, name that line in the mesh, hold it, and leave this out.\n";
+            *text += &self.mean_hold(body, motions, tables);
         }
+    }
+
+    /// What keeps bodies that rest on others from rolling away: the load of the example does not drive these motions.
+    fn guides(&self, text: &mut String, weights: &[Weight], tables: &mut TableNames) {
+        for (body, motions) in weights.iter().filter_map(|weight| Some((weight.body, weight.guided?))) {
+            *text += "\n# The body rests on others, which may not keep it from sliding or rolling away; its load does not drive that.\n";
+            *text += &self.mean_hold(body, motions, tables);
+        }
+    }
+
+    fn mean_hold(&self, body: usize, motions: [bool; 3], tables: &mut TableNames) -> String {
+        let name = &self.guesses.mesh.bodies[body];
+        MeanProposal { name: tables.fresh(&format!("{name}-still")), body: name.clone(), moves: motions }.table("")
     }
 
     fn load(&self, text: &mut String, press: Press) {

@@ -16,6 +16,9 @@ pub const PRESSED: f64 = 1e-3;
 /// Bodies whose outlines are nearer than this share of the smaller one may be meant to touch.
 const NEAR: f64 = 0.1;
 
+/// A line of symmetry holds an axis if its normal has more than this along it.
+const ACROSS: f64 = 1e-6;
+
 /// Heights that differ by less than this share of a body's are the same.
 const LEVEL: f64 = 1e-6;
 
@@ -28,6 +31,15 @@ pub enum Press {
     Pressure,
     /// Not at all.
     Nothing,
+}
+
+/// A body that its own weight presses, as it were.
+pub struct Weight {
+    pub body: usize,
+    /// Force per area, downwards.
+    pub force: f64,
+    /// Mean motions that are held, so that it does not roll away: the example does not drive them.
+    pub guided: Option<[bool; 3]>,
 }
 
 /// A mesh and what is guessed of it.
@@ -61,9 +73,9 @@ impl<'a> Guesses<'a> {
         likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal))
     }
 
-    /// Where no boundary is held, but bodies may touch: the lowest body, of those that reach as low the largest. Its mean motion
-    /// is held, so that the others rest on it.
-    pub fn foundation(&self) -> Option<usize> {
+    /// Where no boundary is held, but bodies may touch: the lowest body, of those that reach as low the largest, and which of its
+    /// mean motions are held, so that the others rest on it.
+    pub fn foundation(&self) -> Option<(usize, [bool; 3])> {
         if self.pairs.is_empty() || self.held().is_some() {
             return None;
         }
@@ -71,9 +83,19 @@ impl<'a> Guesses<'a> {
         let lowest = (0..self.mesh.bodies.len()).map(low).fold(f64::INFINITY, f64::min);
         let reaches = |&body: &usize| low(body) - lowest <= LEVEL * (self.ends(body)[1] - low(body));
         let body = (0..self.mesh.bodies.len()).filter(reaches).max_by(|&a, &b| self.area(a).total_cmp(&self.area(b)))?;
+        self.unresisted(body, [true; 3]).map(|motions| (body, motions))
+    }
+
+    /// Those of some mean motions of a body that its lines of symmetry leave free; nothing if none is, or if it has no mean motion.
+    fn unresisted(&self, body: usize, mut motions: [bool; 3]) -> Option<[bool; 3]> {
+        let mirrored = self.curves.iter().filter(|curve| curve.has(&MIRRORED) && !curve.is_touched);
+        let edges = mirrored.filter_map(|curve| self.mesh.boundary(curve.name)).flat_map(|boundary| &boundary.edges);
+        for &edge in edges.filter(|&&edge| self.mesh.body_beside(edge) == body) {
+            let normal = self.mesh.edge_normal(edge, 0.5);
+            motions = [motions[0] && normal.x.abs() < ACROSS, motions[1] && normal.y.abs() < ACROSS, false];
+        }
         let is_whole = self.mesh.pieces.iter().filter(|piece| piece.body == body).count() == 1;
-        let is_mirrored = self.curves.iter().any(|curve| curve.body == body && curve.has(&MIRRORED));
-        (is_whole && !is_mirrored).then_some(body)
+        (is_whole && motions.contains(&true)).then_some(motions)
     }
 
     /// The boundary that is pressed: by its name, or because it is the highest and looks up; on another body, if there is one.
@@ -81,7 +103,7 @@ impl<'a> Guesses<'a> {
         let held = self.held();
         let other = |curve: &&NamedCurve| match held {
             Some(held) => curve.name != held.name && (curve.body != held.body || self.mesh.bodies.len() == 1),
-            None => Some(curve.body) != self.foundation(),
+            None => self.foundation().is_none_or(|(body, _)| body != curve.body),
         };
         let rank = |curve: &&NamedCurve| (curve.has(&LOADED), curve.normal.y > ALONG, curve.high.y);
         let likely = self.free().filter(other).filter(|curve| curve.has(&LOADED) || curve.normal.y > ALONG);
@@ -89,17 +111,29 @@ impl<'a> Guesses<'a> {
         best.filter(|curve| curve.is_of_one_piece)
     }
 
-    /// Where bodies may touch and no boundary can be pressed: the highest body that is not held, and an example of a force per
-    /// area that presses it down.
-    pub fn weight(&self) -> Option<(usize, f64)> {
-        let base = self.held().map(|held| held.body).or_else(|| self.foundation())?;
-        if self.pressed().is_some() || self.pairs.is_empty() {
-            return None;
-        }
+    /// Bodies that rest on others and would lie loose there, since nothing presses them: neither a boundary nor a body that is
+    /// higher. To each an example of a force per area that presses it down, and those mean motions that this leaves free.
+    pub fn weights(&self) -> Vec<Weight> {
+        let Some(base) = self.held().map(|held| held.body).or_else(|| self.foundation().map(|(body, _)| body)) else {
+            return Vec::new();
+        };
+        let pressed = self.pressed().map(|curve| curve.body);
         let middle = |body: usize| self.ends(body).iter().sum::<f64>();
-        let others = (0..self.mesh.bodies.len()).filter(|&body| body != base);
-        let body = others.max_by(|&a, &b| middle(a).total_cmp(&middle(b)))?;
-        Some((body, one_digit(self.force() / self.area(body))))
+        let is_higher =
+            |body: usize, other: usize| middle(other) - middle(body) > LEVEL * (self.ends(body)[1] - self.ends(body)[0]);
+        let rests = |&body: &usize| {
+            let mut partners =
+                self.pairs.iter().filter(|pair| pair.bodies.contains(&body)).flat_map(|pair| pair.bodies).peekable();
+            partners.peek().is_some() && !partners.any(|other| other != base && is_higher(body, other))
+        };
+        let loose = (0..self.mesh.bodies.len()).filter(|&body| body != base && Some(body) != pressed).filter(rests);
+        loose
+            .map(|body| Weight {
+                body,
+                force: one_digit(self.force() / self.area(body)),
+                guided: self.unresisted(body, [true, false, true]),
+            })
+            .collect()
     }
 
     /// The force of the example, for each length of thickness.
