@@ -73,7 +73,7 @@ fn three_free_bodies_make_a_case_that_runs() {
     }
     assert!(!text.contains("does not pass"), "{text}");
     // An accuracy that one mesh has: that the case can be solved is what is asked here.
-    let ended = Run::file(&case).set("accuracy.pressure=0.3").converged();
+    let ended = Run::file(&case).set("accuracy.pressure", 0.3).converged();
     let force = |name: &str| ended.number(&format!("/contact/{name}/force"));
     assert!((force("plate-top-disc-rim") / force("lower-top-plate-bottom") - 1.0).abs() < 0.01, "both carry the disc");
 }

@@ -77,7 +77,7 @@ order = 2
         );
         let accuracy = match self.guesses.pairs.is_empty() {
             true => "energy = 0.02            # the mesh is adapted until the energy norm is good to 2 %",
-            false => "pressure = 0.02          # the mesh is adapted until the contact pressure is good to 2 %",
+            false => "pressure = 0.01          # the mesh is adapted until the contact pressure is good to 1 %",
         };
         let _ = write!(text, "\n[accuracy]\n{accuracy}\nmax_unknowns = 200000\n");
     }
