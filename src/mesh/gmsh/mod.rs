@@ -173,7 +173,7 @@ fn check_groups(mesh: &RawMesh, file: &Path) -> Result<(), MeshError> {
     if mesh.triangles.is_empty() || mesh.triangles.iter().any(|(_, names, _)| !names.is_empty()) {
         return Ok(());
     }
-    let words = "has no physical surfaces; name the bodies with `Physical Surface(\"name\") = {...}` and the boundaries with `Physical Curve(\"name\") = {...}` in the .geo file";
+    let words = "has no physical surfaces; name the bodies with `Physical Surface(\"name\") = {...}` and the boundaries with `Physical Curve(\"name\") = {...}` in the .geo file; where they are named there, drop `Mesh.SaveAll` or `-save_all`, which loses groups in format 2.2";
     Err(MeshError::unusable(file, words))
 }
 
