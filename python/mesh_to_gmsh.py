@@ -17,22 +17,12 @@ import os
 import sys
 from collections import Counter, defaultdict
 
+import abaqus_file
 import meshio
 import numpy as np
 
 FACES = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 LINES = {"line", "line3"}
-
-
-def know_plane_strain():
-    """meshio knows elements of plane stress (CPS) alone; those of plane strain have the same shapes."""
-    from meshio.abaqus import _abaqus
-
-    shapes = _abaqus.abaqus_to_meshio_type
-    for name, shape in [("3", "triangle"), ("4", "quad"), ("6", "triangle6"), ("8", "quad8")]:
-        for kind in ("CPS", "CPE"):
-            for ending in ("", "R", "H", "RH", "I", "M", "MH"):
-                shapes.setdefault(kind + name + ending, shape)
 
 
 def cell_sets(mesh, file):
@@ -95,12 +85,11 @@ def side(block, cell, number):
 
 def converted(file):
     """The mesh of a file with physical groups."""
-    know_plane_strain()
     if not os.path.isfile(file):
         sys.exit(f"{file}: no such file")
     if str(file).lower().endswith(".msh"):
         sys.exit(f"{file}: mezha reads the files of Gmsh itself")
-    mesh = meshio.read(file)
+    mesh = abaqus_file.read(file) if str(file).lower().endswith(".inp") else meshio.read(file)
     heights = mesh.points[:, 2:]
     if heights.size and np.ptp(heights) > 1e-9 * np.ptp(mesh.points, axis=0).max():
         sys.exit(f"{file}: does not lie in a plane z = constant; turn it into one, since mezha drops the coordinate z")

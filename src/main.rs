@@ -214,7 +214,10 @@ fn new_case(arguments: &NewArguments) -> i32 {
     let output = std::fs::read_link("/proc/self/fd/1").ok().filter(|path| path.is_file());
     let named = run::path_from(output.as_deref().and_then(std::path::Path::parent), &arguments.mesh);
     match run::first_case(&arguments.mesh, &named) {
-        Ok(text) => say(text.trim_end()),
+        Ok(first) => {
+            first.remarks.iter().for_each(|words| tell(&format!("warning: {words}")));
+            say(first.text.trim_end())
+        }
         Err(error) => print(&error),
     }
 }

@@ -53,6 +53,56 @@ fn a_first_case_runs_as_it_comes() {
     assert_eq!(ended.value("/contact/block-top-disc-rim/trust"), true);
 }
 
+/// A plate on a plate with a coarse disc on top, none of which is held by name: a case all the same, and one that is solved.
+#[test]
+fn three_free_bodies_make_a_case_that_runs() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::copy(mesh("stack_of_three"), folder.path().join("stack.msh")).expect("a mesh can be copied");
+    let case = new_case(folder.path(), "stack.msh");
+    let text = std::fs::read_to_string(&case).expect("a case");
+    for words in [
+        "#:schema case.schema.json\n\n#",
+        "[geometry.disc-rim]",
+        "circle = { centre = [5.0, 5.0], radius = 1.5 }",
+        "body_force = [0.0, -",
+        "[support.lower-still]\nbody = \"lower\"\nmean = true\nux = 0.0\nuy = 0.0\nangle = 0.0\n",
+        "[support.plate-still]",
+        "[support.disc-still]",
+    ] {
+        assert!(text.contains(words), "{words} in\n{text}");
+    }
+    assert!(!text.contains("does not pass"), "{text}");
+    // An accuracy that one mesh has: that the case can be solved is what is asked here.
+    let ended = Run::file(&case).set("accuracy.pressure", 0.3).converged();
+    let force = |name: &str| ended.number(&format!("/contact/{name}/force"));
+    assert!((force("plate-top-disc-rim") / force("lower-top-plate-bottom") - 1.0).abs() < 0.01, "both carry the disc");
+}
+
+/// A disc over a block of which no curve has a name: the case is one, and says which names it wants.
+#[test]
+fn names_that_a_mesh_lacks_are_told_in_the_case_and_beside_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("mesh.msh");
+    let bare = two_blocks([(3, 2, 1), (2, 2, 2)]).text().lines().fold(String::new(), |text, line| {
+        let is_named = line.starts_with("1 ") && line.ends_with('"');
+        if is_named { text } else { text + line + "\n" }
+    });
+    // Names without curves, and groups without names, are known by their numbers.
+    std::fs::write(&file, bare.replace("$PhysicalNames\n8", "$PhysicalNames\n2")).expect("a mesh can be written");
+    let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
+    assert!(text.contains("on = \"") && !text.contains("Physical Curve("), "numbers are names\n{text}");
+    std::fs::copy(mesh("no_curves"), &file).expect("a mesh can be copied");
+    let (code, text, errors) = mezha_in(folder.path(), None, &["new", "mesh.msh"]);
+    assert!(code == Some(0) && errors.contains("warning: no curve of the mesh bounds a body and has a name"), "{errors}");
+    for words in [
+        "#   Physical Curve(\"rail.wheel\") = {...};   // where \"rail\" may touch \"wheel\", which lies close",
+        "#   Physical Curve(\"wheel.rail\") = {...};",
+        "#   Physical Curve(\"bottom\") = {...};   // what is held",
+    ] {
+        assert!(text.contains(words), "{words} in\n{text}");
+    }
+}
+
 /// Every case of the project has a mesh that a first case can be made of.
 #[test]
 fn first_cases_of_many_meshes_can_be_checked() {
@@ -147,4 +197,26 @@ fn a_check_draws() {
         assert!(code == Some(2) && errors.contains(words), "{draw}: {code:?} {errors}");
     }
     assert_eq!(std::fs::read_to_string(&file).expect("the case"), before);
+}
+
+/// Nodes on an inner line that are not merged are no error: a slit may be meant.
+#[test]
+fn a_slit_is_told_by_check_and_run() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mesh = two_blocks([(3, 2, 1), (3, 2, 2)]).text();
+    // One body of both blocks: the seam is then a slit in it.
+    let mesh = mesh.replace("2 2 \"upper\"\n", "").replace("$PhysicalNames\n8", "$PhysicalNames\n7");
+    let one = mesh.replace("\n2 0 0 0 0 0 0 1 2 0\n$EndEntities", "\n2 0 0 0 0 0 0 1 1 0\n$EndEntities");
+    assert_ne!(mesh, one);
+    let case = CASE.split("[body.upper]").next().expect("a start").to_owned()
+        + "[support.both]\non = [\"bottom\", \"top\"]\nux = 0.0\nuy = 0.0\n";
+    let file = write_scene(folder.path(), &one, &case);
+    let words = "warning: body \"lower\" has 3 pairs of boundary edges that lie on each other, near (";
+    for command in [["check"].as_slice(), &["run", "--out", "result"]] {
+        let (code, _, errors) = mezha_in(folder.path(), None, &[command, &[&file.to_string_lossy()]].concat());
+        assert!(
+            code == Some(0) && errors.matches(words).count() == 1 && errors.contains("Coherence Mesh"),
+            "{command:?}: {code:?} {errors}"
+        );
+    }
 }

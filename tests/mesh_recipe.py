@@ -11,7 +11,7 @@ import meshio
 import numpy as np
 
 ABAQUS = """*HEADING
-Two blocks, the lower one of quadrangles.
+Two blocks, the lower one of two kinds of elements in one set; nodes in two parts, sets of several ranges.
 *NODE
 1, 0., 0.
 2, 1., 0.
@@ -19,20 +19,27 @@ Two blocks, the lower one of quadrangles.
 4, 0., 1.
 5, 1., 1.
 6, 2., 1.
+*NODE
 11, 0., 1.
 12, 2., 1.
 13, 2., 2.
 14, 0., 2.
-*ELEMENT, TYPE=CPE4, ELSET=lower
+*Element, type=cpe4r, elset=lower
 1, 1, 2, 5, 4
-2, 2, 3, 6, 5
-*ELEMENT, TYPE=CPE3, ELSET=upper
-3, 11, 12, 13
+*ELEMENT, TYPE=CPE3, ELSET=lower
+2, 2, 3, 6
+22, 2, 6, 5
+*ELEMENT, TYPE=CPE3,
+ELSET=upper
+3, 11, 12,
+13
 4, 11, 13, 14
 *ELSET, ELSET=everything, GENERATE
 1, 4, 1
-*NSET, NSET=bottom
-1, 2, 3
+22, 22
+*NSET, NSET=bottom, GENERATE
+1, 2
+3, 3, 1
 *NSET, NSET=lower.seam
 4, 5, 6
 *NSET, NSET=upper.seam
@@ -94,3 +101,11 @@ for write, ending in [(abaqus, "inp"), (med, "med"), (exodus, "e")]:
         continue
     subprocess.run([sys.executable, script, file, folder / f"{ending}.msh"], check=True, stdout=subprocess.DEVNULL)
     print(f"{ending}.msh")
+
+REFUSED = [("cpe4r", "CAX4P", "are axisymmetric"), ("cpe4r", "C3D4", "are not read"), ("1, 1, 2, 5, 4", "1, 1, 2, 5, 9", "node 9"),
+           ("*HEADING", "*INSTANCE, NAME=a, PART=b", "Do not use parts"), ("1, 2\n3, 3, 1", "1, 2\n3, 3, 0", "at least 1")]
+for good, bad, words in REFUSED:
+    file = folder / "refused.inp"
+    file.write_text(ABAQUS.replace(good, bad))
+    run = subprocess.run([sys.executable, script, file, folder / "none"], capture_output=True, text=True)
+    assert run.returncode == 1 and words in run.stderr and "Traceback" not in run.stderr, f"{bad}: {run.stderr}"

@@ -250,9 +250,13 @@ impl Drop for Section<'_> {
     fn drop(&mut self) {
         let asked = self.asked.take();
         for (name, value) in self.table.into_iter().flatten().filter(|(name, _)| !asked.contains(&name.as_str())) {
+            let key = told(&self.child(name));
+            if let Some(words) = self.table.and_then(|table| self.form.misfit(name, table)) {
+                self.log.borrow_mut().problems.push(Problem { key, value: None, words });
+                continue;
+            }
             let remedy = suggest(name, asked.iter().copied());
             let quotes = if value.is_table() { " (a name that holds dots stands in quotes)" } else { "" };
-            let key = told(&self.child(name));
             self.log.borrow_mut().problems.push(Problem::unknown(key, &format!("{remedy}{quotes}")));
         }
     }

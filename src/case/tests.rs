@@ -346,6 +346,7 @@ fn every_error_names_key_value_and_remedy() {
         ("load.l.force=[0, 1]", "load.l.force = [0, 1] (--set): acts at a point, at = [x, y]"),
         ("load.k={at=[0, 1], force=[0, 1], body='b'}", "load.k.body = \"b\" (--set): no such body"),
         ("load.l.traction=[0, 1]", "load.l.pressure = 1: stands beside traction"),
+        ("load.l.angle=0.1", "load.l.angle: goes with rigid only, which is not here"),
         ("load.k.on=top", "load.k: loads nothing; give pressure or traction"),
         ("contact.c.between=['p', 'p']", "must name two different curves"),
         ("contact.'a/b'={between=['p', 'r'], curve='line'}", "contact.\"a/b\": its name is part of a file name; use"),

@@ -169,9 +169,16 @@ impl MacroMesh {
     fn part_of(&mut self, names: &[String], joined: &HashMap<String, String>, place: FilePlace) -> Result<u32, MeshError> {
         let [name] = names else {
             let found = if names.is_empty() { "no physical surface".into() } else { names.join(", ") };
+            // `Mesh.SaveAll` saves what has no group, too.
+            let remedy = match names.is_empty() {
+                true => {
+                    "; name its surface with `Physical Surface(\"name\") = {...}`, or, where it is not meant, drop `Mesh.SaveAll` or `-save_all`"
+                }
+                false => "",
+            };
             return Err(self.syntax(
                 place,
-                format!("a triangle must lie in exactly one physical surface (its body); found {}", Quote(&found)),
+                format!("a triangle must lie in exactly one physical surface (its body); found {}{remedy}", Quote(&found)),
             ));
         };
         if let Some(part) = self.parts.iter().position(|part| part.name == *name) {

@@ -29,6 +29,7 @@ mod regular_file;
 #[cfg(test)]
 pub(crate) mod samples;
 mod shape;
+mod slit;
 mod smooth_normal;
 mod spline_shape;
 mod spot;
@@ -50,6 +51,7 @@ pub use numbering::{Level, Numbering, TriangleNumbers, levels};
 pub use origin::Origin;
 pub use partition::{Graph, Partition};
 pub use regular_file::read_regular;
+pub use slit::Slit;
 pub use smooth_normal::{SmoothNormals, SmoothPoint};
 pub use spline_shape::Corner;
 pub use spot::{NamedPoint, Spot};

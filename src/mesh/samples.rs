@@ -38,6 +38,30 @@ pub fn columns(count: usize, height: f64) -> MacroMesh {
     MacroMesh::build(raw, Path::new("columns.msh")).expect("a good mesh")
 }
 
+/// One body, `[0, 2] x [0, 2]`, whose nodes on the line y = 1 are doubled: the triangles below and above it share none.
+pub(super) fn slit_block() -> MacroMesh {
+    let mut raw = RawMesh::default();
+    let xs = [0.0, 1.0, 2.0];
+    block(&mut raw, "body", &xs, [0.0, 1.0], ["bottom", "below"]);
+    block(&mut raw, "body", &xs, [1.0, 2.0], ["above", "top"]);
+    MacroMesh::build(raw, Path::new("slit.msh")).expect("a mesh that can be read")
+}
+
+/// A regular polygon of so many sides, "rim", about (3, -1): its corners lie on a circle of radius 2, and its triangles meet in
+/// the middle.
+pub fn fan(sides: usize) -> MacroMesh {
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / sides as f64;
+    let corner = |k: usize| Point::new(3.0 + 2.0 * angle(k).cos(), -1.0 + 2.0 * angle(k).sin());
+    let next = |k: usize| (k + 1) % sides;
+    let raw = RawMesh {
+        vertices: (0..sides).map(corner).chain([Point::new(3.0, -1.0)]).collect(),
+        triangles: (0..sides).map(|k| ([k, next(k), sides], vec!["disc".to_string()], PLACE)).collect(),
+        lines: (0..sides).map(|k| ("rim".to_string(), [k, next(k)], PLACE)).collect(),
+        ..RawMesh::default()
+    };
+    MacroMesh::build(raw, Path::new("fan.msh")).expect("a good mesh")
+}
+
 fn block(raw: &mut RawMesh, body: &str, xs: &[f64], [low, high]: [f64; 2], names: [&str; 2]) {
     let first = raw.vertices.len();
     for &x in xs {

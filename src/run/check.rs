@@ -2,12 +2,13 @@
 
 use super::known::check_pressures;
 use super::proposals::{proposed_contacts, proposed_supports};
+use super::slits::slits;
 use super::turns::far_turns;
 use super::{RunError, accuracy, memory, origin, scene};
 use crate::body::Material;
 use crate::case::{Case, read_text};
 use crate::element::{Order, Plane};
-use crate::mesh::{MacroMesh, Partition};
+use crate::mesh::MacroMesh;
 use crate::system::{Procedure, Scene};
 use std::path::Path;
 
@@ -16,7 +17,7 @@ use std::path::Path;
 pub struct Checked {
     /// What would be solved.
     pub words: String,
-    /// Words for tools and plates that turn too far, and for a run that would be refused on this machine, for want of memory.
+    /// Words for bodies with a slit, for tools and plates that turn too far, and for a run that would be refused on this machine, for want of memory.
     pub warnings: Vec<String>,
     /// Words for a body that can move though contact is closed everywhere; nothing if all are held.
     pub not_held: Option<String>,
@@ -48,12 +49,8 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let bytes = scene::read_mesh_file(case).map_err(RunError::Input)?;
     origin::result_before(case, &bytes).map_err(RunError::Input)?;
     let mesh = scene::read_mesh(case, &bytes).map_err(RunError::Input)?;
-    let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
-    let scene = scene::assemble(case, mesh, partition);
-    let scene = match &case.accuracy {
-        Some(accuracy) => Procedure::first_of_sequence(scene, accuracy)?,
-        None => scene,
-    };
+    let slits = slits(&mesh);
+    let scene = scene::first(case, mesh)?;
     let not_held_before = check_steps(case, &scene)?;
     let at_rest = Procedure::look(&scene, 0)?;
     check_pressures(case, &at_rest.contacts).map_err(RunError::Key)?;
@@ -95,7 +92,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     // An accuracy has a limit to its meshes.
     let (memory, warning) = if case.accuracy.is_none() { memory::told(need, of_macro_mesh) } else { Default::default() };
     lines.extend((!memory.is_empty()).then_some(memory));
-    let warnings = far_turns(case).into_iter().chain(warning).collect();
+    let warnings = slits.into_iter().chain(far_turns(case)).chain(warning).collect();
     let not_held = not_held_before.map_or_else(|| at_rest.not_held(&scene), |words| Ok(Some(words)))?;
     let proposals = proposals(case, &scene.mesh, not_held.is_some());
     Ok(Checked { words: lines.join("\n"), warnings, not_held, proposals })

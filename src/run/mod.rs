@@ -25,6 +25,7 @@ mod report;
 mod results;
 mod run_options;
 mod scene;
+mod slits;
 mod slivers;
 mod stages;
 mod steps;
@@ -36,7 +37,7 @@ mod zones;
 
 pub use check::{Checked, check, check_file};
 pub use drawing::draw_case;
-pub use first_case::{first_case, path_from};
+pub use first_case::{FirstCase, first_case, path_from};
 pub use forecast::remedy as out_of_memory_remedy;
 pub use info::{info, version};
 pub use input::read_case;
@@ -180,5 +181,6 @@ fn read_scene(
     let origin = Arc::new(origin);
     interruption::keep_origin(origin.clone());
     let mesh = input::parse_mesh(case, &bytes, session)?;
+    slits::slits(&mesh).iter().for_each(|words| report.warn(words));
     Ok((scene::spread(case, mesh, session)?, origin))
 }

@@ -4,7 +4,7 @@ use super::scene;
 use crate::case::Case;
 use crate::contact::{ClosePair, Extent, Mechanism, close_pairs};
 use crate::geometry::Point;
-use crate::mesh::{MacroMesh, Partition};
+use crate::mesh::MacroMesh;
 use crate::system::Procedure;
 use std::path::Path;
 use toml::Value;
@@ -100,15 +100,16 @@ pub(super) fn proposed_supports(case: &Case) -> Vec<String> {
     for _ in 0..MOST_SUPPORTS {
         let tables: Vec<String> = proposed.iter().map(Proposed::table).collect();
         match next_support(&format!("{before}\n{}", tables.join("\n")), &case.file, &proposed, &mut names) {
-            Some(Proposed::Mean { name, body, moves }) => {
+            Some(Proposed::Mean(mean)) => {
+                let moves = mean.moves;
                 let same = proposed.iter_mut().find_map(|other| match other {
-                    Proposed::Mean { body: other, moves, .. } if *other == body => Some(moves),
+                    Proposed::Mean(other) if other.body == mean.body => Some(&mut other.moves),
                     _ => None,
                 });
                 match same {
                     Some(held) if (0..3).all(|k| held[k] || !moves[k]) => break,
                     Some(held) => (0..3).for_each(|k| held[k] |= moves[k]),
-                    None => proposed.push(Proposed::Mean { name, body, moves }),
+                    None => proposed.push(Proposed::Mean(mean)),
                 }
             }
             Some(point) => proposed.push(point),
@@ -118,10 +119,25 @@ pub(super) fn proposed_supports(case: &Case) -> Vec<String> {
     proposed.iter().map(Proposed::table).collect()
 }
 
+/// A support of the mean motion of a body: which of its two shifts and its turn.
+pub(super) struct MeanProposal {
+    pub name: String,
+    pub body: String,
+    pub moves: [bool; 3],
+}
+
+impl MeanProposal {
+    /// The table, with a comment behind the name of the body.
+    pub fn table(&self, comment: &str) -> String {
+        let held = ["ux", "uy", "angle"].into_iter().zip(self.moves).filter(|(_, moves)| *moves);
+        let keys: String = held.map(|(key, _)| format!("{key} = 0.0\n")).collect();
+        format!("[support.{}]\nbody = {}{comment}\nmean = true\n{keys}", self.name, quoted(&self.body))
+    }
+}
+
 /// A support that is proposed.
 enum Proposed {
-    /// Of the mean motion of a body: which of its two shifts and its turn.
-    Mean { name: String, body: String, moves: [bool; 3] },
+    Mean(MeanProposal),
     /// Of a point: the table.
     Point(String),
 }
@@ -129,12 +145,7 @@ enum Proposed {
 impl Proposed {
     fn table(&self) -> String {
         match self {
-            Self::Mean { name, body, moves } => {
-                let held = ["ux", "uy", "angle"].into_iter().zip(moves).filter(|(_, moves)| **moves);
-                let keys: String = held.map(|(key, _)| format!("{key} = 0.0\n")).collect();
-                let words = "   # its mean motion: a hold that carries nothing where loads balance";
-                format!("[support.{name}]\nbody = {}{words}\nmean = true\n{keys}", quoted(body))
-            }
+            Self::Mean(mean) => mean.table("   # its mean motion: a hold that carries nothing where loads balance"),
             Self::Point(table) => table.clone(),
         }
     }
@@ -144,8 +155,8 @@ impl Proposed {
 fn next_support(text: &str, file: &Path, proposed: &[Proposed], names: &mut TableNames) -> Option<Proposed> {
     let case = Case::parse(text, file, &[]).ok()?;
     let mesh = scene::read_mesh_file(&case).and_then(|bytes| scene::read_mesh(&case, &bytes)).ok()?;
-    let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
-    let scene = scene::assemble(&case, mesh, partition);
+    // As `check` looks at it: contacts that are found on the first refined mesh may not be found on that of the file.
+    let scene = scene::first(&case, mesh).ok()?;
     let motion = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
     let extent = scene.extents()[motion.piece];
     support_for(&case, &scene.mesh, &motion, extent, proposed, names)
@@ -168,7 +179,7 @@ fn support_for(
         edge.map(|&edge| mesh.piece_beside(edge))
     };
     let holds = |on: &[String]| on.iter().any(|name| boundary_piece(name) == Some(motion.piece));
-    let is_ours = |body: &String| proposed.iter().any(|own| matches!(own, Proposed::Mean { body: own, .. } if own == body));
+    let is_ours = |body: &String| proposed.iter().any(|own| matches!(own, Proposed::Mean(own) if own.body == *body));
     let is_held = case.supports.iter().any(|support| holds(&support.on) || support.at.is_some())
         || case.springs.iter().any(|springs| holds(&springs.on))
         || case.plates.iter().any(|plate| holds(&plate.on))
@@ -183,7 +194,7 @@ fn support_for(
         // A hold that is there already is completed.
         let is_there = is_ours(name);
         let fresh = if is_there { String::new() } else { names.fresh(&format!("{name}-still")) };
-        return Some(Proposed::Mean { name: fresh, body: name.clone(), moves });
+        return Some(Proposed::Mean(MeanProposal { name: fresh, body: name.clone(), moves }));
     }
     let touched = |boundary: &str| case.contacts.iter().any(|pair| pair.between.iter().any(|side| side == boundary));
     let is_own = |edges: &[u32]| edges.iter().all(|&edge| mesh.piece_beside(edge) == motion.piece);

@@ -173,6 +173,16 @@ pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, 
     Ok(assemble(case, mesh, partition))
 }
 
+/// The scene that a case begins with, on one rank: with an accuracy that on the first mesh of the sequence.
+pub fn first(case: &Case, mesh: MacroMesh) -> Result<Scene, RunError> {
+    let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
+    let scene = assemble(case, mesh, partition);
+    Ok(match &case.accuracy {
+        Some(accuracy) => system::Procedure::first_of_sequence(scene, accuracy)?,
+        None => scene,
+    })
+}
+
 /// The scene of a case on a mesh that is spread already.
 pub fn assemble(case: &Case, mesh: impl Into<Rc<MacroMesh>>, partition: impl Into<Rc<Partition>>) -> Scene {
     let mesh = mesh.into();

@@ -9,6 +9,9 @@ use crate::case::error::{suggest, told};
 use crate::case::values::{self, must_be};
 use crate::geometry::Formula;
 
+/// Neighbours of a key that are listed at most.
+const MOST_TOLD: usize = 12;
+
 impl KeyForm {
     /// Words for a value that has not the form of this key.
     pub fn refusal(&self, value: &Value) -> Option<String> {
@@ -153,6 +156,29 @@ impl TableForm {
         let mut found = Vec::new();
         self.collect(table, &mut Vec::new(), &mut found);
         found
+    }
+
+    /// Words for a key that such a table may have, but not beside the others of this one; nothing for a key that it never has.
+    pub fn misfit(&self, name: &str, table: &Table) -> Option<String> {
+        self.key(name)?;
+        let written = |keys: &[&'static str]| keys.iter().copied().find(|key| *key != name && table.contains_key(*key));
+        let clash = self.rules.iter().find_map(|rule| match rule {
+            TableRule::Alone(key, others) if *key == name => written(others),
+            TableRule::Alone(key, others) if others.contains(&name) => written(&[key]),
+            _ => None,
+        });
+        if let Some(other) = clash {
+            return Some(format!("does not go with {other}, which stands beside it; leave one of them out"));
+        }
+        let wanted = self.rules.iter().find_map(|rule| match rule {
+            TableRule::Beside(key, others) if *key == name && written(others).is_none() => Some(others.join(" or ")),
+            _ => None,
+        });
+        let others = || table.keys().filter(|key| *key != name).take(MOST_TOLD).cloned().collect::<Vec<_>>().join(", ");
+        Some(match wanted {
+            Some(wanted) => format!("goes with {wanted} only, which is not here"),
+            None => format!("does not go with what stands beside it: {}", others()),
+        })
     }
 
     fn collect(&self, table: &Table, path: &mut Vec<String>, found: &mut Vec<(String, String)>) {

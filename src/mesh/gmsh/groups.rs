@@ -36,10 +36,14 @@ impl Groups {
         let count: usize = cursor.line_of("PhysicalNames", 1)?[0];
         for _ in 0..count {
             let line = cursor.line_in("PhysicalNames")?;
-            let mut words = line.splitn(3, ' ');
-            let mut number = || words.next().and_then(|word| word.parse::<i64>().ok());
+            let mut rest = line.trim();
+            let mut number = || {
+                let (word, behind) = rest.split_once(char::is_whitespace)?;
+                rest = behind.trim_start();
+                word.parse::<i64>().ok()
+            };
             let (dimension, tag) = (number(), number());
-            let name = words.next().map(|word| word.trim().trim_matches('"').to_string());
+            let name = Some(rest.trim_matches('"').to_string()).filter(|_| !rest.is_empty());
             let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
                 return Err(cursor.error(format!("expected `dimension tag \"name\"`, found `{}`", Quote(&line))));
             };

@@ -151,22 +151,30 @@ fn read(bytes: &[u8], file: &Path) -> Result<RawMesh, MeshError> {
         seen.push(section.to_owned());
     }
     check_sections(&seen, version, file)?;
-    Ok(elements.into_mesh())
+    let mesh = elements.into_mesh();
+    check_groups(&mesh, file)?;
+    Ok(mesh)
 }
 
 /// Every section that is needed is there.
 fn check_sections(seen: &[String], version: Version, file: &Path) -> Result<(), MeshError> {
-    let names = "name the bodies with `Physical Surface(\"name\") = {...}` and the boundaries with `Physical Curve(\"name\") = {...}` in the .geo file";
     let mesh = "mesh it with `gmsh -2`";
-    for (section, remedy) in
-        [("PhysicalNames", names), ("Entities", "save the file as format 4.1"), ("Nodes", mesh), ("Elements", mesh)]
-    {
+    for (section, remedy) in [("Entities", "save the file as format 4.1"), ("Nodes", mesh), ("Elements", mesh)] {
         let is_needed = section != "Entities" || version == Version::Four;
         if is_needed && !seen.iter().any(|name| name == section) {
             return Err(MeshError::unusable(file, format!("has no ${section}; {remedy}")));
         }
     }
     Ok(())
+}
+
+/// Some triangle belongs to a physical group, with a name or without.
+fn check_groups(mesh: &RawMesh, file: &Path) -> Result<(), MeshError> {
+    if mesh.triangles.is_empty() || mesh.triangles.iter().any(|(_, names, _)| !names.is_empty()) {
+        return Ok(());
+    }
+    let words = "has no physical surfaces; name the bodies with `Physical Surface(\"name\") = {...}` and the boundaries with `Physical Curve(\"name\") = {...}` in the .geo file; where they are named there, drop `Mesh.SaveAll` or `-save_all`, which loses groups in format 2.2";
+    Err(MeshError::unusable(file, words))
 }
 
 /// Reads `$MeshFormat`: the version, and how numbers are stored.

@@ -130,3 +130,34 @@ fn format_2_is_refused_with_line_and_remedy() {
         assert!(found.contains(words), "{found} instead of {words}");
     }
 }
+
+/// Groups without a name are known by their numbers, whether or not others have one.
+#[test]
+fn groups_without_names_are_known_by_their_numbers() {
+    let names = |text: &str| {
+        let named = text.split_once("$PhysicalNames").expect("names").0;
+        format!("{named}{}", text.split_once("$EndPhysicalNames\n").expect("an end").1)
+    };
+    for text in [SQUARE, SQUARE_2] {
+        let mesh = read_square(&names(text)).expect("a file without names");
+        assert_eq!((mesh.bodies, mesh.boundaries[0].name.as_str()), (vec!["8".to_string()], "7"));
+    }
+    let bare = names(SQUARE).replace("1 0 1 7 0", "1 0 0 0").replace("1 1 0 1 8 0", "1 1 0 0 0");
+    let words = read_square(&bare).expect_err("no groups");
+    assert!(words.contains("has no physical surfaces; name the bodies"), "{words}");
+}
+
+#[test]
+fn fields_of_names_may_stand_apart() {
+    let mesh = read_square(&SQUARE.replace("1 7 \"lower edge\"", " 1   7\t \"lower edge\"")).expect("a good file");
+    assert_eq!(mesh.boundaries[0].name, "lower edge");
+}
+
+#[test]
+fn triangles_without_a_group_are_told_with_the_word_that_saves_them() {
+    let words = read_square(&SQUARE_2.replace("3 2 2 8 6", "3 2 2 0 6")).expect_err("one triangle has none");
+    assert!(
+        words.contains("name its surface with `Physical Surface(\"name\") = {...}`") && words.contains("Mesh.SaveAll"),
+        "{words}"
+    );
+}

@@ -1,0 +1,252 @@
+//! The text of a first case.
+
+use super::super::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
+use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
+use super::named_curve::{HELD, LOADED, MIRRORED, NamedCurve};
+use super::node_circle::NodeCircle;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Boundaries that are named in comments at most.
+const MOST_NAMED: usize = 60;
+
+/// Coordinates below this share of a radius are 0.
+const NOTHING: f64 = 1e-9;
+
+/// What the case will say.
+pub struct Draft<'a> {
+    pub guesses: Guesses<'a>,
+    /// Surfaces of each body, and its name.
+    pub groups: &'a [Vec<String>],
+    pub names: &'a [String],
+}
+
+impl Draft<'_> {
+    pub fn text(&self, named: &str, press: Press) -> String {
+        let mut text = String::new();
+        let mut tables = TableNames::default();
+        self.head(&mut text, named);
+        let weights = if press == Press::Nothing { Vec::new() } else { self.guesses.weights() };
+        self.bodies(&mut text, &weights);
+        self.circles(&mut text);
+        self.contacts(&mut text);
+        self.supports(&mut text, &mut tables);
+        self.guides(&mut text, &weights, &mut tables);
+        if weights.is_empty() || self.guesses.pressed().is_some() {
+            self.load(&mut text, press);
+        }
+        self.wanted_names(&mut text);
+        self.rest(&mut text);
+        text
+    }
+
+    /// What keeps the case from being one, a sentence each.
+    pub fn remarks(&self) -> Vec<String> {
+        let bodies = &self.guesses.mesh.bodies;
+        if self.guesses.curves.is_empty() {
+            let words = "no curve of the mesh bounds a body and has a name; contact, supports and loads stand on named curves";
+            return vec![format!("{words}: the case says which are wanted")];
+        }
+        let close = |&[a, b]: &[usize; 2]| {
+            format!(
+                "bodies \"{}\" and \"{}\" lie close, but no named curves of theirs do: name the curve of each where they may touch",
+                bodies[a], bodies[b]
+            )
+        };
+        self.guesses.unnamed.iter().map(close).collect()
+    }
+
+    fn head(&self, text: &mut String, named: &str) {
+        let title = Path::new(named).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let _ = write!(
+            text,
+            "#:schema case.schema.json
+
+# A first case, made from the mesh by `mezha new`. Numbers marked as examples are examples: put yours in their place.
+# `mezha check` draws the case and says what would be solved, `mezha run` solves it.
+# `mezha schema > case.schema.json` beside this file lets editors that read the first line (Taplo) complete and explain keys.
+# Units are your own, consistent ones: with mm and N, stresses are in MPa, and forces in N for each mm of thickness.
+title = {}
+
+[mesh]
+file = {}          # found from the folder of this file
+order = 2
+",
+            quoted(&title),
+            quoted(named),
+        );
+        let accuracy = match self.guesses.pairs.is_empty() {
+            true => "energy = 0.02            # the mesh is adapted until the energy norm is good to 2 %",
+            false => "pressure = 0.01          # the mesh is adapted until the contact pressure is good to 1 %",
+        };
+        let _ = write!(text, "\n[accuracy]\n{accuracy}\nmax_unknowns = 200000\n");
+    }
+
+    fn bodies(&self, text: &mut String, weights: &[Weight]) {
+        for (group, name) in self.groups.iter().zip(self.names) {
+            let mut material =
+                format!("young = {YOUNG:?}         # example: steel, in MPa\npoisson = {POISSON:?}            # example\n");
+            if let Some(weight) = weights.iter().find(|weight| self.guesses.mesh.bodies[weight.body] == *name) {
+                let words = "# example: presses the body down, force for each volume";
+                let _ = writeln!(material, "body_force = [0.0, {:?}]    {words}", -weight.force);
+            }
+            match &group[..] {
+                [only] => {
+                    let _ = write!(text, "\n[body.{}]\n{material}", key(only));
+                }
+                parts => {
+                    let _ = write!(text, "\n# These surfaces share nodes: they are parts of one body, bonded to each other.\n");
+                    for part in parts {
+                        let _ = write!(text, "[body.{}.part.{}]\n{material}", key(name), key(part));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The true shape of boundaries in contact that are drawn as polygons, where their nodes tell it.
+    fn circles(&self, text: &mut String) {
+        let mut tables = TableNames::default();
+        for curve in self.guesses.curves.iter().filter(|curve| curve.is_touched) {
+            let Some(NodeCircle { centre, radius }) = curve.circle else { continue };
+            let digits = |x: f64| format!("{x:.9e}").parse::<f64>().unwrap_or(x);
+            let [x, y] = [centre.x, centre.y].map(|x| if x.abs() < NOTHING * radius { 0.0 } else { digits(x) });
+            let _ = write!(
+                text,
+                "\n[geometry.{}]       # its nodes lie on this circle; leave this out if it is meant with straight sides\ncurves = {}\ncircle = {{ centre = [{x:?}, {y:?}], radius = {:?} }}\n",
+                tables.fresh(curve.name),
+                quoted(curve.name),
+                digits(radius)
+            );
+        }
+    }
+
+    fn contacts(&self, text: &mut String) {
+        let mut tables = TableNames::default();
+        if self.guesses.mesh.bodies.len() > 1 && self.guesses.pairs.is_empty() {
+            *text += "\n# No named boundaries of two bodies lie close and face each other. What may touch is written so:\n";
+            *text += "# [contact.NAME]\n# between = [\"boundary of body 1\", \"boundary of body 2\"]\n";
+        }
+        for pair in &self.guesses.pairs {
+            let _ = write!(text, "\n{}", contact_table(pair, &mut tables));
+        }
+    }
+
+    fn supports(&self, text: &mut String, tables: &mut TableNames) {
+        for curve in self.guesses.curves.iter().filter(|curve| curve.has(&MIRRORED) && !curve.is_touched) {
+            let _ = write!(
+                text,
+                "\n[support.{}]       # a line of symmetry, by its name\non = {}\nnormal = 0.0\n",
+                tables.fresh(curve.name),
+                quoted(curve.name)
+            );
+        }
+        if let Some(curve) = self.guesses.held() {
+            let why = if curve.has(&HELD) { "by its name" } else { "the lowest boundary that looks down" };
+            let _ = write!(
+                text,
+                "\n[support.{}]       # held: {why}\non = {}\nux = 0.0\nuy = 0.0\n",
+                tables.fresh(curve.name),
+                quoted(curve.name)
+            );
+        }
+        if let Some((body, motions)) = self.guesses.foundation() {
+            *text += "\n# No named boundary looks like one that is held, so the mean motion of the lowest body is. That carries the load all over\n# the body; where it stands on something, name that line in the mesh, hold it, and leave this out.\n";
+            *text += &self.mean_hold(body, motions, tables);
+        }
+    }
+
+    /// What keeps bodies that rest on others from rolling away: the load of the example does not drive these motions.
+    fn guides(&self, text: &mut String, weights: &[Weight], tables: &mut TableNames) {
+        for (body, motions) in weights.iter().filter_map(|weight| Some((weight.body, weight.guided?))) {
+            *text += "\n# The body rests on others, which may not keep it from sliding or rolling away; its load does not drive that.\n";
+            *text += &self.mean_hold(body, motions, tables);
+        }
+    }
+
+    fn mean_hold(&self, body: usize, motions: [bool; 3], tables: &mut TableNames) -> String {
+        let name = &self.guesses.mesh.bodies[body];
+        MeanProposal { name: tables.fresh(&format!("{name}-still")), body: name.clone(), moves: motions }.table("")
+    }
+
+    fn load(&self, text: &mut String, press: Press) {
+        let Some(curve) = self.guesses.pressed().filter(|_| press != Press::Nothing) else {
+            *text += "\n# Nothing presses yet. A load is written so:\n# [load.NAME]\n# on = \"boundary\"\n# pressure = 1.0\n";
+            *text += "# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n";
+            return;
+        };
+        let why = if curve.has(&LOADED) { "by its name" } else { "the highest boundary that looks up" };
+        let mut tables = TableNames::default();
+        let _ = write!(text, "\n[load.{}]          # pressed: {why}\non = {}\n", tables.fresh(curve.name), quoted(curve.name));
+        if press == Press::Pressure {
+            let _ = writeln!(text, "pressure = {:?}       # example: pushes onto the body", PRESSED * YOUNG);
+            return;
+        }
+        let (push, guided) = push(curve, self.guesses.force());
+        let _ = write!(
+            text,
+            "rigid = true              # a stiff plate that is bonded to it carries the force; or leave these lines, and give pressure = ...
+force = {push}     # example: force for each length of thickness
+{guided} = 0.0                  # the plate is guided,
+angle = 0.0               # and does not turn
+"
+        );
+    }
+
+    /// Names that the mesh wants, as lines of the .geo file.
+    fn wanted_names(&self, text: &mut String) {
+        let Guesses { mesh, curves, unnamed, .. } = &self.guesses;
+        if !curves.is_empty() && unnamed.is_empty() {
+            return;
+        }
+        *text += "\n# Contact, supports and loads stand on named curves, and the mesh has too few. Write such lines into the .geo file, with\n# the numbers of its curves, mesh it again, and make this case anew:\n";
+        let mut line = |name: &str, words: &str| {
+            let _ = writeln!(text, "#   Physical Curve({}) = {{...}};   // {words}", quoted(name));
+        };
+        for &[a, b] in unnamed {
+            for (own, other) in [(a, b), (b, a)] {
+                let [own, other] = [own, other].map(|body| &mesh.bodies[body]);
+                line(&format!("{own}.{other}"), &format!("where \"{own}\" may touch \"{other}\", which lies close"));
+            }
+        }
+        if curves.is_empty() {
+            line("bottom", "what is held");
+            line("top", "what is pressed, on another body");
+        }
+    }
+
+    /// All named boundaries, for whoever goes on writing.
+    fn rest(&self, text: &mut String) {
+        let curves = &self.guesses.curves;
+        if curves.is_empty() {
+            return;
+        }
+        *text += "\n# Boundaries of the mesh, for on = and between =:\n";
+        for curve in curves.iter().take(MOST_NAMED) {
+            let (low, high) = (curve.low, curve.high);
+            let _ = writeln!(
+                text,
+                "#   {}: of {}, length {}, x from {} to {}, y from {} to {}",
+                quoted(curve.name),
+                quoted(&self.guesses.mesh.bodies[curve.body]),
+                short(curve.length),
+                short(low.x),
+                short(high.x),
+                short(low.y),
+                short(high.y)
+            );
+        }
+        if curves.len() > MOST_NAMED {
+            let _ = writeln!(text, "#   and {} more", curves.len() - MOST_NAMED);
+        }
+    }
+}
+
+/// A force that pushes onto a boundary along an axis, as TOML, and the component along which its plate is guided.
+fn push(curve: &NamedCurve, force: f64) -> (String, &'static str) {
+    match curve.normal {
+        n if n.x.abs() > 2.0 * n.y.abs() => (format!("[{:?}, 0.0]", -force * n.x.signum()), "uy"),
+        n if n.y < 0.0 => (format!("[0.0, {force:?}]"), "ux"),
+        _ => (format!("[0.0, {:?}]", -force), "ux"),
+    }
+}

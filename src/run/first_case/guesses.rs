@@ -1,0 +1,175 @@
+//! What a mesh is likely meant to be: what is held, what is pressed, what touches.
+
+use super::named_curve::{ALONG, HELD, LOADED, MIRRORED, NamedCurve};
+use crate::contact::{ClosePair, close_pairs};
+use crate::geometry::cross;
+use crate::mesh::{Boundary, MacroMesh};
+use std::cmp::Ordering;
+
+/// Young's modulus and Poisson's ratio of the example: steel, in MPa.
+pub const YOUNG: f64 = 210e3;
+pub const POISSON: f64 = 0.3;
+
+/// The example presses with this share of Young's modulus over the width of the narrowest body.
+pub const PRESSED: f64 = 1e-3;
+
+/// Bodies whose outlines are nearer than this share of the smaller one may be meant to touch.
+const NEAR: f64 = 0.1;
+
+/// A line of symmetry holds an axis if its normal has more than this along it.
+const ACROSS: f64 = 1e-6;
+
+/// Heights that differ by less than this share of a body's are the same.
+const LEVEL: f64 = 1e-6;
+
+/// How the example presses.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Press {
+    /// By a stiff plate that carries a force.
+    Plate,
+    /// By a pressure.
+    Pressure,
+    /// Not at all.
+    Nothing,
+}
+
+/// A body that its own weight presses, as it were.
+pub struct Weight {
+    pub body: usize,
+    /// Force per area, downwards.
+    pub force: f64,
+    /// Mean motions that are held, so that it does not roll away: the example does not drive them.
+    pub guided: Option<[bool; 3]>,
+}
+
+/// A mesh and what is guessed of it.
+pub struct Guesses<'a> {
+    pub mesh: &'a MacroMesh,
+    pub curves: Vec<NamedCurve<'a>>,
+    /// Named boundaries that may touch.
+    pub pairs: Vec<ClosePair>,
+    /// Bodies that lie close, though no named boundaries of theirs do.
+    pub unnamed: Vec<[usize; 2]>,
+}
+
+impl<'a> Guesses<'a> {
+    pub fn new(mesh: &'a MacroMesh) -> Self {
+        let pairs = close_pairs(mesh);
+        let curves = mesh.boundaries.iter().filter_map(|boundary| NamedCurve::new(mesh, boundary, &pairs)).collect();
+        let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
+        let unnamed = close_outlines(mesh).into_iter().filter(|bodies| !is_known(bodies)).collect();
+        Self { mesh, curves, pairs, unnamed }
+    }
+
+    /// Boundaries without contact and not of symmetry.
+    fn free(&self) -> impl Iterator<Item = &NamedCurve<'a>> {
+        self.curves.iter().filter(|curve| !curve.is_touched && !curve.has(&MIRRORED))
+    }
+
+    /// The boundary that is held: by its name, or because it is the lowest and looks down.
+    pub fn held(&self) -> Option<&NamedCurve<'a>> {
+        let rank = |curve: &&NamedCurve| (curve.has(&HELD), curve.normal.y < -ALONG, -curve.low.y);
+        let likely = self.free().filter(|curve| curve.has(&HELD) || curve.normal.y < -ALONG);
+        likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal))
+    }
+
+    /// Where no boundary is held, but bodies may touch: the lowest body, of those that reach as low the largest, and which of its
+    /// mean motions are held, so that the others rest on it.
+    pub fn foundation(&self) -> Option<(usize, [bool; 3])> {
+        if self.pairs.is_empty() || self.held().is_some() {
+            return None;
+        }
+        let low = |body: usize| self.ends(body)[0];
+        let lowest = (0..self.mesh.bodies.len()).map(low).fold(f64::INFINITY, f64::min);
+        let reaches = |&body: &usize| low(body) - lowest <= LEVEL * (self.ends(body)[1] - low(body));
+        let body = (0..self.mesh.bodies.len()).filter(reaches).max_by(|&a, &b| self.area(a).total_cmp(&self.area(b)))?;
+        self.unresisted(body, [true; 3]).map(|motions| (body, motions))
+    }
+
+    /// Those of some mean motions of a body that its lines of symmetry leave free; nothing if none is, or if it has no mean motion.
+    fn unresisted(&self, body: usize, mut motions: [bool; 3]) -> Option<[bool; 3]> {
+        let mirrored = self.curves.iter().filter(|curve| curve.has(&MIRRORED) && !curve.is_touched);
+        let edges = mirrored.filter_map(|curve| self.mesh.boundary(curve.name)).flat_map(|boundary| &boundary.edges);
+        for &edge in edges.filter(|&&edge| self.mesh.body_beside(edge) == body) {
+            let normal = self.mesh.edge_normal(edge, 0.5);
+            motions = [motions[0] && normal.x.abs() < ACROSS, motions[1] && normal.y.abs() < ACROSS, false];
+        }
+        let is_whole = self.mesh.pieces.iter().filter(|piece| piece.body == body).count() == 1;
+        (is_whole && motions.contains(&true)).then_some(motions)
+    }
+
+    /// The boundary that is pressed: by its name, or because it is the highest and looks up; on another body, if there is one.
+    pub fn pressed(&self) -> Option<&NamedCurve<'a>> {
+        let held = self.held();
+        let other = |curve: &&NamedCurve| match held {
+            Some(held) => curve.name != held.name && (curve.body != held.body || self.mesh.bodies.len() == 1),
+            None => self.foundation().is_none_or(|(body, _)| body != curve.body),
+        };
+        let rank = |curve: &&NamedCurve| (curve.has(&LOADED), curve.normal.y > ALONG, curve.high.y);
+        let likely = self.free().filter(other).filter(|curve| curve.has(&LOADED) || curve.normal.y > ALONG);
+        let best = likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
+        best.filter(|curve| curve.is_of_one_piece)
+    }
+
+    /// Bodies that rest on others and would lie loose there, since nothing presses them: neither a boundary nor a body that is
+    /// higher. To each an example of a force per area that presses it down, and those mean motions that this leaves free.
+    pub fn weights(&self) -> Vec<Weight> {
+        let Some(base) = self.held().map(|held| held.body).or_else(|| self.foundation().map(|(body, _)| body)) else {
+            return Vec::new();
+        };
+        let pressed = self.pressed().map(|curve| curve.body);
+        let middle = |body: usize| self.ends(body).iter().sum::<f64>();
+        let is_higher =
+            |body: usize, other: usize| middle(other) - middle(body) > LEVEL * (self.ends(body)[1] - self.ends(body)[0]);
+        let rests = |&body: &usize| {
+            let mut partners =
+                self.pairs.iter().filter(|pair| pair.bodies.contains(&body)).flat_map(|pair| pair.bodies).peekable();
+            partners.peek().is_some() && !partners.any(|other| other != base && is_higher(body, other))
+        };
+        let loose = (0..self.mesh.bodies.len()).filter(|&body| body != base && Some(body) != pressed).filter(rests);
+        loose
+            .map(|body| Weight {
+                body,
+                force: one_digit(self.force() / self.area(body)),
+                guided: self.unresisted(body, [true, false, true]),
+            })
+            .collect()
+    }
+
+    /// The force of the example, for each length of thickness.
+    pub fn force(&self) -> f64 {
+        let narrowest = self.mesh.bounds().iter().map(|[low, high]| (high - low).min()).fold(f64::INFINITY, f64::min);
+        one_digit(PRESSED * YOUNG * narrowest)
+    }
+
+    /// How low and how high a body reaches.
+    fn ends(&self, body: usize) -> [f64; 2] {
+        let own = self.mesh.pieces.iter().zip(self.mesh.bounds()).filter(|(piece, _)| piece.body == body);
+        own.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, [a, b])| [low.min(a.y), high.max(b.y)])
+    }
+
+    fn area(&self, body: usize) -> f64 {
+        let own = self.mesh.triangles.iter().filter(|triangle| triangle.body as usize == body);
+        let area = |corners: [u32; 3]| {
+            let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
+            0.5 * cross(b - a, c - a)
+        };
+        own.map(|triangle| area(triangle.vertices)).sum()
+    }
+}
+
+/// Bodies whose outlines lie close and face each other, with names or without.
+fn close_outlines(mesh: &MacroMesh) -> Vec<[usize; 2]> {
+    let outline = |body: usize| {
+        let outer = |edge: &u32| mesh.edges[*edge as usize].triangles[1].is_none() && mesh.body_beside(*edge) == body;
+        let edges = (0..mesh.edges.len() as u32).filter(outer).collect();
+        Boundary { name: mesh.bodies[body].clone(), edges, is_union: false }
+    };
+    let outlines = MacroMesh { boundaries: (0..mesh.bodies.len()).map(outline).collect(), ..mesh.clone() };
+    close_pairs(&outlines).into_iter().filter(|pair| pair.share <= NEAR).map(|pair| pair.bodies).collect()
+}
+
+/// A number of one digit, for an example.
+fn one_digit(value: f64) -> f64 {
+    format!("{value:.0e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,68 @@
+//! Circles that the nodes of a boundary lie on.
+
+use crate::geometry::{Point, cross};
+use crate::mesh::MacroMesh;
+
+/// Distance of nodes from the circle at most, as a share of its radius.
+const OFF: f64 = 1e-6;
+
+/// Edges at least, and the angle of each at the centre at most (radians, 31 degrees): fewer are a polygon that may be meant.
+const LEAST_EDGES: usize = 3;
+const WIDEST: f64 = 0.541;
+
+/// A circle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeCircle {
+    pub centre: Point,
+    pub radius: f64,
+}
+
+impl NodeCircle {
+    /// The circle that all ends of some edges lie on, if there is one that the edges, which are straight, follow in small steps.
+    pub fn through(mesh: &MacroMesh, edges: &[u32]) -> Option<Self> {
+        let is_straight = |&edge: &u32| mesh.edges[edge as usize].shape.is_none();
+        if edges.len() < LEAST_EDGES || !edges.iter().all(is_straight) {
+            return None;
+        }
+        let ends = |edge: u32| mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        let points: Vec<Point> = edges.iter().flat_map(|&edge| ends(edge)).collect();
+        let first = points[0];
+        let far = |from: Point| move |a: &&Point, b: &&Point| (*a - from).norm().total_cmp(&(*b - from).norm());
+        let second = *points.iter().max_by(far(first))?;
+        // The third point is the one that is farthest from the line through both.
+        let height = |x: &Point| cross(second - first, x - first).abs();
+        let third = *points.iter().max_by(|a, b| height(a).total_cmp(&height(b)))?;
+        let centre = circumcentre([first, second, third])?;
+        let radius = (first - centre).norm();
+        let is_on = points.iter().all(|x| ((x - centre).norm() - radius).abs() <= OFF * radius);
+        let angle = |edge: u32| {
+            let [a, b] = ends(edge);
+            2.0 * (0.5 * (b - a).norm() / radius).min(1.0).asin()
+        };
+        (is_on && edges.iter().all(|&edge| angle(edge) <= WIDEST)).then_some(Self { centre, radius })
+    }
+}
+
+/// The point as far from each of three points; none if these lie on a line.
+fn circumcentre([a, b, c]: [Point; 3]) -> Option<Point> {
+    let (u, v) = (b - a, c - a);
+    let area = 2.0 * cross(u, v);
+    let (uu, vv) = (u.norm_squared(), v.norm_squared());
+    let from_a = Point::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / area;
+    (area.abs() > OFF * (uu + vv)).then(|| a + from_a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::samples::{columns, fan};
+
+    #[test]
+    fn a_fine_polygon_is_a_circle_and_a_coarse_one_and_a_line_are_none() {
+        let found = |mesh: &MacroMesh| NodeCircle::through(mesh, &mesh.boundaries[0].edges);
+        let circle = found(&fan(16)).expect("16 edges of 22.5 degrees");
+        assert!((circle.centre - Point::new(3.0, -1.0)).norm() < 1e-12 && (circle.radius - 2.0).abs() < 1e-12, "{circle:?}");
+        assert_eq!(found(&fan(8)), None, "an octagon");
+        assert_eq!(found(&columns(5, 1.0)), None);
+    }
+}
