@@ -4,7 +4,9 @@ use clap::Parser;
 use clap::error::ErrorKind as UsageKind;
 use mezha::arguments::{Arguments, CheckArguments, Command, FileKind, NewArguments, RunArguments, Study, nearest_command};
 use mezha::case::{Inputs, schema};
-use mezha::petsc::{self, Session, TellingAllocator, end_all_ranks, errors_are_final, when_memory_is_refused};
+use mezha::petsc::{
+    self, Session, TellingAllocator, end_all_ranks, errors_are_final, share_memory_among_threads, when_memory_is_refused,
+};
 use mezha::run::{self, Outcome, RunError, RunOptions, interruption};
 use mezha::study::{self, StudyError};
 use std::io::{ErrorKind, Write, stderr, stdout};
@@ -23,6 +25,7 @@ static ALLOCATOR: TellingAllocator = TellingAllocator;
 
 fn main() {
     let started = Instant::now();
+    share_memory_among_threads();
     let arguments = Arguments::try_parse().unwrap_or_else(|error| exit(usage(&error)));
     let code = match arguments.command {
         Command::Run(arguments) => run_case(&arguments, started),

@@ -21,6 +21,12 @@ pub fn when_memory_is_refused(act: fn(usize)) {
     let _ = REFUSED.set(act);
 }
 
+/// Threads that are started from now on get their memory where the first one does: otherwise glibc reserves 64 MiB of address space
+/// and more for each, and `ulimit -v` leaves a run that much less.
+pub fn share_memory_among_threads() {
+    unsafe { super::ffi::mezha_share_arena() }
+}
+
 #[cold]
 fn refused(bytes: usize) {
     if let Some(act) = REFUSED.get().filter(|_| !ENTERED.swap(true, Ordering::Relaxed)) {

@@ -7,6 +7,7 @@
 //! Functions marked **Collective** must be called by all ranks in the same order, and so must the drop of any object.
 
 mod allocation;
+mod blas;
 mod broadcast;
 mod collective;
 mod environment;
@@ -34,7 +35,7 @@ pub mod versions;
 mod watch;
 mod window;
 
-pub use allocation::{TellingAllocator, when_memory_is_refused};
+pub use allocation::{TellingAllocator, share_memory_among_threads, when_memory_is_refused};
 pub use collective::Datum;
 pub use error::{Error, Result, errors_are_final};
 pub use factor::Factor;

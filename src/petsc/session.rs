@@ -1,5 +1,6 @@
 //! Start and end of PETSc and MPI.
 
+use super::blas::start_blas;
 use super::broadcast::odd_one;
 use super::error::{Error, Result, has_others, petsc, remember, with_message};
 use super::{environment, ffi};
@@ -68,7 +69,8 @@ impl Session {
         let initialize = || unsafe { ffi::PetscInitialize(&mut count, &mut array, ptr::null(), ptr::null()) };
         the_end_is_ours(true);
         let started = with_message("PetscInitialize", initialize);
-        if let Err(error) = started.and_then(|()| petsc!(PetscPushErrorHandler(Some(remember), ptr::null_mut()))) {
+        let handled = started.and_then(|()| petsc!(PetscPushErrorHandler(Some(remember), ptr::null_mut())));
+        if let Err(error) = handled.and_then(|()| start_blas()) {
             the_end_is_ours(false);
             if world.size() > 1 {
                 forget(universe);

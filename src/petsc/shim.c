@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 PetscErrorCode mezha_malloc(size_t bytes, void **memory)
 {
@@ -32,6 +35,30 @@ PetscErrorCode mezha_replace_apply(PC preconditioner, mezha_apply apply, mezha_a
 {
   *before                    = preconditioner->ops->apply;
   preconditioner->ops->apply = apply;
+  return 0;
+}
+
+void mezha_share_arena(void)
+{
+#ifdef M_ARENA_MAX
+  mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
+int mezha_start_blas(size_t bytes)
+{
+  /* Volatile, so that memory that is given back at once is asked for all the same. */
+  void *volatile memory = malloc(bytes);
+  PetscBLASInt one      = 1;
+  double       factor = 1.0, sum = 0.0;
+  /* It comes along with PETSc. */
+  typedef void (*Product)(const char *, const char *, const PetscBLASInt *, const PetscBLASInt *, const double *, const double *,
+                          const PetscBLASInt *, const double *, double *, const PetscBLASInt *);
+  Product product = (Product)dlsym(RTLD_DEFAULT, "dsyrk_");
+
+  if (!memory) return 1;
+  free(memory);
+  if (product) product("U", "N", &one, &one, &factor, &factor, &one, &factor, &sum, &one);
   return 0;
 }
 

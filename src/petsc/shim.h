@@ -26,6 +26,10 @@ void mezha_end_is_ours(PetscBool ours);
 typedef PetscErrorCode (*mezha_apply)(PC, Vec, Vec);
 /* The present one goes to `before`. */
 PetscErrorCode mezha_replace_apply(PC preconditioner, mezha_apply apply, mezha_apply *before);
+/* Threads that are started from now on share memory with the first one. */
+void mezha_share_arena(void);
+/* Has BLAS make a product, if `bytes` of memory are to be had for it; 0 if they are. */
+int mezha_start_blas(size_t bytes);
 /* Keeps the residual norm of each iteration of a solve, in memory of PETSc's. */
 PetscErrorCode mezha_record_residuals(KSP solver);
 /* What destroys the context of a shell, and the context in what it is given then: from PETSc 3.23 on, where the context is. */

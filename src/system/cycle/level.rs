@@ -2,7 +2,7 @@
 
 use crate::petsc::{Datum, Halo, Session};
 use crate::system::interpolation::{InterpolationRoom, NodeInterpolation};
-use crate::system::stiffness::{EvenTriangles, LatticeOperator, LatticeRows, Precision, StoredRows, Strips, Sweep};
+use crate::system::stiffness::{EvenTriangles, LatticeOperator, LatticeRows, Precision, StoredRows, Strips, SweepHalves};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -125,7 +125,7 @@ impl<T: Precision + Datum> CycleLevel<T> {
     }
 
     /// A Gauss-Seidel sweep over the nodes here, from `x` or from zero; those of other ranks stay as they are. **Collective**
-    pub fn relax(&mut self, sweep: Sweep, b: &[[T; 2]], x: &mut [[T; 2]], from_zero: bool) {
+    pub fn relax(&mut self, sweep: SweepHalves, b: &[[T; 2]], x: &mut [[T; 2]], from_zero: bool) {
         let Self { lattice, rows, halo, far, .. } = self;
         if from_zero {
             x.fill([T::default(); 2]);
@@ -134,7 +134,7 @@ impl<T: Precision + Datum> CycleLevel<T> {
             LevelRows::All(rows) => {
                 let all = 0..rows.nodes().len();
                 rows.forward(all.clone(), b, x, &[]);
-                if sweep == Sweep::Symmetric {
+                if sweep == SweepHalves::Both {
                     rows.backward(all, b, x, &[]);
                 }
             }

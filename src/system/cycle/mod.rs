@@ -10,7 +10,7 @@ mod level;
 
 use super::SystemError;
 use super::interpolation::{Interpolation, NodeInterpolation, is_gathered};
-use super::stiffness::{Precision, Stiffness, Sweep};
+use super::stiffness::{Precision, Stiffness, SweepHalves};
 use crate::petsc::{Action, Datum, Result, Session, Vector};
 use coarsest::Coarsest;
 use level::CycleLevel;
@@ -93,10 +93,10 @@ impl<T: Precision + Datum> FullCycle<T> {
         coarsest.solve(&mut levels[0])?;
         for l in 1..top {
             let (b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
-            begin(&mut levels[..=l], coarsest, Sweep::Forward, &b, &mut x, r)?;
+            begin(&mut levels[..=l], coarsest, SweepHalves::Forward, &b, &mut x, r)?;
             (levels[l].b, levels[l].x) = (b, x);
         }
-        begin(levels, coarsest, Sweep::Symmetric, b, x, r)
+        begin(levels, coarsest, SweepHalves::Both, b, x, r)
     }
 }
 
@@ -104,7 +104,7 @@ impl<T: Precision + Datum> FullCycle<T> {
 fn begin<T: Precision + Datum>(
     levels: &mut [CycleLevel<T>],
     coarsest: &mut Coarsest,
-    before: Sweep,
+    before: SweepHalves,
     b: &[[T; 2]],
     x: &mut [[T; 2]],
     r: &mut [[T; 2]],
@@ -130,12 +130,12 @@ fn correct<T: Precision + Datum>(
         coarsest.solve(&mut below[0])?;
     } else {
         let (next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
-        below[last].relax(Sweep::Forward, &next, &mut correction, true);
+        below[last].relax(SweepHalves::Forward, &next, &mut correction, true);
         correct(below, coarsest, &next, &mut correction, r)?;
         (below[last].b, below[last].x) = (next, correction);
     }
     level.correct(&below[last].x, x);
-    level.relax(Sweep::Symmetric, b, x, false);
+    level.relax(SweepHalves::Both, b, x, false);
     Ok(())
 }
 

@@ -2,8 +2,7 @@
 //! worked on in a lattice of its own.
 
 use super::block_lanes::product;
-use super::lattice_rows::Sweep;
-use super::strip_kernel::{RowsOf, TriangleKernel};
+use super::strip_kernel::{RowsOf, SweepHalves, TriangleKernel};
 use super::strips::Couplings;
 use crate::element::Block;
 use crate::mesh::lattice;
@@ -80,7 +79,7 @@ impl<T: Real> EvenTriangles<T> {
     }
 
     /// A Gauss-Seidel sweep over the inner nodes of one macro triangle after the other: they do not couple.
-    pub fn relax(&self, sweep: Sweep, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+    pub fn relax(&self, sweep: SweepHalves, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         let [own_b, own_x] = &mut *self.room.borrow_mut();
         for (triangle, kernel) in self.triangles.iter().zip(&*self.kernels) {
             triangle.bring_sides(x, far, own_x);

@@ -2,8 +2,9 @@
 
 use super::ContactNeighbours;
 use super::even_triangles::EvenTriangles;
-use super::lattice_rows::{LatticeRows, Sweep, SweepOrder};
+use super::lattice_rows::{LatticeRows, SweepOrder};
 use super::stored_rows::{BlockColumn, StoredRows};
+use super::strip_kernel::SweepHalves;
 use super::strip_set::Strips;
 use super::strips::Couplings;
 use crate::element::Block;
@@ -200,7 +201,7 @@ impl Operator for Rc<LatticeOperator> {
             far.resize(self.far.len(), [0.0; 2]);
             self.halo.fetch_before(x, &mut far, |x| rows.begin_to_relax(b, x));
         }
-        rows.end_to_relax(Sweep::Symmetric, b, x, &far);
+        rows.end_to_relax(SweepHalves::Both, b, x, &far);
         Ok(())
     }
 

@@ -4,6 +4,7 @@ use super::even_triangles::EvenTriangles;
 use super::precision::Precision;
 use super::row_kernel::{OnRows, RowTask};
 use super::stored_rows::StoredRows;
+use super::strip_kernel::SweepHalves;
 use super::strip_set::Strips;
 use std::ops::Range;
 
@@ -41,15 +42,6 @@ impl SweepOrder {
         let [near_sides, far_sides] = sides;
         Self { near_sides, far_sides, inside }
     }
-}
-
-/// Which halves of a symmetric Gauss-Seidel sweep are done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sweep {
-    /// The first one alone, in the order of the nodes.
-    Forward,
-    /// Both.
-    Symmetric,
 }
 
 /// Rows to work on.
@@ -95,7 +87,7 @@ impl<T: Precision> LatticeRows<'_, T> {
     }
 
     /// The rest of it; `far` are the values of other ranks, none stands for zeros.
-    pub fn end_to_relax(&self, sweep: Sweep, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+    pub fn end_to_relax(&self, sweep: SweepHalves, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         let (stored, SweepOrder { near_sides, far_sides, inside }) = (self.stored, self.order);
         far_sides.iter().for_each(|range| stored.forward(range.clone(), b, x, far));
         for (triangle, rows) in self.strips.triangles.iter().zip(inside) {
@@ -104,13 +96,13 @@ impl<T: Precision> LatticeRows<'_, T> {
             // Strips come first: what they bring into the cache the stored rows find there.
             parts.iter().for_each(|(strips, kind)| kernels[*kind].forward(&nodes[strips.clone()], b, x));
             stored.forward(rows.clone(), b, x, far);
-            if sweep == Sweep::Symmetric {
+            if sweep == SweepHalves::Both {
                 stored.backward(rows.clone(), b, x, far);
                 parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
             }
         }
         self.even.relax(sweep, b, x, far);
-        if sweep == Sweep::Symmetric {
+        if sweep == SweepHalves::Both {
             for sides in [far_sides, near_sides] {
                 sides.iter().rev().for_each(|range| stored.backward(range.clone(), b, x, far));
             }

@@ -20,9 +20,10 @@ mod strips;
 pub use elastic::Elastic;
 pub use even_triangles::EvenTriangles;
 pub use lattice_operator::LatticeOperator;
-pub use lattice_rows::{LatticeRows, Sweep};
+pub use lattice_rows::LatticeRows;
 pub use precision::Precision;
 pub use stored_rows::StoredRows;
+pub use strip_kernel::SweepHalves;
 pub use strip_set::Strips;
 
 use super::SystemError;

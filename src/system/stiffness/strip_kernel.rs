@@ -10,6 +10,15 @@ use super::strips::{Couplings, Step, StripNodes, inverse};
 use crate::element::Block;
 use crate::system::space::Real;
 
+/// Which halves of a symmetric Gauss-Seidel sweep are done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SweepHalves {
+    /// The first one alone, in the order of the nodes.
+    Forward,
+    /// Both.
+    Both,
+}
+
 /// Work on strips with the same couplings. Vectors hold all nodes of the rank.
 pub trait StripKernel<T> {
     /// `y = K x` at the nodes of strips.

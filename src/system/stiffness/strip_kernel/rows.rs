@@ -4,7 +4,6 @@
 //! Registers begin at the first node of a row, which lies on a side, and reach behind its last one: values of nodes on sides are
 //! put into the recurrence as known, and what a register holds behind them stays as it is.
 
-use super::super::lattice_rows::Sweep;
 use super::*;
 use crate::mesh::lattice;
 use crate::system::triangle_lattice::row_start;
@@ -41,7 +40,7 @@ pub trait TriangleKernel<T> {
     fn residual(&self, n: usize, rows: RowsOf, b: &[[T; 2]], inner: &[[T; 2]], x: &mut [[T; 2]], r: &mut [[T; 2]]);
 
     /// A Gauss-Seidel sweep, row by row; nodes on the sides stay as they are.
-    fn relax(&self, n: usize, sweep: Sweep, rows: RowsOf, b: &[[T; 2]], inner: &mut [[T; 2]], x: &mut [[T; 2]]);
+    fn relax(&self, n: usize, sweep: SweepHalves, rows: RowsOf, b: &[[T; 2]], inner: &mut [[T; 2]], x: &mut [[T; 2]]);
 }
 
 /// The kernel with given registers: couplings of rows with even and with odd `j`; the first one stands for all if there is
@@ -241,7 +240,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
 enum TriangleTask<'a, T> {
     Multiply { inner: &'a [[T; 2]], room: &'a mut [[T; 2]], y: &'a mut [[T; 2]] },
     Residual { rows: RowsOf, b: &'a [[T; 2]], inner: &'a [[T; 2]], r: &'a mut [[T; 2]] },
-    Relax { sweep: Sweep, rows: RowsOf, b: &'a [[T; 2]], inner: &'a mut [[T; 2]] },
+    Relax { sweep: SweepHalves, rows: RowsOf, b: &'a [[T; 2]], inner: &'a mut [[T; 2]] },
 }
 
 /// A task on a macro triangle, with the lattice of its values.
@@ -297,11 +296,11 @@ impl<L: Lanes, const EVEN: usize, const SECOND: bool, const ODD: usize> LaneWork
                 for j in 1..n - 1 {
                     bring(j, inner, x);
                     kernels.relax_row(Way::Forward, (n, j), &ends, &b[rows.start(n, j)..], x);
-                    if sweep == Sweep::Forward {
+                    if sweep == SweepHalves::Forward {
                         take(j, x, inner);
                     }
                 }
-                for j in (1..n - 1).rev().filter(|_| sweep == Sweep::Symmetric) {
+                for j in (1..n - 1).rev().filter(|_| sweep == SweepHalves::Both) {
                     kernels.relax_row(Way::Backward, (n, j), &ends, &b[rows.start(n, j)..], x);
                     take(j, x, inner);
                 }
@@ -339,7 +338,7 @@ impl<L: Lanes, const EVEN: usize, const SECOND: bool, const ODD: usize> Triangle
     fn relax(
         &self,
         n: usize,
-        sweep: Sweep,
+        sweep: SweepHalves,
         rows: RowsOf,
         b: &[[L::Real; 2]],
         inner: &mut [[L::Real; 2]],

@@ -5,7 +5,6 @@ use crate::body::MacroStiffness;
 use crate::element::{Order, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
-use crate::system::stiffness::Sweep;
 use crate::system::stiffness::lanes::PlainLanes;
 use crate::system::stiffness::strips::inverse;
 use crate::system::triangle_lattice::{row_start, zeros};
@@ -134,7 +133,7 @@ fn check_triangles<L: Lanes>(lanes: L, tolerance: f64) {
             *to = b[row_start(n, *j) + i];
         }
         for (rows, b) in [(RowsOf::Lattice, &b), (RowsOf::Inner(before), &packed)] {
-            for (sweep, expected) in [(Sweep::Forward, &forward), (Sweep::Symmetric, &symmetric)] {
+            for (sweep, expected) in [(SweepHalves::Forward, &forward), (SweepHalves::Both, &symmetric)] {
                 let (mut x, mut found) = (sides.clone(), packed_start.clone());
                 kernel.relax(n, sweep, rows, b, &mut found, &mut x);
                 near("lattice", &x, expected);
