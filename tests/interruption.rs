@@ -64,6 +64,12 @@ fn children(parent: u32) -> Vec<Pid> {
     found.into_iter().filter_map(Pid::from_raw).collect()
 }
 
+/// Whether this `mpirun` is that of Open MPI 5: it hands on nothing of what its programs say after a signal to itself, and leaves
+/// them no time to clear away what a killed rank 0 has begun. The next run does that.
+fn is_abrupt() -> bool {
+    !mezha::petsc::versions::mpi().starts_with("Open MPI v4")
+}
+
 /// The summary of an interrupted run, alone in its folder with its case, and with its mesh if that was read.
 fn interrupted(out: &Path) -> Value {
     let text = std::fs::read_to_string(out.join("summary.json")).expect("a summary");
@@ -96,8 +102,10 @@ fn a_run_that_a_signal_ends_tells_what_was_reached() {
         let summary = interrupted(&folder.path().join("result"));
         let reason = summary["reason"].as_str().expect("a reason");
         assert!(reason.starts_with(&format!("interrupted by {name} after ")), "{ranks:?}: {reason}");
-        assert!(errors.contains(&format!("mezha: {reason}")), "{errors}");
-        assert_eq!(errors.matches("mezha: ").count(), 1, "{errors}");
+        if ranks.is_none() || !is_abrupt() {
+            assert!(errors.contains(&format!("mezha: {reason}")), "{errors}");
+            assert_eq!(errors.matches("mezha: ").count(), 1, "{errors}");
+        }
     }
 }
 
@@ -113,7 +121,9 @@ fn a_signal_to_one_rank_ends_all() {
         std::thread::sleep(Duration::from_millis(300));
         kill_process(children(child.id())[rank], signal).expect("a rank can be told to end");
         let (found, errors) = end(child);
-        assert_eq!((found, names_in(folder.path()).len()), (Some(code), left), "rank {rank}: {errors}");
+        let mut names = names_in(folder.path());
+        names.retain(|name| !(is_abrupt() && name.starts_with(".result.")));
+        assert_eq!((found, names.len()), (Some(code), left), "rank {rank}: {errors}");
         if left > 0 {
             interrupted(&folder.path().join("result"));
         }
