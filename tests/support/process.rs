@@ -25,7 +25,11 @@ pub const ENVIRONMENT: [(&str, &str); 5] = [
 /// If it takes too long.
 pub fn finish(mut command: Command) -> (Option<i32>, String, String) {
     let sessions = tempfile::tempdir().expect("a temporary folder");
-    command.envs(ENVIRONMENT).env("OMPI_MCA_orte_tmpdir_base", sessions.path());
+    command.envs(ENVIRONMENT);
+    // Of Open MPI 4, and of 5.
+    for name in ["OMPI_MCA_orte_tmpdir_base", "PRTE_MCA_prte_tmpdir_base"] {
+        command.env(name, sessions.path());
+    }
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("mpirun starts (Debian: apt-get install openmpi-bin)");
     let output = reader(child.stdout.take().expect("piped"));
