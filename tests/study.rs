@@ -43,7 +43,9 @@ impl Study {
             command.env(name, value);
         }
         // Runs of other tests must not clear away Open MPI's files of this one.
-        command.env("OMPI_MCA_orte_tmpdir_base", self.folder.path());
+        for name in ["OMPI_MCA_orte_tmpdir_base", "PRTE_MCA_prte_tmpdir_base"] {
+            command.env(name, self.folder.path());
+        }
         command.stdin(Stdio::null());
         command
     }
