@@ -49,7 +49,7 @@ int mezha_start_blas(size_t bytes)
 {
   /* Volatile, so that memory that is given back at once is asked for all the same. */
   void *volatile memory = malloc(bytes);
-  PetscBLASInt one      = 1;
+  PetscBLASInt one    = 1;
   double       factor = 1.0, sum = 0.0;
   /* It comes along with PETSc. */
   typedef void (*Product)(const char *, const char *, const PetscBLASInt *, const PetscBLASInt *, const double *, const double *,

@@ -20,7 +20,7 @@ use std::rc::Rc;
 
 /// Full multigrid: on each level, from the coarsest one up, a V-cycle with one Gauss-Seidel sweep before and one after the coarse
 /// correction, from what the coarser level has found. Sweeps are symmetric; before the coarse corrections of levels below the
-/// finest one they go forward alone, which costs no iteration and saves a quarter of the sweeps there.
+/// finest one they go forward alone, which saves a quarter of the sweeps there and costs one iteration in a hundred.
 pub struct FullCycle<T> {
     coarsest: Coarsest,
     /// The coarsest first; that one has no sweeps.
