@@ -4,7 +4,7 @@
 //! kills them a second later. That of rank 0 writes what was reached until then; those of the others wait for this, and make sure
 //! that all ends. What is known is kept as the run goes on, in `Unfinished`.
 
-use super::{ResultOrigin, accuracy, progress, summarise};
+use super::{ResultOrigin, RunOptions, accuracy, progress, summarise};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::output::report::{ReportPage, write_report};
@@ -129,19 +129,31 @@ fn lock() -> MutexGuard<'static, Option<Unfinished>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Every rank learns where results go; rank 0 gives its folder out of its hands until [`finish`].
-pub fn begin(folder: Option<ResultFolder>, files: &Path, out: &Path, case: &Case, origin: Arc<ResultOrigin>, started: Instant) {
-    let _ = PLACE.set((out.to_path_buf(), files.to_path_buf()));
-    *lock() = folder.map(|folder| Unfinished {
+/// Makes the folder of the results, and keeps it until [`finish`]: on rank 0 alone. A signal comes before or after. Returns the
+/// place that all ranks write to until the folder is whole.
+///
+/// # Errors
+/// Those of [`ResultFolder::create`].
+pub fn begin(case: &Case, options: &RunOptions, origin: &ResultOrigin) -> Result<PathBuf, OutputError> {
+    let mut unfinished = lock();
+    let folder = ResultFolder::create(&options.out, options.force)?;
+    let files = folder.temporary().to_path_buf();
+    *unfinished = Some(Unfinished {
         folder,
         summary: Summary::new(&case.name, origin.provenance.ranks),
-        origin,
+        origin: Arc::new(origin.clone()),
         doing: "reading the mesh",
-        started,
-        out: out.to_path_buf(),
+        started: options.started,
+        out: options.out.clone(),
         warnings: Vec::new(),
         title: case.output.fields.then(|| case.title.clone()),
     });
+    Ok(files)
+}
+
+/// Every rank learns where results go, and where all write to until then.
+pub fn keep_place(out: &Path, files: &Path) {
+    let _ = PLACE.set((out.to_path_buf(), files.to_path_buf()));
 }
 
 /// Keeps what the result is made of.

@@ -45,7 +45,6 @@ pub use outcome::{Outcome, RunError};
 pub use run_options::RunOptions;
 
 use crate::case::Case;
-use crate::output::ResultFolder;
 use crate::petsc::{self, Session};
 use crate::system::Scene;
 use origin::ResultOrigin;
@@ -73,9 +72,8 @@ pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outco
 
 fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
     refuse_options(session)?;
-    let (folder, files) = claim_folder(options, session)?;
     let origin = ResultOrigin::new(case, session);
-    interruption::begin(folder, &files, &options.out, case, Arc::new(origin.clone()), options.started);
+    let files = claim_folder(case, options, &origin, session)?;
     progress::begin(options.progress, session.rank() == 0, options.quiet, options.started);
     let report = Report::new(case, options, session);
     let stages = Rc::new(Stages::new(session)?);
@@ -131,17 +129,12 @@ fn refuse_options(session: &Session) -> Result<(), RunError> {
     }
 }
 
-/// The folder of the results, made by rank 0, and the place that all ranks write to until it is whole. **Collective**
-fn claim_folder(options: &RunOptions, session: &Session) -> Result<(Option<ResultFolder>, PathBuf), RunError> {
-    let mut folder = None;
-    let create = || ResultFolder::create(&options.out, options.force).map(|made| place(folder.insert(made)));
-    let place = session.share(create).map_err(RunError::Input)?;
-    Ok((folder, OsString::from_vec(place).into()))
-}
-
-/// The temporary place of a folder, as it is sent.
-fn place(folder: &ResultFolder) -> Vec<u8> {
-    folder.temporary().as_os_str().as_encoded_bytes().to_vec()
+/// The folder of the results, made by rank 0: the place that all ranks write to until it is whole. **Collective**
+fn claim_folder(case: &Case, options: &RunOptions, origin: &ResultOrigin, session: &Session) -> Result<PathBuf, RunError> {
+    let create = || interruption::begin(case, options, origin).map(|files| files.into_os_string().into_vec());
+    let files = PathBuf::from(OsString::from_vec(session.share(create).map_err(RunError::Input)?));
+    interruption::keep_place(&options.out, &files);
+    Ok(files)
 }
 
 /// A run on its way.
