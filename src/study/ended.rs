@@ -56,9 +56,9 @@ impl RunStatus {
 }
 
 impl Ended {
-    /// Whether it has left a summary.
+    /// Whether it was solved, and has left a summary that says how; that of an interrupted run only says how far it came.
     pub fn has_result(&self) -> bool {
-        !self.summary.is_null()
+        !self.summary.is_null() && matches!(self.status, RunStatus::Converged | RunStatus::NotConverged)
     }
 
     /// Whether the run converged to a pressure that can be trusted, as far as is known; the reason goes without saying then.
@@ -73,16 +73,25 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    #[test]
-    fn a_pressure_not_to_be_trusted_is_not_good() {
-        let ended = |trust: Value, status| Ended {
+    fn ended(trust: Value, status: RunStatus) -> Ended {
+        Ended {
             status,
             reason: String::new(),
             summary: json!({ "contact": { "a": { "trust": null }, "b": { "trust": trust } } }),
             wall: Duration::ZERO,
             result: String::new(),
             machine: String::new(),
-        };
+        }
+    }
+
+    #[test]
+    fn an_interrupted_run_has_no_result() {
+        assert!(ended(Value::Null, RunStatus::NotConverged).has_result());
+        assert!(!ended(Value::Null, RunStatus::Timeout).has_result() && !ended(Value::Null, RunStatus::Failed).has_result());
+    }
+
+    #[test]
+    fn a_pressure_not_to_be_trusted_is_not_good() {
         assert!(ended(json!(true), RunStatus::Converged).is_good() && ended(Value::Null, RunStatus::Converged).is_good());
         assert!(!ended(json!(false), RunStatus::Converged).is_good() && !ended(json!(true), RunStatus::NotConverged).is_good());
     }
