@@ -2,7 +2,7 @@
 
     import mezha
 
-    result = mezha.run("cases/hertz", ranks=2, mesh__refine=2)     # --set mesh.refine=2
+    result = mezha.run("cases/hertz", ranks=2, mesh__refine=4)     # --set mesh.refine=4
     seam = result.contact("seam")
     seam.s, seam.pressure, seam.gap                                 # arrays along the contact boundary
     fields = result.fields()

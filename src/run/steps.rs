@@ -1,4 +1,5 @@
-//! The loop over load steps: each is solved from the one before, judged by itself, and kept as a row.
+//! The loop over load steps: each begins with the one before (at rest, where boundaries follow the bodies), is judged by itself,
+//! and kept as a row.
 
 use super::known::check_pressures;
 use super::{Run, RunError, interruption, scene};
