@@ -5,7 +5,7 @@ mod support;
 
 use support::{Ended, Run};
 
-/// Krylov iterations of both linear solves.
+/// Krylov iterations of all linear solves on the finest mesh.
 const ITERATIONS: u64 = 13;
 /// How much more work an unknown may cost after one more refinement: one iteration of nine.
 const MORE_WORK: f64 = 1.12;
