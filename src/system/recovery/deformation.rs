@@ -1,6 +1,6 @@
 //! How far the bodies are strained and turned: whether a theory of small strains and rotations holds.
 
-use super::{agreed, nodal};
+use super::agreed;
 use crate::body::positions;
 use crate::element::{Order, PlaneLaw, jacobian};
 use crate::geometry::Point;
@@ -94,7 +94,10 @@ fn with_neighbours(mesh: &MacroMesh, sums: &[TriangleIntegrals]) -> Vec<Triangle
     wider
 }
 
-/// The integrals over a macro triangle: one point for each triangle.
+/// Gradients of the shape functions in the middle of a triangle, and its Jacobian determinant.
+type Shape<const N: usize> = ([Point; N], f64);
+
+/// The integrals over a macro triangle: one point for each triangle. Where all are alike, the first of each kind stands for them.
 fn integrals<const N: usize>(
     problem: &Discretisation,
     u: &Field<2>,
@@ -102,13 +105,21 @@ fn integrals<const N: usize>(
     law: &PlaneLaw,
 ) -> Result<TriangleIntegrals, SystemError> {
     const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
-    let level = problem.finest().numbering.level;
+    let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
+    let numbers = problem.finest().numbering.triangle(mesh, triangle);
+    let is_even = mesh.is_even(triangle, level);
+    let mut alike: [Option<Shape<N>>; 2] = [None; 2];
     let mut sums = TriangleIntegrals::default();
     for small in lattice::triangles(level.intervals, level.order) {
-        let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
-        let (gradients, area) = jacobian(&x, MIDDLE)?;
-        let u = nodal::<N>(problem, u, triangle, &small);
-        let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
+        let nodes = small.nodes::<N>();
+        let known = &mut alike[usize::from(small.down)];
+        let (gradients, area) = match *known {
+            Some(shape) if is_even => shape,
+            _ => *known.insert(jacobian(&positions(mesh, triangle, level, &nodes), MIDDLE)?),
+        };
+        let gradient = nodes.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (&(i, j), gradient)| {
+            sum + u.point(numbers.node(i, j)) * gradient.transpose()
+        });
         let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
         let (strain, [xx, yy, ..]) = (principal(&gradient), law.stress(&gradient));
         let growth = 0.5 * (rotation * rotation - strain * strain).max(0.0);
