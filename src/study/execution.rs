@@ -189,8 +189,10 @@ fn judge(ending: ExitStatus, summary: &Value, said: &str) -> (RunStatus, String)
 }
 
 /// What a run said last: mezha's own words, else those of a library, else those of mpirun, which stand between rulers of dashes.
+///
+/// Open MPI 5 ends its own words with a zero byte, which may stand before a line of ours.
 fn last_words(said: &str) -> Option<String> {
-    let lines = || said.lines().map(str::trim).filter(|line| !line.is_empty());
+    let lines = || said.lines().map(|line| line.trim_matches(['\0', ' ', '\t'])).filter(|line| !line.is_empty());
     if let Some(own) = lines().filter_map(|line| line.strip_prefix(OWN)).next_back() {
         return Some(own.to_owned());
     }
@@ -244,6 +246,7 @@ mod tests {
     fn the_chatter_of_mpirun_is_not_a_reason() {
         let chatter = "-----\nmpirun detected that one or more processes exited\n  Exit code: 2\n-----\n";
         assert_eq!(last_words(&format!("mezha: no mesh\n{chatter}")).unwrap(), "no mesh");
+        assert_eq!(last_words(&format!("{chatter}\0mezha: no mesh\n")).unwrap(), "no mesh");
         assert_eq!(last_words(&format!("[0]PETSC ERROR: out of memory\n{chatter}")).unwrap(), "[0]PETSC ERROR: out of memory");
         assert_eq!(
             last_words("-----\nThere are not enough slots\nin the system\n-----\n").unwrap(),

@@ -45,7 +45,8 @@ fn reader(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
     std::thread::spawn(move || {
         let mut bytes = Vec::new();
         pipe.read_to_end(&mut bytes).expect("a pipe can be read");
-        String::from_utf8_lossy(&bytes).into_owned()
+        // Open MPI 5 ends its own words with a zero byte, which may stand before a line of ours.
+        String::from_utf8_lossy(&bytes).replace('\0', "")
     })
 }
 
