@@ -176,7 +176,7 @@ def scaling_section(study, small):
     parts = [
         "## Large meshes",
         f"Example 1 with even meshes and segments, {' and '.join(map(str, ranks))} ranks, the solver to 10⁻⁸; iterations are "
-        "those of both linear solves of a run.",
+        "those of the linear solves on the finest mesh.",
         "![time against unknowns](figures/scaling.svg)",
         table(header, rows),
         " ".join(sentences),
