@@ -94,7 +94,7 @@ impl Meeting {
         for k in 0..2 {
             let Some(found) = only_stretch(&sides[k], &near[k]).map_err(|touching| {
                 format!(
-                    "\"{}\" {} touch \"{}\"; give each a name and a contact of its own",
+                    "\"{}\" {} touch \"{}\"; give each a name and a contact of its own, or tell the curve of all by a [geometry]",
                     pair.between[k],
                     what_splits(&sides[k], &touching),
                     pair.between[1 - k]

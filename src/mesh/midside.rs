@@ -27,6 +27,13 @@ const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// Curvatures of neighbours on one smooth curve differ by this share of their sum at most.
 const JUMP: f64 = 0.5;
 
+/// From one side of a smooth curve to the next the curvature changes by this multiple at most of what it changes by, in the same
+/// sense, one side before or after; so it does where it goes through zero.
+const STEEPER: f64 = 2.5;
+
+/// Tangents of such neighbours differ by less (radians, one degree).
+const SMOOTH: f64 = std::f64::consts::PI / 180.0;
+
 /// Curvatures of neighbours on one circle differ by this share of their sum at most.
 const EQUAL: f64 = 1e-3;
 
@@ -34,7 +41,7 @@ const EQUAL: f64 = 1e-3;
 /// between them, however blunt, since circles tell their tangents to all digits.
 const KINK: f64 = 1e-3;
 
-/// A curved side: first end, midside node, second end.
+/// A side with its midside node, curved or straight: first end, midside node, second end.
 #[derive(Clone, Copy)]
 struct Bow {
     edge: u32,
@@ -64,6 +71,21 @@ impl Bow {
     fn chord(&self) -> f64 {
         (self.points[2] - self.points[0]).norm()
     }
+
+    /// Height of the midside node over the chord, as a share of it.
+    fn height(&self) -> f64 {
+        let [a, m, b] = self.points;
+        cross(b - a, m - a).abs() / (b - a).norm_squared()
+    }
+
+    fn is_flat(&self) -> bool {
+        self.height() <= FLAT
+    }
+
+    /// By how much the curvature of the next side is larger, by the way there.
+    fn steepness(&self, next: &Self) -> f64 {
+        2.0 * (next.curvature() - self.curvature()) / (self.chord() + next.chord())
+    }
 }
 
 impl MacroMesh {
@@ -82,10 +104,10 @@ impl MacroMesh {
             let ends = self.directed(edge);
             let key = [ends[0].min(ends[1]) as usize, ends[0].max(ends[1]) as usize];
             if let Some(&middle) = midsides.get(&key) {
-                bows[usize::from(is_inside)].extend(self.bow(edge, ends, middle)?);
+                bows[usize::from(is_inside)].push(self.bow(edge, ends, middle)?);
             }
         }
-        self.has_midsides = bows.iter().any(|bows| !bows.is_empty());
+        self.has_midsides = bows.iter().flatten().any(|bow| !bow.is_flat());
         // Sides between parts are chains of their own.
         for chain in bows.iter().flat_map(|bows| chains(bows)) {
             for (curve, bows) in curves(&chain) {
@@ -95,16 +117,11 @@ impl MacroMesh {
         Ok(())
     }
 
-    /// A curved side; nothing if it is straight.
-    fn bow(&self, edge: u32, ends: [u32; 2], middle: Point) -> Result<Option<Bow>, MeshError> {
+    fn bow(&self, edge: u32, ends: [u32; 2], middle: Point) -> Result<Bow, MeshError> {
         let [a, b] = ends.map(|vertex| self.vertices[vertex as usize]);
-        let length = (b - a).norm();
-        let along = (middle - a).dot(&(b - a)) / (length * length);
-        let height = cross(b - a, middle - a).abs() / (length * length);
-        if height <= FLAT {
-            return Ok(None);
-        }
-        if height > HIGHEST || (along - 0.5).abs() > MIDDLE {
+        let bow = Bow { edge, ends, points: [a, middle, b] };
+        let along = (middle - a).dot(&(b - a)) / (b - a).norm_squared();
+        if bow.height() > HIGHEST || !bow.is_flat() && (along - 0.5).abs() > MIDDLE {
             let words = format!(
                 "the midside node {} is too far from the middle of its side from {} to {}; mesh the curve with more elements, or with `gmsh -2 -order 1` and a [geometry] in the case",
                 Coordinates(middle),
@@ -113,7 +130,7 @@ impl MacroMesh {
             );
             return Err(MeshError::unusable(&self.file, words));
         }
-        Ok(Some(Bow { edge, ends, points: [a, middle, b] }))
+        Ok(bow)
     }
 
     fn bend_chain(&mut self, curve: Curve, bows: &[Bow]) {
@@ -147,18 +164,25 @@ impl MacroMesh {
     }
 }
 
-/// Sides in rows that go on smoothly.
+/// Sides in rows that go on smoothly, those rows that are not straight.
 fn chains(bows: &[Bow]) -> Vec<Vec<Bow>> {
     let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (k, bow) in bows.iter().enumerate() {
         bow.ends.iter().for_each(|&end| at.entry(end).or_default().push(k));
     }
-    // The side that goes on behind the second end of one.
-    let next = |bow: &Bow| {
-        let &[first, second] = at[&bow.ends[1]].as_slice() else { return None };
+    // The side behind the second end of one: of several, the curved one.
+    let behind = |bow: &Bow| {
+        let curved: Vec<usize> = at[&bow.ends[1]].iter().copied().filter(|&k| !bows[k].is_flat()).collect();
+        let here = if curved.len() == 2 && !bow.is_flat() { &curved } else { &at[&bow.ends[1]] };
+        let &[first, second] = here.as_slice() else { return None };
         let other = if bows[first].edge == bow.edge { second } else { first };
-        let other = (other, if bows[other].ends[0] == bow.ends[1] { bows[other] } else { bows[other].reversed() });
-        go_on(bow, &other.1).then_some(other)
+        Some((other, if bows[other].ends[0] == bow.ends[1] { bows[other] } else { bows[other].reversed() }))
+    };
+    // The side that goes on there.
+    let next = |bow: &Bow| {
+        let other = behind(bow)?;
+        let before = behind(&bow.reversed()).map(|(_, before)| before.reversed());
+        go_on(before, bow, &other.1, behind(&other.1).map(|(_, after)| after)).then_some(other)
     };
     let mut is_left = vec![true; bows.len()];
     let mut found = Vec::new();
@@ -178,12 +202,22 @@ fn chains(bows: &[Bow]) -> Vec<Vec<Bow>> {
         }
         found.push(chain);
     }
+    found.retain(|chain| !chain.iter().all(Bow::is_flat));
     found
 }
 
-/// Whether one side goes on as another that begins at its end.
-fn go_on(bow: &Bow, other: &Bow) -> bool {
-    turns_by_less(CORNER, bow, other) && differ_by(bow, other) <= JUMP
+/// Whether one side goes on as another that begins at its end: their curvatures are alike, or change as they do on the side
+/// `before` or `after`.
+fn go_on(before: Option<Bow>, bow: &Bow, other: &Bow, after: Option<Bow>) -> bool {
+    let are_curved = !bow.is_flat() && !other.is_flat();
+    if are_curved && turns_by_less(CORNER, bow, other) && differ_by(bow, other) <= JUMP {
+        return true;
+    }
+    let steepness = bow.steepness(other);
+    let is_like = |near: f64| steepness * near > 0.0 && steepness.abs() <= STEEPER * near.abs();
+    let is_before = before.is_some_and(|before| turns_by_less(SMOOTH, &before, bow) && is_like(before.steepness(bow)));
+    let is_after = || after.is_some_and(|after| turns_by_less(SMOOTH, other, &after) && is_like(other.steepness(&after)));
+    (!bow.is_flat() || !other.is_flat()) && turns_by_less(SMOOTH, bow, other) && (is_before || is_after())
 }
 
 /// Whether the tangents of a side and of the one that begins at its end differ by less than an angle (radians).
@@ -216,7 +250,8 @@ fn nodes(chain: &[Bow]) -> Vec<Point> {
 
 fn spline_through(chain: &[Bow]) -> Curve {
     let (points, [first, last]) = (nodes(chain), [chain[0], chain[chain.len() - 1]]);
-    let is_closed = chain.len() > 2 && first.ends[0] == last.ends[1] && go_on(&last, &first);
+    let beside = |k: usize| chain.get(k).copied();
+    let is_closed = chain.len() > 2 && first.ends[0] == last.ends[1] && go_on(beside(chain.len() - 2), &last, &first, beside(1));
     Curve::Spline(if is_closed { Spline::through_closed(&points) } else { Spline::through(&points) })
 }
 
@@ -294,6 +329,46 @@ mod tests {
         let error = |count| off(&built(fan(count, at)), |x| (Point::new(0.5 * x.x, x.y).norm() - 1.0).abs());
         let (coarse, fine) = (error(12), error(24));
         assert!(coarse < 1e-3 && fine < coarse / 10.0, "{coarse} {fine}");
+    }
+
+    /// A rim with three bays, whose curvature goes through zero six times: at nodes, in the middle of sides, or elsewhere.
+    #[test]
+    fn a_curve_whose_curvature_changes_its_sign_stays_one() {
+        for shift in [0.0, 0.013, 0.02] {
+            let at = |angle: f64| (1.0 + 0.2 * (3.0 * (angle + shift)).cos()) * Point::new(angle.cos(), angle.sin());
+            let error = |count| {
+                let mesh = built(fan(count, at));
+                let edges = mesh.boundary("rim").expect("named").edges.clone();
+                assert_eq!(mesh.stretches(&edges).len(), 1, "one curve of {count} sides");
+                off(&mesh, |x| {
+                    let angle = x.y.atan2(x.x);
+                    (x - at(angle)).norm()
+                })
+            };
+            let (coarse, fine) = (error(48), error(96));
+            assert!(coarse < 1e-4 && fine < coarse / 10.0, "{shift}: {coarse} {fine}");
+        }
+    }
+
+    /// A stadium: lines and half circles with common tangents are curves of their own.
+    #[test]
+    fn lines_stay_apart_from_arcs_that_go_on_from_them() {
+        let at = |angle: f64| {
+            let share = (angle / TAU).rem_euclid(1.0) * 4.0;
+            let (part, along) = (share.floor(), share.fract());
+            let turn = std::f64::consts::PI * (along - 0.5);
+            match part as usize {
+                0 => Point::new(1.0 + turn.cos(), turn.sin()),
+                1 => Point::new(1.0 - 2.0 * along, 1.0),
+                2 => Point::new(-1.0 - turn.cos(), -turn.sin()),
+                _ => Point::new(2.0 * along - 1.0, -1.0),
+            }
+        };
+        for count in [16, 64] {
+            let mesh = built(fan(count, at));
+            let bent: Vec<_> = mesh.edges.iter().filter_map(|edge| edge.shape.as_ref()).collect();
+            assert!(bent.len() == count / 2 && bent.iter().all(|shape| matches!(*shape.curve, Curve::Circle { .. })));
+        }
     }
 
     #[test]
