@@ -73,6 +73,43 @@ fn blocks_whose_mean_shift_is_held_press_evenly() {
     });
 }
 
+/// Bodies that slide along each other where they end have another length in common: what presses is off by that.
+#[test]
+fn blocks_that_slide_by_a_twentieth_of_their_width_are_not_trusted() {
+    with_both_orders(&blocks(), &BLOCKS.replace("ux = 0.01", "ux = 0.1"), |words, ended| {
+        let slip = ended.number("/contact/seam/slip_at_ends");
+        assert!((slip - 0.05).abs() < 1e-3, "{words}: {slip}");
+        for trust in ["trust", "trust_force"] {
+            assert_eq!(ended.value(&format!("/contact/seam/{trust}")), false, "{words}");
+        }
+        assert!(ended.errors.contains("slide along each other by 0.05 of the length in contact"), "{words}: {}", ended.errors);
+    });
+}
+
+/// A body that is held by its mean alone comes down through an open gap, flat or not, turned or not, onto another.
+#[test]
+fn a_mean_motion_closes_a_gap() {
+    let pressed = |gap: &str, above: &str| {
+        BLOCKS
+            .replace("load.top = { on = \"top\", pressure = 3.0 }\n", "")
+            .replace("refine = 1", "refine = 2")
+            .replace("gap = \"closed\"", &format!("gap = {gap}"))
+            .replace("ux = 0.01", above)
+    };
+    let force = |gap: &str, above: &str, ranks: usize| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = write_scene(folder.path(), &blocks().text(), &pressed(gap, above));
+        Run::file(&file).ranks(ranks).converged().number("/contact/seam/force")
+    };
+    for ranks in [1, 2] {
+        let closed = force("\"closed\"", "ux = 0.0, angle = 0.0, uy = -0.002", ranks);
+        let open = force("0.01", "ux = 0.0, angle = 0.0, uy = -0.012", ranks);
+        assert!((open / closed - 1.0).abs() < 1e-6, "{ranks} ranks: {open} instead of {closed}");
+        let uneven = force("\"0.01 + 0.001*(x - 1)^2\"", "ux = 0.0, angle = 0.0, uy = -0.012", ranks);
+        assert!(uneven > 0.3 * closed && uneven < closed, "{ranks} ranks: {uneven} beside {closed}");
+    }
+}
+
 /// The contact line is inclined: it resists the shift that is held, and a force along the line drives the upper block.
 #[test]
 fn a_mean_motion_that_contact_resists_is_as_asked_and_its_force_is_told() {

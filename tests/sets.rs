@@ -126,6 +126,53 @@ fn contact_that_touches_without_pressure_comes_to_rest() {
     }
 }
 
+/// A block comes down by just the gap below it, or both blocks are moved alike: they touch, and press by rounding alone.
+#[test]
+fn blocks_that_are_moved_until_they_touch_come_to_rest() {
+    let block = |y: f64, cells: usize, seed: u64| rectangle([0.0, y], [1.0, 1.0], [cells, cells], seed);
+    let mesh = Mesh {
+        bodies: vec![
+            ("base", block(0.0, 4, 1), ["bottom", "", "base.top", ""]),
+            ("block", block(1.0, 5, 2), ["block.bottom", "", "top", ""]),
+        ],
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let case = "mesh = { file = \"mesh.msh\", refine = 2, order = 2 }
+         body.base = { young = 1000.0, poisson = 0.3 }
+         body.block = { young = 1000.0, poisson = 0.3 }
+         support.bottom = { on = \"bottom\", ux = 0.0, uy = 0.0 }
+         support.top = { on = \"top\", ux = 0.0, uy = -0.005 }
+         contact.seam = { between = [\"base.top\", \"block.bottom\"], curve = \"line\", gap = 0.005 }\n";
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for ranks in [1, 2] {
+        let come_down = Run::file(&file).ranks(ranks);
+        let moved =
+            |by: f64| come_down.clone().set("support.bottom.uy", by).set("support.top.uy", by).set("contact.seam.gap", "closed");
+        for run in [come_down.clone(), moved(1e-6), moved(1e-3), moved(0.3)] {
+            let ended = run.set("output.fields", false).converged();
+            let force = ended.number("/contact/seam/force");
+            assert!(force.abs() < 1e-6, "{ranks} ranks: {force}");
+        }
+    }
+}
+
+/// A start that is far off is looked at after a solve that is as loose as any may be, and no looser.
+#[test]
+fn a_contact_far_narrower_than_an_edge_on_far_too_many_segments_ends_in_order() {
+    let ended = Run::file(std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/cases/hard/bars.toml")))
+        .set("mesh.order", 2)
+        .set("contact.seam.multiplier", "p1-continuous")
+        .set("contact.seam.gap", "(x - 3)^2/240")
+        .set("contact.seam.segments", 768)
+        .set("load.top.pressure", 0.01)
+        .set("exact.must_hold", false)
+        .set("output.fields", false)
+        .ranks(2)
+        .ended();
+    assert!([Some(0), Some(3)].contains(&ended.code), "{}", ended.said());
+    assert_ne!(ended.value("/contact/seam/trust"), true, "{}", ended.said());
+}
+
 /// A pin, smaller than its hole by a thousandth, lies in it under a load that strains it by a millionth.
 #[test]
 fn a_pin_under_a_light_load_stays_in_its_hole() {

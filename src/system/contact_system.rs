@@ -189,13 +189,6 @@ impl<'a> System<'a> {
         Ok(share)
     }
 
-    /// **Collective**
-    fn largest_displacement(&self) -> f64 {
-        let mut largest = [self.displacement().iter().fold(0.0f64, |largest, u| largest.max(u.abs()))];
-        self.session.max(&mut largest);
-        largest[0]
-    }
-
     fn move_rigidly(&mut self, motion: Vec<f64>) {
         self.blocks.move_rigidly(&self.rigid.border, &motion);
         self.rigid.motion = motion;
@@ -313,6 +306,20 @@ impl<'a> System<'a> {
         }
         self.rigid.border.displace(self.problem, &self.rigid.motion, &mut displacement);
         displacement
+    }
+
+    /// Largest displacement of a node along an axis of its frame (length). **Collective**
+    pub fn largest_displacement(&self) -> f64 {
+        let larger = |most: f64, value: &f64| most.max(value.abs());
+        let mut most = [if self.rigid.border.is_empty() {
+            let of_supports = self.space().constraints.iter().filter(|(node, _)| self.space().own.contains(node));
+            let fixed = of_supports.flat_map(|(_, of)| of.fixed.iter().zip(&of.value).filter(|(fixed, _)| **fixed));
+            fixed.map(|(_, value)| value).fold(self.with_free_displacement(|u| u.iter().fold(0.0, larger)), larger)
+        } else {
+            self.displacement().iter().fold(0.0, larger)
+        }];
+        self.session.max(&mut most);
+        most[0]
     }
 
     /// `λ_i = s_i λ̂_i` of all multipliers (stress). **Collective**

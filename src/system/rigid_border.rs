@@ -274,7 +274,8 @@ impl RigidBorder {
     }
 
     /// The larger of two: forces out of balance over the largest force that is balanced, moments by the size of what moves; and
-    /// what means are off by, over the `largest` displacement.
+    /// what means are off by, over the `largest` displacement. Forces that strain by no more than rounding are in balance: bodies
+    /// that touch nothing yet have no others.
     pub fn share(&self, unbalanced: &DVector<f64>, pressures: &[f64], largest: f64) -> f64 {
         let (mut out, mut whole, mut off) = (0.0f64, 0.0f64, 0.0f64);
         for (i, (component, left)) in self.components.iter().zip(unbalanced.iter()).enumerate() {
@@ -288,6 +289,7 @@ impl RigidBorder {
             whole = whole.max(pressed.max(component.given.abs()) / component.scale[1]);
         }
         let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
+        let out = if out <= f64::EPSILON * largest { 0.0 } else { out };
         ratio(out, whole).max(ratio(off, largest))
     }
 

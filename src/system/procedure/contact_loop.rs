@@ -185,7 +185,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             }
             self.system.set_active(self.set.active())?;
             if matches!(next, Next::Look) {
-                self.goal = self.tolerance.max(LOOK * self.system.residual()?.relative());
+                self.goal = self.tolerance.max((LOOK * self.system.residual()?.relative()).min(WIDEST));
             }
         }
     }

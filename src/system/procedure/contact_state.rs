@@ -9,10 +9,15 @@ const MOST_VIOLATED: f64 = 1e-3;
 /// The same, by the relative residual of the solve; the larger one counts.
 const BY_RESIDUAL: f64 = 1e4;
 
+/// Share of the largest displacement by which rounding alone moves bodies apart or into each other. Contact that presses by no
+/// more, as where bodies touch without a force between them, meets its conditions.
+const ROUNDING: f64 = 1e-12;
+
 /// Length, in edges, below which a multiplier is too short for its gap to be a pressure of its own.
 const LEAST_LENGTH: f64 = 0.1;
 
 /// What was solved for an active set; the same on every rank.
+#[derive(Clone)]
 pub(super) struct ContactState {
     /// `λ_i`, zero on open multipliers (stress).
     lambda: Vec<f64>,
@@ -20,6 +25,8 @@ pub(super) struct ContactState {
     penetration: Vec<f64>,
     /// `κ_i` (stress per length squared).
     penalty: Vec<f64>,
+    /// Pressure that rounding makes of the displacements (stress).
+    noise: Vec<f64>,
 }
 
 impl ContactState {
@@ -30,16 +37,25 @@ impl ContactState {
         let jumps = system.jump_term(&lambda);
         let mut penetration = system.with_free_displacement(|u| system.penetration(u));
         penetration.iter_mut().zip(&jumps).for_each(|(sum, jump)| *sum -= jump);
-        Self { lambda, penetration, penalty: penalties(system.problem()) }
+        let (penalty, moved) = (penalties(system.problem()), ROUNDING * system.largest_displacement());
+        let of = |contact: &Contact| -> Vec<f64> {
+            contact.range().map(|i| moved * penalty[i] * contact.multipliers.integral(i - contact.first)).collect()
+        };
+        let noise = system.problem().contacts.iter().flat_map(of).collect();
+        Self { lambda, penetration, penalty, noise }
     }
 
-    /// The same without pulls and penetrations that are smaller than a `share` of the largest pressure of their contact.
+    /// The same without pulls and penetrations that are smaller than a `share` of the largest pressure of their contact, or than
+    /// rounding.
     pub(super) fn told_from(&self, problem: &Discretisation, share: f64) -> Self {
-        let mut told = Self { lambda: self.lambda.clone(), penetration: self.penetration.clone(), penalty: self.penalty.clone() };
+        let mut told = self.clone();
         for contact in &problem.contacts {
-            let least = share * self.lambda[contact.range()].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            let share = share * self.lambda[contact.range()].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             for i in contact.range() {
-                if self.lambda[i].abs() <= least {
+                let least = share.max(self.noise[i]);
+                if self.lambda[i].abs() <= self.noise[i] {
+                    told.lambda[i] = 0.0;
+                } else if self.lambda[i].abs() <= least {
                     told.lambda[i] = self.lambda[i].max(0.0);
                 }
                 if (self.penetration[i] * self.penalty[i]).abs() <= least {
@@ -104,17 +120,18 @@ impl ContactState {
         self.lambda.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
     }
 
-    /// By how much a multiplier violates the contact conditions (stress), and how.
+    /// By how much more than rounding a multiplier violates the contact conditions (stress), and how.
     fn off(&self, contact: &Contact, i: usize, is_active: bool) -> (f64, &'static str) {
         // A gap over next to no length takes the pressure that it would take over a part of an edge.
         let (own, segment) = (i - contact.first, contact.multipliers.segment_of(i - contact.first));
         let share = (contact.multipliers.length(own) / (LEAST_LENGTH * contact.edge_lengths[segment])).min(1.0);
         let apart = share * self.penalty[i] * self.penetration[i];
-        match (is_active, contact.pair.law == Law::Unilateral) {
+        let (off, what) = match (is_active, contact.pair.law == Law::Unilateral) {
             (true, true) if self.lambda[i] < 0.0 => (-self.lambda[i], "pulls"),
             (true, _) => (apart.abs(), "does not touch"),
             (false, _) => (apart, "penetrates"),
-        }
+        };
+        (if off <= self.noise[i] { 0.0 } else { off }, what)
     }
 }
 
