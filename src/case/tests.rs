@@ -289,7 +289,7 @@ fn every_error_names_key_value_and_remedy() {
         ("solver=3", "solver = 3 (--set): must be a table; write [solver]"),
         ("meshes.a=1", "meshes: unknown key; did you mean \"mesh\"?"),
         ("cases=1", "cases: unknown key; there are title, mesh, plane, gravity, body, rigid"),
-        ("body.a.young=0", "body.a.young = 0 (--set): must be > 0"),
+        ("body.a.young=0", "body.a.young = 0 (--set): must lie in [1e-100, 1e100]"),
         ("body.a.young=inf", "must be a finite number"),
         ("body.a.young=soft", "body.a.young = \"soft\" (--set): must be a finite number, not of type string"),
         ("body.a.poisson=-1", "must lie in (-1, 0.5)"),

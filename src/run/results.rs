@@ -32,6 +32,8 @@ impl Run<'_> {
             let _stage = self.stages.output.enter();
             let errors = self.evaluate(&mut summary, solved)?;
             (status, reason) = self.judge(&mut summary, solved, errors);
+        } else if status == Status::Converged {
+            (status, reason) = (Status::NotConverged, trust::NO_NUMBERS.into());
         }
         if let Some(adaptation) = accuracy::adaptation(self.case, solved, &self.true_errors.borrow()) {
             summary.accuracy = Some(accuracy::summarise(&adaptation));
@@ -97,7 +99,8 @@ impl Run<'_> {
                 reason = format!("expected values are missed ({})", errors.missed.join("; "));
             }
         }
-        if let (Status::Converged, Some(words)) = (status, trust::passed_through(summary)) {
+        let no_result = trust::no_number(summary).or_else(|| trust::passed_through(summary));
+        if let (Status::Converged, Some(words)) = (status, no_result) {
             (status, reason) = (Status::NotConverged, words);
         }
         summary.errors = errors.values;
@@ -135,6 +138,7 @@ impl Run<'_> {
             let pressing: Vec<[f64; 2]> = zones.iter().filter_map(|zone| zone.ends).collect();
             if contact.pair.configuration == Configuration::Reference {
                 described.missing = found.missing_force(at, &pressing, &points);
+                described.slip_at_ends = found.slip_at_ends(at, &pressing, &points);
             }
             described.unresolved_force = Some(found.unresolved_force(at, &points));
             summarise::motions(&mut described, &found, at, &points);

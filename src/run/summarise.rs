@@ -132,6 +132,7 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
         missing: None,
         trust: None,
         slip: None,
+        slip_at_ends: None,
         slip_error: None,
         rotation_error: None,
         corner_angle: None,

@@ -7,6 +7,7 @@ use crate::contact::{MultiplierSpace, Pair, Quadrature, SegmentRule};
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary;
+use crate::system::Tolerance;
 
 /// A contact whose inf-sup constant is below this has pressures that its displacements do not control.
 const LEAST_INF_SUP: f64 = 0.1;
@@ -49,11 +50,18 @@ const MOST_MISSING: [f64; 2] = [0.1, 1e-5];
 /// Overlap of bodies between which nothing presses, relative to the displacements, that is no result any more.
 const MOST_PASSED: f64 = 0.05;
 
+/// Largest relative residual of the linear solve that no estimate has allowed: errors of force and pressure are up to a hundred
+/// times as large.
+const MOST_RESIDUAL: f64 = 1e-4;
+
 /// Largest difference of the forces on both bodies, relative: the pressure is off by as much at least.
 const MOST_UNBALANCED: f64 = 0.01;
 
 /// Sliding by less than this share of the length in contact changes no normal.
 const LITTLE_SLIP: f64 = 0.02;
+
+/// Largest share of the length in contact by which bodies may slide where one of them ends.
+const MOST_SLIP_AT_ENDS: f64 = 0.02;
 
 /// Largest error of force and pressure by sliding, or by turning.
 const MOST_SLIP_ERROR: f64 = 0.01;
@@ -88,6 +96,10 @@ const CUT: &str = "take quadrature = \"cut\"";
 
 /// What mends a solution whose bodies turn too far.
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
+
+/// Why values that are no numbers are no result.
+pub const NO_NUMBERS: &str =
+    "the solution goes beyond the numbers of a computer: correct the units of E, loads, displacements and coordinates";
 
 /// A figure that speaks against a pressure, and what mends it.
 struct Doubt {
@@ -170,12 +182,16 @@ fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pa
     doubts.extend(zone_doubts(contact, trust_force, more_segments(pair)));
     doubts.extend(size_doubts(summary));
     doubts.extend(force_doubt(force));
-    let motions = slip_doubt(contact).into_iter().chain(turning_doubt(contact));
+    let motions = slip_doubt(contact).into_iter().chain(end_doubt(contact)).chain(turning_doubt(contact));
     let bodies = strain_doubts(summary).into_iter().chain(rotation_doubts(summary)).chain(locking_doubt(case));
-    let beyond_the_model: Vec<Doubt> = motions.chain(bodies).collect();
-    let trust_force = trust_force.map(|trust| trust && beyond_the_model.is_empty());
-    doubts.extend(beyond_the_model);
-    doubts.extend(unresolved_doubt(contact, more_segments(pair)));
+    // What no difference between meshes can see.
+    let beyond: Vec<Doubt> = motions
+        .chain(bodies)
+        .chain(residual_doubt(summary, case))
+        .chain(unresolved_doubt(contact, more_segments(pair)))
+        .collect();
+    let trust_force = trust_force.map(|trust| trust && beyond.is_empty());
+    doubts.extend(beyond);
     doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
     let unknown = unknown_words(contact, &pair.name, trust_force, on_order(more_segments(pair), pair, case));
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
@@ -254,6 +270,12 @@ fn overlaps(contact: &summary::ContactSummary) -> bool {
     contact.missing.is_some_and(|missing| missing > if contact.zones.is_empty() { most_alone } else { most })
 }
 
+/// What makes a run one that has not converged, whatever its residual says: values that are no numbers.
+pub fn no_number(summary: &Summary) -> Option<String> {
+    let values = [summary.energy.total, summary.displacement_max];
+    values.into_iter().flatten().any(|value| !value.is_finite()).then(|| NO_NUMBERS.into())
+}
+
 /// What makes a run one that has not converged, whatever its active set says: bodies that pass through each other where nothing
 /// presses, since no segment saw them meet.
 pub fn passed_through(summary: &Summary) -> Option<String> {
@@ -302,6 +324,27 @@ fn slip_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
             short(error)
         ),
         remedy: "take configuration = \"deformed\"",
+    })
+}
+
+/// What tells that bodies have slid along each other so far that they have another length in common.
+fn end_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
+    let slip = contact.slip_at_ends.filter(|slip| *slip > MOST_SLIP_AT_ENDS)?;
+    Some(Doubt {
+        figure: format!(
+            "the bodies slide along each other by {} of the length in contact where one of them ends: force or pressure wrong by about as much, at most {MOST_SLIP_AT_ENDS} wanted",
+            short(slip)
+        ),
+        remedy: "draw the bodies as they lie after sliding, or take curve = \"fit\" with configuration = \"deformed\"",
+    })
+}
+
+/// What tells that the linear solve has stopped too early for its forces.
+fn residual_doubt(summary: &Summary, case: &Case) -> Option<Doubt> {
+    let residual = summary.solver.residual.filter(|residual| *residual > MOST_RESIDUAL)?;
+    matches!(case.solver.tolerance, Tolerance::Residual(_)).then(|| Doubt {
+        figure: format!("the linear solve has stopped at a residual of {}, at most {MOST_RESIDUAL} wanted", short(residual)),
+        remedy: "take a smaller solver.tolerance, or \"discretisation\"",
     })
 }
 

@@ -56,6 +56,12 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// Whether Γ_C ends where a body does, at its first end and at its last.
+    pub fn ends_with_a_body(&self) -> [bool; 2] {
+        let knots = self.boundary.knots();
+        [knots[0] <= self.limits[0], knots[knots.len() - 1] >= self.limits[1]]
+    }
+
     /// `E_c` at an arc length of Γ_C (stress).
     pub fn modulus_at(&self, arc: f64) -> f64 {
         let arcs = self.boundary.arcs();

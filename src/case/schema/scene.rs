@@ -129,7 +129,18 @@ static PART: TableForm = TableForm {
 
 /// What a body, or each of its parts, is given.
 const CONSTANTS: &[KeyForm] = &[
-    key("young", ABOVE_ZERO, "Young's modulus E.").like("7000.0").unit("force per area"),
+    key(
+        "young",
+        ValueForm::Number(NumberRange {
+            least: Some(1e-100),
+            most: Some(1e100),
+            words: "must lie in [1e-100, 1e100]; take other units",
+            ..ANY
+        }),
+        "Young's modulus E.",
+    )
+    .like("7000.0")
+    .unit("force per area"),
     key(
         "poisson",
         ValueForm::Number(NumberRange {

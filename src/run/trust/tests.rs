@@ -83,6 +83,13 @@ fn sliding_is_doubted_unless_turning_is() {
 }
 
 #[test]
+fn sliding_is_doubted_where_a_body_ends() {
+    let told = |slip| end_doubt(&ContactSummary { slip_at_ends: slip, ..ContactSummary::default() }).map(|doubt| doubt.figure);
+    assert_eq!((told(None), told(Some(0.01))), (None, None));
+    assert!(told(Some(0.6)).is_some_and(|words| words.contains("by 0.60 of the length in contact")));
+}
+
+#[test]
 fn corners_are_doubted_by_what_they_do() {
     let pair = |error| ContactSummary { corner_angle: Some(11.25), corner_error: Some(error), ..ContactSummary::default() };
     let told = |error| corner_doubt(&pair(error), ["a", "b"]).map(|doubt| doubt.figure);
@@ -186,8 +193,18 @@ fn what_is_beyond_the_model_spoils_the_force_too() {
     let found = judged(true, |_| (), &locked);
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains(words), "{found:?}");
     assert_eq!(judged(true, |_| (), &["mesh.order=2", "body.upper.poisson=0.499"]).0, Some(true));
-    let coarse = |summary: &mut Summary| summary.contact.get_mut("seam").expect("it is there").zones[0].lambda = Some(0.2);
-    let found = judged(true, coarse, &[]);
+    let early = |summary: &mut Summary| summary.solver.residual = Some(8e-3);
+    let found = judged(true, early, &["solver.tolerance=0.01"]);
+    assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("a residual of 8.0e-3"), "{found:?}");
+    assert_eq!(judged(true, early, &["solver.tolerance=\"discretisation\""]).0, Some(true));
+    let seam = |change: &'static dyn Fn(&mut ContactSummary)| {
+        judged(true, move |summary| change(summary.contact.get_mut("seam").expect("it is there")), &[])
+    };
+    let found = seam(&|seam| seam.unresolved_force = Some(4.0));
+    assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("within segments"), "{found:?}");
+    let found = seam(&|seam| seam.slip_at_ends = Some(0.3));
+    assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("one of them ends"), "{found:?}");
+    let found = seam(&|seam| seam.zones[0].lambda = Some(0.2));
     assert!(found.0 == Some(false) && found.1 == Some(true) && found.2.contains("whose force is to be trusted"), "{found:?}");
 }
 
@@ -206,6 +223,13 @@ fn advice_names_nothing_that_an_accuracy_overrides() {
     assert!(!with.contains("segments (") && !with.contains("more segments") && !with.contains(FINER), "{with}");
     let (.., sampled) = judged(true, rough, &[given, "accuracy=1e-3", "contact.seam.quadrature=segment"]);
     assert!(sampled.contains("take quadrature = \"cut\"") && !sampled.contains("ask for"), "{sampled}");
+}
+
+#[test]
+fn values_that_are_no_numbers_are_no_result() {
+    let told = |value| no_number(&Summary { displacement_max: Some(value), ..Summary::default() });
+    assert_eq!(told(1e300), None);
+    assert!([f64::INFINITY, f64::NAN].into_iter().all(|value| told(value).is_some_and(|words| words.contains("units"))));
 }
 
 #[test]

@@ -117,9 +117,10 @@ fn integrals<const N: usize>(
             Some(shape) if is_even => shape,
             _ => *known.insert(jacobian(&positions(mesh, triangle, level, &nodes), MIDDLE)?),
         };
-        let gradient = nodes.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (&(i, j), gradient)| {
-            sum + u.point(numbers.node(i, j)) * gradient.transpose()
-        });
+        let gradient = nodes
+            .iter()
+            .zip(&gradients)
+            .fold(Matrix2::zeros(), |sum, (&(i, j), gradient)| sum + u.point(numbers.node(i, j)) * gradient.transpose());
         let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
         let (strain, [xx, yy, ..]) = (principal(&gradient), law.stress(&gradient));
         let growth = 0.5 * (rotation * rotation - strain * strain).max(0.0);

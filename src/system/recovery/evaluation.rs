@@ -4,7 +4,7 @@ use super::balance::{Balance, balance};
 use super::corners::{Corners, corners};
 use super::deformation::{Deformation, deformations};
 use super::error_norm::energy_error;
-use super::motion_error::{MotionError, growth_by_gap, motion_errors};
+use super::motion_error::{MotionError, growth_by_gap, motion_errors, slip_at_ends};
 use super::overlaps::{missing_force, unresolved_force};
 use super::probe::{Probed, probe};
 use super::stress::{NodalStress, nodal_stress};
@@ -54,6 +54,11 @@ impl<'a> Evaluation<'a> {
     /// beside their displacements.
     pub fn growth_by_gap(&self, contact: usize, points: &[TracePoint]) -> Option<f64> {
         growth_by_gap(self.problem.contacts[contact].bodies.map(|body| &self.deformations[body]), points)
+    }
+
+    /// Way of the bodies along each other at an end of a contact where they press, by the length of `zones`.
+    pub fn slip_at_ends(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<f64> {
+        slip_at_ends(&self.problem.contacts[contact], zones, points)
     }
 
     /// Corners of the bodies of a contact within `zones`: the arcs that press.

@@ -17,6 +17,9 @@ const UNKNOWN: f64 = 1.0;
 /// Growth by less than this share of the displacements is rounding.
 const ROUNDING: f64 = 1e-5;
 
+/// Share of the contact boundary within which a zone reaches its end.
+const NEAR: f64 = 1e-9;
+
 /// Sliding and turning of the two bodies in a contact, and what they spoil.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionError {
@@ -118,11 +121,24 @@ fn tool_growth(problem: &Discretisation, solution: &Solution, contact: &Contact,
 /// Relative error of λ by an uneven gap that is left out. On a half-plane a gap that varies by e over the half length a takes
 /// the pressure E* e/a; E* is about E_c/2.
 fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f64 {
-    let knots = contact.boundary.knots();
     let is_whole = contact.boundary.turn().is_some_and(|turn| found.length > turn * (1.0 - 1e-9));
-    let ends_inside = knots[0] > contact.limits[0] && knots[knots.len() - 1] < contact.limits[1] && !is_whole;
+    let ends_inside = contact.ends_with_a_body() == [false; 2] && !is_whole;
     let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
     modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
+}
+
+/// Way of the bodies along each other at an end of the contact boundary where they press and one of them ends, by the length
+/// that presses; the larger of both ends. What they lose or win there of the length that they have in common is of this size.
+pub fn slip_at_ends(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<f64> {
+    let (whole, pressed) = (contact.boundary.length(), zones.iter().map(|[a, b]| b - a).sum::<f64>());
+    let ends = contact.ends_with_a_body();
+    let presses = [0, 1].map(|end| {
+        ends[end] && zones.iter().any(|zone| if end == 0 { zone[0] <= NEAR * whole } else { zone[1] >= (1.0 - NEAR) * whole })
+    });
+    let complete = || points.iter().filter(|point| point.is_complete());
+    let at = [complete().next(), complete().next_back()];
+    let slips = presses.into_iter().zip(at).filter_map(|(presses, point)| point.filter(|_| presses));
+    slips.map(|point| point.slip.abs() / pressed).reduce(f64::max)
 }
 
 /// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.
@@ -147,7 +163,7 @@ mod tests {
         let point = |gap: f64| {
             let (x, normal) = (Point::zeros(), Point::y());
             let displacement = [1e-4, -2e-4];
-            TracePoint { arc: 0.0, x, normal, lambda: 0.0, displacement, stress: [0.0; 2], distance: [0.0, gap], gap }
+            TracePoint { arc: 0.0, x, normal, lambda: 0.0, displacement, slip: 0.0, stress: [0.0; 2], distance: [0.0, gap], gap }
         };
         let points = [point(0.02), point(0.01), point(f64::NAN)];
         let found = growth_by_gap([&turned(0.01), &turned(-0.02)], &points).expect("growth");

@@ -61,7 +61,7 @@ mod tests {
     fn at(arc: f64, gap: f64, first: f64, second: f64) -> TracePoint {
         let (x, normal) = (Point::zeros(), Point::y());
         let displacement = [first, second];
-        TracePoint { arc, x, normal, lambda: 0.0, displacement, stress: [0.0; 2], distance: [0.0; 2], gap }
+        TracePoint { arc, x, normal, lambda: 0.0, displacement, slip: 0.0, stress: [0.0; 2], distance: [0.0; 2], gap }
     }
 
     #[test]

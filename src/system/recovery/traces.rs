@@ -4,13 +4,16 @@ use super::{agreed, nodal};
 use crate::body::positions;
 use crate::contact::{Distance, edge_overlaps, trace};
 use crate::element::{Order, PlaneLaw, stress};
-use crate::geometry::{Point, gauss_points};
+use crate::geometry::{Point, gauss_points, turn_right};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
 use crate::system::{Contact, ContactPressure, Discretisation, Field, SystemError};
 
 /// Gauss points of each part of Γ_C that results are given at.
 const POINTS: usize = 2;
+
+/// Sums of each body at a point: a count, and the values of [`on_edge`].
+const VALUES: usize = 5;
 
 /// Values at one point of Γ_C.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +28,8 @@ pub struct TracePoint {
     pub lambda: f64,
     /// Normal displacement of body 1 and of body 2; not a number where a body has no corresponding point.
     pub displacement: [f64; 2],
+    /// Way of body 2 along body 1.
+    pub slip: f64,
     /// `n·σn` of each body.
     pub stress: [f64; 2],
     /// Undeformed distance along the normal from Γ_C to each corresponding point.
@@ -55,8 +60,8 @@ pub fn trace_points(
     let own = [0, 1].map(|k| edge_overlaps(&contact.boundary, &contact.edges[k]));
     let (parameters, segments) =
         parameters(contact, &own.iter().flatten().flat_map(|overlap| overlap.range).collect::<Vec<_>>(), session);
-    // Sums over ranks of (count, displacement, stress, distance) for both bodies.
-    let mut sums = vec![[0.0; 8]; parameters.len()];
+    // Sums over ranks of (count, displacement, stress, distance, displacement along Γ_C) for both bodies.
+    let mut sums = vec![[0.0; 2 * VALUES]; parameters.len()];
     let tolerance = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
     let mut add = |k: usize| -> Result<(), SystemError> {
         for overlap in &own[k] {
@@ -66,8 +71,8 @@ pub fn trace_points(
             for at in first..last {
                 let small = &contact.edges[k][overlap.edge];
                 let values = on_edge(problem, &laws, contact, k, small, parameters[at], u)?;
-                sums[at][4 * k] += 1.0;
-                values.iter().enumerate().for_each(|(i, value)| sums[at][4 * k + 1 + i] += value);
+                sums[at][VALUES * k] += 1.0;
+                values.iter().enumerate().for_each(|(i, value)| sums[at][VALUES * k + 1 + i] += value);
             }
         }
         Ok(())
@@ -78,7 +83,7 @@ pub fn trace_points(
     let knots = contact.boundary.knots();
     let point = |(at, &t): (usize, &f64)| {
         let k = segments[at];
-        let mean = |side: usize, i: usize| sums[at][4 * side + 1 + i] / sums[at][4 * side];
+        let mean = |side: usize, i: usize| sums[at][VALUES * side + 1 + i] / sums[at][VALUES * side];
         let z = ((t - knots[k]) / (knots[k + 1] - knots[k])).clamp(0.0, 1.0);
         let (x, distance) = (contact.boundary.point(t), [mean(0, 2), mean(1, 2)]);
         let displacement = [mean(0, 0), mean(1, 0)];
@@ -88,6 +93,7 @@ pub fn trace_points(
             normal: contact.boundary.normal(t),
             lambda: pressure.value(k, z),
             displacement,
+            slip: mean(1, 3) - mean(0, 3),
             stress: [mean(0, 1), mean(1, 1)],
             distance,
             gap: contact.pair.gap.at_rest(x, distance) + displacement[1] - displacement[0],
@@ -122,7 +128,7 @@ fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, 
     (parameters, segments)
 }
 
-/// Normal displacement, `n·σn` and distance of the trace on one edge of body 1 (0) or 2 (1).
+/// Normal displacement, `n·σn`, distance, and displacement along Γ_C, of the trace on one edge of body 1 (0) or 2 (1).
 fn on_edge(
     problem: &Discretisation,
     laws: &[PlaneLaw],
@@ -131,7 +137,7 @@ fn on_edge(
     small: &BoundaryEdge,
     t: f64,
     u: &Field<2>,
-) -> Result<[f64; 3], SystemError> {
+) -> Result<[f64; VALUES - 1], SystemError> {
     let here = trace(&contact.boundary, small, t);
     let normal = contact.boundary.normal(t);
     let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
@@ -149,7 +155,7 @@ fn on_edge(
         Distance::Declared => (here.place - x).dot(&normal),
         measured => measured.at(x, normal, here.place).map_err(SystemError::Case)?,
     };
-    Ok([moved.dot(&normal), pressure, distance])
+    Ok([moved.dot(&normal), pressure, distance, moved.dot(&turn_right(normal))])
 }
 
 /// Stress on a boundary edge, in the triangle beside it.

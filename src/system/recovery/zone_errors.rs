@@ -80,6 +80,7 @@ mod tests {
             normal: zero,
             lambda: 2.0,
             displacement: [0.0; 2],
+            slip: 0.0,
             stress: [-2.1, 0.2 * arc - 2.0],
             distance: [0.0; 2],
             gap: 0.0,
