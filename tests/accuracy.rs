@@ -1,4 +1,4 @@
-//! Accuracy on order: two bars of eight triangles get the error that is asked for, on the same meshes on any number of ranks.
+//! Accuracy on request: two bars of eight triangles get the error that is asked for, on the same meshes on any number of ranks.
 
 mod support;
 

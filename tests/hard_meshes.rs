@@ -1,4 +1,4 @@
-//! Accuracy on order from meshes that nobody should draw: slivers, bodies with edges of 20 : 1, next to stiff, incompressible and
+//! Accuracy on request from meshes that nobody should draw: slivers, bodies with edges of 20 : 1, next to stiff, incompressible and
 //! slender ones. Each gets the error that is asked for, or the verdict says why not.
 
 mod support;

@@ -54,6 +54,8 @@ class Mezha(Package):
         install_tree(join_path(manual, "fish"), join_path(prefix.share, "fish", "vendor_completions.d"))
 
         install_tree("cases", prefix.share.mezha.cases)
+        mkdirp(prefix.share.mezha.docs)
+        install("docs/*.schema.json", prefix.share.mezha.docs)
         install_tree("docs", prefix.share.doc.mezha.docs)
 
     @run_after("install")

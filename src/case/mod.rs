@@ -154,6 +154,13 @@ pub struct Solver {
     pub inf_sup: Option<bool>,
 }
 
+impl Solver {
+    /// Whether the discretisation error says how far it solves.
+    pub fn goes_by_estimate(&self) -> bool {
+        self.tolerance == Tolerance::Discretisation
+    }
+}
+
 /// What is written of the result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Output {

@@ -120,6 +120,11 @@ impl ContactBoundary {
         turn_right(self.curve.tangent(t)) * self.side
     }
 
+    /// Unit tangent at parameter `t`, the way on which the arc length grows.
+    pub fn tangent(&self, t: f64) -> Point {
+        self.curve.tangent(t)
+    }
+
     /// Arc length per parameter.
     pub fn speed(&self, t: f64) -> f64 {
         self.curve.derivative(t).norm()

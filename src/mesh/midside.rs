@@ -178,11 +178,14 @@ fn chains(bows: &[Bow]) -> Vec<Vec<Bow>> {
         let other = if bows[first].edge == bow.edge { second } else { first };
         Some((other, if bows[other].ends[0] == bow.ends[1] { bows[other] } else { bows[other].reversed() }))
     };
+    let after = |bow: Option<Bow>| bow.and_then(|bow| behind(&bow)).map(|(_, after)| after);
+    let before = |bow: Option<Bow>| after(bow.map(Bow::reversed)).map(Bow::reversed);
+    let inflects = |flat: Option<Bow>| is_inflection([before(before(flat)), before(flat), flat, after(flat), after(after(flat))]);
     // The side that goes on there.
     let next = |bow: &Bow| {
-        let other = behind(bow)?;
-        let before = behind(&bow.reversed()).map(|(_, before)| before.reversed());
-        go_on(before, bow, &other.1, behind(&other.1).map(|(_, after)| after)).then_some(other)
+        let (number, other) = behind(bow)?;
+        let (this, that) = (Some(*bow), Some(other));
+        (go_on([before(this), this, that, after(that)]) || inflects(this) || inflects(that)).then_some((number, other))
     };
     let mut is_left = vec![true; bows.len()];
     let mut found = Vec::new();
@@ -206,18 +209,33 @@ fn chains(bows: &[Bow]) -> Vec<Vec<Bow>> {
     found
 }
 
-/// Whether one side goes on as another that begins at its end: their curvatures are alike, or change as they do on the side
-/// `before` or `after`.
-fn go_on(before: Option<Bow>, bow: &Bow, other: &Bow, after: Option<Bow>) -> bool {
-    let are_curved = !bow.is_flat() && !other.is_flat();
-    if are_curved && turns_by_less(CORNER, bow, other) && differ_by(bow, other) <= JUMP {
+/// Whether the sides in the middle of four in a row are on one smooth curve: their curvatures are alike, or change as they do on
+/// the side before or after. A straight side is on one only where the curvature changes its sign there.
+fn go_on([before, bow, other, after]: [Option<Bow>; 4]) -> bool {
+    let (Some(bow), Some(other)) = (bow, other) else { return false };
+    if bow.is_flat() || other.is_flat() {
+        return false;
+    }
+    if turns_by_less(CORNER, &bow, &other) && differ_by(&bow, &other) <= JUMP {
         return true;
     }
-    let steepness = bow.steepness(other);
-    let is_like = |near: f64| steepness * near > 0.0 && steepness.abs() <= STEEPER * near.abs();
-    let is_before = before.is_some_and(|before| turns_by_less(SMOOTH, &before, bow) && is_like(before.steepness(bow)));
-    let is_after = || after.is_some_and(|after| turns_by_less(SMOOTH, other, &after) && is_like(other.steepness(&after)));
-    (!bow.is_flat() || !other.is_flat()) && turns_by_less(SMOOTH, bow, other) && (is_before || is_after())
+    turns_by_less(SMOOTH, &bow, &other)
+        && (before.is_some_and(|before| changes_alike([before, bow, other]))
+            || after.is_some_and(|after| changes_alike([bow, other, after])))
+}
+
+/// Whether a straight side in the middle of five in a row is an inflection of the smooth curve of the others.
+fn is_inflection(five: [Option<Bow>; 5]) -> bool {
+    let [Some(first), Some(before), Some(flat), Some(after), Some(last)] = five else { return false };
+    let turns = before.curvature() * after.curvature() < 0.0 && flat.is_flat();
+    turns && [[first, before, flat], [before, flat, after], [flat, after, last]].into_iter().all(changes_alike)
+}
+
+/// Whether the curvature of three smooth neighbours goes on changing in one sense, and by no more than [`STEEPER`] either way.
+fn changes_alike([a, b, c]: [Bow; 3]) -> bool {
+    let steepness = [a.steepness(&b), b.steepness(&c)];
+    let [least, most] = [steepness[0].abs().min(steepness[1].abs()), steepness[0].abs().max(steepness[1].abs())];
+    turns_by_less(SMOOTH, &a, &b) && turns_by_less(SMOOTH, &b, &c) && steepness[0] * steepness[1] > 0.0 && most <= STEEPER * least
 }
 
 /// Whether the tangents of a side and of the one that begins at its end differ by less than an angle (radians).
@@ -250,8 +268,13 @@ fn nodes(chain: &[Bow]) -> Vec<Point> {
 
 fn spline_through(chain: &[Bow]) -> Curve {
     let (points, [first, last]) = (nodes(chain), [chain[0], chain[chain.len() - 1]]);
-    let beside = |k: usize| chain.get(k).copied();
-    let is_closed = chain.len() > 2 && first.ends[0] == last.ends[1] && go_on(beside(chain.len() - 2), &last, &first, beside(1));
+    let beside = |k: usize| Some(chain[k % chain.len()]);
+    let count = chain.len();
+    let is_closed = count > 2
+        && first.ends[0] == last.ends[1]
+        && (go_on([beside(count - 2), Some(last), Some(first), beside(1)])
+            || is_inflection([beside(count - 3), beside(count - 2), Some(last), Some(first), beside(1)])
+            || is_inflection([beside(count - 2), Some(last), Some(first), beside(1), beside(2)]));
     Curve::Spline(if is_closed { Spline::through_closed(&points) } else { Spline::through(&points) })
 }
 

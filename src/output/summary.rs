@@ -216,8 +216,10 @@ pub struct ContactSummary {
     /// Way of the bodies along each other, by the length that presses; of curved fits on undeformed bodies only.
     pub slip: Option<f64>,
     /// The same at an end of the contact boundary where the bodies press and one of them ends, in all contacts of undeformed
-    /// bodies: they lose or win so much of the length that they have in common.
+    /// bodies.
     pub slip_at_ends: Option<f64>,
+    /// What sliding there, or towards an end, takes from the length that the bodies have in common.
+    pub lost_at_ends: Option<f64>,
     /// Estimated relative error of force or pressure by that way, and by the turning of the bodies.
     pub slip_error: Option<f64>,
     /// The same by their turning alone, in all contacts; where nothing presses, the growth of what turns by the smallest gap.

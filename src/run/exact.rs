@@ -77,7 +77,7 @@ pub fn compare(case: &Case, found: &Evaluation) -> Result<Errors, RunError> {
 fn compare_bodies(case: &Case, found: &Evaluation, errors: &mut Errors) -> Result<(), RunError> {
     for exact in &case.exact.bodies {
         let region = found.problem.scene.mesh.region(&exact.name).expect("checked names");
-        let size = largest(found);
+        let size = found.moved;
         if let Some(displacement) = &exact.displacement {
             let mut worst: f64 = 0.0;
             for (x, value) in displacement.at.iter().zip(&displacement.value) {
@@ -100,13 +100,6 @@ fn compare_bodies(case: &Case, found: &Evaluation, errors: &mut Errors) -> Resul
         }
     }
     Ok(())
-}
-
-/// Largest displacement of a node. **Collective**
-pub fn largest(Evaluation { u, session, .. }: &Evaluation) -> f64 {
-    let mut size = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
-    session.max(&mut size);
-    size[0]
 }
 
 /// The larger of two numbers; none if one of them is none.

@@ -1,6 +1,6 @@
 //! A solution made into a result folder.
 
-use super::exact::{Errors, compare, largest};
+use super::exact::{Errors, compare};
 use super::outcome::outside;
 use super::report::{memory, short};
 use super::slivers::slivers;
@@ -99,7 +99,9 @@ impl Run<'_> {
                 reason = format!("expected values are missed ({})", errors.missed.join("; "));
             }
         }
-        let no_result = trust::no_number(summary).or_else(|| trust::passed_through(summary));
+        let no_result = trust::no_number(summary)
+            .or_else(|| trust::not_in_balance(summary, self.case))
+            .or_else(|| trust::passed_through(summary));
         if let (Status::Converged, Some(words)) = (status, no_result) {
             (status, reason) = (Status::NotConverged, words);
         }
@@ -125,7 +127,7 @@ impl Run<'_> {
         let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
         summarise::balances(summary, &found);
         summarise::deformations(summary, &found);
-        summary.displacement_max = Some(largest(&found));
+        summary.displacement_max = Some(found.moved);
         self.report.large_strains(&found);
         points::loaded_points(&found).iter().for_each(|words| self.report.warn(words));
         let mut traces = Vec::new();
@@ -138,7 +140,9 @@ impl Run<'_> {
             let pressing: Vec<[f64; 2]> = zones.iter().filter_map(|zone| zone.ends).collect();
             if contact.pair.configuration == Configuration::Reference {
                 described.missing = found.missing_force(at, &pressing, &points);
-                described.slip_at_ends = found.slip_at_ends(at, &pressing, &points);
+                let at_ends = found.slip_at_ends(at, &pressing, &points);
+                described.slip_at_ends = at_ends.map(|slip| slip.way);
+                described.lost_at_ends = at_ends.map(|slip| slip.lost);
             }
             described.unresolved_force = Some(found.unresolved_force(at, &points));
             summarise::motions(&mut described, &found, at, &points);

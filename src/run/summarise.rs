@@ -133,6 +133,7 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
         trust: None,
         slip: None,
         slip_at_ends: None,
+        lost_at_ends: None,
         slip_error: None,
         rotation_error: None,
         corner_angle: None,

@@ -1,13 +1,18 @@
 //! Whether contact pressures are to be trusted, and what to do where they are not.
 
+mod doubt;
+mod unestimated;
+
+pub(super) use unestimated::MOST_ROTATION;
+
 use super::report::short;
-use crate::body::BodyPart;
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, Pair, Quadrature, SegmentRule};
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary;
-use crate::system::Tolerance;
+use doubt::Doubt;
+use unestimated::unestimated_doubts;
 
 /// A contact whose inf-sup constant is below this has pressures that its displacements do not control.
 const LEAST_INF_SUP: f64 = 0.1;
@@ -50,39 +55,16 @@ const MOST_MISSING: [f64; 2] = [0.1, 1e-5];
 /// Overlap of bodies between which nothing presses, relative to the displacements, that is no result any more.
 const MOST_PASSED: f64 = 0.05;
 
-/// Largest relative residual of the linear solve that no estimate has allowed: errors of force and pressure are up to a hundred
-/// times as large.
-const MOST_RESIDUAL: f64 = 1e-4;
+/// Largest sum of all forces on a body, as a share of their magnitudes: beyond the first no force is trusted, beyond the second there
+/// is no result.
+const MOST_UNBALANCED_BODY: f64 = 0.01;
+const MOST_OUT_OF_BALANCE: f64 = 0.1;
 
 /// Largest difference of the forces on both bodies, relative: the pressure is off by as much at least.
 const MOST_UNBALANCED: f64 = 0.01;
 
-/// Sliding by less than this share of the length in contact changes no normal.
-const LITTLE_SLIP: f64 = 0.02;
-
-/// Largest share of the length in contact by which bodies may slide where one of them ends.
-const MOST_SLIP_AT_ENDS: f64 = 0.02;
-
-/// Largest error of force and pressure by sliding, or by turning.
-const MOST_SLIP_ERROR: f64 = 0.01;
-
-/// Largest growth of bodies that turn, relative to the smallest gap of a contact where nothing presses.
-const MOST_GROWTH: f64 = 0.5;
-
 /// Largest error of the pressure by corners within a contact.
 const MOST_CORNER_ERROR: f64 = 0.04;
-
-/// Largest mean strain of a macro triangle at which a theory of small strain still means something.
-const MOST_STRAIN: f64 = 0.2;
-
-/// Largest mean rotation of a body (radians): forces and lengths are off by half its square.
-pub(super) const MOST_ROTATION: f64 = 0.2;
-
-/// Largest ν of P1 triangles whose pressure may be believed.
-const MOST_POISSON: f64 = 0.495;
-
-/// Share of the force that penetration within single segments may be worth: more is contact narrower than they are.
-const MOST_UNRESOLVED: f64 = 0.1;
 
 /// What mends a pressure whose bodies are too coarse for it.
 const FINER: &str = "refine the mesh where contact is";
@@ -94,18 +76,13 @@ const LESS_ERROR: &str =
 /// What keeps it from becoming better there, however fine the mesh is.
 const CUT: &str = "take quadrature = \"cut\"";
 
-/// What mends a solution whose bodies turn too far.
-const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
-
 /// Why values that are no numbers are no result.
 pub const NO_NUMBERS: &str =
     "the solution goes beyond the numbers of a computer: correct the units of E, loads, displacements and coordinates";
 
-/// A figure that speaks against a pressure, and what mends it.
-struct Doubt {
-    figure: String,
-    remedy: &'static str,
-}
+/// Strain energy, by that of the softest body strained by the largest displacement over its length, below which bodies have moved
+/// and not strained.
+const NOT_STRAINED: f64 = 1e-12;
 
 /// What is said of the pressures of a run.
 #[derive(Debug, Default)]
@@ -175,27 +152,38 @@ fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pa
     if !converged {
         return Verdict { doubts, unknown: None, trust: Some(false), trust_force: Some(false) };
     }
+    if is_rounding(summary, contact, case) {
+        let words = format!("contact {}: the bodies touch without being strained, and press by rounding alone", pair.name);
+        return Verdict { doubts: Vec::new(), unknown: Some(words), trust: None, trust_force: None };
+    }
     let force = summary.estimate.contact.get(&pair.name).and_then(|own| own.force);
     // Where nothing presses, meshes agree on a force of zero though the bodies overlap.
     let pressed = !contact.zones.is_empty() || !overlaps(contact);
-    let trust_force = force.map(|error| error <= MOST_FORCE_ERROR && is_balanced(summary) && pressed);
+    let in_balance = is_balanced(summary) && out_of_balance(summary, case).is_none_or(|off| off <= MOST_UNBALANCED_BODY);
+    let trust_force = force.map(|error| error <= MOST_FORCE_ERROR && in_balance && pressed);
     doubts.extend(zone_doubts(contact, trust_force, more_segments(pair)));
-    doubts.extend(size_doubts(summary));
+    doubts.extend(size_doubts(summary, case));
     doubts.extend(force_doubt(force));
-    let motions = slip_doubt(contact).into_iter().chain(end_doubt(contact)).chain(turning_doubt(contact));
-    let bodies = strain_doubts(summary).into_iter().chain(rotation_doubts(summary)).chain(locking_doubt(case));
-    // What no difference between meshes can see.
-    let beyond: Vec<Doubt> = motions
-        .chain(bodies)
-        .chain(residual_doubt(summary, case))
-        .chain(unresolved_doubt(contact, more_segments(pair)))
-        .collect();
+    let beyond = unestimated_doubts(summary, contact, case, more_segments(pair));
     let trust_force = trust_force.map(|trust| trust && beyond.is_empty());
     doubts.extend(beyond);
     doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
     let unknown = unknown_words(contact, &pair.name, trust_force, on_order(more_segments(pair), pair, case));
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
     Verdict { doubts, unknown, trust, trust_force }
+}
+
+/// Whether bodies have only moved, so that the little that presses is noise, which no mesh repeats.
+fn is_rounding(summary: &Summary, contact: &summary::ContactSummary, case: &Case) -> bool {
+    let is_noise = |zone: &summary::ZoneSummary| zone.lambda.is_none_or(|error| error > MOST_ERROR);
+    !contact.zones.is_empty() && contact.zones.iter().all(is_noise) && !is_strained(summary, case)
+}
+
+/// Whether bodies are strained by more than rounding.
+fn is_strained(summary: &Summary, case: &Case) -> bool {
+    let young = case.bodies.iter().flat_map(|body| &body.parts).map(|part| part.material.young).fold(f64::INFINITY, f64::min);
+    let moved = summary.displacement_max.zip(summary.energy.total);
+    moved.is_none_or(|(moved, energy)| energy > NOT_STRAINED * young * moved * moved)
 }
 
 /// What tells that the displacements do not control the pressure; it may be why a solve has failed.
@@ -209,14 +197,6 @@ fn stability_doubts(contact: &summary::ContactSummary, pair: &Pair, case: &Case)
     let rough = rough.map(|share| format!("oscillation {share:.3}{segment}, at most {MOST_OSCILLATION} wanted"));
     let remedy = stability(pair, case);
     [unstable, rough].into_iter().flatten().map(|figure| Doubt { figure, remedy }).collect()
-}
-
-/// What tells that P1 triangles have locked: meshes that all lock alike have differences that say too little.
-fn locking_doubt(case: &Case) -> Option<Doubt> {
-    let locks = |part: &&BodyPart| case.mesh.order == Order::P1 && part.material.poisson_in_plane() > MOST_POISSON;
-    let part = case.bodies.iter().flat_map(|body| &body.parts).find(locks)?;
-    let figure = format!("body {} has ν = {} with P1 triangles, at most {MOST_POISSON} wanted", part.name, part.material.poisson);
-    Some(Doubt { figure, remedy: "take mesh.order = 2: P1 triangles lock" })
 }
 
 /// What tells that zones are too narrow, or too coarse, for their pressure.
@@ -293,11 +273,14 @@ pub fn passed_through(summary: &Summary) -> Option<String> {
 }
 
 /// What tells that a solution is too far from the bodies' own to have their pressure.
-fn size_doubts(summary: &Summary) -> Vec<Doubt> {
+fn size_doubts(summary: &Summary, case: &Case) -> Vec<Doubt> {
     let mut doubts = Vec::new();
     let wrong = summary.estimate.energy.filter(|error| *error > MOST_ERROR);
     let words = |error| format!("estimated error in the energy norm {error:.2}, at most {MOST_ERROR} wanted");
     doubts.extend(wrong.map(|error| (words(error), FINER)));
+    let off = out_of_balance(summary, case).filter(|off| *off > MOST_UNBALANCED_BODY);
+    let words = |off| format!("the forces on a body are out of balance by {}, at most {MOST_UNBALANCED_BODY} wanted", short(off));
+    doubts.extend(off.map(|off| (words(off), "take a smaller solver.tolerance, or correct what holds the bodies")));
     let off = summary.balance.force.filter(|_| !is_balanced(summary));
     let words = |off| format!("forces on the two bodies differ by {}, at most {MOST_UNBALANCED} wanted", short(off));
     doubts.extend(off.map(|off| (words(off), "see lost_points: the bodies must face each other all along the boundary")));
@@ -311,84 +294,6 @@ fn force_doubt(error: Option<f64>) -> Option<Doubt> {
         figure: format!("estimated error of the whole force {error:.2}, at most {MOST_PRESSURE_ERROR} wanted"),
         remedy: FINER,
     })
-}
-
-/// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.
-fn slip_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
-    let (slip, error) = (contact.slip?, contact.slip_error?);
-    let by_turning = contact.rotation_error.is_some_and(|turning| turning > MOST_SLIP_ERROR && turning > 0.5 * error);
-    (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR && !by_turning).then(|| Doubt {
-        figure: format!(
-            "the bodies slide along each other by {} of the length in contact: force or pressure wrong by about {} (relative), at most {MOST_SLIP_ERROR} wanted",
-            short(slip),
-            short(error)
-        ),
-        remedy: "take configuration = \"deformed\"",
-    })
-}
-
-/// What tells that bodies have slid along each other so far that they have another length in common.
-fn end_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
-    let slip = contact.slip_at_ends.filter(|slip| *slip > MOST_SLIP_AT_ENDS)?;
-    Some(Doubt {
-        figure: format!(
-            "the bodies slide along each other by {} of the length in contact where one of them ends: force or pressure wrong by about as much, at most {MOST_SLIP_AT_ENDS} wanted",
-            short(slip)
-        ),
-        remedy: "draw the bodies as they lie after sliding, or take curve = \"fit\" with configuration = \"deformed\"",
-    })
-}
-
-/// What tells that the linear solve has stopped too early for its forces.
-fn residual_doubt(summary: &Summary, case: &Case) -> Option<Doubt> {
-    let residual = summary.solver.residual.filter(|residual| *residual > MOST_RESIDUAL)?;
-    matches!(case.solver.tolerance, Tolerance::Residual(_)).then(|| Doubt {
-        figure: format!("the linear solve has stopped at a residual of {}, at most {MOST_RESIDUAL} wanted", short(residual)),
-        remedy: "take a smaller solver.tolerance, or \"discretisation\"",
-    })
-}
-
-/// What tells that bodies have turned too far for a theory that makes larger what turns.
-fn turning_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
-    let error = contact.rotation_error?;
-    let remedy = TURN_LESS;
-    if contact.zones.is_empty() {
-        let figure =
-            format!("nothing presses, but bodies that turn grow in this theory, by {} times the smallest gap", short(error));
-        return (error > MOST_GROWTH).then_some(Doubt { figure, remedy });
-    }
-    // Sliding and turning may undo each other, as where a round body turns about its centre.
-    let wrong = error > MOST_SLIP_ERROR && contact.slip_error.is_none_or(|error| error > MOST_SLIP_ERROR);
-    let figure = || {
-        format!("the bodies turn: force or pressure wrong by about {} (relative), at most {MOST_SLIP_ERROR} wanted", short(error))
-    };
-    wrong.then(|| Doubt { figure: figure(), remedy })
-}
-
-/// What tells that bodies are strained beyond a theory of small strain.
-fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
-    let large =
-        summary.strain_max.iter().filter_map(|(body, strain)| Some((body, strain.filter(|strain| *strain > MOST_STRAIN)?)));
-    let words = |(body, strain): (&String, f64)| {
-        format!("body {body} strained by {:.0} %, at most {:.0} % wanted", 100.0 * strain, 100.0 * MOST_STRAIN)
-    };
-    let remedy = "press less, or correct the units of E, loads and displacements: the model is that of small strain";
-    large.map(|found| Doubt { figure: words(found), remedy }).collect()
-}
-
-/// What tells that bodies turn farther than any theory of small rotations goes.
-fn rotation_doubts(summary: &Summary) -> Vec<Doubt> {
-    let far = summary.rotation.iter().filter_map(|(body, angle)| Some((body, angle.filter(|a| a.abs() > MOST_ROTATION)?)));
-    let words = |(body, angle): (&String, f64)| format!("body {body} turns by {angle:.2}, at most {MOST_ROTATION} wanted");
-    far.map(|found| Doubt { figure: words(found), remedy: TURN_LESS }).collect()
-}
-
-/// What tells of contact that is narrower than a segment.
-fn unresolved_doubt(contact: &summary::ContactSummary, shorter: &'static str) -> Option<Doubt> {
-    let force = contact.force.unwrap_or(0.0).abs();
-    let off = contact.unresolved_force.filter(|off| *off > MOST_UNRESOLVED * force)?;
-    let worth = if force > 0.0 { format!(", which is worth {} of its force", short(off / force)) } else { String::new() };
-    Some(Doubt { figure: format!("the bodies penetrate each other within segments{worth}"), remedy: shorter })
 }
 
 /// What makes segments shorter.
@@ -449,6 +354,22 @@ fn is_proved(worst: Option<f64>) -> bool {
 
 fn is_balanced(summary: &Summary) -> bool {
     summary.balance.force.is_none_or(|off| off <= MOST_UNBALANCED)
+}
+
+/// By how much the forces on a body are out of balance, where mean motions are held: what holds such a body while the system is
+/// solved may carry what a contact should. Elsewhere supports carry all, and beside no strain these forces are rounding.
+fn out_of_balance(summary: &Summary, case: &Case) -> Option<f64> {
+    let holds = summary.support.values().any(|support| support.moment.is_some());
+    summary.balance.bodies.filter(|_| holds && is_strained(summary, case))
+}
+
+/// What makes a run one that has not converged, whatever its residual says: a body whose forces are far from balance.
+pub fn not_in_balance(summary: &Summary, case: &Case) -> Option<String> {
+    let off = out_of_balance(summary, case).filter(|off| *off > MOST_OUT_OF_BALANCE)?;
+    Some(format!(
+        "the forces on a body are out of balance by {} of their sum: a contact beside a mean motion that is held leaves the body free to move; hold it by a support, or leave out what contact holds already",
+        short(off)
+    ))
 }
 
 /// What mends a space too rich for the displacements; P1 has locked before its multipliers are too many.

@@ -101,7 +101,7 @@ fn check_size(scene: &Scene, numbering: &Numbering, bits: u32) -> Result<(), Sys
     let refused = |words: String| Err(SystemError::Case(format!("mesh.refine = {}: {words}", scene.refine)));
     if nodes as u64 > (u64::MAX >> (65 - bits)) / 5 {
         return refused(format!(
-            "{nodes} nodes are more than PETSc can count with {bits}-bit indices; refine less, or build mezha with a PETSc of 64-bit indices (CONTRIBUTING.md says how)"
+            "{nodes} nodes are more than PETSc can count with {bits}-bit indices; refine less, or build mezha with a PETSc of 64-bit indices (docs/install.md says how)"
         ));
     }
     let most = (0..scene.partition.size()).map(|rank| numbering.range(rank).len()).max().unwrap_or(0);

@@ -1,5 +1,6 @@
 //! What speaks against pressures.
 
+use super::unestimated::*;
 use super::*;
 use crate::output::summary::{BalanceSummary, ContactSummary, EstimateSummary, ZoneSummary};
 
@@ -40,13 +41,14 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
     assert!(words(|zone| zone.whole = Some(0.07)).contains("up to the ends of contact 0.07"));
     assert!(words(|zone| zone.peak = Some(0.2)).contains("of the largest λ 0.20"));
     assert!(words_of(vec![zone()], 0.5).contains("overlap"));
+    let case = Case::parse(CASE, std::path::Path::new("case.toml"), &[]).expect("a case");
     let far = |energy, force| {
         let summary = Summary {
             estimate: EstimateSummary { energy: Some(energy), ..EstimateSummary::default() },
             balance: BalanceSummary { force: Some(force), ..BalanceSummary::default() },
             ..Summary::default()
         };
-        size_doubts(&summary).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
+        size_doubts(&summary, &case).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
     };
     assert_eq!(far(0.02, 1e-15), "");
     assert!(far(0.6, 1e-15).contains("energy norm 0.60"));
@@ -84,9 +86,12 @@ fn sliding_is_doubted_unless_turning_is() {
 
 #[test]
 fn sliding_is_doubted_where_a_body_ends() {
-    let told = |slip| end_doubt(&ContactSummary { slip_at_ends: slip, ..ContactSummary::default() }).map(|doubt| doubt.figure);
-    assert_eq!((told(None), told(Some(0.01))), (None, None));
-    assert!(told(Some(0.6)).is_some_and(|words| words.contains("by 0.60 of the length in contact")));
+    let told = |slip_at_ends, lost_at_ends| {
+        end_doubt(&ContactSummary { slip_at_ends, lost_at_ends, ..ContactSummary::default() }).map(|doubt| doubt.figure)
+    };
+    assert_eq!((told(None, None), told(Some(0.05), Some(0.01))), (None, None));
+    assert!(told(Some(0.6), Some(0.4)).is_some_and(|words| words.starts_with("sliding takes 0.40 of the length in contact")));
+    assert!(told(Some(0.6), Some(0.0)).is_some_and(|words| words.contains("slides along the other by 0.60")));
 }
 
 #[test]
@@ -186,6 +191,20 @@ fn a_solve_that_failed_has_nothing_to_trust() {
 }
 
 #[test]
+fn noise_between_bodies_that_have_only_moved_is_no_pressure() {
+    let moved = |energy, error| {
+        let change = move |summary: &mut Summary| {
+            (summary.displacement_max, summary.energy.total) = (Some(0.1), Some(energy));
+            summary.contact.get_mut("seam").expect("it is there").zones[0].lambda = Some(error);
+        };
+        judged(true, change, &[])
+    };
+    assert_eq!(moved(1e-20, 0.9), (None, None, String::new()));
+    assert_eq!(moved(1e-20, 0.01).0, Some(true), "meshes agree on it");
+    assert_eq!(moved(1e-3, 0.9).0, Some(false), "they are strained");
+}
+
+#[test]
 fn what_is_beyond_the_model_spoils_the_force_too() {
     let turned = judged(true, |summary| _ = summary.rotation.insert("upper".into(), Some(0.5)), &[]);
     assert!(turned.0 == Some(false) && turned.1 == Some(false) && turned.2.contains("body upper turns"), "{turned:?}");
@@ -202,8 +221,8 @@ fn what_is_beyond_the_model_spoils_the_force_too() {
     };
     let found = seam(&|seam| seam.unresolved_force = Some(4.0));
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("within segments"), "{found:?}");
-    let found = seam(&|seam| seam.slip_at_ends = Some(0.3));
-    assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("one of them ends"), "{found:?}");
+    let found = seam(&|seam| seam.lost_at_ends = Some(0.3));
+    assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("have in common"), "{found:?}");
     let found = seam(&|seam| seam.zones[0].lambda = Some(0.2));
     assert!(found.0 == Some(false) && found.1 == Some(true) && found.2.contains("whose force is to be trusted"), "{found:?}");
 }
@@ -230,6 +249,29 @@ fn values_that_are_no_numbers_are_no_result() {
     let told = |value| no_number(&Summary { displacement_max: Some(value), ..Summary::default() });
     assert_eq!(told(1e300), None);
     assert!([f64::INFINITY, f64::NAN].into_iter().all(|value| told(value).is_some_and(|words| words.contains("units"))));
+}
+
+#[test]
+fn bodies_out_of_balance_are_no_result_and_before_that_nothing_to_trust() {
+    let of = |bodies, moment| {
+        move |summary: &mut Summary| {
+            summary.balance.bodies = Some(bodies);
+            summary.support.insert("held".into(), summary::SupportSummary { moment, ..Default::default() });
+        }
+    };
+    assert_eq!(judged(true, of(1e-3, Some(0.0)), &[]).0, Some(true));
+    assert_eq!(judged(true, of(0.5, None), &[]).0, Some(true), "supports carry all");
+    let found = judged(true, of(0.03, Some(0.0)), &[]);
+    assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("out of balance by 0.03"), "{found:?}");
+    let case = Case::parse(CASE, std::path::Path::new("case.toml"), &[]).expect("a case");
+    let told = |bodies, energy| {
+        let mut summary = Summary { displacement_max: Some(0.1), ..Summary::default() };
+        of(bodies, Some(0.0))(&mut summary);
+        summary.energy.total = Some(energy);
+        not_in_balance(&summary, &case)
+    };
+    assert_eq!((told(0.03, 1.0), told(0.5, 1e-20)), (None, None));
+    assert!(told(0.5, 1.0).is_some_and(|words| words.contains("out of balance by 0.50")));
 }
 
 #[test]

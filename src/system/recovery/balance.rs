@@ -10,6 +10,7 @@ use crate::mesh::{EdgeNode, lattice};
 use crate::petsc::Session;
 use crate::system::{Contact, Discretisation, Field, Solution, SystemError, nodal_forces, rigid_motions};
 use std::collections::HashMap;
+use std::collections::HashSet;
 
 /// Forces on a body below this share of those on another are what a solve leaves: nothing acts on it.
 const UNLOADED: f64 = 1e-6;
@@ -213,6 +214,8 @@ fn sum_over_nodes(
     let body_of = body_of_nodes(problem, session.rank());
     let supports = &problem.scene.supports;
     let holders = Holders::new(&problem.scene.mesh, &space.numbering, supports).map_err(|error| SystemError::Case(error.0))?;
+    // These carry nothing in a solution: what they do carry is missing in the balance of their body.
+    let anchors = anchor_nodes(problem);
     let mut reactions = vec![0.0; 2 * supports.len()];
     let sets = &problem.scene.rigid;
     let set_of = set_of_nodes(problem);
@@ -242,7 +245,9 @@ fn sum_over_nodes(
         work.given[1] += prescribed.norm();
         bodies[body_of[at]].add(f);
         let reaction = constraint.to_global(reaction);
-        bodies[body_of[at]].add(reaction);
+        if !anchors.contains(&node) {
+            bodies[body_of[at]].add(reaction);
+        }
         if let Some(&(set, x)) = set_of.get(&node) {
             (0..3).for_each(|k| rigid[3 * set + k] += reaction.dot(&sets[set].mode(k, x)));
         }
@@ -269,6 +274,13 @@ fn set_of_nodes(problem: &Discretisation) -> HashMap<usize, (usize, Point)> {
         set.places(&scene.mesh, numbering).into_iter().map(move |(node, x)| (node, (number, x)))
     };
     scene.rigid.iter().enumerate().flat_map(places).collect()
+}
+
+/// Nodes that hold bodies whose mean motion is held while the system is solved.
+fn anchor_nodes(problem: &Discretisation) -> HashSet<usize> {
+    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+    let anchors = scene.means.iter().filter_map(|hold| hold.anchors(&scene.mesh)).flatten();
+    anchors.map(|anchor| numbering.vertex(anchor.vertex)).collect()
 }
 
 /// Sum of the magnitudes of the forces on all bodies.

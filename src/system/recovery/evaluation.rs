@@ -4,11 +4,12 @@ use super::balance::{Balance, balance};
 use super::corners::{Corners, corners};
 use super::deformation::{Deformation, deformations};
 use super::error_norm::energy_error;
-use super::motion_error::{MotionError, growth_by_gap, motion_errors, slip_at_ends};
+use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::{missing_force, unresolved_force};
 use super::probe::{Probed, probe};
 use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
+use super::zone_ends::{EndSlip, slip_at_ends};
 use crate::geometry::{Formula, Point};
 use crate::mesh::Region;
 use crate::petsc::Session;
@@ -24,6 +25,8 @@ pub struct Evaluation<'a> {
     pub session: &'a Session,
     /// Displacements.
     pub u: Field<2>,
+    /// Largest displacement of a node (length).
+    pub moved: f64,
     /// Energies, reactions and balances.
     pub balance: Balance,
     /// Strain and rotation of each body.
@@ -39,10 +42,12 @@ impl<'a> Evaluation<'a> {
     /// [`SystemError`] from PETSc or an inverted triangle.
     pub fn new(problem: &'a Discretisation, solution: &'a Solution, session: &'a Session) -> Result<Self, SystemError> {
         let u = Field::displacement(problem, &solution.displacement, session)?;
+        let mut moved = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
+        session.max(&mut moved);
         let balance = balance(problem, solution, &u, session)?;
         let deformations = deformations(problem, &u, session)?;
         let motions = motion_errors(problem, solution, &balance.strain, &deformations, session);
-        Ok(Self { problem, solution, session, u, balance, deformations, motions })
+        Ok(Self { problem, solution, session, u, moved: moved[0], balance, deformations, motions })
     }
 
     /// The pressure on one of the contacts.
@@ -53,12 +58,12 @@ impl<'a> Evaluation<'a> {
     /// Growth of the bodies of a contact by their turning, relative to the smallest gap at `points`; nothing if it is rounding
     /// beside their displacements.
     pub fn growth_by_gap(&self, contact: usize, points: &[TracePoint]) -> Option<f64> {
-        growth_by_gap(self.problem.contacts[contact].bodies.map(|body| &self.deformations[body]), points)
+        growth_by_gap(self.problem.contacts[contact].bodies.map(|body| &self.deformations[body]), points, self.moved)
     }
 
-    /// Way of the bodies along each other at an end of a contact where they press, by the length of `zones`.
-    pub fn slip_at_ends(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<f64> {
-        slip_at_ends(&self.problem.contacts[contact], zones, points)
+    /// What sliding does at the ends of a contact that `zones` reach.
+    pub fn slip_at_ends(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<EndSlip> {
+        slip_at_ends(&self.problem.contacts[contact], &self.problem.scene.mesh, zones, points)
     }
 
     /// Corners of the bodies of a contact within `zones`: the arcs that press.
@@ -69,12 +74,12 @@ impl<'a> Evaluation<'a> {
     /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the
     /// largest overlap relative to the largest relative displacement.
     pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<f64> {
-        missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force)
+        missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.moved)
     }
 
     /// Force that penetration within single segments of a contact is worth (force per thickness).
     pub fn unresolved_force(&self, contact: usize, points: &[TracePoint]) -> f64 {
-        unresolved_force(&self.problem.contacts[contact], points)
+        unresolved_force(&self.problem.contacts[contact], points, self.moved)
     }
 
     /// Both bodies' traces along a contact boundary. **Collective**

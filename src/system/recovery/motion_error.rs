@@ -17,8 +17,8 @@ const UNKNOWN: f64 = 1.0;
 /// Growth by less than this share of the displacements is rounding.
 const ROUNDING: f64 = 1e-5;
 
-/// Share of the contact boundary within which a zone reaches its end.
-const NEAR: f64 = 1e-9;
+/// The same share of the largest displacement of all.
+const NO_MOTION: f64 = 1e-12;
 
 /// Sliding and turning of the two bodies in a contact, and what they spoil.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,26 +127,13 @@ fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f6
     modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
 }
 
-/// Way of the bodies along each other at an end of the contact boundary where they press and one of them ends, by the length
-/// that presses; the larger of both ends. What they lose or win there of the length that they have in common is of this size.
-pub fn slip_at_ends(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<f64> {
-    let (whole, pressed) = (contact.boundary.length(), zones.iter().map(|[a, b]| b - a).sum::<f64>());
-    let ends = contact.ends_with_a_body();
-    let presses = [0, 1].map(|end| {
-        ends[end] && zones.iter().any(|zone| if end == 0 { zone[0] <= NEAR * whole } else { zone[1] >= (1.0 - NEAR) * whole })
-    });
-    let complete = || points.iter().filter(|point| point.is_complete());
-    let at = [complete().next(), complete().next_back()];
-    let slips = presses.into_iter().zip(at).filter_map(|(presses, point)| point.filter(|_| presses));
-    slips.map(|point| point.slip.abs() / pressed).reduce(f64::max)
-}
-
-/// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements.
-pub fn growth_by_gap(bodies: [&Deformation; 2], points: &[TracePoint]) -> Option<f64> {
+/// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements in the
+/// contact, or beside the `farthest` displacement of all.
+pub fn growth_by_gap(bodies: [&Deformation; 2], points: &[TracePoint], farthest: f64) -> Option<f64> {
     let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
     let moved = points.iter().map(|point| point.displacement[0].abs().max(point.displacement[1].abs())).fold(0.0, f64::max);
     let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
-    (growth > ROUNDING * moved).then(|| growth / smallest.max(NO_GAP * growth))
+    (growth > ROUNDING * moved && growth > NO_MOTION * farthest).then(|| growth / smallest.max(NO_GAP * growth))
 }
 
 #[cfg(test)]
@@ -166,9 +153,9 @@ mod tests {
             TracePoint { arc: 0.0, x, normal, lambda: 0.0, displacement, slip: 0.0, stress: [0.0; 2], distance: [0.0, gap], gap }
         };
         let points = [point(0.02), point(0.01), point(f64::NAN)];
-        let found = growth_by_gap([&turned(0.01), &turned(-0.02)], &points).expect("growth");
+        let found = growth_by_gap([&turned(0.01), &turned(-0.02)], &points, 0.1).expect("growth");
         assert!((found / (1.5 * (0.01f64.powi(2) + 0.02f64.powi(2)) / 0.01) - 1.0).abs() < 1e-12, "{found}");
-        assert_eq!(growth_by_gap([&turned(1e-6), &turned(0.0)], &points), None, "rounding beside the displacements");
-        assert_eq!(growth_by_gap([&turned(0.1), &turned(0.0)], &[]), None, "no gap");
+        assert_eq!(growth_by_gap([&turned(1e-6), &turned(0.0)], &points, 0.1), None, "rounding beside the displacements");
+        assert_eq!(growth_by_gap([&turned(0.1), &turned(0.0)], &[], 0.1), None, "no gap");
     }
 }

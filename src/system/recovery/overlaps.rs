@@ -6,18 +6,22 @@ use crate::system::Contact;
 /// Penetration below this share of the largest normal displacement is what the solve leaves.
 const LEFT: f64 = 1e-7;
 
+/// An overlap by less than this share of the largest displacement of all is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Force that is missing because bodies overlap where no segment presses, relative to the force found; without a force, the
 /// largest overlap relative to the largest relative displacement.
 ///
-/// A pressure p over a width w moves the boundary by about 2 p w/E; so an overlap δ asks for the force E δ/2, however wide.
-pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint], force: f64) -> Option<f64> {
+/// A pressure p over a width w moves the boundary by about 2 p w/E; so an overlap δ asks for the force E δ/2, however wide. Bodies
+/// have `moved` by so much at most (length).
+pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint], force: f64, moved: f64) -> Option<f64> {
     let within = |s: f64| zones.iter().any(|&[from, to]| s >= from && s <= to);
     // A zone of a closed boundary may go on across the seam.
     let outside = |s: f64| !within(s) && !contact.boundary.turn().is_some_and(|turn| within(s + turn));
     let (mut sum, mut deepest, mut largest, mut whole) = (0.0, 0.0f64, 0.0f64, 0.0f64);
     for point in points.iter().filter(|point| point.gap.is_finite()) {
         whole = whole.max((point.displacement[1] - point.displacement[0]).abs());
-        let overlap = if outside(point.arc) { (-point.gap).max(0.0) } else { 0.0 };
+        let overlap = if outside(point.arc) && -point.gap > ROUNDING * moved { -point.gap } else { 0.0 };
         if overlap == 0.0 {
             sum += std::mem::take(&mut deepest);
         }
@@ -31,12 +35,13 @@ pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint
 
 /// Force that would push the bodies out of each other where they penetrate at single points, `E_c/H ∫ max(0, -gap) ds` with
 /// the lengths H of the segments (force per thickness). It is small beside the force of a contact that spans some segments;
-/// contact that is narrower than a segment has one of the same size, or no force at all beside it.
-pub fn unresolved_force(contact: &Contact, points: &[TracePoint]) -> f64 {
+/// contact that is narrower than a segment has one of the same size, or no force at all beside it. Bodies have `moved` by so
+/// much at most (length).
+pub fn unresolved_force(contact: &Contact, points: &[TracePoint], moved: f64) -> f64 {
     let arcs = contact.boundary.arcs();
-    let moved = points.iter().map(largest).fold(0.0, f64::max);
+    let left = (LEFT * points.iter().map(largest).fold(0.0, f64::max)).max(ROUNDING * moved);
     // `max` passes over points that a body has no part in.
-    let depth = |p: &TracePoint| (-p.gap - LEFT * moved).max(0.0);
+    let depth = |p: &TracePoint| (-p.gap - left).max(0.0);
     let part = |ends: &[TracePoint]| {
         let [from, to] = [ends[0].arc, ends[1].arc];
         let segment = arcs.partition_point(|&s| s <= 0.5 * (from + to)).clamp(1, arcs.len() - 1);
@@ -80,9 +85,9 @@ mod tests {
         ];
         // Trapezia of the depths 0.09 and 0.29 on segments of 0.5 and 1.5; E is 2 and 6, their harmonic mean 3.
         let wanted = 3.0 * (0.5 * 0.09 * 0.5 / 0.5 + 0.5 * 0.29 * 1.5 / 1.5);
-        let found = unresolved_force(&contact, &points);
+        let found = unresolved_force(&contact, &points, 1.0);
         assert!((found - wanted).abs() < 1e-9, "{found} instead of {wanted}");
-        assert_eq!(unresolved_force(&contact, &points[4..]), 0.0);
+        assert_eq!(unresolved_force(&contact, &points[4..], 1.0), 0.0);
     }
 
     #[test]
@@ -96,9 +101,9 @@ mod tests {
         let points: Vec<TracePoint> = gaps.iter().enumerate().map(point).collect();
         let near = |found: Option<f64>, wanted: f64| assert!((found.expect("a number") - wanted).abs() < 1e-12, "{found:?}");
         for force in [0.25, -0.25] {
-            near(missing_force(&contact, &[[0.5, 1.0]], &points, force), 0.5 * 3.0 * 0.055 / 0.25);
+            near(missing_force(&contact, &[[0.5, 1.0]], &points, force, 1.0), 0.5 * 3.0 * 0.055 / 0.25);
         }
-        near(missing_force(&contact, &[], &points, 0.0), 0.5 / 0.8);
-        assert_eq!(missing_force(&contact, &[], &[at(0.0, 0.0, 0.0, 0.0)], 0.0), None);
+        near(missing_force(&contact, &[], &points, 0.0, 1.0), 0.5 / 0.8);
+        assert_eq!(missing_force(&contact, &[], &[at(0.0, 0.0, 0.0, 0.0)], 0.0, 1.0), None);
     }
 }

@@ -4,7 +4,7 @@ use super::{agreed, nodal};
 use crate::body::positions;
 use crate::contact::{Distance, edge_overlaps, trace};
 use crate::element::{Order, PlaneLaw, stress};
-use crate::geometry::{Point, gauss_points, turn_right};
+use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
 use crate::system::{Contact, ContactPressure, Discretisation, Field, SystemError};
@@ -28,7 +28,7 @@ pub struct TracePoint {
     pub lambda: f64,
     /// Normal displacement of body 1 and of body 2; not a number where a body has no corresponding point.
     pub displacement: [f64; 2],
-    /// Way of body 2 along body 1.
+    /// Way of body 2 along body 1, to where the arc length grows.
     pub slip: f64,
     /// `n·σn` of each body.
     pub stress: [f64; 2],
@@ -155,7 +155,7 @@ fn on_edge(
         Distance::Declared => (here.place - x).dot(&normal),
         measured => measured.at(x, normal, here.place).map_err(SystemError::Case)?,
     };
-    Ok([moved.dot(&normal), pressure, distance, moved.dot(&turn_right(normal))])
+    Ok([moved.dot(&normal), pressure, distance, moved.dot(&contact.boundary.tangent(t))])
 }
 
 /// Stress on a boundary edge, in the triangle beside it.
