@@ -1,7 +1,7 @@
-//! A macro triangle in a lattice of its own, with the nodes on its sides: what is done to its inner nodes needs no others.
+//! Macro triangles in lattices of their own, with the nodes on their sides: what is done to their inner nodes needs no others.
 //!
-//! Row follows row, so that a step leads equally far from each node of a row. A lattice of few hundred intervals fits into the
-//! cache.
+//! A lattice holds one macro triangle, or several of them side by side: then the values of the same node of each follow one
+//! another, and fill a vector register. A lattice of few hundred intervals fits into the cache.
 
 use super::Space;
 use super::space::Real;
@@ -10,34 +10,60 @@ use crate::element::{Block, Order};
 use crate::mesh::{Level, TriangleNumbers, lattice};
 use std::ops::Range;
 
-/// Places before the first row of a lattice, and behind its last one, that vector registers may touch.
-const MARGIN: usize = 24;
+/// Memory for a lattice. It begins with a line of the cache: registers that lie in two lines are read twice.
+#[derive(Clone, Default)]
+pub struct LatticeRoom<T>(Vec<[T; 2]>);
 
-/// Places of a row come in so many: those of the largest vector register.
-const WIDTH: usize = 8;
+/// Bytes of a line of the cache.
+const LINE: usize = 64;
 
-/// Place of the first node of row `j` of a lattice with `n` intervals. Each row fills whole registers, and as many places as one
-/// has are free behind it.
-#[inline(always)]
-pub fn row_start(n: usize, j: usize) -> usize {
-    // Rows have n + 1 - j nodes; those before row j are whole groups of eight, and the rest of the longest ones.
-    let rows = |last: usize| {
-        let (groups, rest) = (last / WIDTH, last % WIDTH);
-        WIDTH * (groups * (groups + 1) / 2 * WIDTH + rest * (groups + 1))
-    };
-    MARGIN + WIDTH * j + rows(n + 1) - rows(n + 1 - j)
+impl<T: Real> LatticeRoom<T> {
+    /// A lattice with `n` intervals for `width` macro triangles; its values are what was there before, or zeros.
+    pub fn lattice(&mut self, n: usize, width: usize) -> &mut [[T; 2]] {
+        let (nodes, line) = (width * lattice::node_count(n), LINE / size_of::<[T; 2]>());
+        if self.0.len() < nodes + line {
+            self.0 = vec![[T::default(); 2]; nodes + line];
+        }
+        // Where it cannot be told, any place will do.
+        let first = self.0.as_ptr().align_offset(LINE).min(line);
+        &mut self.0[first..first + nodes]
+    }
 }
 
-/// Zeros for a lattice with `n` intervals.
-pub fn zeros<T: Real>(n: usize) -> Vec<[T; 2]> {
-    vec![[T::default(); 2]; row_start(n, n + 1) + MARGIN]
+/// The place of one macro triangle in a lattice of several.
+#[derive(Clone, Copy, Debug)]
+pub struct Lane {
+    /// Macro triangles in the lattice.
+    pub width: usize,
+    /// Those before this one.
+    pub at: usize,
+}
+
+impl Lane {
+    /// Of the only one.
+    pub const ALONE: Self = Self { width: 1, at: 0 };
+
+    /// Place of node `(i, j)`.
+    #[inline(always)]
+    fn node(self, n: usize, i: usize, j: usize) -> usize {
+        lattice::index(n, i, j) * self.width + self.at
+    }
+
+    /// Places of the inner nodes of row `j`.
+    #[inline(always)]
+    fn inner(self, n: usize, j: usize) -> impl Iterator<Item = usize> {
+        (self.node(n, 1, j)..self.node(n, n - j, j)).step_by(self.width)
+    }
 }
 
 /// Whether macro triangles of a level are worked on as a whole. On coarser lattices the work is less than that of bringing them
-/// there; finer ones do not fit into the cache. With P1 the rows alone are faster by a tenth: they have few couplings, and the
-/// sides no more than two in a hundred of the nodes.
+/// there; on finer ones of P1, which do not fit into the cache, rows by themselves are faster, and finer ones of P2 would take
+/// much memory.
 pub fn is_whole(level: Level) -> bool {
-    level.order == Order::P2 && (16..=256).contains(&level.intervals)
+    match level.order {
+        Order::P1 => (8..=128).contains(&level.intervals),
+        Order::P2 => (16..=1024).contains(&level.intervals),
+    }
 }
 
 /// The nodes on the sides of a lattice, row by row.
@@ -55,13 +81,11 @@ fn side_node(n: usize, k: usize) -> (usize, usize) {
     }
 }
 
-/// Inner nodes of each row: places in a lattice, and among all inner nodes.
+/// Inner nodes of each row: places in a lattice of one macro triangle, and among all inner nodes.
 pub fn inner_rows(n: usize) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
-    let mut next = 0;
     (1..n - 1).map(move |j| {
-        let (start, count) = (row_start(n, j) + 1, n - 1 - j);
-        next += count;
-        (start..start + count, next - count..next)
+        let (start, first, count) = (lattice::index(n, 1, j), lattice::row_start(n, j), n - 1 - j);
+        (start..start + count, first..first + count)
     })
 }
 
@@ -112,56 +136,54 @@ impl TriangleNodes {
 
     /// Brings the values of all nodes into a lattice, in global axes; without values of nodes elsewhere these are zero.
     pub fn bring<T: Real>(&self, x: &[[T; 2]], far: &[[T; 2]], own: &mut [[T; 2]]) {
-        self.bring_inner(x, own);
-        self.bring_sides(x, far, own);
+        let inner = &x[self.inner.clone()];
+        inner_rows(self.n).for_each(|(to, from)| own[to].copy_from_slice(&inner[from]));
+        self.bring_sides(x, far, Lane::ALONE, own);
     }
 
-    /// Brings those of the nodes on the sides.
-    pub fn bring_sides<T: Real>(&self, x: &[[T; 2]], far: &[[T; 2]], own: &mut [[T; 2]]) {
+    /// Brings those of the nodes on the sides to their places in a lattice of several macro triangles.
+    pub fn bring_sides<T: Real>(&self, x: &[[T; 2]], far: &[[T; 2]], lane: Lane, own: &mut [[T; 2]]) {
         let (n, here) = (self.n, x.len());
         let value = |&at: &u32| match (at as usize).checked_sub(here) {
             None => x[at as usize],
             Some(at) => far.get(at).copied().unwrap_or_default(),
         };
         let (below, rows) = self.sides.split_at(n + 1);
-        own[row_start(n, 0)..][..=n].iter_mut().zip(below).for_each(|(to, at)| *to = value(at));
+        own[lane.at..].iter_mut().step_by(lane.width).zip(below).for_each(|(to, at)| *to = value(at));
         for (j, ends) in (1..).zip(rows.as_chunks::<2>().0) {
-            let start = row_start(n, j);
-            own[start] = value(&ends[0]);
-            own[start + n - j] = value(&ends[1]);
+            own[lane.node(n, 0, j)] = value(&ends[0]);
+            own[lane.node(n, n - j, j)] = value(&ends[1]);
         }
-        own[row_start(n, n)] = value(&rows[2 * (n - 1)]);
+        own[lane.node(n, 0, n)] = value(&rows[2 * (n - 1)]);
         for (k, frame) in &self.turned {
             let (i, j) = side_node(n, *k as usize);
-            let x = &mut own[row_start(n, j) + i];
+            let x = &mut own[lane.node(n, i, j)];
             *x = frame.map(|row| T::of(row[0]) * x[0] + T::of(row[1]) * x[1]);
         }
     }
 
-    /// Brings the values of the inner nodes.
-    pub fn bring_inner<T: Real>(&self, x: &[[T; 2]], own: &mut [[T; 2]]) {
-        let x = &x[self.inner.clone()];
-        inner_rows(self.n).for_each(|(to, from)| own[to].copy_from_slice(&x[from]));
-    }
-
     /// Takes the values of the inner nodes from a lattice.
-    pub fn take_inner<T: Real>(&self, own: &[[T; 2]], x: &mut [[T; 2]]) {
+    pub fn take_inner<T: Real>(&self, own: &[[T; 2]], lane: Lane, x: &mut [[T; 2]]) {
         let x = &mut x[self.inner.clone()];
-        inner_rows(self.n).for_each(|(from, to)| x[to].copy_from_slice(&own[from]));
+        for (j, (_, to)) in (1..).zip(inner_rows(self.n)) {
+            x[to].iter_mut().zip(lane.inner(self.n, j)).for_each(|(to, from)| *to = own[from]);
+        }
     }
 
     /// Adds the values of a lattice, which are forces: the transposed of [`TriangleNodes::bring`].
-    pub fn give<T: Real>(&self, own: &mut [[T; 2]], x: &mut [[T; 2]], far: &mut [[T; 2]]) {
+    pub fn give<T: Real>(&self, own: &mut [[T; 2]], lane: Lane, x: &mut [[T; 2]], far: &mut [[T; 2]]) {
         let (n, here) = (self.n, x.len());
         for (k, frame) in &self.turned {
             let (i, j) = side_node(n, *k as usize);
-            let x = &mut own[row_start(n, j) + i];
+            let x = &mut own[lane.node(n, i, j)];
             *x = [0, 1].map(|k| T::of(frame[0][k]) * x[0] + T::of(frame[1][k]) * x[1]);
         }
         let inner = &mut x[self.inner.clone()];
-        inner_rows(n).for_each(|(from, to)| inner[to].iter_mut().zip(&own[from]).for_each(|(to, from)| add(to, from)));
+        for (j, (_, to)) in (1..).zip(inner_rows(n)) {
+            inner[to].iter_mut().zip(lane.inner(n, j)).for_each(|(to, from)| add(to, &own[from]));
+        }
         for (&at, (i, j)) in self.sides.iter().zip(side_nodes(n)) {
-            let value = &own[row_start(n, j) + i];
+            let value = &own[lane.node(n, i, j)];
             match (at as usize).checked_sub(here) {
                 None => add(&mut x[at as usize], value),
                 Some(at) => add(&mut far[at], value),
@@ -176,14 +198,14 @@ fn add<T: Real>(sum: &mut [T; 2], value: &[T; 2]) {
     sum[1] += value[1];
 }
 
-/// Makes zeros of all places of a lattice but those of its inner nodes.
-pub fn clear_sides<T: Real>(n: usize, own: &mut [[T; 2]]) {
+/// Makes zeros of the nodes on the sides of a lattice of so many macro triangles.
+pub fn clear_sides<T: Real>(n: usize, width: usize, own: &mut [[T; 2]]) {
     let mut end = 0;
     for (row, _) in inner_rows(n) {
-        own[end..row.start].fill([T::default(); 2]);
+        own[width * end..width * row.start].fill([T::default(); 2]);
         end = row.end;
     }
-    own[end..].fill([T::default(); 2]);
+    own[width * end..].fill([T::default(); 2]);
 }
 
 /// What makes global axes of the free components of a node.
@@ -197,13 +219,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_fill_registers_and_leave_room() {
-        for n in 1..40 {
-            assert_eq!(row_start(n, 0), MARGIN);
-            for j in 0..=n {
-                let places = (n + 1 - j).div_ceil(WIDTH) * WIDTH + WIDTH;
-                assert_eq!(row_start(n, j + 1) - row_start(n, j), places, "n = {n}, j = {j}");
-            }
+    fn lattices_begin_with_lines_of_the_cache() {
+        let mut room = LatticeRoom::<f64>::default();
+        for (n, width) in [(8, 2), (16, 4), (8, 1)] {
+            let lattice = room.lattice(n, width);
+            assert_eq!(lattice.len(), width * lattice::node_count(n));
+            assert_eq!(lattice.as_ptr().align_offset(LINE), 0);
         }
     }
 

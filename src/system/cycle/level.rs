@@ -94,7 +94,7 @@ impl<T: Precision + Datum> CycleLevel<T> {
                 }
                 if *is_fused {
                     stored.residual(0..stored.nodes().len(), b, x, far, r);
-                    step.restrict_from(|k, own| even.residual_of(k, b, x, far, own), r, below, room);
+                    step.restrict_from(even.groups(), |k, own| even.residual_of(k, b, x, far, own), r, below, room);
                 } else {
                     rows.residual_in_others(b, x, far, r);
                     step.restrict(r, below, room);

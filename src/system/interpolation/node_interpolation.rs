@@ -8,7 +8,7 @@ use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::{Datum, Halo, Result, Session, Transfer, Vector};
 use crate::system::space::Real;
-use crate::system::triangle_lattice::{TriangleNodes, inner_rows, is_whole, side_nodes, zeros};
+use crate::system::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, is_whole, side_nodes};
 use crate::system::{Scene, Space};
 use std::ops::Range;
 use std::rc::Rc;
@@ -40,22 +40,19 @@ struct WholeTriangle {
 }
 
 /// Lattices to work in: a fine one with zeros on its sides, and a coarse one.
-pub struct InterpolationRoom<T>([Vec<[T; 2]>; 2]);
+pub struct InterpolationRoom<T>([LatticeRoom<T>; 2]);
 
-impl<T> Default for InterpolationRoom<T> {
+impl<T: Default + Clone> Default for InterpolationRoom<T> {
     fn default() -> Self {
-        Self([Vec::new(), Vec::new()])
+        Self(Default::default())
     }
 }
 
 impl<T: Real> InterpolationRoom<T> {
-    /// With room for a fine lattice with `n` intervals.
-    fn lattices(&mut self, n: usize) -> [&mut [[T; 2]]; 2] {
-        if self.0[0].is_empty() {
-            self.0 = [zeros(n), zeros(n / 2)];
-        }
+    /// With a fine lattice with `n` intervals, and for so many macro triangles.
+    fn lattices(&mut self, n: usize, width: usize) -> [&mut [[T; 2]]; 2] {
         let [fine, coarse] = &mut self.0;
-        [fine, coarse]
+        [fine.lattice(n, width), coarse.lattice(n / 2, width)]
     }
 }
 
@@ -151,7 +148,7 @@ impl NodeInterpolation {
         room: &mut InterpolationRoom<T>,
     ) {
         for triangle in self.whole.iter().filter(|triangle| triangle.coarse.is_here == is_here) {
-            let [_, coarse] = room.lattices(self.n);
+            let [_, coarse] = room.lattices(self.n, 1);
             triangle.coarse.bring(x, far, coarse);
             whole::prolong::<T, ADD>(self.n, coarse, &mut y[triangle.fine.clone()]);
         }
@@ -165,17 +162,21 @@ impl NodeInterpolation {
 
     /// `x = Pᵀ y`. **Collective**
     pub fn restrict<T: Real + Datum>(&self, y: &[[T; 2]], x: &mut [[T; 2]], room: &mut InterpolationRoom<T>) {
-        let inside = |k: usize, own: &mut [[T; 2]]| {
-            let y = &y[self.whole[k].fine.clone()];
-            inner_rows(self.n).for_each(|(to, from)| own[to].copy_from_slice(&y[from]));
-        };
-        self.restrict_from(inside, y, x, room);
+        let mut far = vec![[T::default(); 2]; self.far];
+        x.fill([T::default(); 2]);
+        for triangle in &self.whole {
+            let [_, coarse] = room.lattices(self.n, 1);
+            whole::restrict_inner(self.n, &y[triangle.fine.clone()], coarse);
+            triangle.coarse.give(coarse, Lane::ALONE, x, &mut far);
+        }
+        self.restrict_others(y, x, far);
     }
 
-    /// The same where `inside` brings what `y` has inside of a whole macro triangle into a lattice with zeros on its sides.
-    /// **Collective**
-    pub fn restrict_from<T: Real + Datum>(
+    /// The same where `inside` brings what `y` has inside of whole macro triangles into a lattice with zeros on its sides: of these
+    /// groups side by side, the first one being group 0. **Collective**
+    pub fn restrict_from<'g, T: Real + Datum>(
         &self,
+        groups: impl Iterator<Item = (&'g [usize], usize)>,
         mut inside: impl FnMut(usize, &mut [[T; 2]]),
         y: &[[T; 2]],
         x: &mut [[T; 2]],
@@ -183,12 +184,19 @@ impl NodeInterpolation {
     ) {
         let mut far = vec![[T::default(); 2]; self.far];
         x.fill([T::default(); 2]);
-        for (k, triangle) in self.whole.iter().enumerate() {
-            let [fine, coarse] = room.lattices(self.n);
-            inside(k, fine);
-            whole::restrict(self.n, fine, coarse);
-            triangle.coarse.give(coarse, x, &mut far);
+        for (group, (members, width)) in groups.enumerate() {
+            let [fine, coarse] = room.lattices(self.n, width);
+            inside(group, fine);
+            whole::restrict(self.n, width, fine, coarse);
+            for (at, &member) in members.iter().enumerate() {
+                self.whole[member].coarse.give(coarse, Lane { width, at }, x, &mut far);
+            }
         }
+        self.restrict_others(y, x, far);
+    }
+
+    /// Adds what comes from the nodes that are not inside of whole macro triangles; `far` goes to other ranks. **Collective**
+    fn restrict_others<T: Real + Datum>(&self, y: &[[T; 2]], x: &mut [[T; 2]], mut far: Vec<[T; 2]>) {
         let (half, coarse) = (T::of(0.5), self.coarse);
         let mut add = |at: u32, value: [T; 2]| {
             let sum = if (at as usize) < coarse { &mut x[at as usize] } else { &mut far[at as usize - coarse] };

@@ -3,7 +3,7 @@
 use super::ContactNeighbours;
 use super::even_triangles::EvenTriangles;
 use super::pattern::RowColumns;
-use super::precision::Precision;
+use super::registers::Registers;
 use super::stored_rows::{BlockColumn, StoredRows, place};
 use super::strip_set::{Strips, TriangleStrips};
 use super::strips::{Couplings, StripNodes};
@@ -97,9 +97,7 @@ impl<'a> Assembly<'a> {
         (0..rows.nodes.len()).for_each(|k| rows.invert(k));
         rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
         strips.triangles.sort_unstable_by_key(|triangle| triangle.nodes.start);
-        let kernels = couplings.iter().map(|couplings: &Vec<Couplings>| f64::triangle_kernel(couplings)).collect();
-        let n = self.space.numbering.level.intervals;
-        let even = EvenTriangles::new(n, Rc::new(couplings), Rc::new(kernels), triangles);
+        let even = EvenTriangles::new(self.space.numbering.level.intervals, Rc::new(couplings), triangles);
         Ok(Assembled { rows, far, strips, even })
     }
 
@@ -242,7 +240,7 @@ impl<'a> Assembly<'a> {
         for strip in &part.strips {
             let kind = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
                 strips.couplings.push(Couplings::new(stiffness, order, strip));
-                strips.kernels.push(f64::kernel(&strips.couplings[strips.couplings.len() - 1]));
+                strips.kernels.push(f64::strip_kernel(&strips.couplings[strips.couplings.len() - 1]));
                 strips.couplings.len() - 1
             });
             let at = strips.nodes.len();

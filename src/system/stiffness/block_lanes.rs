@@ -14,21 +14,27 @@ pub struct BlockLanes<L: Lanes> {
 
 impl<L: Lanes> BlockLanes<L> {
     /// For a sum: the components change places at its end.
+    pub fn of_sums(lanes: L, block: impl Fn(usize) -> Block) -> Self {
+        Self::of(lanes, |node| {
+            let k = block(node);
+            [[k[0][0], k[1][0]], [k[0][1], k[1][1]]]
+        })
+    }
+
+    /// Of the block of each node.
+    pub fn of(lanes: L, block: impl Fn(usize) -> Block) -> Self {
+        let register = |turned: usize| lanes.gather(|node| [0, 1].map(|a| L::Real::of(block(node)[a][a ^ turned])));
+        Self { same: register(0), other: register(1) }
+    }
+
+    /// The same of even and odd nodes.
     pub fn of_sum(lanes: L, blocks: &[Block; 2]) -> Self {
-        Self::new(lanes, &blocks.map(|k| [[k[0][0], k[1][0]], [k[0][1], k[1][1]]]))
+        Self::of_sums(lanes, |node| blocks[node % 2])
     }
 
     /// Blocks of even and odd nodes.
     pub fn new(lanes: L, blocks: &[Block; 2]) -> Self {
-        let at = |k: usize, turned: bool| {
-            let (a, block) = (k % 2, &blocks[k / 2 % 2]);
-            L::Real::of(block[a][if turned { 1 - a } else { a }])
-        };
-        let register = |turned: bool| {
-            let nodes: Vec<[L::Real; 2]> = (0..L::COUNT).map(|node| [at(2 * node, turned), at(2 * node + 1, turned)]).collect();
-            lanes.load(L::chunks(&nodes)[0])
-        };
-        Self { same: register(false), other: register(true) }
+        Self::of(lanes, |node| blocks[node % 2])
     }
 
     /// `sum + M x`.

@@ -1,13 +1,14 @@
-//! Inner nodes of even macro triangles: all of them have the couplings of their row, which are not stored. A macro triangle is
-//! worked on in a lattice of its own.
+//! Inner nodes of even macro triangles: all of them have the couplings of their row, which are not stored. Macro triangles are
+//! worked on in lattices of their own, several side by side.
 
 use super::block_lanes::product;
-use super::strip_kernel::{RowsOf, SweepHalves, TriangleKernel};
+use super::registers::Registers;
+use super::strip_kernel::SweepHalves;
 use super::strips::Couplings;
+use super::triangle_kernel::TriangleKernel;
 use crate::element::Block;
 use crate::mesh::lattice;
-use crate::system::space::Real;
-use crate::system::triangle_lattice::{TriangleNodes, clear_sides, side_nodes, zeros};
+use crate::system::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, clear_sides, side_nodes};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -19,72 +20,96 @@ pub struct EvenTriangles<T = f64> {
     pub n: usize,
     /// Couplings of the rows of each of them.
     pub couplings: Rc<Vec<Vec<Couplings>>>,
-    /// The work on each.
-    kernels: Rc<Vec<Box<dyn TriangleKernel<T>>>>,
+    /// Those that are worked on side by side.
+    groups: Rc<Vec<Group<T>>>,
     /// Where they lie.
     pub triangles: Vec<TriangleNodes>,
     /// Lattices to work in.
-    room: RefCell<[Vec<[T; 2]>; 2]>,
+    room: RefCell<[LatticeRoom<T>; 2]>,
 }
 
-/// Right-hand side of the inner nodes of a macro triangle, as the kernel may read it: some nodes before its first and behind its
-/// last one are read, too. Those of the first and of the last macro triangle may have none and come into a lattice.
-fn right_hand_side<'a, T: Real>(triangle: &TriangleNodes, b: &'a [[T; 2]], own: &'a mut [[T; 2]]) -> (RowsOf, &'a [[T; 2]]) {
-    if triangle.inner.start > 0 && triangle.inner.end + 8 <= b.len() {
-        return (RowsOf::Inner(triangle.inner.start), b);
+/// Macro triangles side by side.
+struct Group<T> {
+    /// Which they are.
+    members: Vec<usize>,
+    /// Their first inner nodes.
+    first: Vec<usize>,
+    /// Whether the nodes on the sides of all of them are here; otherwise none of them has all here.
+    is_here: bool,
+    kernel: Box<dyn TriangleKernel<T>>,
+}
+
+impl<T: Registers> EvenTriangles<T> {
+    /// Of triangles with these couplings.
+    pub fn new(n: usize, couplings: Rc<Vec<Vec<Couplings>>>, triangles: Vec<TriangleNodes>) -> Self {
+        let mut groups = Vec::new();
+        for is_here in [true, false] {
+            let all: Vec<usize> = (0..triangles.len()).filter(|&k| triangles[k].is_here == is_here).collect();
+            let mut rest = all.as_slice();
+            while !rest.is_empty() {
+                let (members, others) = rest.split_at(T::side_by_side(rest.len()));
+                let of_members: Vec<&[Couplings]> = members.iter().map(|&k| couplings[k].as_slice()).collect();
+                let first = members.iter().map(|&k| triangles[k].inner.start).collect();
+                groups.push(Group { members: members.to_vec(), first, is_here, kernel: T::triangle_kernel(&of_members) });
+                rest = others;
+            }
+        }
+        Self { n, couplings, groups: Rc::new(groups), triangles, room: RefCell::default() }
     }
-    triangle.bring_inner(b, own);
-    (RowsOf::Lattice, own)
-}
 
-impl<T: Real> EvenTriangles<T> {
-    /// Of triangles with these kernels.
-    pub fn new(
-        n: usize,
-        couplings: Rc<Vec<Vec<Couplings>>>,
-        kernels: Rc<Vec<Box<dyn TriangleKernel<T>>>>,
-        triangles: Vec<TriangleNodes>,
-    ) -> Self {
-        let room = RefCell::new([0; 2].map(|_| if triangles.is_empty() { Vec::new() } else { zeros(n) }));
-        Self { n, couplings, kernels, triangles, room }
+    /// Which macro triangles are worked on side by side, and how many a lattice has room for.
+    pub fn groups(&self) -> impl Iterator<Item = (&[usize], usize)> {
+        self.groups.iter().map(|group| (group.members.as_slice(), group.kernel.width()))
+    }
+
+    /// The values of the nodes on the sides of a group, in a lattice; lanes that are left over repeat the last one.
+    fn sides<'a>(&self, group: &Group<T>, x: &[[T; 2]], far: &[[T; 2]], room: &'a mut LatticeRoom<T>) -> &'a mut [[T; 2]] {
+        let width = group.kernel.width();
+        let own = room.lattice(self.n, width);
+        for at in 0..width {
+            let member = group.members[at.min(group.members.len() - 1)];
+            self.triangles[member].bring_sides(x, far, Lane { width, at }, own);
+        }
+        own
     }
 
     /// `y = K x` at inner nodes of those macro triangles whose sides are all here, or not; `far` are the values of other ranks, none
     /// stands for zeros.
     pub fn multiply(&self, is_here: bool, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
-        let [own_y, own_x] = &mut *self.room.borrow_mut();
-        for (triangle, kernel) in self.triangles.iter().zip(&*self.kernels).filter(|(of, _)| of.is_here == is_here) {
-            triangle.bring_sides(x, far, own_x);
-            kernel.multiply(self.n, &x[triangle.inner.clone()], own_x, own_y, &mut y[triangle.inner.clone()]);
+        let [room, own] = &mut *self.room.borrow_mut();
+        for group in self.groups.iter().filter(|group| group.is_here == is_here) {
+            let room = room.lattice(self.n, group.kernel.width());
+            group.kernel.multiply(self.n, &group.first, x, self.sides(group, x, far, own), room, y);
         }
     }
 
     /// `r = b - K x` at inner nodes of those macro triangles whose sides are all here, or not.
     pub fn residual(&self, is_here: bool, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
-        let mut own_r = if self.triangles.is_empty() { Vec::new() } else { zeros(self.n) };
-        for k in (0..self.triangles.len()).filter(|&k| self.triangles[k].is_here == is_here) {
-            self.residual_of(k, b, x, far, &mut own_r);
-            self.triangles[k].take_inner(&own_r, r);
+        let [room, own] = &mut *self.room.borrow_mut();
+        for group in self.groups.iter().filter(|group| group.is_here == is_here) {
+            let width = group.kernel.width();
+            let room = room.lattice(self.n, width);
+            group.kernel.residual(self.n, &group.first, b, x, self.sides(group, x, far, own), room);
+            for (at, &member) in group.members.iter().enumerate() {
+                self.triangles[member].take_inner(room, Lane { width, at }, r);
+            }
         }
     }
 
-    /// The residual of one macro triangle in a lattice, with zeros on its sides.
-    pub fn residual_of(&self, k: usize, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
-        let [own_b, own_x] = &mut *self.room.borrow_mut();
-        let triangle = &self.triangles[k];
-        triangle.bring_sides(x, far, own_x);
-        let (rows, b) = right_hand_side(triangle, b, own_b);
-        self.kernels[k].residual(self.n, rows, b, &x[triangle.inner.clone()], own_x, r);
-        clear_sides(self.n, r);
+    /// The residual of one of [`EvenTriangles::groups`] in a lattice, with zeros on its sides.
+    pub fn residual_of(&self, group: usize, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
+        let [_, own] = &mut *self.room.borrow_mut();
+        let group = &self.groups[group];
+        group.kernel.residual(self.n, &group.first, b, x, self.sides(group, x, far, own), r);
+        clear_sides(self.n, group.kernel.width(), r);
     }
 
-    /// A Gauss-Seidel sweep over the inner nodes of one macro triangle after the other: they do not couple.
+    /// A Gauss-Seidel sweep over the inner nodes of all macro triangles: they do not couple.
     pub fn relax(&self, sweep: SweepHalves, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
-        let [own_b, own_x] = &mut *self.room.borrow_mut();
-        for (triangle, kernel) in self.triangles.iter().zip(&*self.kernels) {
-            triangle.bring_sides(x, far, own_x);
-            let (rows, b) = right_hand_side(triangle, b, own_b);
-            kernel.relax(self.n, sweep, rows, b, &mut x[triangle.inner.clone()], own_x);
+        let [_, own] = &mut *self.room.borrow_mut();
+        for group in &*self.groups {
+            let own = self.sides(group, x, far, own);
+            group.kernel.relax(self.n, sweep, &group.first, b, x, own);
         }
     }
 }
@@ -93,7 +118,7 @@ impl EvenTriangles {
     /// The same with other places for the columns of other ranks; this rank has `near` nodes.
     pub fn moved(&self, near: usize, moved: &[u32]) -> Self {
         let triangles = self.triangles.iter().map(|triangle| triangle.moved(near, moved)).collect();
-        Self::new(self.n, self.couplings.clone(), self.kernels.clone(), triangles)
+        Self { n: self.n, couplings: self.couplings.clone(), groups: self.groups.clone(), triangles, room: RefCell::default() }
     }
 
     /// Shows the rows of all inner nodes: the node, and its couplings, that with itself first; columns are counted as

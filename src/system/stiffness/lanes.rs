@@ -12,7 +12,7 @@ pub trait Lanes: Copy + 'static {
     /// The register.
     type Register: Copy;
     /// The same in memory.
-    type Nodes: Copy;
+    type Nodes: Copy + AsRef<[[Self::Real; 2]]>;
     /// How many nodes: two, or a multiple.
     const COUNT: usize;
 
@@ -24,6 +24,9 @@ pub trait Lanes: Copy + 'static {
 
     /// A register from memory.
     fn load(self, nodes: Self::Nodes) -> Self::Register;
+
+    /// A register of nodes that lie apart, by their places in it.
+    fn gather(self, node: impl Fn(usize) -> [Self::Real; 2]) -> Self::Register;
 
     /// A register to memory.
     fn store(self, register: Self::Register) -> Self::Nodes;
@@ -83,6 +86,11 @@ impl<T: Real> Lanes for PlainLanes<T> {
     #[inline(always)]
     fn load(self, [a, b]: Self::Nodes) -> Self::Register {
         [a[0], a[1], b[0], b[1]]
+    }
+
+    #[inline(always)]
+    fn gather(self, node: impl Fn(usize) -> [T; 2]) -> Self::Register {
+        self.load([node(0), node(1)])
     }
 
     #[inline(always)]
@@ -191,6 +199,11 @@ mod x86 {
             #[inline(always)]
             fn load(self, nodes: Self::Nodes) -> Self::Register {
                 cast(nodes)
+            }
+
+            #[inline(always)]
+            fn gather(self, node: impl Fn(usize) -> [$real; 2]) -> Self::Register {
+                cast(std::array::from_fn::<[$real; 2], $count, _>(node))
             }
 
             #[inline(always)]

@@ -1,7 +1,7 @@
 //! Strips and stored rows of a rank together, in some precision.
 
 use super::even_triangles::EvenTriangles;
-use super::precision::Precision;
+use super::registers::Registers;
 use super::row_kernel::{OnRows, RowTask};
 use super::stored_rows::StoredRows;
 use super::strip_kernel::SweepHalves;
@@ -52,7 +52,7 @@ pub struct LatticeRows<'a, T> {
     pub order: &'a SweepOrder,
 }
 
-impl<T: Precision> LatticeRows<'_, T> {
+impl<T: Registers> LatticeRows<'_, T> {
     /// `y = K x` at nodes in strips and inside of even macro triangles, as far as no node of another rank is needed.
     pub fn multiply_inside(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
         let Strips { alike, kernels, nodes, .. } = self.strips;
@@ -110,7 +110,7 @@ impl<T: Precision> LatticeRows<'_, T> {
     }
 }
 
-impl<T: Precision> StoredRows<T> {
+impl<T: Registers> StoredRows<T> {
     /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
     pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
         T::on_rows(OnRows { rows: self, range, far, task: RowTask::Multiply { y, x } });

@@ -11,11 +11,14 @@ mod lattice_rows;
 mod pattern;
 mod precision;
 mod recurrence;
+mod registers;
 mod row_kernel;
+mod row_stencil;
 mod stored_rows;
 mod strip_kernel;
 mod strip_set;
 mod strips;
+mod triangle_kernel;
 
 pub use elastic::Elastic;
 pub use even_triangles::EvenTriangles;

@@ -340,9 +340,5 @@ fn sum2<T: Real>(a: [T; 2], b: [T; 2]) -> [T; 2] {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-mod rows;
-
-pub use rows::{RowsOf, TriangleKernel, triangle_kernel};
-
 #[cfg(test)]
 mod tests;

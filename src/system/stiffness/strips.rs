@@ -77,6 +77,11 @@ impl Couplings {
         &self.kinds[k % 2]
     }
 
+    /// Steps from nodes of a kind to the next rows; the opposite ones lead to the rows before.
+    pub fn up_of(&self, kind: usize) -> Vec<Step> {
+        self.kinds[kind].iter().map(|c| c.0).filter(|&(_, dj)| dj > 0).collect()
+    }
+
     /// The coupling of nodes of a kind along a step, zero if there is none. Opposite ones are alike: they are their mean.
     pub fn block(&self, kind: usize, (di, dj): Step) -> Block {
         let along = |step: Step| self.kinds[kind].iter().find(|c| c.0 == step).map_or([[0.0; 2]; 2], |c| c.1);

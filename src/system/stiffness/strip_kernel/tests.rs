@@ -7,7 +7,6 @@ use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
 use crate::system::stiffness::lanes::PlainLanes;
 use crate::system::stiffness::strips::inverse;
-use crate::system::triangle_lattice::{row_start, zeros};
 
 const LAW: PlaneLaw = PlaneLaw { lambda: 3.0, mu: 2.0, across: 3.0 };
 
@@ -86,80 +85,10 @@ fn check<L: Lanes>(lanes: L, tolerance: f64) {
     }
 }
 
-/// Whole macro triangles: the right-hand side in a lattice, and by its inner nodes alone.
-fn check_triangles<L: Lanes>(lanes: L, tolerance: f64) {
-    let sizes = [8, 11, 16, 33].map(|n| (Order::P1, n)).into_iter().chain([16, 18, 38].map(|n| (Order::P2, n)));
-    for (order, n) in sizes {
-        let stiffness = MacroStiffness::new(&two_blocks(), 1, Level { intervals: n, order }, &LAW).expect("a good triangle");
-        let couplings = Couplings::of_rows(&stiffness, order);
-        let kernel = triangle_kernel(lanes, &couplings);
-        let count = zeros::<L::Real>(n).len();
-        let (b, start) = (vector::<L::Real>(count, 5), vector::<L::Real>(count, 99));
-        let inner: Vec<_> = (1..n - 1).flat_map(|j| (1..n - j).map(move |i| (i, j))).collect();
-        let of = |j: usize| &couplings[j % couplings.len()];
-        // What a node gets from the others, by the places of these.
-        let residual = |(i, j): (usize, usize), b: [f64; 2], x: &[[L::Real; 2]], own: bool| {
-            let mut sum = b;
-            for ((di, dj), block) in of(j).of(i).iter().filter(|(step, _)| own || *step != (0, 0)) {
-                let (k, l) = (i.wrapping_add_signed(*di as isize), j.wrapping_add_signed(*dj as isize));
-                let y = x[row_start(n, l) + k].map(Real::double);
-                (0..2).for_each(|a| sum[a] -= block[a][0] * y[0] + block[a][1] * y[1]);
-            }
-            sum
-        };
-        let relax = |x: &mut Vec<[L::Real; 2]>, (i, j): (usize, usize)| {
-            let at = row_start(n, j) + i;
-            let sum = residual((i, j), b[at].map(Real::double), x, false);
-            let inverse = inverse(&of(j).of(i)[0].1).expect("a diagonal");
-            x[at] = [0, 1].map(|a| L::Real::of(inverse[a][0] * sum[0] + inverse[a][1] * sum[1]));
-        };
-        let mut forward = start.clone();
-        inner.iter().for_each(|&node| relax(&mut forward, node));
-        let mut symmetric = forward.clone();
-        inner.iter().rev().for_each(|&node| relax(&mut symmetric, node));
-        let packed_start: Vec<_> = inner.iter().map(|&(i, j)| start[row_start(n, j) + i]).collect();
-        // Inner nodes come from the vector: what the lattice has of them before is nothing.
-        let mut sides = start.clone();
-        inner.iter().for_each(|&(i, j)| sides[row_start(n, j) + i] = [L::Real::of(77.0); 2]);
-        let near = |words: &str, found: &[[L::Real; 2]], expected: &[[L::Real; 2]]| {
-            for (node, (found, expected)) in found.iter().zip(expected).enumerate() {
-                let apart = (0..2).map(|a| (found[a].double() - expected[a].double()).abs()).fold(0.0, f64::max);
-                assert!(apart < tolerance, "{order:?}, n = {n}, {words}, place {node}: {apart:e}");
-            }
-        };
-        let before = 9;
-        let mut packed = vector::<L::Real>(inner.len() + before + 8, 7);
-        for (to, (i, j)) in packed[before..].iter_mut().zip(&inner) {
-            *to = b[row_start(n, *j) + i];
-        }
-        for (rows, b) in [(RowsOf::Lattice, &b), (RowsOf::Inner(before), &packed)] {
-            for (sweep, expected) in [(SweepHalves::Forward, &forward), (SweepHalves::Both, &symmetric)] {
-                let (mut x, mut found) = (sides.clone(), packed_start.clone());
-                kernel.relax(n, sweep, rows, b, &mut found, &mut x);
-                near("lattice", &x, expected);
-                for (found, (i, j)) in found.iter().zip(&inner) {
-                    near("sweep", &[*found], &[expected[row_start(n, *j) + i]]);
-                }
-            }
-            let (mut x, mut r, mut y, mut room) = (sides.clone(), start.clone(), packed_start.clone(), start.clone());
-            kernel.residual(n, rows, b, &packed_start, &mut x, &mut r);
-            kernel.multiply(n, &packed_start, &mut x, &mut room, &mut y);
-            for (k, &(i, j)) in inner.iter().enumerate() {
-                let at = row_start(n, j) + i;
-                let own = if matches!(rows, RowsOf::Lattice) { b[at] } else { b[before + k] };
-                near("residual", &[r[at]], &[residual((i, j), own.map(Real::double), &start, true).map(Real::of)]);
-                near("product", &[y[k]], &[residual((i, j), [0.0; 2], &start, true).map(|v| L::Real::of(-v))]);
-            }
-        }
-    }
-}
-
 #[test]
 fn arrays_do_what_one_node_after_the_other_does() {
     check(PlainLanes::<f64>::default(), 1e-13);
     check(PlainLanes::<f32>::default(), 1e-4);
-    check_triangles(PlainLanes::<f64>::default(), 1e-13);
-    check_triangles(PlainLanes::<f32>::default(), 1e-4);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -168,16 +97,11 @@ fn registers_that_this_processor_has_do_what_one_node_after_the_other_does() {
     use crate::system::stiffness::lanes::{DoubleLanes, NarrowLanes, SingleLanes, WideDoubleLanes, WideSingleLanes};
     if let Some(simd) = pulp::x86::V3::try_new() {
         check(DoubleLanes(simd), 1e-13);
-        check_triangles(DoubleLanes(simd), 1e-13);
         check(NarrowLanes(simd), 1e-4);
-        check_triangles(NarrowLanes(simd), 1e-4);
         check(SingleLanes(simd), 1e-4);
-        check_triangles(SingleLanes(simd), 1e-4);
     }
     if let Some(simd) = pulp::x86::V4::try_new() {
         check(WideDoubleLanes(simd), 1e-13);
-        check_triangles(WideDoubleLanes(simd), 1e-13);
         check(WideSingleLanes(simd), 1e-4);
-        check_triangles(WideSingleLanes(simd), 1e-4);
     }
 }
