@@ -6,6 +6,8 @@ RANKS = [16, 128, 1024, 4096, 10_000]
 POWERS = [8, 9, 10]
 # Unknowns of a rank below which nobody would go on.
 LEAST = 1000
+# Unknowns, by powers of ten, and ranks for which it is told where the time goes.
+TOLD = [(8, 1024), (8, 10_000), (9, 10_000)]
 # Levels of the hierarchy on which messages and waits are counted: see `counts` and `latency` in make.
 LEVELS = 5
 
@@ -58,17 +60,23 @@ def parameters(measured):
     }
 
 
-def seconds(found, unknowns, ranks):
-    """Of one solve."""
+def parts(found, unknowns, ranks):
+    """Seconds of one solve: of work, of collectives, and of messages on the levels that are shared out, with their waits."""
     value = {name: entry[0] for name, entry in ASSUMED.items()}
     levels = max(math.log(unknowns / value["gathered"], 4), 1.0)
     visits = levels * (levels + 1) / (LEVELS * (LEVELS + 1))
     share = unknowns / ranks
     work = found["unknown"] * share * value["socket"] * found["imbalance"]
-    waits = value["latency"] * (found["collectives"] * math.log2(ranks) + visits * found["waits"])
-    messages = value["overhead"] * visits * found["messages"]
-    carried = found["bytes"] * math.sqrt(share / found["share"]) + 2.0 * found["gathered"]
-    return found["iterations"] * (work + waits + messages + carried / value["bandwidth"])
+    steps = value["latency"] * found["collectives"] * math.log2(ranks)
+    collectives = steps + 2.0 * found["gathered"] / value["bandwidth"]
+    waits = visits * (value["latency"] * found["waits"] + value["overhead"] * found["messages"])
+    messages = waits + found["bytes"] * math.sqrt(share / found["share"]) / value["bandwidth"]
+    return [found["iterations"] * seconds for seconds in (work, collectives, messages)]
+
+
+def seconds(found, unknowns, ranks):
+    """Of one solve."""
+    return sum(parts(found, unknowns, ranks))
 
 
 def words(found, unknowns, ranks):

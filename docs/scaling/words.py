@@ -179,6 +179,10 @@ def model_section(measured):
     assumed = [[text, number(value), unit] for value, text, unit in model.ASSUMED.values()]
     head = ["unknowns", *(f"{number(ranks, 9)} ranks" for ranks in model.RANKS)]
     rows = [[f"10^{power}", *(model.words(found, 10.0**power, ranks) for ranks in model.RANKS)] for power in model.POWERS]
+    where = []
+    for power, ranks in model.TOLD:
+        parts = model.parts(found, 10.0**power, ranks)
+        where.append([f"10^{power}", number(ranks, 9), *(f"{100 * part / sum(parts):.0f} %" for part in parts)])
     return "\n\n".join([
         "## What follows for larger machines",
         "A model, not a measurement. An iteration on N unknowns and P ranks takes",
@@ -186,7 +190,7 @@ def model_section(measured):
         "with the time t of an unknown, the slowdown s of a full socket, the imbalance w, the collectives c, the waits v, the messages m "
         "and the bytes B of a rank, and the bytes G that it hands to collectives. Waits and messages were counted on a hierarchy of L₀ levels; on L levels they are "
         "L(L+1)/(L₀(L₀+1)) times as many, as often as an F-cycle comes to a level. Halos grow as the root of N/P. Levels below the "
-        "gathered size are worked on by every rank and cost no messages. A solve, to 1e-8, makes as many iterations as one here. "
+        "gathered size are worked on by every rank and cost no messages. A solve, to 1e-8, makes as many iterations as one here, of GMRES, with one cycle each. "
         "Messages are those of the busiest of the most ranks that were counted: its neighbours are as many as those of 10 000 ranks in "
         "the table above, or more.",
         "Measured (P1):",
@@ -196,6 +200,10 @@ def model_section(measured):
         "Seconds for one solve; in brackets GiB on each rank, where a core seldom has more than 4; – where a rank would have fewer than "
         f"{number(model.LEAST, 9)} unknowns:",
         table(head, rows),
+        "Where this time goes:",
+        table(["unknowns", "ranks", "work", "collectives", "messages of the levels that are shared out"], where),
+        "Levels between the gathered size and the finest one stay shared out among all ranks. To bring them together on fewer ranks, "
+        "as other multigrids do, could save a part of the last column, and no more; its work would then be done by fewer ranks.",
     ])
 
 
