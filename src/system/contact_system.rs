@@ -2,12 +2,12 @@
 
 use super::stiffness::Stiffness;
 use super::{
-    Discretisation, Interpolation, LinearEnding, LinearSolve, LinearSolver, Preconditioning, RigidBorder, SaddlePoint,
+    Discretisation, Interpolation, LinearEnding, LinearSolve, LinearSolver, Preconditioning, Residual, RigidBorder, SaddlePoint,
     SolverChoice, Space, SystemError, inf_sup,
 };
 use crate::petsc::{Matrix, Session, Vector};
 use nalgebra::DVector;
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
 
 /// Solves with rigid sets that move, for one active set: each brings their balance to its own tolerance of the one before.
@@ -39,6 +39,8 @@ pub struct System<'a> {
     unknowns: Vector,
     /// The right-hand side of the set, once somebody has asked for it.
     right_hand_side: OnceCell<Vector>,
+    /// The residual of the unknowns, once somebody has asked for it or a solve has told it.
+    residual: Cell<Option<Residual>>,
     rigid: RigidState,
 }
 
@@ -53,22 +55,6 @@ struct RigidState {
     products: Vec<DVector<f64>>,
     /// Relative residual of the responses; nothing if they are those of another active set.
     solved_to: Option<f64>,
-}
-
-/// Norm of a residual, and that of the right-hand side.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Residual {
-    /// `|b - A x|`.
-    pub norm: f64,
-    /// `|b|`.
-    pub whole: f64,
-}
-
-impl Residual {
-    /// One relative to the other; zero without any right-hand side.
-    pub fn relative(self) -> f64 {
-        if self.whole > 0.0 { self.norm / self.whole } else { 0.0 }
-    }
 }
 
 impl<'a> System<'a> {
@@ -86,8 +72,8 @@ impl<'a> System<'a> {
         let solver = LinearSolver::new(&blocks, interpolations, choice, preconditioning, session)?;
         let unknowns = blocks.nest.create_vectors()?.0;
         let rigid = RigidState::new(problem, &unknowns, session)?;
-        let (session, right_hand_side) = (session.clone(), OnceCell::new());
-        Ok(Self { problem, session, blocks, solver, is_solver_current: true, unknowns, right_hand_side, rigid })
+        let (session, right_hand_side, residual) = (session.clone(), OnceCell::new(), Cell::new(None));
+        Ok(Self { problem, session, blocks, solver, is_solver_current: true, unknowns, right_hand_side, residual, rigid })
     }
 
     /// What it was assembled from.
@@ -119,6 +105,7 @@ impl<'a> System<'a> {
         self.is_solver_current = false;
         self.rigid.solved_to = None;
         self.right_hand_side.take();
+        self.residual.take();
         let unknowns = self.space().local_unknowns();
         let mut values = self.unknowns.values_mut();
         for (at, _) in self.blocks.multipliers.own.iter().enumerate().filter(|(_, i)| !active[**i]) {
@@ -129,6 +116,7 @@ impl<'a> System<'a> {
 
     /// Takes over the unknowns of a start, and its active set. **Collective**
     pub fn begin(&mut self, start: &Start) -> Result<(), SystemError> {
+        self.residual.take();
         if self.rigid.border.is_empty() {
             put(&self.blocks, self.space(), start, &mut self.unknowns);
         } else {
@@ -167,8 +155,10 @@ impl<'a> System<'a> {
     /// Solves with the rigid sets where they are. **Collective**
     fn solve_at_rest(&mut self, tolerance: f64) -> Result<LinearSolve, SystemError> {
         self.right_hand_side()?;
-        let b = self.right_hand_side.get().expect("just made");
-        self.solver.solve(&self.blocks, b, &mut self.unknowns, tolerance)
+        let (b, known) = (self.right_hand_side.get().expect("just made"), self.residual.take());
+        let (solve, residual) = self.solver.solve(&self.blocks, b, &mut self.unknowns, known, tolerance)?;
+        self.residual.set(Some(residual));
+        Ok(solve)
     }
 
     /// Moves the rigid sets, and all else with them, to where their forces balance. What they were out of balance by before,
@@ -193,6 +183,7 @@ impl<'a> System<'a> {
         self.blocks.move_rigidly(&self.rigid.border, &motion);
         self.rigid.motion = motion;
         self.right_hand_side.take();
+        self.residual.take();
     }
 
     /// Solves for the responses to the motions of rigid sets, if those that are known are not exact enough or those of another
@@ -206,7 +197,7 @@ impl<'a> System<'a> {
             let (forces, gaps) = self.rigid.border.column(component);
             let b = self.blocks.right_hand_side_of(forces, gaps, self.problem.finest())?;
             let response = &mut self.rigid.responses[component];
-            self.solver.solve(&self.blocks, &b, response, tolerance)?;
+            self.solver.solve(&self.blocks, &b, response, None, tolerance)?;
             let unknowns = self.problem.finest().local_unknowns();
             let pressures = pressures_of(&self.blocks, &response.values()[unknowns..], &self.session);
             let product = self.rigid.border.transposed(&response.values()[..unknowns], &pressures, &self.session);
@@ -223,7 +214,7 @@ impl<'a> System<'a> {
         let b = self.blocks.right_hand_side_of(load, gap, self.space())?;
         let mut x = self.unknowns.duplicate()?;
         x.set(0.0)?;
-        self.solver.solve(&self.blocks, &b, &mut x, tolerance)?;
+        self.solver.solve(&self.blocks, &b, &mut x, None, tolerance)?;
         let unknowns = self.space().local_unknowns();
         if self.rigid.border.is_empty() {
             return Ok(x.values()[..unknowns].to_vec());
@@ -260,7 +251,10 @@ impl<'a> System<'a> {
 
     /// Residual of the unknowns. **Collective**
     pub fn residual(&self) -> Result<Residual, SystemError> {
-        Ok(self.residual_of(&self.unknowns)?.1)
+        if self.residual.get().is_none() {
+            self.residual.set(Some(self.residual_of(&self.unknowns)?.1));
+        }
+        Ok(self.residual.get().expect("just set"))
     }
 
     /// Norm of the nodal forces of the load, and of those of contact, as the unknowns are. **Collective**

@@ -101,7 +101,7 @@ mod tests {
     fn need_grows_with_the_unknowns_and_with_what_is_stored() {
         let scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new());
         let need = |scene: &Scene, refine, choice| memory_need(scene, refine, (choice, Tolerance::Residual(1e-8)), 0);
-        let growth = need(&scene, 9, SolverChoice::Auto) / need(&scene, 8, SolverChoice::Auto);
+        let growth = need(&scene, 10, SolverChoice::Auto) / need(&scene, 9, SolverChoice::Auto);
         assert!((3.8..4.0).contains(&growth), "{growth}");
         let mut mesh = (*scene.mesh).clone();
         let circle = Curve::Circle { centre: [1.0, -2.0], radius: 10f64.sqrt() };

@@ -9,7 +9,7 @@ pub static SOLVER: TableForm = TableForm {
     name: "solver",
     sentence: "",
     keys: &[&[
-        key("name", ValueForm::Word(&["auto", "fieldsplit", "direct"]), "`\"fieldsplit\"`: GMRES with multigrid (BiCGStab above 4 million unknowns); where there is one small level only, as with P1 and `refine = 0`, with a Cholesky factor. `\"direct\"`: MUMPS on the plain system. `\"auto\"`: fieldsplit; without levels (`refine = 0`) and up to 3000 unknowns with a Cholesky factor of K + BᵀDB in the place of multigrid. The run says which, and why.")
+        key("name", ValueForm::Word(&["auto", "fieldsplit", "direct"]), "`\"fieldsplit\"`: GMRES with multigrid (BiCGStab above half a million unknowns); where there is one small level only, as with P1 and `refine = 0`, with a Cholesky factor. `\"direct\"`: MUMPS on the plain system. `\"auto\"`: fieldsplit; without levels (`refine = 0`) and up to 3000 unknowns with a Cholesky factor of K + BᵀDB in the place of multigrid. The run says which, and why.")
             .or("\"auto\""),
         key(
             "tolerance",

@@ -31,10 +31,13 @@ pub(super) fn share(system: &System) -> Result<f64, SystemError> {
 /// close all the way that a tool goes by strain within one element. `share` is what it was before, `residual` the relative one
 /// that is wanted. **Collective**
 pub(super) fn share_of_forces(system: &System, share: f64, residual: f64) -> Result<f64, SystemError> {
+    if system.problem().scene.rigid.is_empty() {
+        return Ok(share);
+    }
     let ([loads, pressed], whole) = (system.force_norms()?, system.residual()?.whole);
     // Where displacements are prescribed the load is one that would strain what they move rigidly.
     let forces = if share < 1.0 { pressed } else { loads + pressed };
-    if system.problem().scene.rigid.is_empty() || forces == 0.0 || whole == 0.0 {
+    if forces == 0.0 || whole == 0.0 {
         return Ok(share);
     }
     Ok((forces / whole).max(LEAST_RESIDUAL / residual).min(share))

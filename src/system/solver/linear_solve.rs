@@ -35,3 +35,19 @@ pub struct LinearSolve {
     /// The stronger preconditioner that it, or the next one, went over to; in words.
     pub fallback: Option<String>,
 }
+
+/// Norm of a residual, and that of the right-hand side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// `|b - A x|`.
+    pub norm: f64,
+    /// `|b|`.
+    pub whole: f64,
+}
+
+impl Residual {
+    /// One relative to the other; zero without any right-hand side.
+    pub fn relative(self) -> f64 {
+        if self.whole > 0.0 { self.norm / self.whole } else { 0.0 }
+    }
+}

@@ -24,7 +24,7 @@ pub(super) const FIELD_SPLIT: Options = &[
 ];
 
 /// The outer method of many unknowns.
-pub(super) const SHORT_RECURRENCE: Options = &[("-ksp_type", "bcgs")];
+pub(super) const SHORT_RECURRENCE: Options = &[("-ksp_type", "fbcgs")];
 
 /// Whether the user has chosen the outer method.
 pub(super) fn is_method_chosen(session: &Session) -> bool {
