@@ -132,6 +132,24 @@ fn a_cycle_in_single_precision_finds_the_same() {
     }
 }
 
+/// Above half a million unknowns BiCGStab takes the place of GMRES, and hands over to what is stronger where it must.
+#[test]
+fn large_systems_are_solved_by_a_short_recurrence() {
+    let large = || bars().ranks(2).set("mesh.order", 1).set("mesh.refine", 7).set("output.fields", false);
+    let (long, short) = (large().petsc("-ksp_type gmres").converged(), large().converged());
+    assert!(short.iterations() < long.iterations(), "{} and {}", short.iterations(), long.iterations());
+    let tight = large().set("solver.tolerance", "1e-13").converged();
+    for other in [&short, &tight] {
+        let forces = [&long, other].map(|ended| ended.number("/contact/seam/force"));
+        assert!((forces[0] / forces[1] - 1.0).abs() < 1e-7, "{forces:?}");
+    }
+    let soft = |run: Run| run.set("body.upper.poisson", 0.49).set("body.lower.poisson", 0.49).converged();
+    let (weak, known) = (soft(large()), soft(large().petsc("-ksp_type fgmres")));
+    assert!(weak.said().contains("CG steps"), "{}", weak.said());
+    let forces = [&weak, &known].map(|ended| ended.number("/contact/seam/force"));
+    assert!((forces[0] / forces[1] - 1.0).abs() < 1e-7, "{forces:?}");
+}
+
 /// What large systems are solved with, on a small one: BiCGStab has two cycles in an iteration.
 #[test]
 fn a_short_recurrence_finds_the_same() {

@@ -66,6 +66,16 @@ impl MacroMesh {
 const COUNTED: usize = 64;
 
 impl Level {
+    /// Whether even macro triangles are worked on as a whole, without strips. On coarser lattices the work is less than that of
+    /// bringing their values together; on finer ones of P1, which do not fit into the cache, strips are faster, and finer ones of
+    /// P2 would take much memory.
+    pub fn is_whole(self) -> bool {
+        match self.order {
+            Order::P1 => (8..=128).contains(&self.intervals),
+            Order::P2 => (16..=1024).contains(&self.intervals),
+        }
+    }
+
     /// Nodes in the strips of an even macro triangle.
     pub fn nodes_in_strips(self) -> usize {
         rows(self).filter_map(|(j, i)| strip(self.order, j, i, 0)).map(|strip| strip.i.len()).sum()

@@ -1,6 +1,6 @@
 //! How much work each macro triangle is for a solver: what ranks are dealt equal shares of.
 
-use super::{Level, MacroMesh, levels};
+use super::{Level, MacroMesh, lattice, levels};
 use crate::element::Order;
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ impl MacroMesh {
     /// divisor, all 1 if all macro triangles are alike.
     ///
     /// Counted are the bytes that a sweep moves, on each level as often as an F-cycle comes there (`k + 1` times on the `k`-th
-    /// level below the finest). A node of a strip costs its values alone; of a stored row all couplings are read, 7 for P1, 11.5
+    /// level below the finest). A node of a strip, or inside of an even macro triangle that is worked on as a whole, costs its values alone; of a stored row all couplings are read, 7 for P1, 11.5
     /// for P2 in the mean. So a bent macro triangle, which has no strips, is several times the work of an even straight one, and a
     /// graded one lies between them.
     pub fn work(&self, order: Order, refine: usize) -> Vec<i32> {
@@ -55,7 +55,10 @@ impl MacroMesh {
     /// Bytes of a sweep over the nodes of one macro triangle, each of its sides being shared with another.
     fn sweep_work(&self, triangle: usize, level: Level) -> f64 {
         let nodes = 0.5 * (level.intervals * level.intervals) as f64;
-        let in_strips: usize = self.strips(triangle, level).iter().map(|strip| strip.i.len()).sum();
+        let in_strips: usize = match level.is_whole() && self.is_even(triangle, level) {
+            true => lattice::inner_count(level.intervals),
+            false => self.strips(triangle, level).iter().map(|strip| strip.i.len()).sum(),
+        };
         let (in_strips, couplings) = (in_strips as f64, if level.order == Order::P1 { 7.0 } else { 11.5 });
         let stored = (nodes - in_strips).max(0.0);
         NODE * nodes + STRIP_COUPLING * couplings * in_strips + (INVERSE + STORED_COUPLING * couplings) * stored

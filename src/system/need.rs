@@ -7,14 +7,14 @@
 use super::solver::MANY;
 use super::{Form, Preconditioning, Scene, SolverChoice, Tolerance};
 use crate::element::Order;
-use crate::mesh::{Level, Numbering, levels};
+use crate::mesh::{Level, Numbering, lattice, levels};
 
 /// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve: with GMRES, of
-/// some ten iterations; with BiCGStab, which has so many unknowns to itself; and where that does not come to a tight tolerance, so
+/// some ten iterations; with BiCGStab, on so many unknowns that it takes the place of GMRES; and where that does not come to a tight tolerance, so
 /// that GMRES takes its place. Measured as resident memory less that of the processes themselves, on one rank and on two, with
 /// fields and without, which are written after that peak: example 1 with P1 and P2 at 66 thousand to 16.8 million unknowns, and
 /// whole rings up to 0.86 million. Forecasts are within a fifth of all of these.
-const BY_UNKNOWN: [f64; 3] = [250.0, 165.0, 240.0];
+const BY_UNKNOWN: [f64; 3] = [250.0, 175.0, 250.0];
 
 /// Relative residual below which BiCGStab mostly stops too early.
 const TIGHT: f64 = 1e-9;
@@ -84,7 +84,7 @@ pub fn memory_of_macro_mesh(scene: &Scene) -> f64 {
 /// Nodes of a rank whose rows are not stored.
 fn nodes_in_strips(scene: &Scene, level: Level, rank: usize) -> usize {
     let own = scene.partition.triangles_of(rank).iter();
-    let even = level.nodes_in_strips();
+    let even = if level.is_whole() { lattice::inner_count(level.intervals) } else { level.nodes_in_strips() };
     own.map(|&triangle| scene.mesh.nodes_in_strips(triangle as usize, level, even)).sum()
 }
 

@@ -1,13 +1,13 @@
 //! Macro triangles in lattices of their own, with the nodes on their sides: what is done to their inner nodes needs no others.
 //!
 //! A lattice holds one macro triangle, or several of them side by side: then the values of the same node of each follow one
-//! another, and fill a vector register. A lattice of few hundred intervals fits into the cache.
+//! another, and fill a vector register. Lattices of up to some 128 intervals stay in the cache.
 
 use super::Space;
 use super::space::Real;
 use crate::body::Constraint;
-use crate::element::{Block, Order};
-use crate::mesh::{Level, TriangleNumbers, lattice};
+use crate::element::Block;
+use crate::mesh::{TriangleNumbers, lattice};
 use std::ops::Range;
 
 /// Memory for a lattice. It begins with a line of the cache: registers that lie in two lines are read twice.
@@ -53,16 +53,6 @@ impl Lane {
     #[inline(always)]
     fn inner(self, n: usize, j: usize) -> impl Iterator<Item = usize> {
         (self.node(n, 1, j)..self.node(n, n - j, j)).step_by(self.width)
-    }
-}
-
-/// Whether macro triangles of a level are worked on as a whole. On coarser lattices the work is less than that of bringing them
-/// there; on finer ones of P1, which do not fit into the cache, rows by themselves are faster, and finer ones of P2 would take
-/// much memory.
-pub fn is_whole(level: Level) -> bool {
-    match level.order {
-        Order::P1 => (8..=128).contains(&level.intervals),
-        Order::P2 => (16..=1024).contains(&level.intervals),
     }
 }
 

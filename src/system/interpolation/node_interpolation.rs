@@ -8,7 +8,7 @@ use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::{Datum, Halo, Result, Session, Transfer, Vector};
 use crate::system::space::Real;
-use crate::system::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, is_whole, side_nodes};
+use crate::system::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, side_nodes};
 use crate::system::{Scene, Space};
 use std::ops::Range;
 use std::rc::Rc;
@@ -63,7 +63,7 @@ impl NodeInterpolation {
         let mut all: Vec<u32> = here.triangles.to_vec();
         all.sort_unstable();
         let (whole, others): (Vec<u32>, Vec<u32>) =
-            all.into_iter().partition(|&triangle| is_whole(level) && scene.mesh.is_even(triangle as usize, level));
+            all.into_iter().partition(|&triangle| level.is_whole() && scene.mesh.is_even(triangle as usize, level));
         let halved = HalvedRows::new(scene, fine, coarse, &others, [&here.fine, &here.coarse]);
         let n = level.intervals;
         let left_out = |triangle: u32, j: usize| match whole.binary_search(&triangle) {

@@ -7,7 +7,7 @@
 use crate::system::auxiliary::SMALL;
 
 /// Iterations that a solve to 1e-8 may need before the next one pays.
-const MOST: [(Preconditioning, f64); 3] =
+pub(super) const MOST: [(Preconditioning, f64); 3] =
     [(Preconditioning::Sweep, 26.0), (Preconditioning::TwoSteps, 100.0), (Preconditioning::FourSteps, 180.0)];
 
 /// Unknowns up to which a factor fits into memory.
@@ -91,15 +91,16 @@ impl Preconditioning {
     }
 }
 
-/// Iterations to a relative residual of 1e-8 at the rate of the second half of a history of residual norms.
-pub fn needed(history: &[f64]) -> f64 {
+/// Cycles to a relative residual of 1e-8 at the rate of the second half of a history of residual norms of GMRES, or of all of
+/// one of BiCGStab, whose norms may rise, and whose iterations have two cycles.
+pub fn needed(history: &[f64], is_short: bool) -> f64 {
     let count = history.len();
     if count < 3 {
         return 0.0;
     }
-    let half = count / 2;
-    let fall = (history[half] / history[count - 1]).ln() / (count - 1 - half) as f64;
-    if fall > 1e-6 { 1e8_f64.ln() / fall } else { f64::INFINITY }
+    let (first, cycles) = if is_short { (0, 2.0) } else { (count / 2, 1.0) };
+    let fall = (history[first] / history[count - 1]).ln() / (count - 1 - first) as f64;
+    if fall > 1e-6 { cycles * 1e8_f64.ln() / fall } else { f64::INFINITY }
 }
 
 #[cfg(test)]
@@ -109,8 +110,10 @@ mod tests {
     #[test]
     fn the_rate_tells_the_iterations() {
         let history: Vec<f64> = (0..=20).map(|k| 0.1f64.powf(f64::from(k) / 5.0)).collect();
-        assert!((needed(&history) - 40.0).abs() < 1e-9);
-        assert_eq!(needed(&[1.0; 20]), f64::INFINITY);
+        assert!((needed(&history, false) - 40.0).abs() < 1e-9);
+        assert!((needed(&history, true) - 80.0).abs() < 1e-9, "an iteration of BiCGStab has two cycles");
+        assert_eq!(needed(&[1.0; 20], false), f64::INFINITY);
+        assert!(needed(&[1.0, 1e-2, 1e-4, 0.9e-4], true) < 26.0, "one step that does little is not the rate");
     }
 
     #[test]

@@ -26,9 +26,10 @@ pub(super) const FIELD_SPLIT: Options = &[
 /// The outer method of many unknowns.
 pub(super) const SHORT_RECURRENCE: Options = &[("-ksp_type", "fbcgs")];
 
-/// Whether the user has chosen the outer method.
+/// Whether the user has chosen the outer method, or how it is to work.
 pub(super) fn is_method_chosen(session: &Session) -> bool {
-    options::any_of_user(session, |name| name == "-ksp_type")
+    let is_of_method = |name: &str| ["-ksp_type", "-ksp_pc_side", "-ksp_norm_type"].contains(&name);
+    options::any_of_user(session, |name| is_of_method(name) || name.starts_with("-ksp_gmres_"))
 }
 
 /// Whether the user has chosen what preconditions the displacements.

@@ -11,7 +11,7 @@ use crate::body::{Constraint, MacroStiffness, neighbours};
 use crate::element::{BadJacobian, Block};
 use crate::geometry::Point;
 use crate::mesh::{Strip, TriangleNumbers, lattice};
-use crate::system::triangle_lattice::{TriangleNodes, is_whole, side_nodes};
+use crate::system::triangle_lattice::{TriangleNodes, side_nodes};
 use crate::system::{Scene, Space};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -58,7 +58,7 @@ impl<'a> Assembly<'a> {
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
             let is_own = scene.partition.owner(triangle as u32) == rank;
             let is_repeated = is_own && with_strips;
-            let is_whole = is_repeated && is_whole(level) && scene.mesh.is_even(triangle, level);
+            let is_whole = is_repeated && level.is_whole() && scene.mesh.is_even(triangle, level);
             let strips = if is_repeated && !is_whole { scene.mesh.strips(triangle, level) } else { Vec::new() };
             let part = AssemblyPart { triangle, numbers, is_own, is_whole, strips };
             (is_own || touches(level.intervals, space, &part.numbers)).then_some(part)

@@ -57,7 +57,7 @@ pub trait Lanes: Copy + 'static {
     fn run<W: LaneWork>(self, work: W);
 }
 
-/// LaneWork on registers. All that it calls must be inlined: only so do instructions that not all processors have come to be.
+/// Work on registers. All that it calls must be inlined: only so do instructions that not all processors have come to be.
 pub trait LaneWork {
     /// Does it.
     fn work(self);
@@ -166,7 +166,7 @@ mod x86 {
     #[derive(Clone, Copy)]
     pub struct WideSingleLanes(pub V4);
 
-    /// LaneWork for one kind of processor.
+    /// Work for one kind of processor.
     struct Call<W>(W);
 
     impl<W: LaneWork> NullaryFnOnce for Call<W> {

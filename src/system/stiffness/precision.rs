@@ -7,7 +7,7 @@ use super::strip_set::Strips;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// A precision to work in. DoubleLanes precision shares what the matrix has, single precision has copies.
+/// A precision to work in. Double precision shares what the matrix has, single precision has copies.
 pub trait Precision: Registers {
     /// Strips in this precision.
     fn strips(strips: &Rc<Strips>) -> Rc<Strips<Self>>;

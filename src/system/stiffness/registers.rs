@@ -17,14 +17,14 @@ pub trait Registers: Real {
     /// How many even macro triangles of so many that are left suit the processor best, side by side.
     fn side_by_side(left: usize) -> usize;
 
-    /// The kernel of some even macro triangles, as many as [`Precision::side_by_side`] says.
+    /// The kernel of some even macro triangles, as many as [`Registers::side_by_side`] says.
     fn triangle_kernel(couplings: &[&[Couplings]]) -> Box<dyn TriangleKernel<Self>>;
 
     /// Does work on stored rows.
     fn on_rows(work: OnRows<Self>);
 }
 
-/// LaneWork on stored rows with some registers.
+/// Work on stored rows with some registers.
 struct RowsWith<'a, L: Lanes>(L, OnRows<'a, L::Real>);
 
 impl<T: Real, L: Lanes<Real = T, Nodes = [[T; 2]; 2]>> RowsWith<'_, L> {

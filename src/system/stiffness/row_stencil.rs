@@ -14,7 +14,7 @@ pub trait RowStencil<L: Lanes> {
     /// Relaxes the inner nodes, `b` being their right-hand side by their places.
     fn relax(&self, lanes: L, way: Way, row: (usize, usize), b: impl Fn(usize) -> L::Register, x: &mut [L::Nodes]);
 
-    /// `K x` at the inner nodes: `put(place, -K x)`.
+    /// Shows `-K x` at the inner nodes: `put(place, value)`.
     fn product(&self, lanes: L, row: (usize, usize), x: &[L::Nodes], put: impl FnMut(usize, L::Register));
 }
 

@@ -72,15 +72,16 @@ impl InnerNodes<'_> {
 
     /// The values of row `j` of each macro triangle.
     #[inline(always)]
-    fn values<T>(self, j: usize, values: &[[T; 2]]) -> [&[[T; 2]]; WIDEST] {
+    fn values<L: Lanes>(self, j: usize, values: &[[L::Real; 2]]) -> [&[[L::Real; 2]]; WIDEST] {
         let (start, count) = (lattice::row_start(self.n, j), self.n - 1 - j);
-        std::array::from_fn(|lane| &values[self.first[lane.min(self.first.len() - 1)] + start..][..count])
+        let of = |lane: usize| &values[self.first[lane.min(self.first.len() - 1)] + start..][..count];
+        std::array::from_fn(|lane| if lane < L::COUNT { of(lane) } else { &[] })
     }
 
     /// Brings row `j` into a lattice.
     #[inline(always)]
     fn bring<L: Lanes>(self, lanes: L, j: usize, x: &[[L::Real; 2]], own: &mut [L::Nodes]) {
-        let values = self.values(j, x);
+        let values = self.values::<L>(j, x);
         for (k, to) in own[self.row(j)].iter_mut().enumerate() {
             *to = lanes.store(lanes.gather(|lane| values[lane][k]));
         }
@@ -156,7 +157,7 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> LaneWork for OnLattice<'_, L,
                 let r = L::chunks_mut(r);
                 for j in 1..n - 1 {
                     bring(j, x, own);
-                    let (b, sums) = (nodes.values(j, b), &mut r[nodes.row(j)]);
+                    let (b, sums) = (nodes.values::<L>(j, b), &mut r[nodes.row(j)]);
                     kernel.product_of_row((n, j), own, |k, sum| {
                         sums[k] = lanes.store(lanes.add(lanes.gather(|lane| b[lane][k]), sum));
                     });
@@ -165,13 +166,13 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> LaneWork for OnLattice<'_, L,
             TriangleTask::Relax { sweep, b, x } => {
                 for j in 1..n - 1 {
                     bring(j, x, own);
-                    kernel.relax_row(Way::Forward, (n, j), &nodes.values(j, b), own);
+                    kernel.relax_row(Way::Forward, (n, j), &nodes.values::<L>(j, b), own);
                     if sweep == SweepHalves::Forward {
                         nodes.take::<L>(j, own, x);
                     }
                 }
                 for j in (1..n - 1).rev().filter(|_| sweep == SweepHalves::Both) {
-                    kernel.relax_row(Way::Backward, (n, j), &nodes.values(j, b), own);
+                    kernel.relax_row(Way::Backward, (n, j), &nodes.values::<L>(j, b), own);
                     nodes.take::<L>(j, own, x);
                 }
             }
