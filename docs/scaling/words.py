@@ -190,7 +190,8 @@ def model_section(measured):
         "with the time t of an unknown, the slowdown s of a full socket, the imbalance w, the collectives c, the waits v, the messages m "
         "and the bytes B of a rank, and the bytes G that it hands to collectives. Waits and messages were counted on a hierarchy of L₀ levels; on L levels they are "
         "L(L+1)/(L₀(L₀+1)) times as many, as often as an F-cycle comes to a level. Halos grow as the root of N/P. Levels below the "
-        "gathered size are worked on by every rank and cost no messages. A solve, to 1e-8, makes as many iterations as one here, of GMRES, with one cycle each. "
+        "gathered size are worked on by every rank and cost no messages. A solve, to 1e-8, makes as many iterations as one here, of GMRES, "
+        "with one cycle each. "
         "Messages are those of the busiest of the most ranks that were counted: its neighbours are as many as those of 10 000 ranks in "
         "the table above, or more.",
         "Measured (P1):",

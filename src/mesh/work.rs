@@ -31,9 +31,9 @@ impl MacroMesh {
     /// divisor, all 1 if all macro triangles are alike.
     ///
     /// Counted are the bytes that a sweep moves, on each level as often as an F-cycle comes there (`k + 1` times on the `k`-th
-    /// level below the finest). A node of a strip, or inside of an even macro triangle that is worked on as a whole, costs its values alone; of a stored row all couplings are read, 7 for P1, 11.5
-    /// for P2 in the mean. So a bent macro triangle, which has no strips, is several times the work of an even straight one, and a
-    /// graded one lies between them.
+    /// level below the finest). A node of a strip, or inside of an even macro triangle that is worked on as a whole, costs its
+    /// values alone; of a stored row all couplings are read, 7 for P1, 11.5 for P2 in the mean. So a bent macro triangle, which
+    /// stores all of its rows, is several times the work of an even straight one, and a graded one lies between them.
     pub fn work(&self, order: Order, refine: usize) -> Vec<i32> {
         let levels = levels(order, refine);
         let mut known: BTreeMap<Kind, f64> = BTreeMap::new();

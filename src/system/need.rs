@@ -10,8 +10,8 @@ use crate::element::Order;
 use crate::mesh::{Level, Numbering, lattice, levels};
 
 /// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve: with GMRES, of
-/// some ten iterations; with BiCGStab, on so many unknowns that it takes the place of GMRES; and where that does not come to a tight tolerance, so
-/// that GMRES takes its place. Measured as resident memory less that of the processes themselves, on one rank and on two, with
+/// some ten iterations; with BiCGStab, on so many unknowns that it takes the place of GMRES; and where BiCGStab does not come to a
+/// tight tolerance, so that GMRES is there beside it. Measured as resident memory less that of the processes themselves, on one rank and on two, with
 /// fields and without, which are written after that peak: example 1 with P1 and P2 at 66 thousand to 16.8 million unknowns, and
 /// whole rings up to 0.86 million. Forecasts are within a fifth of all of these.
 const BY_UNKNOWN: [f64; 3] = [250.0, 175.0, 250.0];
@@ -58,7 +58,7 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
     };
     match choice.form() {
         Form::Augmented => {
-            let of_levels = |&level: &Level| rows(level, nodes(level).range(rank).len() - nodes_in_strips(scene, level, rank));
+            let of_levels = |&level: &Level| rows(level, nodes(level).range(rank).len() - nodes_not_stored(scene, level, rank));
             let flat = Preconditioning::of(refine + 1, &scene.mesh.ratios) != Preconditioning::Sweep;
             let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
             let is_large = !flat && 2 * nodes(finest).node_count() > MANY;
@@ -82,7 +82,7 @@ pub fn memory_of_macro_mesh(scene: &Scene) -> f64 {
 }
 
 /// Nodes of a rank whose rows are not stored.
-fn nodes_in_strips(scene: &Scene, level: Level, rank: usize) -> usize {
+fn nodes_not_stored(scene: &Scene, level: Level, rank: usize) -> usize {
     let own = scene.partition.triangles_of(rank).iter();
     let even = if level.is_whole() { lattice::inner_count(level.intervals) } else { level.nodes_in_strips() };
     own.map(|&triangle| scene.mesh.nodes_in_strips(triangle as usize, level, even)).sum()

@@ -1,6 +1,7 @@
 //! Small scenes for unit tests.
 
 use super::discretisation::finest_numbering;
+use super::space::Real;
 use super::{Contact, Scene};
 use crate::body::{Body, Material, Support};
 use crate::contact::{Known, MultiplierSpace, Pair, SegmentRule, samples};
@@ -9,6 +10,12 @@ use crate::geometry::{Formula, Point};
 use crate::mesh::samples::two_blocks;
 use crate::mesh::{MacroMesh, Partition};
 use std::rc::Rc;
+
+/// Values of nodes: numbers between 0 and 1 that repeat late.
+pub fn vector<T: Real>(nodes: usize, seed: usize) -> Vec<[T; 2]> {
+    let value = |at: usize| T::of(((at + seed) * 7919 % 1009) as f64 / 1009.0);
+    (0..nodes).map(|node| [value(2 * node), value(2 * node + 1)]).collect()
+}
 
 /// The contact of the two blocks along the line between them, by the drawn gap, on even segments.
 pub fn pair(space: MultiplierSpace, segments: usize) -> Pair {

@@ -143,12 +143,7 @@ fn restrict_row<T: Real, const WIDTH: usize>(n: usize, b: usize, fine: &[[[T; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers between 0 and 1 that repeat late.
-    fn vector(nodes: usize, seed: usize) -> Vec<[f64; 2]> {
-        let value = |at: usize| ((at + seed) * 7919 % 1009) as f64 / 1009.0;
-        (0..nodes).map(|node| [value(2 * node), value(2 * node + 1)]).collect()
-    }
+    use crate::system::samples::vector;
 
     fn product(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
         a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
@@ -157,7 +152,7 @@ mod tests {
     #[test]
     fn restriction_is_the_transposed_interpolation() {
         for n in [4, 8, 14, 32] {
-            let (y, coarse) = (vector(lattice::inner_count(n), 3), vector(lattice::node_count(n / 2), 55));
+            let (y, coarse) = (vector::<f64>(lattice::inner_count(n), 3), vector::<f64>(lattice::node_count(n / 2), 55));
             let (mut fine, mut sums) = (y.clone(), coarse.clone());
             prolong::<f64, false>(n, &coarse, &mut fine);
             restrict_inner(n, &y, &mut sums);
@@ -173,7 +168,7 @@ mod tests {
     #[test]
     fn macro_triangles_side_by_side_are_restricted_as_each_alone() {
         for (n, width) in [(4, 2), (8, 4), (14, 8), (32, 4)] {
-            let each: Vec<_> = (0..width).map(|lane| vector(lattice::inner_count(n), 7 * lane)).collect();
+            let each: Vec<_> = (0..width).map(|lane| vector::<f64>(lattice::inner_count(n), 7 * lane)).collect();
             let mut fine = vec![[0.0; 2]; width * lattice::node_count(n)];
             let mut coarse = vec![[9.0; 2]; width * lattice::node_count(n / 2)];
             for (lane, y) in each.iter().enumerate() {

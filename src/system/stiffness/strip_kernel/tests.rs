@@ -5,6 +5,7 @@ use crate::body::MacroStiffness;
 use crate::element::{Order, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
+use crate::system::samples::vector;
 use crate::system::stiffness::lanes::PlainLanes;
 use crate::system::stiffness::strips::inverse;
 
@@ -21,12 +22,6 @@ fn strips(order: Order, intervals: usize) -> (usize, Vec<(Couplings, StripNodes)
         (Couplings::new(&stiffness, order, strip), nodes)
     };
     (crate::mesh::lattice::inner_count(intervals), mesh.strips(1, level).iter().map(strip).collect())
-}
-
-/// Numbers between 0 and 1 that repeat late.
-fn vector<T: Real>(nodes: usize, seed: usize) -> Vec<[T; 2]> {
-    let value = |at: usize| T::of(((at + seed) * 7919 % 1009) as f64 / 1009.0);
-    (0..nodes).map(|node| [value(2 * node), value(2 * node + 1)]).collect()
 }
 
 /// `b - K x` of node `k` of a strip, with or without its coupling to itself.

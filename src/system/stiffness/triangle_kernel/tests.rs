@@ -5,14 +5,9 @@ use crate::body::MacroStiffness;
 use crate::element::{Order, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
+use crate::system::samples::vector;
 use crate::system::stiffness::lanes::PlainLanes;
 use crate::system::stiffness::strips::inverse;
-
-/// Numbers between 0 and 1 that repeat late.
-fn vector<T: Real>(nodes: usize, seed: usize) -> Vec<[T; 2]> {
-    let value = |at: usize| T::of(((at + seed) * 7919 % 1009) as f64 / 1009.0);
-    (0..nodes).map(|node| [value(2 * node), value(2 * node + 1)]).collect()
-}
 
 /// One macro triangle: its couplings, its inner nodes in the vectors, the values of its lattice before the work.
 struct Sample<T> {
