@@ -49,7 +49,7 @@ pub use hierarchy::Shapes;
 pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, Region, Surface};
 pub use numbering::{Level, Numbering, TriangleNumbers, levels};
 pub use origin::Origin;
-pub use partition::{Graph, Partition};
+pub use partition::{Graph, Partition, middle_of_group};
 pub use regular_file::read_regular;
 pub use slit::Slit;
 pub use smooth_normal::{SmoothNormals, SmoothPoint};

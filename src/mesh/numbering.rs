@@ -66,12 +66,24 @@ impl Numbering {
         self.first[rank]..self.first[rank + 1]
     }
 
+    /// Which rank owns what on this level.
+    pub fn partition(&self) -> &Partition {
+        &self.partition
+    }
+
     fn start(&self, home: Home) -> usize {
         let n = self.level.intervals;
         self.first[home.rank as usize]
             + home.vertices_before as usize
             + home.edges_before as usize * (n - 1)
             + home.triangles_before as usize * lattice::inner_count(n)
+    }
+
+    /// Whether a rank owns nodes of a macro edge, its ends among them.
+    pub fn has_nodes_on(&self, mesh: &MacroMesh, edge: u32, rank: usize) -> bool {
+        let ends = mesh.edges[edge as usize].vertices;
+        let homes = ends.map(|vertex| self.partition.vertices[vertex as usize]);
+        homes.iter().chain([&self.partition.edges[edge as usize]]).any(|home| home.rank as usize == rank)
     }
 
     /// Number of a macro vertex.

@@ -137,6 +137,13 @@ impl Partition {
         counts[2] += 1;
     }
 
+    /// The same where one of each `group` ranks, in their order, owns what all of these own here. A partitioner gives ranks whose
+    /// numbers are near to each other parts of the mesh that are.
+    pub fn brought_together(&self, mesh: &MacroMesh, group: usize) -> Self {
+        let middle = |home: &Home| middle_of_group(home.rank as usize, group, self.size()) as i32;
+        Self::new(mesh, &self.triangles.iter().map(middle).collect::<Vec<_>>(), self.size())
+    }
+
     /// Number of ranks.
     pub fn size(&self) -> usize {
         self.counts.len()
@@ -151,6 +158,12 @@ impl Partition {
     pub fn owner(&self, triangle: u32) -> usize {
         self.triangles[triangle as usize].rank as usize
     }
+}
+
+/// The rank of a group that has what all of them had: the middle one, so that larger groups find another one than the smaller
+/// ones that they are made of, and no rank works for all.
+pub fn middle_of_group(rank: usize, group: usize, ranks: usize) -> usize {
+    (rank / group * group + (group - 1) / 2).min(ranks - 1)
 }
 
 /// Position of each macro triangle along Morton's space-filling curve, body by body.
@@ -284,6 +297,25 @@ mod tests {
                 let different: HashSet<_> = squares.iter().collect();
                 assert_eq!(squares.len(), different.len(), "level {level}: no square is come back to");
             }
+        }
+    }
+
+    #[test]
+    fn one_of_each_group_of_ranks_owns_what_all_of_them_did() {
+        let mesh = squares();
+        let ranks: Vec<i32> = (0..mesh.triangles.len() as i32).map(|k| k / 11 % 7).collect();
+        let all = Partition::new(&mesh, &ranks, 7);
+        for (group, middle_of) in [(2, [0, 0, 2, 2, 4, 4, 6]), (4, [1, 1, 1, 1, 5, 5, 5]), (8, [3; 7])] {
+            let fewer = all.brought_together(&mesh, group);
+            assert_eq!(fewer.size(), 7);
+            for (triangle, &rank) in ranks.iter().enumerate() {
+                assert_eq!(fewer.owner(triangle as u32), middle_of[rank as usize]);
+            }
+            let sums = |partition: &Partition| {
+                let sum = |k: usize| partition.counts.iter().map(|counts| counts[k]).sum::<u32>();
+                [sum(0), sum(1), sum(2)]
+            };
+            assert_eq!(sums(&fewer), sums(&all));
         }
     }
 

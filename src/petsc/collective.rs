@@ -50,13 +50,6 @@ impl Session {
         root.broadcast_into(values);
     }
 
-    /// Replaces each value by its sum over the ranks, in one go: what a preconditioner may round differently on each rank.
-    /// **Collective**
-    pub fn add_up<T: Datum>(&self, values: &mut [T]) {
-        let own = values.to_vec();
-        self.world().all_reduce_into(&own[..], values, SystemOperation::sum());
-    }
-
     /// Replaces each value by its maximum over the ranks. **Collective**
     pub fn max(&self, values: &mut [f64]) {
         let own = values.to_vec();

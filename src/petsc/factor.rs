@@ -1,4 +1,4 @@
-//! A sparse factor on one rank alone, of a matrix that every rank has.
+//! A sparse factor on one rank alone, of a matrix that it has.
 
 use super::error::{Error, Result, petsc};
 use super::ffi;
@@ -50,14 +50,19 @@ impl Factor {
         let mut failure = ffi::MatFactorError::MAT_FACTOR_NOERROR;
         petsc!(MatFactorGetError(factor.raw(), &mut failure))?;
         if failure != ffi::MatFactorError::MAT_FACTOR_NOERROR {
-            let reason = "the coarsest level has a zero pivot: its matrix is singular".to_string();
-            return Err(Error::NotConverged { reason, iterations: 0, residual: 1.0 });
+            return Err(Self::singular());
         }
         let vector = || {
             let mut raw = ptr::null_mut();
             petsc!(VecCreateSeq(alone, n, &mut raw)).and_then(|()| Vector::from_raw(session, raw))
         };
         Ok(Self { right_hand_side: vector()?, solution: vector()?, factor })
+    }
+
+    /// The error of a matrix that has none.
+    pub fn singular() -> Error {
+        let reason = "the coarsest level has a zero pivot: its matrix is singular".to_string();
+        Error::NotConverged { reason, iterations: 0, residual: 1.0 }
     }
 
     /// `x = A⁻¹ b`: `set` writes `b`, `get` reads `x`.

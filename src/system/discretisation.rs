@@ -1,9 +1,11 @@
 //! A scene cut into unknowns: spaces of all levels, contacts, couplings.
 
+use super::level_ranks::ranks_together;
 use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError};
 use crate::contact::Jump;
 use crate::mesh::{Level, MacroMesh, Numbering, levels};
 use crate::petsc::{Index, Session};
+use std::rc::Rc;
 
 /// Everything that a system is assembled from.
 pub struct Discretisation {
@@ -131,13 +133,25 @@ pub fn finest_numbering(scene: &Scene) -> Result<Numbering, SystemError> {
     Ok(numbering)
 }
 
-/// Spaces of all levels that multigrid uses, coarsest first.
+/// Spaces of all levels that multigrid uses, coarsest first. Levels with few unknowns are brought together on fewer ranks.
 ///
 /// # Errors
 /// [`SystemError::Case`] if supports contradict each other, or the mesh is too fine.
 pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
     finest_numbering(scene)?;
-    levels(scene.order, scene.refine).into_iter().map(|level| Space::new(scene, level, rank)).collect()
+    let levels = levels(scene.order, scene.refine);
+    let mut partitions = vec![(1, scene.partition.clone())];
+    let mut spaces = Vec::with_capacity(levels.len());
+    for &level in levels.iter().rev() {
+        let unknowns = 2 * node_count(&scene.mesh, level) as usize;
+        let group = if spaces.is_empty() { 1 } else { ranks_together(unknowns, scene.partition.size()) };
+        if group > partitions[partitions.len() - 1].0 {
+            partitions.push((group, Rc::new(scene.partition.brought_together(&scene.mesh, group))));
+        }
+        spaces.push(Space::new(scene, level, &partitions[partitions.len() - 1].1, rank)?);
+    }
+    spaces.reverse();
+    Ok(spaces)
 }
 
 #[cfg(test)]
@@ -147,7 +161,6 @@ mod tests {
     use crate::geometry::Point;
     use crate::mesh::Partition;
     use crate::system::samples::{blocks, pair};
-    use std::rc::Rc;
 
     /// The two blocks are grids of one and of two cells, each of n by n.
     #[test]

@@ -18,6 +18,7 @@ mod error;
 mod field;
 mod held;
 mod interpolation;
+mod level_ranks;
 mod mean_force;
 mod mean_motion;
 mod need;

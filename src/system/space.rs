@@ -3,8 +3,9 @@
 use super::{Scene, SystemError};
 use crate::body::Constraints;
 use crate::geometry::Point;
-use crate::mesh::{Level, Numbering};
+use crate::mesh::{Level, Numbering, Partition};
 use std::ops::{Add, AddAssign, Mul, Neg, Range, Sub};
+use std::rc::Rc;
 
 /// Two components at a node.
 pub type Components = [f64; 2];
@@ -63,12 +64,12 @@ pub struct Space {
 }
 
 impl Space {
-    /// The space of a level.
+    /// The space of a level, spread over the ranks as a partition says.
     ///
     /// # Errors
     /// [`SystemError::Case`] if supports contradict each other.
-    pub fn new(scene: &Scene, level: Level, rank: usize) -> Result<Self, SystemError> {
-        let numbering = Numbering::new(level, &scene.partition);
+    pub fn new(scene: &Scene, level: Level, partition: &Rc<Partition>, rank: usize) -> Result<Self, SystemError> {
+        let numbering = Numbering::new(level, partition);
         let constraints = Constraints::new(&scene.mesh, &numbering, &scene.supports, &scene.means, &scene.rigid);
         let constraints = constraints.map_err(|e| SystemError::Case(e.0))?;
         let own = numbering.range(rank);

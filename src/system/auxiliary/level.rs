@@ -2,6 +2,7 @@
 
 use super::tree::{Tree, Vertex};
 use crate::geometry::Point;
+use crate::mesh::middle_of_group;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -46,6 +47,18 @@ impl LevelNodes {
     /// Unknowns of a rank.
     pub fn own(&self, rank: usize) -> Range<usize> {
         self.unknowns[rank]..self.unknowns[rank + 1]
+    }
+
+    /// Gives one of each `group` ranks, in their order, what all of these have.
+    pub fn bring_together(&mut self, group: usize) {
+        let ranks = self.first.len() - 1;
+        for starts in [&mut self.first, &mut self.unknowns] {
+            for rank in 1..ranks {
+                let begin = rank / group * group;
+                let has_had_all = rank > middle_of_group(rank, group, ranks);
+                starts[rank] = starts[if has_had_all { (begin + group).min(ranks) } else { begin }];
+            }
+        }
     }
 
     /// Unknowns of all ranks.
@@ -217,6 +230,21 @@ mod tests {
             for (unknown, &at) in first.iter().enumerate() {
                 assert!(at < usize::MAX && rank(&fine.first, at) >= rank(&coarsening.coarse.unknowns, unknown), "{unknown}");
             }
+        }
+    }
+
+    #[test]
+    fn one_of_each_group_of_ranks_has_what_all_of_them_had() {
+        let start = LevelNodes { all: Vec::new(), first: vec![0, 3, 4, 9, 11, 12], unknowns: vec![0, 5, 8, 17, 20, 24] };
+        for (group, first, unknowns) in [
+            (1, [0, 3, 4, 9, 11, 12], [0, 5, 8, 17, 20, 24]),
+            (2, [0, 4, 4, 11, 11, 12], [0, 8, 8, 20, 20, 24]),
+            (4, [0, 0, 11, 11, 11, 12], [0, 0, 20, 20, 20, 24]),
+            (8, [0, 0, 0, 0, 12, 12], [0, 0, 0, 0, 24, 24]),
+        ] {
+            let mut nodes = start.clone();
+            nodes.bring_together(group);
+            assert_eq!((nodes.first, nodes.unknowns), (first.to_vec(), unknowns.to_vec()), "{group} ranks");
         }
     }
 

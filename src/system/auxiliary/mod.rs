@@ -11,14 +11,12 @@ mod tree;
 
 pub use operators::GalerkinLevels;
 
+use super::level_ranks::{SMALL, ranks_together};
 use super::{Discretisation, SystemError};
 use crate::petsc::{Index, Matrix, Session};
 use grid::Grid;
 use level::{Coarsening, LevelNodes};
 use tree::Tree;
-
-/// Unknowns up to which a level is factorised on every rank; larger ones get auxiliary levels.
-pub(super) const SMALL: usize = 3000;
 
 /// Unknowns of a level that needs none below it.
 const FEW: usize = 500;
@@ -37,10 +35,12 @@ pub fn auxiliary_interpolations(problem: &Discretisation, session: &Session) -> 
     let (mut nodes, mut trees) = (grid.nodes(space, session.size()), grid.trees());
     let mut interpolations = Vec::new();
     while nodes.count() > FEW {
-        let coarsening = Coarsening::new(&nodes, &trees);
+        let mut coarsening = Coarsening::new(&nodes, &trees);
         if coarsening.coarse.count() as f64 > (1.0 - LEAST_GAIN) * nodes.count() as f64 {
             break;
         }
+        let ranks = session.size();
+        coarsening.coarse.bring_together(ranks_together(coarsening.coarse.count(), ranks));
         interpolations.push(interpolation(&nodes, &coarsening, session)?);
         nodes = coarsening.coarse;
         let coarser: Vec<Option<Tree>> = trees.iter().map(Tree::coarser).collect();

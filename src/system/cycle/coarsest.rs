@@ -1,33 +1,68 @@
-//! The coarsest level, which every rank solves for itself.
+//! What solves on the coarsest level of the mesh: a factor on the one rank that has all of it, or levels of mezha's own below it.
 
 use super::level::CycleLevel;
-use crate::petsc::{Datum, Factor, Result, Session};
+use crate::petsc::{Datum, Error, Factor, Krylov, Matrix, MultigridCycle, MultigridLevel, Result, Session, Vector};
 use crate::system::stiffness::{LatticeOperator, Precision};
 
-/// A factor of the stiffness of all nodes.
-pub struct Coarsest(Factor);
+/// Begins the options of the smoothers and of the coarsest solver of auxiliary levels: those of PETSc's own multigrid, in whose
+/// place the cycle stands.
+const PREFIX: &str = "fieldsplit_u_";
+
+/// The solver of the coarsest level of the mesh.
+pub enum Coarsest {
+    /// The level is small: a factor on the rank that has it.
+    Factor(Option<Factor>),
+    /// It is not: one V-cycle of PETSc's multigrid, on this level and the auxiliary ones below it.
+    Auxiliary { cycle: Krylov, b: Vector, x: Vector },
+}
 
 impl Coarsest {
-    /// **Collective**
-    pub fn new(lattice: &LatticeOperator, session: &Session) -> Result<Self> {
-        let rows = lattice.gathered(session).scalar_rows();
-        Ok(Self(Factor::new(session, &rows)?))
+    /// A factor of a level that one rank has. **Collective**
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] on every rank if the level is singular.
+    pub fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Self> {
+        let has_nodes = lattice.node_count() > 0;
+        let factor = has_nodes.then(|| Factor::new(session, &lattice.rows().borrow().scalar_rows())).transpose();
+        let is_singular = matches!(factor, Err(Error::NotConverged { .. }));
+        if session.any(is_singular) { Err(Factor::singular()) } else { factor.map(Self::Factor) }
+    }
+
+    /// A V-cycle on auxiliary levels and, as the last one, the coarsest level of the mesh. **Collective**
+    pub fn auxiliary(levels: &[MultigridLevel], session: &Session) -> Result<Self> {
+        let finest: &Matrix = levels[levels.len() - 1].operator;
+        let cycle = Krylov::new(session, PREFIX)?;
+        cycle.set_operators(finest, finest)?;
+        cycle.set_from_options()?;
+        cycle.preconditioner().multigrid(MultigridCycle::V, levels)?;
+        cycle.set_up()?;
+        let (b, x) = finest.create_vectors()?;
+        Ok(Self::Auxiliary { cycle, b, x })
     }
 
     /// Takes over changed values. **Collective**
     pub fn refresh(&mut self, lattice: &LatticeOperator, session: &Session) -> Result<()> {
-        *self = Self::new(lattice, session)?;
+        match self {
+            Self::Factor(_) => *self = Self::factor(lattice, session)?,
+            Self::Auxiliary { cycle, .. } => cycle.set_up()?,
+        }
         Ok(())
     }
 
-    /// Solves with the right-hand side of a level, which has all nodes.
+    /// Solves with the right-hand side of a level. **Collective**
     pub fn solve<T: Precision + Datum>(&mut self, level: &mut CycleLevel<T>) -> Result<()> {
-        let CycleLevel { b, x, .. } = level;
-        let set = |to: &mut [f64]| {
-            assert_eq!(to.len(), 2 * b.len(), "all nodes of the coarsest level are here");
-            to.iter_mut().zip(b.as_flattened()).for_each(|(to, from)| *to = from.double());
-        };
-        let get = |from: &[f64]| x.as_flattened_mut().iter_mut().zip(from).for_each(|(to, &from)| *to = T::of(from));
-        self.0.solve(set, get)
+        let (from, to) = (level.b.as_flattened(), level.x.as_flattened_mut());
+        let set = |b: &mut [f64]| b.iter_mut().zip(from).for_each(|(to, from)| *to = from.double());
+        let mut get = |x: &[f64]| to.iter_mut().zip(x).for_each(|(to, &from)| *to = T::of(from));
+        match self {
+            Self::Factor(None) => Ok(()),
+            Self::Factor(Some(factor)) => factor.solve(set, get),
+            Self::Auxiliary { cycle, b, x } => {
+                set(&mut b.values_mut());
+                cycle.apply(b, x)?;
+                get(&x.values());
+                Ok(())
+            }
+        }
     }
 }

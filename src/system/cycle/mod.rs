@@ -1,17 +1,18 @@
 //! The multigrid F-cycle of mezha's own, in double or single precision: it works on strips and stored rows directly, and
-//! on nothing of PETSc's but the factor of the coarsest level.
+//! on nothing of PETSc's but what solves on the coarsest level.
 //!
-//! Levels with few unknowns are brought together on every rank by one sum, and each rank goes on with them for itself: below
-//! there are no messages. Where options of the user's ask for another smoother, cycle or coarse solver, and where solves
+//! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: below these there are no messages,
+//! and the other ranks wait. Where options of the user's ask for another smoother, cycle or coarse solver, and where solves
 //! fall back on stronger smoothers, PETSc's own multigrid stands in its place ([`super::solver`]).
 
 mod coarsest;
 mod level;
 
 use super::SystemError;
-use super::interpolation::{Interpolation, NodeInterpolation, is_gathered};
+use super::auxiliary::GalerkinLevels;
+use super::interpolation::{Interpolation, NodeInterpolation};
 use super::stiffness::{Precision, Stiffness, SweepHalves};
-use crate::petsc::{Action, Datum, Result, Session, Vector};
+use crate::petsc::{Action, Datum, MultigridLevel, Result, Session, Vector};
 use coarsest::Coarsest;
 use level::CycleLevel;
 use std::cell::RefCell;
@@ -32,31 +33,28 @@ pub struct FullCycle<T> {
 }
 
 impl<T: Precision + Datum> FullCycle<T> {
-    /// On the levels of a stiffness; `None` if there is but one, if some are auxiliary, or if the coarsest is too large for every
-    /// rank. **Collective**
+    /// On the levels of a stiffness and auxiliary ones below them; `None` if there is but one level of the mesh, or if options want
+    /// entries of interpolations. **Collective**
     fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
+        auxiliary: &GalerkinLevels,
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
         let rows: Vec<_> = stiffness.iter().map(|stiffness| stiffness.lattice().clone()).collect();
-        let steps: Option<Vec<Rc<NodeInterpolation>>> = interpolations.iter().map(|step| step.nodes.clone()).collect();
-        let Some(steps) = steps else { return Ok(None) };
-        if rows.len() < 2 || steps.len() + 1 != rows.len() {
-            return Ok(None);
-        }
+        let (below, above) = interpolations.split_at(interpolations.len() + 1 - rows.len());
+        let steps: Option<Vec<Rc<NodeInterpolation>>> = above.iter().map(|step| step.nodes.clone()).collect();
+        let Some(steps) = steps.filter(|steps| !steps.is_empty()) else { return Ok(None) };
+        let coarsest = if below.is_empty() {
+            Coarsest::factor(&rows[0], session)?
+        } else {
+            let steps = std::iter::once(None).chain(below.iter().map(|step| Some(&step.matrix)));
+            let operators = auxiliary.iter().chain([stiffness[0].operator()]);
+            let levels = operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation });
+            Coarsest::auxiliary(&levels.collect::<Vec<_>>(), session)?
+        };
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
-        let mut gathered: Vec<bool> =
-            rows.iter().map(|rows| is_gathered(session.gather_counts(rows.node_count()).iter().sum())).collect();
-        if !gathered[0] {
-            return Ok(None);
-        }
-        let (coarsest, top) = (Coarsest::new(&rows[0], session)?, rows.len() - 1);
-        // The finest level works on the vectors of PETSc's, which are those of each rank.
-        gathered[top] = false;
-        let below = |l: usize| gathered[l.saturating_sub(1)];
-        let levels = rows.into_iter().zip(steps).enumerate();
-        let levels = levels.map(|(l, (rows, step))| CycleLevel::new(rows, step, [gathered[l], below(l)], session));
+        let levels = rows.into_iter().zip(steps).map(|(rows, step)| CycleLevel::new(rows, step, session));
         let mut levels: Vec<CycleLevel<T>> = levels.collect();
         let last = levels.pop().expect("two levels at least");
         let mut levels: Vec<CycleLevel<T>> = levels.into_iter().map(CycleLevel::with_vectors).collect();
@@ -69,7 +67,7 @@ impl<T: Precision + Datum> FullCycle<T> {
     /// Takes over the values of the stiffness, which have changed. **Collective**
     fn refresh(&mut self, session: &Session) -> std::result::Result<(), SystemError> {
         self.coarsest.refresh(&self.levels[0].lattice, session)?;
-        self.levels.iter_mut().for_each(|level| level.refresh(session));
+        self.levels.iter_mut().for_each(CycleLevel::refresh);
         Ok(())
     }
 
@@ -151,17 +149,20 @@ pub enum Cycle {
 }
 
 impl Cycle {
-    /// On the levels of a system; none where there are none, or not all are mezha's own. **Collective**
+    /// On the levels of a system; none where the mesh has but one, or options want its entries. **Collective**
     pub fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
+        auxiliary: &GalerkinLevels,
         is_single: bool,
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
         Ok(if is_single {
-            FullCycle::new(stiffness, interpolations, session)?.map(|cycle| Self::Single(Rc::new(RefCell::new(cycle))))
+            let cycle = FullCycle::new(stiffness, interpolations, auxiliary, session)?;
+            cycle.map(|cycle| Self::Single(Rc::new(RefCell::new(cycle))))
         } else {
-            FullCycle::new(stiffness, interpolations, session)?.map(|cycle| Self::Double(Rc::new(RefCell::new(cycle))))
+            let cycle = FullCycle::new(stiffness, interpolations, auxiliary, session)?;
+            cycle.map(|cycle| Self::Double(Rc::new(RefCell::new(cycle))))
         })
     }
 

@@ -69,16 +69,16 @@ impl HalvedRow {
 pub struct HalvedRows(Vec<HalvedRow>);
 
 impl HalvedRows {
-    /// Of these triangles, whose inner nodes lie in both ranges of nodes.
-    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, triangles: &[u32], ranges: [&Range<usize>; 2]) -> Self {
+    /// Of these triangles, whose inner nodes are this rank's on both levels.
+    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, triangles: &[u32]) -> Self {
         let n = fine.numbering.level.intervals;
         let of_triangle = |&triangle: &u32| {
             let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
             let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
             (0..=n).filter(move |&j| !HalvedRow::places(n, j).is_empty()).map(move |j| HalvedRow {
-                first: numbers.node(2, j) - ranges[0].start,
+                first: numbers.node(2, j) - fine.own.start,
                 count: HalvedRow::places(n, j).len(),
-                parents: lattice::parents(2, j).map(|(i, j)| below.node(i, j) - ranges[1].start),
+                parents: lattice::parents(2, j).map(|(i, j)| below.node(i, j) - coarse.own.start),
             })
         };
         Self(triangles.iter().flat_map(of_triangle).collect())

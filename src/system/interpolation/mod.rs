@@ -7,30 +7,20 @@ mod whole;
 
 pub use node_interpolation::{InterpolationRoom, NodeInterpolation};
 
-use super::auxiliary::{SMALL, auxiliary_interpolations};
+use super::auxiliary::auxiliary_interpolations;
 use super::user_options::want_entries;
 use super::{Discretisation, Scene, Space, SystemError};
 use crate::petsc::{Index, Matrix, Session};
 use node_interpolation::{InterpolationShell, turned};
-use parents::{Here, NodeParents};
+use parents::NodeParents;
 use std::rc::Rc;
-
-/// Unknowns up to which a level is brought together on every rank, and worked on by each of them for itself: its messages
-/// would take longer than its work. The coarsest level of a cycle is one of these: larger ones get auxiliary levels.
-const GATHERED: usize = SMALL;
 
 /// The interpolation to a level from the next coarser one.
 pub struct Interpolation {
     /// As PETSc's multigrid uses it (fine unknowns x coarse unknowns), with the unknowns of each rank.
     pub matrix: Matrix,
-    /// As mezha's own cycle does, with levels that are on every rank as a whole; none between auxiliary levels, or where
-    /// options of the user's ask for entries.
+    /// As mezha's own cycle does; none between auxiliary levels, or where options of the user's ask for entries.
     pub nodes: Option<Rc<NodeInterpolation>>,
-}
-
-/// Whether a level of so many nodes is brought together on every rank.
-pub fn is_gathered(nodes: usize) -> bool {
-    2 * nodes <= GATHERED
 }
 
 /// Interpolations between all levels, auxiliary ones among them: the first leads from the coarsest level to the next.
@@ -38,43 +28,26 @@ pub fn is_gathered(nodes: usize) -> bool {
 pub fn interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Interpolation>, SystemError> {
     let auxiliary = auxiliary_interpolations(problem, session)?.into_iter().map(|matrix| Interpolation { matrix, nodes: None });
     let mut all: Vec<Interpolation> = auxiliary.collect();
-    for (l, pair) in problem.spaces.windows(2).enumerate() {
-        let is_finest = l + 2 == problem.spaces.len();
-        all.push(interpolation(&problem.scene, &pair[1], &pair[0], is_finest, session)?);
+    for pair in problem.spaces.windows(2) {
+        all.push(interpolation(&problem.scene, &pair[1], &pair[0], session)?);
     }
     Ok(all)
 }
 
-/// Of the nodes between two levels; the finest of all is on every rank only in part. **Collective**
-fn interpolation(
-    scene: &Scene,
-    fine: &Space,
-    coarse: &Space,
-    is_finest: bool,
-    session: &Session,
-) -> Result<Interpolation, SystemError> {
-    let own = scene.partition.triangles_of(session.rank());
-    let mut here = Here { triangles: own, fine: fine.own.clone(), coarse: coarse.own.clone(), is_gathered: false };
+/// Of the nodes between two levels. **Collective**
+fn interpolation(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Interpolation, SystemError> {
     if want_entries(session) {
-        return Ok(Interpolation { matrix: stored_rows(scene, fine, coarse, &here, session)?, nodes: None });
+        return Ok(Interpolation { matrix: stored_rows(scene, fine, coarse, session)?, nodes: None });
     }
-    let nodes = Rc::new(NodeInterpolation::new(scene, fine, coarse, &here, session));
+    let nodes = Rc::new(NodeInterpolation::new(scene, fine, coarse, session));
     let (rows, columns) = (fine.local_unknowns(), coarse.local_unknowns());
     let matrix = Matrix::transfer(session, rows, columns, Box::new(InterpolationShell(nodes.clone())))?;
-    if session.size() == 1 || !is_gathered(coarse.numbering.node_count()) {
-        return Ok(Interpolation { matrix, nodes: Some(nodes) });
-    }
-    (here.coarse, here.is_gathered) = (0..coarse.numbering.node_count(), true);
-    let all: Vec<u32> = (0..scene.mesh.triangles.len() as u32).collect();
-    if is_gathered(fine.numbering.node_count()) && !is_finest {
-        (here.triangles, here.fine) = (&all, 0..fine.numbering.node_count());
-    }
-    Ok(Interpolation { matrix, nodes: Some(Rc::new(NodeInterpolation::new(scene, fine, coarse, &here, session))) })
+    Ok(Interpolation { matrix, nodes: Some(nodes) })
 }
 
 /// With all its rows stored. **Collective**
-fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, here: &Here, session: &Session) -> Result<Matrix, SystemError> {
-    let rows = NodeParents::new(scene, fine, coarse, here, |_, _| 0..0);
+fn stored_rows(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Result<Matrix, SystemError> {
+    let rows = NodeParents::new(scene, fine, coarse, session.rank(), |_, _| 0..0);
     let mut diagonal = vec![0; fine.local_unknowns()];
     let mut off_diagonal = vec![0; fine.local_unknowns()];
     for (node, parents) in rows.iter() {

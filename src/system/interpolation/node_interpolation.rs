@@ -1,7 +1,7 @@
 //! Interpolation by nodes: whole macro triangles, halved rows inside of others, and a list of the other nodes.
 
 use super::halved_rows::{HalvedRow, HalvedRows};
-use super::parents::{Here, NodeParents};
+use super::parents::NodeParents;
 use super::whole;
 use crate::element::Block;
 use crate::geometry::Point;
@@ -57,37 +57,40 @@ impl<T: Real> InterpolationRoom<T> {
 }
 
 impl NodeInterpolation {
-    /// To the fine nodes that are here; coarse ones of other ranks come through a halo if not all are here. **Collective**
-    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, here: &Here, session: &Session) -> Self {
-        let level = fine.numbering.level;
-        let mut all: Vec<u32> = here.triangles.to_vec();
-        all.sort_unstable();
-        let (whole, others): (Vec<u32>, Vec<u32>) =
-            all.into_iter().partition(|&triangle| level.is_whole() && scene.mesh.is_even(triangle as usize, level));
-        let halved = HalvedRows::new(scene, fine, coarse, &others, [&here.fine, &here.coarse]);
+    /// To the fine nodes of this rank; coarse ones of other ranks come through a halo. **Collective**
+    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Self {
+        let (level, rank) = (fine.numbering.level, session.rank());
+        let is_whole = |triangle: u32| level.is_whole() && scene.mesh.is_even(triangle as usize, level);
+        // Where fewer ranks share the coarse level, inner nodes may lie on another one than their parents: these are in lists.
+        let is_here = |triangle: &u32| coarse.numbering.partition().owner(*triangle) == rank;
+        let mut here: Vec<u32> = fine.numbering.partition().triangles_of(rank).iter().copied().filter(is_here).collect();
+        here.sort_unstable();
+        let (whole, others): (Vec<u32>, Vec<u32>) = here.into_iter().partition(|&triangle| is_whole(triangle));
+        let halved = HalvedRows::new(scene, fine, coarse, &others);
         let n = level.intervals;
-        let left_out = |triangle: u32, j: usize| match whole.binary_search(&triangle) {
-            Ok(_) if j == 0 || j + 1 >= n => 0..0,
-            Ok(_) => 1..n - j,
-            Err(_) => HalvedRow::places(n, j),
+        let left_out = |triangle: u32, j: usize| match is_whole(triangle) {
+            _ if !is_here(&triangle) => 0..0,
+            true if j == 0 || j + 1 >= n => 0..0,
+            true => 1..n - j,
+            false => HalvedRow::places(n, j),
         };
-        let rows = NodeParents::new(scene, fine, coarse, here, left_out);
+        let rows = NodeParents::new(scene, fine, coarse, rank, left_out);
         let numbers = |triangle: &u32| coarse.numbering.triangle(&scene.mesh, *triangle as usize);
         let sides = whole.iter().flat_map(|triangle| {
             let numbers = numbers(triangle);
             side_nodes(n / 2).map(move |(i, j)| numbers.node(i, j))
         });
         let parents = rows.iter().flat_map(|(_, pair)| pair).chain(sides);
-        let mut far: Vec<usize> = parents.filter(|node| !here.coarse.contains(node)).collect();
+        let mut far: Vec<usize> = parents.filter(|node| !coarse.own.contains(node)).collect();
         far.sort_unstable();
         far.dedup();
-        let place = |node: usize| match here.coarse.contains(&node) {
-            true => (node - here.coarse.start) as u32,
-            false => (here.coarse.len() + far.binary_search(&node).expect("a known node")) as u32,
+        let place = |node: usize| match coarse.own.contains(&node) {
+            true => (node - coarse.own.start) as u32,
+            false => (coarse.own.len() + far.binary_search(&node).expect("a known node")) as u32,
         };
         let (mut even, mut weighted) = (Vec::new(), Vec::new());
         for (node, pair) in rows.iter() {
-            let at = (node - here.fine.start) as u32;
+            let at = (node - fine.own.start) as u32;
             let weights = rows.weights(node);
             let plain = fine.constraints.get(node).is_none() && pair.iter().all(|&p| coarse.constraints.get(p).is_none());
             if plain && weights == [0.5; 2] {
@@ -99,15 +102,14 @@ impl NodeInterpolation {
             }
         }
         // All ranks take the same way here, whatever they own: a halo is made by all of them together.
-        let is_shared = session.size() > 1 && !here.is_gathered;
-        let halo = is_shared.then(|| Halo::new(session, &here.coarse, &far));
+        let halo = (session.size() > 1).then(|| Halo::new(session, &coarse.own, &far));
         let pair = |triangle: &u32| {
-            let first = fine.numbering.triangle(&scene.mesh, *triangle as usize).node(1, 1) - here.fine.start;
-            let coarse = TriangleNodes::new(&numbers(triangle), coarse, &here.coarse, &far);
+            let first = fine.numbering.triangle(&scene.mesh, *triangle as usize).node(1, 1) - fine.own.start;
+            let coarse = TriangleNodes::new(&numbers(triangle), coarse, &coarse.own, &far);
             WholeTriangle { fine: first..first + lattice::inner_count(n), coarse }
         };
         let whole = whole.iter().map(pair).collect();
-        Self { whole, n, halved, even, weighted, coarse: here.coarse.len(), halo, far: far.len() }
+        Self { whole, n, halved, even, weighted, coarse: coarse.own.len(), halo, far: far.len() }
     }
 
     /// Whether its whole macro triangles are these, by their inner nodes.

@@ -5,23 +5,10 @@ use crate::system::{Scene, Space};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// Which nodes of a fine and a coarse level are here: those of this rank, or all of them.
-#[derive(Clone)]
-pub struct Here<'a> {
-    /// Macro triangles whose inner nodes are.
-    pub triangles: &'a [u32],
-    /// Fine nodes.
-    pub fine: Range<usize>,
-    /// Coarse nodes.
-    pub coarse: Range<usize>,
-    /// Whether these are those of all ranks, on each of them. That they are all of them may happen on one rank alone.
-    pub is_gathered: bool,
-}
-
 /// Weights of the parents of most nodes.
 const EVEN: [f64; 2] = [0.5; 2];
 
-/// Fine nodes that are here with their coarse parents, each node once.
+/// Fine nodes of a rank with their coarse parents, each node once.
 pub struct NodeParents {
     nodes: Vec<[usize; 3]>,
     /// Weights of the parents, for the few nodes that are not in their middle.
@@ -30,11 +17,11 @@ pub struct NodeParents {
 
 impl NodeParents {
     /// Without the places `left_out` of each row of the lattice of a macro triangle.
-    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, here: &Here, left_out: impl Fn(u32, usize) -> Range<usize>) -> Self {
+    pub fn new(scene: &Scene, fine: &Space, coarse: &Space, rank: usize, left_out: impl Fn(u32, usize) -> Range<usize>) -> Self {
         let n = fine.numbering.level.intervals;
-        let mut seen = vec![false; here.fine.len()];
+        let mut seen = vec![false; fine.own.len()];
         let mut rows = Self { nodes: Vec::new(), graded: HashMap::new() };
-        for &triangle in here.triangles {
+        for &triangle in fine.numbering.partition().triangles_of(rank) {
             let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
             let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
             let rest = (0..=n).flat_map(|j| {
@@ -44,10 +31,10 @@ impl NodeParents {
             for (i, j) in rest {
                 let node = numbers.node(i, j);
                 if !matches!(lattice::place(n, i, j), Place::Inside(_)) {
-                    if !here.fine.contains(&node) || seen[node - here.fine.start] {
+                    if !fine.own.contains(&node) || seen[node - fine.own.start] {
                         continue;
                     }
-                    seen[node - here.fine.start] = true;
+                    seen[node - fine.own.start] = true;
                     let weights = scene.mesh.parent_weights(triangle as usize, fine.numbering.level, (i, j));
                     if weights != EVEN {
                         rows.graded.insert(node, weights);

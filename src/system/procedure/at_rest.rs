@@ -23,7 +23,7 @@ impl AtRest {
     /// triangle is turned inside out.
     pub fn new(scene: &Scene, rank: usize) -> Result<Self, SystemError> {
         // The space shows whether supports contradict each other.
-        let Space { numbering, .. } = Space::new(scene, finest_numbering(scene)?.level, rank)?;
+        let Space { numbering, .. } = Space::new(scene, finest_numbering(scene)?.level, &scene.partition, rank)?;
         let contacts = Contact::all(scene, &numbering, rank)?;
         check_soundness(scene, &numbering, &contacts)?;
         Ok(Self { numbering, contacts })

@@ -5,12 +5,12 @@ use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh};
 use crate::system::{Coupled, Discretisation, Space};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
 /// Rows of `B` at one level: for each multiplier, node numbers with their two entries. Columns of prescribed
-/// components are zero. A rank has those that it needs, whole: of its own multipliers, and of groups that couple to a node of its
-/// own on any level. The others are empty.
+/// components are zero. A rank has those that it needs, whole: of groups that couple to a node of its own on this level, and on
+/// the finest level of its own multipliers. The others are empty.
 #[derive(Clone, Debug)]
 pub struct CouplingRows {
     /// Where the entries of each row begin, and the end.
@@ -64,24 +64,36 @@ impl NodeRows {
         rows
     }
 
-    fn without_nodes(&self) -> CouplingRows {
-        let entries = self.entries.iter().map(|entry| (entry.number, entry.value)).collect();
-        CouplingRows { starts: self.starts.clone(), entries }
+    /// Without nodes, and without the rows of groups that have no node of a rank and no multiplier that `is_own`.
+    fn needed(&self, groups: &[Vec<usize>], own: &Range<usize>, is_own: impl Fn(usize) -> bool) -> CouplingRows {
+        let row = |i: usize| &self.entries[self.starts[i] as usize..self.starts[i + 1] as usize];
+        let mut is_needed = vec![false; self.starts.len() - 1];
+        for group in groups {
+            let needed = group.iter().any(|&i| is_own(i) || row(i).iter().any(|entry| own.contains(&entry.number)));
+            group.iter().for_each(|&i| is_needed[i] = needed);
+        }
+        let mut rows = CouplingRows { starts: vec![0], entries: Vec::new() };
+        for (i, is_needed) in is_needed.into_iter().enumerate() {
+            if is_needed {
+                rows.entries.extend(row(i).iter().map(|entry| (entry.number, entry.value)));
+            }
+            rows.starts.push(rows.entries.len() as u32);
+        }
+        rows
     }
 }
 
-/// The rows that a rank needs; `groups` are the multipliers that `D` couples.
+/// The rows that a rank needs on some level; `groups` are the multipliers that `D` couples.
 fn wanted(problem: &Discretisation, groups: &[Vec<usize>], rank: usize) -> Vec<bool> {
-    let (mesh, space) = (&problem.scene.mesh, problem.finest());
-    let own_vertex = |&vertex: &u32| space.own.contains(&space.numbering.vertex(vertex));
-    // On coarser levels a node hands its entries to nodes of its macro edge, or to the ends of that.
-    let is_near = |coupled: &Coupled| {
-        let node = coupled.node;
-        space.own.contains(&node.number(mesh, &space.numbering)) || mesh.edges[node.edge as usize].vertices.iter().any(own_vertex)
-    };
+    let (mesh, spaces) = (&problem.scene.mesh, &problem.spaces);
+    // On coarser levels, of which fewer ranks may have more, a node hands its entries to nodes of its macro edge, or to the ends
+    // of that.
+    let near = |edge: u32| spaces.iter().any(|space| space.numbering.has_nodes_on(mesh, edge, rank));
+    let mut known: HashMap<u32, bool> = HashMap::new();
+    let mut is_near = |coupled: &Coupled| *known.entry(coupled.node.edge).or_insert_with_key(|&edge| near(edge));
     let (coupling, mut wanted) = (&problem.coupling, vec![false; problem.multiplier_count()]);
     for group in groups {
-        let is_wanted = group.iter().any(|&i| coupling.owners[i] == rank || coupling.rows[i].iter().any(is_near));
+        let is_wanted = group.iter().any(|&i| coupling.owners[i] == rank || coupling.rows[i].iter().any(&mut is_near));
         group.iter().for_each(|&i| wanted[i] = is_wanted);
     }
     wanted
@@ -102,10 +114,10 @@ impl CouplingRows {
             row.extend(coupled.iter().filter(|_| is_wanted).map(entry));
             rows.push(&mut row, finest);
         }
-        let mut levels = vec![rows.without_nodes()];
+        let mut levels = vec![rows.needed(groups, &finest.own, |i| problem.coupling.owners[i] == rank)];
         for pair in spaces.windows(2).rev() {
             rows = rows.restricted(mesh, &pair[1], &pair[0]);
-            levels.push(rows.without_nodes());
+            levels.push(rows.needed(groups, &pair[0].own, |_| false));
         }
         levels.reverse();
         levels
@@ -187,19 +199,28 @@ mod tests {
     #[test]
     fn a_rank_has_whole_what_touches_its_nodes_on_any_level_and_little_else() {
         for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
-            let everything = {
-                let problem = problem(space, 0);
+            // In one group, all rows of a level are on every rank that has a node of contact there.
+            let of_rank = |rank: usize| {
+                let problem = problem(space, rank);
                 let all = vec![(0..problem.multiplier_count()).collect()];
-                CouplingRows::of_levels(&problem, &all, 0)
+                CouplingRows::of_levels(&problem, &all, rank)
             };
+            let mut everything = of_rank(0);
+            for rows in (1..RANKS).map(of_rank) {
+                let larger = everything.iter_mut().zip(rows).filter(|(all, rows)| all.entries.len() < rows.entries.len());
+                larger.for_each(|(all, rows)| *all = rows);
+            }
+            assert!(everything.iter().all(|rows| !rows.entries.is_empty()));
             let mut kept = 0;
             for rank in 0..RANKS {
                 let problem = problem(space, rank);
                 let groups = Augmentation::new(&problem.contacts);
                 let own = CouplingRows::of_levels(&problem, groups.members(), rank);
-                for ((own, all), space) in own.iter().zip(&everything).zip(&problem.spaces) {
+                for (l, ((own, all), space)) in own.iter().zip(&everything).zip(&problem.spaces).enumerate() {
+                    let is_finest = l + 1 == problem.spaces.len();
                     for i in 0..problem.multiplier_count() {
-                        let needed = problem.coupling.owners[i] == rank || all.row(i).iter().any(|(n, _)| space.own.contains(n));
+                        let is_own = is_finest && problem.coupling.owners[i] == rank;
+                        let needed = is_own || all.row(i).iter().any(|(n, _)| space.own.contains(n));
                         assert!(own.row(i) == all.row(i) || own.row(i).is_empty() && !needed, "rank {rank}, row {i}");
                     }
                     assert!(own.neighbours(groups.members(), &space.own).keys().all(|node| space.own.contains(node)));

@@ -26,7 +26,9 @@ use super::cycle::Cycle;
 use super::interpolation::Interpolation;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
-use crate::petsc::{self, Krylov, KrylovEnding, Matrix, MultigridLevel, ReplacedAction, Session, Vector, WatchedSolve};
+use crate::petsc::{
+    self, Krylov, KrylovEnding, Matrix, MultigridCycle, MultigridLevel, ReplacedAction, Session, Vector, WatchedSolve,
+};
 use fallback::{MOST, needed};
 use std::rc::Rc;
 
@@ -103,7 +105,7 @@ impl LinearSolver {
     ) -> Result<Self, SystemError> {
         let preconditioning = if interpolations.is_empty() { Preconditioning::Factor } else { preconditioning };
         let coarsest = interpolations.first().map_or(0, |interpolation| interpolation.matrix.size().1);
-        let coarse = CoarseSolver::of(coarsest, session.size());
+        let coarse = CoarseSolver::of(coarsest);
         let lambda = lambda_options(system.multipliers.pattern, session.size());
         let unknowns = system.finest_stiffness().operator().size().0;
         let is_short = preconditioning == Preconditioning::Sweep && unknowns > many && !is_method_chosen(session);
@@ -133,13 +135,15 @@ impl LinearSolver {
                 operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             if preconditioning == Preconditioning::Sweep && !is_changed(session) {
-                cycle = Cycle::new(&system.stiffness, &interpolations, is_single, session)?;
+                cycle = Cycle::new(&system.stiffness, &interpolations, &auxiliary, is_single, session)?;
+                // What solves on its coarsest level may have set this.
+                petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             }
             match &cycle {
                 Some(cycle) => {
                     solvers[0].preconditioner().set_action("multigrid F-cycle on strips and stored rows", cycle.action())?;
                 }
-                None => solvers[0].preconditioner().multigrid(&levels)?,
+                None => solvers[0].preconditioner().multigrid(MultigridCycle::Full, &levels)?,
             }
             solvers[0].set_up()?;
         }

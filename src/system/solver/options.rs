@@ -1,7 +1,7 @@
 //! The solver's recipes as PETSc options. What a user gives after `--` wins over all of them.
 
 use crate::petsc::{Session, options};
-use crate::system::auxiliary::SMALL;
+use crate::system::level_ranks::SMALL;
 use crate::system::{Preconditioning, SchurPattern};
 
 /// Names and values of PETSc options.
@@ -99,33 +99,25 @@ pub(super) fn lambda_options(pattern: SchurPattern, ranks: usize) -> Options {
 /// What solves on the coarsest level.
 #[derive(Clone, Copy)]
 pub(super) enum CoarseSolver {
-    /// Factorisation by one rank.
+    /// Factorisation by the rank that has the level.
     Alone,
-    /// Factorisation by every rank for itself.
-    Redundant,
     /// Factorisation by all ranks together: so many bodies that not even auxiliary levels are small.
     Shared,
 }
 
 impl CoarseSolver {
-    pub(super) fn of(rows: usize, ranks: usize) -> Self {
-        match (rows, ranks) {
-            (..=SMALL, 1) => Self::Alone,
-            (..=SMALL, _) => Self::Redundant,
-            _ => Self::Shared,
-        }
+    pub(super) fn of(rows: usize) -> Self {
+        if rows <= SMALL { Self::Alone } else { Self::Shared }
     }
 
     pub(super) fn options(self) -> Options {
         match self {
             // The functions of auxiliary levels may be as small as one likes: so may be pivots.
-            Self::Alone => {
-                &[("-fieldsplit_u_mg_coarse_pc_type", "lu"), ("-fieldsplit_u_mg_coarse_pc_factor_zeropivot", "1e-300")]
-            }
-            Self::Redundant => &[
-                ("-fieldsplit_u_mg_coarse_pc_type", "redundant"),
-                ("-fieldsplit_u_mg_coarse_redundant_pc_type", "lu"),
-                ("-fieldsplit_u_mg_coarse_redundant_pc_factor_zeropivot", "1e-300"),
+            // Each rank factorises the block that it has: one of them all of the level, the others nothing.
+            Self::Alone => &[
+                ("-fieldsplit_u_mg_coarse_pc_type", "bjacobi"),
+                ("-fieldsplit_u_mg_coarse_sub_pc_type", "lu"),
+                ("-fieldsplit_u_mg_coarse_sub_pc_factor_zeropivot", "1e-300"),
             ],
             Self::Shared => {
                 &[("-fieldsplit_u_mg_coarse_pc_type", "cholesky"), ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps")]

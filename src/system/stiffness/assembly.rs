@@ -56,7 +56,7 @@ impl<'a> Assembly<'a> {
         let level = space.numbering.level;
         let part = |triangle: usize| {
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
-            let is_own = scene.partition.owner(triangle as u32) == rank;
+            let is_own = space.numbering.partition().owner(triangle as u32) == rank;
             let is_repeated = is_own && with_strips;
             let is_whole = is_repeated && level.is_whole() && scene.mesh.is_even(triangle, level);
             let strips = if is_repeated && !is_whole { scene.mesh.strips(triangle, level) } else { Vec::new() };

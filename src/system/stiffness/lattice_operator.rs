@@ -103,24 +103,6 @@ impl LatticeOperator {
         self.far.len()
     }
 
-    /// The rows of all ranks, on every rank. **Collective**
-    pub fn gathered(&self, session: &Session) -> StoredRows {
-        let (mut columns, mut values) = (Vec::new(), Vec::new());
-        let mut add = |node: usize, couplings: &[(usize, Block)]| {
-            columns.extend([(self.own.start + node) as u32, couplings.len() as u32]);
-            columns.extend(couplings.iter().map(|c| c.0 as u32));
-            values.extend(couplings.iter().flat_map(|c| c.1.as_flattened()));
-        };
-        self.each_row(|node, couplings| add(node, couplings));
-        let rows = self.rows.borrow();
-        for (k, &node) in rows.nodes.iter().enumerate() {
-            let near = rows.near.couplings(k).map(|(column, block)| (self.own.start + column as usize, *block));
-            let far = rows.far.couplings(k).map(|(column, block)| (self.far[column as usize], *block));
-            add(node as usize, &near.chain(far).collect::<Vec<_>>());
-        }
-        StoredRows::of_all(&session.gather_all(&columns), &session.gather_all(&values))
-    }
-
     /// The strips.
     pub fn strips(&self) -> &Rc<Strips> {
         &self.strips

@@ -154,39 +154,6 @@ impl StoredRows {
         self.inverses = inverses;
     }
 
-    /// From the rows of all nodes, in any order: for each its node, how many columns, and these; and all blocks. All columns are
-    /// near.
-    ///
-    /// # Panics
-    /// As [`StoredRows::invert`].
-    pub fn of_all(numbers: &[u32], values: &[f64]) -> Self {
-        let blocks: &[Block] = values.as_chunks::<2>().0.as_chunks().0;
-        let (mut rows, mut at, mut first) = (Vec::new(), 0, 0);
-        while at < numbers.len() {
-            let count = numbers[at + 1] as usize;
-            rows.push((numbers[at], at + 2..at + 2 + count, first));
-            (at, first) = (at + 2 + count, first + count);
-        }
-        rows.sort_unstable_by_key(|row| row.0);
-        let mut all = Self::default();
-        for (node, columns, first) in rows {
-            let mut row: Vec<(u32, Block)> = numbers[columns].iter().copied().zip(blocks[first..].iter().copied()).collect();
-            row.sort_unstable_by_key(|coupling| coupling.0);
-            all.nodes.push(node);
-            all.near.firsts.push(all.near.blocks.len() as u32);
-            all.near.columns.extend(row.iter().map(|coupling| coupling.0));
-            all.near.blocks.extend(row.iter().map(|coupling| coupling.1));
-            all.near.starts.push(all.near.columns.len() as u32);
-            all.far.firsts.push(0);
-            all.far.starts.push(0);
-            all.inverse_of.push(all.inverse_of.len() as u32);
-            all.inverses.push([[0.0; 2]; 2]);
-        }
-        (0..all.nodes.len()).for_each(|k| all.invert(k));
-        all.share(std::iter::empty());
-        all
-    }
-
     /// The rows of single unknowns, if these are those of all nodes: columns and values.
     pub fn scalar_rows(&self) -> Vec<(Vec<Index>, Vec<f64>)> {
         let row = |k: usize, a: usize| {
