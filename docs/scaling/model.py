@@ -8,8 +8,9 @@ POWERS = [8, 9, 10]
 LEAST = 1000
 # Unknowns, by powers of ten, and ranks for which it is told where the time goes.
 TOLD = [(8, 1024), (8, 10_000), (9, 10_000)]
-# Levels of the hierarchy on which messages and waits are counted: see `counts` and `latency` in make.
-LEVELS = 5
+# Unknowns of a level that is on one rank, of the coarsest one, and of a rank on others, at least: see src/system/level_ranks.rs and
+# src/system/auxiliary.
+SMALL, COARSEST, FEWEST = 3000, 500, 1000
 
 COLLECTIVES = ["reductions", "sums", "gatherings"]
 
@@ -19,7 +20,6 @@ ASSUMED = {
     "overhead": (0.5e-6, "time o of a processor for a message", "s"),
     "bandwidth": (4e8, "bandwidth β of a rank: 25 GB/s of a node, shared by 64", "B/s"),
     "socket": (2.0, "slowdown s of a rank on a full socket, whose cores share its memory, against the two ranks here", ""),
-    "gathered": (3000.0, "unknowns of the largest level that every rank holds whole (GATHERED in the source)", ""),
 }
 
 # Name, words, unit.
@@ -30,8 +30,8 @@ MEASURED = [
     ("waits", "latencies v on the critical path of an iteration, collectives apart", ""),
     ("messages", "messages of the busiest rank in an iteration, most ranks", ""),
     ("bytes", "bytes that the busiest rank sends in an iteration, at the N/P below", "B"),
-    ("gathered", "bytes G that a rank hands to collectives in an iteration", "B"),
     ("share", "unknowns N/P of a rank there", ""),
+    ("visits", "visits to levels with messages in an iteration there: d to the d-th, from the finest one", ""),
     ("imbalance", "imbalance w of the work, 10 000 ranks", ""),
     ("memory", "memory for each unknown, two ranks", "B"),
 ]
@@ -53,25 +53,48 @@ def parameters(measured):
         "waits": max(latency["latencies"] - collectives * steps, 0.0),
         "messages": last["most"]["messages"],
         "bytes": last["most"]["messages_bytes"],
-        "gathered": sum(last["most"][f"{kind}_bytes"] for kind in COLLECTIVES),
         "share": last["unknowns"] / last["ranks"],
+        "visits": visits_with_messages(last["unknowns"], last["ranks"]),
         "imbalance": dealt["work"]["most"] / dealt["work"]["mean"],
         "memory": speed["bytes_per_unknown"],
     }
 
 
+def hierarchy(unknowns, ranks):
+    """The levels, from the finest one: how often an F-cycle comes there, its unknowns, and the ranks that share it."""
+    levels, size = [], unknowns
+    while not levels or size >= COARSEST:
+        group = 1
+        while group < ranks and (size <= SMALL or group * size < FEWEST * ranks):
+            group *= 2
+        levels.append((len(levels) + 1, size, math.ceil(ranks / group) if levels else ranks))
+        size /= 4
+    return levels
+
+
+def visits_with_messages(unknowns, ranks):
+    """Visits of an F-cycle to levels that several ranks share."""
+    return sum(visits for visits, _, sharing in hierarchy(unknowns, ranks) if sharing > 1)
+
+
 def parts(found, unknowns, ranks):
-    """Seconds of one solve: of work, of collectives, and of messages on the levels that are shared out, with their waits."""
+    """Seconds of one solve: of work that all ranks share, of work on levels that fewer have, of collectives, and of messages with
+    their waits."""
     value = {name: entry[0] for name, entry in ASSUMED.items()}
-    levels = max(math.log(unknowns / value["gathered"], 4), 1.0)
-    visits = levels * (levels + 1) / (LEVELS * (LEVELS + 1))
-    share = unknowns / ranks
-    work = found["unknown"] * share * value["socket"] * found["imbalance"]
-    steps = value["latency"] * found["collectives"] * math.log2(ranks)
-    collectives = steps + 2.0 * found["gathered"] / value["bandwidth"]
-    waits = visits * (value["latency"] * found["waits"] + value["overhead"] * found["messages"])
-    messages = waits + found["bytes"] * math.sqrt(share / found["share"]) / value["bandwidth"]
-    return [found["iterations"] * seconds for seconds in (work, collectives, messages)]
+    # An F-cycle comes to the levels once, twice, …: so many visits to all of the finest one, by their unknowns.
+    all_visits = sum((level + 1) / 4**level for level in range(30))
+    visit = found["unknown"] / all_visits * found["imbalance"]
+    shared, brought = 0.0, 0.0
+    for visits, size, sharing in hierarchy(unknowns, ranks):
+        if sharing == ranks:
+            shared += visit * visits * size / ranks * value["socket"]
+        else:
+            brought += visit * visits * size / sharing
+    collectives = value["latency"] * found["collectives"] * math.log2(ranks)
+    more = visits_with_messages(unknowns, ranks) / found["visits"]
+    waits = more * (value["latency"] * found["waits"] + value["overhead"] * found["messages"])
+    messages = waits + found["bytes"] * math.sqrt(unknowns / ranks / found["share"]) / value["bandwidth"]
+    return [found["iterations"] * seconds for seconds in (shared, brought, collectives, messages)]
 
 
 def seconds(found, unknowns, ranks):

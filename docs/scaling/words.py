@@ -60,8 +60,9 @@ def counts_section(lines):
         "([counting.c](scaling/counting.c)) counts what each rank does. The figures are those of one Krylov iteration on the finest "
         "mesh: the difference of two solves, to 1e-6 and to 1e-10, which are equal up to the last iterations of the first. "
         "Reductions, sums and gatherings are collectives: all ranks wait for them. A reduction is one of a few numbers, as the Krylov "
-        "method wants them; a sum brings a vector of more than 1 KiB together on every rank, as the cycle does with the level below "
-        "which there are no messages. A message goes from one rank to another.",
+        "method wants them; a sum brings a vector of more than 1 KiB together on every rank. A message goes from one rank to another. "
+        "Levels with few unknowns are brought together on fewer ranks: those with up to 3000 on one, larger ones on so many that "
+        "each of them has a thousand or more. The other ranks have nothing to say there.",
     ]
     for order in sorted({line["order"] for line in lines}):
         own = [line for line in lines if line["order"] == order]
@@ -95,7 +96,7 @@ def messages_fit(lines):
         f"{before['ranks']} to {last['ranks']} ranks it is {number(growth / (last['ranks'] - before['ranks']), 2)} for each further "
         f"rank. A few ranks have few sides: they have {number(first['neighbours_mean'])} neighbours in the mean, then "
         f"{number(last['neighbours_mean'])}. To each of them a rank sends {number(each[0])} messages on {first['ranks']} ranks, "
-        f"{number(each[1])} on {last['ranks']}; levels that every rank holds whole cost none."
+        f"{number(each[1])} on {last['ranks']}."
     )
 
 
@@ -186,14 +187,15 @@ def model_section(measured):
     return "\n\n".join([
         "## What follows for larger machines",
         "A model, not a measurement. An iteration on N unknowns and P ranks takes",
-        "    T = t N/P s w  +  α (c log₂ P + v)  +  o m  +  (B + 2 G)/β",
-        "with the time t of an unknown, the slowdown s of a full socket, the imbalance w, the collectives c, the waits v, the messages m "
-        "and the bytes B of a rank, and the bytes G that it hands to collectives. Waits and messages were counted on a hierarchy of L₀ levels; on L levels they are "
-        "L(L+1)/(L₀(L₀+1)) times as many, as often as an F-cycle comes to a level. Halos grow as the root of N/P. Levels below the "
-        "gathered size are worked on by every rank and cost no messages. A solve, to 1e-8, makes as many iterations as one here, of GMRES, "
-        "with one cycle each. "
-        "Messages are those of the busiest of the most ranks that were counted: its neighbours are as many as those of 10 000 ranks in "
-        "the table above, or more.",
+        "    T = t w Σ d nₗ/Pₗ sₗ / 1.78  +  α (c log₂ P + v)  +  o m  +  B/β",
+        "with the time t of an unknown, the imbalance w, and the levels l with nₗ = N, N/4, N/16, … unknowns on Pₗ ranks. An F-cycle "
+        "comes to the finest one once, to the next one twice, to the d-th one d times: 1.78 visits to all unknowns. The slowdown "
+        "sₗ of a full socket is that of levels which all ranks share; on the others few ranks work at once, and it is 1. c are the "
+        "collectives, v the waits, m the messages and B the bytes of a rank. Waits and messages were counted on fewer levels; on "
+        "more they are as many times as many as an F-cycle comes more often to levels that several ranks share. Halos grow as the "
+        "root of N/P. A solve, to 1e-8, makes as many iterations as one here, of GMRES, with one cycle each. Messages are those of "
+        "the busiest of the most ranks that were counted: its neighbours are as many as those of 10 000 ranks in the table above, "
+        "or more.",
         "Measured (P1):",
         table(["what", "value", "unit"], shown),
         "Assumed, of no machine in particular:",
@@ -202,9 +204,7 @@ def model_section(measured):
         f"{number(model.LEAST, 9)} unknowns:",
         table(head, rows),
         "Where this time goes:",
-        table(["unknowns", "ranks", "work", "collectives", "messages of the levels that are shared out"], where),
-        "Levels between the gathered size and the finest one stay shared out among all ranks. To bring them together on fewer ranks, "
-        "as other multigrids do, could save a part of the last column, and no more; its work would then be done by fewer ranks.",
+        table(["unknowns", "ranks", "work on levels of all ranks", "work on levels of fewer ranks", "collectives", "messages"], where),
     ])
 
 

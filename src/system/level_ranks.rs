@@ -6,7 +6,7 @@ pub const SMALL: usize = 3000;
 
 /// Unknowns of a larger level for each of the ranks that it is spread over, at least: with fewer, its messages would take longer
 /// than its work.
-const FEWEST: usize = SMALL / 2;
+const FEWEST: usize = 1000;
 
 /// Of how many ranks one takes what all of them have of a level with so many unknowns: a power of two, and all of them if the
 /// level is small.

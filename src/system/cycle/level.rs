@@ -2,7 +2,9 @@
 
 use crate::petsc::{Datum, Halo, Session};
 use crate::system::interpolation::{InterpolationRoom, NodeInterpolation};
-use crate::system::stiffness::{EvenTriangles, LatticeOperator, LatticeRows, Precision, StoredRows, Strips, SweepHalves};
+use crate::system::stiffness::{
+    EvenTriangles, LatticeOperator, LatticeRows, Precision, RelaxedBefore, StoredRows, Strips, SweepHalves,
+};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -22,6 +24,8 @@ pub struct CycleLevel<T> {
     /// Right-hand side and solution, but for the finest level, which works on those that it is given.
     pub b: Vec<[T; 2]>,
     pub x: Vec<[T; 2]>,
+    /// For sweeps from zero; the finest level has none.
+    before: Option<RelaxedBefore>,
     far: Vec<[T; 2]>,
     room: InterpolationRoom<T>,
     /// Nodes of this rank.
@@ -37,13 +41,16 @@ impl<T: Precision + Datum> CycleLevel<T> {
         let is_fused = step.as_ref().is_some_and(is_of_rows);
         let (nodes, far) = (lattice.node_count(), vec![[T::default(); 2]; lattice.far_count()]);
         let (b, x, room) = (Vec::new(), Vec::new(), InterpolationRoom::default());
-        Self { lattice, strips, even, stored, halo, step, is_fused, b, x, far, room, nodes }
+        Self { lattice, strips, even, stored, halo, step, is_fused, b, x, before: None, far, room, nodes }
     }
 
-    /// Makes its vectors.
+    /// Makes what levels below the finest have beside it: vectors, and what sweeps from zero need.
     pub fn with_vectors(mut self) -> Self {
         self.b = vec![[T::default(); 2]; self.nodes];
         self.x = self.b.clone();
+        let (rows, order) = (self.lattice.rows().borrow(), self.lattice.order());
+        self.before = Some(RelaxedBefore::new(&rows, self.lattice.strips(), order, self.nodes));
+        drop(rows);
         self
     }
 
@@ -85,17 +92,24 @@ impl<T: Precision + Datum> CycleLevel<T> {
         self.step.as_ref().expect("a way up").prolong::<T, true>(below, x, &mut self.room);
     }
 
-    /// A Gauss-Seidel sweep over the nodes here, from `x` or from zero; those of other ranks stay as they are. **Collective**
-    pub fn relax(&mut self, sweep: SweepHalves, b: &[[T; 2]], x: &mut [[T; 2]], from_zero: bool) {
+    /// A Gauss-Seidel sweep over the nodes here; those of other ranks stay as they are. **Collective**
+    pub fn relax(&mut self, sweep: SweepHalves, b: &[[T; 2]], x: &mut [[T; 2]]) {
         let Self { lattice, strips, even, stored, halo, far, .. } = self;
-        if from_zero {
-            x.fill([T::default(); 2]);
-        }
         let rows = LatticeRows { strips, even, stored: &*stored.borrow(), order: lattice.order() };
-        match halo.as_ref().filter(|_| !from_zero) {
+        match halo {
             Some(halo) => halo.fetch_before(x, far, |x| rows.begin_to_relax(b, x)),
             None => rows.begin_to_relax(b, x),
         }
-        rows.end_to_relax(sweep, b, x, if from_zero { &[] } else { far });
+        rows.end_to_relax(sweep, b, x, far);
+    }
+
+    /// The forward half of a sweep from zero, whatever `x` holds.
+    ///
+    /// # Panics
+    /// On the finest level.
+    pub fn relax_from_zero(&mut self, b: &[[T; 2]], x: &mut [[T; 2]]) {
+        let Self { lattice, strips, even, stored, before, .. } = self;
+        let rows = LatticeRows { strips, even, stored: &*stored.borrow(), order: lattice.order() };
+        rows.relax_from_zero(before.as_ref().expect("a level below the finest"), b, x);
     }
 }

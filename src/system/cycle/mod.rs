@@ -109,7 +109,7 @@ fn begin<T: Precision + Datum>(
 ) -> Result<()> {
     let (level, below) = levels.split_last_mut().expect("a level");
     level.begin(&below[below.len() - 1].x, x);
-    level.relax(before, b, x, false);
+    level.relax(before, b, x);
     correct(levels, coarsest, b, x, r)
 }
 
@@ -128,12 +128,12 @@ fn correct<T: Precision + Datum>(
         coarsest.solve(&mut below[0])?;
     } else {
         let (next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
-        below[last].relax(SweepHalves::Forward, &next, &mut correction, true);
+        below[last].relax_from_zero(&next, &mut correction);
         correct(below, coarsest, &next, &mut correction, r)?;
         (below[last].b, below[last].x) = (next, correction);
     }
     level.correct(&below[last].x, x);
-    level.relax(SweepHalves::Both, b, x, false);
+    level.relax(SweepHalves::Both, b, x);
     Ok(())
 }
 

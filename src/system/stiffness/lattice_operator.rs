@@ -2,11 +2,12 @@
 
 use super::ContactNeighbours;
 use super::even_triangles::EvenTriangles;
-use super::lattice_rows::{LatticeRows, SweepOrder};
+use super::lattice_rows::LatticeRows;
 use super::stored_rows::{BlockColumn, StoredRows};
 use super::strip_kernel::SweepHalves;
 use super::strip_set::Strips;
 use super::strips::Couplings;
+use super::sweep_order::SweepOrder;
 use crate::element::Block;
 use crate::petsc::{Halo, Operator, Result, Session, Vector};
 use crate::system::space::Components;

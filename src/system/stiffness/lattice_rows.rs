@@ -2,47 +2,13 @@
 
 use super::even_triangles::EvenTriangles;
 use super::registers::Registers;
+use super::relaxed_before::RelaxedBefore;
 use super::row_kernel::{OnRows, RowTask};
 use super::stored_rows::StoredRows;
 use super::strip_kernel::SweepHalves;
 use super::strip_set::Strips;
+use super::sweep_order::SweepOrder;
 use std::ops::Range;
-
-/// Which stored rows belong to nodes on sides of macro triangles, and which lie inside of one.
-///
-/// A sweep goes forward through the sides, those first that need no node of another rank: meanwhile the values of these arrive.
-/// Then it goes forward and backward through one macro triangle after the other, and backward through the sides. Macro triangles
-/// do not couple to each other: so this is one symmetric sweep through all nodes, and on the way back those of a triangle are
-/// still in the cache.
-#[derive(Clone, Debug, Default)]
-pub struct SweepOrder {
-    /// Stored rows on sides that need no node of another rank.
-    near_sides: Vec<Range<usize>>,
-    /// The others.
-    far_sides: Vec<Range<usize>>,
-    /// Stored rows inside of each macro triangle.
-    inside: Vec<Range<usize>>,
-}
-
-impl SweepOrder {
-    /// Of the stored rows of some nodes.
-    pub fn new(rows: &StoredRows, strips: &Strips) -> Self {
-        let at = |node: usize| rows.nodes().partition_point(|&stored| (stored as usize) < node);
-        let inside: Vec<Range<usize>> = strips.triangles.iter().map(|t| at(t.nodes.start)..at(t.nodes.end)).collect();
-        let starts = std::iter::once(0).chain(inside.iter().map(|range| range.end));
-        let ends = inside.iter().map(|range| range.start).chain([rows.nodes().len()]);
-        let mut sides = [Vec::new(), Vec::new()];
-        for k in starts.zip(ends).flat_map(|(start, end)| start..end) {
-            let of_kind: &mut Vec<Range<usize>> = &mut sides[usize::from(rows.needs_far(k))];
-            match of_kind.last_mut().filter(|last| last.end == k) {
-                Some(last) => last.end += 1,
-                None => of_kind.push(k..k + 1),
-            }
-        }
-        let [near_sides, far_sides] = sides;
-        Self { near_sides, far_sides, inside }
-    }
-}
 
 /// Rows to work on.
 pub struct LatticeRows<'a, T> {
@@ -110,6 +76,25 @@ impl<T: Registers> LatticeRows<'_, T> {
     }
 }
 
+impl<T: Registers> LatticeRows<'_, T> {
+    /// The forward half of a sweep from zero, whatever `x` holds; nodes of other ranks stay zero.
+    pub fn relax_from_zero(&self, before: &RelaxedBefore, b: &[[T; 2]], x: &mut [[T; 2]]) {
+        let (stored, Strips { triangles, alike, kernels, nodes, .. }) = (self.stored, self.strips);
+        let SweepOrder { near_sides, far_sides, inside } = self.order;
+        if !triangles.is_empty() {
+            // Strips look at nodes that come after them.
+            x.fill([T::default(); 2]);
+        }
+        near_sides.iter().chain(far_sides).for_each(|range| stored.forward_from_zero(range.clone(), before, b, x));
+        for (triangle, rows) in triangles.iter().zip(inside) {
+            let parts = &alike[triangle.alike.clone()];
+            parts.iter().for_each(|(strips, kind)| kernels[*kind].forward(&nodes[strips.clone()], b, x));
+            stored.forward_from_zero(rows.clone(), before, b, x);
+        }
+        self.even.relax(SweepHalves::ForwardFromZero, b, x, &[]);
+    }
+}
+
 impl<T: Registers> StoredRows<T> {
     /// `y = K x` in the rows of a range; `far` are the values of columns of other ranks.
     pub fn multiply(&self, range: Range<usize>, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
@@ -126,7 +111,12 @@ impl<T: Registers> StoredRows<T> {
         T::on_rows(OnRows { rows: self, range, far, task: RowTask::Forward { b, x } });
     }
 
-    /// The same in the opposite order.
+    /// The same where nodes that have not been relaxed `before` are zero, whatever `x` holds.
+    pub fn forward_from_zero(&self, range: Range<usize>, before: &RelaxedBefore, b: &[[T; 2]], x: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far: &[], task: RowTask::FromZero { before, b, x } });
+    }
+
+    /// Relaxes them in the opposite order.
     pub fn backward(&self, range: Range<usize>, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
         T::on_rows(OnRows { rows: self, range, far, task: RowTask::Backward { b, x } });
     }

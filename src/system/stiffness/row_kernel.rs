@@ -1,6 +1,7 @@
 //! Sweeps, residuals and products of stored rows.
 
 use super::lanes::Lanes;
+use super::relaxed_before::RelaxedBefore;
 use super::stored_rows::{Part, StoredRows};
 use crate::system::space::Real;
 use std::ops::Range;
@@ -10,6 +11,7 @@ pub enum RowTask<'a, T> {
     Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
     Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
     Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+    FromZero { before: &'a RelaxedBefore, b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
     Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
 }
 
@@ -42,6 +44,11 @@ impl<T: Real> OnRows<'_, T> {
             RowTask::Forward { b, x } => {
                 for k in range {
                     rows.relax(lanes, k, b, x, far);
+                }
+            }
+            RowTask::FromZero { before, b, x } => {
+                for k in range {
+                    rows.relax_from_zero(lanes, k, before.of(k), b, x);
                 }
             }
             RowTask::Backward { b, x } => {
@@ -95,5 +102,25 @@ impl<T: Real> StoredRows<T> {
         let sum = self.subtract(lanes, k, b[node], x, far);
         let ([u, v], inverse) = (x[node], self.inverse(k));
         x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
+    }
+    /// Relaxes a node that is zero, as are all but those of these couplings: columns and places.
+    #[inline(always)]
+    fn relax_from_zero<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
+        &self,
+        lanes: L,
+        k: usize,
+        couplings: &[[u32; 2]],
+        b: &[[T; 2]],
+        x: &mut [[T; 2]],
+    ) {
+        let (node, inverse) = (self.nodes[k] as usize, self.inverse(k));
+        let blocks = &self.near.blocks[self.near.firsts[k] as usize..];
+        let mut sum = lanes.load([[T::default(); 2]; 2]);
+        for &[column, place] in couplings {
+            sum = lanes.multiply_add(lanes.load(blocks[place as usize]), lanes.load([x[column as usize]; 2]), sum);
+        }
+        let [[p, q], [r, s]] = lanes.store(sum);
+        let sum = [b[node][0] - (p + q), b[node][1] - (r + s)];
+        x[node] = inverse.map(|row| row[0] * sum[0] + row[1] * sum[1]);
     }
 }

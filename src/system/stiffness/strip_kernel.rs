@@ -15,6 +15,8 @@ use crate::system::space::Real;
 pub enum SweepHalves {
     /// The first one alone, in the order of the nodes.
     Forward,
+    /// The same from zero: what the nodes hold before is nothing.
+    ForwardFromZero,
     /// Both.
     Both,
 }

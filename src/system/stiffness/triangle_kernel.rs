@@ -164,10 +164,16 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> LaneWork for OnLattice<'_, L,
                 }
             }
             TriangleTask::Relax { sweep, b, x } => {
+                if sweep == SweepHalves::ForwardFromZero {
+                    let zero = lanes.store(lanes.gather(|_| [L::Real::default(); 2]));
+                    (1..n - 1).for_each(|j| own[nodes.row(j)].fill(zero));
+                }
                 for j in 1..n - 1 {
-                    bring(j, x, own);
+                    if sweep != SweepHalves::ForwardFromZero {
+                        bring(j, x, own);
+                    }
                     kernel.relax_row(Way::Forward, (n, j), &nodes.values::<L>(j, b), own);
-                    if sweep == SweepHalves::Forward {
+                    if sweep != SweepHalves::Both {
                         nodes.take::<L>(j, own, x);
                     }
                 }
