@@ -132,6 +132,22 @@ fn a_cycle_in_single_precision_finds_the_same() {
     }
 }
 
+/// Where the macro mesh is too large for a factor, the cycle stands above auxiliary levels: only mezha's own knows single precision.
+#[test]
+fn the_cycle_above_auxiliary_levels_is_of_mezha_too() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh::inclined_bars(10).text(), BARS);
+    for ranks in RANKS {
+        let run = || Run::file(&file).ranks(ranks).set("mesh.refine", 1).set("solver.tolerance", "1e-6");
+        let [double, single] = [run(), run().petsc("-fieldsplit_u_cycle_single")].map(Run::converged);
+        assert!(double.number("/unknowns/displacement") > 4.0 * 3000.0, "a macro mesh of more than 3000 unknowns");
+        assert!(single.value("/solver/krylov").to_string().contains("in single precision"), "{}", single.said());
+        assert!(single.iterations() <= double.iterations() + 1, "{} and {}", single.iterations(), double.iterations());
+        let forces = [&double, &single].map(|ended| ended.number("/contact/seam/force"));
+        assert!((forces[0] / forces[1] - 1.0).abs() < 1e-6, "{ranks} ranks: {forces:?}");
+    }
+}
+
 /// Above half a million unknowns BiCGStab takes the place of GMRES, and hands over to what is stronger where it must.
 #[test]
 fn large_systems_are_solved_by_a_short_recurrence() {

@@ -38,11 +38,7 @@ impl Preconditioner {
         options::set_default(self.session(), &format!("-{}pc_type", self.prefix()), "mg")?;
         self.set_kind("mg")?;
         petsc!(PCMGSetLevels(self.raw(), length(levels.len()), ptr::null_mut()))?;
-        let kind = match cycle {
-            MultigridCycle::Full => ffi::PCMGType::PC_MG_FULL,
-            MultigridCycle::V => ffi::PCMGType::PC_MG_MULTIPLICATIVE,
-        };
-        petsc!(PCMGSetType(self.raw(), kind))?;
+        self.set_cycle(cycle)?;
         for (l, level) in levels.iter().enumerate() {
             if let Some(interpolation) = level.interpolation {
                 petsc!(PCMGSetInterpolation(self.raw(), length(l), interpolation.raw()))?;
@@ -52,5 +48,14 @@ impl Preconditioner {
             petsc!(KSPSetOperators(smoother, level.operator.raw(), level.operator.raw()))?;
         }
         self.set_from_options()
+    }
+
+    /// Changes the order in which a multigrid works on its levels, from its next step on. **Collective**
+    pub fn set_cycle(&self, cycle: MultigridCycle) -> Result<()> {
+        let kind = match cycle {
+            MultigridCycle::Full => ffi::PCMGType::PC_MG_FULL,
+            MultigridCycle::V => ffi::PCMGType::PC_MG_MULTIPLICATIVE,
+        };
+        petsc!(PCMGSetType(self.raw(), kind))
     }
 }

@@ -12,7 +12,7 @@ const PREFIX: &str = "fieldsplit_u_";
 pub enum Coarsest {
     /// The level is small: a factor on the rank that has it.
     Factor(Option<Factor>),
-    /// It is not: one V-cycle of PETSc's multigrid, on this level and the auxiliary ones below it.
+    /// It is not: a cycle of PETSc's multigrid, on this level and the auxiliary ones below it.
     Auxiliary { cycle: Krylov, b: Vector, x: Vector },
 }
 
@@ -28,13 +28,13 @@ impl Coarsest {
         if session.any(is_singular) { Err(Factor::singular()) } else { factor.map(Self::Factor) }
     }
 
-    /// A V-cycle on auxiliary levels and, as the last one, the coarsest level of the mesh. **Collective**
+    /// A cycle on auxiliary levels and, as the last one, the coarsest level of the mesh. **Collective**
     pub fn auxiliary(levels: &[MultigridLevel], session: &Session) -> Result<Self> {
         let finest: &Matrix = levels[levels.len() - 1].operator;
         let cycle = Krylov::new(session, PREFIX)?;
         cycle.set_operators(finest, finest)?;
         cycle.set_from_options()?;
-        cycle.preconditioner().multigrid(MultigridCycle::V, levels)?;
+        cycle.preconditioner().multigrid(MultigridCycle::Full, levels)?;
         cycle.set_up()?;
         let (b, x) = finest.create_vectors()?;
         Ok(Self::Auxiliary { cycle, b, x })
@@ -49,8 +49,8 @@ impl Coarsest {
         Ok(())
     }
 
-    /// Solves with the right-hand side of a level. **Collective**
-    pub fn solve<T: Precision + Datum>(&mut self, level: &mut CycleLevel<T>) -> Result<()> {
+    /// Solves with the right-hand side of a level; auxiliary levels are worked on in this order. **Collective**
+    pub fn solve<T: Precision + Datum>(&mut self, order: MultigridCycle, level: &mut CycleLevel<T>) -> Result<()> {
         let (from, to) = (level.b.as_flattened(), level.x.as_flattened_mut());
         let set = |b: &mut [f64]| b.iter_mut().zip(from).for_each(|(to, from)| *to = from.double());
         let mut get = |x: &[f64]| to.iter_mut().zip(x).for_each(|(to, &from)| *to = T::of(from));
@@ -59,6 +59,7 @@ impl Coarsest {
             Self::Factor(Some(factor)) => factor.solve(set, get),
             Self::Auxiliary { cycle, b, x } => {
                 set(&mut b.values_mut());
+                cycle.preconditioner().set_cycle(order)?;
                 cycle.apply(b, x)?;
                 get(&x.values());
                 Ok(())

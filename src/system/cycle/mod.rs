@@ -12,7 +12,7 @@ use super::SystemError;
 use super::auxiliary::GalerkinLevels;
 use super::interpolation::{Interpolation, NodeInterpolation};
 use super::stiffness::{Precision, Stiffness, SweepHalves};
-use crate::petsc::{Action, Datum, MultigridLevel, Result, Session, Vector};
+use crate::petsc::{Action, Datum, MultigridCycle, MultigridLevel, Result, Session, Vector};
 use coarsest::Coarsest;
 use level::CycleLevel;
 use std::cell::RefCell;
@@ -88,7 +88,7 @@ impl<T: Precision + Datum> FullCycle<T> {
             level[0].restrict(if l == top { b } else { &own }, &mut below[l - 1].b);
             level[0].b = own;
         }
-        coarsest.solve(&mut levels[0])?;
+        coarsest.solve(MultigridCycle::Full, &mut levels[0])?;
         for l in 1..top {
             let (b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
             begin(&mut levels[..=l], coarsest, SweepHalves::Forward, &b, &mut x, r)?;
@@ -125,7 +125,7 @@ fn correct<T: Precision + Datum>(
     let last = below.len() - 1;
     level.restrict_residual(b, x, r, &mut below[last].b);
     if last == 0 {
-        coarsest.solve(&mut below[0])?;
+        coarsest.solve(MultigridCycle::V, &mut below[0])?;
     } else {
         let (next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
         below[last].relax_from_zero(&next, &mut correction);
