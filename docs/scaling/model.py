@@ -8,9 +8,12 @@ POWERS = [8, 9, 10]
 LEAST = 1000
 # Unknowns, by powers of ten, and ranks for which it is told where the time goes.
 TOLD = [(8, 1024), (8, 10_000), (9, 10_000)]
-# Unknowns of a level that is on one rank, of the coarsest one, and of a rank on others, at least: see src/system/level_ranks.rs and
-# src/system/auxiliary.
-SMALL, COARSEST, FEWEST = 3000, 500, 1000
+# Unknowns of the largest level on one rank: SMALL in src/system/level_ranks.rs.
+SMALL = 3000
+# Unknowns of a rank on larger levels that are brought together, at least: LEAST_ON_A_RANK there.
+LEAST_ON_A_RANK = 1000
+# Unknowns of a level that needs none below it: FEW in src/system/auxiliary/mod.rs.
+COARSEST = 500
 
 COLLECTIVES = ["reductions", "sums", "gatherings"]
 
@@ -28,10 +31,9 @@ MEASURED = [
     ("iterations", "iterations to 1e-8, most ranks, half-way between those to 1e-6 and to 1e-10", ""),
     ("collectives", "reductions, sums and gatherings c of an iteration", ""),
     ("waits", "latencies v on the critical path of an iteration, collectives apart", ""),
-    ("messages", "messages of the busiest rank in an iteration, most ranks", ""),
+    ("messages", "messages of the busiest rank in an iteration, on whatever number of ranks it sends most", ""),
     ("bytes", "bytes that the busiest rank sends in an iteration, at the N/P below", "B"),
     ("share", "unknowns N/P of a rank there", ""),
-    ("visits", "visits to levels with messages in an iteration there: d to the d-th, from the finest one", ""),
     ("imbalance", "imbalance w of the work, 10 000 ranks", ""),
     ("memory", "memory for each unknown, two ranks", "B"),
 ]
@@ -51,7 +53,7 @@ def parameters(measured):
         "iterations": last["iterations"] - 0.5 * last["more"],
         "collectives": collectives,
         "waits": max(latency["latencies"] - collectives * steps, 0.0),
-        "messages": last["most"]["messages"],
+        "messages": max(line["most"]["messages"] for line in counts),
         "bytes": last["most"]["messages_bytes"],
         "share": last["unknowns"] / last["ranks"],
         "visits": visits_with_messages(last["unknowns"], last["ranks"]),
@@ -65,7 +67,7 @@ def hierarchy(unknowns, ranks):
     levels, size = [], unknowns
     while not levels or size >= COARSEST:
         group = 1
-        while group < ranks and (size <= SMALL or group * size < FEWEST * ranks):
+        while group < ranks and (size <= SMALL or group * size < LEAST_ON_A_RANK * ranks):
             group *= 2
         levels.append((len(levels) + 1, size, math.ceil(ranks / group) if levels else ranks))
         size /= 4
@@ -89,7 +91,9 @@ def parts(found, unknowns, ranks):
         if sharing == ranks:
             shared += visit * visits * size / ranks * value["socket"]
         else:
-            brought += visit * visits * size / sharing
+            # The fewer ranks work at once, the less they are in each other's way.
+            slowdown = 1.0 + (value["socket"] - 1.0) * sharing / ranks
+            brought += visit * visits * size / sharing * slowdown
     collectives = value["latency"] * found["collectives"] * math.log2(ranks)
     more = visits_with_messages(unknowns, ranks) / found["visits"]
     waits = more * (value["latency"] * found["waits"] + value["overhead"] * found["messages"])

@@ -62,17 +62,17 @@ def counts_section(lines):
         "Reductions, sums and gatherings are collectives: all ranks wait for them. A reduction is one of a few numbers, as the Krylov "
         "method wants them; a sum brings a vector of more than 1 KiB together on every rank. A message goes from one rank to another. "
         "Levels with few unknowns are brought together on fewer ranks: those with up to 3000 on one, larger ones on so many that "
-        "each of them has a thousand or more. The other ranks have nothing to say there.",
+        "each of them has about a thousand or more; the finest one stays on all. The other ranks have nothing to say there.",
     ]
     for order in sorted({line["order"] for line in lines}):
         own = [line for line in lines if line["order"] == order]
-        head = ["ranks", "iterations to 1e-10", "reductions", "sums", "gatherings", "messages of a rank, mean", "most", "KiB sent by a rank, most", "KiB in collectives", "neighbours, most"]
+        head = ["ranks", "iterations to 1e-10", "reductions", "sums", "gatherings", "messages of a rank, mean", "most", "KiB sent by a rank, most", "KiB in collectives"]
         rows = [
             [
                 line["ranks"], line["iterations"], number(line["most"]["reductions"], 2), number(line["most"]["sums"], 2), number(line["most"]["gatherings"], 2),
                 number(line["mean"]["messages"]), number(line["most"]["messages"]),
                 number(line["most"]["messages_bytes"] / 1024),
-                number(sum(line["most"][f"{kind}_bytes"] for kind in COLLECTIVES) / 1024), round(line["neighbours"]),
+                number(sum(line["most"][f"{kind}_bytes"] for kind in COLLECTIVES) / 1024),
             ]
             for line in own
         ]
@@ -84,19 +84,13 @@ def messages_fit(lines):
     many = [line for line in lines if line["ranks"] >= 8]
     if len(many) < 2:
         return ""
-    texts = []
-    for name, words in (("mean", "A rank sends"), ("most", "the busiest one")):
-        a, b = fit([(line["ranks"], line[name]["messages"]) for line in many])
-        texts.append(f"{words} {number(a)} {'+' if b >= 0 else '-'} {number(abs(b), 2)} P messages")
+    slopes = [fit([(line["ranks"], line[name]["messages"]) for line in many])[1] for name in ("mean", "most")]
     first, last = many[0], many[-1]
-    each = [line["mean"]["messages"] / line["neighbours_mean"] for line in (first, last)]
-    before, growth = many[-2], last["mean"]["messages"] - many[-2]["mean"]["messages"]
+    least, most = (number(f(line["most"]["messages"] for line in many)) for f in (min, max))
     return (
-        f"From {first['ranks']} to {last['ranks']} ranks P, by least squares: {texts[0]}, {texts[1]} in an iteration; from "
-        f"{before['ranks']} to {last['ranks']} ranks it is {number(growth / (last['ranks'] - before['ranks']), 2)} for each further "
-        f"rank. A few ranks have few sides: they have {number(first['neighbours_mean'])} neighbours in the mean, then "
-        f"{number(last['neighbours_mean'])}. To each of them a rank sends {number(each[0])} messages on {first['ranks']} ranks, "
-        f"{number(each[1])} on {last['ranks']}."
+        f"From {first['ranks']} to {last['ranks']} ranks: a rank sends {number(first['mean']['messages'])} messages in the mean, "
+        f"then {number(last['mean']['messages'])}, by least squares {number(slopes[0], 2)} for each further rank; the busiest one "
+        f"sends {least} to {most}, by least squares {number(slopes[1], 2)} for each further rank."
     )
 
 
@@ -187,15 +181,13 @@ def model_section(measured):
     return "\n\n".join([
         "## What follows for larger machines",
         "A model, not a measurement. An iteration on N unknowns and P ranks takes",
-        "    T = t w Σ d nₗ/Pₗ sₗ / 1.78  +  α (c log₂ P + v)  +  o m  +  B/β",
-        "with the time t of an unknown, the imbalance w, and the levels l with nₗ = N, N/4, N/16, … unknowns on Pₗ ranks. An F-cycle "
-        "comes to the finest one once, to the next one twice, to the d-th one d times: 1.78 visits to all unknowns. The slowdown "
-        "sₗ of a full socket is that of levels which all ranks share; on the others few ranks work at once, and it is 1. c are the "
-        "collectives, v the waits, m the messages and B the bytes of a rank. Waits and messages were counted on fewer levels; on "
-        "more they are as many times as many as an F-cycle comes more often to levels that several ranks share. Halos grow as the "
-        "root of N/P. A solve, to 1e-8, makes as many iterations as one here, of GMRES, with one cycle each. Messages are those of "
-        "the busiest of the most ranks that were counted: its neighbours are as many as those of 10 000 ranks in the table above, "
-        "or more.",
+        "    T = t w/1.78 Σ d s_d n_d/P_d  +  V/V₀ (α v + o m)  +  α c log₂ P  +  B/β",
+        "with the time t of an unknown and the imbalance w. Level d, the finest being 1, has n_d = N/4^(d-1) unknowns on P_d ranks, and "
+        "an F-cycle visits it d times: 1.78 N unknowns in all. s_d is the slowdown of a full socket: s where all ranks work, "
+        "1 + (s - 1) P_d/P where fewer do. v are the waits and m the messages of a rank, which were counted on a small hierarchy: they "
+        "grow with the visits V to levels that several ranks share, of which that one had V₀. c are the collectives and B the bytes "
+        "of a rank, which grow as the root of N/P: too fast, since part of them goes to levels that are brought together. A "
+        "solve, to 1e-8, makes as many iterations as one here, of GMRES, with one cycle each.",
         "Measured (P1):",
         table(["what", "value", "unit"], shown),
         "Assumed, of no machine in particular:",

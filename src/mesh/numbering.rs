@@ -79,8 +79,8 @@ impl Numbering {
             + home.triangles_before as usize * lattice::inner_count(n)
     }
 
-    /// Whether a rank owns nodes of a macro edge, its ends among them.
-    pub fn has_nodes_on(&self, mesh: &MacroMesh, edge: u32, rank: usize) -> bool {
+    /// Whether a rank owns a macro edge or one of its ends.
+    pub fn has_part_of(&self, mesh: &MacroMesh, edge: u32, rank: usize) -> bool {
         let ends = mesh.edges[edge as usize].vertices;
         let homes = ends.map(|vertex| self.partition.vertices[vertex as usize]);
         homes.iter().chain([&self.partition.edges[edge as usize]]).any(|home| home.rank as usize == rank)

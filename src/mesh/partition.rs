@@ -137,8 +137,8 @@ impl Partition {
         counts[2] += 1;
     }
 
-    /// The same where one of each `group` ranks, in their order, owns what all of these own here. A partitioner gives ranks whose
-    /// numbers are near to each other parts of the mesh that are.
+    /// The partition in which each `group` ranks with consecutive numbers have given all that they own to the middle one.
+    /// Partitioners give neighbouring parts of the mesh to ranks with neighbouring numbers.
     pub fn brought_together(&self, mesh: &MacroMesh, group: usize) -> Self {
         let middle = |home: &Home| middle_of_group(home.rank as usize, group, self.size()) as i32;
         Self::new(mesh, &self.triangles.iter().map(middle).collect::<Vec<_>>(), self.size())
@@ -160,8 +160,8 @@ impl Partition {
     }
 }
 
-/// The rank of a group that has what all of them had: the middle one, so that larger groups find another one than the smaller
-/// ones that they are made of, and no rank works for all.
+/// The rank that works for the group of `rank`: the middle one. So groups of 2, 4, 8, … ranks choose different ranks, and no
+/// single rank has the coarse levels of all sizes.
 pub fn middle_of_group(rank: usize, group: usize, ranks: usize) -> usize {
     (rank / group * group + (group - 1) / 2).min(ranks - 1)
 }

@@ -59,7 +59,7 @@ impl Factor {
         Ok(Self { right_hand_side: vector()?, solution: vector()?, factor })
     }
 
-    /// The error of a matrix that has none.
+    /// The error of a singular matrix, which has no factor.
     pub fn singular() -> Error {
         let reason = "the coarsest level has a zero pivot: its matrix is singular".to_string();
         Error::NotConverged { reason, iterations: 0, residual: 1.0 }

@@ -1,6 +1,6 @@
 //! A scene cut into unknowns: spaces of all levels, contacts, couplings.
 
-use super::level_ranks::ranks_together;
+use super::level_ranks::ranks_in_group;
 use super::{BoundaryMotion, Contact, Coupling, Scene, Space, SystemError};
 use crate::contact::Jump;
 use crate::mesh::{Level, MacroMesh, Numbering, levels};
@@ -144,7 +144,7 @@ pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
     let mut spaces = Vec::with_capacity(levels.len());
     for &level in levels.iter().rev() {
         let unknowns = 2 * node_count(&scene.mesh, level) as usize;
-        let group = if spaces.is_empty() { 1 } else { ranks_together(unknowns, scene.partition.size()) };
+        let group = if spaces.is_empty() { 1 } else { ranks_in_group(unknowns, scene.partition.size()) };
         if group > partitions[partitions.len() - 1].0 {
             partitions.push((group, Rc::new(scene.partition.brought_together(&scene.mesh, group))));
         }

@@ -4,6 +4,8 @@
 //! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are
 //! there already when this is asked.
 
+use super::discretisation::node_count;
+use super::level_ranks::ranks_in_group;
 use super::solver::MANY;
 use super::{Form, Preconditioning, Scene, SolverChoice, Tolerance};
 use crate::element::Order;
@@ -26,6 +28,9 @@ const BY_UNKNOWN_IF_FLAT: f64 = 270.0;
 /// Bytes for each macro triangle on every rank: the mesh, its partition, the lists of assembly. Measured at 369 thousand of them
 /// with P2, `refine` 0 and 2.
 const BY_MACRO_TRIANGLE: f64 = 500.0;
+
+/// Bytes for each macro triangle in the partition of levels that are brought together on fewer ranks: one for each size of group.
+const BY_PARTITION: f64 = 52.0;
 
 /// A block with its column, and what a row has besides: its node, its inverse, its beginnings.
 const BY_BLOCK: f64 = 36.0;
@@ -50,7 +55,7 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
     let finest = levels[levels.len() - 1];
     let nodes = |level: Level| Numbering::new(level, &scene.partition);
     let unknowns = 2.0 * nodes(finest).range(rank).len() as f64;
-    let of_macro_mesh = memory_of_macro_mesh(scene);
+    let of_macro_mesh = memory_of_macro_mesh(scene) + memory_of_partitions(scene, &levels);
     // Where boundaries follow the solution, each has its own copy.
     let copies = if scene.pairs.iter().any(|pair| pair.follows()) { 2.0 } else { 1.0 };
     let rows = |level: Level, count: usize| {
@@ -79,6 +84,15 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
 /// Bytes that the macro mesh of a scene takes on every rank.
 pub fn memory_of_macro_mesh(scene: &Scene) -> f64 {
     BY_MACRO_TRIANGLE * scene.mesh.triangles.len() as f64
+}
+
+/// Bytes of the partitions of levels that fewer ranks share, on every rank.
+fn memory_of_partitions(scene: &Scene, levels: &[Level]) -> f64 {
+    let ranks = scene.partition.size();
+    let group = |level: &Level| ranks_in_group(2 * node_count(&scene.mesh, *level) as usize, ranks);
+    let mut groups: Vec<usize> = levels[..levels.len() - 1].iter().map(group).filter(|&group| group > 1).collect();
+    groups.dedup();
+    BY_PARTITION * (groups.len() * scene.mesh.triangles.len()) as f64
 }
 
 /// Nodes of a rank whose rows are not stored.

@@ -50,14 +50,15 @@ fn problems(session: &Session) -> Vec<Discretisation> {
         with_contact(bars::scene(session, order, refine, false), space, segments, stabilise)
     };
     let text = meshes::Mesh::inclined_bars(6).text();
-    let large = parse_gmsh(text.as_bytes(), "large.msh".as_ref()).expect("a mesh");
+    let large = || parse_gmsh(text.as_bytes(), "large.msh".as_ref()).expect("a mesh");
     let scenes = [
         bars(Order::P1, 4, P0, 24, Stabilise::Off),
         bars(Order::P1, 2, P0, 30, Stabilise::On),
-        with_contact(bars::on(large, session, Order::P1, 0), P1Discontinuous, 16, Stabilise::Off),
+        with_contact(bars::on(large(), session, Order::P1, 0), P1Discontinuous, 16, Stabilise::Off),
         bars(Order::P2, 1, P1Continuous, 10, Stabilise::Off),
         bars(Order::P1, 2, P1Discontinuous, 20, Stabilise::On),
         bars(Order::P2, 2, P1Discontinuous, 12, Stabilise::Off),
+        with_contact(bars::on(large(), session, Order::P1, 1), P0, 20, Stabilise::Off),
     ];
     scenes.into_iter().map(|scene| Discretisation::new(scene, session).expect("a discretisation")).collect()
 }

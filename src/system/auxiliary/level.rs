@@ -49,7 +49,7 @@ impl LevelNodes {
         self.unknowns[rank]..self.unknowns[rank + 1]
     }
 
-    /// Gives one of each `group` ranks, in their order, what all of these have.
+    /// Gives all nodes of each `group` ranks with consecutive numbers to the middle one.
     pub fn bring_together(&mut self, group: usize) {
         let ranks = self.first.len() - 1;
         for starts in [&mut self.first, &mut self.unknowns] {

@@ -11,7 +11,7 @@ mod tree;
 
 pub use operators::GalerkinLevels;
 
-use super::level_ranks::{SMALL, ranks_together};
+use super::level_ranks::{SMALL, ranks_in_group};
 use super::{Discretisation, SystemError};
 use crate::petsc::{Index, Matrix, Session};
 use grid::Grid;
@@ -40,7 +40,7 @@ pub fn auxiliary_interpolations(problem: &Discretisation, session: &Session) -> 
             break;
         }
         let ranks = session.size();
-        coarsening.coarse.bring_together(ranks_together(coarsening.coarse.count(), ranks));
+        coarsening.coarse.bring_together(ranks_in_group(coarsening.coarse.count(), ranks));
         interpolations.push(interpolation(&nodes, &coarsening, session)?);
         nodes = coarsening.coarse;
         let coarser: Vec<Option<Tree>> = trees.iter().map(Tree::coarser).collect();

@@ -4,8 +4,8 @@ use super::level::CycleLevel;
 use crate::petsc::{Datum, Error, Factor, Krylov, Matrix, MultigridCycle, MultigridLevel, Result, Session, Vector};
 use crate::system::stiffness::{LatticeOperator, Precision};
 
-/// Begins the options of the smoothers and of the coarsest solver of auxiliary levels: those of PETSc's own multigrid, in whose
-/// place the cycle stands.
+/// Prefix of the options of the smoothers and of the coarsest solver: that of PETSc's own multigrid, so that the defaults of
+/// [`super::super::solver`] hold here, too.
 const PREFIX: &str = "fieldsplit_u_";
 
 /// The solver of the coarsest level of the mesh.
@@ -13,7 +13,7 @@ pub enum Coarsest {
     /// The level is small: a factor on the rank that has it.
     Factor(Option<Factor>),
     /// It is not: a cycle of PETSc's multigrid, on this level and the auxiliary ones below it.
-    Auxiliary { cycle: Krylov, b: Vector, x: Vector },
+    Auxiliary { solver: Krylov, b: Vector, x: Vector },
 }
 
 impl Coarsest {
@@ -22,6 +22,7 @@ impl Coarsest {
     /// # Errors
     /// [`Error::NotConverged`] on every rank if the level is singular.
     pub fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Self> {
+        assert_eq!(lattice.far_count(), 0, "one rank has all nodes of the coarsest level");
         let has_nodes = lattice.node_count() > 0;
         let factor = has_nodes.then(|| Factor::new(session, &lattice.rows().borrow().scalar_rows())).transpose();
         let is_singular = matches!(factor, Err(Error::NotConverged { .. }));
@@ -31,36 +32,36 @@ impl Coarsest {
     /// A cycle on auxiliary levels and, as the last one, the coarsest level of the mesh. **Collective**
     pub fn auxiliary(levels: &[MultigridLevel], session: &Session) -> Result<Self> {
         let finest: &Matrix = levels[levels.len() - 1].operator;
-        let cycle = Krylov::new(session, PREFIX)?;
-        cycle.set_operators(finest, finest)?;
-        cycle.set_from_options()?;
-        cycle.preconditioner().multigrid(MultigridCycle::Full, levels)?;
-        cycle.set_up()?;
+        let solver = Krylov::new(session, PREFIX)?;
+        solver.set_operators(finest, finest)?;
+        solver.set_from_options()?;
+        solver.preconditioner().multigrid(MultigridCycle::Full, levels)?;
+        solver.set_up()?;
         let (b, x) = finest.create_vectors()?;
-        Ok(Self::Auxiliary { cycle, b, x })
+        Ok(Self::Auxiliary { solver, b, x })
     }
 
     /// Takes over changed values. **Collective**
     pub fn refresh(&mut self, lattice: &LatticeOperator, session: &Session) -> Result<()> {
         match self {
             Self::Factor(_) => *self = Self::factor(lattice, session)?,
-            Self::Auxiliary { cycle, .. } => cycle.set_up()?,
+            Self::Auxiliary { solver, .. } => solver.preconditioner().set_up()?,
         }
         Ok(())
     }
 
-    /// Solves with the right-hand side of a level; auxiliary levels are worked on in this order. **Collective**
-    pub fn solve<T: Precision + Datum>(&mut self, order: MultigridCycle, level: &mut CycleLevel<T>) -> Result<()> {
+    /// Solves with the right-hand side of a level, on auxiliary levels by one such cycle. **Collective**
+    pub fn solve<T: Precision + Datum>(&mut self, cycle: MultigridCycle, level: &mut CycleLevel<T>) -> Result<()> {
         let (from, to) = (level.b.as_flattened(), level.x.as_flattened_mut());
         let set = |b: &mut [f64]| b.iter_mut().zip(from).for_each(|(to, from)| *to = from.double());
         let mut get = |x: &[f64]| to.iter_mut().zip(x).for_each(|(to, &from)| *to = T::of(from));
         match self {
             Self::Factor(None) => Ok(()),
             Self::Factor(Some(factor)) => factor.solve(set, get),
-            Self::Auxiliary { cycle, b, x } => {
+            Self::Auxiliary { solver, b, x } => {
                 set(&mut b.values_mut());
-                cycle.preconditioner().set_cycle(order)?;
-                cycle.apply(b, x)?;
+                solver.preconditioner().set_cycle(cycle)?;
+                solver.apply(b, x)?;
                 get(&x.values());
                 Ok(())
             }

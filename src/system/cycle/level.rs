@@ -3,7 +3,7 @@
 use crate::petsc::{Datum, Halo, Session};
 use crate::system::interpolation::{InterpolationRoom, NodeInterpolation};
 use crate::system::stiffness::{
-    EvenTriangles, LatticeOperator, LatticeRows, Precision, RelaxedBefore, StoredRows, Strips, SweepHalves,
+    EarlierCouplings, EvenTriangles, LatticeOperator, LatticeRows, Precision, StoredRows, Strips, SweepHalves,
 };
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -15,7 +15,7 @@ pub struct CycleLevel<T> {
     strips: Rc<Strips<T>>,
     even: Rc<EvenTriangles<T>>,
     stored: Rc<RefCell<StoredRows<T>>>,
-    /// Brings values of other ranks; none where there are none.
+    /// Brings values of other ranks; `None` on one rank.
     halo: Option<Rc<Halo>>,
     /// Interpolation from the next coarser level.
     step: Option<Rc<NodeInterpolation>>,
@@ -24,8 +24,8 @@ pub struct CycleLevel<T> {
     /// Right-hand side and solution, but for the finest level, which works on those that it is given.
     pub b: Vec<[T; 2]>,
     pub x: Vec<[T; 2]>,
-    /// For sweeps from zero; the finest level has none.
-    before: Option<RelaxedBefore>,
+    /// For sweeps from zero; only levels between the coarsest and the finest have them.
+    earlier: Option<EarlierCouplings>,
     far: Vec<[T; 2]>,
     room: InterpolationRoom<T>,
     /// Nodes of this rank.
@@ -41,7 +41,7 @@ impl<T: Precision + Datum> CycleLevel<T> {
         let is_fused = step.as_ref().is_some_and(is_of_rows);
         let (nodes, far) = (lattice.node_count(), vec![[T::default(); 2]; lattice.far_count()]);
         let (b, x, room) = (Vec::new(), Vec::new(), InterpolationRoom::default());
-        Self { lattice, strips, even, stored, halo, step, is_fused, b, x, before: None, far, room, nodes }
+        Self { lattice, strips, even, stored, halo, step, is_fused, b, x, earlier: None, far, room, nodes }
     }
 
     /// Makes what levels below the finest have beside it: vectors, and what sweeps from zero need.
@@ -49,7 +49,8 @@ impl<T: Precision + Datum> CycleLevel<T> {
         self.b = vec![[T::default(); 2]; self.nodes];
         self.x = self.b.clone();
         let (rows, order) = (self.lattice.rows().borrow(), self.lattice.order());
-        self.before = Some(RelaxedBefore::new(&rows, self.lattice.strips(), order, self.nodes));
+        let earlier = |_: &Rc<NodeInterpolation>| EarlierCouplings::new(&rows, self.lattice.strips(), order, self.nodes);
+        self.earlier = self.step.as_ref().map(earlier);
         drop(rows);
         self
     }
@@ -106,10 +107,10 @@ impl<T: Precision + Datum> CycleLevel<T> {
     /// The forward half of a sweep from zero, whatever `x` holds.
     ///
     /// # Panics
-    /// On the finest level.
+    /// On the coarsest level and on the finest.
     pub fn relax_from_zero(&mut self, b: &[[T; 2]], x: &mut [[T; 2]]) {
-        let Self { lattice, strips, even, stored, before, .. } = self;
+        let Self { lattice, strips, even, stored, earlier, .. } = self;
         let rows = LatticeRows { strips, even, stored: &*stored.borrow(), order: lattice.order() };
-        rows.relax_from_zero(before.as_ref().expect("a level below the finest"), b, x);
+        rows.relax_from_zero(earlier.as_ref().expect("a level between the coarsest and the finest"), b, x);
     }
 }

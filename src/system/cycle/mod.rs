@@ -1,8 +1,8 @@
 //! The multigrid F-cycle of mezha's own, in double or single precision: it works on strips and stored rows directly, and
 //! on nothing of PETSc's but what solves on the coarsest level.
 //!
-//! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: below these there are no messages,
-//! and the other ranks wait. Where options of the user's ask for another smoother, cycle or coarse solver, and where solves
+//! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
+//! nothing is sent, unless there are auxiliary levels, and the other ranks wait. Where options of the user's ask for another smoother, cycle or coarse solver, and where solves
 //! fall back on stronger smoothers, PETSc's own multigrid stands in its place ([`super::solver`]).
 
 mod coarsest;
@@ -11,6 +11,7 @@ mod level;
 use super::SystemError;
 use super::auxiliary::GalerkinLevels;
 use super::interpolation::{Interpolation, NodeInterpolation};
+use super::level_ranks::SMALL;
 use super::stiffness::{Precision, Stiffness, SweepHalves};
 use crate::petsc::{Action, Datum, MultigridCycle, MultigridLevel, Result, Session, Vector};
 use coarsest::Coarsest;
@@ -33,8 +34,8 @@ pub struct FullCycle<T> {
 }
 
 impl<T: Precision + Datum> FullCycle<T> {
-    /// On the levels of a stiffness and auxiliary ones below them; `None` if there is but one level of the mesh, or if options want
-    /// entries of interpolations. **Collective**
+    /// On the levels of a stiffness and auxiliary ones below them; `None` if the mesh has one level, if options want entries of
+    /// interpolations, or if the coarsest level is large and has no auxiliary ones. **Collective**
     fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
@@ -45,6 +46,10 @@ impl<T: Precision + Datum> FullCycle<T> {
         let (below, above) = interpolations.split_at(interpolations.len() + 1 - rows.len());
         let steps: Option<Vec<Rc<NodeInterpolation>>> = above.iter().map(|step| step.nodes.clone()).collect();
         let Some(steps) = steps.filter(|steps| !steps.is_empty()) else { return Ok(None) };
+        // So many bodies that no auxiliary level is smaller: PETSc's multigrid has a factor that all ranks make together.
+        if below.is_empty() && above[0].matrix.size().1 > SMALL {
+            return Ok(None);
+        }
         let coarsest = if below.is_empty() {
             Coarsest::factor(&rows[0], session)?
         } else {
@@ -149,7 +154,7 @@ pub enum Cycle {
 }
 
 impl Cycle {
-    /// On the levels of a system; none where the mesh has but one, or options want its entries. **Collective**
+    /// On the levels of a system; `None` where there is no [`FullCycle`]. **Collective**
     pub fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],

@@ -60,19 +60,20 @@ impl NodeInterpolation {
     /// To the fine nodes of this rank; coarse ones of other ranks come through a halo. **Collective**
     pub fn new(scene: &Scene, fine: &Space, coarse: &Space, session: &Session) -> Self {
         let (level, rank) = (fine.numbering.level, session.rank());
-        let is_whole = |triangle: u32| level.is_whole() && scene.mesh.is_even(triangle as usize, level);
-        // Where fewer ranks share the coarse level, inner nodes may lie on another one than their parents: these are in lists.
+        // Where the coarse level is on fewer ranks, a macro triangle may have its coarse nodes on another one: then its fine nodes
+        // are in lists.
         let is_here = |triangle: &u32| coarse.numbering.partition().owner(*triangle) == rank;
         let mut here: Vec<u32> = fine.numbering.partition().triangles_of(rank).iter().copied().filter(is_here).collect();
         here.sort_unstable();
-        let (whole, others): (Vec<u32>, Vec<u32>) = here.into_iter().partition(|&triangle| is_whole(triangle));
+        let (whole, others): (Vec<u32>, Vec<u32>) =
+            here.into_iter().partition(|&triangle| level.is_whole() && scene.mesh.is_even(triangle as usize, level));
         let halved = HalvedRows::new(scene, fine, coarse, &others);
         let n = level.intervals;
-        let left_out = |triangle: u32, j: usize| match is_whole(triangle) {
-            _ if !is_here(&triangle) => 0..0,
-            true if j == 0 || j + 1 >= n => 0..0,
-            true => 1..n - j,
-            false => HalvedRow::places(n, j),
+        let left_out = |triangle: u32, j: usize| match whole.binary_search(&triangle) {
+            Ok(_) if j == 0 || j + 1 >= n => 0..0,
+            Ok(_) => 1..n - j,
+            Err(_) if is_here(&triangle) => HalvedRow::places(n, j),
+            Err(_) => 0..0,
         };
         let rows = NodeParents::new(scene, fine, coarse, rank, left_out);
         let numbers = |triangle: &u32| coarse.numbering.triangle(&scene.mesh, *triangle as usize);

@@ -88,7 +88,7 @@ fn wanted(problem: &Discretisation, groups: &[Vec<usize>], rank: usize) -> Vec<b
     let (mesh, spaces) = (&problem.scene.mesh, &problem.spaces);
     // On coarser levels, of which fewer ranks may have more, a node hands its entries to nodes of its macro edge, or to the ends
     // of that.
-    let near = |edge: u32| spaces.iter().any(|space| space.numbering.has_nodes_on(mesh, edge, rank));
+    let near = |edge: u32| spaces.iter().any(|space| space.numbering.has_part_of(mesh, edge, rank));
     let mut known: HashMap<u32, bool> = HashMap::new();
     let mut is_near = |coupled: &Coupled| *known.entry(coupled.node.edge).or_insert_with_key(|&edge| near(edge));
     let (coupling, mut wanted) = (&problem.coupling, vec![false; problem.multiplier_count()]);

@@ -136,7 +136,7 @@ impl LinearSolver {
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             if preconditioning == Preconditioning::Sweep && !is_changed(session) {
                 cycle = Cycle::new(&system.stiffness, &interpolations, &auxiliary, is_single, session)?;
-                // What solves on its coarsest level may have set this.
+                // PETSc's multigrid below the cycle has set this default; field u has a shell.
                 petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             }
             match &cycle {

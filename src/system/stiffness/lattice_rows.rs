@@ -1,8 +1,8 @@
 //! Strips and stored rows of a rank together, in some precision.
 
+use super::earlier_couplings::EarlierCouplings;
 use super::even_triangles::EvenTriangles;
 use super::registers::Registers;
-use super::relaxed_before::RelaxedBefore;
 use super::row_kernel::{OnRows, RowTask};
 use super::stored_rows::StoredRows;
 use super::strip_kernel::SweepHalves;
@@ -54,6 +54,7 @@ impl<T: Registers> LatticeRows<'_, T> {
 
     /// The rest of it; `far` are the values of other ranks, none stands for zeros.
     pub fn end_to_relax(&self, sweep: SweepHalves, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+        assert!(sweep != SweepHalves::ForwardFromZero, "a sweep from zero begins from zero");
         let (stored, SweepOrder { near_sides, far_sides, inside }) = (self.stored, self.order);
         far_sides.iter().for_each(|range| stored.forward(range.clone(), b, x, far));
         for (triangle, rows) in self.strips.triangles.iter().zip(inside) {
@@ -74,22 +75,20 @@ impl<T: Registers> LatticeRows<'_, T> {
             }
         }
     }
-}
 
-impl<T: Registers> LatticeRows<'_, T> {
     /// The forward half of a sweep from zero, whatever `x` holds; nodes of other ranks stay zero.
-    pub fn relax_from_zero(&self, before: &RelaxedBefore, b: &[[T; 2]], x: &mut [[T; 2]]) {
+    pub fn relax_from_zero(&self, earlier: &EarlierCouplings, b: &[[T; 2]], x: &mut [[T; 2]]) {
         let (stored, Strips { triangles, alike, kernels, nodes, .. }) = (self.stored, self.strips);
         let SweepOrder { near_sides, far_sides, inside } = self.order;
         if !triangles.is_empty() {
             // Strips look at nodes that come after them.
             x.fill([T::default(); 2]);
         }
-        near_sides.iter().chain(far_sides).for_each(|range| stored.forward_from_zero(range.clone(), before, b, x));
+        near_sides.iter().chain(far_sides).for_each(|range| stored.forward_from_zero(range.clone(), earlier, b, x));
         for (triangle, rows) in triangles.iter().zip(inside) {
             let parts = &alike[triangle.alike.clone()];
             parts.iter().for_each(|(strips, kind)| kernels[*kind].forward(&nodes[strips.clone()], b, x));
-            stored.forward_from_zero(rows.clone(), before, b, x);
+            stored.forward_from_zero(rows.clone(), earlier, b, x);
         }
         self.even.relax(SweepHalves::ForwardFromZero, b, x, &[]);
     }
@@ -111,9 +110,9 @@ impl<T: Registers> StoredRows<T> {
         T::on_rows(OnRows { rows: self, range, far, task: RowTask::Forward { b, x } });
     }
 
-    /// The same where nodes that have not been relaxed `before` are zero, whatever `x` holds.
-    pub fn forward_from_zero(&self, range: Range<usize>, before: &RelaxedBefore, b: &[[T; 2]], x: &mut [[T; 2]]) {
-        T::on_rows(OnRows { rows: self, range, far: &[], task: RowTask::FromZero { before, b, x } });
+    /// The same where nodes that are not among these `earlier` couplings are zero, whatever `x` holds.
+    pub fn forward_from_zero(&self, range: Range<usize>, earlier: &EarlierCouplings, b: &[[T; 2]], x: &mut [[T; 2]]) {
+        T::on_rows(OnRows { rows: self, range, far: &[], task: RowTask::FromZero { earlier, b, x } });
     }
 
     /// Relaxes them in the opposite order.

@@ -2,6 +2,7 @@
 
 mod assembly;
 mod block_lanes;
+mod earlier_couplings;
 mod elastic;
 mod even_triangles;
 mod expanded;
@@ -12,7 +13,6 @@ mod pattern;
 mod precision;
 mod recurrence;
 mod registers;
-mod relaxed_before;
 mod row_kernel;
 mod row_stencil;
 mod stored_rows;
@@ -22,12 +22,12 @@ mod strips;
 mod sweep_order;
 mod triangle_kernel;
 
+pub use earlier_couplings::EarlierCouplings;
 pub use elastic::Elastic;
 pub use even_triangles::EvenTriangles;
 pub use lattice_operator::LatticeOperator;
 pub use lattice_rows::LatticeRows;
 pub use precision::Precision;
-pub use relaxed_before::RelaxedBefore;
 pub use stored_rows::StoredRows;
 pub use strip_kernel::SweepHalves;
 pub use strip_set::Strips;

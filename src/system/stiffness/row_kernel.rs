@@ -1,7 +1,7 @@
 //! Sweeps, residuals and products of stored rows.
 
+use super::earlier_couplings::EarlierCouplings;
 use super::lanes::Lanes;
-use super::relaxed_before::RelaxedBefore;
 use super::stored_rows::{Part, StoredRows};
 use crate::system::space::Real;
 use std::ops::Range;
@@ -11,7 +11,7 @@ pub enum RowTask<'a, T> {
     Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
     Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
     Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
-    FromZero { before: &'a RelaxedBefore, b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+    FromZero { earlier: &'a EarlierCouplings, b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
     Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
 }
 
@@ -46,9 +46,9 @@ impl<T: Real> OnRows<'_, T> {
                     rows.relax(lanes, k, b, x, far);
                 }
             }
-            RowTask::FromZero { before, b, x } => {
+            RowTask::FromZero { earlier, b, x } => {
                 for k in range {
-                    rows.relax_from_zero(lanes, k, before.of(k), b, x);
+                    rows.relax_from_zero(lanes, k, earlier.row(k), b, x);
                 }
             }
             RowTask::Backward { b, x } => {
@@ -103,6 +103,7 @@ impl<T: Real> StoredRows<T> {
         let ([u, v], inverse) = (x[node], self.inverse(k));
         x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
     }
+
     /// Relaxes a node that is zero, as are all but those of these couplings: columns and places.
     #[inline(always)]
     fn relax_from_zero<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(

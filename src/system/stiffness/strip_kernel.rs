@@ -15,7 +15,8 @@ use crate::system::space::Real;
 pub enum SweepHalves {
     /// The first one alone, in the order of the nodes.
     Forward,
-    /// The same from zero: what the nodes hold before is nothing.
+    /// The first one alone, from zero, whatever the nodes hold: of even macro triangles, and of others by
+    /// [`super::LatticeRows::relax_from_zero`].
     ForwardFromZero,
     /// Both.
     Both,

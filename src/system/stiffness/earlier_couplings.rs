@@ -1,17 +1,17 @@
-//! What a sweep from zero needs of stored rows: their couplings with nodes that it has relaxed before. All others are zero.
+//! Couplings of stored rows with nodes that a sweep relaxes earlier: from zero it needs no others.
 
 use super::stored_rows::StoredRows;
 use super::strip_set::Strips;
 use super::sweep_order::SweepOrder;
 
 /// For each stored row its couplings with nodes of this rank that a sweep forward comes to earlier.
-pub struct RelaxedBefore {
+pub struct EarlierCouplings {
     starts: Vec<u32>,
     /// Columns, each with its place among the near couplings of the row.
     couplings: Vec<[u32; 2]>,
 }
 
-impl RelaxedBefore {
+impl EarlierCouplings {
     /// Of the rows of a rank that has so many nodes.
     pub fn new(rows: &StoredRows, strips: &Strips, order: &SweepOrder, nodes: usize) -> Self {
         // When the sweep comes to each node; inner nodes of even macro triangles come last, and couple to no stored ones.
@@ -30,19 +30,19 @@ impl RelaxedBefore {
                 .for_each(|strip| strip.range().for_each(&mut visit));
             inside.clone().for_each(|k| visit(rows.nodes()[k] as usize));
         }
-        let mut before = Self { starts: vec![0], couplings: Vec::new() };
+        let mut all = Self { starts: vec![0], couplings: Vec::new() };
         for (k, &node) in rows.nodes().iter().enumerate() {
             let columns = rows.near.columns[rows.near.row(k)].iter().zip(0..);
             let earlier = columns.filter(|(column, _)| times[**column as usize] < times[node as usize]);
-            before.couplings.extend(earlier.map(|(&column, place)| [column, place]));
-            before.starts.push(before.couplings.len() as u32);
+            all.couplings.extend(earlier.map(|(&column, place)| [column, place]));
+            all.starts.push(all.couplings.len() as u32);
         }
-        before
+        all
     }
 
-    /// The couplings of row `k`: columns and places.
+    /// Those of row `k`: columns and places.
     #[inline(always)]
-    pub fn of(&self, k: usize) -> &[[u32; 2]] {
+    pub fn row(&self, k: usize) -> &[[u32; 2]] {
         &self.couplings[self.starts[k] as usize..self.starts[k + 1] as usize]
     }
 }
@@ -56,8 +56,9 @@ mod tests {
     use crate::contact::MultiplierSpace;
     use crate::element::Order;
     use crate::geometry::{Curve, Point};
+    use crate::mesh::Partition;
     use crate::system::samples::{blocks, pair, vector};
-    use crate::system::{Scene, spaces};
+    use crate::system::{Scene, Space, spaces};
     use std::rc::Rc;
 
     /// Blocks whose macro triangles are even, graded towards a corner, or bent.
@@ -73,32 +74,42 @@ mod tests {
         vec![even.clone(), on(graded), on(bent)]
     }
 
+    /// On one rank and on each of three.
     #[test]
     fn a_sweep_from_zero_is_a_sweep_through_zeros() {
-        for (order, refine) in [(Order::P1, 5), (Order::P2, 5)] {
-            let mut kinds = [0; 3];
-            for scene in scenes(order, refine) {
-                for space in spaces(&scene, 0).expect("a small mesh") {
-                    let assembly = Assembly::new(&scene, &space, true, 0);
-                    let Assembled { rows, strips, even, .. } =
-                        assembly.assemble(&Default::default(), |_, _| ()).expect("good triangles");
-                    let (order, nodes) = (SweepOrder::new(&rows, &strips), space.own.len());
-                    let before = RelaxedBefore::new(&rows, &strips, &order, nodes);
-                    let couplings: usize = (0..rows.nodes().len()).map(|k| before.of(k).len()).sum();
-                    assert!(2 * couplings <= rows.block_count(), "half of what is off the diagonal, or less");
-                    kinds = [kinds[0] + couplings, kinds[1] + strips.nodes.len(), kinds[2] + even.triangles.len()];
-                    let lattice = LatticeRows { strips: &strips, even: &even, stored: &rows, order: &order };
-                    let (b, mut zero, mut x) = (vector(nodes, 3), vec![[0.0; 2]; nodes], vector(nodes, 8));
-                    lattice.begin_to_relax(&b, &mut zero);
-                    lattice.end_to_relax(SweepHalves::Forward, &b, &mut zero, &[]);
-                    lattice.relax_from_zero(&before, &b, &mut x);
-                    let largest = zero.as_flattened().iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
-                    for (x, zero) in x.as_flattened().iter().zip(zero.as_flattened()) {
-                        assert!((x - zero).abs() <= 1e-14 * largest, "{x} {zero}");
-                    }
+        for order in [Order::P1, Order::P2] {
+            let mut kinds = [0; 4];
+            let scenes = scenes(order, 5).into_iter().flat_map(|scene| [1, 3].map(|ranks| (scene.clone(), ranks)));
+            for ((mut scene, ranks), rank) in scenes.flat_map(|pair| (0..pair.1).map(move |rank| (pair.clone(), rank))) {
+                let owners: Vec<i32> = (0..scene.mesh.triangles.len()).map(|triangle| (triangle % ranks) as i32).collect();
+                scene.partition = Rc::new(Partition::new(&scene.mesh, &owners, ranks));
+                for space in spaces(&scene, rank).expect("a small mesh") {
+                    let found = check(&scene, &space, rank);
+                    (0..4).for_each(|k| kinds[k] += found[k]);
                 }
             }
             assert!(kinds.iter().all(|count| *count > 0), "{kinds:?}: some of each kind");
         }
+    }
+
+    /// Counts earlier couplings, strips, even macro triangles, and sides that need nodes of other ranks.
+    fn check(scene: &Scene, space: &Space, rank: usize) -> [usize; 4] {
+        let assembly = Assembly::new(scene, space, true, rank);
+        let Assembled { rows, strips, even, .. } = assembly.assemble(&Default::default(), |_, _| ()).expect("good triangles");
+        let (order, nodes) = (SweepOrder::new(&rows, &strips), space.own.len());
+        let earlier = EarlierCouplings::new(&rows, &strips, &order, nodes);
+        let couplings: usize = (0..rows.nodes().len()).map(|k| earlier.row(k).len()).sum();
+        assert!(2 * couplings <= rows.block_count(), "half of what is off the diagonal, or less");
+        let lattice = LatticeRows { strips: &strips, even: &even, stored: &rows, order: &order };
+        let (b, mut zero, mut x) = (vector(nodes, 3), vec![[0.0; 2]; nodes], vector(nodes, 8));
+        lattice.begin_to_relax(&b, &mut zero);
+        lattice.end_to_relax(SweepHalves::Forward, &b, &mut zero, &[]);
+        lattice.relax_from_zero(&earlier, &b, &mut x);
+        let largest = zero.as_flattened().iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
+        for (x, zero) in x.as_flattened().iter().zip(zero.as_flattened()) {
+            // The same products are added in another order.
+            assert!((x - zero).abs() <= 1e-14 * largest, "{x} {zero}");
+        }
+        [couplings, strips.nodes.len(), even.triangles.len(), order.far_sides.len()]
     }
 }
