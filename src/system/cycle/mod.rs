@@ -2,14 +2,14 @@
 //! on nothing of PETSc's but what solves on the coarsest level.
 //!
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
-//! nothing is sent, unless there are auxiliary levels, and the other ranks wait. Where options of the user's ask for another smoother, cycle or coarse solver, and where solves
-//! fall back on stronger smoothers, PETSc's own multigrid stands in its place ([`super::solver`]).
+//! nothing is sent, unless there are auxiliary levels, and the other ranks wait. Where options of the user's ask for another
+//! smoother, cycle or coarse solver, and where solves fall back on stronger smoothers, PETSc's own multigrid stands in its place
+//! ([`super::solver`]).
 
 mod coarsest;
 mod level;
 
 use super::SystemError;
-use super::auxiliary::GalerkinLevels;
 use super::interpolation::{Interpolation, NodeInterpolation};
 use super::level_ranks::SMALL;
 use super::stiffness::{Precision, Stiffness, SweepHalves};
@@ -34,12 +34,13 @@ pub struct FullCycle<T> {
 }
 
 impl<T: Precision + Datum> FullCycle<T> {
-    /// On the levels of a stiffness and auxiliary ones below them; `None` if the mesh has one level, if options want entries of
-    /// interpolations, or if the coarsest level is large and has no auxiliary ones. **Collective**
+    /// On the levels of a stiffness; `levels` are those of PETSc's multigrid, with auxiliary ones below these. `None` if the mesh
+    /// has one level, if options want entries of interpolations, or if the coarsest level is large and has no auxiliary ones.
+    /// **Collective**
     fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
-        auxiliary: &GalerkinLevels,
+        levels: &[MultigridLevel],
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
         let rows: Vec<_> = stiffness.iter().map(|stiffness| stiffness.lattice().clone()).collect();
@@ -53,10 +54,7 @@ impl<T: Precision + Datum> FullCycle<T> {
         let coarsest = if below.is_empty() {
             Coarsest::factor(&rows[0], session)?
         } else {
-            let steps = std::iter::once(None).chain(below.iter().map(|step| Some(&step.matrix)));
-            let operators = auxiliary.iter().chain([stiffness[0].operator()]);
-            let levels = operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation });
-            Coarsest::auxiliary(&levels.collect::<Vec<_>>(), session)?
+            Coarsest::auxiliary(&levels[..=below.len()], session)?
         };
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
         let levels = rows.into_iter().zip(steps).map(|(rows, step)| CycleLevel::new(rows, step, session));
@@ -158,15 +156,15 @@ impl Cycle {
     pub fn new(
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
-        auxiliary: &GalerkinLevels,
+        levels: &[MultigridLevel],
         is_single: bool,
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
         Ok(if is_single {
-            let cycle = FullCycle::new(stiffness, interpolations, auxiliary, session)?;
+            let cycle = FullCycle::new(stiffness, interpolations, levels, session)?;
             cycle.map(|cycle| Self::Single(Rc::new(RefCell::new(cycle))))
         } else {
-            let cycle = FullCycle::new(stiffness, interpolations, auxiliary, session)?;
+            let cycle = FullCycle::new(stiffness, interpolations, levels, session)?;
             cycle.map(|cycle| Self::Double(Rc::new(RefCell::new(cycle))))
         })
     }

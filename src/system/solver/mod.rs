@@ -135,7 +135,7 @@ impl LinearSolver {
                 operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             if preconditioning == Preconditioning::Sweep && !is_changed(session) {
-                cycle = Cycle::new(&system.stiffness, &interpolations, &auxiliary, is_single, session)?;
+                cycle = Cycle::new(&system.stiffness, &interpolations, &levels, is_single, session)?;
                 // PETSc's multigrid below the cycle has set this default; field u has a shell.
                 petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             }
