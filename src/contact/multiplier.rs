@@ -2,6 +2,7 @@
 
 use super::{ContactBoundary, MultiplierSpace};
 use crate::geometry::gauss_points;
+use std::ops::Range;
 
 /// Strength of the augmentation, `γ = α E_c / H`: a flat optimum, for every pair of spaces and up to three ranks.
 const ALPHA: f64 = 3.0;
@@ -12,15 +13,15 @@ const ALPHA_STABILISED: f64 = 2.0;
 /// A diagonal block over one multiplier, or over the two of a discontinuous segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiagonalBlock {
-    /// Multipliers it couples: one or two.
-    pub rows: Vec<usize>,
+    /// Multipliers it couples: one, or two that follow each other.
+    pub rows: Range<usize>,
     /// Symmetric entries `[row][column]`; the unused ones are zero.
     pub values: [[f64; 2]; 2],
 }
 
 impl DiagonalBlock {
     fn single(row: usize, value: f64) -> Self {
-        Self { rows: vec![row], values: [[value, 0.0], [0.0, 0.0]] }
+        Self { rows: row..row + 1, values: [[value, 0.0], [0.0, 0.0]] }
     }
 
     /// The block with its sign changed.
@@ -32,7 +33,7 @@ impl DiagonalBlock {
     pub fn inverse(&self) -> Self {
         let [[a, b], [_, d]] = self.values;
         match self.rows.len() {
-            1 => Self::single(self.rows[0], 1.0 / a),
+            1 => Self::single(self.rows.start, 1.0 / a),
             _ => {
                 let determinant = a * d - b * b;
                 Self {
@@ -201,7 +202,7 @@ impl Multipliers {
             (false, false) => None,
             (true, true) => {
                 let unit = self.alpha * modulus / h * 2.0 / h;
-                Some(DiagonalBlock { rows: vec![i, i + 1], values: [[2.0 * unit, -unit], [-unit, 2.0 * unit]] })
+                Some(DiagonalBlock { rows: i..i + 2, values: [[2.0 * unit, -unit], [-unit, 2.0 * unit]] })
             }
             (first, _) => Some(one(if first { i } else { i + 1 })),
         }
@@ -268,7 +269,7 @@ mod tests {
         let h = 1.0;
         let (unit, gamma) = (h / 6.0, ALPHA / h);
         let inverse = block.inverse();
-        assert_eq!(inverse.rows, [4, 5]);
+        assert_eq!(inverse.rows, 4..6);
         for (i, row) in inverse.values.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
                 let mass = if i == j { 2.0 * unit } else { unit };

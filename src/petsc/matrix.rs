@@ -15,7 +15,7 @@ use std::{ptr, slice};
 pub struct Matrix {
     raw: ffi::Mat,
     session: Session,
-    /// Rows and columns per block of [`Matrix::add_blocks`].
+    /// Rows and columns per block of [`Matrix::insert_blocks`].
     block: usize,
 }
 
@@ -61,8 +61,8 @@ impl Matrix {
         &self.session
     }
 
-    /// Adds a dense block to the rows and columns of these blocks (global block numbers; negative ones are skipped).
-    /// Holds after [`Matrix::assemble`].
+    /// Puts a dense block in place of what is in the rows and columns of these blocks (global block numbers; negative ones are
+    /// skipped). Holds after [`Matrix::assemble`].
     ///
     /// | argument | shape |
     /// |---|---|
@@ -71,11 +71,11 @@ impl Matrix {
     /// # Panics
     /// If `values` has another length.
     #[inline]
-    pub fn add_blocks(&mut self, rows: &[Index], columns: &[Index], values: &[f64]) -> Result<()> {
+    pub fn insert_blocks(&mut self, rows: &[Index], columns: &[Index], values: &[f64]) -> Result<()> {
         assert_eq!(values.len(), rows.len() * columns.len() * self.block * self.block, "values of whole blocks");
         let (m, n) = (length(rows.len()), length(columns.len()));
-        let add = ffi::InsertMode::ADD_VALUES;
-        petsc!(MatSetValuesBlocked(self.raw, m, rows.as_ptr(), n, columns.as_ptr(), values.as_ptr(), add))
+        let insert = ffi::InsertMode::INSERT_VALUES;
+        petsc!(MatSetValuesBlocked(self.raw, m, rows.as_ptr(), n, columns.as_ptr(), values.as_ptr(), insert))
     }
 
     /// Adds `values`, row after row, to the entries at `rows` × `columns` (global; negative ones are skipped).

@@ -222,10 +222,10 @@ fn matrix_in_blocks(session: &Session) {
     // One 2 x 2 block per rank on the diagonal, and one in the column of rank 0, filled by rank 0 from afar.
     let (rank, size) = (session.rank() as Index, session.size() as Index);
     let mut a = Matrix::aij(session, 2, 2, 2, &[1], &[Index::from(rank > 0)]).unwrap();
-    a.add_blocks(&[rank], &[rank, -1], &[1.0, 2.0, 9.0, 9.0, 3.0, 4.0, 9.0, 9.0]).unwrap();
+    a.insert_blocks(&[rank], &[rank, -1], &[1.0, 2.0, 9.0, 9.0, 3.0, 4.0, 9.0, 9.0]).unwrap();
     if rank == 0 {
         for other in 1..size {
-            a.add_blocks(&[other], &[0], &[5.0, 6.0, 7.0, 8.0]).unwrap();
+            a.insert_blocks(&[other], &[0], &[5.0, 6.0, 7.0, 8.0]).unwrap();
         }
     }
     a.assemble().unwrap();

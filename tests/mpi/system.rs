@@ -129,7 +129,7 @@ impl<'a> Definition<'a> {
             for group in 0..contact.multipliers.groups() {
                 let block = contact.multipliers.augmentation(group, contact.moduli[0], &active[contact.range()]);
                 for (p, q, block) in block.iter().flat_map(|b| [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(p, q)| (p, q, b))) {
-                    if let (Some(i), Some(j)) = (block.rows.get(p), block.rows.get(q)) {
+                    if let (Some(i), Some(j)) = (block.rows.clone().nth(p), block.rows.clone().nth(q)) {
                         product[contact.first + i] += block.values[p][q] * v[contact.first + j];
                     }
                 }

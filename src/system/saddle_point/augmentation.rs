@@ -2,14 +2,14 @@
 
 use crate::contact::DiagonalBlock;
 use crate::system::Contact;
-use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// `D` of all contacts, numbered through: block diagonal, a block for each group of multipliers that the mass matrix couples.
 pub struct Augmentation {
     /// `D` over the active multipliers of each group, if there are any.
     blocks: Vec<Option<DiagonalBlock>>,
     /// Multipliers of each group.
-    members: Vec<Vec<usize>>,
+    members: Vec<Range<usize>>,
     /// Group of each multiplier.
     group: Vec<usize>,
 }
@@ -17,40 +17,46 @@ pub struct Augmentation {
 impl Augmentation {
     /// With no multiplier active.
     pub fn new(contacts: &[Contact]) -> Self {
-        let mut members: Vec<Vec<usize>> = Vec::new();
+        let mut members: Vec<Range<usize>> = Vec::new();
         let mut group = Vec::new();
         for contact in contacts {
-            let first = members.len();
-            members.resize(first + contact.multipliers.groups(), Vec::new());
-            for i in contact.range() {
-                let own = first + contact.multipliers.group_of(i - contact.first);
-                members[own].push(i);
-                group.push(own);
-            }
+            let groups = contact.multipliers.groups();
+            let each = contact.multipliers.count() / groups;
+            let of_group = |own: usize| contact.first + each * own..contact.first + each * (own + 1);
+            group.extend(contact.range().map(|i| members.len() + contact.multipliers.group_of(i - contact.first)));
+            members.extend((0..groups).map(of_group));
         }
         Self { blocks: vec![None; members.len()], members, group }
     }
 
     /// Multipliers of each group.
-    pub fn members(&self) -> &[Vec<usize>] {
+    pub fn members(&self) -> &[Range<usize>] {
         &self.members
     }
 
-    /// Groups of some multipliers, ascending.
-    pub fn groups_of(&self, multipliers: impl IntoIterator<Item = usize>) -> BTreeSet<usize> {
-        multipliers.into_iter().map(|i| self.group[i]).collect()
+    /// Group of a multiplier.
+    pub fn group_of(&self, multiplier: usize) -> usize {
+        self.group[multiplier]
     }
 
-    /// Takes these groups over as they are in another active set. Gives what that adds to `D`: the old blocks with their
-    /// signs changed, then the new ones.
-    pub fn change(&mut self, groups: &BTreeSet<usize>, contacts: &[Contact], active: &[bool]) -> Vec<DiagonalBlock> {
+    /// Groups of some multipliers, ascending.
+    pub fn groups_of(&self, multipliers: impl IntoIterator<Item = usize>) -> Vec<usize> {
+        let mut groups: Vec<usize> = multipliers.into_iter().map(|i| self.group[i]).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        groups
+    }
+
+    /// Takes these groups over as they are in another active set. Gives what that adds to `D`, each with its group: the old blocks
+    /// with their signs changed, then the new ones.
+    pub fn change(&mut self, groups: &[usize], contacts: &[Contact], active: &[bool]) -> Vec<(usize, DiagonalBlock)> {
         let (mut gone, mut come) = (Vec::new(), Vec::new());
         for &group in groups {
             let now = self.block(group, contacts, active);
             let before = std::mem::replace(&mut self.blocks[group], now.clone());
             if before != now {
-                gone.extend(before.map(|block| block.negative()));
-                come.extend(now);
+                gone.extend(before.map(|block| (group, block.negative())));
+                come.extend(now.map(|block| (group, block)));
             }
         }
         gone.append(&mut come);
@@ -58,12 +64,12 @@ impl Augmentation {
     }
 
     fn block(&self, group: usize, contacts: &[Contact], active: &[bool]) -> Option<DiagonalBlock> {
-        let first = self.members[group][0];
+        let first = self.members[group].start;
         let contact = &contacts[contacts.partition_point(|contact| contact.first <= first) - 1];
         let own = contact.multipliers.group_of(first - contact.first);
         let modulus = contact.multiplier_moduli[first - contact.first];
         let mut block = contact.multipliers.augmentation(own, modulus, &active[contact.range()])?;
-        block.rows.iter_mut().for_each(|row| *row += contact.first);
+        block.rows = block.rows.start + contact.first..block.rows.end + contact.first;
         Some(block)
     }
 
@@ -101,7 +107,8 @@ mod tests {
             assert!(groups.len() <= changed.len());
             let change = augmentation.change(&groups, &contacts, &active);
             assert!(change.len() <= 2 * changed.len(), "{space:?}: {} blocks", change.len());
-            let touched = change.iter().flat_map(|block| &block.rows).all(|&i| groups.contains(&augmentation.group[i]));
+            let touched =
+                change.iter().flat_map(|(_, block)| block.rows.clone()).all(|i| groups.contains(&augmentation.group[i]));
             assert!(touched && augmentation.change(&groups, &contacts, &active).is_empty());
         }
     }

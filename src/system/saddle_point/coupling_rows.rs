@@ -1,15 +1,13 @@
 //! Rows of `B` on every level, in the nodes' frames: `B_l = B_{l+1} P_{l+1}`, without any matrix product.
 
-use crate::contact::DiagonalBlock;
-use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh};
 use crate::system::{Coupled, Discretisation, Space};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
-/// Rows of `B` at one level: for each multiplier, node numbers with their two entries. Columns of prescribed
-/// components are zero. A rank has those that it needs, whole: of groups that couple to a node of its own on this level, and on
+/// Rows of `B` at one level: for each multiplier, node numbers with their two entries; multipliers that `D` couples have the same
+/// nodes. Columns of prescribed components are zero. A rank has those that it needs, whole: of groups that couple to a node of its own on this level, and on
 /// the finest level of its own multipliers. The others are empty.
 #[derive(Clone, Debug)]
 pub struct CouplingRows {
@@ -65,12 +63,12 @@ impl NodeRows {
     }
 
     /// Without nodes, and without the rows of groups that have no node of a rank and no multiplier that `is_own`.
-    fn needed(&self, groups: &[Vec<usize>], own: &Range<usize>, is_own: impl Fn(usize) -> bool) -> CouplingRows {
+    fn needed(&self, groups: &[Range<usize>], own: &Range<usize>, is_own: impl Fn(usize) -> bool) -> CouplingRows {
         let row = |i: usize| &self.entries[self.starts[i] as usize..self.starts[i + 1] as usize];
         let mut is_needed = vec![false; self.starts.len() - 1];
         for group in groups {
-            let needed = group.iter().any(|&i| is_own(i) || row(i).iter().any(|entry| own.contains(&entry.number)));
-            group.iter().for_each(|&i| is_needed[i] = needed);
+            let needed = group.clone().any(|i| is_own(i) || row(i).iter().any(|entry| own.contains(&entry.number)));
+            is_needed[group.clone()].fill(needed);
         }
         let mut rows = CouplingRows { starts: vec![0], entries: Vec::new() };
         for (i, is_needed) in is_needed.into_iter().enumerate() {
@@ -84,7 +82,7 @@ impl NodeRows {
 }
 
 /// The rows that a rank needs on some level; `groups` are the multipliers that `D` couples.
-fn wanted(problem: &Discretisation, groups: &[Vec<usize>], rank: usize) -> Vec<bool> {
+fn wanted(problem: &Discretisation, groups: &[Range<usize>], rank: usize) -> Vec<bool> {
     let (mesh, spaces) = (&problem.scene.mesh, &problem.spaces);
     // On coarser levels, of which fewer ranks may have more, a node hands its entries to nodes of its macro edge, or to the ends
     // of that.
@@ -93,8 +91,8 @@ fn wanted(problem: &Discretisation, groups: &[Vec<usize>], rank: usize) -> Vec<b
     let mut is_near = |coupled: &Coupled| *known.entry(coupled.node.edge).or_insert_with_key(|&edge| near(edge));
     let (coupling, mut wanted) = (&problem.coupling, vec![false; problem.multiplier_count()]);
     for group in groups {
-        let is_wanted = group.iter().any(|&i| coupling.owners[i] == rank || coupling.rows[i].iter().any(&mut is_near));
-        group.iter().for_each(|&i| wanted[i] = is_wanted);
+        let is_wanted = group.clone().any(|i| coupling.owners[i] == rank || coupling.rows[i].iter().any(&mut is_near));
+        wanted[group.clone()].fill(is_wanted);
     }
     wanted
 }
@@ -102,16 +100,22 @@ fn wanted(problem: &Discretisation, groups: &[Vec<usize>], rank: usize) -> Vec<b
 impl CouplingRows {
     /// Rows of every level, coarsest first, as far as a rank needs them; the finest are those of the coupling, the others follow
     /// by the transposed interpolation, each level dropping its own prescribed components. `groups` are the multipliers that `D`
-    /// couples, each in one of them.
-    pub fn of_levels(problem: &Discretisation, groups: &[Vec<usize>], rank: usize) -> Vec<Self> {
+    /// couples, one after the other.
+    pub fn of_levels(problem: &Discretisation, groups: &[Range<usize>], rank: usize) -> Vec<Self> {
         let (mesh, spaces, finest) = (&problem.scene.mesh, &problem.spaces, problem.finest());
         let (mut rows, mut row) = (NodeRows::new(), Vec::new());
-        for (coupled, is_wanted) in problem.coupling.rows.iter().zip(wanted(problem, groups, rank)) {
-            let entry = |coupled: &Coupled| {
-                let number = coupled.node.number(mesh, &finest.numbering);
-                NodeEntry { number, node: coupled.node, value: coupled.value }
-            };
-            row.extend(coupled.iter().filter(|_| is_wanted).map(entry));
+        let wanted = wanted(problem, groups, rank);
+        let entry = |coupled: &Coupled, value: Point| {
+            let number = coupled.node.number(mesh, &finest.numbering);
+            NodeEntry { number, node: coupled.node, value }
+        };
+        let all = &problem.coupling.rows;
+        for (group, i) in groups.iter().flat_map(|group| group.clone().map(move |i| (group, i))) {
+            if wanted[i] {
+                row.extend(all[i].iter().map(|coupled| entry(coupled, coupled.value)));
+                let others = group.clone().filter(|&j| j != i).flat_map(|j| &all[j]);
+                row.extend(others.map(|coupled| entry(coupled, Point::zeros())));
+            }
             rows.push(&mut row, finest);
         }
         let mut levels = vec![rows.needed(groups, &finest.own, |i| problem.coupling.owners[i] == rank)];
@@ -129,34 +133,15 @@ impl CouplingRows {
     }
 
     /// Nodes coupled to each of the `own` nodes by `BᵀDB`, whatever the active set; `groups` are the multipliers that `D` couples.
-    pub fn neighbours(&self, groups: &[Vec<usize>], own: &Range<usize>) -> BTreeMap<usize, BTreeSet<usize>> {
+    pub fn neighbours(&self, groups: &[Range<usize>], own: &Range<usize>) -> BTreeMap<usize, BTreeSet<usize>> {
         let mut neighbours: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         for group in groups {
-            let nodes: BTreeSet<usize> = group.iter().flat_map(|&i| self.row(i).iter().map(|&(node, _)| node)).collect();
+            let nodes: BTreeSet<usize> = group.clone().flat_map(|i| self.row(i).iter().map(|&(node, _)| node)).collect();
             for &node in nodes.range(own.clone()) {
                 neighbours.entry(node).or_default().extend(&nodes);
             }
         }
         neighbours
-    }
-
-    /// Hands the rows of `Bᵀ D B` to `add(row node, couplings)`, each in parts that are to be summed; a coupling is a column node and
-    /// its block.
-    pub fn weighted_square(&self, weights: &[DiagonalBlock], mut add: impl FnMut(usize, &[(usize, Block)])) {
-        let mut couplings = Vec::new();
-        for block in weights {
-            for (p, &i) in block.rows.iter().enumerate() {
-                for &(row, left) in self.row(i) {
-                    couplings.clear();
-                    for (q, &j) in block.rows.iter().enumerate() {
-                        let weighted = block.values[p][q] * left;
-                        let of = |right: &Point| [weighted.x, weighted.y].map(|v| [v * right.x, v * right.y]);
-                        couplings.extend(self.row(j).iter().map(|(column, right)| (*column, of(right))));
-                    }
-                    add(row, &couplings);
-                }
-            }
-        }
     }
 }
 
@@ -199,11 +184,14 @@ mod tests {
     #[test]
     fn a_rank_has_whole_what_touches_its_nodes_on_any_level_and_little_else() {
         for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
-            // In one group, all rows of a level are on every rank that has a node of contact there.
+            // In one group, all rows of a level are on every rank that has a node of contact there, with zeros for one another's nodes.
+            let without_zeros = |row: &[(usize, Point)]| -> Vec<(usize, Point)> {
+                row.iter().copied().filter(|(_, value)| *value != Point::zeros()).collect()
+            };
             let of_rank = |rank: usize| {
                 let problem = problem(space, rank);
-                let all = vec![(0..problem.multiplier_count()).collect()];
-                CouplingRows::of_levels(&problem, &all, rank)
+                let all = 0..problem.multiplier_count();
+                CouplingRows::of_levels(&problem, std::slice::from_ref(&all), rank)
             };
             let mut everything = of_rank(0);
             for rows in (1..RANKS).map(of_rank) {
@@ -220,8 +208,13 @@ mod tests {
                     let is_finest = l + 1 == problem.spaces.len();
                     for i in 0..problem.multiplier_count() {
                         let is_own = is_finest && problem.coupling.owners[i] == rank;
-                        let needed = is_own || all.row(i).iter().any(|(n, _)| space.own.contains(n));
-                        assert!(own.row(i) == all.row(i) || own.row(i).is_empty() && !needed, "rank {rank}, row {i}");
+                        let [here, all] = [own.row(i), all.row(i)].map(without_zeros);
+                        let needed = is_own || all.iter().any(|(n, _)| space.own.contains(n));
+                        assert!(here == all || own.row(i).is_empty() && !needed, "rank {rank}, row {i}");
+                    }
+                    for group in groups.members() {
+                        let nodes = |i: usize| own.row(i).iter().map(|(node, _)| *node).collect::<Vec<_>>();
+                        assert!(group.clone().all(|i| nodes(i) == nodes(group.start)), "{group:?}");
                     }
                     assert!(own.neighbours(groups.members(), &space.own).keys().all(|node| space.own.contains(node)));
                 }

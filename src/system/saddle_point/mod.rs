@@ -12,6 +12,7 @@
 //! residuals of this and of the plain system agree in size.
 
 mod augmentation;
+mod contact_places;
 mod coupling_rows;
 mod load;
 mod multiplier_blocks;
@@ -25,6 +26,7 @@ use crate::contact::DiagonalBlock;
 use crate::mesh::EdgeNode;
 use crate::petsc::{Matrix, Session, Vector};
 use augmentation::Augmentation;
+use contact_places::ContactPlaces;
 use coupling_rows::CouplingRows;
 use load::KeptLoad;
 use multiplier_blocks::MultiplierBlocks;
@@ -50,6 +52,8 @@ pub struct SaddlePoint {
     /// `D` of the active multipliers, unscaled; nothing in the plain form.
     augmentation: Augmentation,
     rows: Vec<CouplingRows>,
+    /// Where `Bᵀ D B` lies in the stiffness of each level; nothing in the plain form.
+    places: Vec<ContactPlaces>,
     form: Form,
     load: KeptLoad,
 }
@@ -90,9 +94,28 @@ impl SaddlePoint {
         let (gap, load) = (moved_gap(problem), KeptLoad::new(load));
         let gap_at_rest = gap.clone();
         let moved = Vec::new();
-        let mut system =
-            Self { stiffness, multipliers, nest, product, gap, gap_at_rest, moved, active, augmentation, rows, form, load };
-        system.augment(problem, &change)?;
+        let places = if form == Form::Augmented {
+            let levels = rows.iter().zip(&problem.spaces).zip(&stiffness);
+            levels.map(|((rows, space), matrix)| ContactPlaces::new(rows, augmentation.members(), &space.own, matrix)).collect()
+        } else {
+            Vec::new()
+        };
+        let mut system = Self {
+            stiffness,
+            multipliers,
+            nest,
+            product,
+            gap,
+            gap_at_rest,
+            moved,
+            active,
+            augmentation,
+            rows,
+            places,
+            form,
+            load,
+        };
+        system.augment(&change)?;
         system.fill(problem, &all)?;
         Ok(system)
     }
@@ -112,7 +135,7 @@ impl SaddlePoint {
         if self.form == Form::Augmented {
             let groups = self.augmentation.groups_of(changed.iter().copied());
             let change = self.augmentation.change(&groups, &problem.contacts, active);
-            self.augment(problem, &change)?;
+            self.augment(&change)?;
         }
         self.fill(problem, &changed)
     }
@@ -130,19 +153,12 @@ impl SaddlePoint {
     }
 
     /// Adds `Bᵀ D B` of a change of the weights to every level. **Collective**
-    fn augment(&mut self, problem: &Discretisation, change: &[DiagonalBlock]) -> Result<(), SystemError> {
+    fn augment(&mut self, change: &[(usize, DiagonalBlock)]) -> Result<(), SystemError> {
         if change.is_empty() {
             return Ok(());
         }
-        for ((matrix, rows), space) in self.stiffness.iter_mut().zip(&self.rows).zip(&problem.spaces) {
-            let mut result = Ok(());
-            rows.weighted_square(change, |row, couplings| {
-                if space.own.contains(&row) && result.is_ok() {
-                    result = matrix.add_to_row(row, couplings);
-                }
-            });
-            result?;
-            matrix.assemble()?;
+        for ((matrix, rows), places) in self.stiffness.iter_mut().zip(&self.rows).zip(&self.places) {
+            places.add(rows, change, matrix)?;
         }
         Ok(())
     }
@@ -261,8 +277,8 @@ impl SaddlePoint {
     /// Adds `factor Bᵀ D r` to this rank's displacement entries.
     fn add_weighted(&self, r: &[f64], factor: f64, sums: &mut [f64], space: &Space) {
         for block in self.augmentation.iter() {
-            for (p, &i) in block.rows.iter().enumerate() {
-                let weighted: f64 = block.rows.iter().enumerate().map(|(q, &j)| block.values[p][q] * r[j]).sum();
+            for (p, i) in block.rows.clone().enumerate() {
+                let weighted: f64 = block.rows.clone().enumerate().map(|(q, j)| block.values[p][q] * r[j]).sum();
                 for &(node, value) in self.finest_rows().row(i).iter().filter(|(node, _)| space.own.contains(node)) {
                     let at = 2 * (node - space.own.start);
                     sums[at] += factor * weighted * value.x;

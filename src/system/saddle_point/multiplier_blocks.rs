@@ -7,7 +7,8 @@ use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::geometry::Point;
 use crate::petsc::{Index, Matrix, Session};
 use crate::system::{Contact, Discretisation, Form, Space, SystemError};
-use std::collections::{BTreeMap, BTreeSet};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// What the approximate Schur complement couples.
@@ -68,6 +69,8 @@ pub struct MultiplierBlocks {
     columns: Vec<Vec<usize>>,
     /// `C`, unscaled.
     jumps: SparseRows,
+    /// Room for a row of `-Ĉ` and one of the approximate Schur complement.
+    row_of: [MultiplierRow; 2],
 }
 
 impl MultiplierBlocks {
@@ -94,7 +97,10 @@ impl MultiplierBlocks {
         let pattern = SchurPattern::of(&problem.contacts);
         let jumps = jump_matrix(problem.jumps(), owners.len());
         let space = problem.finest();
-        let own_nodes = |j: usize| corrected(rows, all, &jumps, j).range(space.own.clone()).map(|(&node, _)| node).collect();
+        let own_nodes = |j: usize| -> Vec<usize> {
+            let column = corrected(rows, all, &jumps, j);
+            column.iter().map(|(node, _)| *node).filter(|node| space.own.contains(node)).collect()
+        };
         let columns: Vec<Vec<usize>> = (0..owners.len()).map(own_nodes).collect();
         let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
         let (transpose, transposed) = if form == Form::Plain || owners.is_empty() {
@@ -116,6 +122,7 @@ impl MultiplierBlocks {
             number,
             columns,
             jumps,
+            row_of: Default::default(),
         })
     }
 
@@ -130,26 +137,26 @@ impl MultiplierBlocks {
         changed: &[usize],
     ) -> Result<(), SystemError> {
         let own_rows = self.coupling.row_range();
+        let mut entries = ScaledEntries::default();
         for i in self.touched(augmentation, changed) {
             let at = [self.number[i] as Index];
-            let here = own_rows.contains(&self.number[i]);
             let scale = if active[i] { self.scale[i] } else { 0.0 };
-            if here {
-                let row = rows.row(i).iter();
-                let (columns, values): (Vec<_>, Vec<_>) =
-                    row.map(|(node, v)| ([2 * *node as Index, 2 * *node as Index + 1], [v.x * scale, v.y * scale])).unzip();
-                self.coupling.insert(&at, columns.as_flattened(), values.as_flattened())?;
+            if own_rows.contains(&self.number[i]) {
+                entries.put(rows.row(i).iter().copied(), scale);
+                self.coupling.insert(&at, entries.unknowns.as_flattened(), entries.values.as_flattened())?;
+                self.set_corner(problem, active, augmentation, i)?;
             }
             let column = corrected(rows, augmentation, &self.jumps, i);
+            if column.is_empty() && self.jumps[i].is_empty() {
+                continue;
+            }
             if let Some(transposed) = &self.transposed {
                 transposed.set(i, &column, scale, problem.finest());
-            }
-            for node in self.columns[i].iter().filter(|_| self.transposed.is_none()) {
-                let value = column.get(node).copied().unwrap_or_default() * scale;
-                self.transpose.insert(&[2 * *node as Index, 2 * *node as Index + 1], &at, &[value.x, value.y])?;
-            }
-            if here {
-                self.set_corner(problem, active, augmentation, i)?;
+            } else {
+                let value =
+                    |node: &usize| column.binary_search_by_key(node, |entry| entry.0).map_or(Point::zeros(), |k| column[k].1);
+                entries.put(self.columns[i].iter().map(|node| (*node, value(node))), scale);
+                self.transpose.insert(entries.unknowns.as_flattened(), &at, entries.values.as_flattened())?;
             }
         }
         for matrix in [&mut self.coupling, &mut self.transpose, &mut self.corner, &mut self.schur] {
@@ -160,10 +167,13 @@ impl MultiplierBlocks {
 
     /// Multipliers whose rows and columns are others after a change: those of the groups that have changed, and those that a
     /// jump term couples to them.
-    fn touched(&self, augmentation: &Augmentation, changed: &[usize]) -> BTreeSet<usize> {
+    fn touched(&self, augmentation: &Augmentation, changed: &[usize]) -> Vec<usize> {
         let groups = augmentation.groups_of(changed.iter().copied());
-        let members = groups.into_iter().flat_map(|group| augmentation.members()[group].iter().copied());
-        members.flat_map(|i| self.jumps[i].keys().copied().chain([i])).collect()
+        let members = groups.into_iter().flat_map(|group| augmentation.members()[group].clone());
+        let mut touched: Vec<usize> = members.flat_map(|i| self.jumps[i].keys().copied().chain([i])).collect();
+        touched.sort_unstable();
+        touched.dedup();
+        touched
     }
 
     /// Row `i` of `-C` and of `S`, whole: what is no longer there is zero.
@@ -178,27 +188,22 @@ impl MultiplierBlocks {
         let alone = contact.multipliers.single_weight(i - contact.first, contact.multiplier_moduli[i - contact.first])
             / self.scale[i].powi(2);
         let diagonal = if active[i] { 0.0 } else { -1.0 / alone };
-        let mut corner = BTreeMap::from([(i, diagonal)]);
-        corner.extend(self.jumps[i].keys().filter(|j| **j != i).map(|&j| (j, 0.0)));
-        let mut schur = corner.clone();
-        for group in augmentation.groups_of([i]) {
-            augmentation.members()[group].iter().for_each(|&j| _ = schur.entry(j).or_insert(0.0));
-            let Some(inverse) = augmentation.of(group).map(DiagonalBlock::inverse) else { continue };
-            let Some(p) = inverse.rows.iter().position(|&row| row == i) else { continue };
-            for (q, &j) in inverse.rows.iter().enumerate() {
-                *schur.entry(j).or_insert(0.0) += -(self.scale[i] * self.scale[j]) * inverse.values[p][q];
-            }
+        let scaled = |j: usize, value: f64| -(self.scale[i] * self.scale[j]) * value;
+        let ([corner, schur], group) = (&mut self.row_of, augmentation.group_of(i));
+        corner.begin(self.number[i], diagonal);
+        schur.begin(self.number[i], diagonal);
+        augmentation.members()[group].clone().for_each(|j| schur.add(self.number[j], 0.0));
+        if let Some(inverse) = augmentation.of(group).filter(|_| active[i]).map(DiagonalBlock::inverse) {
+            let of_row = inverse.values[i - inverse.rows.start];
+            inverse.rows.zip(of_row).for_each(|(j, value)| schur.add(self.number[j], scaled(j, value)));
         }
-        if active[i] {
-            for (&j, value) in self.jumps[i].iter().filter(|(j, _)| active[**j]) {
-                let value = -(self.scale[i] * self.scale[j]) * value;
-                *corner.entry(j).or_insert(0.0) += value;
-                *schur.entry(j).or_insert(0.0) += value;
-            }
+        for (&j, &value) in &self.jumps[i] {
+            let value = if active[i] && active[j] { scaled(j, value) } else { 0.0 };
+            corner.add(self.number[j], value);
+            schur.add(self.number[j], value);
         }
         for (matrix, row) in [(&mut self.corner, corner), (&mut self.schur, schur)] {
-            let columns: Vec<Index> = row.keys().map(|&j| self.number[j] as Index).collect();
-            matrix.insert(&[self.number[i] as Index], &columns, &row.into_values().collect::<Vec<_>>())?;
+            matrix.insert(&[self.number[i] as Index], &row.columns, &row.values)?;
         }
         Ok(())
     }
@@ -217,20 +222,68 @@ impl MultiplierBlocks {
     }
 }
 
-/// Column `j` of `Bᵀ (I - D C)`: nodes with their entries.
-fn corrected(rows: &CouplingRows, augmentation: &Augmentation, jumps: &SparseRows, j: usize) -> BTreeMap<usize, Point> {
+/// Unknowns of some nodes with the entries of a multiplier.
+#[derive(Default)]
+struct ScaledEntries {
+    unknowns: Vec<[Index; 2]>,
+    values: Vec<[f64; 2]>,
+}
+
+impl ScaledEntries {
+    /// Puts the entries of these nodes, times a factor, in place of those before.
+    fn put(&mut self, entries: impl Iterator<Item = (usize, Point)>, factor: f64) {
+        self.unknowns.clear();
+        self.values.clear();
+        for (node, value) in entries {
+            self.unknowns.push([2 * node as Index, 2 * node as Index + 1]);
+            self.values.push([value.x * factor, value.y * factor]);
+        }
+    }
+}
+
+/// A row of a matrix between multipliers.
+#[derive(Default)]
+struct MultiplierRow {
+    columns: Vec<Index>,
+    values: Vec<f64>,
+}
+
+impl MultiplierRow {
+    fn begin(&mut self, column: usize, value: f64) {
+        self.columns.clear();
+        self.values.clear();
+        self.add(column, value);
+    }
+
+    /// Adds to the value of a column: a row has few.
+    fn add(&mut self, column: usize, value: f64) {
+        match self.columns.iter().position(|&other| other == column as Index) {
+            Some(at) => self.values[at] += value,
+            None => {
+                self.columns.push(column as Index);
+                self.values.push(value);
+            }
+        }
+    }
+}
+
+/// Column `j` of `Bᵀ (I - D C)`: nodes, ascending, with their entries; without a jump term that of `Bᵀ`.
+fn corrected<'a>(rows: &'a CouplingRows, augmentation: &Augmentation, jumps: &SparseRows, j: usize) -> Cow<'a, [(usize, Point)]> {
+    if jumps[j].is_empty() {
+        return Cow::Borrowed(rows.row(j));
+    }
     let mut column: BTreeMap<usize, Point> = rows.row(j).iter().copied().collect();
     for block in augmentation.groups_of(jumps[j].keys().copied()).into_iter().filter_map(|group| augmentation.of(group)) {
-        for (p, &i) in block.rows.iter().enumerate() {
-            for (q, k) in block.rows.iter().enumerate() {
-                let Some(c) = jumps[j].get(k) else { continue };
+        for (p, i) in block.rows.clone().enumerate() {
+            for (q, k) in block.rows.clone().enumerate() {
+                let Some(c) = jumps[j].get(&k) else { continue };
                 for &(node, value) in rows.row(i) {
                     *column.entry(node).or_default() -= block.values[p][q] * c * value;
                 }
             }
         }
     }
-    column
+    Cow::Owned(column.into_iter().collect())
 }
 
 /// Empty `B̂` with exact preallocation.

@@ -4,8 +4,7 @@ use crate::geometry::Point;
 use crate::petsc::{Gather, Index, Result, Session, Transfer, Vector};
 use crate::system::Space;
 use crate::system::space::Components;
-use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 /// Columns of those multipliers, of any rank, that have entries at nodes of this rank.
@@ -14,6 +13,8 @@ pub struct TransposedCoupling {
     multipliers: Vec<usize>,
     /// For each of them its nodes, ascending and counted from this rank's first, with their entries.
     columns: RefCell<Vec<Vec<(u32, Point)>>>,
+    /// The column behind the one that was set last.
+    next: Cell<usize>,
     /// What fetches their values.
     gather: RefCell<Gather>,
     /// Numbers of this rank's multipliers, and how many there are on all ranks.
@@ -38,14 +39,30 @@ impl TransposedCoupling {
         let wanted: Vec<Index> = numbers.iter().map(|&number| number as Index).collect();
         let gather = RefCell::new(Gather::new(&layout, &wanted)?);
         let (columns, session) = (RefCell::new(columns), session.clone());
-        Ok(Rc::new(Self { multipliers, columns, gather, own: layout.range(), count: number.len(), numbers, session }))
+        Ok(Rc::new(Self {
+            multipliers,
+            columns,
+            next: Cell::new(0),
+            gather,
+            own: layout.range(),
+            count: number.len(),
+            numbers,
+            session,
+        }))
     }
 
-    /// Puts a column in place of the one before, times a factor: zeros where it has no entry.
-    pub fn set(&self, multiplier: usize, column: &BTreeMap<usize, Point>, factor: f64, space: &Space) {
-        let Ok(at) = self.multipliers.binary_search(&multiplier) else { return };
+    /// Puts a column, nodes ascending, in place of the one before, times a factor: zeros where it has no entry.
+    pub fn set(&self, multiplier: usize, column: &[(usize, Point)], factor: f64, space: &Space) {
+        // Columns are mostly set one after the other.
+        let next = self.next.get();
+        let is_next = self.multipliers.get(next) == Some(&multiplier);
+        let Ok(at) = (if is_next { Ok(next) } else { self.multipliers.binary_search(&multiplier) }) else { return };
+        self.next.set(at + 1);
+        let mut entries = column.iter().skip_while(|(node, _)| *node < space.own.start).peekable();
         for (node, value) in &mut self.columns.borrow_mut()[at] {
-            *value = column.get(&(space.own.start + *node as usize)).copied().unwrap_or_default() * factor;
+            let node = space.own.start + *node as usize;
+            while entries.next_if(|(other, _)| *other < node).is_some() {}
+            *value = entries.next_if(|(other, _)| *other == node).map_or(Point::zeros(), |(_, entry)| entry * factor);
         }
     }
 }

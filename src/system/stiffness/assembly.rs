@@ -94,7 +94,7 @@ impl<'a> Assembly<'a> {
             }
         }
         self.add_springs(&far, &mut rows, &mut lift);
-        (0..rows.nodes.len()).for_each(|k| rows.invert(k));
+        (0..rows.nodes.len()).for_each(|k| rows.invert(k, rows.diagonal_place(k)));
         rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
         strips.triangles.sort_unstable_by_key(|triangle| triangle.nodes.start);
         let even = EvenTriangles::new(self.space.numbering.level.intervals, Rc::new(couplings), triangles);

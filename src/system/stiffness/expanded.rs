@@ -1,5 +1,6 @@
 //! All rows made into a matrix of PETSc's, as factorisations and Galerkin products want it.
 
+use super::StoredRows;
 use super::lattice_operator::LatticeOperator;
 use crate::element::Block;
 use crate::petsc::{Index, Matrix, Result, Session};
@@ -19,11 +20,7 @@ impl LatticeOperator {
         let unknowns = 2 * self.own.len();
         let mut matrix = Matrix::aij(session, unknowns, unknowns, 2, &near, &far)?;
         let mut row = BlockRow::default();
-        for (k, &node) in rows.nodes.iter().enumerate() {
-            let here = rows.near.couplings(k).map(|(column, block)| (self.own.start + column as usize, *block));
-            let there = rows.far.couplings(k).map(|(column, block)| (self.far[column as usize], *block));
-            row.insert(&mut matrix, self.own.start + node as usize, here.chain(there))?;
-        }
+        (0..rows.nodes.len()).try_for_each(|k| self.insert_stored(&rows, k, &mut row, &mut matrix))?;
         let mut inserted = Ok(());
         self.each_row(|node, couplings| {
             inserted = inserted.clone().and(row.insert(&mut matrix, self.own.start + node, couplings.iter().copied()));
@@ -32,6 +29,18 @@ impl LatticeOperator {
         matrix.assemble()?;
         matrix.set_positive_definite(true)?;
         Ok(matrix)
+    }
+
+    /// Brings some of the stored rows to an expanded matrix, as they are now. They hold after [`Matrix::assemble`].
+    pub fn renew(&self, changed: impl Iterator<Item = u32>, matrix: &mut Matrix) -> Result<()> {
+        let (rows, mut row) = (self.rows.borrow(), BlockRow::default());
+        changed.map(|k| k as usize).try_for_each(|k| self.insert_stored(&rows, k, &mut row, matrix))
+    }
+
+    fn insert_stored(&self, rows: &StoredRows, k: usize, row: &mut BlockRow, matrix: &mut Matrix) -> Result<()> {
+        let here = rows.near.couplings(k).map(|(column, block)| (self.own.start + column as usize, *block));
+        let there = rows.far.couplings(k).map(|(column, block)| (self.far[column as usize], *block));
+        row.insert(matrix, self.own.start + rows.nodes[k] as usize, here.chain(there))
     }
 }
 
@@ -53,6 +62,6 @@ impl BlockRow {
         });
         self.values.clear();
         (0..2).for_each(|a| self.values.extend(self.blocks.iter().flat_map(|block| block[a])));
-        matrix.add_blocks(&[row as Index], &self.columns, &self.values)
+        matrix.insert_blocks(&[row as Index], &self.columns, &self.values)
     }
 }

@@ -1,9 +1,10 @@
 //! The stiffness of a level, its rows stored or in strips: what PETSc's solvers see of it.
 
 use super::ContactNeighbours;
+use super::RowPlaces;
 use super::even_triangles::EvenTriangles;
 use super::lattice_rows::LatticeRows;
-use super::stored_rows::{BlockColumn, StoredRows};
+use super::stored_rows::{BlockColumn, BlockPlace, StoredRows};
 use super::strip_kernel::SweepHalves;
 use super::strip_set::Strips;
 use super::strips::Couplings;
@@ -63,15 +64,25 @@ impl LatticeOperator {
         Self::new(rows, &self.own, far, &self.strips, &even, session)
     }
 
-    /// Adds blocks to the couplings of a node, one of this rank's, with others. Holds after [`LatticeOperator::assemble`].
+    /// Shows where the couplings of a node, one of this rank's, with others lie, and gives its stored row.
     ///
     /// # Panics
     /// If there is no place for one: rows of contact have places.
-    pub fn add_to_row(&self, row: usize, couplings: &[(usize, Block)]) {
-        let mut rows = self.rows.borrow_mut();
+    pub fn places(&self, row: usize, columns: impl Iterator<Item = usize>, mut show: impl FnMut(BlockPlace)) -> u32 {
+        let rows = self.rows.borrow();
         let k = rows.place(row - self.own.start).expect("rows of contact are stored");
-        for (column, block) in couplings {
-            rows.add(k, BlockColumn::of(*column, &self.own, &self.far), block);
+        columns.for_each(|column| show(rows.block_place(k, BlockColumn::of(column, &self.own, &self.far))));
+        k as u32
+    }
+
+    /// Adds blocks to a row at their places, and inverts its diagonal block again if that is asked for.
+    pub fn add_to_row(&self, places: RowPlaces, blocks: &[Block]) {
+        let mut rows = self.rows.borrow_mut();
+        for (place, block) in places.blocks.iter().zip(blocks) {
+            rows.add_at(*place, block);
+        }
+        if let Some(diagonal) = places.diagonal {
+            rows.invert(places.stored as usize, diagonal);
         }
     }
 
@@ -112,15 +123,6 @@ impl LatticeOperator {
     /// The even macro triangles.
     pub fn even(&self) -> &Rc<EvenTriangles> {
         &self.even
-    }
-
-    /// Makes blocks hold that were added to the rows of these nodes.
-    pub fn assemble(&self, changed: impl Iterator<Item = usize>) {
-        let mut rows = self.rows.borrow_mut();
-        for row in changed {
-            let k = rows.place(row - self.own.start).expect("rows of contact are stored");
-            rows.invert(k);
-        }
     }
 
     /// Shows the rows of all nodes in strips and in even macro triangles: couplings with nodes by their numbers, that with itself

@@ -28,18 +28,29 @@ pub use even_triangles::EvenTriangles;
 pub use lattice_operator::LatticeOperator;
 pub use lattice_rows::LatticeRows;
 pub use precision::Precision;
-pub use stored_rows::StoredRows;
+pub use stored_rows::{BlockPlace, StoredRows};
 pub use strip_kernel::SweepHalves;
 pub use strip_set::Strips;
 
 use super::SystemError;
 use crate::element::Block;
-use crate::petsc::{Index, Matrix, Session};
+use crate::petsc::{Matrix, Session};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// Nodes that contact couples to each node.
 pub type ContactNeighbours = BTreeMap<usize, BTreeSet<usize>>;
+
+/// Where some couplings of a stored row lie.
+#[derive(Clone, Copy)]
+pub struct RowPlaces<'a> {
+    /// The row.
+    pub stored: u32,
+    /// The place of its diagonal block, if that is to be inverted again.
+    pub diagonal: Option<BlockPlace>,
+    /// The places of the couplings.
+    pub blocks: &'a [BlockPlace],
+}
 
 /// What solvers of PETSc's see of a stiffness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,8 +66,8 @@ pub struct Stiffness {
     lattice: Rc<LatticeOperator>,
     matrix: Matrix,
     seen: SolverView,
-    /// Nodes of this rank whose rows have been added to since they were assembled, each perhaps several times.
-    changed: Vec<usize>,
+    /// Stored rows that have been added to since the matrix had its entries, each perhaps several times.
+    changed: Vec<u32>,
 }
 
 impl Stiffness {
@@ -91,24 +102,19 @@ impl Stiffness {
         !self.lattice.strips.nodes.is_empty() || !self.lattice.even.triangles.is_empty()
     }
 
-    /// Adds blocks to the couplings of a node of contact, one of this rank's, with others; each is a column node and its block.
-    /// Holds after [`Stiffness::assemble`].
-    pub fn add_to_row(&mut self, row: usize, couplings: &[(usize, Block)]) -> Result<(), SystemError> {
-        self.changed.push(row);
-        self.lattice.add_to_row(row, couplings);
+    /// Adds blocks to the couplings of a node of contact, one of this rank's. Holds after [`Stiffness::assemble`].
+    pub fn add_to_row(&mut self, places: RowPlaces, blocks: &[Block]) {
+        self.lattice.add_to_row(places, blocks);
         if self.seen == SolverView::Entries {
-            for (column, block) in couplings {
-                self.matrix.add_blocks(&[row as Index], &[*column as Index], block.as_flattened())?;
-            }
+            self.changed.push(places.stored);
         }
-        Ok(())
     }
 
-    /// Makes added blocks hold; the work is that of the rows that they are in. **Collective**
+    /// Makes added blocks hold. **Collective**
     pub fn assemble(&mut self) -> Result<(), SystemError> {
         self.changed.sort_unstable();
         self.changed.dedup();
-        self.lattice.assemble(self.changed.drain(..));
+        self.lattice.renew(self.changed.drain(..), &mut self.matrix)?;
         // Of a shell PETSc is told that values have changed. It forgets what else it knew.
         self.matrix.assemble()?;
         Ok(self.matrix.set_positive_definite(true)?)

@@ -42,6 +42,10 @@ pub enum BlockColumn {
     Far(u32),
 }
 
+/// Where a block lies: among those of columns of this rank, or behind these among those of other ranks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlockPlace(u32);
+
 impl BlockColumn {
     /// The column of a node of any rank, `far` being the list, ascending.
     ///
@@ -187,13 +191,31 @@ impl StoredRows {
     /// If the row has no such column.
     #[inline]
     pub fn add(&mut self, k: usize, column: BlockColumn, block: &Block) {
-        let (part, column) = match column {
-            BlockColumn::Near(column) => (&mut self.near, column),
-            BlockColumn::Far(column) => (&mut self.far, column),
-        };
-        let at = part.at(k, column);
-        let sum = &mut part.blocks[at];
-        *sum = [0, 1].map(|a| [0, 1].map(|b| sum[a][b] + block[a][b]));
+        self.add_at(self.block_place(k, column), block);
+    }
+
+    /// The place of a block of row `k`; it holds for as long as no rows are shared.
+    ///
+    /// # Panics
+    /// If the row has no such column.
+    #[inline]
+    pub fn block_place(&self, k: usize, column: BlockColumn) -> BlockPlace {
+        match column {
+            BlockColumn::Near(column) => BlockPlace(self.near.at(k, column) as u32),
+            BlockColumn::Far(column) => BlockPlace((self.near.blocks.len() + self.far.at(k, column)) as u32),
+        }
+    }
+
+    /// As [`StoredRows::add`], where the place is known.
+    #[inline]
+    pub fn add_at(&mut self, BlockPlace(place): BlockPlace, block: &Block) {
+        let (place, near) = (place as usize, self.near.blocks.len());
+        let sum = if place < near { &mut self.near.blocks[place] } else { &mut self.far.blocks[place - near] };
+        for a in 0..2 {
+            for b in 0..2 {
+                sum[a][b] += block[a][b];
+            }
+        }
     }
 
     /// Whether row `k` has columns of other ranks.
@@ -206,12 +228,19 @@ impl StoredRows {
         place(&self.nodes, node)
     }
 
-    /// Inverts the diagonal block of row `k`.
+    /// Inverts the diagonal block of row `k`, which lies at `diagonal`.
     ///
     /// # Panics
     /// If it has no inverse: that of a stiffness has one.
-    pub fn invert(&mut self, k: usize) {
-        self.inverses[self.inverse_of[k] as usize] = inverse(self.diagonal(k)).expect("a stiffness has a diagonal");
+    #[inline]
+    pub fn invert(&mut self, k: usize, BlockPlace(diagonal): BlockPlace) {
+        let block = &self.near.blocks[diagonal as usize];
+        self.inverses[self.inverse_of[k] as usize] = inverse(block).expect("a stiffness has a diagonal");
+    }
+
+    /// Where the diagonal block of row `k` lies.
+    pub fn diagonal_place(&self, k: usize) -> BlockPlace {
+        BlockPlace(self.near.at(k, self.nodes[k]) as u32)
     }
 
     /// The diagonal block of row `k`.

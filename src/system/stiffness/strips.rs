@@ -107,9 +107,9 @@ fn couplings(stiffness: &MacroStiffness, i: usize, j: usize) -> Vec<(Step, Block
 /// Inverse of a block, if it has one.
 pub fn inverse(k: &Block) -> Option<Block> {
     // No product of entries leaves the range of numbers.
-    let scale = k.iter().flatten().fold(0.0f64, |most, v| most.max(v.abs()));
-    let k = k.map(|row| row.map(|v| v / scale));
-    let determinant = k[0][0] * k[1][1] - k[0][1] * k[1][0];
-    let inverse = [[k[1][1], -k[0][1]], [-k[1][0], k[0][0]]].map(|row| row.map(|v| v / determinant / scale));
-    inverse.iter().flatten().all(|v| v.is_finite()).then_some(inverse)
+    let scale = 1.0 / k[0][0].abs().max(k[0][1].abs()).max(k[1][0].abs()).max(k[1][1].abs());
+    let [[a, b], [c, d]] = [[k[0][0] * scale, k[0][1] * scale], [k[1][0] * scale, k[1][1] * scale]];
+    let factor = scale / (a * d - b * c);
+    let inverse = [[d * factor, -b * factor], [-c * factor, a * factor]];
+    inverse.as_flattened().iter().all(|v| v.is_finite()).then_some(inverse)
 }
