@@ -21,16 +21,55 @@ const MOST_CHOICES: usize = 6;
 
 /// One condition on rigid motions: the mean displacement of some points of a piece, each in its own direction, against the
 /// same points moved with another piece, or against the ground.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Condition {
     /// The piece that is held.
     pub piece: usize,
     /// The piece that holds it; nothing if a support does.
     pub against: Option<usize>,
-    /// Places and weighted directions.
-    pub terms: Vec<(Point, Point)>,
+    /// What it sees of shifts of either piece, and of turns by their radius.
+    pub sees: [[f64; 3]; 2],
     /// By how much the directions are uncertain (radians).
     pub doubt: f64,
+}
+
+impl Condition {
+    /// A condition on points of a piece, by places and weighted directions; nothing if it resists nothing.
+    pub fn new(extents: &[Extent], piece: usize, against: Option<usize>, terms: &[(Point, Point)], doubt: f64) -> Option<Self> {
+        let size: f64 = terms.iter().map(|(_, direction)| direction.norm()).sum();
+        if size == 0.0 || against == Some(piece) {
+            return None;
+        }
+        let seen = |(piece, sign): (usize, f64)| {
+            let Extent { middle, radius } = extents[piece];
+            let mut sums = [0.0; 3];
+            for (x, direction) in terms {
+                let arm = (x - middle) / radius;
+                let values = [direction.x, direction.y, direction.y * arm.x - direction.x * arm.y];
+                (0..3).for_each(|k| sums[k] += sign / size * values[k]);
+            }
+            sums
+        };
+        let sees = [seen((piece, 1.0)), against.map_or([0.0; 3], |piece| seen((piece, -1.0)))];
+        Some(Self { piece, against, sees, doubt })
+    }
+
+    /// Both pieces, or the one, with what it sees of them.
+    fn parts(&self) -> impl Iterator<Item = (usize, &[f64; 3])> {
+        std::iter::once(self.piece).chain(self.against).zip(&self.sees)
+    }
+
+    /// How much of a motion it certainly resists. What the motion does across the direction may be mistaken for resistance,
+    /// by the doubt about the direction.
+    fn resists(&self, motion: &DVector<f64>) -> f64 {
+        let (mut seen, mut size) = (0.0, 0.0);
+        for (piece, sees) in self.parts() {
+            let of_piece = [0, 1, 2].map(|k| motion[3 * piece + k]);
+            seen += (0..3).map(|k| sees[k] * of_piece[k]).sum::<f64>();
+            size += of_piece.iter().map(|v| v * v).sum::<f64>().sqrt();
+        }
+        seen.abs() - self.doubt * size
+    }
 }
 
 /// What a contact resists: by the normals of body 1, and by those of body 2. One of them is enough to let go.
@@ -66,10 +105,9 @@ impl Mechanism {
 
 /// Looks for a rigid motion of the pieces that supports and closed contacts resist hardly, whichever body's normals count.
 pub fn find_mechanism(pieces: &[Extent], supports: &[Condition], contacts: &[Touch]) -> Option<Mechanism> {
-    let supports = ScaledConditions::new(pieces, supports);
-    let contacts: Vec<[ScaledConditions; 2]> =
-        contacts.iter().map(|touch| touch.each_ref().map(|own| ScaledConditions::new(pieces, own))).collect();
-    let differ = |[a, b]: &[ScaledConditions; 2]| a.off(b) > NOTHING * a.largest().max(b.largest());
+    let supports = Conditions::new(supports);
+    let contacts: Vec<[Conditions; 2]> = contacts.iter().map(|touch| touch.each_ref().map(|own| Conditions::new(own))).collect();
+    let differ = |[a, b]: &[Conditions; 2]| a.off(b) > NOTHING * a.largest().max(b.largest());
     let curved: Vec<usize> = (0..contacts.len()).filter(|&contact| differ(&contacts[contact])).collect();
     choices(&contacts, &curved).into_iter().find_map(|choice| {
         let chosen = contacts.iter().zip(&choice).map(|(touch, &side)| &touch[side]);
@@ -79,7 +117,7 @@ pub fn find_mechanism(pieces: &[Extent], supports: &[Condition], contacts: &[Tou
 
 /// For each contact the body whose normals count: all combinations for few curved contacts. For many of them those in which
 /// one piece slides along its own boundary, or along those of all its neighbours.
-fn choices(contacts: &[[ScaledConditions; 2]], curved: &[usize]) -> Vec<Vec<usize>> {
+fn choices(contacts: &[[Conditions; 2]], curved: &[usize]) -> Vec<Vec<usize>> {
     if curved.len() <= MOST_CHOICES {
         let choice = |bits: usize| {
             let mut choice = vec![0; contacts.len()];
@@ -89,37 +127,31 @@ fn choices(contacts: &[[ScaledConditions; 2]], curved: &[usize]) -> Vec<Vec<usiz
         return (0..1 << curved.len()).map(choice).collect();
     }
     let pieces =
-        contacts.iter().flatten().flat_map(|conditions| &conditions.all).map(|condition| condition.piece + 1).max().unwrap_or(0);
-    let of = |piece: usize, [first, _]: &[ScaledConditions; 2]| {
-        usize::from(!first.all.iter().any(|condition| condition.piece == piece))
-    };
+        contacts.iter().flatten().flat_map(|conditions| conditions.all).map(|condition| condition.piece + 1).max().unwrap_or(0);
+    let of =
+        |piece: usize, [first, _]: &[Conditions; 2]| usize::from(!first.all.iter().any(|condition| condition.piece == piece));
     let along = |piece: usize| contacts.iter().map(|touch| of(piece, touch)).collect::<Vec<usize>>();
     let other = |choice: Vec<usize>| choice.into_iter().map(|side| 1 - side).collect::<Vec<usize>>();
     let ends = [vec![0; contacts.len()], vec![1; contacts.len()]];
     ends.into_iter().chain((0..pieces).flat_map(|piece| [along(piece), other(along(piece))])).collect()
 }
 
-/// A condition on the scaled motions of the pieces: shifts, and turns by the radius.
-struct ScaledCondition {
-    piece: usize,
-    entries: Vec<(usize, f64)>,
-    doubt: f64,
-}
-
 /// Conditions, and the sum of their squares: a matrix of few entries, because a contact has two pieces.
-struct ScaledConditions {
-    all: Vec<ScaledCondition>,
+struct Conditions<'a> {
+    all: &'a [Condition],
     gram: BTreeMap<(usize, usize), f64>,
 }
 
-impl ScaledConditions {
-    fn new(pieces: &[Extent], conditions: &[Condition]) -> Self {
-        let all: Vec<ScaledCondition> =
-            conditions.iter().filter_map(|condition| ScaledCondition::new(pieces, condition)).collect();
+impl<'a> Conditions<'a> {
+    fn new(all: &'a [Condition]) -> Self {
         let mut gram = BTreeMap::new();
-        for condition in &all {
-            for &(i, left) in &condition.entries {
-                condition.entries.iter().for_each(|&(j, right)| *gram.entry((i, j)).or_insert(0.0) += left * right);
+        for condition in all {
+            for ((one, left), (other, right)) in
+                condition.parts().flat_map(|part| condition.parts().map(move |other| (part, other)))
+            {
+                for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                    *gram.entry((3 * one + i, 3 * other + j)).or_insert(0.0) += left[i] * right[j];
+                }
             }
         }
         Self { all, gram }
@@ -138,43 +170,13 @@ impl ScaledConditions {
     }
 }
 
-impl ScaledCondition {
-    fn new(pieces: &[Extent], condition: &Condition) -> Option<Self> {
-        let size: f64 = condition.terms.iter().map(|(_, direction)| direction.norm()).sum();
-        if size == 0.0 || condition.against == Some(condition.piece) {
-            return None;
-        }
-        let mut entries = Vec::new();
-        for (piece, sign) in std::iter::once((condition.piece, 1.0)).chain(condition.against.map(|piece| (piece, -1.0))) {
-            let Extent { middle, radius } = pieces[piece];
-            let mut sums = [0.0; 3];
-            for (x, direction) in &condition.terms {
-                let arm = (x - middle) / radius;
-                let values = [direction.x, direction.y, direction.y * arm.x - direction.x * arm.y];
-                (0..3).for_each(|k| sums[k] += sign / size * values[k]);
-            }
-            entries.extend((0..3).map(|k| (3 * piece + k, sums[k])));
-        }
-        Some(Self { piece: condition.piece, entries, doubt: condition.doubt })
-    }
-
-    /// How much of a motion it certainly resists. What the motion does across the direction may be mistaken for resistance,
-    /// by the doubt about the direction.
-    fn resists(&self, motion: &DVector<f64>) -> f64 {
-        let seen: f64 = self.entries.iter().map(|&(i, value)| value * motion[i]).sum();
-        let most = |at: usize| self.entries[at..at + 3].iter().map(|&(i, _)| motion[i].powi(2)).sum::<f64>().sqrt();
-        let size: f64 = (0..self.entries.len()).step_by(3).map(most).sum();
-        seen.abs() - self.doubt * size
-    }
-}
-
 /// The motion that is resisted least, if that is hardly at all. Motions along one axis come first: they have the plainest
 /// words.
-fn softest(pieces: &[Extent], holding: &[&ScaledConditions]) -> Option<Mechanism> {
+fn softest(pieces: &[Extent], holding: &[&Conditions]) -> Option<Mechanism> {
     let count = 3 * pieces.len();
     let loose = |motion: &DVector<f64>| {
         let size = (0..pieces.len()).map(|piece| motion.rows(3 * piece, 3).norm()).fold(0.0, f64::max);
-        holding.iter().flat_map(|conditions| &conditions.all).all(|condition| condition.resists(motion) <= LEAST_HOLD * size)
+        holding.iter().flat_map(|conditions| conditions.all).all(|condition| condition.resists(motion) <= LEAST_HOLD * size)
     };
     let unit = |axis: usize| DVector::from_fn(count, |i, _| if i == axis { 1.0 } else { 0.0 });
     if holding.iter().all(|conditions| conditions.all.is_empty()) {
@@ -204,8 +206,8 @@ fn softest(pieces: &[Extent], holding: &[&ScaledConditions]) -> Option<Mechanism
 /// A proof, for a hundredth of what the eigenvalues cost, that no motion is loose; it may fail where none is. The `n` conditions
 /// see `τ` of the square of every motion in all if `gram - τ` has a factor, so one of them at least `√(τ/n)` of it; a loose
 /// motion would be seen by less than `LEAST_HOLD` and twice the doubt.
-fn holds_all(holding: &[&ScaledConditions], gram: &DMatrix<f64>) -> bool {
-    let all = || holding.iter().flat_map(|conditions| &conditions.all);
+fn holds_all(holding: &[&Conditions], gram: &DMatrix<f64>) -> bool {
+    let all = || holding.iter().flat_map(|conditions| conditions.all);
     let seen = LEAST_HOLD + 2.0 * all().map(|condition| condition.doubt).fold(0.0, f64::max);
     let least = 2.0 * all().count() as f64 * seen * seen;
     let mut shifted = gram.clone();
@@ -253,7 +255,11 @@ mod tests {
     }
 
     fn hold(piece: usize, x: f64, y: f64, direction: Point) -> Condition {
-        Condition { piece, against: None, terms: vec![(Point::new(x, y), direction)], doubt: 0.0 }
+        one_point(&two(), piece, None, x, y, direction)
+    }
+
+    fn one_point(pieces: &[Extent], piece: usize, against: Option<usize>, x: f64, y: f64, direction: Point) -> Condition {
+        Condition::new(pieces, piece, against, &[(Point::new(x, y), direction)], 0.0).expect("it resists something")
     }
 
     fn held(piece: usize) -> Vec<Condition> {
@@ -261,9 +267,9 @@ mod tests {
     }
 
     /// Closed contact of two flat boundaries at these places.
-    fn touching(places: &[f64]) -> Touch {
+    fn touching(pieces: &[Extent], places: &[f64]) -> Touch {
         let at = |piece: usize, sign: f64| {
-            let one = |&x: &f64| Condition { against: Some(1 - piece), ..hold(piece, x, 1.0, sign * Y) };
+            let one = |&x: &f64| one_point(pieces, piece, Some(1 - piece), x, 1.0, sign * Y);
             places.iter().map(one).collect()
         };
         [at(0, 1.0), at(1, -1.0)]
@@ -276,9 +282,9 @@ mod tests {
         let round = |a: &f64| {
             let normal = Point::new((a + doubt).sin(), -(a + doubt).cos());
             let x = Point::new(1.0 + a.sin(), 2.0 - a.cos());
-            Condition { piece: 1, against: Some(0), terms: vec![(x, normal)], doubt }
+            Condition { doubt, ..one_point(&pieces, 1, Some(0), x.x, x.y, normal) }
         };
-        let [flat, _] = touching(&places.iter().map(|a| 1.0 + a.sin()).collect::<Vec<_>>());
+        let [flat, _] = touching(&pieces, &places.iter().map(|a| 1.0 + a.sin()).collect::<Vec<_>>());
         (pieces, held(0), [flat, places.iter().map(round).collect()])
     }
 
@@ -292,7 +298,7 @@ mod tests {
     #[test]
     fn contact_holds_a_floating_body_against_the_normal_only() {
         let mut supports = held(0);
-        let contact = [touching(&[0.2, 1.7])];
+        let contact = [touching(&two(), &[0.2, 1.7])];
         let found = find_mechanism(&two(), &supports, &contact).expect("it slides");
         assert_eq!((found.piece, found.motion.as_str()), (1, "move by (1, 0)"));
         supports.push(hold(1, 0.0, 2.0, X));
@@ -303,8 +309,8 @@ mod tests {
     fn a_short_seat_holds_a_long_body() {
         let mut supports = held(0);
         supports.push(hold(1, 0.0, 2.0, X));
-        assert_eq!(find_mechanism(&two(), &supports, &[touching(&[0.9, 0.901])]), None);
-        assert!(find_mechanism(&two(), &supports, &[touching(&[0.9, 0.900001])]).is_some(), "as good as a point");
+        assert_eq!(find_mechanism(&two(), &supports, &[touching(&two(), &[0.9, 0.901])]), None);
+        assert!(find_mechanism(&two(), &supports, &[touching(&two(), &[0.9, 0.900001])]).is_some(), "as good as a point");
     }
 
     #[test]
@@ -313,9 +319,9 @@ mod tests {
             let (pieces, mut supports, contact) = disc(angle, doubt);
             let found = |supports: &[Condition]| find_mechanism(&pieces, supports, std::slice::from_ref(&contact));
             assert_eq!(found(&supports).expect("it slides").motion, "move by (1, 0)");
-            supports.push(hold(1, 1.0, 2.0, X));
+            supports.push(one_point(&pieces, 1, None, 1.0, 2.0, X));
             assert_eq!(found(&supports).expect("it rolls").motion, "turn about (1, 2)");
-            supports.push(hold(1, 1.0, 3.0, X));
+            supports.push(one_point(&pieces, 1, None, 1.0, 3.0, X));
             assert_eq!(found(&supports), None);
         }
     }
@@ -325,14 +331,14 @@ mod tests {
         let pieces: Vec<Extent> = (0..50).map(|k| Extent { middle: Point::new(1.0, f64::from(k) + 0.5), radius: 1.0 }).collect();
         let line = |k: usize| {
             let of = |piece: usize, against: usize, sign: f64| {
-                let one = |x: f64| Condition { against: Some(against), ..hold(piece, x, k as f64 + 1.0, sign * Y) };
+                let one = |x: f64| one_point(&pieces, piece, Some(against), x, k as f64 + 1.0, sign * Y);
                 vec![one(0.2), one(1.7)]
             };
             [of(k, k + 1, 1.0), of(k + 1, k, -1.0)]
         };
         let lines: Vec<Touch> = (0..49).map(line).collect();
-        let mut supports: Vec<Condition> = (0..50).map(|k| hold(k, 0.0, k as f64 + 0.5, X)).collect();
-        supports.extend([hold(0, 0.0, 0.0, Y), hold(0, 2.0, 0.0, Y)]);
+        let mut supports: Vec<Condition> = (0..50).map(|k| one_point(&pieces, k, None, 0.0, k as f64 + 0.5, X)).collect();
+        supports.extend([0.0, 2.0].map(|x| one_point(&pieces, 0, None, x, 0.0, Y)));
         assert_eq!(find_mechanism(&pieces, &supports, &lines), None);
         supports.remove(25);
         let found = find_mechanism(&pieces, &supports, &lines).expect("it slides");

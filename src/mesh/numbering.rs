@@ -79,11 +79,10 @@ impl Numbering {
             + home.triangles_before as usize * lattice::inner_count(n)
     }
 
-    /// Whether a rank owns a macro edge or one of its ends.
-    pub fn has_part_of(&self, mesh: &MacroMesh, edge: u32, rank: usize) -> bool {
-        let ends = mesh.edges[edge as usize].vertices;
-        let homes = ends.map(|vertex| self.partition.vertices[vertex as usize]);
-        homes.iter().chain([&self.partition.edges[edge as usize]]).any(|home| home.rank as usize == rank)
+    /// Ranks that own a macro edge and its ends.
+    pub fn ranks_of(&self, mesh: &MacroMesh, edge: u32) -> [usize; 3] {
+        let [first, last] = mesh.edges[edge as usize].vertices.map(|vertex| self.partition.vertices[vertex as usize]);
+        [first, last, self.partition.edges[edge as usize]].map(|home| home.rank as usize)
     }
 
     /// Number of a macro vertex.

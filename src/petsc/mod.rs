@@ -12,6 +12,7 @@ mod broadcast;
 mod collective;
 mod environment;
 mod error;
+mod exchange;
 mod factor;
 mod ffi;
 mod field_split;

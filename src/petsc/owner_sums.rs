@@ -1,8 +1,6 @@
 //! Values of blocks that several ranks know a part of, added up by the rank that owns the block.
 
 use super::session::Session;
-use mpi::datatype::{Partition, PartitionMut};
-use mpi::traits::{CommunicatorCollectives, Equivalence};
 use std::ops::Range;
 
 impl Session {
@@ -38,32 +36,4 @@ impl Session {
             sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
         }
     }
-
-    /// How many entries each rank has for this one, from how many this one has for each. **Collective**
-    fn counts_to_each(&self, counts: &[usize]) -> Vec<usize> {
-        let mut arriving = vec![0; self.size()];
-        self.world().all_to_all_into(counts, &mut arriving[..]);
-        arriving
-    }
-
-    /// Sends each rank its part of `all`, `width` values for each entry, and gives what came, rank after rank. **Collective**
-    fn to_each<T: Equivalence + Copy + Default>(&self, all: &[T], counts: &[usize], arriving: &[usize], width: usize) -> Vec<T> {
-        let ([sent, from], [received, to]) = (layout(counts, width), layout(arriving, width));
-        let mut arrived = vec![T::default(); width * arriving.iter().sum::<usize>()];
-        self.world()
-            .all_to_all_varcount_into(&Partition::new(all, sent, from), &mut PartitionMut::new(&mut arrived[..], received, to));
-        arrived
-    }
-}
-
-/// Counts and starts of consecutive parts, as MPI takes them.
-fn layout(counts: &[usize], width: usize) -> [Vec<i32>; 2] {
-    let mut end = 0;
-    let starts = counts.iter().map(|count| {
-        end += count * width;
-        end - count * width
-    });
-    let in_32_bits = |n: usize| i32::try_from(n).expect("MPI counts in 32 bits");
-    let starts = starts.map(in_32_bits).collect();
-    [counts.iter().map(|count| in_32_bits(count * width)).collect(), starts]
 }

@@ -134,7 +134,6 @@ impl Run<'_> {
         for (at, contact) in solved.problem.contacts.iter().enumerate() {
             let points = found.traces(&found.pressure(at))?;
             self.warn_if_apart(contact, &points);
-            let traced: Vec<ContactPoint> = points.iter().map(contact_point).collect();
             let mut zones = zones::zones(solved, at, &points);
             let mut described = summarise::contact(&found, at, &points);
             let pressing: Vec<[f64; 2]> = zones.iter().filter_map(|zone| zone.ends).collect();
@@ -156,7 +155,8 @@ impl Run<'_> {
             summary.estimate.contact.insert(contact.pair.name.clone(), zones::contact_estimate(force, &zones));
             described.zones = zones;
             summary.contact.insert(contact.pair.name.clone(), described);
-            traces.push(traced);
+            // Rank 0 alone writes and draws them.
+            traces.push(if self.session.rank() == 0 { points.iter().map(contact_point).collect() } else { Vec::new() });
         }
         for point in &self.case.probes {
             let region = solved.problem.scene.mesh.region(&point.body).expect("checked names");
@@ -206,7 +206,7 @@ impl Run<'_> {
         self.report.warn(&format!("contact {}: {words}", contact.pair.name));
     }
 
-    /// Traces in files; fields and figures too, unless the case wants none. **Collective**
+    /// Traces, which rank 0 has, in files; fields and figures too, unless the case wants none. **Collective**
     fn write_files(
         &self,
         found: &Evaluation,

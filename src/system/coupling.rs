@@ -1,10 +1,12 @@
-//! Rows of `B` and weighted gaps of all contacts, shared by all ranks.
+//! Rows of `B` and weighted gaps of all contacts. A row is on the rank that owns its multiplier, and where it is needed.
 
-use super::{Contact, Scene, SystemError};
+use super::{Contact, Scene, Space, SystemError};
 use crate::contact::{GapChoice, Law, Quadrature, Side, declared_gap, integrate};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
+use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 
 /// One node's part in a multiplier's row of `B`, in global axes.
 #[derive(Clone, Copy, Debug)]
@@ -19,9 +21,10 @@ pub struct Coupled {
     pub value: Point,
 }
 
-/// All contacts coupled: rows of `B` and weighted initial gaps `c`, the same on every rank.
+/// All contacts coupled: rows of `B`, and weighted initial gaps `c`, which are the same on every rank.
 pub struct Coupling {
-    /// For each multiplier of all contacts, the nodes it couples to.
+    /// For each multiplier of all contacts, the nodes it couples to: whole on the rank that owns the multiplier, and on those that
+    /// have nodes of it on some level, or of a multiplier that the mass matrix couples to it; empty on others.
     pub rows: Vec<Vec<Coupled>>,
     /// `c_i = ∫ψ_i g₀ ds` (length squared).
     pub gap: Vec<f64>,
@@ -32,33 +35,39 @@ pub struct Coupling {
 }
 
 impl Coupling {
-    /// Each rank integrates the edges it owns; the results, O(√N) numbers, are then shared. **Collective**
+    /// Each rank integrates the edges it owns. What it finds for a multiplier goes to the rank that owns that, which sends the whole
+    /// row to those that need it. **Collective**
     ///
     /// # Errors
     /// [`SystemError::Case`] if a normal of Γ_C misses a declared geometry.
-    pub fn new(scene: &Scene, contacts: &[Contact], session: &Session) -> Result<Self, SystemError> {
+    pub fn new(scene: &Scene, spaces: &[Space], contacts: &[Contact], session: &Session) -> Result<Self, SystemError> {
         let mut own = Share::new(contacts);
         session.agree(own.integrate(contacts)).map_err(SystemError::Case)?;
-        let Share { keys, values, mut gap, mut points } = own;
+        let Share { entries, mut gap, mut points } = own;
         session.sum(&mut gap);
         session.sum(&mut points);
-        let rows = rows(contacts, &session.gather_all(&keys), &session.gather_all(&values));
+        let owners: Vec<usize> = contacts.iter().flat_map(|contact| owners(scene, contact)).collect();
+        let to: Vec<usize> = entries.rows().map(|row| owners[row]).collect();
+        let own = entries.sent(&to, session).into_rows(contacts);
+        let rows = where_needed(scene, spaces, contacts, &own, session);
         add_declared_gaps(contacts, &mut gap)?;
         let lost = |(contact, points): (&Contact, f64)| match contact.pair.quadrature {
             Quadrature::Cut => 0,
             Quadrature::Segment { points: each } => (2 * each * contact.boundary.segments()).saturating_sub(points as usize),
         };
         let lost = contacts.iter().zip(points).map(lost).collect();
-        Ok(Self { rows, gap, owners: contacts.iter().flat_map(|contact| owners(scene, contact)).collect(), lost })
+        Ok(Self { rows, gap, owners, lost })
+    }
+
+    /// Those of some multipliers that a rank owns.
+    pub fn own(&self, multipliers: Range<usize>, rank: usize) -> impl Iterator<Item = usize> {
+        multipliers.filter(move |&i| self.owners[i] == rank)
     }
 }
 
 /// What the edges of one rank contribute to all contacts.
 struct Share {
-    /// Number of the contact times two, plus the body's (0, 1); multiplier; edge and position of the node: four for each entry.
-    keys: Vec<i32>,
-    /// Two components for each entry.
-    values: Vec<f64>,
+    entries: Entries,
     /// Part of `c`.
     gap: Vec<f64>,
     /// Quadrature points taken in each contact.
@@ -68,7 +77,7 @@ struct Share {
 impl Share {
     fn new(contacts: &[Contact]) -> Self {
         let count = contacts.last().map_or(0, |contact| contact.range().end);
-        Self { keys: Vec::new(), values: Vec::new(), gap: vec![0.0; count], points: vec![0.0; contacts.len()] }
+        Self { entries: Entries::default(), gap: vec![0.0; count], points: vec![0.0; contacts.len()] }
     }
 
     fn integrate(&mut self, contacts: &[Contact]) -> Result<(), SystemError> {
@@ -80,9 +89,7 @@ impl Share {
                 own.gap.iter().enumerate().for_each(|(i, value)| self.gap[contact.first + i] += value);
                 self.points[number] += own.points as f64;
                 for entry in own.entries {
-                    let [i, edge, position] = [entry.multiplier as u32, entry.node.edge, entry.node.position];
-                    self.keys.extend([2 * number as u32 + k as u32, i, edge, position].map(|key| key as i32));
-                    self.values.extend([entry.value.x, entry.value.y]);
+                    self.entries.add(contact.first + entry.multiplier, k, entry.node, entry.value);
                 }
             }
         }
@@ -90,20 +97,77 @@ impl Share {
     }
 }
 
-/// Rows of `B` from the keys and values of all ranks.
-fn rows(contacts: &[Contact], keys: &[i32], values: &[f64]) -> Vec<Vec<Coupled>> {
-    let mut rows = vec![Vec::new(); contacts.last().map_or(0, |contact| contact.range().end)];
-    for (key, value) in keys.chunks_exact(4).zip(values.chunks_exact(2)) {
-        let contact = &contacts[key[0] as usize / 2];
-        let k = key[0] as usize % 2;
-        rows[contact.first + key[1] as usize].push(Coupled {
-            node: EdgeNode { edge: key[2] as u32, position: key[3] as u32 },
-            body: contact.bodies[k],
-            side: [Side::First, Side::Second][k],
-            value: Point::new(value[0], value[1]),
-        });
+/// Entries of `B` as ranks send them to each other.
+#[derive(Default)]
+struct Entries {
+    /// Multiplier, number of the body (0, 1), edge and position of the node: four for each entry.
+    keys: Vec<i32>,
+    /// Two components for each entry.
+    values: Vec<f64>,
+}
+
+impl Entries {
+    fn add(&mut self, row: usize, body: usize, node: EdgeNode, value: Point) {
+        self.keys.extend([row as u32, body as u32, node.edge, node.position].map(|key| key as i32));
+        self.values.extend_from_slice(value.as_slice());
     }
-    rows
+
+    /// The multiplier of each.
+    fn rows(&self) -> impl Iterator<Item = usize> {
+        self.keys.iter().step_by(4).map(|row| *row as usize)
+    }
+
+    /// What ranks have sent here, if this one sends each entry to a rank. **Collective**
+    fn sent(&self, to: &[usize], session: &Session) -> Self {
+        Self { keys: session.send_to(to, &self.keys, 4), values: session.send_to(to, &self.values, 2) }
+    }
+
+    /// By multipliers, of all contacts.
+    fn into_rows(self, contacts: &[Contact]) -> Vec<Vec<Coupled>> {
+        let mut rows = vec![Vec::new(); contacts.last().map_or(0, |contact| contact.range().end)];
+        for (key, value) in self.keys.chunks_exact(4).zip(self.values.chunks_exact(2)) {
+            let (row, k) = (key[0] as usize, key[1] as usize);
+            let contact = &contacts[contacts.partition_point(|contact| contact.first <= row) - 1];
+            rows[row].push(Coupled {
+                node: EdgeNode { edge: key[2] as u32, position: key[3] as u32 },
+                body: contact.bodies[k],
+                side: [Side::First, Side::Second][k],
+                value: Point::new(value[0], value[1]),
+            });
+        }
+        rows.iter_mut().for_each(Vec::shrink_to_fit);
+        rows
+    }
+}
+
+/// Rows of `B` where they are needed, from those that their owners have. On coarser levels, of which other ranks may have a part,
+/// a node hands its entries to nodes of its macro edge, or to the ends of that. **Collective**
+fn where_needed(
+    scene: &Scene,
+    spaces: &[Space],
+    contacts: &[Contact],
+    own: &[Vec<Coupled>],
+    session: &Session,
+) -> Vec<Vec<Coupled>> {
+    let mut known: HashMap<u32, BTreeSet<usize>> = HashMap::new();
+    let ranks_of = |edge: &u32| spaces.iter().flat_map(|space| space.numbering.ranks_of(&scene.mesh, *edge)).collect();
+    let (mut entries, mut to) = (Entries::default(), Vec::new());
+    for contact in contacts {
+        for group in own[contact.range()].chunks(contact.multipliers.count() / contact.multipliers.groups()).enumerate() {
+            let (first, group) = (contact.first + group.0 * group.1.len(), group.1);
+            let mut ranks = BTreeSet::from([session.rank()]);
+            for coupled in group.iter().flatten() {
+                ranks.extend(known.entry(coupled.node.edge).or_insert_with_key(ranks_of).iter());
+            }
+            for rank in ranks {
+                for (row, coupled) in group.iter().enumerate().flat_map(|(k, row)| row.iter().map(move |c| (first + k, c))) {
+                    entries.add(row, usize::from(coupled.side == Side::Second), coupled.node, coupled.value);
+                    to.push(rank);
+                }
+            }
+        }
+    }
+    entries.sent(&to, session).into_rows(contacts)
 }
 
 /// Rank that owns each multiplier of a contact: that of its segment.

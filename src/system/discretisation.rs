@@ -46,7 +46,7 @@ impl Discretisation {
         motion: BoundaryMotion,
         session: &Session,
     ) -> Result<Self, SystemError> {
-        let coupling = Coupling::new(&scene, &contacts, session)?;
+        let coupling = Coupling::new(&scene, &spaces, &contacts, session)?;
         let mean_forces = vec![[0.0; 3]; scene.means.len()];
         Ok(Self { scene, spaces, contacts, coupling, motion, mean_forces })
     }
@@ -56,7 +56,7 @@ impl Discretisation {
     /// # Errors
     /// [`SystemError::Case`] if a contact boundary cannot be measured.
     pub fn replace(&mut self, contacts: Vec<Contact>, motion: BoundaryMotion, session: &Session) -> Result<(), SystemError> {
-        self.coupling = Coupling::new(&self.scene, &contacts, session)?;
+        self.coupling = Coupling::new(&self.scene, &self.spaces, &contacts, session)?;
         (self.contacts, self.motion) = (contacts, motion);
         Ok(())
     }

@@ -5,6 +5,7 @@ use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, 
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals};
+use crate::petsc::Session;
 use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError};
 use std::collections::{HashMap, HashSet};
 
@@ -17,9 +18,9 @@ const ALIKE: f64 = 0.99;
 /// Points that are tried, whether a support there would hold all.
 const MOST_POINTS: usize = 32;
 
-/// Words for a body that neither supports nor the active multipliers hold; nothing if all are held.
-pub fn not_held(problem: &Discretisation, active: &[bool]) -> Option<String> {
-    Restraints::of(problem).not_held(active)
+/// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
+pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
+    Restraints::of(problem, session).not_held(active)
 }
 
 /// The same where all contact is closed, of contacts whose edges are all on this rank.
@@ -28,7 +29,7 @@ pub fn not_held(problem: &Discretisation, active: &[bool]) -> Option<String> {
 /// [`SystemError::Case`] if a contact cannot be integrated.
 pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Result<Option<String>, SystemError> {
     let rows = coupled_rows(contacts)?;
-    Ok(Restraints { scene, numbering, contacts, rows: &rows }.not_held(&vec![true; rows.len()]))
+    Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.not_held(&vec![true; rows.len()]))
 }
 
 /// A rigid motion of a piece that nothing holds there; nothing if all are held.
@@ -41,7 +42,7 @@ pub fn free_motion_if_closed(
     contacts: &[Contact],
 ) -> Result<Option<Mechanism>, SystemError> {
     let rows = coupled_rows(contacts)?;
-    Ok(Restraints { scene, numbering, contacts, rows: &rows }.mechanism(&vec![true; rows.len()]))
+    Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.mechanism(&vec![true; rows.len()]))
 }
 
 /// What each multiplier couples, of contacts whose edges are all on this rank.
@@ -62,18 +63,19 @@ fn coupled_rows(contacts: &[Contact]) -> Result<Vec<Vec<Coupled>>, SystemError> 
 }
 
 /// Whether some body could move if this contact were open: then equilibrium sets its force, and bodies that are a little
-/// farther apart there come together again.
-pub fn is_needed(problem: &Discretisation, active: &[bool], contact: &Contact) -> bool {
+/// farther apart there come together again. **Collective**
+pub fn is_needed(problem: &Discretisation, active: &[bool], contact: &Contact, session: &Session) -> bool {
     let mut others = active.to_vec();
     others[contact.range()].fill(false);
-    Restraints::of(problem).mechanism(&others).is_some()
+    Restraints::of(problem, session).mechanism(&others).is_some()
 }
 
 /// Of the open multipliers those with the largest `force`, 1, 2, 4, ... of them: as many as it takes to hold every body.
-pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64) -> Vec<usize> {
+/// **Collective**
+pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64, session: &Session) -> Vec<usize> {
     let mut open: Vec<usize> = (0..active.len()).filter(|&i| !active[i]).collect();
     open.sort_by(|&a, &b| force(b).total_cmp(&force(a)));
-    let (whole, mut count) = (Restraints::of(problem), 1);
+    let (whole, mut count) = (Restraints::of(problem, session), 1);
     while count < open.len() {
         let mut closed = active.to_vec();
         open[..count].iter().for_each(|&i| closed[i] = true);
@@ -91,31 +93,38 @@ struct Restraints<'a> {
     scene: &'a Scene,
     numbering: &'a Numbering,
     contacts: &'a [Contact],
+    /// Rows of all multipliers, or at least of those of this rank.
     rows: &'a [Vec<Coupled>],
+    /// All ranks with the owners of the multipliers; nothing if this rank has all rows.
+    shared: Option<(&'a Session, &'a [usize])>,
 }
 
 impl<'a> Restraints<'a> {
-    fn of(problem: &'a Discretisation) -> Self {
+    fn of(problem: &'a Discretisation, session: &'a Session) -> Self {
         Self {
             scene: &problem.scene,
             numbering: &problem.finest().numbering,
             contacts: &problem.contacts,
             rows: &problem.coupling.rows,
+            shared: Some((session, &problem.coupling.owners)),
         }
     }
 
-    /// What the closed multipliers of all contacts resist.
-    fn touches(&self, active: &[bool]) -> Vec<Touch> {
-        self.contacts.iter().map(|contact| self.touch(contact, active)).collect()
+    /// What the closed multipliers of all contacts resist, the same on every rank. **Collective**
+    fn touches(&self, extents: &[Extent], active: &[bool]) -> Vec<Touch> {
+        let own: Vec<Touch> = self.contacts.iter().map(|contact| self.touch(contact, extents, active)).collect();
+        self.shared.map_or(own.clone(), |(session, _)| of_all_ranks(&own, session))
     }
 
     fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
-        find_mechanism(&self.scene.extents(), &support_conditions(self.scene), &self.touches(active))
+        let extents = self.scene.extents();
+        find_mechanism(&extents, &support_conditions(self.scene, &extents), &self.touches(&extents, active))
     }
 
     fn not_held(&self, active: &[bool]) -> Option<String> {
-        let (extents, touches) = (self.scene.extents(), self.touches(active));
-        let mechanism = find_mechanism(&extents, &support_conditions(self.scene), &touches)?;
+        let extents = self.scene.extents();
+        let touches = self.touches(&extents, active);
+        let mechanism = find_mechanism(&extents, &support_conditions(self.scene, &extents), &touches)?;
         let by = if active.contains(&true) {
             "supports and contact do not hold it"
         } else {
@@ -125,19 +134,20 @@ impl<'a> Restraints<'a> {
         Some(format!("{name} can {}: {by}; {}", mechanism.motion, self.remedy(&mechanism, &extents, &touches)))
     }
 
-    /// What the closed multipliers of a contact resist, by the normals of body 1 and by those of body 2.
-    fn touch(&self, contact: &Contact, active: &[bool]) -> Touch {
+    /// What the closed multipliers of a contact that are this rank's resist, by the normals of body 1 and by those of body 2.
+    fn touch(&self, contact: &Contact, extents: &[Extent], active: &[bool]) -> Touch {
         let mesh = &self.scene.mesh;
         let normals = contact.pair.between.each_ref().map(|name| {
             let edges = mesh.boundary(name).map(|boundary| boundary.edges.as_slice()).unwrap_or(&[]);
             SmoothNormals::new(mesh, edges)
         });
         let mut touch = Touch::default();
-        for row in contact.range().filter(|&i| active[i]).map(|i| &self.rows[i]) {
+        let is_own = |i: usize| self.shared.is_none_or(|(session, owners)| owners[i] == session.rank());
+        for row in contact.range().filter(|&i| active[i] && is_own(i)).map(|i| &self.rows[i]) {
             let pieces = [Side::First, Side::Second].map(|side| self.heaviest_piece(row, side));
             let [Some(first), Some(second)] = pieces else { continue };
             for (k, (side, against)) in [(Side::First, second), (Side::Second, first)].into_iter().enumerate() {
-                touch[k].extend(self.conditions(row, side, &normals[k], against));
+                touch[k].extend(self.conditions(row, side, &normals[k], against, extents));
             }
         }
         touch
@@ -151,20 +161,29 @@ impl<'a> Restraints<'a> {
     }
 
     /// What one multiplier resists by the normals of one body, for each of its pieces that takes part.
-    fn conditions(&self, row: &[Coupled], side: Side, normals: &SmoothNormals, against: usize) -> Vec<Condition> {
+    fn conditions(
+        &self,
+        row: &[Coupled],
+        side: Side,
+        normals: &SmoothNormals,
+        against: usize,
+        extents: &[Extent],
+    ) -> Vec<Condition> {
         let mesh = &self.scene.mesh;
-        let mut conditions: Vec<Condition> = Vec::new();
-        for coupled in row.iter().filter(|coupled| coupled.side == side) {
-            let piece = mesh.piece_beside(coupled.node.edge);
-            let point = normals.at(mesh, coupled.node.edge, coupled.node.fraction(mesh, self.numbering));
-            let at = conditions.iter().position(|condition| condition.piece == piece).unwrap_or_else(|| {
-                conditions.push(Condition { piece, against: Some(against), terms: Vec::new(), doubt: 0.0 });
-                conditions.len() - 1
-            });
-            conditions[at].terms.push((point.place, coupled.value.norm() * point.normal));
-            conditions[at].doubt = conditions[at].doubt.max(point.doubt);
-        }
-        conditions
+        let of_side = || row.iter().filter(|coupled| coupled.side == side);
+        let mut pieces: Vec<usize> = of_side().map(|coupled| mesh.piece_beside(coupled.node.edge)).collect();
+        pieces.sort_unstable();
+        pieces.dedup();
+        let of_piece = |piece: usize| {
+            let (mut terms, mut doubt) = (Vec::new(), 0.0_f64);
+            for coupled in of_side().filter(|coupled| mesh.piece_beside(coupled.node.edge) == piece) {
+                let point = normals.at(mesh, coupled.node.edge, coupled.node.fraction(mesh, self.numbering));
+                terms.push((point.place, coupled.value.norm() * point.normal));
+                doubt = doubt.max(point.doubt);
+            }
+            Condition::new(extents, piece, Some(against), &terms, doubt)
+        };
+        pieces.into_iter().filter_map(of_piece).collect()
     }
 
     /// A support at one point that would hold the motion, on a named boundary without contact if there is one; rather such a
@@ -174,12 +193,11 @@ impl<'a> Restraints<'a> {
             return format!("prescribe ux, uy or angle of {}", tool.key);
         }
         let extent = &extents[mechanism.piece];
-        let supports = support_conditions(self.scene);
+        let supports = support_conditions(self.scene, extents);
         let holds_all = |at: &SupportPoint| {
-            let direction = Point::ith(at.axis, 1.0);
-            let terms = vec![(at.point, direction)];
-            let with = Condition { piece: mechanism.piece, against: None, terms, doubt: 0.0 };
-            find_mechanism(extents, &[supports.as_slice(), &[with]].concat(), touches).is_none()
+            let terms = [(at.point, Point::ith(at.axis, 1.0))];
+            let with: Vec<Condition> = Condition::new(extents, mechanism.piece, None, &terms, 0.0).into_iter().collect();
+            find_mechanism(extents, &[supports.as_slice(), &with].concat(), touches).is_none()
         };
         let mut candidates = self.support_points(mechanism, extent);
         candidates.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
@@ -222,6 +240,27 @@ impl<'a> Restraints<'a> {
     }
 }
 
+/// What the multipliers of all ranks resist, by the ranks that own them. **Collective**
+fn of_all_ranks(own: &[Touch], session: &Session) -> Vec<Touch> {
+    let (mut keys, mut values) = (Vec::new(), Vec::new());
+    for (number, touch) in own.iter().enumerate() {
+        for (k, condition) in (0..2).flat_map(|k| touch[k].iter().map(move |condition| (k, condition))) {
+            let against = condition.against.map_or(-1, |piece| piece as i32);
+            keys.extend([(2 * number + k) as i32, condition.piece as i32, against]);
+            values.extend_from_slice(condition.sees.as_flattened());
+            values.push(condition.doubt);
+        }
+    }
+    let (keys, values) = (session.gather_all(&keys), session.gather_all(&values));
+    let mut all = vec![Touch::default(); own.len()];
+    for (key, value) in keys.chunks_exact(3).zip(values.chunks_exact(7)) {
+        let sees = [[value[0], value[1], value[2]], [value[3], value[4], value[5]]];
+        let (piece, against) = (key[1] as usize, usize::try_from(key[2]).ok());
+        all[key[0] as usize / 2][key[0] as usize % 2].push(Condition { piece, against, sees, doubt: value[6] });
+    }
+    all
+}
+
 /// A coordinate as the case wants it: so many digits that a vertex is known again.
 fn coordinate(v: f64, large: f64) -> String {
     let unit = 10f64.powf(large.log10().floor() - 9.0);
@@ -240,21 +279,22 @@ struct SupportPoint<'a> {
 }
 
 /// Everything that supports hold, at the macro vertices.
-fn support_conditions(scene: &Scene) -> Vec<Condition> {
+fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
     let normals = normal_supports(scene);
     let condition = |held: Held| {
         // A direction along the mean of two chords' normals stands for the normal of their arc.
         let smooth = normals.get(&held.vertex).map(|normal| normal * normal.dot(&held.direction).signum());
         let direction = smooth.filter(|normal| normal.dot(&held.direction) > ALIKE).unwrap_or(held.direction);
-        Condition { piece: held.piece, against: None, terms: vec![(held.place, direction)], doubt: 0.0 }
+        Condition::new(extents, held.piece, None, &[(held.place, direction)], 0.0)
     };
-    let rigid = scene.rigid.iter().filter(|set| set.free().next().is_some()).flat_map(|set| rigid_conditions(scene, set));
-    supported(scene, &numbering).into_iter().map(condition).chain(rigid).chain(spring_conditions(scene)).collect()
+    let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
+    let rigid = free.flat_map(|set| rigid_conditions(scene, set, extents));
+    supported(scene, &numbering).into_iter().filter_map(condition).chain(rigid).chain(spring_conditions(scene, extents)).collect()
 }
 
 /// What is prescribed of the motion of a rigid set that is free otherwise: the shift of its reference point, and its turn.
-fn rigid_conditions(scene: &Scene, set: &RigidSet) -> Vec<Condition> {
+fn rigid_conditions(scene: &Scene, set: &RigidSet, extents: &[Extent]) -> Vec<Condition> {
     let mesh = &scene.mesh;
     let edges = set.edges(mesh);
     let Some(&first) = edges.first() else { return Vec::new() };
@@ -265,11 +305,11 @@ fn rigid_conditions(scene: &Scene, set: &RigidSet) -> Vec<Condition> {
         [vec![(set.about, Point::new(1.0, 0.0))], vec![(set.about, up)], vec![(set.about + along, up), (set.about - along, -up)]];
     let piece = mesh.piece_beside(first);
     let prescribed = terms.into_iter().zip(set.prescribed).filter(|(_, component)| component.is_some());
-    prescribed.map(|(terms, _)| Condition { piece, against: None, terms, doubt: 0.0 }).collect()
+    prescribed.filter_map(|(terms, _)| Condition::new(extents, piece, None, &terms, 0.0)).collect()
 }
 
 /// What springs resist at the macro vertices, however soft they are.
-fn spring_conditions(scene: &Scene) -> Vec<Condition> {
+fn spring_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     let mesh = &scene.mesh;
     let mut all = Vec::new();
     for springs in &scene.springs {
@@ -279,12 +319,8 @@ fn spring_conditions(scene: &Scene) -> Vec<Condition> {
             for vertex in mesh.edges[edge as usize].vertices {
                 let place = mesh.vertices[vertex as usize];
                 let held = springs.stiffness.at(place, normals[&vertex]).into_iter().filter(|(_, k)| *k > 0.0);
-                all.extend(held.map(|(direction, _)| Condition {
-                    piece: mesh.piece_beside(edge),
-                    against: None,
-                    terms: vec![(place, direction)],
-                    doubt: 0.0,
-                }));
+                let piece = mesh.piece_beside(edge);
+                all.extend(held.filter_map(|(direction, _)| Condition::new(extents, piece, None, &[(place, direction)], 0.0)));
             }
         }
     }

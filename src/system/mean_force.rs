@@ -52,14 +52,17 @@ fn missing_force(
         let pushed = nodes.iter().map(|(&node, &x)| loads.point(node).dot(&rigid_mode(about, component, x)));
         sums[count * count + j] = -pushed.sum::<f64>();
     }
-    session.sum(&mut sums);
-    let mut left = DVector::from_row_slice(&sums[count * count..]);
-    for (row, lambda) in problem.coupling.rows.iter().zip(&solution.multipliers) {
-        for coupled in row.iter().filter(|coupled| scene.bodies[coupled.body].name == hold.body) {
+    let coupling = &problem.coupling;
+    for row in coupling.own(0..coupling.owners.len(), session.rank()) {
+        let lambda = solution.multipliers[row];
+        for coupled in coupling.rows[row].iter().filter(|coupled| scene.bodies[coupled.body].name == hold.body) {
             let x = coupled.node.place(&scene.mesh, &space.numbering);
-            held.iter().enumerate().for_each(|(i, &k)| left[i] += lambda * coupled.value.dot(&rigid_mode(about, k, x)));
+            let pushed = held.iter().map(|&k| lambda * coupled.value.dot(&rigid_mode(about, k, x)));
+            sums[count * count..].iter_mut().zip(pushed).for_each(|(sum, pushed)| *sum += pushed);
         }
     }
+    session.sum(&mut sums);
+    let left = DVector::from_row_slice(&sums[count * count..]);
     let modes = DMatrix::from_row_slice(count, count, &sums[..count * count]);
     Ok(modes.lu().solve(&left).map_or_else(|| vec![0.0; count], |found| found.as_slice().to_vec()))
 }

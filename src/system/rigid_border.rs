@@ -103,7 +103,7 @@ impl RigidBorder {
     ) -> Result<Vec<Field<2>>, SystemError> {
         let space = problem.finest();
         let places = set.places(&problem.scene.mesh, &space.numbering);
-        let arm = arm(problem, set, &places);
+        let arm = arm(problem, set, &places, session);
         let moved = moved_nodes(problem, set, &places, session.rank());
         self.nodes.extend(moved.into_iter().map(|(node, x)| (2 * (node - space.own.start), number, x)));
         let mut rows = Vec::new();
@@ -113,7 +113,7 @@ impl RigidBorder {
             let own = space.own.clone().zip(loads.own());
             let pushed = own.filter_map(|(node, load)| Some(Point::from(*load).dot(&set.mode(k, *places.get(&node)?))));
             let given = pushed.sum::<f64>() - at_rest;
-            let gaps = moved_gaps(problem, |coupled| {
+            let gaps = moved_gaps(problem, session, |coupled| {
                 let x = places.get(&coupled.node.number(&problem.scene.mesh, &space.numbering));
                 x.map(|x| set.mode(k, *x))
             });
@@ -143,7 +143,7 @@ impl RigidBorder {
             let (mean, at_rest) = free_part(problem, &weights);
             let force: Rc<[f64]> = mean.iter().map(|weight| -weight).collect();
             let nothing: Rc<[f64]> = vec![0.0; mean.len()].into();
-            let gaps = moved_gaps(problem, |coupled| {
+            let gaps = moved_gaps(problem, session, |coupled| {
                 let x = coupled.node.place(mesh, &space.numbering);
                 (problem.scene.bodies[coupled.body].name == hold.body).then(|| rigid_mode(about, k, x))
             });
@@ -324,25 +324,31 @@ fn free_part(problem: &Discretisation, row: &Field<2>) -> (Rc<[f64]>, f64) {
 }
 
 /// `B R` of all multipliers, with the displacement of each coupled node that moves; where all of it cancels it is zero.
-fn moved_gaps(problem: &Discretisation, moved: impl Fn(&Coupled) -> Option<Point>) -> Rc<[f64]> {
-    let gap = |row: &Vec<Coupled>| {
+/// **Collective**
+fn moved_gaps(problem: &Discretisation, session: &Session, moved: impl Fn(&Coupled) -> Option<Point>) -> Rc<[f64]> {
+    let coupling = &problem.coupling;
+    let gap = |row: usize| {
         let (mut sum, mut whole) = (0.0, 0.0);
-        for (coupled, u) in row.iter().filter_map(|coupled| Some((coupled, moved(coupled)?))) {
+        for (coupled, u) in coupling.rows[row].iter().filter_map(|coupled| Some((coupled, moved(coupled)?))) {
             sum += coupled.value.dot(&u);
             whole += coupled.value.norm() * u.norm();
         }
         if sum.abs() <= ROUNDING * whole { 0.0 } else { sum }
     };
-    problem.coupling.rows.iter().map(gap).collect()
+    let mut gaps = vec![0.0; coupling.owners.len()];
+    coupling.own(0..gaps.len(), session.rank()).for_each(|i| gaps[i] = gap(i));
+    session.sum(&mut gaps);
+    gaps.into()
 }
 
 /// Largest distance from the reference point at which contact acts on a set; of its nodes where none does: a tool may be far longer
-/// than what it touches.
-fn arm(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>) -> f64 {
+/// than what it touches. **Collective**
+fn arm(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>, session: &Session) -> f64 {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let farthest = |x: &mut dyn Iterator<Item = &Point>| x.map(|x| (x - set.about).norm()).fold(0.0, f64::max);
     let mut touched = problem.coupling.rows.iter().flatten().filter_map(|at| places.get(&at.node.number(mesh, numbering)));
-    let arms = [farthest(&mut touched), farthest(&mut places.values())];
+    let mut arms = [farthest(&mut touched), farthest(&mut places.values())];
+    session.max(&mut arms);
     arms.into_iter().find(|arm| *arm > 0.0).unwrap_or(f64::MIN_POSITIVE)
 }
 

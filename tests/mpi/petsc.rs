@@ -27,6 +27,7 @@ fn main() -> std::process::ExitCode {
             ranks_meet,
             vector_algebra,
             owners_add_in_the_order_of_the_ranks,
+            entries_arrive_by_rank_in_the_order_of_each,
             gather_fetches_any_entry,
             matrix_of_exact_counts,
             matrix_in_blocks,
@@ -175,6 +176,22 @@ fn owners_add_in_the_order_of_the_ranks(session: &Session) {
         assert_eq!(sum.map(f64::to_bits), expected.map(f64::to_bits));
     }
     session.add_to_owners::<1>(&(0..0), &mut [], Vec::new());
+}
+
+/// Each rank sends some to every other, and to some none.
+fn entries_arrive_by_rank_in_the_order_of_each(session: &Session) {
+    let (rank, size) = (session.rank(), session.size());
+    let to: Vec<usize> = (0..5 * size).map(|k| (3 * k + rank) % size).filter(|to| *to <= rank).collect();
+    let entries: Vec<i32> = (0..to.len() as i32).flat_map(|k| [rank as i32, k]).collect();
+    let arrived = session.send_to(&to, &entries, 2);
+    let expected: Vec<i32> = (rank..size)
+        .flat_map(|from| {
+            let to = (0..5 * size).map(move |k| (3 * k + from) % size).filter(move |to| *to <= from);
+            to.enumerate().filter(|(_, to)| *to == rank).flat_map(move |(k, _)| [from as i32, k as i32]).collect::<Vec<_>>()
+        })
+        .collect();
+    assert_eq!(arrived, expected);
+    assert!(session.send_to::<f64>(&[], &[], 3).is_empty());
 }
 
 fn gather_fetches_any_entry(session: &Session) {

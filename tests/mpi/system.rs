@@ -35,6 +35,7 @@ fn main() -> std::process::ExitCode {
             the_plain_residual_is_that_of_the_system_without_augmentation,
             responses_are_those_of_load_and_gap_and_reciprocal,
             multipliers_live_where_body_one_does,
+            rows_of_b_are_whole_where_they_are_needed_and_nowhere_else,
             ranks_are_dealt_equal_work,
         ],
         outside: &[],
@@ -168,7 +169,10 @@ impl<'a> Definition<'a> {
             let number = |entry: &Coupled| entry.node.number(&problem.scene.mesh, &space.numbering);
             row.iter().map(|entry| entry.value.dot(&space.prescribed(number(entry)))).sum()
         };
-        problem.coupling.gap.iter().zip(&problem.coupling.rows).map(|(c, row)| c - moved(row)).collect()
+        let mut sums = vec![0.0; problem.coupling.gap.len()];
+        self.own().into_iter().for_each(|i| sums[i] = moved(&problem.coupling.rows[i]));
+        self.session.sum(&mut sums);
+        problem.coupling.gap.iter().zip(sums).map(|(c, moved)| c - moved).collect()
     }
 
     /// `f`, with what prescribed displacements add.
@@ -431,6 +435,41 @@ fn multipliers_live_where_body_one_does(session: &Session) {
 }
 
 /// The lower bar between bent sides, the upper one straight.
+fn rows_of_b_are_whole_where_they_are_needed_and_nowhere_else(session: &Session) {
+    let (mut missing, rank) = (0, session.rank());
+    for problem in problems(session) {
+        let (mesh, coupling, spaces) = (&problem.scene.mesh, &problem.coupling, &problem.spaces);
+        // All rows, from the ranks that own them.
+        let own: Vec<usize> = coupling.own(0..coupling.owners.len(), rank).collect();
+        let entries = || own.iter().flat_map(|&i| coupling.rows[i].iter().map(move |coupled| (i, coupled)));
+        let keys = |(i, coupled): (usize, &Coupled)| [i as i32, coupled.node.edge as i32, coupled.node.position as i32];
+        let keys = session.gather_all(&entries().flat_map(keys).collect::<Vec<_>>());
+        let values =
+            session.gather_all(&entries().flat_map(|(_, coupled)| [coupled.value.x, coupled.value.y]).collect::<Vec<_>>());
+        let mut whole = vec![Vec::new(); coupling.owners.len()];
+        for (key, value) in keys.chunks_exact(3).zip(values.chunks_exact(2)) {
+            whole[key[0] as usize].push((key[1] as u32, key[2] as u32, [value[0], value[1]]));
+        }
+        for contact in &problem.contacts {
+            for i in contact.range() {
+                let group = contact.multipliers.group_of(i - contact.first);
+                let together = contact.range().filter(|j| contact.multipliers.group_of(j - contact.first) == group);
+                let ranks = together
+                    .flat_map(|j| &whole[j])
+                    .flat_map(|(edge, _, _)| spaces.iter().flat_map(|space| space.numbering.ranks_of(mesh, *edge)));
+                let is_needed = coupling.owners[i] == rank || ranks.into_iter().any(|other| other == rank);
+                let here = coupling.rows[i].iter().map(|c| (c.node.edge, c.node.position, [c.value.x, c.value.y]));
+                let here: Vec<_> = here.collect();
+                assert!(if is_needed { here == whole[i] } else { here.is_empty() }, "row {i}");
+                assert!(!whole[i].is_empty(), "row {i}");
+                missing += usize::from(!is_needed);
+            }
+        }
+    }
+    let missing: usize = session.gather_counts(missing).into_iter().sum();
+    assert!(session.size() < 3 || missing > 0, "all rows are everywhere");
+}
+
 fn ranks_are_dealt_equal_work(session: &Session) {
     let text = meshes::Mesh::inclined_bars(1).text();
     let mut mesh = parse_gmsh(text.as_bytes(), "bars.msh".as_ref()).expect("a mesh");

@@ -242,19 +242,19 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     /// The set that follows from the forces: nothing changes where they are too small to be told from none. One that lets a
     /// body go may do so only because contact was closed where it is to open, and pulled: the few multipliers that are pulled
     /// least, and hold all, stay closed then, so that the rest comes to rest on them. If that has been tried, the words for the
-    /// body.
+    /// body. **Collective**
     fn next_set(&mut self, state: &ContactState) -> NextSet {
         let problem = self.system.problem();
         let doubt = if self.is_loose() { 0.0 } else { (DOUBT * self.goal / self.share).min(MOST_DOUBT) };
         let told = state.told_from(problem, doubt);
         let force = |i: usize| told.force(i);
         let change = if self.set.ascends() { self.set.ascend(&told.found()) } else { self.set.update(force) };
-        let lost = not_held(problem, self.set.active());
+        let lost = not_held(problem, self.set.active(), self.system.session());
         let is_new = matches!(change, SetChange::Changed { .. }) || self.set.ascends() && change == SetChange::Repeated;
         if lost.is_none() || self.kept == MOST_KEPT || !is_new {
             return NextSet { change, lost };
         }
-        if !self.set.keep(&few_that_hold(problem, self.set.active(), force)) {
+        if !self.set.keep(&few_that_hold(problem, self.set.active(), force, self.system.session())) {
             return NextSet { change, lost };
         }
         self.kept += 1;

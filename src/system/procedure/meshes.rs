@@ -10,6 +10,7 @@ use super::observer::{Event, Work};
 use super::predecessor::Predecessor;
 use super::settings::Procedure;
 use super::solved::{CoarseSolve, Solved};
+use crate::petsc::Session;
 use crate::system::{
     BoundaryMotion, Contact, Discretisation, Preconditioning, Scene, SolverChoice, Start, SystemError, Tolerance, not_held,
     spaces,
@@ -96,7 +97,7 @@ impl Procedure<'_> {
         }
         take_up(scene.refine);
         let (problem, start) = self.refine(scene, at_rest.contacts, &coarser)?;
-        if let (None, Some(words)) = (&start, not_held_at_all(&problem)) {
+        if let (None, Some(words)) = (&start, not_held_at_all(&problem, self.session)) {
             return Ok(Solved::nothing(problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
         }
         self.solve_last(problem, start, first, coarser)
@@ -134,7 +135,7 @@ impl Procedure<'_> {
                 None => (Discretisation::new(scene, self.session)?, None),
             }
         };
-        if start.is_none() && not_held_at_all(&problem).is_some() {
+        if start.is_none() && not_held_at_all(&problem, self.session).is_some() {
             return Ok(());
         }
         self.say(first);
@@ -251,7 +252,7 @@ impl Procedure<'_> {
     }
 }
 
-/// Words for a body that can move though all contact is closed.
-fn not_held_at_all(problem: &Discretisation) -> Option<String> {
-    not_held(problem, &vec![true; problem.multiplier_count()])
+/// Words for a body that can move though all contact is closed. **Collective**
+fn not_held_at_all(problem: &Discretisation, session: &Session) -> Option<String> {
+    not_held(problem, &vec![true; problem.multiplier_count()], session)
 }

@@ -82,7 +82,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     reactions.extend(springs.reactions);
     reactions.extend(problem.mean_forces.iter().map(|&[x, y, _]| Point::new(x, y)));
     let has_springs = !problem.scene.springs.is_empty();
-    let forces: Vec<ContactForce> = contacts.iter().map(|contact| contact_force(problem, contact, solution)).collect();
+    let forces = contact_forces_of_all(problem, solution, session);
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let gaps: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| (lambda * gap).abs()).sum();
     let jumped: f64 = problem
@@ -371,7 +371,7 @@ fn each_force(
     Ok(())
 }
 
-/// `Bᵀλ` at the contact nodes.
+/// `Bᵀλ` at the contact nodes of this rank; at others a part of it.
 fn contact_forces(problem: &Discretisation, solution: &Solution) -> HashMap<usize, Point> {
     let mut forces = HashMap::new();
     for (row, lambda) in problem.coupling.rows.iter().zip(&solution.multipliers) {
@@ -383,7 +383,24 @@ fn contact_forces(problem: &Discretisation, solution: &Solution) -> HashMap<usiz
     forces
 }
 
-fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solution) -> ContactForce {
+/// Force, resultants and moments of each contact. **Collective**
+fn contact_forces_of_all(problem: &Discretisation, solution: &Solution, session: &Session) -> Vec<ContactForce> {
+    let of_rank = |contact: &Contact| {
+        let ContactForce { force, resultants: [a, b], moments } = contact_force(problem, contact, solution, session.rank());
+        [force, a.x, a.y, b.x, b.y, moments[0], moments[1]]
+    };
+    let mut sums: Vec<[f64; 7]> = problem.contacts.iter().map(of_rank).collect();
+    session.sum(sums.as_flattened_mut());
+    let whole = |[force, ax, ay, bx, by, first, second]: [f64; 7]| ContactForce {
+        force,
+        resultants: [Point::new(ax, ay), Point::new(bx, by)],
+        moments: [first, second],
+    };
+    sums.into_iter().map(whole).collect()
+}
+
+/// The part of one contact that the multipliers of a rank have.
+fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solution, rank: usize) -> ContactForce {
     let mut sum = ContactForce::default();
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let moves = contact.pair.configuration == Configuration::Deformed;
@@ -393,7 +410,7 @@ fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solutio
         let x = node.place(mesh, &space.numbering);
         if moves { x + problem.motion.at(node, mesh, space) } else { x }
     };
-    for i in contact.range() {
+    for i in problem.coupling.own(contact.range(), rank) {
         let lambda = solution.multipliers[i];
         sum.force += lambda * contact.multipliers.integral(i - contact.first);
         for coupled in &problem.coupling.rows[i] {

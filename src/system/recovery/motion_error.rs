@@ -42,7 +42,7 @@ pub fn motion_errors(
 ) -> Vec<Option<MotionError>> {
     let follows = |contact: &Contact| contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some();
     if !problem.contacts.iter().any(follows) {
-        return problem.contacts.iter().map(|contact| one(problem, solution, contact, energy, bodies, None)).collect();
+        return problem.contacts.iter().map(|contact| one(problem, solution, contact, energy, bodies, None, session)).collect();
     }
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
@@ -55,7 +55,7 @@ pub fn motion_errors(
             sides
         });
         let sides = meeting.zip(sides.as_ref()).map(|(meeting, sides)| meeting.sides(sides));
-        one(problem, solution, contact, energy, bodies, sides)
+        one(problem, solution, contact, energy, bodies, sides, session)
     };
     problem.contacts.iter().map(with_sides).collect()
 }
@@ -67,18 +67,19 @@ fn one(
     energy: &[f64],
     bodies: &[Deformation],
     sides: Option<[&SmoothSide; 2]>,
+    session: &Session,
 ) -> Option<MotionError> {
     let turns = contact.bodies.map(|body| Turn { angle: bodies[body].rotation, middle: bodies[body].middle });
     let found = finite_motion(sides, turns, &contact.boundary, &contact.multipliers, &solution.multipliers[contact.range()]);
     let energy: f64 = contact.bodies.iter().map(|&body| energy[body]).sum();
     let growth: f64 = contact.bodies.iter().map(|&body| bodies[body].growth).sum();
-    let growth = growth + tool_growth(problem, solution, contact, bodies);
+    let growth = growth + tool_growth(problem, solution, contact, bodies, session);
     if found.force <= 0.0 || energy <= 0.0 {
         return None;
     }
     // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
-    let needed =
-        is_needed(problem, &solution.active, contact) && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
+    let needed = is_needed(problem, &solution.active, contact, session)
+        && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
     let is_straight = match sides {
         Some(sides) => sides.iter().all(|side| side.shape().is_line()),
         None => contact.boundary.is_straight(),
@@ -104,18 +105,26 @@ fn is_between_tools(problem: &Discretisation, contact: &Contact, is: &dyn Fn(&Ri
 }
 
 /// Force times length by which tools seem to grow as they turn about their reference points: `½θ² ∫λ n·(x - x₀) ds`.
-fn tool_growth(problem: &Discretisation, solution: &Solution, contact: &Contact, bodies: &[Deformation]) -> f64 {
+/// **Collective**
+fn tool_growth(
+    problem: &Discretisation,
+    solution: &Solution,
+    contact: &Contact,
+    bodies: &[Deformation],
+    session: &Session,
+) -> f64 {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
-    let mut growth = 0.0;
-    for row in contact.range() {
+    let mut growth = [0.0];
+    for row in problem.coupling.own(contact.range(), session.rank()) {
         for coupled in &problem.coupling.rows[row] {
             if let Some(tool) = scene.tool(coupled.body) {
                 let arm = coupled.node.place(&scene.mesh, numbering) - tool.about;
-                growth += 0.5 * bodies[coupled.body].rotation.powi(2) * solution.multipliers[row] * coupled.value.dot(&arm);
+                growth[0] += 0.5 * bodies[coupled.body].rotation.powi(2) * solution.multipliers[row] * coupled.value.dot(&arm);
             }
         }
     }
-    growth
+    session.sum(&mut growth);
+    growth[0]
 }
 
 /// Relative error of λ by an uneven gap that is left out. On a half-plane a gap that varies by e over the half length a takes

@@ -2,7 +2,7 @@
 
 use super::{agreed, nodal};
 use crate::body::positions;
-use crate::contact::{Distance, edge_overlaps, trace};
+use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
 use crate::element::{Order, PlaneLaw, stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
@@ -14,6 +14,9 @@ const POINTS: usize = 2;
 
 /// Sums of each body at a point: a count, and the values of [`on_edge`].
 const VALUES: usize = 5;
+
+/// Points whose values are added up over the ranks at once.
+const AT_ONCE: usize = 1 << 14;
 
 /// Values at one point of Γ_C.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,49 +60,71 @@ pub fn trace_points(
     session: &Session,
 ) -> Result<Vec<TracePoint>, SystemError> {
     let (contact, laws) = (pressure.contact, problem.scene.laws());
-    let own = [0, 1].map(|k| edge_overlaps(&contact.boundary, &contact.edges[k]));
-    let (parameters, segments) =
-        parameters(contact, &own.iter().flatten().flat_map(|overlap| overlap.range).collect::<Vec<_>>(), session);
-    // Sums over ranks of (count, displacement, stress, distance, displacement along Γ_C) for both bodies.
-    let mut sums = vec![[0.0; 2 * VALUES]; parameters.len()];
-    let tolerance = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
-    let mut add = |k: usize| -> Result<(), SystemError> {
-        for overlap in &own[k] {
+    let own = [0, 1].map(|body| {
+        let overlaps = edge_overlaps(&contact.boundary, &contact.edges[body]);
+        BodyTrace { problem, laws: &laws, contact, body, overlaps }
+    });
+    let cuts: Vec<f64> = own.iter().flat_map(|trace| &trace.overlaps).flat_map(|overlap| overlap.range).collect();
+    let (parameters, segments) = parameters(contact, &cuts, session);
+    let mut points = Vec::with_capacity(parameters.len());
+    for (parameters, segments) in parameters.chunks(AT_ONCE).zip(segments.chunks(AT_ONCE)) {
+        let mut sums = vec![[0.0; 2 * VALUES]; parameters.len()];
+        let added = own.iter().try_for_each(|trace| trace.add(parameters, u, &mut sums));
+        agreed(session, added)?;
+        session.sum(sums.as_flattened_mut());
+        points.extend((0..parameters.len()).map(|at| point(pressure, parameters[at], segments[at], &sums[at])));
+    }
+    Ok(points)
+}
+
+/// The trace of one body on the edges of this rank.
+struct BodyTrace<'a> {
+    problem: &'a Discretisation,
+    laws: &'a [PlaneLaw],
+    contact: &'a Contact,
+    /// Which body: 1 (0) or 2 (1).
+    body: usize,
+    overlaps: Vec<EdgeOverlap>,
+}
+
+impl BodyTrace<'_> {
+    /// Adds its values to the sums of some points, ascending: a count, displacement, stress, distance, and displacement along Γ_C.
+    fn add(&self, parameters: &[f64], u: &Field<2>, sums: &mut [[f64; 2 * VALUES]]) -> Result<(), SystemError> {
+        let knots = self.contact.boundary.knots();
+        let tolerance = 1e-12 * (knots[knots.len() - 1] - knots[0]);
+        for overlap in &self.overlaps {
             let [from, to] = overlap.range;
             let first = parameters.partition_point(|&t| t < from - tolerance);
             let last = parameters.partition_point(|&t| t <= to + tolerance);
             for at in first..last {
-                let small = &contact.edges[k][overlap.edge];
-                let values = on_edge(problem, &laws, contact, k, small, parameters[at], u)?;
-                sums[at][VALUES * k] += 1.0;
-                values.iter().enumerate().for_each(|(i, value)| sums[at][VALUES * k + 1 + i] += value);
+                let edge = &self.contact.edges[self.body][overlap.edge];
+                let values = on_edge(self.problem, self.laws, self.contact, self.body, edge, parameters[at], u)?;
+                let sums = &mut sums[at][VALUES * self.body..VALUES * (self.body + 1)];
+                sums.iter_mut().zip(std::iter::once(1.0).chain(values)).for_each(|(sum, value)| *sum += value);
             }
         }
         Ok(())
-    };
-    let added = add(0).and_then(|()| add(1));
-    agreed(session, added)?;
-    session.sum(sums.as_flattened_mut());
-    let knots = contact.boundary.knots();
-    let point = |(at, &t): (usize, &f64)| {
-        let k = segments[at];
-        let mean = |side: usize, i: usize| sums[at][VALUES * side + 1 + i] / sums[at][VALUES * side];
-        let z = ((t - knots[k]) / (knots[k + 1] - knots[k])).clamp(0.0, 1.0);
-        let (x, distance) = (contact.boundary.point(t), [mean(0, 2), mean(1, 2)]);
-        let displacement = [mean(0, 0), mean(1, 0)];
-        TracePoint {
-            arc: contact.boundary.arc(t),
-            x,
-            normal: contact.boundary.normal(t),
-            lambda: pressure.value(k, z),
-            displacement,
-            slip: mean(1, 3) - mean(0, 3),
-            stress: [mean(0, 1), mean(1, 1)],
-            distance,
-            gap: contact.pair.gap.at_rest(x, distance) + displacement[1] - displacement[0],
-        }
-    };
-    Ok(parameters.iter().enumerate().map(point).collect())
+    }
+}
+
+/// The point at a parameter, from what the ranks have added up.
+fn point(pressure: &ContactPressure, t: f64, segment: usize, sums: &[f64; 2 * VALUES]) -> TracePoint {
+    let (contact, knots) = (pressure.contact, pressure.contact.boundary.knots());
+    let mean = |side: usize, i: usize| sums[VALUES * side + 1 + i] / sums[VALUES * side];
+    let z = ((t - knots[segment]) / (knots[segment + 1] - knots[segment])).clamp(0.0, 1.0);
+    let (x, distance) = (contact.boundary.point(t), [mean(0, 2), mean(1, 2)]);
+    let displacement = [mean(0, 0), mean(1, 0)];
+    TracePoint {
+        arc: contact.boundary.arc(t),
+        x,
+        normal: contact.boundary.normal(t),
+        lambda: pressure.value(segment, z),
+        displacement,
+        slip: mean(1, 3) - mean(0, 3),
+        stress: [mean(0, 1), mean(1, 1)],
+        distance,
+        gap: contact.pair.gap.at_rest(x, distance) + displacement[1] - displacement[0],
+    }
 }
 
 /// Parameters of all points, ascending, and the segment each belongs to.

@@ -20,11 +20,10 @@ pub struct ZoneErrors {
 /// One for each zone; `points` are those of [`super::Evaluation::traces`].
 pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[TracePoint]) -> Vec<ZoneErrors> {
     // The stress of a body that bears a load there says nothing of λ.
-    let told = |point: &TracePoint| {
-        let stress = [0, 1].map(|k| if contact.loaded[k] { f64::NAN } else { point.stress[k] });
-        TracePoint { stress, ..*point }
+    let apart = |counts: &dyn Fn(f64) -> bool| {
+        let found = apart(points, counts);
+        [0, 1].map(|k| if contact.loaded[k] { f64::NAN } else { found[k] })
     };
-    let points: &[TracePoint] = &points.iter().map(told).collect::<Vec<_>>();
     let one = |zone: &Zone| {
         let boundary = &contact.boundary;
         let height = |k: &usize| contact.multipliers.value(lambda, *k, 0.5);
@@ -40,9 +39,9 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
             arc - beyond >= near[0] && arc - beyond <= near[1]
         };
         ZoneErrors {
-            stress: apart(points, |arc| zone.has_in_its_middle(arc)),
-            stress_inside: apart(points, |arc| zone.has_inside(arc)),
-            stress_at_peak: apart(points, is_near),
+            stress: apart(&|arc| zone.has_in_its_middle(arc)),
+            stress_inside: apart(&|arc| zone.has_inside(arc)),
+            stress_at_peak: apart(&is_near),
             roughness: roughness(&contact.boundary, &contact.multipliers, lambda, zone),
         }
     };
@@ -52,10 +51,11 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
 /// Relative root mean squares of `λ + n·σn` of both bodies over some arc lengths, by the trapezoidal rule.
 fn apart(points: &[TracePoint], counts: impl Fn(f64) -> bool) -> [f64; 2] {
     let mut sums = [0.0; 3];
-    let complete: Vec<&TracePoint> = points.iter().filter(|point| point.is_complete()).collect();
-    for ends in complete.windows(2).filter(|ends| ends.iter().all(|point| counts(point.arc))) {
-        let half = 0.5 * (ends[1].arc - ends[0].arc);
-        for point in ends {
+    let complete = points.iter().filter(|point| point.is_complete());
+    let ends = complete.clone().zip(complete.skip(1));
+    for (first, second) in ends.filter(|(first, second)| counts(first.arc) && counts(second.arc)) {
+        let half = 0.5 * (second.arc - first.arc);
+        for point in [first, second] {
             for (sum, stress) in sums.iter_mut().zip(point.stress) {
                 *sum += half * (point.lambda + stress).powi(2);
             }

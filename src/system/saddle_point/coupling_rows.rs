@@ -3,7 +3,7 @@
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh};
 use crate::system::{Coupled, Discretisation, Space};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Rows of `B` at one level: for each multiplier, node numbers with their two entries; multipliers that `D` couples have the same
@@ -81,22 +81,6 @@ impl NodeRows {
     }
 }
 
-/// The rows that a rank needs on some level; `groups` are the multipliers that `D` couples.
-fn wanted(problem: &Discretisation, groups: &[Range<usize>], rank: usize) -> Vec<bool> {
-    let (mesh, spaces) = (&problem.scene.mesh, &problem.spaces);
-    // On coarser levels, of which fewer ranks may have more, a node hands its entries to nodes of its macro edge, or to the ends
-    // of that.
-    let near = |edge: u32| spaces.iter().any(|space| space.numbering.has_part_of(mesh, edge, rank));
-    let mut known: HashMap<u32, bool> = HashMap::new();
-    let mut is_near = |coupled: &Coupled| *known.entry(coupled.node.edge).or_insert_with_key(|&edge| near(edge));
-    let (coupling, mut wanted) = (&problem.coupling, vec![false; problem.multiplier_count()]);
-    for group in groups {
-        let is_wanted = group.clone().any(|i| coupling.owners[i] == rank || coupling.rows[i].iter().any(&mut is_near));
-        wanted[group.clone()].fill(is_wanted);
-    }
-    wanted
-}
-
 impl CouplingRows {
     /// Rows of every level, coarsest first, as far as a rank needs them; the finest are those of the coupling, the others follow
     /// by the transposed interpolation, each level dropping its own prescribed components. `groups` are the multipliers that `D`
@@ -104,18 +88,15 @@ impl CouplingRows {
     pub fn of_levels(problem: &Discretisation, groups: &[Range<usize>], rank: usize) -> Vec<Self> {
         let (mesh, spaces, finest) = (&problem.scene.mesh, &problem.spaces, problem.finest());
         let (mut rows, mut row) = (NodeRows::new(), Vec::new());
-        let wanted = wanted(problem, groups, rank);
         let entry = |coupled: &Coupled, value: Point| {
             let number = coupled.node.number(mesh, &finest.numbering);
             NodeEntry { number, node: coupled.node, value }
         };
         let all = &problem.coupling.rows;
         for (group, i) in groups.iter().flat_map(|group| group.clone().map(move |i| (group, i))) {
-            if wanted[i] {
-                row.extend(all[i].iter().map(|coupled| entry(coupled, coupled.value)));
-                let others = group.clone().filter(|&j| j != i).flat_map(|j| &all[j]);
-                row.extend(others.map(|coupled| entry(coupled, Point::zeros())));
-            }
+            row.extend(all[i].iter().map(|coupled| entry(coupled, coupled.value)));
+            let others = group.clone().filter(|&j| j != i).flat_map(|j| &all[j]);
+            row.extend(others.map(|coupled| entry(coupled, Point::zeros())));
             rows.push(&mut row, finest);
         }
         let mut levels = vec![rows.needed(groups, &finest.own, |i| problem.coupling.owners[i] == rank)];

@@ -23,7 +23,6 @@ pub use multiplier_blocks::SchurPattern;
 use super::stiffness::{ContactNeighbours, Elastic, Stiffness};
 use super::{Coupled, Discretisation, Form, RigidBorder, Space, SystemError};
 use crate::contact::DiagonalBlock;
-use crate::mesh::EdgeNode;
 use crate::petsc::{Matrix, Session, Vector};
 use augmentation::Augmentation;
 use contact_places::ContactPlaces;
@@ -91,7 +90,7 @@ impl SaddlePoint {
         let finest = &stiffness[stiffness.len() - 1];
         let blocks = [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]];
         let (nest, product) = (Matrix::nest(session, blocks)?, Matrix::nest_product(session, blocks)?);
-        let (gap, load) = (moved_gap(problem), KeptLoad::new(load));
+        let (gap, load) = (moved_gap(problem, session), KeptLoad::new(load));
         let gap_at_rest = gap.clone();
         let moved = Vec::new();
         let places = if form == Form::Augmented {
@@ -298,10 +297,12 @@ fn rows_and_neighbours(problem: &Discretisation, form: Form, rank: usize) -> (Ve
     (rows, neighbours)
 }
 
-/// `c - B u_D`.
-fn moved_gap(problem: &Discretisation) -> Vec<f64> {
-    let (mesh, space) = (&problem.scene.mesh, problem.finest());
-    let prescribed = |node: EdgeNode| space.prescribed(node.number(mesh, &space.numbering));
-    let moved = |row: &Vec<Coupled>| row.iter().map(|coupled| coupled.value.dot(&prescribed(coupled.node))).sum::<f64>();
-    problem.coupling.gap.iter().zip(&problem.coupling.rows).map(|(c, row)| c - moved(row)).collect()
+/// `c - B u_D`. **Collective**
+fn moved_gap(problem: &Discretisation, session: &Session) -> Vec<f64> {
+    let (mesh, space, coupling) = (&problem.scene.mesh, problem.finest(), &problem.coupling);
+    let prescribed = |coupled: &Coupled| coupled.value.dot(&space.prescribed(coupled.node.number(mesh, &space.numbering)));
+    let mut moved = vec![0.0; coupling.gap.len()];
+    coupling.own(0..moved.len(), session.rank()).for_each(|i| moved[i] = coupling.rows[i].iter().map(prescribed).sum());
+    session.sum(&mut moved);
+    coupling.gap.iter().zip(moved).map(|(c, moved)| c - moved).collect()
 }

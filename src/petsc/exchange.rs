@@ -1,0 +1,48 @@
+//! What each rank has for each other.
+
+use super::collective::Datum;
+use super::session::Session;
+use mpi::datatype::{Partition, PartitionMut};
+use mpi::traits::CommunicatorCollectives;
+
+impl Session {
+    /// Sends entries of `width` values to ranks, `ranks[k]` being that of entry `k`, and gives what came: rank after rank, in the
+    /// order in which each listed them. **Collective**
+    pub fn send_to<T: Datum>(&self, ranks: &[usize], entries: &[T], width: usize) -> Vec<T> {
+        let mut order: Vec<usize> = (0..ranks.len()).collect();
+        order.sort_by_key(|&k| ranks[k]);
+        let mut counts = vec![0; self.size()];
+        ranks.iter().for_each(|&rank| counts[rank] += 1);
+        let sorted: Vec<T> = order.iter().flat_map(|&k| &entries[width * k..width * (k + 1)]).copied().collect();
+        let arriving = self.counts_to_each(&counts);
+        self.to_each(&sorted, &counts, &arriving, width)
+    }
+
+    /// How many entries each rank has for this one, from how many this one has for each. **Collective**
+    pub(super) fn counts_to_each(&self, counts: &[usize]) -> Vec<usize> {
+        let mut arriving = vec![0; self.size()];
+        self.world().all_to_all_into(counts, &mut arriving[..]);
+        arriving
+    }
+
+    /// Sends each rank its part of `all`, `width` values for each entry, and gives what came, rank after rank. **Collective**
+    pub(super) fn to_each<T: Datum>(&self, all: &[T], counts: &[usize], arriving: &[usize], width: usize) -> Vec<T> {
+        let ([sent, from], [received, to]) = (layout(counts, width), layout(arriving, width));
+        let mut arrived = vec![T::default(); width * arriving.iter().sum::<usize>()];
+        self.world()
+            .all_to_all_varcount_into(&Partition::new(all, sent, from), &mut PartitionMut::new(&mut arrived[..], received, to));
+        arrived
+    }
+}
+
+/// Counts and starts of consecutive parts, as MPI takes them.
+fn layout(counts: &[usize], width: usize) -> [Vec<i32>; 2] {
+    let mut end = 0;
+    let starts = counts.iter().map(|count| {
+        end += count * width;
+        end - count * width
+    });
+    let in_32_bits = |n: usize| i32::try_from(n).expect("MPI counts in 32 bits");
+    let starts = starts.map(in_32_bits).collect();
+    [counts.iter().map(|count| in_32_bits(count * width)).collect(), starts]
+}
