@@ -194,7 +194,7 @@ def model_section(measured):
         table(["what", "value", "unit"], assumed),
         "Seconds for one solve; in brackets GiB on each rank for its unknowns, where a core seldom has more than 4; – where a rank would "
         f"have fewer than {number(model.LEAST, 9)} unknowns. Beside these every rank holds the macro mesh and Γ_C, by the table above "
-        "half a KiB for each macro triangle and some 5 KiB for each segment: half a GiB for 100 000 segments.",
+        "half a KiB for each macro triangle and some 2 KiB for each segment, 3 on rank 0: 0.3 GiB for 100 000 segments.",
         table(head, rows),
         "Where this time goes:",
         table(["unknowns", "ranks", "work on levels of all ranks", "work on levels of fewer ranks", "collectives", "messages"], where),
