@@ -24,7 +24,8 @@ pub struct Coupled {
 /// All contacts coupled: rows of `B`, and weighted initial gaps `c`, which are the same on every rank.
 pub struct Coupling {
     /// For each multiplier of all contacts, the nodes it couples to: whole on the rank that owns the multiplier, and on those that
-    /// have nodes of it on some level, or of a multiplier that the mass matrix couples to it; empty on others.
+    /// own a macro edge of these, or an end of one, on some level, also if only a multiplier that the mass matrix couples to it has
+    /// such nodes; empty on others.
     pub rows: Vec<Vec<Coupled>>,
     /// `c_i = ∫ψ_i g₀ ds` (length squared).
     pub gap: Vec<f64>,
@@ -43,9 +44,11 @@ impl Coupling {
     pub fn new(scene: &Scene, spaces: &[Space], contacts: &[Contact], session: &Session) -> Result<Self, SystemError> {
         let mut own = Share::new(contacts);
         session.agree(own.integrate(contacts)).map_err(SystemError::Case)?;
-        let Share { entries, mut gap, mut points } = own;
+        let Share { entries, mut gap, points } = own;
+        let count = gap.len();
+        gap.extend(points);
         session.sum(&mut gap);
-        session.sum(&mut points);
+        let points = gap.split_off(count);
         let owners: Vec<usize> = contacts.iter().flat_map(|contact| owners(scene, contact)).collect();
         let to: Vec<usize> = entries.rows().map(|row| owners[row]).collect();
         let own = entries.sent(&to, session).into_rows(contacts);

@@ -113,14 +113,19 @@ impl<'a> Restraints<'a> {
     /// What the closed multipliers of all contacts resist, the same on every rank. **Collective**
     fn touches(&self, extents: &[Extent], active: &[bool]) -> Vec<Touch> {
         let own: Vec<Touch> = self.contacts.iter().map(|contact| self.touch(contact, extents, active)).collect();
-        self.shared.map_or(own.clone(), |(session, _)| of_all_ranks(&own, session))
+        match self.shared {
+            Some((session, _)) => of_all_ranks(&own, session),
+            None => own,
+        }
     }
 
+    /// **Collective**
     fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
         let extents = self.scene.extents();
         find_mechanism(&extents, &support_conditions(self.scene, &extents), &self.touches(&extents, active))
     }
 
+    /// **Collective**
     fn not_held(&self, active: &[bool]) -> Option<String> {
         let extents = self.scene.extents();
         let touches = self.touches(&extents, active);

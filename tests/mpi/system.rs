@@ -434,7 +434,7 @@ fn multipliers_live_where_body_one_does(session: &Session) {
     assert!(session.size() == 1 || elsewhere > 0, "all multipliers belong to the first rank");
 }
 
-/// The lower bar between bent sides, the upper one straight.
+/// Owners of multipliers, and ranks that own a macro edge of the row, or an end of one, on some level.
 fn rows_of_b_are_whole_where_they_are_needed_and_nowhere_else(session: &Session) {
     let (mut missing, rank) = (0, session.rank());
     for problem in problems(session) {
@@ -470,6 +470,7 @@ fn rows_of_b_are_whole_where_they_are_needed_and_nowhere_else(session: &Session)
     assert!(session.size() < 3 || missing > 0, "all rows are everywhere");
 }
 
+/// The lower bar between bent sides, the upper one straight.
 fn ranks_are_dealt_equal_work(session: &Session) {
     let text = meshes::Mesh::inclined_bars(1).text();
     let mut mesh = parse_gmsh(text.as_bytes(), "bars.msh".as_ref()).expect("a mesh");

@@ -60,6 +60,7 @@ pub fn motion_errors(
     problem.contacts.iter().map(with_sides).collect()
 }
 
+/// What motions spoil of one contact. **Collective**
 fn one(
     problem: &Discretisation,
     solution: &Solution,
@@ -77,7 +78,7 @@ fn one(
     if found.force <= 0.0 || energy <= 0.0 {
         return None;
     }
-    // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
+    // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that. All ranks ask.
     let needed = is_needed(problem, &solution.active, contact, session)
         && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
     let is_straight = match sides {

@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Rows of `B` at one level: for each multiplier, node numbers with their two entries; multipliers that `D` couples have the same
-/// nodes. Columns of prescribed components are zero. A rank has those that it needs, whole: of groups that couple to a node of its own on this level, and on
-/// the finest level of its own multipliers. The others are empty.
+/// nodes. Columns of prescribed components are zero. A rank has those that it needs, whole: of groups that couple to a node of its
+/// own on this level, and on the finest level of its own multipliers. The others are empty.
 #[derive(Clone, Debug)]
 pub struct CouplingRows {
     /// Where the entries of each row begin, and the end.
@@ -165,7 +165,8 @@ mod tests {
     #[test]
     fn a_rank_has_whole_what_touches_its_nodes_on_any_level_and_little_else() {
         for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
-            // In one group, all rows of a level are on every rank that has a node of contact there, with zeros for one another's nodes.
+            // In one group, all rows of a level are on every rank that has a node of contact there, with zeros for the nodes of
+            // the others.
             let without_zeros = |row: &[(usize, Point)]| -> Vec<(usize, Point)> {
                 row.iter().copied().filter(|(_, value)| *value != Point::zeros()).collect()
             };

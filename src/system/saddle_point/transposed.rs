@@ -26,8 +26,8 @@ pub struct TransposedCoupling {
 }
 
 impl TransposedCoupling {
-    /// Zeros at the given nodes of each column, ascending and all of this rank; `number` are those of the multipliers, of which `own` are this rank's.
-    /// **Collective**
+    /// Zeros at the given nodes of each column, ascending and all of this rank; `number` are those of the multipliers, of which
+    /// `own` are this rank's. **Collective**
     pub fn new(columns: &[Vec<usize>], number: &[usize], own: usize, space: &Space, session: &Session) -> Result<Rc<Self>> {
         let layout = Vector::new(session, own)?;
         let here = |column: &Vec<usize>| -> Vec<(u32, Point)> {
