@@ -272,6 +272,24 @@ load.plate = {{ on = \"top\", rigid = true, force = [1.0, -6.0], moment = 0.5 }}
     }
 }
 
+/// Nodal forces of a body that hardly changes its volume are thousands of times as large as what they add up to: rounding of
+/// these is no force on the plate, however exact the solve is to be.
+#[test]
+fn a_plate_on_rubber_comes_to_balance_whatever_is_asked() {
+    let rubber = r#"
+mesh = { file = "mesh.msh", refine = 2, order = 2 }
+body.block = { young = 3.0, poisson = 0.4999 }
+rigid.floor = { line = [[-3.0, 0.0], [5.0, 0.0]] }
+load.plate = { on = "top", rigid = true, ux = 0.0, force = [0.0, -0.02], moment = 0.0 }
+contact.foot = { between = ["bottom", "rigid.floor"], gap = "closed" }
+"#;
+    for (at, tolerance) in [1e-9, 1e-10, 1e-11, 1e-12].into_iter().enumerate() {
+        let ended = in_folder(&block(), rubber, |run| run.set("solver.tolerance", tolerance).ranks(1 + at % 3).converged());
+        close(ended.number("/rigid/plate/force/1"), -0.02, 0.02, "the force on the plate");
+        close(ended.number("/rigid/floor/force/1"), 0.02, 0.02, "the force on the floor");
+    }
+}
+
 /// Exit code 2 and these words, from `check` and from `run`.
 #[test]
 fn mistakes_are_told() {

@@ -200,7 +200,7 @@ impl<'a> System<'a> {
             self.solver.solve(&self.blocks, &b, response, None, tolerance)?;
             let unknowns = self.problem.finest().local_unknowns();
             let pressures = pressures_of(&self.blocks, &response.values()[unknowns..], &self.session);
-            let product = self.rigid.border.transposed(&response.values()[..unknowns], &pressures, &self.session);
+            let [product, _] = self.rigid.border.transposed(&response.values()[..unknowns], &pressures, &self.session);
             self.rigid.products.push(product);
         }
         self.rigid.solved_to = Some(tolerance);
@@ -222,7 +222,8 @@ impl<'a> System<'a> {
         self.respond(tolerance)?;
         let pressures = pressures_of(&self.blocks, &x.values()[unknowns..], &self.session);
         let given = self.rigid.border.loaded(self.problem, load, &self.session);
-        let unbalanced = given - self.rigid.border.transposed(&x.values()[..unknowns], &pressures, &self.session);
+        let [product, _] = self.rigid.border.transposed(&x.values()[..unknowns], &pressures, &self.session);
+        let unbalanced = given - product;
         let motion = self.rigid.border.correction(&self.rigid.products, &unbalanced);
         for (response, by) in self.rigid.responses.iter().zip(motion.iter()) {
             x.axpy(-by, response)?;

@@ -247,13 +247,20 @@ impl RigidBorder {
     }
 
     /// `Tᵀ x`, or what stands in its place, from displacements of this rank without those of rigid motions, and pressures of all
-    /// multipliers. **Collective**
-    pub fn transposed(&self, displacement: &[f64], pressures: &[f64], session: &Session) -> DVector<f64> {
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let mut sums: Vec<f64> = self.components.iter().map(|component| dot(&component.row.displacement, displacement)).collect();
-        session.sum(&mut sums);
-        let all = self.components.iter().zip(sums).map(|(component, sum)| sum + dot(&component.row.pressures, pressures));
-        DVector::from_iterator(self.len(), all)
+    /// multipliers; and the sums of the magnitudes of its terms. **Collective**
+    pub fn transposed(&self, displacement: &[f64], pressures: &[f64], session: &Session) -> [DVector<f64>; 2] {
+        let dot = |a: &[f64], b: &[f64]| {
+            let terms = a.iter().zip(b).map(|(a, b)| a * b);
+            terms.fold([0.0; 2], |[sum, whole], term| [sum + term, whole + term.abs()])
+        };
+        let of_rank = |component: &Component| dot(&component.row.displacement, displacement);
+        let mut sums: Vec<[f64; 2]> = self.components.iter().map(of_rank).collect();
+        session.sum(sums.as_flattened_mut());
+        for (component, sums) in self.components.iter().zip(&mut sums) {
+            let pressed = dot(&component.row.pressures, pressures);
+            sums.iter_mut().zip(pressed).for_each(|(sum, pressed)| *sum += pressed);
+        }
+        [0, 1].map(|k| DVector::from_iterator(self.len(), sums.iter().map(|sums| sums[k])))
     }
 
     /// `Rᵀ f` of the bodies whose mean motion is held, for other nodal forces of this rank in the nodes' frames. **Collective**
@@ -271,11 +278,12 @@ impl RigidBorder {
     }
 
     /// `h - Tᵀ x - D q`: what sets and bodies are out of balance by, and means are off by; nothing where that is rounding beside
-    /// the three. Nodal forces of a body that hardly changes its volume are thousands of times as large as what they add up to.
-    pub fn unbalanced(&self, transposed: &DVector<f64>, motion: &[f64]) -> DVector<f64> {
+    /// the terms of the three. Nodal forces of a body that hardly changes its volume are thousands of times as large as what they
+    /// add up to.
+    pub fn unbalanced(&self, [transposed, terms]: &[DVector<f64>; 2], motion: &[f64]) -> DVector<f64> {
         let given = DVector::from_iterator(self.len(), self.components.iter().map(|component| component.given));
         let motion = DVector::from_row_slice(motion);
-        let whole = given.abs() + transposed.abs() + self.corner.abs() * motion.abs();
+        let whole = given.abs() + terms + self.corner.abs() * motion.abs();
         let left = given - transposed - &self.corner * motion;
         left.zip_map(&whole, |left, whole| if left.abs() <= LOST * whole { 0.0 } else { left })
     }
@@ -390,4 +398,21 @@ fn moved_forces(
     let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session)?);
     forces.subtract(&springs.nodes);
     Ok(forces)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_rounding_leaves_of_large_forces_is_in_balance() {
+        let nothing = || BorderLine { displacement: Rc::new([]), pressures: Rc::new([]) };
+        let (column, row) = (nothing(), nothing());
+        let component = Component { set: 0, k: 1, holds: false, scale: [1.0; 2], column, row, given: 1.0 };
+        let border =
+            RigidBorder { components: vec![component], corner: DMatrix::zeros(1, 1), nodes: Vec::new(), about: Vec::new() };
+        let left = |off: f64, terms: f64| border.unbalanced(&[1.0 - off, terms].map(|v| DVector::from_vec(vec![v])), &[0.0])[0];
+        assert_eq!(left(1e-12, 1e4), 0.0, "ten thousand times a rounding");
+        assert!(left(1e-10, 1e4) > 9e-11 && left(1e-12, 1.0) > 9e-13, "more than that");
+    }
 }
