@@ -48,13 +48,16 @@ pub fn applied_forces(
         if part.force.iter().all(|formula| formula.as_constant() == Some(0.0)) {
             continue;
         }
-        let density = |x: Point| Point::new(part.force[0].value(&[x.x, x.y]), part.force[1].value(&[x.x, x.y]));
+        let density = |points: &[Point; 6]| {
+            let [x, y] = [0, 1].map(|component: usize| part.force[component].values(points));
+            std::array::from_fn(|k| Point::new(x[k], y[k]))
+        };
         body_forces(mesh, triangle as usize, numbering, density, &mut add)?;
     }
     Ok(())
 }
 
-/// Nodal forces of a force per area on one macro triangle, as of [`applied_forces`].
+/// Nodal forces of a force per area on one macro triangle, as of [`applied_forces`]; `density` takes some points.
 ///
 /// # Errors
 /// [`BadJacobian`] if a triangle is turned inside out.
@@ -62,7 +65,7 @@ pub fn body_forces(
     mesh: &MacroMesh,
     triangle: usize,
     numbering: &Numbering,
-    density: impl Fn(Point) -> Point,
+    density: impl Fn(&[Point; 6]) -> [Point; 6],
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
     match numbering.level.order {
@@ -75,7 +78,7 @@ fn small_forces<const N: usize>(
     mesh: &MacroMesh,
     triangle: usize,
     numbering: &Numbering,
-    density: impl Fn(Point) -> Point,
+    density: impl Fn(&[Point; 6]) -> [Point; 6],
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
     let numbers = numbering.triangle(mesh, triangle);

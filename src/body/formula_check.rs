@@ -61,7 +61,7 @@ pub fn varies(part: &BodyPart) -> bool {
 fn look<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level, looked_at: &Looked) -> Result<(), BadJacobian> {
     for small in lattice::triangles(level.intervals, level.order) {
         let nodes = positions(mesh, triangle, level, &small.nodes::<N>());
-        triangle_load::<N>(&nodes, |x| looked_at.point(x))?;
+        triangle_load::<N>(&nodes, |points| points.map(|x| looked_at.point(x)))?;
     }
     Ok(())
 }

@@ -25,18 +25,22 @@ pub fn edge_load(points: &[Point], traction: impl Fn(Point, Point) -> Point) -> 
     forces
 }
 
-/// Nodal forces of a force per area on a triangle, `∫ N_a b dA` per unit thickness.
+/// Nodal forces of a force per area on a triangle, `∫ N_a b dA` per unit thickness; `force` takes the points where it is looked
+/// at.
 ///
 /// # Errors
 /// [`BadJacobian`] where the map folds over.
-pub fn triangle_load<const N: usize>(nodes: &[Point; N], force: impl Fn(Point) -> Point) -> Result<[Point; N], BadJacobian> {
+pub fn triangle_load<const N: usize>(
+    nodes: &[Point; N],
+    force: impl Fn(&[Point; 6]) -> [Point; 6],
+) -> Result<[Point; N], BadJacobian> {
     let mut forces = [Point::zeros(); N];
-    for &(l, weight) in SIX_POINTS {
+    let position = |l: [f64; 3]| nodes.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (node, value)| sum + value * node);
+    let densities = force(&SIX_POINTS.map(|(l, _)| position(l)));
+    for (&(l, weight), density) in SIX_POINTS.iter().zip(densities) {
         let (_, determinant) = jacobian(nodes, l)?;
-        let values = shape::<N>(l);
-        let x = nodes.iter().zip(values).fold(Point::zeros(), |sum, (node, value)| sum + value * node);
-        let density = force(x) * (0.5 * weight * determinant);
-        for (sum, value) in forces.iter_mut().zip(values) {
+        let density = density * (0.5 * weight * determinant);
+        for (sum, value) in forces.iter_mut().zip(shape::<N>(l)) {
             *sum += value * density;
         }
     }
@@ -58,11 +62,12 @@ mod tests {
     #[test]
     fn a_uniform_force_on_a_straight_triangle_goes_to_the_known_nodes() {
         let corners = [Point::new(0.0, 0.0), Point::new(2.0, 0.0), Point::new(0.0, 1.0)];
-        let linear = triangle_load(&corners, |_| Point::new(0.0, -3.0)).expect("a good triangle");
+        let linear = triangle_load(&corners, |points| points.map(|_| Point::new(0.0, -3.0))).expect("a good triangle");
         assert!(linear.iter().all(|f| (f - Point::new(0.0, -1.0)).norm() < 1e-14));
         let [a, b, c] = corners;
-        let quadratic = triangle_load(&[a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)], |_| Point::new(3.0, 0.0))
-            .expect("a good triangle");
+        let quadratic =
+            triangle_load(&[a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)], |points| points.map(|_| Point::new(3.0, 0.0)))
+                .expect("a good triangle");
         assert!(quadratic[..3].iter().all(|f| f.norm() < 1e-14));
         assert!(quadratic[3..].iter().all(|f| (f - Point::new(1.0, 0.0)).norm() < 1e-14));
     }

@@ -36,7 +36,7 @@ const WA: f64 = 0.109_951_743_655_321_87;
 const WB: f64 = 0.223_381_589_678_011_47;
 
 /// Degree 4. Dunavant, International Journal for Numerical Methods in Engineering 21 (1985), 1129-1148.
-pub const SIX_POINTS: Rule = &[
+pub const SIX_POINTS: &[([f64; 3], f64); 6] = &[
     ([1.0 - 2.0 * A, A, A], WA),
     ([A, 1.0 - 2.0 * A, A], WA),
     ([A, A, 1.0 - 2.0 * A], WA),

@@ -41,7 +41,7 @@ pub fn mean_weights(problem: &Discretisation, hold: &MeanHold, k: usize, session
     let own = scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
     let mut all = own.filter(|&triangle| scene.mesh.bodies[scene.mesh.triangles[triangle].body as usize] == hold.body);
     let added = all.try_for_each(|triangle| {
-        body_forces(&scene.mesh, triangle, numbering, mode, &mut |node, weight: Point| {
+        body_forces(&scene.mesh, triangle, numbering, |points| points.map(mode), &mut |node, weight: Point| {
             let sum = weights.at_mut(node);
             sum[0] += weight.x;
             sum[1] += weight.y;

@@ -1,5 +1,6 @@
 //! Dual numbers: a value and its slope along one variable.
 
+use super::number::{Number, power};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `value + slope ε` with `ε² = 0`.
@@ -12,39 +13,39 @@ pub struct Dual {
 }
 
 impl Dual {
-    /// A number that depends on nothing.
-    pub fn constant(value: f64) -> Self {
-        Self { value, slope: 0.0 }
-    }
-
     /// Chain rule. A constant stays one, also where the outer slope is infinite (√x at 0).
     fn chain(self, value: f64, outer_slope: impl FnOnce() -> f64) -> Self {
         let slope = if self.slope == 0.0 { 0.0 } else { outer_slope() * self.slope };
         Self { value, slope }
     }
+}
 
-    pub fn sqrt(self) -> Self {
+impl Number for Dual {
+    fn constant(value: f64) -> Self {
+        Self { value, slope: 0.0 }
+    }
+
+    fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain(root, || 0.5 / root)
     }
 
-    pub fn sin(self) -> Self {
+    fn sin(self) -> Self {
         self.chain(self.value.sin(), || self.value.cos())
     }
 
-    pub fn cos(self) -> Self {
+    fn cos(self) -> Self {
         self.chain(self.value.cos(), || -self.value.sin())
     }
 
-    pub fn exp(self) -> Self {
+    fn exp(self) -> Self {
         let value = self.value.exp();
         self.chain(value, || value)
     }
 
-    /// `self ^ exponent`; a negative base wants a whole, constant exponent, else the result is NaN.
-    pub fn power(self, exponent: Self) -> Self {
+    fn power(self, exponent: Self) -> Self {
         let (base, n) = (self.value, exponent.value);
-        let value = if n == 2.0 { base * base } else { base.powf(n) };
+        let value = power(base, n);
         let through_base = self.chain(value, || if n == 0.0 { 0.0 } else { n * base.powf(n - 1.0) });
         let through_exponent = exponent.chain(value, || if base == 0.0 && n > 0.0 { 0.0 } else { value * base.ln() });
         Self { value, slope: through_base.slope + through_exponent.slope }

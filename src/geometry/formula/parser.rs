@@ -1,6 +1,6 @@
 //! Formula text to postfix program, by recursive descent.
 
-use super::dual::Dual;
+use super::number::Values;
 use super::{DEPTH, FormulaError, Function, Instruction};
 use crate::geometry::Quote;
 
@@ -161,14 +161,11 @@ impl Parser<'_> {
             return Err(self.error_here("nested too deeply; simplify the formula"));
         }
         let first = self.program.len() - taken;
-        let operands: Vec<Dual> = self.program[first..]
-            .iter()
-            .filter_map(
-                |instruction| if let Instruction::Number(value) = instruction { Some(Dual::constant(*value)) } else { None },
-            )
-            .collect();
+        let number =
+            |instruction: &Instruction| if let Instruction::Number(value) = instruction { Some(Values([*value])) } else { None };
+        let operands: Vec<_> = self.program[first..].iter().filter_map(number).collect();
         if taken > 0 && operands.len() == taken {
-            let value = instruction.compute(&operands).value;
+            let Values([value]) = instruction.compute(&operands);
             self.program.truncate(first);
             self.program.push(Instruction::Number(value));
         } else {

@@ -1,4 +1,5 @@
 use super::Formula;
+use crate::geometry::Point;
 use proptest::prelude::*;
 
 fn at_x(text: &str, x: f64) -> f64 {
@@ -164,6 +165,15 @@ proptest! {
         let (value, expected) = (formula.value(&[x, y]), tree.value(x, y));
         let same = (value - expected).abs() <= 1e-12 * expected.abs() || value.is_nan() && expected.is_nan() || value == expected;
         prop_assert!(same, "{}: {} is not {}", text, value, expected);
+    }
+
+    #[test]
+    fn many_points_have_the_values_of_each(tree in trees(), at in prop::array::uniform3((-1.0..2.0, -1.0..2.0))) {
+        let formula = Formula::parse(&tree.text(1), &["x", "y"]).unwrap();
+        let all = formula.values(&at.map(|(x, y)| Point::new(x, y)));
+        for ((x, y), value) in at.into_iter().zip(all) {
+            prop_assert_eq!(formula.value(&[x, y]).to_bits(), value.to_bits());
+        }
     }
 
     #[test]
