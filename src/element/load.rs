@@ -1,7 +1,7 @@
 //! Consistent nodal forces.
 
 use super::shape::{edge_shape, edge_slope, shape};
-use super::stiffness::{BadJacobian, SIX_POINTS, jacobian};
+use super::stiffness::{BadJacobian, SIX_POINTS, jacobian, six_points};
 use crate::geometry::{Point, gauss_points, turn_right};
 
 /// Nodal forces of a traction on an element edge, `∫ N_a t ds` per unit thickness.
@@ -35,8 +35,7 @@ pub fn triangle_load<const N: usize>(
     force: impl Fn(&[Point; 6]) -> [Point; 6],
 ) -> Result<[Point; N], BadJacobian> {
     let mut forces = [Point::zeros(); N];
-    let position = |l: [f64; 3]| nodes.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (node, value)| sum + value * node);
-    let densities = force(&SIX_POINTS.map(|(l, _)| position(l)));
+    let densities = force(&six_points(nodes));
     for (&(l, weight), density) in SIX_POINTS.iter().zip(densities) {
         let (_, determinant) = jacobian(nodes, l)?;
         let density = density * (0.5 * weight * determinant);

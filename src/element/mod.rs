@@ -8,7 +8,7 @@ mod stiffness;
 pub use load::{edge_load, triangle_load};
 pub use plane_law::{Plane, PlaneLaw, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
-pub use stiffness::{BadJacobian, Block, Rule, SIX_POINTS, check_map, energies, jacobian, stiffness, stress};
+pub use stiffness::{BadJacobian, Block, Rule, SIX_POINTS, check_map, energies, jacobian, six_points, stiffness, stress};
 
 /// Polynomial degree of the displacement on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Stiffness and stress of one triangle, straight or isoparametric.
 
 use super::PlaneLaw;
-use super::shape::slopes;
+use super::shape::{shape, slopes};
 use crate::geometry::{Coordinates, Point};
 use nalgebra::Matrix2;
 
@@ -44,6 +44,12 @@ pub const SIX_POINTS: &[([f64; 3], f64); 6] = &[
     ([B, 1.0 - 2.0 * B, B], WB),
     ([B, B, 1.0 - 2.0 * B], WB),
 ];
+
+/// Where these points lie in a triangle.
+pub fn six_points<const N: usize>(nodes: &[Point; N]) -> [Point; 6] {
+    let position = |l: [f64; 3]| nodes.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (node, value)| sum + value * node);
+    SIX_POINTS.map(|(l, _)| position(l))
+}
 
 /// Rule for stiffness integrals of an `N`-node triangle: exact where it is straight, as P1 triangles always are, of degree 4
 /// where a P2 triangle is curved.
