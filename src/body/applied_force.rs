@@ -1,6 +1,6 @@
 //! Nodal forces of loads and body forces.
 
-use super::{BodyPart, Load, LoadKind, PointLoad, positions};
+use super::{BodyPart, Load, LoadKind, NodePositions, PointLoad};
 use crate::element::{BadJacobian, Order, edge_load, triangle_load};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
@@ -81,10 +81,10 @@ fn small_forces<const N: usize>(
     density: impl Fn(&[Point; 6]) -> [Point; 6],
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
-    let numbers = numbering.triangle(mesh, triangle);
+    let (numbers, all) = (numbering.triangle(mesh, triangle), NodePositions::new(mesh, triangle, numbering.level));
     for small in lattice::triangles(numbering.level.intervals, numbering.level.order) {
         let nodes = small.nodes::<N>();
-        let forces = triangle_load::<N>(&positions(mesh, triangle, numbering.level, &nodes), &density)?;
+        let forces = triangle_load::<N>(&all.of(&nodes), &density)?;
         nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
     }
     Ok(())

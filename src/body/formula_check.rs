@@ -1,6 +1,6 @@
 //! Formulas of loads and forces where they are integrated: the first that has no finite value there, in words.
 
-use super::{BodyPart, Load, LoadKind, positions};
+use super::{BodyPart, Load, LoadKind, NodePositions};
 use crate::element::{BadJacobian, Order, edge_load, triangle_load};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{BoundaryEdge, Level, MacroMesh, Numbering, lattice};
@@ -59,9 +59,9 @@ pub fn varies(part: &BodyPart) -> bool {
 }
 
 fn look<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level, looked_at: &Looked) -> Result<(), BadJacobian> {
+    let all = NodePositions::new(mesh, triangle, level);
     for small in lattice::triangles(level.intervals, level.order) {
-        let nodes = positions(mesh, triangle, level, &small.nodes::<N>());
-        triangle_load::<N>(&nodes, |points| points.map(|x| looked_at.point(x)))?;
+        triangle_load::<N>(&all.of(&small.nodes::<N>()), |points| points.map(|x| looked_at.point(x)))?;
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Stiffness of one macro triangle at one level, row by row of its lattice.
 
+use super::{NodePositions, positions};
 use crate::element::{BadJacobian, Block, Order, PlaneLaw, stiffness};
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Shapes, lattice};
@@ -103,9 +104,11 @@ impl MacroStiffness {
     /// Each triangle by itself.
     fn integrate<const N: usize>(&mut self, mesh: &MacroMesh, triangle: usize, law: &PlaneLaw) -> Result<(), BadJacobian> {
         let level = Level { intervals: self.n, order: self.order };
+        let all = (!self.sides).then(|| NodePositions::new(mesh, triangle, level));
         for small in self.triangles() {
             let nodes = small.nodes::<N>();
-            self.add(&nodes, &stiffness::<N>(&positions(mesh, triangle, level, &nodes), law, false)?);
+            let x = all.as_ref().map_or_else(|| positions(mesh, triangle, level, &nodes), |all| all.of(&nodes));
+            self.add(&nodes, &stiffness::<N>(&x, law, false)?);
         }
         Ok(())
     }
@@ -215,11 +218,6 @@ impl MacroStiffness {
 /// Nodes of a straight triangle: its corners, and for P2 the midsides of (01), (12), (20).
 fn with_midsides<const N: usize>(corners: [Point; 3]) -> [Point; N] {
     std::array::from_fn(|a| if a < 3 { corners[a] } else { 0.5 * (corners[a - 3] + corners[(a - 2) % 3]) })
-}
-
-/// Positions of lattice nodes of a macro triangle at a level.
-pub fn positions<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level, nodes: &[(usize, usize); N]) -> [Point; N] {
-    nodes.map(|node| mesh.node_position(triangle, level, node))
 }
 
 #[cfg(test)]

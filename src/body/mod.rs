@@ -6,6 +6,7 @@ mod folding;
 mod formula_check;
 mod macro_stiffness;
 mod mean_hold;
+mod node_positions;
 mod rigid;
 mod springs;
 
@@ -13,8 +14,9 @@ pub use applied_force::{Applied, applied_forces, body_forces};
 pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use folding::check_folding;
 pub use formula_check::{check_body_forces, check_loads, varies};
-pub use macro_stiffness::{MacroStiffness, neighbours, positions};
+pub use macro_stiffness::{MacroStiffness, neighbours};
 pub use mean_hold::{Anchor, MeanHold, rigid_mode};
+pub use node_positions::{NodePositions, positions};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet};
 pub use springs::{SpringStiffness, Springs};
 

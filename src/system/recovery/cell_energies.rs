@@ -1,7 +1,7 @@
 //! Where in the macro triangles the strain energy of a displacement lies.
 
 use super::{agreed, nodal};
-use crate::body::positions;
+use crate::body::NodePositions;
 use crate::element::{BadJacobian, Order, PlaneLaw, energies};
 use crate::geometry::Point;
 use crate::mesh::{Cells, lattice};
@@ -36,6 +36,7 @@ fn in_triangle<const N: usize>(
 ) -> Result<Cells, BadJacobian> {
     let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
     let mut cells = Cells::default();
+    let all = NodePositions::new(mesh, triangle, level);
     for small in lattice::triangles(level.intervals, level.order) {
         let nodes = small.nodes::<N>();
         let corner = |k: usize| [nodes[k].0, nodes[k].1].map(|at| at as f64 / level.intervals as f64);
@@ -44,7 +45,7 @@ fn in_triangle<const N: usize>(
             let [x, y] = [0, 1].map(|axis| (0..3).map(|k| l[k] * corners[k][axis]).sum::<f64>());
             [1.0 - x - y, x, y]
         };
-        let (x, moved): (_, [Point; N]) = (positions(mesh, triangle, level, &nodes), nodal(problem, u, triangle, &small));
+        let (x, moved): (_, [Point; N]) = (all.of(&nodes), nodal(problem, u, triangle, &small));
         for (l, energy) in energies(&x, &moved, law)? {
             cells.add(place(l), (1.0 - MIDDLE) * energy);
             cells.add(place([1.0 / 3.0; 3]), MIDDLE * energy);

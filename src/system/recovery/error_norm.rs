@@ -1,7 +1,7 @@
 //! Error of the stress in the energy norm, against formulas.
 
 use super::{agreed, nodal};
-use crate::body::positions;
+use crate::body::NodePositions;
 use crate::element::{Order, PlaneLaw, SIX_POINTS, jacobian, six_points, stress};
 use crate::geometry::Formula;
 use crate::mesh::{Region, lattice};
@@ -44,8 +44,9 @@ fn add<const N: usize>(
     sums: &mut [f64; 2],
 ) -> Result<(), SystemError> {
     let level = problem.finest().numbering.level;
+    let all = NodePositions::new(&problem.scene.mesh, triangle, level);
     for small in lattice::triangles(level.intervals, level.order) {
-        let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
+        let x = all.of(&small.nodes::<N>());
         let u = nodal::<N>(problem, u, triangle, &small);
         // Also for P1: the exact stress is no polynomial.
         let wanted = exact.each_ref().map(|formula| formula.values(&six_points(&x)));

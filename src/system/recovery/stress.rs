@@ -1,7 +1,7 @@
 //! Stress at the nodes.
 
 use super::{agreed, nodal};
-use crate::body::positions;
+use crate::body::NodePositions;
 use crate::element::{Order, PlaneLaw, jacobian, stress};
 use crate::mesh::{MacroMesh, lattice};
 use crate::petsc::Session;
@@ -74,9 +74,10 @@ fn add<const N: usize>(
     const NODES: [[f64; 3]; 6] = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [0.5, 0.5, 0.], [0., 0.5, 0.5], [0.5, 0., 0.5]];
     let level = problem.finest().numbering.level;
     let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
+    let all = NodePositions::new(&problem.scene.mesh, triangle, level);
     for small in lattice::triangles(level.intervals, level.order) {
         let nodes = small.nodes::<N>();
-        let x = positions(&problem.scene.mesh, triangle, level, &nodes);
+        let x = all.of(&nodes);
         let u = nodal::<N>(problem, u, triangle, &small);
         for (&(i, j), l) in nodes.iter().zip(NODES) {
             let (_, area) = jacobian(&x, l)?;
