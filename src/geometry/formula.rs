@@ -115,6 +115,9 @@ impl Formula {
     }
 
     /// Values at some points, as a formula of x, y: the same as one after the other, in less time.
+    ///
+    /// # Panics
+    /// If the formula uses more variables than these two.
     pub fn values<const N: usize>(&self, at: &[Point; N]) -> [f64; N] {
         self.evaluate(|index| Values(at.map(|x| x[index]))).0
     }
