@@ -10,14 +10,14 @@
 //! | `-a` | `-x^2` is `-(x^2)` |
 //! | `a ^ b` | to the right: `2^3^2` is `2^9`; `2^-1` is one half |
 
+mod arithmetic;
 mod dual;
-mod number;
 mod parser;
 mod spelling;
 
 use super::{Coordinates, Point, Quote};
+use arithmetic::{Arithmetic, PointValues};
 use dual::Dual;
-use number::{Number, Values};
 
 /// A formula of named variables.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,7 +111,7 @@ impl Formula {
     /// # Panics
     /// If `at` is shorter than the variables that the formula uses.
     pub fn value(&self, at: &[f64]) -> f64 {
-        self.evaluate(|index| Values([at[index]])).0[0]
+        self.evaluate(|index| PointValues([at[index]])).0[0]
     }
 
     /// Values at some points, as a formula of x, y: the same as one after the other, in less time.
@@ -119,7 +119,7 @@ impl Formula {
     /// # Panics
     /// If the formula uses more variables than these two.
     pub fn values<const N: usize>(&self, at: &[Point; N]) -> [f64; N] {
-        self.evaluate(|index| Values(at.map(|x| x[index]))).0
+        self.evaluate(|index| PointValues(at.map(|x| x[index]))).0
     }
 
     /// Exact partial derivative by variable number `variable`.
@@ -148,7 +148,7 @@ impl Formula {
     }
 
     /// Runs the program on variables given by their numbers.
-    fn evaluate<V: Number>(&self, variable: impl Fn(usize) -> V) -> V {
+    fn evaluate<V: Arithmetic>(&self, variable: impl Fn(usize) -> V) -> V {
         if let Some(value) = self.as_constant() {
             return V::constant(value);
         }
@@ -180,7 +180,7 @@ impl Instruction {
     }
 
     /// Result of an instruction that needs no variable.
-    fn compute<V: Number>(&self, operands: &[V]) -> V {
+    fn compute<V: Arithmetic>(&self, operands: &[V]) -> V {
         match (self, operands) {
             (Instruction::Number(value), []) => V::constant(*value),
             (Instruction::Negate, [a]) => -*a,

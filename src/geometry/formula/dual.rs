@@ -1,6 +1,6 @@
 //! Dual numbers: a value and its slope along one variable.
 
-use super::number::{Number, power};
+use super::arithmetic::{Arithmetic, power};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `value + slope ε` with `ε² = 0`.
@@ -20,7 +20,7 @@ impl Dual {
     }
 }
 
-impl Number for Dual {
+impl Arithmetic for Dual {
     fn constant(value: f64) -> Self {
         Self { value, slope: 0.0 }
     }

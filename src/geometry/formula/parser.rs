@@ -1,6 +1,6 @@
 //! Formula text to postfix program, by recursive descent.
 
-use super::number::Values;
+use super::arithmetic::PointValues;
 use super::{DEPTH, FormulaError, Function, Instruction};
 use crate::geometry::Quote;
 
@@ -161,11 +161,12 @@ impl Parser<'_> {
             return Err(self.error_here("nested too deeply; simplify the formula"));
         }
         let first = self.program.len() - taken;
-        let number =
-            |instruction: &Instruction| if let Instruction::Number(value) = instruction { Some(Values([*value])) } else { None };
+        let number = |instruction: &Instruction| {
+            if let Instruction::Number(value) = instruction { Some(PointValues([*value])) } else { None }
+        };
         let operands: Vec<_> = self.program[first..].iter().filter_map(number).collect();
         if taken > 0 && operands.len() == taken {
-            let Values([value]) = instruction.compute(&operands);
+            let PointValues([value]) = instruction.compute(&operands);
             self.program.truncate(first);
             self.program.push(Instruction::Number(value));
         } else {

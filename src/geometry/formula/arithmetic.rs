@@ -3,7 +3,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number of formulas.
-pub trait Number:
+pub trait Arithmetic:
     Copy + Neg<Output = Self> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// One that depends on nothing.
@@ -23,15 +23,15 @@ pub trait Number:
 
 /// Values at `N` points: one instruction is read for all of them.
 #[derive(Clone, Copy, Debug)]
-pub struct Values<const N: usize>(pub [f64; N]);
+pub struct PointValues<const N: usize>(pub [f64; N]);
 
-impl<const N: usize> Values<N> {
+impl<const N: usize> PointValues<N> {
     fn with(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Self(std::array::from_fn(|k| of(self.0[k], other.0[k])))
     }
 }
 
-impl<const N: usize> Number for Values<N> {
+impl<const N: usize> Arithmetic for PointValues<N> {
     fn constant(value: f64) -> Self {
         Self([value; N])
     }
@@ -57,35 +57,35 @@ impl<const N: usize> Number for Values<N> {
     }
 }
 
-impl<const N: usize> Neg for Values<N> {
+impl<const N: usize> Neg for PointValues<N> {
     type Output = Self;
     fn neg(self) -> Self {
         Self(self.0.map(|value| -value))
     }
 }
 
-impl<const N: usize> Add for Values<N> {
+impl<const N: usize> Add for PointValues<N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         self.with(other, |a, b| a + b)
     }
 }
 
-impl<const N: usize> Sub for Values<N> {
+impl<const N: usize> Sub for PointValues<N> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self.with(other, |a, b| a - b)
     }
 }
 
-impl<const N: usize> Mul for Values<N> {
+impl<const N: usize> Mul for PointValues<N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         self.with(other, |a, b| a * b)
     }
 }
 
-impl<const N: usize> Div for Values<N> {
+impl<const N: usize> Div for PointValues<N> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         self.with(other, |a, b| a / b)
