@@ -17,6 +17,7 @@ and normals point from body 1 to body 2.
 from __future__ import annotations
 
 import base64
+import csv
 import json
 import os
 import shutil
@@ -29,7 +30,7 @@ from typing import Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-__all__ = ["Contact", "Fields", "MezhaError", "MezhaWarning", "NotConverged", "Result", "Step", "Study", "run", "study"]
+__all__ = ["Contact", "Fields", "Forces", "MezhaError", "MezhaWarning", "NotConverged", "Result", "Step", "Study", "run", "study"]
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -50,7 +51,7 @@ class MezhaError(RuntimeError):
 
 
 class NotConverged(MezhaError):
-    """A run has not converged (exit code 3), or misses an expected value that must hold.
+    """A run has not converged (exit code 3), is not resolved by its mesh, or misses an expected value that must hold.
 
     Attributes:
         result: what it has left all the same; `result.reason` says why it must not be used.
@@ -98,6 +99,29 @@ class Contact:
 
 
 @dataclass(frozen=True)
+class Forces:
+    """All contacts, one row each, in the order of the case; NaN where something is not known or does not apply."""
+
+    #: names of the contacts, and of the two boundaries of each
+    name: list
+    between: list
+    #: force ∫λ ds, (n,)
+    force: np.ndarray
+    #: unit vector along the force on body 2, (n, 2)
+    direction: np.ndarray
+    #: where it acts; where nothing presses, the point with the smallest gap, (n, 2)
+    place: np.ndarray
+    #: length of what presses, (n,)
+    width: np.ndarray
+    #: largest pressure, (n,)
+    pressure_max: np.ndarray
+    #: True, False, or None where nothing tells
+    trust: list
+    #: the verdict in words: `trusted`, why not, or that it only touches
+    verdict: list
+
+
+@dataclass(frozen=True)
 class Fields:
     """The solution in the bodies, at the nodes of the refined mesh. Nodes on the border of two ranks, bodies or parts stand twice."""
 
@@ -130,7 +154,7 @@ class _Files:
 
     @property
     def status(self) -> str:
-        """`converged`, `not_converged` or `interrupted`."""
+        """`converged`, `unresolved`, `not_converged` or `interrupted`."""
         return self.summary["status"]
 
     @property
@@ -140,7 +164,7 @@ class _Files:
 
     @property
     def converged(self) -> bool:
-        """Whether the equations of contact are solved. How good the mesh is for that is another question: see `trusted`."""
+        """Whether the equations of contact are solved, on a mesh that holds what the case says. How good the mesh is for that is another question: see `trusted`."""
         return self.status == "converged"
 
     @property
@@ -168,6 +192,26 @@ class _Files:
         columns = dict(zip(rows[0].strip().split(","), np.loadtxt(rows[1:], delimiter=",", ndmin=2).T))
         columns["pressure"] = columns.pop("lambda")
         return Contact(name=name, **columns)
+
+    def forces(self) -> Forces:
+        """All contacts, from `contacts.csv`."""
+        file = self.folder / "contacts.csv"
+        if not file.is_file():
+            raise FileNotFoundError(f"{self.folder} has no contacts.csv{self._interrupted()}")
+        with open(file, encoding="utf-8", newline="") as lines:
+            rows = list(csv.DictReader(lines))
+        number = lambda *names: np.array([[float(row[name] or "nan") for name in names] for row in rows]).reshape(-1, len(names))
+        return Forces(
+            name=[row["name"] for row in rows],
+            between=[(row["boundary_1"], row["boundary_2"]) for row in rows],
+            force=number("force")[:, 0],
+            direction=number("direction_x", "direction_y"),
+            place=number("x", "y"),
+            width=number("width")[:, 0],
+            pressure_max=number("pressure_max")[:, 0],
+            trust=[{"true": True, "false": False}.get(row["trust"]) for row in rows],
+            verdict=[row["verdict"] for row in rows],
+        )
 
     def fields(self) -> Fields:
         """Displacement and stress of the bodies, from `fields.vtu`, or from the pieces of `fields.pvtu`."""
@@ -314,7 +358,7 @@ def run(
             for a dot. Numbers, texts, truth values, lists and arrays are written as TOML; texts that are formulas or names are texts.
 
     Raises:
-        NotConverged: the run has not converged; the exception has its result.
+        NotConverged: the run has not converged, or is not resolved; the exception has its result.
         MezhaError: it has no result; the words are the program's.
         FileNotFoundError: there is no such program, or no mpirun.
 

@@ -34,6 +34,13 @@ class Results(WithFolder):
             seam, fields, summary = result.contact("seam"), result.fields(), result.summary
             self.assertAlmostEqual(seam.s[-1], summary["contact"]["seam"]["length"])
             self.assertAlmostEqual(seam.integral(seam.pressure) / summary["contact"]["seam"]["force"], 1, delta=1e-9)
+            forces = result.forces()
+            self.assertEqual((forces.name, forces.trust), (["seam"], [summary["contact"]["seam"]["trust"]]))
+            self.assertEqual(forces.force[0], summary["contact"]["seam"]["force"])
+            resultant = summary["contact"]["seam"]["resultant"]
+            self.assertTrue(np.allclose(forces.direction[0] * np.hypot(*resultant), resultant))
+            moment = forces.place[0, 0] * resultant[1] - forces.place[0, 1] * resultant[0]
+            self.assertAlmostEqual(moment / summary["contact"]["seam"]["moment"], 1, delta=1e-2)
             self.assertTrue(np.allclose(np.hypot(seam.nx, seam.ny), 1) and np.all(seam.gap[seam.pressure > 1] < 1e-3))
             self.assertEqual(len(fields.triangles), summary["mesh"]["triangles"])
             self.assertEqual((fields.triangles.shape[1], fields.stress.shape[1]), (6, 4))
@@ -58,6 +65,8 @@ class Results(WithFolder):
         self.assertEqual([step.number for step in steps], [1, 2, 3, 4, 5, 6])
         forces = [step.contact("seam").integral(step.contact("seam").pressure) for step in steps]
         self.assertTrue(forces[1] < 1e-9 < 0.1 < forces[3] < forces[5], forces)
+        self.assertEqual(steps[0].forces().verdict, ["nothing presses"])
+        self.assertTrue(np.all(np.isnan(steps[0].forces().direction)) and steps[5].forces().force[0] > 0.1)
         heights = [step.fields().displacement[:, 1].min() for step in steps]
         self.assertTrue(np.all(np.diff(heights) < 0))
         self.assertEqual(steps[5].factors, {"press": 1.0})

@@ -5,6 +5,10 @@ use crate::geometry::Point;
 /// Share of what is asked for that the estimate of a single value must not exceed on the first mesh.
 const FIRST: f64 = 0.25;
 
+/// A contact that carries less than this share of the largest force of all, where no accuracy is asked for, only touches: it is a
+/// hundred times what solves to a residual of 1e-8 leave of such forces, and a hundredth of what forces are trusted to.
+const CARRIES_NOTHING: f64 = 1e-4;
+
 /// A point of a body that is looked at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbePoint {
@@ -107,6 +111,12 @@ pub struct Adaptation {
     pub end: SequenceEnd,
     /// Why finer meshes could not be solved, if they could not.
     pub refusal: Option<String>,
+}
+
+/// The share of the largest force of all contacts below which one only touches: the smallest error that is asked for, if any is.
+pub fn share_of_nothing(asked: Option<&Accuracy>) -> f64 {
+    let goals = asked.iter().flat_map(|asked| &asked.goals);
+    goals.map(|goal| goal.tolerance).reduce(f64::min).unwrap_or(CARRIES_NOTHING)
 }
 
 impl Quantity {

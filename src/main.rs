@@ -127,7 +127,7 @@ fn end(session: Session, outcome: Outcome) -> i32 {
     match session.end() {
         Ok(()) => match outcome {
             Outcome::Converged => 0,
-            Outcome::NotConverged => 3,
+            Outcome::NotConverged | Outcome::Unresolved => 3,
         },
         Err(error) => {
             let words = "the result is written and whole, but what PETSc was asked to say at its end is not";

@@ -3,7 +3,7 @@
 mod support;
 
 use std::path::PathBuf;
-use support::mesh::{Block, Mesh, write_scene};
+use support::mesh::{Block, GOOD, Mesh, write_scene};
 use support::{Ended, RANKS, Run};
 use tempfile::TempDir;
 
@@ -228,10 +228,27 @@ fn weights_of_a_goal_leave_most_triangles_as_they_are() {
 /// A mesh file that has more unknowns than are allowed is refused before anything is solved.
 #[test]
 fn a_mesh_that_is_too_large_from_the_start_is_refused() {
-    let (_folder, file) = bars();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh::inclined_bars(1).text(), GOOD);
     let ended = Run::file(&file).set("accuracy", "{ energy = 1e-3, max_unknowns = 200 }").ranks(2).ended();
     assert_eq!(ended.code, Some(2), "{}", ended.said());
-    assert!(ended.said().contains("has 612 unknowns with refine = 2"), "{}", ended.said());
+    assert!(ended.said().contains("has 444 unknowns with refine = 0"), "{}", ended.said());
+}
+
+/// With two refinements the mesh of the file has 6128 unknowns, with one 1604.
+#[test]
+fn a_mesh_that_is_large_begins_with_fewer_refinements() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh::inclined_bars(1).text(), GOOD);
+    let run = |accuracy: &str, ranks: usize| Run::file(&file).set("accuracy", accuracy).ranks(ranks);
+    for ranks in [1, 2] {
+        let reached = run("{ energy = 2e-2, max_unknowns = 6000 }", ranks).converged();
+        assert_eq!(reached.number("/accuracy/0/unknowns"), 1604.0, "{ranks} ranks");
+        let error = reached.number("/estimate/energy");
+        assert!(error > 0.0 && error <= 2e-2, "{ranks} ranks: {error}");
+        let single = run("{ energy = 1e-2, max_unknowns = 1000 }", ranks).ended();
+        assert_eq!((single.code, single.number("/accuracy/0/unknowns")), (Some(3), 444.0), "{}", single.said());
+    }
 }
 
 /// The bodies overlap by 2e-5 on a width of .06, between the points that the first meshes look at. A contact on which nothing

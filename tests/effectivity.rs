@@ -120,7 +120,9 @@ output.fields = false
     );
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &Mesh { bodies }.text(), &text);
-    Run::file(&file).ranks(ranks).converged()
+    let ended = Run::file(&file).ranks(ranks).ended();
+    assert_ne!(ended.value("/status"), "not_converged", "{}", ended.said());
+    ended
 }
 
 /// Two humps, one wide, one narrower than an edge: the wide one is fine, the whole is not.

@@ -104,7 +104,10 @@ fn the_support_that_is_proposed_holds() {
             file = write_scene(
                 folder.path(),
                 &mesh.text(),
-                &format!("{text}\nsupport.s{round} = {{ {} }}", words.replace(" and ", ", ").replace(" = 0", " = 0.0")),
+                &format!(
+                    "{text}\nsupport.s{round} = {{ {} }}",
+                    words.trim().replace(" and ", ", ").replace(" = 0.0", " = 0").replace(" = 0", " = 0.0")
+                ),
             );
         }
     }

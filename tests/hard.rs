@@ -49,7 +49,10 @@ fn ending(row: &str) -> Ending {
         _ if row.starts_with("H/h") => good(Some(0.05)),
         "just touching, no load" | "load reversed, upper bar held" => bad(0, idle, None),
         "load reversed" => bad(3, &["body upper can move by (0, 1): contact is open everywhere"], Some(false)),
-        "contact 0.8 edges wide" => Ending { words: &["edges wide, at least 4 wanted"], trust: Some(false), ..good(None) },
+        // On these meshes it is narrower than an edge.
+        "contact 0.8 edges wide" | "contact 0.8 edges wide, 768 segments" | "contact 3.2 edges wide" => {
+            Ending { code: 3, words: &["contact seam", "take mesh.refine = "], trust: Some(false), ..good(None) }
+        }
         // Contact on few edges, so coarse, and on four edges between two singular corners: λ is rough.
         _ if row.starts_with("contact ") || row == "corners on an edge" => Ending { words: &[], trust: None, ..good(None) },
         _ if row.contains("across the line") => good(Some(0.1)),
@@ -139,7 +142,7 @@ fn every_row_ends_as_it_must_on_any_number_of_ranks() {
 #[test]
 fn a_body_that_is_free_is_told_with_its_motion() {
     for (mesh, words) in
-        [("small.msh", "can move by (0, 1): contact is open"), ("turned.msh", "can move by (-0.7536, 1): contact is open")]
+        [("small.msh", "can move by (0, 1): load.top drives it"), ("turned.msh", "can move by (-0.7536, 1): load.top drives it")]
     {
         for ranks in RANKS {
             let run = Run::case("hard/bars.toml").set("mesh.refine", 0).set("mesh.file", mesh).set("load.top.pressure", -1.0);
@@ -216,5 +219,53 @@ fn spans_and_segments_without_measure_are_refused() {
         let ended = Run::case(case).set(key, 100_000).ended();
         assert_eq!((ended.code, ended.left_behind().len()), (Some(2), 0), "{}", ended.said());
         assert!(ended.errors.contains(words) && ended.errors.contains("or \"auto\""), "{}", ended.errors);
+    }
+}
+
+/// A block with a round foot of radius 5 on a plate, with edges of .6 where the contact is .47 wide: Γ_C grows until it is as wide as
+/// the foot, and the foot lies in the plate. On a mesh that is too coarse all the same the foot lies in it by less.
+#[test]
+fn bodies_in_each_other_are_not_resolved() {
+    const CASE: &str = r#"
+mesh = { file = "mesh.msh", refine = 3 }
+body.plate = { young = 210000.0, poisson = 0.3 }
+body.foot = { young = 210000.0, poisson = 0.3 }
+geometry.round = { curves = ["round"], circle = { centre = [0, 5], radius = 5 } }
+support.ground = { on = "ground", ux = 0.0, uy = 0.0 }
+support.top = { on = "top", ux = 0.0 }
+load.top = { on = "top", pressure = 125.0 }
+contact.seam = { between = ["table", "round"] }
+"#;
+    let plate = grid(4, 2, 1, |u, v| [20.0 * u - 10.0, 10.0 * v - 10.0]);
+    let round = |x: f64| 5.0 - (25.0 - x * x).sqrt();
+    let foot = grid(2, 2, 2, |u, v| [8.0 * u - 4.0, round(8.0 * u - 4.0) * (1.0 - v) + 4.0 * v]);
+    let bodies = vec![("plate", plate, ["ground", "", "table", ""]), ("foot", foot, ["round", "", "top", ""])];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), CASE);
+    for ranks in RANKS {
+        let ended = Run::file(&file).ranks(ranks).ended();
+        assert_eq!((ended.code, ended.value("/status")), (Some(3), "unresolved".into()), "{}", ended.said());
+        let reason = ended.value("/reason").to_string();
+        assert!(reason.contains("wide by its force, less than an edge") && reason.contains("take mesh.refine = 6"), "{reason}");
+        assert!(ended.output.contains("mezha: NOT resolved: contact seam"), "{}", ended.said());
+        assert_eq!(ended.value("/contact/seam/trust"), false);
+        assert!(ended.number("/contact/seam/depth") > 0.1 * ended.number("/contact/seam/approach"), "{}", ended.said());
+    }
+}
+
+/// Lengths of 1e-60: the right-hand side lies below PETSc's own absolute tolerance.
+#[test]
+fn the_smallest_right_hand_side_is_solved() {
+    let seam = |low: f64, high: f64, cells, seed| grid(cells, 2, seed, move |u, v| [2e-60 * u, 1e-60 * (low + v * (high - low))]);
+    let bodies = vec![
+        ("lower", seam(0.0, 1.0, 5, 1), ["bottom", "", "lower.seam", "left"]),
+        ("upper", seam(1.0, 2.0, 6, 2), ["upper.seam", "", "top", "left"]),
+    ];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), GOOD);
+    for ranks in RANKS {
+        let ended = Run::file(&file).ranks(ranks).set("mesh.refine", 1).ended();
+        assert_eq!(ended.code, Some(0), "{}", ended.said());
+        assert!((ended.number("/contact/seam/force") / 2e-60 - 1.0).abs() < 1e-6, "{}", ended.said());
     }
 }

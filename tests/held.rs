@@ -82,7 +82,8 @@ contact.high = { between = ["rim.high", "plate.bottom"] }
 fn a_ring_that_rolls_is_found_on_polygons_and_on_circles() {
     let circle = "geometry.rim.circle={ centre = [0, 1], radius = 1 }";
     let held = "support.slit={ on = \"slit\", ux = 0.0, uy = 0.0 }";
-    let words = ["body ring can turn about (0, 1)", "hold it, for example by a support with at = ["];
+    let hold = "hold its mean, for example by a support with mean = true, body = \"ring\" and angle = 0.0";
+    let words = ["body ring can turn about (0, 1)", hold];
     for edges in [24, 61] {
         let mesh = between_plates(edges, 1.0);
         for refine in ["mesh.refine=0", "mesh.refine=2"] {
@@ -96,6 +97,44 @@ fn a_ring_that_rolls_is_found_on_polygons_and_on_circles() {
         loose(&between_plates(40, scale), ROLLING, &[], &["ring can turn about", centre]);
         right(&between_plates(40, scale), ROLLING, &[held]);
     }
+}
+
+/// What is proposed is pasted: the turn is held, then the shift, and then nothing is free.
+#[test]
+fn the_holds_that_are_proposed_hold() {
+    let mesh = between_plates(40, 1.0);
+    let turn = "support.hold={ mean = true, body = \"ring\", angle = 0.0 }";
+    loose(&mesh, ROLLING, &[turn], &["body ring can move by (1, 0)", "hold it by ux = 0.0 in support.hold, too"]);
+    right(&mesh, ROLLING, &[&turn.replace("angle", "ux = 0.0, angle")]);
+    // A point holds what loads drive.
+    let driven = "load.ring={ on = \"bore\", traction = [1.0, 0.0] }";
+    loose(&mesh, ROLLING, &[turn, driven], &["body ring can move by (1, 0)", "hold it, for example by a support with at = ["]);
+}
+
+/// A tool with clearance around a block, which it is driven against: it cannot fall away, though no set that presses may be found.
+#[test]
+fn what_contact_would_stop_is_not_said_to_be_free() {
+    const CASE: &str = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.block = { young = 1000.0, poisson = 0.3 }
+support.foot = { on = "foot", ux = 0.0, uy = 0.0 }
+rigid.cap = { line = [[-0.05, 0.2], [-0.05, 1.05], [2.05, 1.05], [2.05, 0.2]], force = [2.0, -3.0], moment = 0.0 }
+contact.left = { between = ["left", "rigid.cap.1"] }
+contact.top = { between = ["top", "rigid.cap.2"] }
+contact.right = { between = ["right", "rigid.cap.3"] }
+"#;
+    let mesh = Mesh { bodies: vec![("block", block([0.0, 2.0], [0.0, 1.0], [6, 3], 1), ["foot", "right", "top", "left"])] };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), CASE);
+    let ended = Run::file(&file).ended();
+    let reason = ended.value("/reason").to_string();
+    assert!(!reason.contains("do not hold it"), "{}", ended.said());
+    assert!(ended.code == Some(0) || reason.contains("which would hold it"), "{}", ended.said());
+    // Away from it nothing stops it.
+    let ended = Run::file(&file).set("rigid.cap.force", "[0.0, 3.0]").ended();
+    let reason = ended.value("/reason").to_string();
+    assert!(ended.code == Some(3) && reason.contains("rigid.cap can move by"), "{}", ended.said());
+    assert!(!reason.contains("would hold it"), "{}", ended.said());
 }
 
 /// In a smooth round hole, a support along the normal, a ring turns, although the normals of its unequal edges do not meet in

@@ -2,8 +2,9 @@
 
 mod support;
 
-use support::mesh::{Mesh, grid, two_blocks, write_scene};
-use support::{Ended, Run, close, mezha, numbers, with_both_orders};
+use std::f64::consts::PI;
+use support::mesh::{Block, Mesh, grid, two_blocks, write_scene};
+use support::{Ended, RANKS, Run, close, mezha, numbers, with_both_orders};
 
 const EXACT: f64 = 1e-9;
 
@@ -166,6 +167,54 @@ fn a_mean_motion_that_contact_resists_is_as_asked_and_its_force_is_told() {
     });
 }
 
+/// Shifts in any two directions are those along the axes: 0.5 along x, and 0.6 · 0.5 - 0.8 · 0.25 along (3, 4)/5. Around a centre
+/// under the middle (1, 1/2) of the bar a shift to the left is one along x.
+#[test]
+fn a_bar_is_held_along_any_direction_and_around_a_centre() {
+    let held = |shifts: &str| BAR.replace("ux = 0.5, uy = -0.25", shifts);
+    for shifts in [
+        "ux = 0.5, direction = [30, 40], along = 0.1",
+        "about = [1, -3], tangential = -0.5, direction = [-3, -4], along = -0.1",
+        "about = [5, 0.5], tangential = 0.25, ux = 0.5",
+    ] {
+        with_both_orders(&bar(), &held(shifts), |words, ended| {
+            let (e, nu) = (200.0, 0.3);
+            let [along, across] = [10.0 * (1.0 - nu * nu) / e, -10.0 * nu * (1.0 + nu) / e];
+            let u = numbers(&ended, "/probe/corner/u");
+            close(u[0], 0.5 + along - 1e-3 * 0.5, 0.5, &format!("{shifts}, {words}"));
+            close(u[1], -0.25 + 0.5 * across + 1e-3, 0.5, &format!("{shifts}, {words}"));
+            carries_nothing(&ended, "still", 10.0, words);
+        });
+    }
+}
+
+/// A heavy block on an incline, held along it: contact has the part of the weight across, the hold the part along, like a weight
+/// itself, so that the block does not turn.
+#[test]
+fn a_weight_on_an_incline_is_held_along_it() {
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    let turned = |mesh: Mesh| mesh.map(move |[x, y]| [cos * x - sin * y, sin * x + cos * y]);
+    for weight in ["body_force = [0.0, -3.0]", "density = 0.3"] {
+        let case = BLOCKS
+            .replace("uy = 0.0 }\nsupport.below", "ux = 0.0, uy = 0.0 }\nsupport.below")
+            .replace("support.below = { body = \"lower\", mean = true, ux = 0.0 }\n", "")
+            .replace("load.top = { on = \"top\", pressure = 3.0 }\n", "")
+            .replace("young = 3000.0, poisson = 0.3", &format!("young = 3000.0, poisson = 0.3, {weight}"))
+            .replace("ux = 0.01 }", &format!("direction = [{cos}, {sin}], along = 0.01 }}"))
+            .replace("[1.0, 0.5]", "[0.6, 0.9]")
+            .replace("[1.0, 1.5]", "[0.2, 1.8]");
+        let case = if weight.starts_with("density") { format!("gravity.g = [0.0, -10.0]\n{case}") } else { case };
+        with_both_orders(&turned(blocks()), &case, |words, ended| {
+            close(ended.number("/contact/seam/force"), 6.0 * cos, 6.0, words);
+            let [x, y] = numbers(&ended, "/support/above/reaction");
+            close(x, 6.0 * sin * cos, 6.0, words);
+            close(y, 6.0 * sin * sin, 6.0, words);
+            close(ended.number("/support/above/moment"), 0.0, 6.0, words);
+            assert!(ended.number("/balance/bodies") < EXACT, "{words}");
+        });
+    }
+}
+
 /// Rings that nothing but their means keeps from turning.
 #[test]
 fn rings_that_may_turn_are_held_by_their_mean_turn() {
@@ -185,6 +234,66 @@ fn rings_that_may_turn_are_held_by_their_mean_turn() {
         let outer = grow(4.0 * 9.0 / 5.0, 4.0 / 5.0);
         let exact = 1e-3 / (inner + outer);
         pressures.iter().for_each(|p| assert!((p / exact - 1.0).abs() < 3e-4, "{p} instead of {exact}"));
+    }
+}
+
+/// A ring around a point, with so many edges around; its sides are the rim and the bore.
+fn ring(edges: usize, middle: f64, [bore, rim]: [f64; 2]) -> Block {
+    let around = |k: usize| 2.0 * PI * (k % edges) as f64 / edges as f64;
+    let point = |r: f64, k: usize| [middle + r * around(k).cos(), r * around(k).sin()];
+    let points =
+        [bore, 0.5 * (bore + rim), rim].into_iter().flat_map(|r| (0..edges).map(move |k| (r, k))).map(|(r, k)| point(r, k));
+    let at = |j: usize, k: usize| j * edges + k % edges;
+    let quadrangles = (0..2).flat_map(|j| (0..edges).map(move |k| (j, k)));
+    let cut = |(j, k)| [[at(j, k), at(j + 1, k), at(j + 1, k + 1)], [at(j, k), at(j + 1, k + 1), at(j, k + 1)]];
+    let side = |j: usize| (0..edges).map(|k| [at(j, k), at(j, k + 1)]).collect();
+    Block { points: points.collect(), triangles: quadrangles.flat_map(cut).collect(), sides: [side(2), side(0), vec![], vec![]] }
+}
+
+/// So many rings, shrunk into others that are held at their rims, and a case that holds their turns.
+fn shrunk_rings(count: usize) -> (Mesh, String) {
+    let mut case = String::from("mesh = { file = \"mesh.msh\", refine = 1 }\nsolver.tolerance = 1e-10\n");
+    let mut bodies = Vec::new();
+    let name = |words: String| -> &'static str { words.leak() };
+    for k in 0..count {
+        let middle = 7.0 * k as f64;
+        case += &format!(
+            "body.in{k} = {{ young = 7000.0, poisson = 0.3 }}
+             body.out{k} = {{ young = 7000.0, poisson = 0.3 }}
+             geometry.seam{k} = {{ curves = [\"in{k}.rim\", \"out{k}.bore\"], circle = {{ centre = [{middle}, 0], radius = 2 }} }}
+             contact.seam{k} = {{ between = [\"in{k}.rim\", \"out{k}.bore\"], curve = \"geometry\", gap = \"-1e-3*(1 + 0.3*(x - {middle}))\" }}
+             support.out{k} = {{ on = \"out{k}.rim\", ux = 0.0, uy = 0.0 }}
+             support.in{k} = {{ body = \"in{k}\", mean = true, angle = 0.0 }}\n"
+        );
+        let inner = ring(9, middle, [1.0, 2.0]);
+        bodies.push((name(format!("in{k}")), inner, [name(format!("in{k}.rim")), "", "", ""]));
+        let outer = ring(11, middle, [2.0, 3.0]);
+        bodies.push((name(format!("out{k}")), outer, [name(format!("out{k}.rim")), name(format!("out{k}.bore")), "", ""]));
+    }
+    (Mesh { bodies }, case)
+}
+
+#[test]
+fn many_held_turns_take_no_more_iterations_than_one() {
+    let ended = |count: usize, ranks: usize, solver: &str| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (mesh, case) = shrunk_rings(count);
+        let file = write_scene(folder.path(), &mesh.text(), &case);
+        Run::file(&file).set("solver.name", solver).set("output.fields", false).ranks(ranks).converged()
+    };
+    let most = |ended: &Ended| {
+        let iterations = ended.value("/solver/iterations");
+        iterations.as_array().expect("a list").iter().filter_map(serde_json::Value::as_u64).max().expect("a solve")
+    };
+    let one = ended(1, 1, "fieldsplit");
+    let (iterations, energy) = (most(&one), one.number("/energy/total"));
+    for (count, ranks, solver) in
+        [(10, 1, "direct"), (100, 2, "fieldsplit")].into_iter().chain(RANKS.map(|n| (10, n, "fieldsplit")))
+    {
+        let many = ended(count, ranks, solver);
+        let words = format!("{count} rings on {ranks} ranks, {solver}");
+        close(many.number("/energy/total") / count as f64, energy, energy, &words);
+        assert!(most(&many) <= iterations + 3, "{words}: {} iterations instead of {iterations}", most(&many));
     }
 }
 
@@ -226,6 +335,26 @@ fn mistakes_are_told() {
             "{ body = \"upper\", mean = true, on = \"top\", ux = 0.0 }",
             "support.above.on = \"top\" (--set): stands beside mean = true",
         ),
+        (
+            "{ body = \"upper\", mean = true, ux = 0.0, direction = [2, 0], along = 0.0 }",
+            "support.above: ux and along hold one shift of \"upper\" twice; leave one of them out",
+        ),
+        (
+            "{ body = \"upper\", mean = true, ux = 0.0, about = [1, 0], tangential = 0.0 }",
+            "support.above: ux and tangential hold one shift of \"upper\" twice",
+        ),
+        (
+            "{ body = \"upper\", mean = true, ux = 0.0, uy = 0.0, direction = [1, 1], along = 0.0 }",
+            "ux, uy and along are three shifts of \"upper\", of which two tell the third",
+        ),
+        (
+            "{ body = \"upper\", mean = true, along = 0.0 }",
+            "support.above.along = 0.0 (--set): wants a way; give direction = [x, y]",
+        ),
+        ("{ body = \"upper\", mean = true, ux = 0.0, about = [0, 0] }", "holds nothing by itself; give tangential = 0.0"),
+        ("{ body = \"upper\", mean = true, direction = [0, 0], along = 0.0 }", "must point somewhere"),
+        ("{ body = \"upper\", mean = true, about = [1, 1.5], tangential = 0.0 }", "it goes around nothing; give angle"),
+        ("{ on = \"top\", along = 0.0, direction = [0, 1], ux = 0.0 }", "support.above.along"),
         ("{ body = \"lower\", mean = true, ux = 0.0 }", "support.below holds a mean motion of this body, too"),
         ("{ body = \"lower\", mean = true, uy = 0.0 }", "holds a mean motion of this body, too"),
     ] {

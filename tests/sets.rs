@@ -63,7 +63,7 @@ fn a_leaf_spring_rolls_onto_its_seat_in_any_unit_space_and_number_of_ranks() {
             let found = RANKS.map(|ranks| {
                 let run = Run::file(&file).ranks(ranks).set("contact.c.multiplier", space).set("output.fields", false);
                 // A slender leaf bends much under a small residual: at 1e-8 the force is known to four digits.
-                let ended = run.set("solver.tolerance", "1e-11").converged();
+                let ended = run.set("solver.tolerance", "1e-11").solved();
                 let [found, place] = beyond_the_clamp(&ended);
                 let words = format!("{space}, lengths by {length:e}, {ranks} ranks: force {}, at {place}", found / force);
                 assert!(passes(&ended) <= 40, "{words}, {} passes", passes(&ended));
@@ -201,7 +201,9 @@ fn a_pin_under_a_light_load_stays_in_its_hole() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &mesh.text(), &case);
     for ranks in [1, 3] {
-        let ended = Run::file(&file).ranks(ranks).set("output.fields", false).converged();
+        // It presses on less than an edge, which is said.
+        let ended = Run::file(&file).ranks(ranks).set("output.fields", false).ended();
+        assert!(ended.code == Some(0) || ended.value("/status") == "unresolved", "{}", ended.said());
         // It is so narrow that its pressure acts downwards.
         let found = ended.number("/contact/c/force") / (load * young);
         assert!((found - 1.0).abs() < 0.02, "{found}, {ranks} ranks");

@@ -99,7 +99,8 @@ fn beside_a_jump_term_the_active_set_does_not_depend_on_ranks_or_solver() {
         let run =
             run.set("contact.seam.law", "unilateral").set("load.top.pressure", 0.01).set("contact.seam.gap", "(x - 3)^2/240");
         let result = |run: Run| {
-            let ended = run.converged();
+            // 768 segments lie on 48 edges: contact on ten of them is narrower than one.
+            let ended = run.solved();
             (ended.value("/contact/seam/closed"), ended.number("/energy/total"))
         };
         let (closed, energy) = result(run.clone().ranks(1));

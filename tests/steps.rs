@@ -59,12 +59,12 @@ fn a_gap_closes_at_its_load_and_the_line_goes_on_stiffer() {
 
 /// What a result of steps consists of, and that its series name files that are there.
 fn check_files(ended: &Ended, ranks: usize) {
-    let own = ["case.toml", "contact_seam.csv", "contact_seam.vtu"];
+    let own = ["case.toml", "contact_seam.csv", "contacts.csv", "contact_seam.vtu"];
     for number in 1..=6 {
         let found = names_in(&ended.out.join(format!("steps/{number:04}")));
         let fields = found.iter().filter(|name| name.starts_with("fields")).count();
         let expected = match (number, ranks) {
-            (6, _) => (&own[..2], 0),
+            (6, _) => (&own[..3], 0),
             (_, 1) => (&own[..], 1),
             (_, ranks) => (&own[..], ranks + 1),
         };
@@ -96,7 +96,7 @@ fn the_closing_gap_is_a_patch_test_of_all_spaces() {
         steps(&ended).iter().for_each(|step| check_closing_gap(step, &format!("P{order} and {space}")));
         let mut names = names_in(&ended.out);
         names.retain(|name| name != "steps");
-        assert_eq!(names, ["case.msh", "case.toml", "contact_seam.csv", "steps.csv", "summary.json"]);
+        assert_eq!(names, ["case.msh", "case.toml", "contact_seam.csv", "contacts.csv", "steps.csv", "summary.json"]);
     }
 }
 

@@ -108,7 +108,7 @@ impl Constraints {
         for hold in means {
             for anchor in hold.anchors(mesh).unwrap_or_default() {
                 let (_, known) = holds.entry(numbering.vertex(anchor.vertex)).or_insert((anchor.place, Vec::new()));
-                add(known, HeldBy::Support(&hold.name), Point::ith(anchor.axis, 1.0), 0.0, anchor.place)?;
+                add(known, HeldBy::Support(&hold.name), anchor.direction, 0.0, anchor.place)?;
             }
         }
         for set in rigid {
@@ -138,10 +138,10 @@ impl Constraints {
         }
     }
 
-    /// Puts an anchor of a mean motion where a displacement along its axis takes it.
-    pub fn move_anchor(&mut self, numbering: &Numbering, anchor: &Anchor, displacement: f64) {
+    /// Puts an anchor of a mean motion where a displacement takes it.
+    pub fn move_anchor(&mut self, numbering: &Numbering, anchor: &Anchor, displacement: Point) {
         if let Some(constraint) = self.nodes.get_mut(&numbering.vertex(anchor.vertex)) {
-            constraint.value[anchor.axis] = displacement;
+            constraint.value = constraint.to_frame(displacement).into();
         }
     }
 

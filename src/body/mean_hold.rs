@@ -4,12 +4,20 @@
 //! turn, is prescribed. Vertices hold it while the system is solved, its *anchors*; the whole body is moved rigidly to where its
 //! mean is as it was asked for, and a force that is spread all over it balances what drives it, so that the anchors carry nothing.
 
+use super::{Motion, rigid_displacement};
 use crate::geometry::{Point, cross};
 use crate::mesh::MacroMesh;
-use std::collections::HashSet;
+use nalgebra::DMatrix;
+use std::collections::{BTreeSet, HashSet};
 
-/// A mean turn is held by vertices that are at least this share of the largest distance from the middle.
-const FAR: f64 = 0.5;
+/// A vertex within a body holds its turn if it resists it by this share of what the best one on its boundary does.
+const ENOUGH: f64 = 0.5;
+
+/// Directions closer than this (radians) are one: a thousandth of a shift across them would have to be told from nothing.
+const SAME: f64 = 1e-3;
+
+/// Directions along x and y.
+const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
 
 /// A body whose mean motion is held.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,33 +26,75 @@ pub struct MeanHold {
     pub name: String,
     /// Name of the body.
     pub body: String,
-    /// Its mean shift along x and y (length), and its mean turn (radians); free where nothing is given.
-    pub mean: [Option<f64>; 3],
+    /// What is held of its motion: no mode twice, and no more than two shifts.
+    pub held: Vec<HeldMode>,
 }
 
-/// A vertex that is held along an axis.
+/// A rigid mode of a body whose mean is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldMode {
+    /// Its key in the case file, as `ux` or `angle`.
+    pub key: &'static str,
+    /// Its shifts along x and y, and its turn about the middle of the body: a shift by one (length), or a turn by one (radian).
+    pub mode: Motion,
+    /// How far the body moves along it in the mean (length, or radians).
+    pub value: f64,
+}
+
+impl HeldMode {
+    /// Whether it is the turn.
+    pub fn is_turn(&self) -> bool {
+        self.mode[2] != 0.0
+    }
+
+    /// The direction of a shift.
+    pub fn direction(&self) -> Point {
+        Point::new(self.mode[0], self.mode[1])
+    }
+}
+
+/// A vertex that is held along a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {
     /// The macro vertex.
     pub vertex: u32,
     /// Where it is.
     pub place: Point,
-    /// 0 along x, 1 along y.
-    pub axis: usize,
+    /// The direction, a unit vector.
+    pub direction: Point,
 }
 
 impl MeanHold {
-    /// Components of the motion whose mean is held.
-    pub fn held(&self) -> impl Iterator<Item = usize> + use<> {
-        let mean = self.mean;
-        (0..3).filter(move |&k| mean[k].is_some())
+    /// Words for modes that follow from each other; nothing if there are none.
+    pub fn redundant(&self) -> Option<String> {
+        let shifts: Vec<&HeldMode> = self.held.iter().filter(|held| !held.is_turn()).collect();
+        let pairs = (0..shifts.len()).flat_map(|k| (0..k).map(move |other| [other, k]));
+        let mut pairs = pairs.map(|pair| pair.map(|k| shifts[k]));
+        if let Some([a, b]) = pairs.find(|[a, b]| cross(a.direction(), b.direction()).abs() < SAME) {
+            return Some(format!("{} and {} hold one shift of \"{}\" twice; leave one of them out", a.key, b.key, self.body));
+        }
+        let [a, b, c] = shifts[..] else { return None };
+        let all = format!("{}, {} and {} are three shifts of \"{}\"", a.key, b.key, c.key, self.body);
+        Some(format!("{all}, of which two tell the third; leave one of them out"))
+    }
+
+    /// Macro triangles of the body, which is of one piece: one beside the other, so that none of other bodies is looked at.
+    fn triangles(&self, mesh: &MacroMesh) -> BTreeSet<usize> {
+        let pieces = mesh.pieces.iter().filter(|piece| mesh.bodies[piece.body] == self.body);
+        let mut open: Vec<usize> = pieces.map(|piece| piece.first as usize).collect();
+        let mut found: BTreeSet<usize> = open.iter().copied().collect();
+        while let Some(triangle) = open.pop() {
+            let beside = mesh.triangles[triangle].edges.iter().flat_map(|&edge| mesh.edges[edge as usize].triangles);
+            open.extend(beside.flatten().map(|other| other as usize).filter(|&other| found.insert(other)));
+        }
+        found
     }
 
     /// Middle of the body, by its macro triangles.
     pub fn middle(&self, mesh: &MacroMesh) -> Point {
         let (mut area, mut moment) = (0.0, Point::zeros());
-        for triangle in mesh.triangles.iter().filter(|triangle| mesh.bodies[triangle.body as usize] == self.body) {
-            let [a, b, c] = triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        for triangle in self.triangles(mesh) {
+            let [a, b, c] = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
             let double = cross(b - a, c - a);
             area += double;
             moment += double * (a + b + c) / 3.0;
@@ -59,29 +109,42 @@ impl MeanHold {
         distances.fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// One anchor for each component that is held, in their order: near the middle for shifts, far from it for a turn, and
-    /// rather within the body than on its boundary. Nothing if the body has too few vertices.
+    /// As many anchors as modes that are held, so that none of them is free: near the middle for shifts, along the only one, or
+    /// both axes; for a turn where it is resisted beside these; and rather within the body than on its boundary. Nothing if no vertex
+    /// resists the turn.
     pub fn anchors(&self, mesh: &MacroMesh) -> Option<Vec<Anchor>> {
-        let about = self.middle(mesh);
-        let vertices = self.vertices(mesh);
+        let (about, vertices) = (self.middle(mesh), self.vertices(mesh));
         let distance = |vertex: &u32| (mesh.vertices[*vertex as usize] - about).norm();
-        let largest = self.reach(mesh);
         let inner_first = |a: &(u32, bool), b: &(u32, bool)| a.1.cmp(&b.1);
         let near = vertices.iter().min_by(|a, b| inner_first(a, b).then(distance(&a.0).total_cmp(&distance(&b.0))))?.0;
-        let others = vertices.iter().filter(|(vertex, _)| *vertex != near && distance(vertex) >= FAR * largest);
-        let far = others.min_by(|a, b| inner_first(a, b).then(distance(&b.0).total_cmp(&distance(&a.0))))?.0;
-        let arm = mesh.vertices[far as usize] - mesh.vertices[near as usize];
-        let across = if arm.x.abs() > arm.y.abs() { 1 } else { 0 };
-        let anchor = |vertex: u32, axis| Anchor { vertex, place: mesh.vertices[vertex as usize], axis };
-        Some(self.held().map(|k| if k == 2 { anchor(far, across) } else { anchor(near, k) }).collect())
+        let anchor = |vertex: u32, direction| Anchor { vertex, place: mesh.vertices[vertex as usize], direction };
+        let shifts: Vec<Point> = self.held.iter().filter(|held| !held.is_turn()).map(HeldMode::direction).collect();
+        let shifts = if shifts.len() == 2 { AXES.to_vec() } else { shifts };
+        let mut anchors: Vec<Anchor> = shifts.into_iter().map(|direction| anchor(near, direction)).collect();
+        if anchors.len() == self.held.len() {
+            return Some(anchors);
+        }
+        let resistance = |last: &Anchor| {
+            let held = |i: usize, j: usize| {
+                let anchor = anchors.get(i).unwrap_or(last);
+                rigid_displacement(about, &self.held[j].mode, anchor.place).dot(&anchor.direction)
+            };
+            DMatrix::from_fn(self.held.len(), self.held.len(), held).determinant().abs()
+        };
+        let candidates = vertices.iter().flat_map(|&(vertex, outer)| AXES.map(|axis| (outer, anchor(vertex, axis))));
+        let candidates: Vec<(bool, Anchor, f64)> = candidates.map(|(outer, last)| (outer, last, resistance(&last))).collect();
+        let most = candidates.iter().map(|candidate| candidate.2).fold(0.0, f64::max);
+        let enough = candidates.into_iter().filter(|candidate| candidate.2 > 0.0 && candidate.2 >= ENOUGH * most);
+        let last = enough.min_by(|a, b| a.0.cmp(&b.0).then(b.2.total_cmp(&a.2)))?.1;
+        anchors.push(last);
+        Some(anchors)
     }
 
     /// Vertices of the body, and whether each is on the boundary; in ascending order.
     fn vertices(&self, mesh: &MacroMesh) -> Vec<(u32, bool)> {
-        let own = mesh.triangles.iter().filter(|triangle| mesh.bodies[triangle.body as usize] == self.body);
         let mut seen = HashSet::new();
         let mut once: HashSet<u32> = HashSet::new();
-        for triangle in own {
+        for triangle in self.triangles(mesh).into_iter().map(|triangle| &mesh.triangles[triangle]) {
             seen.extend(triangle.vertices);
             for edge in triangle.edges {
                 if !once.insert(edge) {
@@ -94,10 +157,4 @@ impl MeanHold {
         all.sort_unstable();
         all
     }
-}
-
-/// Displacement at a point of component `k` of a rigid motion: shifts along x and y, and the turn about a point.
-pub fn rigid_mode(about: Point, k: usize, x: Point) -> Point {
-    let arm = x - about;
-    [Point::new(1.0, 0.0), Point::new(0.0, 1.0), Point::new(-arm.y, arm.x)][k]
 }

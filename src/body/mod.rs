@@ -15,9 +15,9 @@ pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use folding::check_folding;
 pub use formula_check::{check_body_forces, check_loads, varies};
 pub use macro_stiffness::{MacroStiffness, neighbours};
-pub use mean_hold::{Anchor, MeanHold, rigid_mode};
+pub use mean_hold::{Anchor, HeldMode, MeanHold};
 pub use node_positions::{NodePositions, positions};
-pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet};
+pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
 pub use springs::{SpringStiffness, Springs};
 
 use crate::element::{Plane, PlaneLaw};

@@ -1,12 +1,20 @@
 //! Nodes that move together as a rigid body: those of a rigid tool, or of a boundary under a stiff plate.
 
-use super::rigid_mode;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use std::collections::BTreeMap;
 
 /// A rigid motion of small angle: shift along x and y (length), and turn about the reference point (radians).
 pub type Motion = [f64; 3];
+
+/// The motions of one component each.
+pub const UNIT_MOTIONS: [Motion; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Displacement at a point by a rigid motion: shifts along x and y, and the turn about a point.
+pub fn rigid_displacement(about: Point, [along, up, turn]: &Motion, x: Point) -> Point {
+    let arm = x - about;
+    Point::new(along - turn * arm.y, up + turn * arm.x)
+}
 
 /// Which nodes move together.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,12 +43,12 @@ pub struct RigidSet {
 impl RigidSet {
     /// Displacement at a point when component `k` of the motion is one.
     pub fn mode(&self, k: usize, x: Point) -> Point {
-        rigid_mode(self.about, k, x)
+        rigid_displacement(self.about, &UNIT_MOTIONS[k], x)
     }
 
     /// Displacement at a point.
     pub fn displacement(&self, motion: &Motion, x: Point) -> Point {
-        (0..3).map(|k| motion[k] * self.mode(k, x)).sum()
+        rigid_displacement(self.about, motion, x)
     }
 
     /// Its motion where every component that is not prescribed is zero.

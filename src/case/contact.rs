@@ -1,5 +1,7 @@
 //! `[contact.NAME]`
 
+use std::collections::HashMap;
+
 use toml::Value;
 
 use super::error::suggest;
@@ -246,19 +248,22 @@ pub fn check_contacts(contacts: &[Pair], unions: &[Union], geometries: &[Geometr
     if geometries.len() < root.names_below("geometry").count() {
         return; // A geometry could not be read; its own error comes first.
     }
-    for (at, pair) in contacts.iter().enumerate() {
-        let same = |other: &&Pair| pair.between.iter().all(|name| other.between.contains(name));
-        if let Some(other) = contacts[..at].iter().find(same) {
-            let words = format!("contact.{} joins the same boundaries; leave one of them out", other.name);
+    let (mut joined, mut named) = (HashMap::new(), HashMap::new());
+    for pair in contacts {
+        let mut sides = pair.between.each_ref();
+        sides.sort_unstable();
+        if let Some(other) = joined.get(&sides) {
+            let words = format!("contact.{other} joins the same boundaries; leave one of them out");
             root.problem(&["contact", &pair.name, "between"], words);
         }
-        if let Some(other) = contacts[..at].iter().find(|other| other.name.to_lowercase() == pair.name.to_lowercase()) {
+        joined.entry(sides).or_insert(&pair.name);
+        if let Some(other) = named.get(&pair.name.to_lowercase()) {
             let words = format!(
-                "differs from contact.{} by capital letters only: their files would be one on some disks; rename one of them",
-                other.name
+                "differs from contact.{other} by capital letters only: their files would be one on some disks; rename one of them",
             );
             root.problem(&["contact", &pair.name], words);
         }
+        named.entry(pair.name.to_lowercase()).or_insert(&pair.name);
     }
     for pair in contacts.iter().filter(|pair| pair.curve == CurveChoice::Geometry) {
         let [first, second] = &pair.between;

@@ -13,6 +13,7 @@ mod grade;
 mod gravity;
 mod model;
 pub(crate) mod overrides;
+mod patterns;
 mod rigid;
 pub mod schema;
 pub(crate) mod section;
@@ -28,19 +29,22 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use crate::accuracy::Accuracy;
-use crate::body::{Body, Load, MeanHold, PointLoad, Springs, Support};
+use crate::body::{Body, Load, PointLoad, Springs, Support};
 use crate::contact::Pair;
 use crate::element::Order;
 use crate::geometry::Curve;
+use crate::mesh::read_bytes;
 use crate::system::{SolverChoice, Tolerance};
 
 pub(crate) use error::listed;
 pub use error::{CaseError, Problem};
 pub use exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
 pub use fingerprint::{Inputs, fingerprint, sha256};
+pub use patterns::Matched;
 pub use rigid::{Plate, Tool};
 pub(crate) use section::read_text;
 pub use steps::{LoadFactor, LoadStep};
+pub use support::{MeanSupport, MeanWay};
 
 use overrides::{overridden, set_value};
 use section::{Log, Section};
@@ -72,7 +76,7 @@ pub struct Case {
     /// Elastic supports.
     pub springs: Vec<Springs>,
     /// Bodies whose mean motion is held.
-    pub means: Vec<MeanHold>,
+    pub means: Vec<MeanSupport>,
     /// Surface loads.
     pub loads: Vec<Load>,
     /// Forces at points.
@@ -95,6 +99,8 @@ pub struct Case {
     pub exact: Exact,
     /// Load steps, none if everything acts at once; the case itself is that of the last one.
     pub steps: Vec<LoadStep>,
+    /// What the patterns of the file stand for.
+    pub matched: Vec<Matched>,
     /// What scales it from step to step.
     factors: Vec<LoadFactor>,
     /// The file with overrides and defaults written out.
@@ -193,8 +199,43 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let (table, log) = overridden(text, file, overrides, &accuracy::SHORT)?;
-        Self::from_table(table, log, file)?.with_steps()
+        Self::parse_with(text, file, overrides, read_mesh_bytes)
+    }
+
+    /// The same, where `bytes` reads the mesh by its path, which is needed where names of the case are patterns.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn parse_with(
+        text: &str,
+        file: &Path,
+        overrides: &[String],
+        bytes: impl FnOnce(&Path) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, CaseError> {
+        let (table, log, matched) = Self::written_out(text, file, overrides, bytes)?;
+        let case = Self::from_table(table, log, file)?;
+        Self { matched, ..case }.with_steps()
+    }
+
+    /// The table of a text after its overrides, with all patterns written out, a log, and what the patterns stand for.
+    ///
+    /// # Errors
+    /// [`CaseError`] if the text is no TOML, or a pattern stands for nothing.
+    fn written_out(
+        text: &str,
+        file: &Path,
+        overrides: &[String],
+        bytes: impl FnOnce(&Path) -> Result<Vec<u8>, String>,
+    ) -> Result<(Table, Log, Vec<Matched>), CaseError> {
+        let (table, mut log) = overridden(text, file, overrides, &accuracy::SHORT)?;
+        if !patterns::has_patterns(&table) {
+            return Ok((table, log, Vec::new()));
+        }
+        let (table, matched) = patterns::written_out(table, file.parent().unwrap_or(Path::new("")), &mut log, bytes);
+        match log.problems.is_empty() {
+            true => Ok((table, log, matched)),
+            false => Err(CaseError { file: file.into(), problems: log.problems }),
+        }
     }
 
     /// Checks a table.
@@ -232,14 +273,14 @@ impl Case {
             steps.push(LoadStep { number: k + 1, count, factors, case });
         }
         Ok(match steps.last().map(|last: &LoadStep| last.case.clone()) {
-            Some(last) => Self { table: self.table, factors: self.factors, steps, ..last },
+            Some(last) => Self { table: self.table, factors: self.factors, matched: self.matched, steps, ..last },
             None => self,
         })
     }
 
     /// What can be read of a text that has errors, so that more of them may be found; nothing if there is no mesh to speak of.
     pub(crate) fn draft(text: &str, file: &Path, overrides: &[String]) -> Option<Self> {
-        let (table, log) = overridden(text, file, overrides, &accuracy::SHORT).ok()?;
+        let (table, log, _) = Self::written_out(text, file, overrides, read_mesh_bytes).ok()?;
         let draft = Self::from_section(&Section::root(&table, &schema::CASE, &RefCell::new(log)), file);
         draft.map(|draft| Self { table, ..draft })
     }
@@ -323,10 +364,16 @@ impl Case {
             probes,
             exact,
             steps: Vec::new(),
+            matched: Vec::new(),
             factors,
             table: Table::new(),
         })
     }
+}
+
+/// The bytes of a mesh, for those who are alone.
+fn read_mesh_bytes(file: &Path) -> Result<Vec<u8>, String> {
+    read_bytes(file).map_err(|error| error.to_string())
 }
 
 /// Name of the folder if the file is called as most are, `case.toml`, say; else the file's stem.

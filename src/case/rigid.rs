@@ -34,6 +34,12 @@ impl Tool {
         &self.motion.key
     }
 
+    /// The curves of a boundary that it has: all, or one.
+    pub fn parts_of(&self, boundary: &str) -> impl Iterator<Item = &SurfacePart> {
+        let number = boundary.strip_prefix(self.key()).and_then(|rest| rest.strip_prefix('.')?.parse::<usize>().ok());
+        self.surface.iter().enumerate().filter(move |(k, _)| number.is_none_or(|number| number == k + 1)).map(|(_, part)| part)
+    }
+
     /// The first corner (from 1) that is too blunt to be taken for one, and its angle in degrees: boundaries that turn by less than
     /// 20 degrees are taken for smooth ones.
     fn blunt_corner(&self) -> Option<(usize, f64)> {

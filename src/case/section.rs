@@ -1,6 +1,7 @@
 //! A table of a case or a study file, read by the table of its keys, that remembers which of them were asked for.
 
 use std::cell::RefCell;
+use std::collections::HashMap;
 use std::path::Path;
 
 use toml::{Table, Value};
@@ -33,9 +34,23 @@ pub struct Log {
     pub defaults: Vec<(Vec<String>, Value)>,
     /// Paths that the command line has set.
     pub overridden: Vec<Vec<String>>,
+    /// Paths of tables that patterns of the file have made, and where these are written.
+    pub written: HashMap<Vec<String>, Vec<String>>,
 }
 
 impl Log {
+    /// A path as the file has it: what is wrong with a table that stands for many is told once.
+    fn as_written(&self, path: Vec<String>) -> Vec<String> {
+        let made = (1..=path.len()).find_map(|end| Some((end, self.written.get(&path[..end])?)));
+        made.map_or_else(|| path.clone(), |(end, written)| [written.as_slice(), &path[end..]].concat())
+    }
+
+    fn add(&mut self, problem: Problem) {
+        if self.written.is_empty() || !self.problems.contains(&problem) {
+            self.problems.push(problem);
+        }
+    }
+
     /// Adds what the table of keys refuses of a file in which the readers have found nothing wrong: the table has the last word.
     pub fn add_faults(&mut self, form: &'static TableForm, table: &Table) {
         if self.problems.is_empty() {
@@ -239,10 +254,11 @@ impl<'a> Section<'a> {
     fn record(&self, below: &[&str], value: Option<&Value>, words: String) {
         let path: Vec<String> = self.path.iter().cloned().chain(below.iter().map(|name| (*name).to_owned())).collect();
         let mut log = self.log.borrow_mut();
+        let path = log.as_written(path);
         let from_command_line = log.overridden.iter().any(|overridden| path.starts_with(overridden));
         let source = if from_command_line { " (--set)" } else { "" };
         let value = value.map(|value| format!("{}{source}", quoted(value)));
-        log.problems.push(Problem { key: told(&path), value, words });
+        log.add(Problem { key: told(&path), value, words });
     }
 }
 
@@ -250,14 +266,14 @@ impl Drop for Section<'_> {
     fn drop(&mut self) {
         let asked = self.asked.take();
         for (name, value) in self.table.into_iter().flatten().filter(|(name, _)| !asked.contains(&name.as_str())) {
-            let key = told(&self.child(name));
+            let key = told(&self.log.borrow().as_written(self.child(name)));
             if let Some(words) = self.table.and_then(|table| self.form.misfit(name, table)) {
-                self.log.borrow_mut().problems.push(Problem { key, value: None, words });
+                self.log.borrow_mut().add(Problem { key, value: None, words });
                 continue;
             }
             let remedy = suggest(name, asked.iter().copied());
             let quotes = if value.is_table() { " (a name that holds dots stands in quotes)" } else { "" };
-            self.log.borrow_mut().problems.push(Problem::unknown(key, &format!("{remedy}{quotes}")));
+            self.log.borrow_mut().add(Problem::unknown(key, &format!("{remedy}{quotes}")));
         }
     }
 }

@@ -12,7 +12,7 @@ use super::{Case, values};
 /// Kinds of tables with values that can be scaled.
 const SCALED: [(&str, &[&str]); 5] = [
     ("load", &["pressure", "traction", "force", "moment", "ux", "uy", "angle"]),
-    ("support", &["ux", "uy", "normal", "angle"]),
+    ("support", &["ux", "uy", "normal", "angle", "along", "tangential"]),
     ("rigid", &["ux", "uy", "angle", "force", "moment"]),
     ("contact", &["gap"]),
     ("body", &["body_force"]),

@@ -2,12 +2,14 @@
 
 use toml::Value;
 
+use super::Case;
 use super::error::suggest;
 use super::section::Section;
 use super::spot::{Where, read_where};
 use super::values::{self, PLANE};
-use crate::body::{MOTIONS, MeanHold, SpringStiffness, Springs, Support};
-use crate::geometry::Formula;
+use crate::body::{HeldMode, MOTIONS, MeanHold, SpringStiffness, Springs, Support, UNIT_MOTIONS};
+use crate::geometry::{Formula, Point};
+use crate::mesh::MacroMesh;
 
 /// What a table `[support.NAME]` says.
 pub enum SupportTable {
@@ -16,11 +18,75 @@ pub enum SupportTable {
     /// Springs stand there.
     Elastic(Springs),
     /// The mean motion of a body is held.
-    Mean(MeanHold),
+    Mean(MeanSupport),
+}
+
+/// A body whose mean motion is held, as the case says it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeanSupport {
+    /// Name in the case file.
+    pub name: String,
+    /// Name of the body.
+    pub body: String,
+    /// The key of each motion that is held, along which way, and how far it is (length, or radians).
+    pub held: Vec<(&'static str, MeanWay, f64)>,
+}
+
+/// Which way a body is held in the mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MeanWay {
+    /// In a direction, a unit vector.
+    Along(Point),
+    /// Around a centre, at the middle of the body, to the left of the line that comes from the centre.
+    Around(Point),
+    /// Turning about its middle.
+    Turning,
+}
+
+/// A middle that is nearer to a centre than this share of the size of its body is the centre.
+const AT_CENTRE: f64 = 1e-6;
+
+impl MeanSupport {
+    /// The rigid modes that it holds of the body of a mesh, about its middle there.
+    ///
+    /// # Errors
+    /// Words for a body that has its middle where it is to go around.
+    fn hold(&self, mesh: &MacroMesh) -> Result<MeanHold, String> {
+        let mut hold = MeanHold { name: self.name.clone(), body: self.body.clone(), held: Vec::new() };
+        let middle = hold.middle(mesh);
+        for &(key, way, value) in &self.held {
+            let mode = match way {
+                MeanWay::Along(direction) => [direction.x, direction.y, 0.0],
+                MeanWay::Turning => UNIT_MOTIONS[2],
+                MeanWay::Around(centre) => {
+                    let arm = middle - centre;
+                    if arm.norm() <= AT_CENTRE * hold.reach(mesh) {
+                        let at = format!("about = [{}, {}]", centre.x, centre.y);
+                        return Err(format!("the middle of \"{}\" is at {at}: it goes around nothing; give angle", self.body));
+                    }
+                    let out = arm.normalize();
+                    [-out.y, out.x, 0.0]
+                }
+            };
+            hold.held.push(HeldMode { key, mode, value });
+        }
+        Ok(hold)
+    }
+}
+
+impl Case {
+    /// The bodies whose mean motion is held, on the first mesh of the case.
+    ///
+    /// # Errors
+    /// Words with the support for a body that has its middle where it is to go around.
+    pub fn mean_holds(&self, mesh: &MacroMesh) -> Result<Vec<MeanHold>, String> {
+        let hold = |mean: &MeanSupport| mean.hold(mesh).map_err(|words| format!("support.{}: {words}", mean.name));
+        self.means.iter().map(hold).collect()
+    }
 }
 
 /// The supports that prescribe displacements, the elastic ones, and those that hold mean motions.
-pub fn split(all: Vec<SupportTable>) -> (Vec<Support>, Vec<Springs>, Vec<MeanHold>) {
+pub fn split(all: Vec<SupportTable>) -> (Vec<Support>, Vec<Springs>, Vec<MeanSupport>) {
     let (mut supports, mut springs, mut means) = (Vec::new(), Vec::new(), Vec::new());
     for support in all {
         match support {
@@ -61,22 +127,49 @@ pub fn read_support(section: &Section) -> Option<SupportTable> {
 }
 
 /// The mean motion of a body: `mean = true` beside `body`.
-fn read_mean(section: &Section) -> Option<MeanHold> {
+fn read_mean(section: &Section) -> Option<MeanSupport> {
     section.optional("mean", values::boolean);
     for key in ["on", "at", "normal", "stiffness"].into_iter().filter(|key| section.has(key)) {
         let words = "stands beside mean = true, which holds a whole body; give body, and ux, uy, angle or several of them";
         section.problem(&[key], words.into());
     }
-    let mean = MOTIONS.map(|key| section.optional(key, values::number));
-    if !MOTIONS.iter().any(|key| section.has(key)) {
-        section.problem(&[], "holds no mean motion; give ux, uy or angle, or several of them, as in ux = 0.0".into());
+    let [direction, about] = ["direction", "about"].map(|key| section.optional(key, values::point).map(Point::from));
+    for (key, way) in [("along", "direction"), ("tangential", "about")] {
+        match (section.has(key), section.has(way)) {
+            (true, false) => section.problem(&[key], format!("wants a way; give {way} = [x, y] beside it")),
+            (false, true) => section.problem(&[way], format!("holds nothing by itself; give {key} = 0.0 beside it")),
+            _ => {}
+        }
     }
+    let direction = direction.filter(|way| {
+        let is_one = way.norm() > 0.0;
+        if !is_one {
+            section.problem(&["direction"], "must point somewhere: not both of its numbers are 0".into());
+        }
+        is_one
+    });
+    let ways = [
+        (MOTIONS[0], Some(MeanWay::Along(Point::new(1.0, 0.0)))),
+        (MOTIONS[1], Some(MeanWay::Along(Point::new(0.0, 1.0)))),
+        (MOTIONS[2], Some(MeanWay::Turning)),
+        ("along", direction.map(|direction| MeanWay::Along(direction.normalize()))),
+        ("tangential", about.map(MeanWay::Around)),
+    ];
+    if !ways.iter().any(|(key, _)| section.has(key)) {
+        let words = "holds no mean motion; give ux, uy or angle, along beside direction, tangential beside about, or several of them, as in ux = 0.0";
+        section.problem(&[], words.into());
+    }
+    let held = ways.into_iter().filter_map(|(key, way)| {
+        let value = section.optional(key, values::number);
+        Some((key, way?, value?))
+    });
+    let held = held.collect();
     let body = section.required("body", values::name)?;
-    Some(MeanHold { name: section.name().into(), body, mean })
+    Some(MeanSupport { name: section.name().into(), body, held })
 }
 
 /// Bodies whose mean motion is held are bodies of the case, and each motion of one is held once.
-pub fn check_means(means: &[MeanHold], root: &Section) {
+pub fn check_means(means: &[MeanSupport], root: &Section) {
     for (at, hold) in means.iter().enumerate() {
         if !root.names_below("body").any(|known| *known == hold.body) {
             let words = format!("no such body; {}", suggest(&hold.body, root.names_below("body")));

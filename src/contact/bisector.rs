@@ -18,6 +18,15 @@ const LEAST_AROUND: usize = 4;
 /// Corrections of the points half-way; each leaves a share of the square of the angle between the sides.
 const CORRECTIONS: usize = 2;
 
+/// The same at most, where round bodies part from each other by a large angle, until the points move by less than this share of the
+/// curve.
+const MOST_CORRECTIONS: usize = 12;
+const CENTRED: f64 = 1e-3;
+
+/// Share of the curve by which a foot goes along its side in one correction at most: the normal of a curve that is not half-way yet may
+/// meet a round body on its far side.
+const NEAR_BY: f64 = 0.1;
+
 /// A point half-way between two sides.
 #[derive(Clone, Copy, Debug)]
 struct Halfway {
@@ -30,6 +39,10 @@ struct Halfway {
     /// Length that it stands for.
     weight: f64,
 }
+
+/// Places along a side between which its points are taken, at least: long edges, of a coarse mesh or beside short ones, leave spans of
+/// the curve without data otherwise.
+const PLACES: usize = 16;
 
 /// Share of the data's length by which the curve may go on to the end of a side.
 const BEYOND: f64 = 1e-3;
@@ -80,13 +93,12 @@ impl Bisector {
                 "\"{first}\" and \"{second}\" face each other nowhere over a length; name boundaries that do, or correct the mesh"
             ));
         }
-        let most = (points.len() / 4).max(1);
+        let count: usize = nodes.iter().map(|nodes| nodes.len()).sum();
+        let most = (count / 4).max(1);
         if let Some(spans) = pair.spans.filter(|&spans| spans > most) {
             return Err(format!(
                 "spans = {spans}: where they meet, \"{}\" and \"{}\" have {} nodes, which bear {most}; give {most} or fewer, or \"auto\", or refine the mesh",
-                pair.between[0],
-                pair.between[1],
-                points.len()
+                pair.between[0], pair.between[1], count
             ));
         }
         let curves = sides.map(|side| side.curve(pair.configuration));
@@ -95,9 +107,13 @@ impl Bisector {
             Curve::Spline(fit_by_the_data(&samples, pair.spans, turn))
         };
         let mut curve = fit(&points);
-        for _ in 0..CORRECTIONS {
-            points.iter_mut().for_each(|point| point.centre(&curve, curves));
+        let whole = points[points.len() - 1].parameter - points[0].parameter;
+        for correction in 0..MOST_CORRECTIONS {
+            let moved = points.iter_mut().map(|point| point.centre(&curve, curves, whole)).fold(0.0, f64::max);
             curve = fit(&points);
+            if correction + 1 >= CORRECTIONS && moved <= CENTRED * whole {
+                break;
+            }
         }
         let data = [points[0].parameter, points[points.len() - 1].parameter];
         let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);
@@ -106,35 +122,55 @@ impl Bisector {
 }
 
 impl Halfway {
-    /// Moves it to the middle between the sides, along the normal of a curve that is nearly half-way.
-    fn centre(&mut self, curve: &Curve, sides: [&Curve; 2]) {
+    /// Moves it to the middle between the sides, along the normal of a curve that is nearly half-way; by how much is returned.
+    fn centre(&mut self, curve: &Curve, sides: [&Curve; 2], whole: f64) -> f64 {
+        let before = self.place;
         let (x, normal) = (curve.point(self.parameter), turn_right(curve.tangent(self.parameter)));
         let hits = [0, 1].map(|k| sides[k].hit_from(self.feet[k], x, normal));
-        if let [Some(first), Some(second)] = hits {
+        if let [Some(first), Some(second)] = hits
+            && [first, second].iter().zip(&self.feet).all(|(hit, foot)| (hit - foot).abs() <= NEAR_BY * whole)
+        {
             self.feet = [first, second];
             let away = [0, 1].map(|k| (sides[k].point(self.feet[k]) - x).dot(&normal));
             self.place = x + 0.5 * (away[0] + away[1]) * normal;
         }
+        (self.place - before).norm()
     }
 }
 
-/// Points half-way between the nodes of each side and their feet on the other, where there is one.
+/// Points half-way between the nodes of each side, and places between few of them, and their feet on the other side, where there is
+/// one that looks back.
 fn halfway(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> Vec<Halfway> {
     let configuration = pair.configuration;
     let mut points = Vec::new();
     for (k, nodes) in nodes.iter().enumerate() {
         let (side, other) = (sides[k], sides[1 - k]);
+        let (own_curve, other_curve) = (side.curve(configuration), other.curve(configuration));
         let least = 1e-9 * other.length();
-        for node in nodes.clone() {
-            let x = side.positions(configuration)[node];
+        if nodes.is_empty() {
+            continue;
+        }
+        let last = side.parameters.len() - 1;
+        let longest = (side.parameters[(nodes.end - 1).min(last)] - side.parameters[nodes.start]) / PLACES as f64;
+        let parts = |node: usize| match nodes.contains(&(node + 1)) {
+            true => ((side.parameters[node + 1] - side.parameters[node]) / longest).ceil().max(1.0) as usize,
+            false => 1,
+        };
+        for (node, step, between) in nodes.clone().flat_map(|node| (0..parts(node)).map(move |step| (node, step, parts(node)))) {
+            let next = (node + 1).min(last);
+            let share = step as f64 / between as f64;
+            let own = side.parameters[node] + share * (side.parameters[next] - side.parameters[node]);
+            let x = if step == 0 { side.positions(configuration)[node] } else { own_curve.point(own) };
             let foot = other.nearest(x, configuration);
             if other.turn().is_none() && (foot < -least || foot > other.length() + least) {
                 continue;
             }
-            let own = side.parameters[node];
+            if !side.looks_at(own, other, foot, configuration) {
+                continue;
+            }
             let feet = if k == 0 { [own, foot] } else { [foot, own] };
-            let place = 0.5 * (x + other.curve(configuration).point(foot));
-            points.push(Halfway { parameter: feet[0], feet, place, weight: side.weight(node) });
+            let place = 0.5 * (x + other_curve.point(foot));
+            points.push(Halfway { parameter: feet[0], feet, place, weight: side.weight(node) / between as f64 });
         }
     }
     points

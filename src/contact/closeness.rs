@@ -1,11 +1,15 @@
 //! Boundaries of different bodies that lie close and face each other: contacts that a case may mean.
 
-use crate::geometry::Point;
-use crate::mesh::{Boundary, MacroMesh};
+use crate::geometry::{Disc, Point, overlapping_discs, turn_right};
+use crate::mesh::{Boundary, MacroMesh, SurfacePart};
+use std::collections::{HashMap, HashSet};
 
 /// Parts of an edge at whose ends places are looked at, and places on a boundary at most.
 const PLACES: usize = 4;
 const MOST_PLACES: usize = 1500;
+
+/// Parts of a rigid curve at whose ends places are looked at.
+const PLACES_OF_TOOL: usize = 500;
 
 /// Cosine of the angle between two outward normals that face each other, at most (120 degrees).
 const OPPOSITE: f64 = -0.5;
@@ -30,35 +34,40 @@ pub struct ClosePair {
     pub distance: f64,
     /// The same as a share of the smaller body.
     pub share: f64,
-    /// Length of both boundaries.
-    length: f64,
 }
 
-/// A place of a boundary: where it is, its outward normal, and how far the next place is.
+/// A place of a side: where it is, its outward normal, and how far the next place is.
 #[derive(Clone, Copy)]
 struct Sight {
     place: Point,
     normal: Point,
     spacing: f64,
-    /// Whether it is an end of an edge, where boundaries that look elsewhere may meet.
+    /// Whether it is an end of an edge, where sides that look elsewhere may meet.
     is_end: bool,
 }
 
-/// A boundary that lies on one body.
-struct NamedSide<'a> {
-    boundary: &'a Boundary,
-    body: usize,
+/// What may be one side of a contact: boundaries of one body, or the surface of a rigid tool.
+pub struct CloseSide {
+    /// Its body; nothing of a tool.
+    body: Option<usize>,
+    /// Its macro edges, in ascending order.
+    edges: Vec<u32>,
     length: f64,
     sights: Vec<Sight>,
+    /// Lowest and highest coordinates, and the largest distance of two places.
+    around: [Point; 2],
+    spacing: f64,
 }
 
-impl<'a> NamedSide<'a> {
-    fn new(mesh: &MacroMesh, boundary: &'a Boundary) -> Option<Self> {
-        let body = mesh.body_beside(*boundary.edges.first()?);
-        if boundary.is_union || boundary.edges.iter().any(|&edge| mesh.body_beside(edge) != body) {
+impl CloseSide {
+    /// Boundaries that lie on one body; nothing if they have no edges, or lie on several.
+    pub fn of_boundaries<'a>(mesh: &MacroMesh, boundaries: impl Iterator<Item = &'a Boundary>) -> Option<Self> {
+        let mut edges: Vec<u32> = boundaries.flat_map(|boundary| boundary.edges.iter().copied()).collect();
+        let body = mesh.body_beside(*edges.first()?);
+        if edges.iter().any(|&edge| mesh.body_beside(edge) != body) {
             return None;
         }
-        let step = (PLACES * boundary.edges.len()).div_ceil(MOST_PLACES);
+        let step = (PLACES * edges.len()).div_ceil(MOST_PLACES);
         let on_edge = |&edge: &u32| {
             let spacing = step as f64 * mesh.edge_length(edge) / PLACES as f64;
             (0..=PLACES).map(move |k| {
@@ -67,15 +76,52 @@ impl<'a> NamedSide<'a> {
                 Sight { place: mesh.edge_position(edge, t), normal: mesh.edge_normal(edge, t), spacing, is_end }
             })
         };
-        let length = boundary.edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
-        Some(Self { boundary, body, length, sights: boundary.edges.iter().step_by(step).flat_map(on_edge).collect() })
+        let sights = edges.iter().step_by(step).flat_map(on_edge).collect();
+        let length = edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
+        edges.sort_unstable();
+        Some(Self::new(Some(body), edges, length, sights))
+    }
+
+    /// The surface of a rigid tool, which may look to either side of its curves.
+    pub fn of_tool<'a>(surface: impl Iterator<Item = &'a SurfacePart>) -> Self {
+        let (mut sights, mut length) = (Vec::new(), 0.0);
+        for part in surface {
+            let [from, to] = part.range;
+            let at = |k: usize| from + (to - from) * k as f64 / PLACES_OF_TOOL as f64;
+            let points: Vec<Point> = (0..=PLACES_OF_TOOL).map(|k| part.curve.point(at(k))).collect();
+            let own: f64 = points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+            length += own;
+            for (k, &place) in points.iter().enumerate() {
+                let normal = turn_right(part.curve.tangent(at(k)));
+                let is_end = k == 0 || k == PLACES_OF_TOOL;
+                let sight = |normal| Sight { place, normal, spacing: own / PLACES_OF_TOOL as f64, is_end };
+                sights.extend([sight(normal), sight(-normal)]);
+            }
+        }
+        Self::new(None, Vec::new(), length, sights)
+    }
+
+    fn new(body: Option<usize>, edges: Vec<u32>, length: f64, sights: Vec<Sight>) -> Self {
+        let nothing = [Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)];
+        let wider = |[low, high]: [Point; 2], sight: &Sight| [low.inf(&sight.place), high.sup(&sight.place)];
+        let around = sights.iter().fold(nothing, wider);
+        let spacing = sights.iter().map(|sight| sight.spacing).fold(0.0, f64::max);
+        Self { body, edges, length, sights, around, spacing }
+    }
+
+    /// Places of it that are within a distance of the box around another side.
+    fn near(&self, other: &Self, distance: f64) -> Vec<&Sight> {
+        let [low, high] = [other.around[0].add_scalar(-distance), other.around[1].add_scalar(distance)];
+        self.sights.iter().filter(|sight| sight.place >= low && sight.place <= high).collect()
     }
 
     /// Least distance along a normal at which another side is faced within `reach`, over a length.
     fn distance(&self, other: &Self, reach: f64) -> Option<f64> {
         let (mut least, mut is_faced) = (None::<f64>, false);
-        for a in &self.sights {
-            for b in other.sights.iter().filter(|b| a.normal.dot(&b.normal) < OPPOSITE) {
+        let farthest = 1.5 * reach + self.spacing + other.spacing;
+        let others = other.near(self, farthest);
+        for a in self.near(other, farthest) {
+            for b in others.iter().filter(|b| a.normal.dot(&b.normal) < OPPOSITE) {
                 let way = b.place - a.place;
                 let along = way.dot(&a.normal);
                 let aside = (way - along * a.normal).norm();
@@ -89,54 +135,105 @@ impl<'a> NamedSide<'a> {
         }
         least.filter(|_| is_faced)
     }
+
+    /// Whether another side has an edge of it.
+    fn shares_edges(&self, other: &Self) -> bool {
+        let (few, many) = if self.edges.len() < other.edges.len() { (self, other) } else { (other, self) };
+        few.edges.iter().any(|edge| many.edges.binary_search(edge).is_ok())
+    }
+}
+
+/// Two sides of different bodies that face each other, by their indices.
+struct FacingSides {
+    sides: [usize; 2],
+    /// Least distance (length); negative where they overlap.
+    distance: f64,
+    /// The same as a share of the smaller body.
+    share: f64,
+    length: f64,
+}
+
+/// All pairs of sides that face each other within a share of the smaller of their bodies and are asked for; of a body and a tool
+/// the body comes first, of others the first body of the mesh. The nearest come first; of two names for the same place the one
+/// of the shorter boundary, which says more.
+fn facing_sides(mesh: &MacroMesh, sides: &[CloseSide], most: f64, is_asked: impl Fn(usize, usize) -> bool) -> Vec<FacingSides> {
+    let sizes = body_sizes(mesh);
+    let size = |side: &CloseSide| side.body.map_or(f64::INFINITY, |body| sizes[body]);
+    let whole = sizes.iter().copied().fold(0.0, f64::max);
+    // Two discs reach each other wherever their boxes come as near as half the sum of what each may reach.
+    let disc = |side: &CloseSide| {
+        let [low, high] = side.around;
+        let radius = 0.5 * (high - low).norm() + 0.75 * most * size(side).min(whole) + side.spacing;
+        Disc { middle: 0.5 * (low + high), radius }
+    };
+    let discs: Vec<Disc> = sides.iter().map(disc).collect();
+    let mut found = Vec::new();
+    overlapping_discs(&discs, &discs, |a, b| {
+        let bodies = [sides[a].body, sides[b].body];
+        if a < b && bodies[0] != bodies[1] && is_asked(a, b) {
+            let is_turned = bodies[1].is_some_and(|second| bodies[0].is_none_or(|first| second < first));
+            found.push(if is_turned { [b, a] } else { [a, b] });
+        }
+    });
+    found.sort_unstable();
+    let facing = |[a, b]: [usize; 2]| {
+        let [first, second] = [&sides[a], &sides[b]];
+        let size = size(first).min(size(second));
+        let distance = first.distance(second, most * size)?;
+        let distance = if distance.abs() < 1e-9 * size { 0.0 } else { distance };
+        Some(FacingSides { sides: [a, b], distance, share: distance.abs() / size, length: first.length + second.length })
+    };
+    let mut pairs: Vec<FacingSides> = found.into_iter().filter_map(facing).collect();
+    let order = |pair: &FacingSides| ((1e3 * pair.share).round(), pair.length);
+    pairs.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
+    pairs
 }
 
 /// Pairs of named boundaries of different bodies that lie close and face each other, the nearest first. Of two bodies one pair
 /// is enough, unless others touch too; a body that is close to none has its nearest pair.
 pub fn close_pairs(mesh: &MacroMesh) -> Vec<ClosePair> {
-    let sides: Vec<NamedSide> = mesh.boundaries.iter().filter_map(|boundary| NamedSide::new(mesh, boundary)).collect();
-    let sizes = body_sizes(mesh);
-    let mut candidates = Vec::new();
-    for (k, first) in sides.iter().enumerate() {
-        for second in sides[k + 1..].iter().filter(|second| second.body != first.body) {
-            let (first, second) = if first.body < second.body { (first, second) } else { (second, first) };
-            let size = sizes[first.body].min(sizes[second.body]);
-            let Some(distance) = first.distance(second, APART * size) else { continue };
-            candidates.push(ClosePair {
-                between: [first, second].map(|side| side.boundary.name.clone()),
-                bodies: [first.body, second.body],
-                distance: if distance.abs() < 1e-9 * size { 0.0 } else { distance },
-                share: distance.abs() / size,
-                length: first.length + second.length,
-            });
-        }
-    }
-    // Of two names for the same place the one of the shorter boundary says more.
-    let order = |pair: &ClosePair| ((1e3 * pair.share).round(), pair.length);
-    candidates.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
-    let mut chosen: Vec<ClosePair> = Vec::new();
-    for pair in candidates {
-        let is_lone = |body: usize| !chosen.iter().any(|other| other.bodies.contains(&body));
-        let alike: Vec<&ClosePair> = chosen.iter().filter(|other| other.bodies == pair.bodies).collect();
-        let is_meant = match alike.is_empty() {
-            true => pair.share <= CLOSE || is_lone(pair.bodies[0]) || is_lone(pair.bodies[1]),
-            false => pair.share <= TOUCHING && !alike.iter().any(|other| shares_edges(mesh, other, &pair)),
+    let named = mesh.boundaries.iter().filter(|boundary| !boundary.is_union);
+    let named = named.filter_map(|boundary| Some((boundary, CloseSide::of_boundaries(mesh, std::iter::once(boundary))?)));
+    let (boundaries, sides): (Vec<&Boundary>, Vec<CloseSide>) = named.unzip();
+    let (mut chosen, mut met) = (Vec::new(), HashSet::new());
+    let mut alike: HashMap<[Option<usize>; 2], Vec<[usize; 2]>> = HashMap::new();
+    for pair in facing_sides(mesh, &sides, APART, |_, _| true) {
+        let bodies = pair.sides.map(|side| sides[side].body);
+        let others = alike.entry(bodies).or_default();
+        let is_meant = match others.is_empty() {
+            true => pair.share <= CLOSE || bodies.iter().any(|body| !met.contains(body)),
+            false => pair.share <= TOUCHING && !others.iter().any(|other| shares_edges(&sides, *other, pair.sides)),
         };
+        let [Some(first), Some(second)] = bodies else { continue };
         if is_meant {
-            chosen.push(pair);
+            others.push(pair.sides);
+            met.extend(bodies);
+            let between = pair.sides.map(|side| boundaries[side].name.clone());
+            chosen.push(ClosePair { between, bodies: [first, second], distance: pair.distance, share: pair.share });
         }
     }
     chosen
 }
 
+/// Pairs of sides, by their indices, that are asked for, lie close and face each other, in their order; no edge of two bodies
+/// is in two of them. What is asked for is the same both ways.
+pub fn close_sides(mesh: &MacroMesh, sides: &[CloseSide], is_asked: impl Fn(usize, usize) -> bool) -> Vec<[usize; 2]> {
+    let mut alike: HashMap<[Result<usize, usize>; 2], Vec<[usize; 2]>> = HashMap::new();
+    for pair in facing_sides(mesh, sides, CLOSE, is_asked) {
+        // Each tool is a body of its own.
+        let others = alike.entry(pair.sides.map(|side| sides[side].body.ok_or(side))).or_default();
+        if !others.iter().any(|other| shares_edges(sides, *other, pair.sides)) {
+            others.push(pair.sides);
+        }
+    }
+    let mut chosen: Vec<[usize; 2]> = alike.into_values().flatten().collect();
+    chosen.sort_unstable();
+    chosen
+}
+
 /// Whether two pairs have an edge in common.
-fn shares_edges(mesh: &MacroMesh, one: &ClosePair, other: &ClosePair) -> bool {
-    let edges = |name: &String| mesh.boundary(name).map(|boundary| boundary.edges.as_slice()).unwrap_or_default();
-    let both = |k: usize| {
-        let own = edges(&other.between[k]);
-        edges(&one.between[k]).iter().any(|edge| own.contains(edge))
-    };
-    both(0) || both(1)
+fn shares_edges(sides: &[CloseSide], one: [usize; 2], other: [usize; 2]) -> bool {
+    (0..2).any(|k| sides[one[k]].shares_edges(&sides[other[k]]))
 }
 
 /// Diagonal of the box around each body.

@@ -105,9 +105,9 @@ struct EdgeCount {
 
 impl EdgeCount {
     fn new(boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], young: [f64; 2]) -> Self {
-        let longest = softer_edge_length(boundary, edges, young);
         let mut parts: Vec<([f64; 2], f64)> =
             softer_edges(boundary, edges, young).map(|(part, h)| (part.map(|t| boundary.arc(t)), h)).collect();
+        let longest = parts.iter().map(|(_, h)| *h).reduce(f64::max).unwrap_or(boundary.length());
         parts.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
         let mut cuts: Vec<f64> = parts.iter().flat_map(|(part, _)| *part).chain([0.0, boundary.length()]).collect();
         cuts.sort_by(f64::total_cmp);

@@ -3,8 +3,8 @@
 
 use super::{ContactBoundary, GapChoice, Pair, Side, all_edges, faces};
 use crate::geometry::Point;
-use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, SmoothNormals};
-use std::collections::HashMap;
+use crate::mesh::{BoundaryEdge, EdgeNode, MacroMesh, Numbering, SmoothNormals};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Places along Γ_C that are looked at, at most.
 const PLACES: usize = 64;
@@ -45,6 +45,13 @@ struct Seen {
     faces: bool,
 }
 
+impl Seen {
+    /// What other contacts know the edge by.
+    fn key(&self) -> [EdgeNode; 2] {
+        [self.edge.nodes[0], self.edge.nodes[1]]
+    }
+}
+
 /// What stands across Γ_C at one of its points.
 enum Across {
     /// Both bodies look at it: the places of body 1 and of body 2.
@@ -64,20 +71,45 @@ impl<'a> Facing<'a> {
             let side = sides.next().unwrap_or(Side::Second);
             let see = |edge: BoundaryEdge| {
                 let corners = [edge.points[0], edge.points[1]];
+                let parts: Vec<[f64; 2]> = boundary.parts(corners).collect();
+                if parts.is_empty() {
+                    return Vec::new();
+                }
                 let [from, to] = boundary.directed_feet(corners);
                 let ends = if from <= to { corners } else { [corners[1], corners[0]] };
                 let faces = faces(boundary, side, &edge);
-                boundary.parts(corners).map(|feet| Seen { edge: edge.clone(), feet, ends, faces }).collect::<Vec<_>>()
+                parts.into_iter().map(|feet| Seen { edge: edge.clone(), feet, ends, faces }).collect()
             };
             edges.into_iter().flat_map(see).collect()
         });
         Self { pair, boundary, seen }
     }
 
+    /// Looks at the contacts of a mesh, each by itself and against those that reach the same edges: of many contacts few do.
+    ///
     /// # Errors
-    /// Words, if the boundaries turn their backs to each other, lie on the wrong sides of each other, or are said to touch and
-    /// lie apart.
-    pub fn check(&self, mesh: &MacroMesh) -> Result<(), String> {
+    /// The index of a contact and words, if its boundaries turn their backs to each other, lie on the wrong sides of each other,
+    /// or are said to touch and lie apart, or if another contact claims the same place.
+    pub fn check_all(all: &[Self], mesh: &MacroMesh) -> Result<(), (usize, String)> {
+        let mut of_bodies = vec![Vec::new(); mesh.bodies.len()];
+        (0..mesh.triangles.len()).for_each(|triangle| of_bodies[mesh.triangles[triangle].body as usize].push(triangle));
+        let mut reached: HashMap<_, Vec<usize>> = HashMap::new();
+        for (at, facing) in all.iter().enumerate() {
+            facing.check(mesh, &of_bodies).map_err(|why| (at, why))?;
+            let keys: HashSet<_> = facing.seen.iter().flatten().filter(|seen| seen.faces).map(Seen::key).collect();
+            let mut others = BTreeSet::new();
+            for key in keys {
+                let there = reached.entry(key).or_default();
+                others.extend(there.iter().copied());
+                there.push(at);
+            }
+            let clash = others.into_iter().find_map(|other| facing.clash(&all[other]));
+            clash.map_or(Ok(()), |why| Err((at, why)))?;
+        }
+        Ok(())
+    }
+
+    fn check(&self, mesh: &MacroMesh, of_bodies: &[Vec<usize>]) -> Result<(), String> {
         let [a, b] = &self.pair.between;
         let (mut backs, mut facing) = (Vec::new(), Vec::new());
         for t in self.places() {
@@ -94,19 +126,18 @@ impl<'a> Facing<'a> {
                 x.x, x.y
             ));
         }
-        self.check_sides(mesh, &facing)?;
+        self.check_sides(mesh, of_bodies, &facing)?;
         self.check_touching(mesh, &facing)
     }
 
     /// Drawn boundaries that lie behind each other must lie in each other's bodies: an overlap.
-    fn check_sides(&self, mesh: &MacroMesh, facing: &[(f64, [Point; 2])]) -> Result<(), String> {
+    fn check_sides(&self, mesh: &MacroMesh, of_bodies: &[Vec<usize>], facing: &[(f64, [Point; 2])]) -> Result<(), String> {
         let least = POLYGONS * self.largest_sagitta(mesh) + 1e-6 * self.boundary.length();
         let behind: Vec<&(f64, [Point; 2])> = facing.iter().filter(|(t, points)| self.gap(*t, points) < -least).collect();
         let few = behind.iter().step_by(behind.len().div_ceil(PLACES / 8).max(1));
-        let bodies = [0, 1].map(|k| self.seen[k].first().map(|seen| mesh.triangles[seen.edge.triangle].body));
-        let holds = |body: Option<u32>, x: Point| {
-            let own = |triangle: &usize| Some(mesh.triangles[*triangle].body) == body;
-            (0..mesh.triangles.len()).filter(own).any(|triangle| mesh.locate(triangle, x).is_some())
+        let bodies = [0, 1].map(|k| self.seen[k].first().map(|seen| mesh.triangles[seen.edge.triangle].body as usize));
+        let holds = |body: Option<usize>, x: Point| {
+            body.is_some_and(|body| of_bodies[body].iter().any(|&triangle| mesh.locate(triangle, x).is_some()))
         };
         let apart = |points: &[Point; 2]| !holds(bodies[1], points[0]) && !holds(bodies[0], points[1]);
         let (mut count, mut wrong) = (0, Vec::new());
@@ -210,7 +241,7 @@ impl<'a> Facing<'a> {
     }
 
     /// Words, if this contact and another claim the same place of a boundary.
-    pub fn clash(&self, other: &Self) -> Option<String> {
+    fn clash(&self, other: &Self) -> Option<String> {
         let shared = [0, 1].map(|k| [0, 1].map(|l| self.shared(k, other, l)));
         let longest = |of: &Self| of.seen.iter().flatten().map(|seen| seen.edge.length()).fold(0.0, f64::max);
         let edge = longest(self).max(longest(other));
@@ -232,13 +263,12 @@ impl<'a> Facing<'a> {
 
     /// Length of body `k`'s boundary here that is body `l`'s boundary there, where both contacts reach.
     fn shared(&self, k: usize, other: &Self, l: usize) -> f64 {
-        let key = |seen: &Seen| (seen.edge.nodes[0], seen.edge.nodes[1]);
         let mut theirs: HashMap<_, f64> = HashMap::new();
         for seen in other.seen[l].iter().filter(|seen| seen.faces) {
-            *theirs.entry(key(seen)).or_default() += other.share(seen);
+            *theirs.entry(seen.key()).or_default() += other.share(seen);
         }
         let own = self.seen[k].iter().filter(|seen| seen.faces);
-        let both = own.filter_map(|seen| Some(self.share(seen).min(*theirs.get(&key(seen))?) * seen.edge.length()));
+        let both = own.filter_map(|seen| Some(self.share(seen).min(*theirs.get(&seen.key())?) * seen.edge.length()));
         both.sum()
     }
 
@@ -286,7 +316,7 @@ mod tests {
     fn checked(gap: GapChoice, between: [&str; 2], upper: impl Fn(Point) -> Point) -> Result<(), String> {
         let (mesh, numbering) = blocks(upper);
         let pair = Pair { gap, between: between.map(String::from), ..seam() };
-        Facing::new(&mesh, &numbering, &pair, &line([0.0, 2.0])).check(&mesh)
+        Facing::check_all(&[Facing::new(&mesh, &numbering, &pair, &line([0.0, 2.0]))], &mesh).map_err(|(_, words)| words)
     }
 
     const SEAM: [&str; 2] = ["lower.seam", "upper.seam"];

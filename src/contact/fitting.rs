@@ -10,8 +10,8 @@ use std::ops::Range;
 /// Before anything is solved, nodes closer to the other body than this share of the boundary's length count as touching.
 const MEETS_AT_REST: f64 = 1e-3;
 
-/// The same once displacements are known.
-const TOUCHES_NOW: f64 = 1e-4;
+/// Multiples of it that are tried.
+const REACH: [f64; 4] = [64.0, 16.0, 4.0, 1.0];
 
 /// Pieces that meet at a smaller angle (radians) are not split by a corner there.
 const JOINT: f64 = 0.3;
@@ -49,7 +49,7 @@ impl Meeting {
     /// # Errors
     /// Words, if they are far apart, or touch on more than one stretch.
     pub fn at_rest(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Result<Self, String> {
-        for factor in [1.0, 4.0, 16.0, 64.0] {
+        for factor in REACH.iter().rev() {
             if let Some(found) = Self::within(sides, pair, factor * MEETS_AT_REST)? {
                 return Ok(found);
             }
@@ -79,12 +79,10 @@ impl Meeting {
         ))
     }
 
-    /// Where the bodies touch or penetrate each other as they lie now; nothing if they are apart.
-    ///
-    /// # Errors
-    /// Words, if they touch on more than one stretch.
-    pub fn now(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Result<Option<Self>, String> {
-        Self::within(sides, pair, TOUCHES_NOW)
+    /// Stretches on which undeformed bodies face each other with a gap that small strains, or a small motion, may close: the widest
+    /// first.
+    pub fn within_reach<'a>(sides: &'a [Vec<SmoothSide>; 2], pair: &'a Pair) -> impl Iterator<Item = Self> + 'a {
+        REACH.iter().filter_map(|factor| Self::within(sides, pair, factor * MEETS_AT_REST).ok().flatten())
     }
 
     fn within(sides: &[Vec<SmoothSide>; 2], pair: &Pair, share: f64) -> Result<Option<Self>, String> {
@@ -162,12 +160,6 @@ impl Meeting {
         }
     }
 
-    /// Ends of Γ_C on body 1's stretch as it is by itself, on a closed one within a turn from its first node on.
-    pub fn ends_by_themselves(&self, ends: [f64; 2]) -> [f64; 2] {
-        let (origin, turn) = self.origin;
-        ends.map(|t| turn.map_or(t, |turn| (t + origin).rem_euclid(turn)))
-    }
-
     /// From the first to the last node that is near, where both bodies have such nodes, and one edge farther.
     fn between(sides: [(&SmoothSide, [usize; 2]); 2], stretches: [usize; 2], pair: &Pair) -> Self {
         let [(first, own), (second, other)] = sides;
@@ -183,6 +175,23 @@ impl Meeting {
         meeting
     }
 
+    /// Leaves out nodes of both sides more than two edges beyond these ends of Γ_C: the spans of the curve are for what lies between.
+    fn leave(&mut self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) {
+        let edges = [first, second].into_iter().zip(&self.nodes);
+        let edge = edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
+        let inside = |t: f64| t >= ends[0] - 2.0 * edge && t <= ends[1] + 2.0 * edge;
+        for (k, side) in [first, second].into_iter().enumerate() {
+            let parameter = |node: usize| match k {
+                0 => first.parameters[node],
+                _ => first.nearest(side.positions(pair.configuration)[node], pair.configuration),
+            };
+            let mut kept = self.nodes[k].clone().filter(|&node| inside(parameter(node)));
+            if let Some(from) = kept.next() {
+                self.nodes[k] = from..kept.next_back().unwrap_or(from) + 1;
+            }
+        }
+    }
+
     /// Takes in nodes of both sides up to an edge beyond these ends of Γ_C.
     fn reach(&mut self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) {
         let edges = [first, second].into_iter().zip(&self.nodes);
@@ -193,11 +202,16 @@ impl Meeting {
                 0 => first.parameters[node],
                 _ => first.nearest(second.positions(pair.configuration)[node], pair.configuration),
             };
+            let other = [second, first][k];
+            let faces = |node: usize| {
+                let foot = other.nearest(side.positions(pair.configuration)[node], pair.configuration);
+                inside(parameter(node)) && side.looks_at(side.parameters[node], other, foot, pair.configuration)
+            };
             let nodes = &mut self.nodes[k];
-            while nodes.start > 0 && inside(parameter(nodes.start - 1)) {
+            while nodes.start > 0 && faces(nodes.start - 1) {
                 nodes.start -= 1;
             }
-            while nodes.end < side.points.len() && inside(parameter(nodes.end)) {
+            while nodes.end < side.points.len() && faces(nodes.end) {
                 nodes.end += 1;
             }
         }
@@ -231,6 +245,7 @@ impl Meeting {
         let found = if self.goes_round {
             Bisector::around(both, pair)
         } else {
+            self.leave(ends, both, pair);
             self.reach(ends, both, pair);
             Bisector::between(both, &self.nodes, pair)
         };
@@ -430,7 +445,7 @@ mod tests {
     #[test]
     fn a_boundary_is_fitted_an_edge_beyond_where_bodies_penetrate() {
         let sides = lowered(|x| if (0.45..1.3).contains(&x) { 0.01 } else { -0.05 });
-        let meeting = Meeting::now(&sides, &pair()).expect("one stretch").expect("they touch");
+        let meeting = Meeting::within(&sides, &pair(), 1e-4).expect("one stretch").expect("they touch");
         let [first, last] = meeting.ends;
         assert!((first - (0.5 - 0.125)).abs() < 0.03 && (last - (1.25 + 0.125)).abs() < 0.03, "{:?}", meeting.ends);
         // Nodes of both as far as an edge beyond these ends.
@@ -438,6 +453,6 @@ mod tests {
             let [from, to] = [nodes.start, nodes.end - 1].map(|node| side.parameters[node]);
             assert!((first - from) > 0.0 && first - from < 0.126 && to - last > 0.0 && to - last < 0.126, "{from} to {to}");
         }
-        assert_eq!(Meeting::now(&lowered(|_| -0.05), &pair()), Ok(None));
+        assert_eq!(Meeting::within(&lowered(|_| -0.05), &pair(), 1e-4), Ok(None));
     }
 }

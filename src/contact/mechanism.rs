@@ -1,13 +1,13 @@
-//! How well supports and contact hold the bodies, from rigid motions alone: a dense matrix of three motions for each piece of
+//! How well supports and contact hold the bodies, from rigid motions alone: a sparse matrix of three motions for each piece of
 //! a body.
 //!
 //! A motion that slides a body along its own boundary does not change the gap. So a closed contact resists a motion only as
 //! far as the true normals say, those of either body: the normals of a fitted Γ_C tilt a little between the two, and would
 //! hold a disc that rolls.
 
+use super::block_factor::{BlockFactor, Blocks, add, least_degrees};
 use crate::geometry::Point;
-use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
-use std::collections::BTreeMap;
+use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen, Vector3};
 
 /// A motion of unit size is held if some support or contact sees at least this much of it. A short seat holds a long bar by
 /// its length over the bar's, a wedge by its slope: both far more than this. Nodes in a file of six digits make less.
@@ -15,6 +15,17 @@ const LEAST_HOLD: f64 = 1e-4;
 
 /// Shares of a motion that count as none.
 const NOTHING: f64 = 1e-9;
+
+/// What is added to the diagonal beside the largest entry, so that rounding makes no pivot negative: far less than the square
+/// of the least hold.
+const LEAST_SHARE: f64 = 1e-12;
+
+/// Remaining of the resistance to each motion that must be left where some of it is taken away, or else the motions are looked at: a
+/// tenth of its size. What is loose is resisted by a ten-thousandth.
+const FIRM: f64 = 1e-2;
+
+/// The same where the motion that loses most has been looked at.
+const LEAST_LEFT: f64 = 1e-5;
 
 /// Contacts on curved boundaries up to which all choices of the normals are tried.
 const MOST_CHOICES: usize = 6;
@@ -105,53 +116,230 @@ impl Mechanism {
 
 /// Looks for a rigid motion of the pieces that supports and closed contacts resist hardly, whichever body's normals count.
 pub fn find_mechanism(pieces: &[Extent], supports: &[Condition], contacts: &[Touch]) -> Option<Mechanism> {
-    let supports = Conditions::new(supports);
-    let contacts: Vec<[Conditions; 2]> = contacts.iter().map(|touch| touch.each_ref().map(|own| Conditions::new(own))).collect();
-    let differ = |[a, b]: &[Conditions; 2]| a.off(b) > NOTHING * a.largest().max(b.largest());
-    let curved: Vec<usize> = (0..contacts.len()).filter(|&contact| differ(&contacts[contact])).collect();
-    choices(&contacts, &curved).into_iter().find_map(|choice| {
-        let chosen = contacts.iter().zip(&choice).map(|(touch, &side)| &touch[side]);
-        softest(pieces, &std::iter::once(&supports).chain(chosen).collect::<Vec<_>>())
-    })
+    Holding::new(pieces, supports, contacts).mechanism(None)
 }
 
-/// For each contact the body whose normals count: all combinations for few curved contacts. For many of them those in which
-/// one piece slides along its own boundary, or along those of all its neighbours.
-fn choices(contacts: &[[Conditions; 2]], curved: &[usize]) -> Vec<Vec<usize>> {
-    if curved.len() <= MOST_CHOICES {
+/// For each closed contact whether some piece can move without it.
+pub fn needed_contacts(pieces: &[Extent], supports: &[Condition], contacts: &[Touch]) -> Vec<bool> {
+    Holding::new(pieces, supports, contacts).needed()
+}
+
+/// For each contact the body whose normals count.
+type NormalChoice = Vec<usize>;
+
+/// All that holds the pieces.
+struct Holding<'a> {
+    pieces: &'a [Extent],
+    supports: Conditions<'a>,
+    contacts: Vec<[Conditions<'a>; 2]>,
+    /// The order in which pieces are eliminated.
+    order: Vec<usize>,
+}
+
+impl<'a> Holding<'a> {
+    fn new(pieces: &'a [Extent], supports: &'a [Condition], contacts: &'a [Touch]) -> Self {
+        let supports = Conditions::new(supports);
+        let contacts: Vec<[Conditions; 2]> =
+            contacts.iter().map(|touch| touch.each_ref().map(|own| Conditions::new(own))).collect();
+        let coupled = std::iter::once(&supports).chain(contacts.iter().flatten()).flat_map(|own| own.gram.keys().copied());
+        let order = least_degrees(pieces.len(), coupled);
+        Self { pieces, supports, contacts, order }
+    }
+
+    /// A motion that nothing resists, or nothing but the contact `without`.
+    fn mechanism(&self, without: Option<usize>) -> Option<Mechanism> {
+        let curved = self.curved();
+        let bases = self.bases(&curved);
+        let found = bases.iter().find_map(|choice| self.softest(choice, without));
+        if found.is_some() || curved.len() <= MOST_CHOICES {
+            return found;
+        }
+        // One piece slides along its own boundary, or along those of all its neighbours.
+        let factors: Vec<Option<BlockFactor>> = bases.iter().map(|base| self.factor(base, without)).collect();
+        (0..self.pieces.len()).flat_map(|piece| [(piece, 1), (piece, 0)]).find_map(|(piece, base)| {
+            let is_own = |[first, _]: &[Conditions; 2]| first.all.iter().any(|condition| condition.piece == piece);
+            let own: Vec<usize> = (0..self.contacts.len()).filter(|&at| is_own(&self.contacts[at])).collect();
+            let mut change = Blocks::new();
+            for &at in own.iter().filter(|&&at| Some(at) != without) {
+                add(&mut change, &self.contacts[at][1 - base].gram, 1.0);
+                add(&mut change, &self.contacts[at][base].gram, -1.0);
+            }
+            let is_firm = factors[base]
+                .as_ref()
+                .is_some_and(|factor| Remaining::left(factor, &change).is_some_and(|share| share.is_firm()));
+            let mut choice = vec![base; self.contacts.len()];
+            own.iter().for_each(|&at| choice[at] = 1 - base);
+            if is_firm { None } else { self.softest(&choice, without) }
+        })
+    }
+
+    /// For each contact whether it is needed. That is decided by one factor for all of them, where the contact leaves
+    /// enough of what resists any motion, or where the motion that it resists most is resisted by nothing else.
+    fn needed(&self) -> Vec<bool> {
+        if self.mechanism(None).is_some() {
+            return vec![true; self.contacts.len()];
+        }
+        let bases = self.bases(&self.curved());
+        let factors: Vec<Option<BlockFactor>> = bases.iter().map(|base| self.factor(base, None)).collect();
+        let decided = |contact: usize| {
+            let mut firm = true;
+            for (choice, factor) in bases.iter().zip(&factors) {
+                let mut change = Blocks::new();
+                add(&mut change, &self.contacts[contact][choice[contact]].gram, -1.0);
+                let factor = factor.as_ref()?;
+                let share = Remaining::left(factor, &change)?;
+                if !share.is_firm() && self.is_loose(&factor.solve(&share.forces), choice, Some(contact)) {
+                    return Some(true);
+                }
+                firm &= share.left >= LEAST_LEFT;
+            }
+            firm.then_some(false)
+        };
+        (0..self.contacts.len()).map(|at| decided(at).unwrap_or_else(|| self.mechanism(Some(at)).is_some())).collect()
+    }
+
+    /// Contacts that resist other motions by the normals of the other body.
+    fn curved(&self) -> Vec<usize> {
+        let differ = |[a, b]: &[Conditions; 2]| a.off(b) > NOTHING * a.largest().max(b.largest());
+        (0..self.contacts.len()).filter(|&contact| differ(&self.contacts[contact])).collect()
+    }
+
+    /// All combinations for few curved contacts. For many of them the normals of all first bodies, and those of all second ones.
+    fn bases(&self, curved: &[usize]) -> Vec<NormalChoice> {
+        if curved.len() > MOST_CHOICES {
+            return vec![vec![0; self.contacts.len()], vec![1; self.contacts.len()]];
+        }
         let choice = |bits: usize| {
-            let mut choice = vec![0; contacts.len()];
+            let mut choice = vec![0; self.contacts.len()];
             curved.iter().enumerate().for_each(|(k, &contact)| choice[contact] = bits >> k & 1);
             choice
         };
-        return (0..1 << curved.len()).map(choice).collect();
+        (0..1 << curved.len()).map(choice).collect()
     }
-    let pieces =
-        contacts.iter().flatten().flat_map(|conditions| conditions.all).map(|condition| condition.piece + 1).max().unwrap_or(0);
-    let of =
-        |piece: usize, [first, _]: &[Conditions; 2]| usize::from(!first.all.iter().any(|condition| condition.piece == piece));
-    let along = |piece: usize| contacts.iter().map(|touch| of(piece, touch)).collect::<Vec<usize>>();
-    let other = |choice: Vec<usize>| choice.into_iter().map(|side| 1 - side).collect::<Vec<usize>>();
-    let ends = [vec![0; contacts.len()], vec![1; contacts.len()]];
-    ends.into_iter().chain((0..pieces).flat_map(|piece| [along(piece), other(along(piece))])).collect()
+
+    /// Everything that holds, by a choice of normals.
+    fn chosen(&self, choice: &NormalChoice, without: Option<usize>) -> impl Iterator<Item = &Conditions<'a>> + Clone {
+        let contacts = self.contacts.iter().zip(choice.clone()).enumerate();
+        let left = contacts.filter(move |(at, _)| Some(*at) != without).map(|(_, (touch, side))| &touch[side]);
+        std::iter::once(&self.supports).chain(left)
+    }
+
+    /// Whether nothing resists a motion.
+    fn is_loose(&self, motion: &DVector<f64>, choice: &NormalChoice, without: Option<usize>) -> bool {
+        let size = (0..self.pieces.len()).map(|piece| motion.rows(3 * piece, 3).norm()).fold(0.0, f64::max);
+        let mut all = self.chosen(choice, without).flat_map(|conditions| conditions.all);
+        all.all(|condition| condition.resists(motion) <= LEAST_HOLD * size)
+    }
+
+    /// The sum of the squares of all conditions.
+    fn gram(&self, choice: &NormalChoice, without: Option<usize>) -> Blocks {
+        let mut gram = Blocks::new();
+        self.chosen(choice, without).for_each(|conditions| add(&mut gram, &conditions.gram, 1.0));
+        gram
+    }
+
+    /// Its factor, beside as little as rounding allows.
+    fn factor(&self, choice: &NormalChoice, without: Option<usize>) -> Option<BlockFactor> {
+        let gram = self.gram(choice, without);
+        let largest = gram.values().fold(f64::MIN_POSITIVE, |most, block| most.max(block.amax()));
+        BlockFactor::new(&gram, &self.order, |_| LEAST_SHARE * largest)
+    }
+
+    /// The motion that is resisted least, if that is hardly at all. Motions along one axis come first: they have the plainest
+    /// words.
+    fn softest(&self, choice: &NormalChoice, without: Option<usize>) -> Option<Mechanism> {
+        let all: Vec<&Condition> = self.chosen(choice, without).flat_map(|conditions| conditions.all).collect();
+        if all.is_empty() {
+            let shift = Point::new(1.0, 0.0);
+            return Some(Mechanism { piece: 0, motion: "move in every direction".into(), moves: (shift, 0.0) });
+        }
+        let unit = |axis: usize| DVector::from_fn(3 * self.pieces.len(), |i, _| if i == axis { 1.0 } else { 0.0 });
+        if let Some(axis) = loose_axis(self.pieces.len(), &all) {
+            return Some(describe(axis / 3, self.pieces, &unit(axis)));
+        }
+        if self.holds_all(&all, &self.gram(choice, without)) {
+            return None;
+        }
+        let motion = self.factor(choice, without)?.softest();
+        if !self.is_loose(&motion, choice, without) {
+            return None;
+        }
+        let share = |piece: &usize| motion.rows(3 * piece, 3).norm();
+        let piece = (0..self.pieces.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
+        Some(describe(piece, self.pieces, &motion))
+    }
+
+    /// A proof, for less than the softest motion costs, that no motion is loose; it may fail where none is. A loose motion v is
+    /// seen by each of the `n` conditions by less than `LEAST_HOLD` of it and the doubt δ of v on both of its pieces, by the
+    /// squares of all less than `2 n LEAST_HOLD² + 4 Σ δ² |v|²`: there is none if `gram` less that has a factor.
+    fn holds_all(&self, all: &[&Condition], gram: &Blocks) -> bool {
+        let mut least = vec![2.0 * all.len() as f64 * LEAST_HOLD.powi(2); self.pieces.len()];
+        for condition in all {
+            condition.parts().for_each(|(piece, _)| least[piece] += 4.0 * condition.doubt.powi(2));
+        }
+        BlockFactor::new(gram, &self.order, |piece| -least[piece]).is_some()
+    }
+}
+
+/// What is left of the resistance to motions when some of it changes.
+struct Remaining {
+    /// Least share of the resistance to any motion that is left.
+    left: f64,
+    /// The forces that move the pieces so.
+    forces: DVector<f64>,
+}
+
+impl Remaining {
+    /// Of the matrix `A` with this factor after a change `S` in few of its rows: the least `vᵀ (A + S) v / vᵀ A v`. With the
+    /// rows `Z = C Cᵀ` of `A⁻¹` that is `1 + q`, with the least eigenvalue q of `Cᵀ S C`.
+    fn left(factor: &BlockFactor, change: &Blocks) -> Option<Self> {
+        let mut rows: Vec<usize> = change.keys().map(|&(row, _)| row).collect();
+        rows.dedup();
+        if rows.is_empty() {
+            return Some(Self { left: 1.0, forces: DVector::zeros(factor.count()) });
+        }
+        let at = |row: usize| 3 * rows.partition_point(|&other| other < row);
+        let mut dense = DMatrix::zeros(3 * rows.len(), 3 * rows.len());
+        change.iter().for_each(|(&(row, column), block)| dense.fixed_view_mut::<3, 3>(at(row), at(column)).copy_from(block));
+        let root = Cholesky::new(factor.compliance(&rows))?.l();
+        let eigen = SymmetricEigen::new(root.transpose() * &dense * &root);
+        let least = eigen.eigenvalues.imin();
+        let local = dense * root * eigen.eigenvectors.column(least);
+        let mut forces = DVector::zeros(factor.count());
+        rows.iter().enumerate().for_each(|(k, &row)| forces.rows_mut(3 * row, 3).copy_from(&local.rows(3 * k, 3)));
+        Some(Self { left: 1.0 + eigen.eigenvalues[least], forces })
+    }
+
+    /// Whether every motion is resisted much as before.
+    fn is_firm(&self) -> bool {
+        self.left >= FIRM
+    }
+}
+
+/// A motion of one piece along one axis that nothing resists.
+fn loose_axis(pieces: usize, all: &[&Condition]) -> Option<usize> {
+    let mut resisted = vec![false; 3 * pieces];
+    for condition in all {
+        for (piece, sees) in condition.parts() {
+            (0..3).for_each(|k| resisted[3 * piece + k] |= sees[k].abs() - condition.doubt > LEAST_HOLD);
+        }
+    }
+    resisted.iter().position(|resisted| !resisted)
 }
 
 /// Conditions, and the sum of their squares: a matrix of few entries, because a contact has two pieces.
 struct Conditions<'a> {
     all: &'a [Condition],
-    gram: BTreeMap<(usize, usize), f64>,
+    gram: Blocks,
 }
 
 impl<'a> Conditions<'a> {
     fn new(all: &'a [Condition]) -> Self {
-        let mut gram = BTreeMap::new();
+        let mut gram = Blocks::new();
         for condition in all {
-            for ((one, left), (other, right)) in
-                condition.parts().flat_map(|part| condition.parts().map(move |other| (part, other)))
-            {
-                for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-                    *gram.entry((3 * one + i, 3 * other + j)).or_insert(0.0) += left[i] * right[j];
-                }
+            let parts = || condition.parts().map(|(piece, sees)| (piece, Vector3::from(*sees)));
+            for ((row, left), (column, right)) in parts().flat_map(|part| parts().map(move |other| (part, other))) {
+                *gram.entry((row, column)).or_default() += left * right.transpose();
             }
         }
         Self { all, gram }
@@ -159,65 +347,25 @@ impl<'a> Conditions<'a> {
 
     /// The largest entry.
     fn largest(&self) -> f64 {
-        self.gram.values().fold(0.0, |largest, entry| largest.max(entry.abs()))
+        self.gram.values().fold(0.0, |largest, block| largest.max(block.amax()))
     }
 
     /// The largest difference of an entry from that of other conditions.
     fn off(&self, other: &Self) -> f64 {
-        let entry = |gram: &BTreeMap<(usize, usize), f64>, at| gram.get(at).copied().unwrap_or(0.0);
-        let places = self.gram.keys().chain(other.gram.keys());
-        places.map(|at| (entry(&self.gram, at) - entry(&other.gram, at)).abs()).fold(0.0, f64::max)
+        let mut difference = self.gram.clone();
+        add(&mut difference, &other.gram, -1.0);
+        difference.values().fold(0.0, |largest, block| largest.max(block.amax()))
     }
-}
-
-/// The motion that is resisted least, if that is hardly at all. Motions along one axis come first: they have the plainest
-/// words.
-fn softest(pieces: &[Extent], holding: &[&Conditions]) -> Option<Mechanism> {
-    let count = 3 * pieces.len();
-    let loose = |motion: &DVector<f64>| {
-        let size = (0..pieces.len()).map(|piece| motion.rows(3 * piece, 3).norm()).fold(0.0, f64::max);
-        holding.iter().flat_map(|conditions| conditions.all).all(|condition| condition.resists(motion) <= LEAST_HOLD * size)
-    };
-    let unit = |axis: usize| DVector::from_fn(count, |i, _| if i == axis { 1.0 } else { 0.0 });
-    if holding.iter().all(|conditions| conditions.all.is_empty()) {
-        let shift = Point::new(1.0, 0.0);
-        return Some(Mechanism { piece: 0, motion: "move in every direction".into(), moves: (shift, 0.0) });
-    }
-    let mut gram = DMatrix::zeros(count, count);
-    for conditions in holding {
-        conditions.gram.iter().for_each(|(&at, entry)| gram[at] += entry);
-    }
-    if holds_all(holding, &gram) {
-        return None;
-    }
-    if let Some(axis) = (0..count).find(|&axis| loose(&unit(axis))) {
-        return Some(describe(axis / 3, pieces, &unit(axis)));
-    }
-    let eigen = SymmetricEigen::new(gram);
-    let motion = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned();
-    if !loose(&motion) {
-        return None;
-    }
-    let share = |piece: &usize| motion.rows(3 * piece, 3).norm();
-    let piece = (0..pieces.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
-    Some(describe(piece, pieces, &motion))
-}
-
-/// A proof, for a hundredth of what the eigenvalues cost, that no motion is loose; it may fail where none is. The `n` conditions
-/// see `τ` of the square of every motion in all if `gram - τ` has a factor, so one of them at least `√(τ/n)` of it; a loose
-/// motion would be seen by less than `LEAST_HOLD` and twice the doubt.
-fn holds_all(holding: &[&Conditions], gram: &DMatrix<f64>) -> bool {
-    let all = || holding.iter().flat_map(|conditions| conditions.all);
-    let seen = LEAST_HOLD + 2.0 * all().map(|condition| condition.doubt).fold(0.0, f64::max);
-    let least = 2.0 * all().count() as f64 * seen * seen;
-    let mut shifted = gram.clone();
-    (0..gram.nrows()).for_each(|i| shifted[(i, i)] -= least);
-    Cholesky::new(shifted).is_some()
 }
 
 fn describe(piece: usize, pieces: &[Extent], motion: &DVector<f64>) -> Mechanism {
-    let own = motion.rows(3 * piece, 3);
-    let own = own / own.amax();
+    describe_motion(piece, pieces, [0, 1, 2].map(|k| motion[3 * piece + k]))
+}
+
+/// A motion of a piece in words: its shift, and its turn by the radius of the piece.
+pub fn describe_motion(piece: usize, pieces: &[Extent], moves: [f64; 3]) -> Mechanism {
+    let largest = moves.iter().fold(0.0f64, |largest, v| largest.max(v.abs()));
+    let own = moves.map(|v| v / largest);
     let (u, turn) = (Point::new(own[0], own[1]), own[2] / pieces[piece].radius);
     let words = if own[2].abs() < LEAST_HOLD {
         let u = u * u[u.iamax()].signum();
@@ -244,129 +392,4 @@ pub fn tidy(v: f64, large: f64) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const X: Point = Point::new(1.0, 0.0);
-    const Y: Point = Point::new(0.0, 1.0);
-
-    fn two() -> [Extent; 2] {
-        [Extent { middle: Point::new(1.0, 0.5), radius: 1.0 }, Extent { middle: Point::new(1.0, 1.5), radius: 1.0 }]
-    }
-
-    fn hold(piece: usize, x: f64, y: f64, direction: Point) -> Condition {
-        one_point(&two(), piece, None, x, y, direction)
-    }
-
-    fn one_point(pieces: &[Extent], piece: usize, against: Option<usize>, x: f64, y: f64, direction: Point) -> Condition {
-        Condition::new(pieces, piece, against, &[(Point::new(x, y), direction)], 0.0).expect("it resists something")
-    }
-
-    fn held(piece: usize) -> Vec<Condition> {
-        vec![hold(piece, 0.0, 0.0, X), hold(piece, 0.0, 0.0, Y), hold(piece, 2.0, 0.0, Y)]
-    }
-
-    /// Closed contact of two flat boundaries at these places.
-    fn touching(pieces: &[Extent], places: &[f64]) -> Touch {
-        let at = |piece: usize, sign: f64| {
-            let one = |&x: &f64| one_point(pieces, piece, Some(1 - piece), x, 1.0, sign * Y);
-            places.iter().map(one).collect()
-        };
-        [at(0, 1.0), at(1, -1.0)]
-    }
-
-    /// The disc of radius 1 on top of a flat body that is held, touching over an angle; its normals are off by `doubt`.
-    fn disc(angle: f64, doubt: f64) -> ([Extent; 2], Vec<Condition>, Touch) {
-        let pieces = [two()[0], Extent { middle: Point::new(1.0, 2.0), radius: 1.5 }];
-        let places: Vec<f64> = (-3..=3).map(|k| f64::from(k) / 3.0 * angle).collect();
-        let round = |a: &f64| {
-            let normal = Point::new((a + doubt).sin(), -(a + doubt).cos());
-            let x = Point::new(1.0 + a.sin(), 2.0 - a.cos());
-            Condition { doubt, ..one_point(&pieces, 1, Some(0), x.x, x.y, normal) }
-        };
-        let [flat, _] = touching(&pieces, &places.iter().map(|a| 1.0 + a.sin()).collect::<Vec<_>>());
-        (pieces, held(0), [flat, places.iter().map(round).collect()])
-    }
-
-    #[test]
-    fn two_held_bodies_are_held() {
-        let mut supports = held(0);
-        supports.extend(held(1));
-        assert_eq!(find_mechanism(&two(), &supports, &[]), None);
-    }
-
-    #[test]
-    fn contact_holds_a_floating_body_against_the_normal_only() {
-        let mut supports = held(0);
-        let contact = [touching(&two(), &[0.2, 1.7])];
-        let found = find_mechanism(&two(), &supports, &contact).expect("it slides");
-        assert_eq!((found.piece, found.motion.as_str()), (1, "move by (1, 0)"));
-        supports.push(hold(1, 0.0, 2.0, X));
-        assert_eq!(find_mechanism(&two(), &supports, &contact), None);
-    }
-
-    #[test]
-    fn a_short_seat_holds_a_long_body() {
-        let mut supports = held(0);
-        supports.push(hold(1, 0.0, 2.0, X));
-        assert_eq!(find_mechanism(&two(), &supports, &[touching(&two(), &[0.9, 0.901])]), None);
-        assert!(find_mechanism(&two(), &supports, &[touching(&two(), &[0.9, 0.900001])]).is_some(), "as good as a point");
-    }
-
-    #[test]
-    fn a_disc_rolls_however_wide_it_touches_until_it_is_held() {
-        for (angle, doubt) in [(0.05, 0.0), (1.0, 0.0), (0.3, 1e-3)] {
-            let (pieces, mut supports, contact) = disc(angle, doubt);
-            let found = |supports: &[Condition]| find_mechanism(&pieces, supports, std::slice::from_ref(&contact));
-            assert_eq!(found(&supports).expect("it slides").motion, "move by (1, 0)");
-            supports.push(one_point(&pieces, 1, None, 1.0, 2.0, X));
-            assert_eq!(found(&supports).expect("it rolls").motion, "turn about (1, 2)");
-            supports.push(one_point(&pieces, 1, None, 1.0, 3.0, X));
-            assert_eq!(found(&supports), None);
-        }
-    }
-
-    #[test]
-    fn a_long_chain_is_held_and_its_loose_link_is_found() {
-        let pieces: Vec<Extent> = (0..50).map(|k| Extent { middle: Point::new(1.0, f64::from(k) + 0.5), radius: 1.0 }).collect();
-        let line = |k: usize| {
-            let of = |piece: usize, against: usize, sign: f64| {
-                let one = |x: f64| one_point(&pieces, piece, Some(against), x, k as f64 + 1.0, sign * Y);
-                vec![one(0.2), one(1.7)]
-            };
-            [of(k, k + 1, 1.0), of(k + 1, k, -1.0)]
-        };
-        let lines: Vec<Touch> = (0..49).map(line).collect();
-        let mut supports: Vec<Condition> = (0..50).map(|k| one_point(&pieces, k, None, 0.0, k as f64 + 0.5, X)).collect();
-        supports.extend([0.0, 2.0].map(|x| one_point(&pieces, 0, None, x, 0.0, Y)));
-        assert_eq!(find_mechanism(&pieces, &supports, &lines), None);
-        supports.remove(25);
-        let found = find_mechanism(&pieces, &supports, &lines).expect("it slides");
-        assert_eq!((found.piece, found.motion.as_str()), (25, "move by (1, 0)"));
-    }
-
-    #[test]
-    fn a_body_on_one_pin_turns_about_it() {
-        let mut supports = held(0);
-        supports.extend([hold(1, 0.25, 1.0, X), hold(1, 0.25, 1.0, Y)]);
-        let found = find_mechanism(&two(), &supports, &[]).expect("it turns");
-        assert_eq!((found.piece, found.motion.as_str()), (1, "turn about (0.25, 1)"));
-    }
-
-    #[test]
-    fn words_have_the_digits_of_the_body_in_any_unit() {
-        let table = [
-            (0.25, 1.0, "0.25"),
-            (-0.60181502, 1.0, "-0.6018"),
-            (3e-5, 1.0, "0"),
-            (-1.0, 1.0, "-1"),
-            (20.0, 30.0, "20"),
-            (1234567.891, 5e3, "1234567.9"),
-            (6e17, 3e9, "600000000000000000"),
-            (-2.5e-9, 1e-9, "-2.5000e-9"),
-        ];
-        for (v, large, words) in table {
-            assert_eq!(tidy(v, large), words);
-        }
-    }
-}
+mod tests;

@@ -343,6 +343,9 @@ pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> boo
     let middle = 0.5 * (edge.points[0] + edge.points[1]);
     let foot = boundary.foot(middle);
     let (normal, away) = (boundary.normal(foot), middle - boundary.point(foot));
+    if edge.outward().dot(&normal) * side.sign() <= 0.0 {
+        return false;
+    }
     // Far from the origin coordinates lose digits.
     let rounding = 1e-9 * edge.length() + 16.0 * f64::EPSILON * middle.amax();
     let is_foot = crate::geometry::cross(away, normal).abs() <= NO_FOOT * away.norm() + rounding;
@@ -350,7 +353,7 @@ pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> boo
     let off = foot - 0.5 * (from + to);
     let turns = boundary.period().map_or(0.0, |period| (off / period).round() * period);
     let is_between = (off - turns).abs() <= NOT_BETWEEN * (to - from);
-    is_foot && is_between && edge.outward().dot(&normal) * side.sign() > 0.0
+    is_foot && is_between
 }
 
 #[cfg(test)]

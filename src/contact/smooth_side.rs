@@ -10,8 +10,25 @@ const DEEP: f64 = 0.25;
 /// Boundaries that are said to touch do so where they are drawn closer than this share of their length.
 pub const APART: f64 = 6.4e-2;
 
+/// Cosine of the angle between the outward normals of a place and of its foot (120 degrees) above which neither looks at the other:
+/// points half-way between round bodies are told by their feet for a third of a right angle on either side.
+const LOOKS_BACK: f64 = -0.5;
+
 /// Displacement of a boundary node.
 pub type Displacement<'a> = &'a dyn Fn(EdgeNode) -> Point;
+
+/// Gap between a node of one side and the other side.
+#[derive(Clone, Copy, Debug)]
+pub struct SideGaps {
+    /// As the bodies lie (length; negative where they penetrate).
+    pub now: f64,
+    /// Before they were moved (length).
+    pub at_rest: f64,
+    /// Cosine of the angle between the normal of one side and that against the other.
+    pub facing: f64,
+    /// Whether it is farther than an edge from the ends of both sides, where corners press.
+    pub is_inside: bool,
+}
 
 /// A smooth stretch of a body's boundary by its nodes on the finest level, from smaller to larger x (upwards if it is
 /// vertical); a closed one counter-clockwise, its last node the first again. Its parameter is the undeformed length along
@@ -144,6 +161,17 @@ impl SmoothSide {
             .fold(0.0, f64::max)
     }
 
+    /// Whether places of this side and of another, by their parameters, look at each other.
+    pub fn looks_at(&self, own: f64, other: &Self, foot: f64, configuration: Configuration) -> bool {
+        let [one, two] = [self.curve(configuration).tangent(own), other.curve(configuration).tangent(foot)];
+        self.hand * other.hand * one.normalize().dot(&two.normalize()) <= LOOKS_BACK
+    }
+
+    /// +1 if the body lies on the left of the curve, -1 if on the right.
+    pub fn hand(&self) -> f64 {
+        self.hand
+    }
+
     /// Its smooth shape, undeformed, with a parameter of its own.
     pub fn shape(&self) -> &Curve {
         &self.shape
@@ -153,6 +181,12 @@ impl SmoothSide {
     pub fn nearest_place(&self, x: Point) -> (Point, Point) {
         let t = self.undeformed.nearest(x).clamp(0.0, self.length());
         (self.undeformed.point(t), turn_right(self.undeformed.tangent(t)) * self.hand)
+    }
+
+    /// Whether a parameter is farther than an edge from both ends.
+    fn is_inside(&self, t: f64) -> bool {
+        let last = self.parameters.len() - 1;
+        self.closed || t > self.parameters[self.degree.min(last)] && t < self.parameters[last.saturating_sub(self.degree)]
     }
 
     /// The side as a curve in a configuration.
@@ -168,6 +202,11 @@ impl SmoothSide {
     /// of the body. On undeformed bodies it is the gap before loading and the normal part of the displacements, as in the
     /// contact law; on deformed ones the distance as they lie.
     pub fn gap(&self, node: usize, other: &Self, pair: &Pair, reach: f64) -> Option<f64> {
+        self.gaps(node, other, pair, reach).map(|gaps| gaps.now)
+    }
+
+    /// The same with what it was at rest, and how far the two sides face each other there.
+    pub fn gaps(&self, node: usize, other: &Self, pair: &Pair, reach: f64) -> Option<SideGaps> {
         let configuration = pair.configuration;
         let x = self.positions(configuration)[node];
         let t = other.nearest(x, configuration).clamp(0.0, other.length());
@@ -181,8 +220,13 @@ impl SmoothSide {
         if drawn < -DEEP * other.length() {
             return None;
         }
+        // The normal of the contact law bisects those of both sides.
+        let own = turn_right(self.undeformed.tangent(self.parameters[node])) * self.hand;
+        let moved = (self.points[node] - self.places[node]) - (other.deformed.point(t) - other.undeformed.point(t));
+        let is_inside = self.is_inside(self.parameters[node]) && other.is_inside(t);
+        let (opened, facing) = (moved.dot(&(outward - own).normalize()), -own.dot(&outward));
         if configuration == Configuration::Deformed {
-            return Some(drawn);
+            return Some(SideGaps { now: drawn, at_rest: drawn - opened, facing, is_inside });
         }
         let initial = match &pair.gap {
             GapChoice::Closed if drawn.abs() <= APART * self.length().max(other.length()) => 0.0,
@@ -192,10 +236,7 @@ impl SmoothSide {
                 formula.value(&[middle.x, middle.y])
             }
         };
-        // The normal of the contact law bisects those of both sides.
-        let own = turn_right(self.undeformed.tangent(self.parameters[node])) * self.hand;
-        let moved = (self.points[node] - x) - (other.deformed.point(t) - foot);
-        Some(initial + moved.dot(&(outward - own).normalize()))
+        Some(SideGaps { now: initial + opened, at_rest: initial, facing, is_inside })
     }
 }
 

@@ -34,6 +34,10 @@ pub enum Curve {
     Spline(Spline),
 }
 
+/// Where the way to a foot shrinks by a smaller share of what has been gone, the point lies at a centre of curvature, and what
+/// is nearest is not told by slopes.
+const LEAST_SHRUNK: f64 = 0.1;
+
 impl Curve {
     /// The same curve at another place.
     pub fn moved(&self, by: Point) -> Self {
@@ -135,8 +139,8 @@ impl Curve {
         }
     }
 
-    /// Best of a fixed number of samples, then Newton's method on `(p - x(t)) . x'(t) = 0` with the curvature left out
-    /// of the slope (Gauss-Newton): quick near the curve, where it is used.
+    /// Best of a fixed number of samples, then Newton's method on `(p - x(t)) . x'(t) = 0`, with the curvature from the step
+    /// before (a secant): without it, points farther away than the curve's radius would go back and forth.
     fn nearest_by_search(&self, p: Point, samples: usize) -> f64 {
         let [first, last] = self.range();
         let sample = |k: usize| first + (last - first) * k as f64 / samples as f64;
@@ -145,19 +149,29 @@ impl Curve {
         self.nearest_from(p, t, samples)
     }
 
-    /// The same from a parameter near it, by steps of one part of its range at most.
+    /// The same from a parameter near it, by secant steps of one part of its range at most: where `p` is farther away than the radius
+    /// of curvature, the way that is left on the tangent is too long.
     fn nearest_from(&self, p: Point, mut t: f64, parts: usize) -> f64 {
         let [first, last] = self.range();
         let longest = (last - first).abs() / parts as f64;
+        let mut before: Option<[f64; 2]> = None;
+        let away = |t: f64| (p - self.point(t)).norm();
+        let start = t;
         for _ in 0..200 {
             let slope = self.derivative(t);
-            let step = ((p - self.point(t)).dot(&slope) / slope.norm_squared()).clamp(-longest, longest);
+            let straight = (p - self.point(t)).dot(&slope) / slope.norm_squared();
+            // On a straight line the way that is left shrinks by as much as has been gone.
+            let shrunk = before.map_or(1.0, |[at, left]| (left - straight) / (t - at));
+            before = Some([t, straight]);
+            let step = if shrunk > LEAST_SHRUNK { straight / shrunk } else { straight }.clamp(-longest, longest);
             t += step;
-            if step.abs() <= 1e-15 * (last - first).abs() {
+            // Far from the origin coordinates lose digits, and steps never become smaller than what is lost.
+            if step.abs() <= 1e-15 * (last - first).abs() + 2.0 * f64::EPSILON * p.amax() / slope.norm() {
                 break;
             }
         }
-        t
+        // Between two curvatures the steps may lead away: the place that they began at is nearer then.
+        if away(t) > away(start) { start } else { t }
     }
 
     /// Where the line from `origin` along the unit vector `direction` meets the curve next to the origin: signed
@@ -198,6 +212,18 @@ mod tests {
     fn parabola() -> Curve {
         let read = |text| Formula::parse(text, &["t"]).expect("a formula");
         Curve::Parametric { x: read("t"), y: read("4 + t - 0.25*t^2"), range: [0.0, 4.0] }
+    }
+
+    /// A triangle with round corners of radius .2 to a width of 2: points farther from a corner than that.
+    #[test]
+    fn the_nearest_point_of_a_corner_is_found_from_afar() {
+        let read = |text| Formula::parse(text, &["t"]).expect("a formula");
+        let [x, y] = ["(1 + 0.1*cos(3*t))*cos(t) + 0.3*sin(3*t)*sin(t)", "(1 + 0.1*cos(3*t))*sin(t) - 0.3*sin(3*t)*cos(t)"];
+        let curve = Curve::Parametric { x: read(x), y: read(y), range: [0.0, std::f64::consts::TAU] };
+        for p in [Point::new(1.8, 0.1), Point::new(2.5, -0.3), Point::new(-1.2, 1.7)] {
+            let t = curve.nearest(p);
+            assert!((p - curve.point(t)).dot(&curve.tangent(t)).abs() < 1e-12, "{p}: {t}");
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! | file | written by |
 //! |---|---|
 //! | `summary.json` | [`Summary::write`] |
+//! | `contacts.csv` | [`write_contacts`] |
 //! | `contact_NAME.csv` | [`write_contact`] |
 //! | `fields.vtu`, or `fields.pvtu` and its pieces; `contact_NAME.vtu` | [`vtk`] |
 //! | `pressure_NAME.svg`, `gap_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `deformed_NAME_1.svg`, `accuracy.svg`, `steps.svg` | [`plot`] |
@@ -15,6 +16,7 @@
 //! Nothing here communicates: in parallel every rank writes its own piece of the fields, and rank 0 the rest.
 
 mod clock;
+mod contacts;
 mod csv;
 mod error;
 mod folder;
@@ -29,6 +31,7 @@ pub mod summary;
 pub mod vtk;
 
 pub use clock::clock;
+pub use contacts::{CONTACTS, write_contacts};
 pub use csv::{ContactPoint, write_contact};
 pub use error::OutputError;
 pub use folder::ResultFolder;
@@ -36,6 +39,14 @@ pub use leftover::recover;
 pub use machine::{machine, whole_machine};
 pub use steps::write_steps;
 pub use summary::Summary;
+
+/// A text as a cell of a table: in quotes where it holds what parts cells.
+fn quoted(text: &str) -> String {
+    match text.contains([',', '"', '\n']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.into(),
+    }
+}
 
 /// The signs of a result, as its files state them in their header.
 pub const SIGNS: [&str; 5] = [

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use super::OutputError;
 use super::summary::{Status, StepSummary};
+use super::{OutputError, quoted};
 
 /// A cell of the table with the name of its column; empty where nothing is known.
 type RowValue = (String, Option<f64>);
@@ -26,7 +26,11 @@ fn write_rows(mut out: impl Write, steps: &[StepSummary]) -> std::io::Result<()>
     let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
     writeln!(out, "step,status,iterations,{}", names.join(","))?;
     for (step, row) in steps.iter().zip(&rows) {
-        let status = if step.status == Status::Converged { "converged" } else { "not_converged" };
+        let status = match step.status {
+            Status::Converged => "converged",
+            Status::Unresolved => "unresolved",
+            Status::NotConverged | Status::Interrupted => "not_converged",
+        };
         write!(out, "{},{status},{}", step.step, step.iterations.iter().sum::<usize>())?;
         for (name, _) in columns {
             let value = row.iter().find(|(own, _)| own == name).and_then(|(_, value)| *value);
@@ -80,14 +84,6 @@ fn cells(step: &StepSummary) -> Vec<RowValue> {
     add("external_work".into(), step.external_work);
     add("seconds".into(), step.seconds);
     all
-}
-
-/// A name as a cell: in quotes where it holds what parts cells.
-fn quoted(name: &str) -> String {
-    match name.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", name.replace('"', "\"\"")),
-        false => name.into(),
-    }
 }
 
 #[cfg(test)]

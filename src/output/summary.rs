@@ -9,10 +9,12 @@ mod passes;
 mod provenance;
 mod steps;
 mod thickness;
+mod told;
 
 pub use accuracy::{AccuracyStep, ContactGoals, GoalSummary, ProbeGoals};
 pub use provenance::Provenance;
 pub use steps::{StepContact, StepSummary};
+pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, listed};
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -100,6 +102,8 @@ pub enum Status {
     /// It cannot; see the reason.
     #[default]
     NotConverged,
+    /// It is solved on a mesh, or contact boundaries, that cannot hold what the case says; see the reason.
+    Unresolved,
     /// There is none: a signal has ended the run before. What was reached is told, and nothing else.
     Interrupted,
 }
@@ -205,6 +209,9 @@ pub struct ContactSummary {
     /// Resultant on body 2 (force per thickness).
     #[serde(deserialize_with = "numbers")]
     pub resultant: Option<[f64; 2]>,
+    /// Where it acts: the centre of the pressure; where nothing presses, the point with the smallest gap.
+    #[serde(default, deserialize_with = "numbers")]
+    pub place: Option<[f64; 2]>,
     /// Moment on body 2 about the origin.
     pub moment: Option<f64>,
     /// Largest contact pressure.
@@ -233,11 +240,33 @@ pub struct ContactSummary {
     /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,
     /// the largest overlap relative to the largest displacement.
     pub missing: Option<f64>,
+    /// The same as a force (force per thickness), on undeformed bodies.
+    #[serde(default)]
+    pub missing_force: Option<f64>,
+    /// Deepest place of one body in the other, by their whole sides (length).
+    #[serde(default)]
+    pub depth: Option<f64>,
+    /// Where that is.
+    #[serde(default)]
+    pub deepest: Option<[f64; 2]>,
+    /// How far the sides have come together since they touched first, or have parted that were drawn in each other (length).
+    #[serde(default)]
+    pub approach: Option<f64>,
     /// Whether the contact pressure can be trusted; null if nothing tells, or if the corner of a body presses on too
     /// few edges: the reason says which.
     pub trust: Option<bool>,
     /// Whether ∫ λ ds can be trusted to one per cent; null if nothing estimates it.
     pub trust_force: Option<bool>,
+    /// The verdict on it in a few words: `trusted`, why not, or that it only touches.
+    #[serde(default)]
+    pub verdict: Option<String>,
+}
+
+impl ContactSummary {
+    /// Length of all intervals in contact.
+    pub fn width(&self) -> Option<f64> {
+        self.closed.as_ref().map(|intervals| intervals.iter().fold(0.0, |sum, [first, last]| sum + last - first))
+    }
 }
 
 /// An interval of a contact that presses.
@@ -251,6 +280,9 @@ pub struct ZoneSummary {
     pub segments: Option<usize>,
     /// Its share of the force.
     pub share: Option<f64>,
+    /// Width that its force asks for between smooth convex sides (length); null elsewhere.
+    #[serde(default)]
+    pub hertz_width: Option<f64>,
     /// Largest contact pressure.
     pub pressure_max: Option<f64>,
     /// Estimated relative error of λ in its middle, root mean square.

@@ -2,6 +2,7 @@
 
 use super::error::{Error, Result, give_back, petsc, words};
 use super::ffi;
+use super::index::Index;
 use super::matrix::Matrix;
 use super::preconditioner::Preconditioner;
 use super::session::Session;
@@ -36,6 +37,9 @@ impl Krylov {
         let krylov = Self { raw, session: session.clone() };
         let prefix = CString::new(prefix).expect("a prefix has no zero byte");
         petsc!(KSPSetOptionsPrefix(raw, prefix.as_ptr()))?;
+        // A right-hand side below PETSc's own absolute tolerance would have the solution zero. Options may set another one.
+        let other = ffi::mezha_default_real;
+        petsc!(KSPSetTolerances(raw, other, 0.0, other, other as Index))?;
         krylov.recording_residuals()
     }
 

@@ -1,6 +1,6 @@
 //! Matrices known by their actions alone: PETSc's Krylov methods and multigrid use them like any other.
 
-use super::error::{Result, petsc};
+use super::error::{Result, check, petsc};
 use super::ffi;
 use super::index::Index;
 use super::matrix::Matrix;
@@ -146,13 +146,28 @@ pub struct ReplacedAction {
     _context: Box<Context<dyn Action>>,
 }
 
+/// What the kind of a preconditioner does.
+struct ActionOfKind {
+    preconditioner: Preconditioner,
+    apply: ffi::mezha_apply,
+}
+
+impl Action for ActionOfKind {
+    fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        let apply = self.apply.expect("the kind of a preconditioner does something");
+        check("PCApply", unsafe { apply(self.preconditioner.raw(), x.raw(), y.raw()) })
+    }
+}
+
 impl ReplacedAction {
-    /// Puts an action in the place. **Collective**
-    pub fn new(preconditioner: Preconditioner, action: Box<dyn Action>) -> Result<Self> {
-        let mut context = Box::new(Context::<dyn Action> { action, session: preconditioner.session().clone() });
+    /// Puts an action in the place, which may make use of what the kind does. The preconditioner is set up. **Collective**
+    pub fn new(preconditioner: Preconditioner, make: impl FnOnce(Box<dyn Action>) -> Result<Box<dyn Action>>) -> Result<Self> {
+        let session = preconditioner.session().clone();
         let mut before = None;
-        petsc!(PCSetApplicationContext(preconditioner.raw(), ptr::from_mut(&mut *context).cast()))?;
         petsc!(mezha_replace_apply(preconditioner.raw(), Some(apply_replaced), &mut before))?;
+        let of_kind = ActionOfKind { preconditioner: Preconditioner::share(&session, preconditioner.raw())?, apply: before };
+        let mut context = Box::new(Context::<dyn Action> { action: make(Box::new(of_kind))?, session });
+        petsc!(PCSetApplicationContext(preconditioner.raw(), ptr::from_mut(&mut *context).cast()))?;
         Ok(Self { preconditioner, before, _context: context })
     }
 }

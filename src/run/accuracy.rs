@@ -4,7 +4,7 @@ use super::memory;
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
 use crate::case::Case;
 use crate::output::plot::Sequence;
-use crate::output::summary::{AccuracyStep, GoalSummary, Status};
+use crate::output::summary::{AccuracyStep, GoalSummary, MOST_TOLD, Status, WORST};
 use crate::petsc::Session;
 use crate::system::Solved;
 
@@ -82,13 +82,40 @@ pub fn judge(adaptation: &Adaptation, status: Status, reason: &str) -> (Status, 
             (Status::NotConverged, format!("the accuracy is not reached: {words}; {reason}"))
         }
         (Status::NotConverged, _) if adaptation.meshes.is_empty() => (status, reason.into()),
-        (Status::NotConverged | Status::Interrupted, _) => (status, format!("{reason}; {}", words(adaptation))),
+        (Status::NotConverged | Status::Unresolved | Status::Interrupted, _) => {
+            (status, format!("{reason}; {}", words(adaptation)))
+        }
     }
 }
 
-/// The estimates on each mesh as a figure shows them, and the true errors as far as they are known: for each goal.
+/// The goals that are told one by one: all of a few, of many those whose estimates on a mesh, or what is asked, leave least room.
+pub fn told(Accuracy { goals, .. }: &Accuracy, mesh: Option<&AdaptedMesh>) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..goals.len()).collect();
+    if goals.len() > MOST_TOLD {
+        let excess = |place: usize| {
+            let estimate = mesh.and_then(|mesh| mesh.errors.get(place).copied().flatten()).filter(|error| !error.is_nan());
+            estimate.map_or(f64::INFINITY, |estimate| estimate / goals[place].tolerance)
+        };
+        places.sort_by(|&a, &b| excess(b).total_cmp(&excess(a)));
+        places.truncate(WORST);
+    }
+    places
+}
+
+/// What stands before the goals that are told of many: `the worst of 297 goals, of which 12 hold: `.
+pub fn of_how_many(accuracy: &Accuracy, mesh: Option<&AdaptedMesh>) -> String {
+    let goals = &accuracy.goals;
+    if goals.len() <= MOST_TOLD {
+        return String::new();
+    }
+    let errors = mesh.map_or(&[][..], |mesh| &mesh.errors);
+    let holding = errors.iter().zip(goals).filter(|(error, goal)| error.is_some_and(|error| error <= goal.tolerance)).count();
+    format!("the worst of {} goals, of which {holding} hold: ", goals.len())
+}
+
+/// The estimates on each mesh as a figure shows them, and the true errors as far as they are known: for each goal that is told.
 pub fn sequences(adaptation: &Adaptation) -> Vec<Sequence> {
-    (0..adaptation.accuracy.goals.len()).map(|place| sequence(adaptation, place)).collect()
+    told(&adaptation.accuracy, adaptation.meshes.last()).into_iter().map(|place| sequence(adaptation, place)).collect()
 }
 
 fn sequence(Adaptation { accuracy, meshes, .. }: &Adaptation, place: usize) -> Sequence {
@@ -102,7 +129,18 @@ fn sequence(Adaptation { accuracy, meshes, .. }: &Adaptation, place: usize) -> S
 
 /// What is asked for, on one line: `energy to 1e-4, pressure of seam to 1e-3; at most 100 000 unknowns`.
 pub fn request(accuracy: &Accuracy) -> String {
-    let goals = accuracy.goals.iter().map(|goal| format!("{} to {:e}", name(&goal.quantity), goal.tolerance));
+    let mut alike: Vec<(&Goal, usize)> = Vec::new();
+    for goal in &accuracy.goals {
+        let key = |goal: &Goal| (goal.quantity.word(), goal.tolerance);
+        match alike.iter_mut().find(|(known, _)| accuracy.goals.len() > MOST_TOLD && key(known) == key(goal)) {
+            Some((_, count)) => *count += 1,
+            None => alike.push((goal, 1)),
+        }
+    }
+    let goals = alike.iter().map(|(goal, count)| match count {
+        1 => format!("{} to {:e}", name(&goal.quantity), goal.tolerance),
+        _ => format!("{} of {count} to {:e}", goal.quantity.word(), goal.tolerance),
+    });
     let unknowns = accuracy.most_unknowns.map(|most| format!("; at most {} unknowns", grouped(most)));
     let seconds = accuracy.most_seconds.map(|most| format!("; no further mesh after {} s", plain(most)));
     [goals.collect::<Vec<_>>().join(", ")].into_iter().chain(unknowns).chain(seconds).collect()
@@ -111,7 +149,8 @@ pub fn request(accuracy: &Accuracy) -> String {
 /// What is reached, and on what: `energy to 8.1e-5 (asked 1e-4): 21 868 unknowns on 7 meshes, 0.31 s`; beside what is missed,
 /// what it would take.
 fn words(adaptation: &Adaptation) -> String {
-    let goal = |(place, goal): (usize, &Goal)| {
+    let goal = |place: usize| {
+        let goal = &adaptation.accuracy.goals[place];
         let reached = match estimate(adaptation, place) {
             // What is missed must not look like what was asked for.
             Some(error) if error > goal.tolerance => figure(rounded_up(error)),
@@ -121,12 +160,14 @@ fn words(adaptation: &Adaptation) -> String {
         let would_take = would_take(adaptation, place).unwrap_or_else(|| first_mesh_words(adaptation, place).into());
         format!("{} to {reached} (asked {:e}{would_take})", name(&goal.quantity), goal.tolerance)
     };
-    let goals = adaptation.accuracy.goals.iter().enumerate().map(goal).collect::<Vec<_>>().join(", ");
+    let last = adaptation.meshes.last();
+    let goals = told(&adaptation.accuracy, last).into_iter().map(goal).collect::<Vec<_>>().join(", ");
+    let goals = of_how_many(&adaptation.accuracy, last) + &goals;
     let meshes = match adaptation.meshes.len() {
         1 => "1 mesh".into(),
         count => format!("{count} meshes"),
     };
-    match adaptation.meshes.last() {
+    match last {
         Some(last) => format!("{goals}: {} unknowns on {meshes}, {:.2} s", grouped(last.unknowns), last.seconds),
         None => format!("{goals}: no mesh was adapted"),
     }
@@ -373,6 +414,24 @@ mod tests {
         assert_eq!((&shown[0].errors[..], &shown[1].errors[..]), (&[(21_868.0, 7e-5)][..], &[][..]));
         let told = summarise(&adapted)[1].energy.clone();
         assert_eq!(told, Some(GoalSummary { estimate: Some(8e-5), error: Some(7e-5), asked: 1e-4 }));
+    }
+
+    #[test]
+    fn of_many_goals_the_worst_are_told() {
+        let mut many = adapted([None; 2]);
+        let force = |k: usize| Goal { quantity: Quantity::Force(format!("c{k}")), tolerance: 1e-2 };
+        many.accuracy.goals.extend((0..40).map(force));
+        for mesh in &mut many.meshes {
+            mesh.errors = vec![Some(2e-4), Some(5e-4)];
+            mesh.errors.extend((0..40).map(|k| if k == 7 { None } else { Some(1e-3 * f64::from(k)) }));
+        }
+        let (_, reason) = judge(&many, Status::Converged, "the set stands");
+        let words = "the worst of 42 goals, of which 11 hold: force of c7 to an unknown error (asked 1e-2), force of c39 to 3.9e-2 (asked 1e-2), force of c38 to 3.8e-2 (asked 1e-2): ";
+        assert!(reason.contains(words), "{reason}");
+        let shown: Vec<String> = sequences(&many).into_iter().map(|sequence| sequence.name).collect();
+        assert_eq!(shown, ["force of c7", "force of c39", "force of c38"]);
+        let asked = "energy to 1e-4, pressure of seam to 1e-3, force of 40 to 1e-2";
+        assert_eq!(request(&many.accuracy), asked);
     }
 
     #[test]

@@ -2,15 +2,21 @@
 
 use super::known::check_pressures;
 use super::proposals::{proposed_contacts, proposed_supports};
+use super::report::contact_lines;
 use super::slits::slits;
 use super::turns::far_turns;
 use super::{RunError, accuracy, memory, origin, scene};
-use crate::body::Material;
-use crate::case::{Case, read_text};
+use crate::body::{Body, Material};
+use crate::case::{Case, Matched, read_text};
 use crate::element::{Order, Plane};
 use crate::mesh::MacroMesh;
+use crate::output::summary::{MOST_TOLD, listed};
 use crate::system::{Procedure, Scene};
+use std::collections::HashMap;
 use std::path::Path;
+
+/// Names that a pattern stands for which are told.
+const MOST_MATCHED: usize = 5;
 
 /// What a look at a case finds.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,23 +71,9 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
             2 * at_rest.numbering.node_count()
         ),
     ];
-    for body in &scene.bodies {
-        for part in &body.parts {
-            let of = if body.has_parts() { format!("{}, part {}", body.name, part.name) } else { body.name.clone() };
-            let Material { young, poisson, plane } = part.material;
-            let plane = if plane == Plane::Stress { ", plane stress" } else { "" };
-            lines.push(format!("body {of}: E = {young}, ν = {poisson}{plane}"));
-        }
-    }
-    for contact in &at_rest.contacts {
-        lines.push(format!(
-            "contact {}: {} segments over a length of {}, {} multipliers",
-            contact.pair.name,
-            contact.boundary.segments(),
-            super::report::length(contact.boundary.length()),
-            contact.multipliers.count()
-        ));
-    }
+    lines.extend(case.matched.iter().map(matched));
+    lines.extend(body_lines(&scene.bodies));
+    lines.extend(contact_lines(&at_rest.contacts));
     if let Some(accuracy) = &case.accuracy {
         lines.push(format!("accuracy asked for: {}; the mesh is adapted to it", accuracy::request(accuracy)));
     }
@@ -96,6 +88,40 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let not_held = not_held_before.map_or_else(|| at_rest.not_held(&scene), |words| Ok(Some(words)))?;
     let proposals = proposals(case, &scene.mesh, not_held.is_some());
     Ok(Checked { words: lines.join("\n"), warnings, not_held, proposals })
+}
+
+/// What a pattern of the case stands for: of many the number and the first.
+fn matched(Matched { place, kind, names }: &Matched) -> String {
+    let kind = match (names.len(), *kind) {
+        (1, kind) => kind.to_owned(),
+        (_, "body") => "bodies".into(),
+        (_, kind) => format!("{kind}s"),
+    };
+    let first = names[..names.len().min(MOST_MATCHED)].join(", ");
+    let more = if names.len() > MOST_MATCHED { ", ..." } else { "" };
+    format!("{place}: {} {kind}: {first}{more}", names.len())
+}
+
+/// A line for each part of a body; of many one for each material.
+fn body_lines(bodies: &[Body]) -> Vec<String> {
+    let mut of_materials: Vec<(String, Vec<String>)> = Vec::new();
+    let mut places = HashMap::new();
+    for (body, part) in bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part))) {
+        let Material { young, poisson, plane } = part.material;
+        let plane = if plane == Plane::Stress { ", plane stress" } else { "" };
+        let words = format!("E = {young}, ν = {poisson}{plane}");
+        let place = *places.entry(words.clone()).or_insert(of_materials.len());
+        if place == of_materials.len() {
+            of_materials.push((words, Vec::new()));
+        }
+        let of = if body.has_parts() { format!("{}, part {}", body.name, part.name) } else { body.name.clone() };
+        of_materials[place].1.push(of);
+    }
+    let words = |(words, names): &(String, Vec<String>)| match names.len() {
+        count if count > MOST_TOLD => vec![format!("{count} bodies or parts ({}): {words}", listed(names))],
+        _ => names.iter().map(|name| format!("body {name}: {words}")).collect(),
+    };
+    of_materials.iter().flat_map(words).collect()
 }
 
 /// What may be missing, as TOML to paste.

@@ -3,19 +3,25 @@
 use super::{RunError, scene};
 use crate::body::{Load, LoadKind, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
+use crate::contact::Pair;
 use crate::geometry::{Formula, Point};
-use crate::mesh::{MacroMesh, Spot};
+use crate::mesh::{MacroMesh, MacroTriangle, Spot};
 use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// Points of a curved edge in the figure.
+/// Points of a curved edge in the figure; of a mesh whose edges are too many to be drawn they are small.
 const BENDS: usize = 12;
+const FEW_BENDS: usize = 2;
 
 /// Macro edges that are drawn at most: more would be a grey field.
 const MOST_EDGES: usize = 12_000;
 
-/// Named boundaries that get a label at most.
-const MOST_NAMES: usize = 60;
+/// Places of a boundary that are looked at for the one that is nearest to another, before those around it.
+const LOOKS: usize = 64;
+
+/// Of a boundary that several contacts share, each is drawn as far from its place as this share of the smaller side's size.
+const BESIDE: f64 = 0.15;
 
 /// Lines of remarks, and their letters, at most.
 const MOST_REMARKS: usize = 8;
@@ -107,10 +113,9 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
         parts: parts(case, mesh),
         edges: if is_big { Vec::new() } else { (0..mesh.edges.len() as u32).map(|edge| points(mesh, edge)).collect() },
         boundaries: curves
-            .take(MOST_NAMES)
-            .map(|boundary| NamedRows { name: boundary.name.clone(), rows: rows(mesh, &boundary.edges) })
+            .map(|boundary| NamedRows { name: boundary.name.clone(), rows: rows(mesh, &boundary.edges), place: None })
             .collect(),
-        contacts: case.contacts.iter().map(|pair| NamedRows { name: pair.name.clone(), rows: on(&pair.between) }).collect(),
+        contacts: contacts(case, mesh),
         supports: supports(case, mesh, &on),
         loads: loads(case, mesh, &on),
         remarks: Vec::new(),
@@ -122,16 +127,80 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
     figure
 }
 
+/// Contacts on both bodies, each with the place where its two sides lie close.
+fn contacts(case: &Case, mesh: &MacroMesh) -> Vec<NamedRows> {
+    let mut sides: HashMap<&String, (Rows, usize)> = HashMap::new();
+    for name in case.contacts.iter().flat_map(|pair| &pair.between) {
+        let side = sides.entry(name).or_insert_with(|| {
+            let curves: Vec<&[u32]> =
+                case.curves_of(name).iter().filter_map(|name| mesh.boundary(name)).map(|b| b.edges.as_slice()).collect();
+            (rows(mesh, &curves.concat()), 0)
+        });
+        side.1 += 1;
+    }
+    let contact = |pair: &Pair| {
+        let both = pair.between.each_ref().map(|name| &sides[name]);
+        let place = nearest(both.map(|(rows, _)| rows));
+        let is_shared = both.iter().any(|(_, contacts)| *contacts > 1);
+        let all = both.iter().flat_map(|(rows, _)| rows);
+        let rows = match place {
+            Some((place, reach)) if is_shared => all.flat_map(|row| row_beside(row, place.place, reach)).collect(),
+            _ => all.cloned().collect(),
+        };
+        NamedRows { name: pair.name.clone(), rows, place: place.map(|(place, _)| place) }
+    };
+    case.contacts.iter().map(contact).collect()
+}
+
+/// The point of the first boundary that is nearest to the second one, and how far around it a contact of both is drawn.
+fn nearest([first, second]: [&Rows; 2]) -> Option<(BoundaryPoint, f64)> {
+    let all = [first, second].map(|rows| rows.iter().flatten().copied().collect::<Vec<BoundaryPoint>>());
+    let distance = |a: usize, b: usize| {
+        let ([x, y], [u, v]) = (all[0][a].place, all[1][b].place);
+        (x - u).hypot(y - v)
+    };
+    let steps = all.each_ref().map(|points| points.len().div_ceil(LOOKS).max(1));
+    let pairs = (0..all[0].len()).step_by(steps[0]).flat_map(|a| (0..all[1].len()).step_by(steps[1]).map(move |b| [a, b]));
+    let [a, b] = pairs.min_by(|p, q| distance(p[0], p[1]).total_cmp(&distance(q[0], q[1])))?;
+    let around = |k: usize, at: usize| at.saturating_sub(steps[k])..(at + steps[k] + 1).min(all[k].len());
+    let pairs = around(0, a).flat_map(|a| around(1, b).map(move |b| [a, b]));
+    let [a, _] = pairs.min_by(|p, q| distance(p[0], p[1]).total_cmp(&distance(q[0], q[1])))?;
+    let size = |points: &[BoundaryPoint]| {
+        let [low, high] = points.iter().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], point| {
+            [[0, 1].map(|k| low[k].min(point.place[k])), [0, 1].map(|k| high[k].max(point.place[k]))]
+        });
+        (high[0] - low[0]).hypot(high[1] - low[1])
+    };
+    Some((all[0][a], BESIDE * size(&all[0]).min(size(&all[1]))))
+}
+
+/// The parts of a row within a distance of a place.
+fn row_beside(row: &[BoundaryPoint], [x, y]: [f64; 2], reach: f64) -> Vec<Vec<BoundaryPoint>> {
+    let is_near = |point: &BoundaryPoint| (point.place[0] - x).hypot(point.place[1] - y) <= reach;
+    row.chunk_by(|a, b| is_near(a) == is_near(b)).filter(|part| is_near(&part[0])).map(<[_]>::to_vec).collect()
+}
+
+/// Points of a curved edge in the figure.
+fn bends(mesh: &MacroMesh) -> usize {
+    if mesh.edges.len() > MOST_EDGES { FEW_BENDS } else { BENDS }
+}
+
 /// Points along an edge.
 fn points(mesh: &MacroMesh, edge: u32) -> Vec<[f64; 2]> {
-    let count = if mesh.edges[edge as usize].shape.is_some() { BENDS } else { 1 };
+    let count = if mesh.edges[edge as usize].shape.is_some() { bends(mesh) } else { 1 };
     (0..=count).map(|k| mesh.edge_position(edge, k as f64 / count as f64).into()).collect()
+}
+
+/// The triangles of each of so many bodies or parts.
+fn triangles_of(mesh: &MacroMesh, count: usize, number: impl Fn(&MacroTriangle) -> u32) -> Vec<Vec<usize>> {
+    let mut all = vec![Vec::new(); count];
+    mesh.triangles.iter().enumerate().for_each(|(k, triangle)| all[number(triangle) as usize].push(k));
+    all
 }
 
 /// Parts of bodies with their triangles.
 fn parts(case: &Case, mesh: &MacroMesh) -> Vec<DrawnPart> {
-    let part = |number: usize| {
-        let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].part as usize == number).collect();
+    let part = |(number, own): (usize, Vec<usize>)| {
         let around = |&triangle: &usize| {
             let triangle = &mesh.triangles[triangle];
             let mut all = Vec::new();
@@ -155,7 +224,7 @@ fn parts(case: &Case, mesh: &MacroMesh) -> Vec<DrawnPart> {
             inside: inside(mesh, &own).into(),
         }
     };
-    (0..mesh.parts.len()).map(part).collect()
+    triangles_of(mesh, mesh.parts.len(), |triangle| triangle.part).into_iter().enumerate().map(part).collect()
 }
 
 /// The middle of the triangle that is farthest from the boundary of its part, by the corners of that.
@@ -181,8 +250,9 @@ fn rows(mesh: &MacroMesh, edges: &[u32]) -> Rows {
         for &edge in &stretch.edges {
             let triangle = &mesh.triangles[mesh.beside(edge).0 as usize];
             let forward = triangle.forward[mesh.beside(edge).1];
-            for k in 0..=BENDS {
-                let t = k as f64 / BENDS as f64;
+            let bends = bends(mesh);
+            for k in 0..=bends {
+                let t = k as f64 / bends as f64;
                 let t = if forward { t } else { 1.0 - t };
                 row.push(BoundaryPoint {
                     place: mesh.edge_position(edge, t).into(),
@@ -229,13 +299,13 @@ fn supports(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Ve
         };
         DrawnSupport { name: stiffness, rows: on(&springs.on), grip: Grip::Springs }
     };
+    let of_bodies = if case.means.is_empty() { Vec::new() } else { triangles_of(mesh, mesh.bodies.len(), |k| k.body) };
     let held = case.means.iter().filter_map(|mean| {
-        let body = mesh.bodies.iter().position(|name| *name == mean.body)? as u32;
-        let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].body == body).collect();
-        let place: [f64; 2] = inside(mesh, &own).into();
+        let body = mesh.bodies.iter().position(|name| *name == mean.body)?;
+        let place: [f64; 2] = inside(mesh, &of_bodies[body]).into();
         let point = BoundaryPoint { place: [place[0], place[1]], normal: [0.0, -1.0], traction: [0.0; 2] };
-        let keys = ["ux", "uy", "angle"].into_iter().zip(mean.mean).filter_map(|(key, value)| value.map(|_| key));
-        let name = format!("{}: mean {}", mean.name, keys.collect::<Vec<_>>().join(", "));
+        let keys: Vec<&str> = mean.held.iter().map(|(key, ..)| *key).collect();
+        let name = format!("{}: mean {}", mean.name, keys.join(", "));
         Some(DrawnSupport { name, rows: vec![vec![point]], grip: Grip::Both })
     });
     case.supports.iter().map(fixed).chain(case.springs.iter().map(elastic)).chain(held).collect()
@@ -279,10 +349,10 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
             DrawnLoad { name, rows: Vec::new(), resultant: Some((tool.motion.about.into(), along)), is_plate: false }
         })
     });
+    let of_parts = triangles_of(mesh, mesh.parts.len(), |triangle| triangle.part);
     let weights = case.bodies.iter().flat_map(|body| &body.parts).filter_map(|part| {
-        let number = mesh.parts.iter().position(|surface| surface.name == part.name)? as u32;
-        let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].part == number).collect();
-        let place = inside(mesh, &own);
+        let number = mesh.parts.iter().position(|surface| surface.name == part.name)?;
+        let place = inside(mesh, &of_parts[number]);
         let force = [0, 1].map(|k| part.force[k].value(&[place.x, place.y]));
         let acts = force.iter().all(|part| part.is_finite()) && force != [0.0; 2];
         let name = format!("force in {}", part.name);

@@ -5,14 +5,19 @@ use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, Pair};
 use crate::mesh::MacroMesh;
-use crate::output::plot::{self, ContactZoom, DrawnContact, Facet};
+use crate::output::plot::{self, ContactZoom, DrawnContact, DrawnForce, Facet};
+use crate::output::summary::MOST_WITH_FIGURES;
 use crate::output::{ContactPoint, Summary};
-use crate::system::Contact;
 use crate::system::recovery::Evaluation;
+use crate::system::{Contact, Scene};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Intervals that press are drawn one by one, those with the largest forces.
 const MOST_ZOOMS: usize = 6;
+
+/// Lines of forces reach into a body by this share of the smaller side of the box around it: nearly to its middle.
+const REACH: f64 = 0.4;
 
 /// An interval that is drawn: its contact, its number in it from 1, and what is shown.
 struct Drawing {
@@ -48,35 +53,50 @@ impl Run<'_> {
                 is_deformed: contact.pair.configuration == Configuration::Deformed,
             })
             .collect();
-        let zooms = self.zooms(summary, contacts, &drawn, &facets)?;
-        let shown: Vec<Vec<Facet>> = zooms.iter().map(|drawing| fields::facets_of_zoom(found, &stress, &drawing.zoom)).collect();
+        let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
+        let has_figures = |at: usize| shown.contains(contacts[at].pair.name.as_str());
+        let zooms = self.zooms(summary, contacts, &drawn, &facets, has_figures)?;
+        let zoomed: Vec<Vec<Facet>> = zooms.iter().map(|drawing| fields::facets_of_zoom(found, &stress, &drawing.zoom)).collect();
         if self.session.rank() != 0 {
             return Ok(());
         }
-        for (contact, drawn) in contacts.iter().zip(&drawn) {
-            let path = |figure: &str| folder.join(format!("{figure}_{}.svg", contact.pair.name));
-            plot::write_pressure(&path("pressure"), drawn)?;
-            plot::write_gap(&path("gap"), drawn)?;
-            plot::write_displacement(&path("displacement"), drawn)?;
+        for at in (0..contacts.len()).filter(|&at| has_figures(at)) {
+            let path = |figure: &str| folder.join(format!("{figure}_{}.svg", contacts[at].pair.name));
+            plot::write_pressure(&path("pressure"), &drawn[at])?;
+            plot::write_gap(&path("gap"), &drawn[at])?;
+            plot::write_displacement(&path("displacement"), &drawn[at])?;
         }
-        for (drawing, facets) in zooms.iter().zip(&shown).filter(|(_, facets)| !facets.is_empty()) {
+        if shown.len() < contacts.len() {
+            self.report.say(&format!(
+                "figures of {} of {} contacts: those that are trusted least, and those with the largest forces",
+                shown.len(),
+                contacts.len()
+            ));
+        }
+        for (drawing, facets) in zooms.iter().zip(&zoomed).filter(|(_, facets)| !facets.is_empty()) {
             let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
             plot::write_zoom(&folder.join(name), &drawing.zoom, &drawn[drawing.contact], facets)?;
         }
-        plot::write_deformed(&folder.join("deformed.svg"), title(self.case), &facets, [&macro_edges, &interfaces], &drawn)?;
+        let forces = drawn_forces(&found.problem.scene, contacts, summary);
+        // Where forces are many, their lines say where contacts are.
+        let drawn = if contacts.len() > MOST_WITH_FIGURES { &[][..] } else { &drawn };
+        let path = folder.join("deformed.svg");
+        plot::write_deformed(&path, title(self.case), &facets, [&macro_edges, &interfaces], drawn, &forces)?;
         adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation))
     }
 
-    /// The intervals that are drawn, in the order of contacts and arc length. Rank 0 chooses. **Collective**
+    /// The intervals that are drawn of the contacts that have figures, in the order of contacts and arc length. Rank 0 chooses.
+    /// **Collective**
     fn zooms(
         &self,
         summary: &Summary,
         contacts: &[Contact],
         drawn: &[DrawnContact],
         facets: &[Facet],
+        has_figures: impl Fn(usize) -> bool,
     ) -> Result<Vec<Drawing>, RunError> {
         let mut all: Vec<(f64, Drawing)> = Vec::new();
-        for (at, contact) in contacts.iter().enumerate() {
+        for (at, contact) in contacts.iter().enumerate().filter(|(at, _)| has_figures(*at)) {
             let closed = summary.contact.get(&contact.pair.name).and_then(|contact| contact.closed.as_deref());
             for (number, &interval) in closed.unwrap_or_default().iter().enumerate() {
                 let zoom = ContactZoom::new(&drawn[at], interval, facets);
@@ -100,6 +120,26 @@ impl Run<'_> {
         };
         Ok(self.session.gather_all(&own).chunks_exact(8).map(read).collect())
     }
+}
+
+/// The forces of several contacts, each with a line that reaches into both bodies by a share of the smaller one.
+fn drawn_forces(scene: &Scene, contacts: &[Contact], summary: &Summary) -> Vec<DrawnForce> {
+    if contacts.len() < 2 {
+        return Vec::new();
+    }
+    let mut sizes = vec![f64::INFINITY; scene.mesh.bodies.len()];
+    for (piece, [low, high]) in scene.mesh.pieces.iter().zip(scene.mesh.bounds()) {
+        sizes[piece.body] = sizes[piece.body].min((high - low).amin());
+    }
+    let is_tool = |body: usize| scene.rigid.iter().any(|set| set.key == scene.mesh.bodies[body]);
+    let force = |contact: &Contact| {
+        let found = summary.contact.get(&contact.pair.name)?;
+        let own = contact.bodies.into_iter().filter(|&body| !is_tool(body)).map(|body| sizes[body]);
+        let reach = REACH * own.fold(f64::INFINITY, f64::min);
+        let is_deformed = contact.pair.configuration == Configuration::Deformed;
+        Some(DrawnForce { place: found.place?, force: found.resultant?, reach, is_deformed })
+    };
+    contacts.iter().filter_map(force).collect()
 }
 
 /// ∫λ ds over an interval, by trapezoids.
@@ -134,10 +174,14 @@ pub fn sides(mesh: &MacroMesh, pair: &Pair) -> [String; 2] {
 
 /// Draws what was reached on each mesh, if there are two of them.
 fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result<(), RunError> {
-    let sequences = accuracy::sequences(adaptation);
+    let (sequences, count) = (accuracy::sequences(adaptation), adaptation.accuracy.goals.len());
+    let title = match sequences.len() {
+        few if few < count => format!("{title}; the {few} worst of {count} goals"),
+        _ => title.to_owned(),
+    };
     let is_known = sequences.iter().any(|sequence| sequence.estimates.iter().any(|(_, error)| *error > 0.0));
     if adaptation.meshes.len() >= 2 && is_known {
-        plot::write_accuracy(&folder.join("accuracy.svg"), title, &sequences)?;
+        plot::write_accuracy(&folder.join("accuracy.svg"), &title, &sequences)?;
     }
     Ok(())
 }

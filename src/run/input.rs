@@ -2,7 +2,7 @@
 
 use super::{RunError, scene};
 use crate::case::{Case, Inputs, fingerprint, read_text};
-use crate::mesh::MacroMesh;
+use crate::mesh::{MacroMesh, read_bytes};
 use crate::petsc::Session;
 use std::path::Path;
 
@@ -14,7 +14,9 @@ pub fn read_case(file: &Path, overrides: &[String], wanted: Option<&Inputs>, ses
     let text = session.share(|| read_text(file, "case").map(String::into_bytes));
     refuse_change(file, &text, wanted.map(|inputs| &inputs.case))?;
     let text = String::from_utf8(text.map_err(RunError::Input)?).expect("rank 0 has read a text");
-    match Case::parse(&text, file, overrides) {
+    // Every rank has read the same text, so that all want the mesh or none, for the names that patterns stand for.
+    let bytes = |mesh: &Path| session.share(|| read_bytes(mesh).map_err(|error| error.to_string()));
+    match Case::parse_with(&text, file, overrides, bytes) {
         Ok(case) => Ok(session.agree::<_, String>(Ok(case)).map_err(RunError::Input)?),
         Err(error) => {
             // Every rank has read the same text, so that all are here.

@@ -1,6 +1,6 @@
 //! Whether the mean motions that a case holds are free to be held.
 
-use crate::body::{MOTIONS, MeanHold, rigid_mode};
+use crate::body::{HeldMode, MeanHold, rigid_displacement};
 use crate::case::Case;
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
@@ -13,7 +13,8 @@ const AT_REST: f64 = 1e-9;
 /// # Errors
 /// Words that name the file, the support and the remedy.
 pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
-    for hold in &case.means {
+    let holds = case.mean_holds(mesh).map_err(|words| format!("{}: {words}", case.file.display()))?;
+    for hold in &holds {
         let error = |words: String| Err(format!("{}: support.{}: {words}", case.file.display(), hold.name));
         let pieces = mesh.pieces.iter().filter(|piece| mesh.bodies[piece.body] == hold.body).count();
         if pieces > 1 {
@@ -22,10 +23,13 @@ pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
         let Some(anchors) = hold.anchors(mesh) else {
             return error(format!("body \"{}\" has too few vertices; hold it by a boundary, on = \"...\"", hold.body));
         };
-        if let Some((key, k, x)) = resisting(case, mesh, hold) {
+        if let Some(words) = hold.redundant() {
+            return error(words);
+        }
+        if let Some((key, held, x)) = resisting(case, mesh, hold) {
             return error(format!(
                 "{} of \"{}\" is held at ({}, {}) by {key}, too; leave one of them out",
-                MOTIONS[k], hold.body, x.x, x.y
+                held.key, hold.body, x.x, x.y
             ));
         }
         let spots = case.supports.iter().filter_map(|support| support.at.as_ref());
@@ -37,12 +41,12 @@ pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
 }
 
 /// What resists a held mean motion: its key, the motion, and where.
-fn resisting(case: &Case, mesh: &MacroMesh, hold: &MeanHold) -> Option<(String, usize, Point)> {
+fn resisting<'a>(case: &Case, mesh: &MacroMesh, hold: &'a MeanHold) -> Option<(String, &'a HeldMode, Point)> {
     let (about, reach) = (hold.middle(mesh), hold.reach(mesh));
     let moved = |x: Point, direction: Point| {
-        hold.held().find(|&k| {
-            let whole = if k == 2 { reach } else { 1.0 };
-            rigid_mode(about, k, x).dot(&direction).abs() > AT_REST * whole
+        hold.held.iter().find(|held| {
+            let whole = if held.is_turn() { reach } else { 1.0 };
+            rigid_displacement(about, &held.mode, x).dot(&direction).abs() > AT_REST * whole
         })
     };
     let of_body = |edge: u32| mesh.bodies[mesh.body_beside(edge)] == hold.body;
@@ -63,13 +67,13 @@ fn resisting(case: &Case, mesh: &MacroMesh, hold: &MeanHold) -> Option<(String, 
         for (edge, t) in edges.iter().flat_map(|&edge| [0.0, 0.5, 1.0].map(|t| (edge, t))) {
             let x = mesh.edge_position(edge, t);
             places.push(x);
-            if let Some(k) = moved(x, mesh.edge_normal(edge, t)).filter(|_| support.normal.is_some()) {
-                return Some((key, k, x));
+            if let Some(held) = moved(x, mesh.edge_normal(edge, t)).filter(|_| support.normal.is_some()) {
+                return Some((key, held, x));
             }
         }
         for (x, axis) in places.iter().flat_map(|&x| (0..2).map(move |axis| (x, axis))).filter(|(_, axis)| given[*axis]) {
-            if let Some(k) = moved(x, axes[axis]) {
-                return Some((key, k, x));
+            if let Some(held) = moved(x, axes[axis]) {
+                return Some((key, held, x));
             }
         }
     }
@@ -77,11 +81,11 @@ fn resisting(case: &Case, mesh: &MacroMesh, hold: &MeanHold) -> Option<(String, 
         for (edge, t) in edges(&springs.on).into_iter().flat_map(|edge| [0.0, 0.5, 1.0].map(|t| (edge, t))) {
             let x = mesh.edge_position(edge, t);
             let mut pulling = springs.stiffness.at(x, mesh.edge_normal(edge, t)).into_iter().filter(|(_, k)| *k > 0.0);
-            if let Some(k) = pulling.find_map(|(direction, _)| moved(x, direction)) {
-                return Some((format!("support.{}", springs.name), k, x));
+            if let Some(held) = pulling.find_map(|(direction, _)| moved(x, direction)) {
+                return Some((format!("support.{}", springs.name), held, x));
             }
         }
     }
     let plate = case.plates.iter().find_map(|plate| Some((plate, *edges(&plate.on).first()?)));
-    plate.and_then(|(plate, edge)| Some((format!("load.{}", plate.name), hold.held().next()?, mesh.edge_position(edge, 0.5))))
+    plate.and_then(|(plate, edge)| Some((format!("load.{}", plate.name), hold.held.first()?, mesh.edge_position(edge, 0.5))))
 }

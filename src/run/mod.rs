@@ -33,6 +33,7 @@ mod summarise;
 mod true_errors;
 mod trust;
 mod turns;
+mod unresolved;
 mod zones;
 
 pub use check::{Checked, check, check_file};

@@ -13,6 +13,8 @@ pub enum Outcome {
     Converged,
     /// Not converged, a mechanism, or an expected value missed that must hold: 3.
     NotConverged,
+    /// Solved on a mesh, or contact boundaries, that cannot hold what the case says: 3.
+    Unresolved,
 }
 
 /// Why there is no result.

@@ -6,6 +6,7 @@ use crate::contact::{ClosePair, Extent, Mechanism, close_pairs};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use crate::system::Procedure;
+use std::collections::HashSet;
 use std::path::Path;
 use toml::Value;
 
@@ -78,15 +79,14 @@ pub(super) fn short(value: f64) -> String {
 /// Contacts that a case may have forgotten: boundaries that lie close, of bodies between which it has none.
 pub(super) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
     let body_of = |side: &String| mesh.boundary(side).and_then(|found| found.edges.first()).map(|&edge| mesh.body_beside(edge));
-    let known = |pair: &ClosePair| {
-        case.contacts.iter().any(|contact| {
-            let mut bodies = contact.between.each_ref().map(body_of);
-            bodies.sort_unstable();
-            bodies == pair.bodies.map(Some)
-        })
-    };
+    let bodies = case.contacts.iter().map(|contact| {
+        let mut bodies = contact.between.each_ref().map(body_of);
+        bodies.sort_unstable();
+        bodies
+    });
+    let known: HashSet<[Option<usize>; 2]> = bodies.collect();
     let mut names = TableNames::of(case.contacts.iter().map(|pair| pair.name.clone()));
-    let close = |pair: &ClosePair| pair.share <= 0.02 && !known(pair);
+    let close = |pair: &ClosePair| pair.share <= 0.02 && !known.contains(&pair.bodies.map(Some));
     close_pairs(mesh).iter().filter(|pair| close(pair)).map(|pair| contact_table(pair, &mut names)).collect()
 }
 

@@ -2,14 +2,16 @@
 
 use super::{Outcome, RunOptions, Stages, accuracy, interruption, origin, progress};
 use crate::accuracy::{Accuracy, AdaptedMesh};
+use crate::body::BodyPart;
 use crate::case::{Case, LoadStep};
 use crate::element::Order;
 use crate::mesh::Numbering;
 use crate::output::Summary;
-use crate::output::summary::{Memory, Provenance, Time};
+use crate::output::summary::{MOST_TOLD, Memory, Provenance, Time, WORST, listed};
 use crate::petsc::Session;
 use crate::system::recovery::Evaluation;
 use crate::system::{Contact, Event, Scene};
+use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -147,15 +149,16 @@ impl Report {
 
     /// One mesh of a sequence.
     fn adapted(&self, asked: &Accuracy, mesh: &AdaptedMesh) {
-        let goals = asked.goals.iter().zip(&mesh.errors);
-        let figure = |error: &Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
-        let all: Vec<String> =
-            goals.map(|(goal, error)| format!("{} {}", accuracy::name(&goal.quantity), figure(error))).collect();
+        let figure = |error: Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
+        let error = |place: usize| figure(mesh.errors.get(place).copied().flatten());
+        let goal = |&place: &usize| format!("{} {}", accuracy::name(&asked.goals[place].quantity), error(place));
+        let all: Vec<String> = accuracy::told(asked, Some(mesh)).iter().map(goal).collect();
         self.say(&format!(
-            "mesh {:2}: {} macro triangles, {} unknowns, {}, {:.2} s",
+            "mesh {:2}: {} macro triangles, {} unknowns, {}{}, {:.2} s",
             mesh.number,
             mesh.macro_triangles,
             mesh.unknowns,
+            accuracy::of_how_many(asked, Some(mesh)),
             all.join(", "),
             mesh.seconds
         ));
@@ -170,34 +173,40 @@ impl Report {
         let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
         let first = if self.adapts { "the first mesh: " } else { "" };
         self.say(&format!("{first}{triangles} {order} triangles, {unknowns} unknowns, {multipliers} multipliers"));
-        for contact in contacts {
-            self.say(&format!(
-                "contact {}: {} segments over {}",
-                contact.pair.name,
-                contact.boundary.segments(),
-                length(contact.boundary.length())
-            ));
-            self.bent(scene, contact, level.intervals);
+        contact_lines(contacts).iter().for_each(|line| self.say(line));
+        if level.intervals > 1 {
+            self.bent(scene, contacts);
         }
     }
 
     /// Edges whose shape nobody has declared, and that are taken for chords of something smooth.
-    fn bent(&self, scene: &Scene, contact: &Contact, intervals: usize) {
-        let names = contact.pair.between.iter();
-        let bent = names.map(|name| (name, scene.mesh.bent_by(name))).filter(|(_, by)| *by > 0.0);
-        if intervals > 1 {
-            for (name, by) in bent {
-                self.say(&format!(
-                    "boundary {name}: no [geometry] gives its shape; its edges are bent onto a spline through the nodes of the mesh file, by up to {by:.1e}"
-                ));
-            }
+    fn bent(&self, scene: &Scene, contacts: &[Contact]) {
+        let mut known = HashSet::new();
+        let names = contacts.iter().flat_map(|contact| &contact.pair.between).filter(|name| known.insert(*name));
+        let bent: Vec<(&String, f64)> = names.map(|name| (name, scene.mesh.bent_by(name))).filter(|(_, by)| *by > 0.0).collect();
+        let words =
+            "no [geometry] gives its shape; its edges are bent onto a spline through the nodes of the mesh file, by up to";
+        if bent.len() <= MOST_TOLD {
+            return bent.iter().for_each(|(name, by)| self.say(&format!("boundary {name}: {words} {by:.1e}")));
         }
+        let most = bent.iter().map(|(_, by)| *by).fold(0.0, f64::max);
+        let names: Vec<&String> = bent.iter().map(|(name, _)| *name).collect();
+        self.say(&format!("{} boundaries ({}): {words} {most:.1e}", names.len(), listed(&names)));
     }
 
     /// A stronger preconditioner, which all solves after it keep.
     fn fallback(&self, words: Option<&str>) {
         if let Some(words) = words {
             self.say(&format!("       slow; went over to {words}"));
+        }
+    }
+
+    /// Warnings of one kind, a line each; of many the first ones, and how many others there are.
+    pub fn warn_all(&self, lines: &[String]) {
+        let few = if lines.len() > MOST_TOLD { WORST } else { lines.len() };
+        lines[..few].iter().for_each(|line| self.warn(line));
+        if few < lines.len() {
+            self.warn(&format!("{} more of this kind", lines.len() - few));
         }
     }
 
@@ -213,53 +222,60 @@ impl Report {
 
     /// Bodies that P1 triangles are too stiff for.
     fn locking(&self, scene: &Scene) {
-        for part in scene.parts().into_iter().filter(|part| part.material.poisson_in_plane() > LOCKING) {
-            if scene.order == Order::P1 {
-                self.warn(&format!(
-                    "body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2",
-                    part.name, part.material.poisson
-                ));
-            }
-        }
+        let locks = |part: &&BodyPart| scene.order == Order::P1 && part.material.poisson_in_plane() > LOCKING;
+        let words = |part: &BodyPart| {
+            format!("body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2", part.name, part.material.poisson)
+        };
+        self.warn_all(&scene.parts().into_iter().filter(locks).map(words).collect::<Vec<_>>());
     }
 
     /// Bodies that are strained farther than a theory of small strain goes.
     pub fn large_strains(&self, found: &Evaluation) {
         let bodies = found.problem.scene.bodies.iter().zip(&found.deformations);
-        for (body, largest) in bodies.filter(|(_, largest)| largest.strain > SMALL_STRAIN) {
-            self.warn(&format!(
+        let mut strained: Vec<_> = bodies.filter(|(_, largest)| largest.strain > SMALL_STRAIN).collect();
+        if strained.len() > MOST_TOLD {
+            strained.sort_by(|a, b| b.1.strain.total_cmp(&a.1.strain));
+        }
+        let words = strained.iter().map(|(body, largest)| {
+            format!(
                 "body {} is strained by {:.0} % near ({}, {}): the model is that of small strain, and may be off by more than that",
                 body.name,
                 100.0 * largest.strain,
                 short(largest.place.x),
                 short(largest.place.y)
-            ));
-        }
+            )
+        });
+        self.warn_all(&words.collect::<Vec<_>>());
     }
 
     /// Segments shorter than the safe rule, and what is done about them.
     fn short_segments(&self, contacts: &[Contact]) {
-        for contact in contacts.iter().filter(|contact| contact.has_short_segments()) {
+        let words = |contact: &Contact| {
             let remedy =
                 if contact.jumps.is_empty() { "watch inf_sup and oscillation" } else { "the jump term is added (stabilise)" };
-            self.warn(&format!(
+            format!(
                 "contact {}: segments of {} edges of the softer body, {} or more are safe: {remedy}",
                 contact.pair.name,
                 short(contact.segment_ratio),
                 contact.safe_ratio
-            ));
-        }
+            )
+        };
+        let is_short = |contact: &&Contact| contact.has_short_segments();
+        self.warn_all(&contacts.iter().filter(is_short).map(words).collect::<Vec<_>>());
     }
 
     /// The last words: the verdict, and where the results are. A bad one is printed even if the run is quiet.
     pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
         match outcome {
             Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),
-            Outcome::NotConverged if self.first && !self.speaks => {
-                let words = format!("mezha: NOT converged: {reason}\n");
-                let _ = progress::aside(|| std::io::stderr().write_all(words.as_bytes()));
+            Outcome::NotConverged | Outcome::Unresolved => {
+                let words = if outcome == Outcome::Unresolved { "resolved" } else { "converged" };
+                let words = format!("mezha: NOT {words}: {reason}");
+                if self.first && !self.speaks {
+                    let _ = progress::aside(|| writeln!(std::io::stderr(), "{words}"));
+                }
+                self.say(&words);
             }
-            Outcome::NotConverged => self.say(&format!("mezha: NOT converged: {reason}")),
         }
         self.say(&format!("results in {}", out.display()));
     }
@@ -303,6 +319,32 @@ impl Report {
             memory.sum.unwrap_or(0.0)
         ));
     }
+}
+
+/// A line for each contact; of many one for all.
+pub fn contact_lines(contacts: &[Contact]) -> Vec<String> {
+    if contacts.len() > MOST_TOLD {
+        let range = |all: &mut dyn Iterator<Item = f64>| {
+            all.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], one| [least.min(one), most.max(one)])
+        };
+        let [fewest, most] = range(&mut contacts.iter().map(|contact| contact.boundary.segments() as f64));
+        let [shortest, longest] = range(&mut contacts.iter().map(|contact| contact.boundary.length())).map(length);
+        let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
+        let count = contacts.len();
+        return vec![format!(
+            "{count} contacts: {fewest} to {most} segments over lengths of {shortest} to {longest}, {multipliers} multipliers"
+        )];
+    }
+    let words = |contact: &Contact| {
+        format!(
+            "contact {}: {} segments over a length of {}, {} multipliers",
+            contact.pair.name,
+            contact.boundary.segments(),
+            length(contact.boundary.length()),
+            contact.multipliers.count()
+        )
+    };
+    contacts.iter().map(words).collect()
 }
 
 /// A length to six decimals, in any unit.

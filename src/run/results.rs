@@ -5,7 +5,8 @@ use super::outcome::outside;
 use super::report::{memory, short};
 use super::slivers::slivers;
 use super::{
-    Outcome, Run, RunError, accuracy, expected, fields, figures, interruption, points, progress, summarise, trust, zones,
+    Outcome, Run, RunError, accuracy, expected, fields, figures, interruption, points, progress, summarise, trust, unresolved,
+    zones,
 };
 use crate::accuracy::Adaptation;
 use crate::contact::{Configuration, GapChoice};
@@ -13,9 +14,10 @@ use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{self, Status, Summary};
-use crate::output::{ContactPoint, OutputError, ResultFolder, vtk, write_contact};
+use crate::output::{CONTACTS, ContactPoint, OutputError, ResultFolder, vtk, write_contact, write_contacts};
 use crate::system::recovery::{Evaluation, TracePoint};
 use crate::system::{Contact, Solved, Work};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Share of the drawn distance by which a declared gap may differ from it.
@@ -30,8 +32,7 @@ impl Run<'_> {
         let (mut status, mut reason) = ended(solved);
         if solved.is_solved() {
             let _stage = self.stages.output.enter();
-            let errors = self.evaluate(&mut summary, solved)?;
-            (status, reason) = self.judge(&mut summary, solved, errors);
+            (status, reason) = self.evaluate(&mut summary, solved)?;
         } else if status == Status::Converged {
             (status, reason) = (Status::NotConverged, trust::NO_NUMBERS.into());
         }
@@ -45,6 +46,10 @@ impl Run<'_> {
         summary.status = status;
         summary.reason = Some(reason);
         summary.times_thickness(self.case.thickness);
+        let contacts = self.case.contacts.iter().map(|pair| (pair.name.as_str(), &pair.between));
+        let has_rows = !summary.contact.is_empty() && self.session.rank() == 0;
+        let written = if has_rows { write_contacts(&self.files.join(CONTACTS), contacts, &summary) } else { Ok(()) };
+        self.session.agree(written.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
         Ok(summary)
     }
 
@@ -58,7 +63,12 @@ impl Run<'_> {
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
         self.report.table(&summary);
-        let outcome = if summary.status == Status::Converged { Outcome::Converged } else { Outcome::NotConverged };
+        summary.contacts_in_words().iter().for_each(|words| self.report.say(words));
+        let outcome = match summary.status {
+            Status::Converged => Outcome::Converged,
+            Status::Unresolved => Outcome::Unresolved,
+            Status::NotConverged | Status::Interrupted => Outcome::NotConverged,
+        };
         self.report.verdict(outcome, summary.reason.as_deref().unwrap_or_default(), &self.options.out);
         Ok(outcome)
     }
@@ -105,12 +115,27 @@ impl Run<'_> {
         if let (Status::Converged, Some(words)) = (status, no_result) {
             (status, reason) = (Status::NotConverged, words);
         }
+        if let (Status::Converged, Some(words)) =
+            (status, unresolved::unresolved(summary, self.case, solved.ending.still_moved()))
+        {
+            (status, reason) = (Status::Unresolved, words);
+        }
         summary.errors = errors.values;
         let judgement = trust::judge(summary, self.case, solved.ending.is_converged());
+        if status == Status::Unresolved {
+            for contact in summary.contact.values_mut() {
+                if contact.trust != Some(false) {
+                    contact.verdict = Some("not trusted: the run is not resolved".into());
+                }
+                (contact.trust, contact.trust_force) = (Some(false), Some(false));
+            }
+        }
         if let Some(words) = judgement.unreliable {
             reason = match status {
                 Status::Converged => format!("pressure unreliable: {words}"),
-                Status::NotConverged | Status::Interrupted => format!("{reason}; pressure unreliable: {words}"),
+                Status::NotConverged | Status::Unresolved | Status::Interrupted => {
+                    format!("{reason}; pressure unreliable: {words}")
+                }
             };
             self.report.warn(&format!("pressure unreliable: {words}"));
         }
@@ -121,24 +146,25 @@ impl Run<'_> {
         (status, reason)
     }
 
-    /// Fields, traces, balances and errors; their files too. **Collective**
-    fn evaluate(&self, summary: &mut Summary, solved: &Solved) -> Result<Errors, RunError> {
+    /// Fields, traces, balances and errors, the status and the reason so far; their files too. **Collective**
+    fn evaluate(&self, summary: &mut Summary, solved: &Solved) -> Result<(Status, String), RunError> {
         progress::enter(Work::Recovery);
         let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
         summarise::balances(summary, &found);
         summarise::deformations(summary, &found);
         summary.displacement_max = Some(found.moved);
         self.report.large_strains(&found);
-        points::loaded_points(&found).iter().for_each(|words| self.report.warn(words));
-        let mut traces = Vec::new();
+        self.report.warn_all(&points::loaded_points(&found));
+        let (mut traces, mut apart) = (Vec::new(), Vec::new());
         for (at, contact) in solved.problem.contacts.iter().enumerate() {
             let points = found.traces(&found.pressure(at))?;
-            self.warn_if_apart(contact, &points);
+            apart.extend(apart_words(contact, &points));
             let mut zones = zones::zones(solved, at, &points);
             let mut described = summarise::contact(&found, at, &points);
             let pressing: Vec<[f64; 2]> = zones.iter().filter_map(|zone| zone.ends).collect();
             if contact.pair.configuration == Configuration::Reference {
-                described.missing = found.missing_force(at, &pressing, &points);
+                let (missing, force) = found.missing_force(at, &pressing, &points);
+                (described.missing, described.missing_force) = (missing, Some(force));
                 let at_ends = found.slip_at_ends(at, &pressing, &points);
                 described.slip_at_ends = at_ends.map(|slip| slip.way);
                 described.lost_at_ends = at_ends.map(|slip| slip.lost);
@@ -158,6 +184,7 @@ impl Run<'_> {
             // Rank 0 alone writes and draws them.
             traces.push(if self.session.rank() == 0 { points.iter().map(contact_point).collect() } else { Vec::new() });
         }
+        self.report.warn_all(&apart);
         for point in &self.case.probes {
             let region = solved.problem.scene.mesh.region(&point.body).expect("checked names");
             let probed = found.probe(region, Point::new(point.point[0], point.point[1]))?.ok_or_else(|| outside(point.point))?;
@@ -167,43 +194,10 @@ impl Run<'_> {
             summary.probe.insert(point.name.clone(), values);
         }
         let errors = compare(self.case, &found)?;
+        let judged = self.judge(summary, solved, errors);
         let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
         self.write_files(&found, summary, &traces, adaptation.as_ref())?;
-        Ok(errors)
-    }
-
-    /// Boundaries that are drawn apart, or into each other, by more than their polygons can be, though the gap is declared to
-    /// be another.
-    fn warn_if_apart(&self, contact: &Contact, points: &[TracePoint]) {
-        let segment = contact.boundary.length() / contact.boundary.segments() as f64;
-        let apart = |point: &TracePoint| {
-            let drawn = point.distance[1] - point.distance[0];
-            let (off, share) = match &contact.pair.gap {
-                GapChoice::Geometry => return None,
-                GapChoice::Closed => (drawn.abs(), 0.0),
-                GapChoice::Formula(formula) => ((drawn - formula.value(&[point.x.x, point.x.y])).abs(), MOST_OFF),
-            };
-            // Boundaries that are drawn as touching say nothing of the gap.
-            (drawn.abs().min(off) > 0.1 * segment + share * drawn.abs()).then_some((drawn, point.x))
-        };
-        let all = points.iter().filter(|point| point.is_complete()).filter_map(apart);
-        let Some((drawn, x)) = all.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) else { return };
-        let words = match &contact.pair.gap {
-            GapChoice::Formula(formula) => format!(
-                "gap = {} is declared, {:.3e} at ({}, {}), but the boundaries are drawn {:.3e} {} there; the declared gap counts; if the drawn one is meant, give gap = \"geometry\"",
-                formula.text(),
-                formula.value(&[x.x, x.y]),
-                short(x.x),
-                short(x.y),
-                drawn.abs(),
-                if drawn > 0.0 { "apart" } else { "into each other" }
-            ),
-            _ => format!(
-                "gap = \"closed\", but the boundaries lie up to {:.3e} apart; if that is no error of the mesh, give gap = \"geometry\"",
-                drawn.abs()
-            ),
-        };
-        self.report.warn(&format!("contact {}: {words}", contact.pair.name));
+        Ok(judged)
     }
 
     /// Traces, which rank 0 has, in files; fields and figures too, unless the case wants none. **Collective**
@@ -227,11 +221,47 @@ impl Run<'_> {
         session.agree(fields::write(folder, found, at_node)).map_err(RunError::Failed)?;
         if session.rank() == 0 {
             let curve = |name: &str| folder.join(format!("contact_{name}.vtu"));
-            let mut pairs = found.problem.contacts.iter().zip(traces);
+            let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
+            let pairs = found.problem.contacts.iter().zip(traces);
+            let mut pairs = pairs.filter(|(contact, _)| shown.contains(contact.pair.name.as_str()));
             pairs.try_for_each(|(contact, points)| vtk::write_curve(&curve(&contact.pair.name), points))?;
         }
         if self.draws { self.write_figures(found, summary, traces, adaptation, at_node) } else { Ok(()) }
     }
+}
+
+/// Words for boundaries that are drawn apart, or into each other, by more than their polygons can be, though the gap is declared to
+/// be another.
+fn apart_words(contact: &Contact, points: &[TracePoint]) -> Option<String> {
+    let segment = contact.boundary.length() / contact.boundary.segments() as f64;
+    let apart = |point: &TracePoint| {
+        let drawn = point.distance[1] - point.distance[0];
+        let (off, share) = match &contact.pair.gap {
+            GapChoice::Geometry => return None,
+            GapChoice::Closed => (drawn.abs(), 0.0),
+            GapChoice::Formula(formula) => ((drawn - formula.value(&[point.x.x, point.x.y])).abs(), MOST_OFF),
+        };
+        // Boundaries that are drawn as touching say nothing of the gap.
+        (drawn.abs().min(off) > 0.1 * segment + share * drawn.abs()).then_some((drawn, point.x))
+    };
+    let all = points.iter().filter(|point| point.is_complete()).filter_map(apart);
+    let (drawn, x) = all.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+    let words = match &contact.pair.gap {
+        GapChoice::Formula(formula) => format!(
+            "gap = {} is declared, {:.3e} at ({}, {}), but the boundaries are drawn {:.3e} {} there; the declared gap counts; if the drawn one is meant, give gap = \"geometry\"",
+            formula.text(),
+            formula.value(&[x.x, x.y]),
+            short(x.x),
+            short(x.y),
+            drawn.abs(),
+            if drawn > 0.0 { "apart" } else { "into each other" }
+        ),
+        _ => format!(
+            "gap = \"closed\", but the boundaries lie up to {:.3e} apart; if that is no error of the mesh, give gap = \"geometry\"",
+            drawn.abs()
+        ),
+    };
+    Some(format!("contact {}: {words}", contact.pair.name))
 }
 
 /// How the procedure ended: the status, and its words.
@@ -243,10 +273,7 @@ fn ended(solved: &Solved) -> (Status, String) {
 /// What else a reason says: the estimated error, largest values that mean nothing, contacts without pressure.
 fn remarks(summary: &Summary, status: Status) -> String {
     let mut remarks = String::new();
-    let names = |is: &dyn Fn(&summary::ContactSummary) -> bool| {
-        let all = summary.contact.iter().filter(|(_, contact)| is(contact)).map(|(name, _)| name.as_str());
-        all.collect::<Vec<_>>().join(", ")
-    };
+    let names = |is: &dyn Fn(&summary::ContactSummary) -> bool| summary::listed(&summary.named(is));
     let is_told = summary.accuracy.iter().flatten().any(|step| step.energy.is_some());
     if let (Status::Converged, Some(error), false) = (status, summary.estimate.energy, is_told) {
         remarks += &format!("; estimated error {error:.1e} in the energy norm");
@@ -261,6 +288,17 @@ fn remarks(summary: &Summary, status: Status) -> String {
     let idle = names(&|contact| contact.closed.as_ref().is_some_and(Vec::is_empty));
     if !idle.is_empty() {
         remarks += &format!("; nothing presses on contact {idle}");
+    }
+    let is_touching =
+        |contact: &&summary::ContactSummary| contact.verdict.as_ref().is_some_and(|words| words.starts_with("touches"));
+    let words = summary.contact.values().find(is_touching).and_then(|contact| contact.verdict.as_deref()).unwrap_or_default();
+    match summary.named(|contact| is_touching(&contact))[..] {
+        [] => {}
+        [name] => remarks += &format!("; contact {name} {words}"),
+        ref names => {
+            let words = words.replace("touches", "touch").replace("carries", "carry");
+            remarks += &format!("; {} contacts {words} ({})", names.len(), summary::listed(names));
+        }
     }
     remarks
 }

@@ -197,7 +197,7 @@ pub fn assemble(case: &Case, mesh: impl Into<Rc<MacroMesh>>, partition: impl Int
         order: case.mesh.order,
         refine: case.mesh.refine,
         supports: case.supports.clone(),
-        means: case.means.clone(),
+        means: case.mean_holds(&mesh).unwrap_or_default(),
         rigid: case.rigid_sets(&mesh),
         springs: case.springs.clone(),
         loads: case.loads.clone(),

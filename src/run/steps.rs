@@ -5,7 +5,7 @@ use super::known::check_pressures;
 use super::{Run, RunError, interruption, scene};
 use crate::case::LoadStep;
 use crate::output::summary::{Status, StepSummary, Summary};
-use crate::output::{OutputError, plot, vtk, write_steps};
+use crate::output::{CONTACTS, OutputError, plot, vtk, write_steps};
 use crate::system::{Procedure, Scene, Solved};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -37,10 +37,11 @@ impl Run<'_> {
             let mut seconds = [started.elapsed().as_secs_f64()];
             self.session.max(&mut seconds);
             rows.push(StepSummary::new(step.number, &step.factors, &summary, seconds[0]));
-            if summary.status == Status::NotConverged {
+            if summary.status != Status::Converged {
                 self.report.say(&format!(
-                    "step {}: NOT converged: {}",
+                    "step {}: NOT {}: {}",
                     step.number,
+                    if summary.status == Status::Unresolved { "resolved" } else { "converged" },
                     summary.reason.as_deref().unwrap_or_default()
                 ));
             }
@@ -80,7 +81,7 @@ impl Run<'_> {
 
     /// The verdict on all steps: that of the first one that has not converged, if there is one, else that of the last.
     fn verdict(&self, rows: &[StepSummary]) -> (Status, Option<String>) {
-        let failed: Vec<usize> = (0..rows.len()).filter(|&at| rows[at].status == Status::NotConverged).collect();
+        let failed: Vec<usize> = (0..rows.len()).filter(|&at| rows[at].status != Status::Converged).collect();
         let reason = |at: usize| rows[at].reason.as_deref().unwrap_or_default();
         match failed[..] {
             [] => (
@@ -93,7 +94,7 @@ impl Run<'_> {
                     1 => "; another step has not converged, too".into(),
                     more => format!("; {more} other steps have not converged, too"),
                 };
-                (Status::NotConverged, Some(format!("{}: {}{others}", self.case.steps[first].words(), reason(first))))
+                (rows[first].status, Some(format!("{}: {}{others}", self.case.steps[first].words(), reason(first))))
             }
         }
     }
@@ -105,7 +106,8 @@ impl Run<'_> {
         let count = rows.len();
         let names: Vec<&String> = self.case.contacts.iter().map(|pair| &pair.name).collect();
         let last = files.join(folder(count));
-        for table in names.iter().map(|name| format!("contact_{name}.csv")).filter(|table| files.join(table).exists()) {
+        let tables = names.iter().map(|name| format!("contact_{name}.csv")).chain([CONTACTS.to_owned()]);
+        for table in tables.filter(|table| files.join(table).exists()) {
             std::fs::copy(files.join(&table), last.join(&table)).map_err(OutputError::io("write", &last.join(&table)))?;
         }
         if !self.case.output.fields {

@@ -124,13 +124,19 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
         force: Some(force.force),
         unresolved_force: None,
         resultant: Some(pair(force.resultants[1])),
+        place: place(points),
         moment: Some(force.moments[1]),
         pressure_max: Some(pressure.largest()),
         oscillation: pressure.oscillation(),
         inf_sup,
         zones: Vec::new(),
         missing: None,
+        depth: Some(found.penetrations[at].depth),
+        deepest: (found.penetrations[at].depth > 0.0).then(|| pair(found.penetrations[at].place)),
+        approach: Some(found.penetrations[at].approach),
+        missing_force: None,
         trust: None,
+        verdict: None,
         slip: None,
         slip_at_ends: None,
         lost_at_ends: None,
@@ -141,6 +147,18 @@ pub fn contact(found: &Evaluation, at: usize, points: &[TracePoint]) -> summary:
         trust_force: None,
         lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
     }
+}
+
+/// The centre of the pressure, in either sign; where nothing presses, the point with the smallest gap.
+fn place(points: &[TracePoint]) -> Option<[f64; 2]> {
+    let parts = points.windows(2).map(|ends| {
+        let [a, b] = [0, 1].map(|k| 0.5 * (ends[1].arc - ends[0].arc) * ends[k].lambda.abs());
+        (a + b, a * ends[0].x + b * ends[1].x)
+    });
+    let (weight, moment) = parts.fold((0.0, Point::zeros()), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+    let nearest = || points.iter().filter(|point| point.gap.is_finite()).min_by(|a, b| a.gap.total_cmp(&b.gap));
+    let place = if weight > 0.0 { Some(moment / weight) } else { nearest().map(|point| point.x) };
+    place.map(Into::into)
 }
 
 /// What sliding and turning spoil. Where nothing presses, the growth of bodies that turn is compared with the smallest gap.

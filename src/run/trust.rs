@@ -1,17 +1,21 @@
 //! Whether contact pressures are to be trusted, and what to do where they are not.
 
 mod doubt;
+mod told;
 mod unestimated;
 
 pub(super) use unestimated::MOST_ROTATION;
 
 use super::report::short;
+use crate::accuracy::share_of_nothing;
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, Pair, Quadrature, SegmentRule};
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary;
 use doubt::Doubt;
+use std::collections::BTreeMap;
+use told::{Unknown, Verdict, in_order, unknown, unreliable};
 use unestimated::unestimated_doubts;
 
 /// A contact whose inf-sup constant is below this has pressures that its displacements do not control.
@@ -66,6 +70,9 @@ const MOST_UNBALANCED: f64 = 0.01;
 /// Largest error of the pressure by corners within a contact.
 const MOST_CORNER_ERROR: f64 = 0.04;
 
+/// What a contact without force is called.
+const NOTHING_PRESSES: &str = "nothing presses";
+
 /// What mends a pressure whose bodies are too coarse for it.
 const FINER: &str = "refine the mesh where contact is";
 
@@ -93,41 +100,23 @@ pub struct Judgement {
     pub unknown: Vec<String>,
 }
 
-/// What is said of one contact.
-struct Verdict {
-    doubts: Vec<Doubt>,
-    unknown: Option<String>,
-    trust: Option<bool>,
-    trust_force: Option<bool>,
-}
-
-/// Sets `trust` and `trust_force` of every contact.
+/// Sets `trust`, `trust_force` and `verdict` of every contact.
 pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
-    let (mut told, mut remedies) = (Vec::new(), Vec::new());
-    let mut judgement = Judgement::default();
+    let most = summary.largest_force();
+    let mut verdicts = BTreeMap::new();
     for pair in &as_solved(case) {
         let Some(contact) = summary.contact.get(&pair.name) else { continue };
-        let Verdict { mut doubts, unknown, trust, trust_force } = judge_contact(summary, contact, pair, case, converged);
-        doubts.iter_mut().for_each(|doubt| doubt.remedy = on_order(doubt.remedy, pair, case));
-        if trust.is_none() {
-            judgement.unknown.extend(unknown);
-        }
-        if !doubts.is_empty() {
-            let figures: Vec<&str> = doubts.iter().map(|doubt| doubt.figure.as_str()).collect();
-            let force = if trust_force == Some(true) { ", whose force is to be trusted" } else { "" };
-            told.push(format!("contact {} ({}){force}", pair.name, figures.join("; ")));
-        }
-        for doubt in doubts {
-            if !remedies.contains(&doubt.remedy) {
-                remedies.push(doubt.remedy)
-            }
-        }
-        if let Some(contact) = summary.contact.get_mut(&pair.name) {
-            (contact.trust, contact.trust_force) = (trust, trust_force);
-        }
+        let mut verdict = judge_contact(summary, contact, pair, case, converged, most);
+        verdict.doubts.iter_mut().for_each(|doubt| doubt.remedy = on_order(doubt.remedy, pair, case));
+        verdicts.insert(pair.name.clone(), verdict);
     }
-    judgement.unreliable = (!told.is_empty()).then(|| format!("{}; {}", told.join(", "), remedies.join("; ")));
-    judgement
+    for (name, verdict) in &verdicts {
+        let Some(contact) = summary.contact.get_mut(name) else { continue };
+        (contact.trust, contact.trust_force) = (verdict.trust, verdict.trust_force);
+        contact.verdict = Some(verdict.words());
+    }
+    let names = in_order(summary, case, &verdicts);
+    Judgement { unreliable: unreliable(&names, &verdicts), unknown: unknown(&names, &verdicts) }
 }
 
 /// The contacts of a case as they were solved: with an accuracy the segments are the program's own.
@@ -147,30 +136,54 @@ fn on_order(remedy: &'static str, pair: &Pair, case: &Case) -> &'static str {
 
 /// Trust is false if a figure speaks against the pressure, or if the solve that it comes from has not `converged`; it is null
 /// if nothing tells, or if the corner of a body presses on too few edges.
-fn judge_contact(summary: &Summary, contact: &summary::ContactSummary, pair: &Pair, case: &Case, converged: bool) -> Verdict {
+/// Of the contacts of a scene the largest force is `most`: one that carries next to nothing of that needs no zone resolved.
+fn judge_contact(
+    summary: &Summary,
+    contact: &summary::ContactSummary,
+    pair: &Pair,
+    case: &Case,
+    converged: bool,
+    most: f64,
+) -> Verdict {
     let mut doubts = stability_doubts(contact, pair, case);
     if !converged {
-        return Verdict { doubts, unknown: None, trust: Some(false), trust_force: Some(false) };
+        return Verdict { doubts, trust: Some(false), trust_force: Some(false), ..Verdict::default() };
     }
     if is_rounding(summary, contact, case) {
-        let words = format!("contact {}: the bodies touch without being strained, and press by rounding alone", pair.name);
-        return Verdict { doubts: Vec::new(), unknown: Some(words), trust: None, trust_force: None };
+        let words = "the bodies touch without being strained, and press by rounding alone";
+        return Verdict { unknown: Some(Unknown { cause: words, words: words.into(), remedy: None }), ..Verdict::default() };
     }
+    let idle = idle_words(contact, case, most);
     let force = summary.estimate.contact.get(&pair.name).and_then(|own| own.force);
     // Where nothing presses, meshes agree on a force of zero though the bodies overlap.
     let pressed = !contact.zones.is_empty() || !overlaps(contact);
     let in_balance = is_balanced(summary) && out_of_balance(summary, case).is_none_or(|off| off <= MOST_UNBALANCED_BODY);
     let trust_force = force.map(|error| error <= MOST_FORCE_ERROR && in_balance && pressed);
+    let carries = idle.is_none();
     doubts.extend(zone_doubts(contact, trust_force, more_segments(pair)));
+    doubts.retain(|_| carries);
     doubts.extend(size_doubts(summary, case));
-    doubts.extend(force_doubt(force));
-    let beyond = unestimated_doubts(summary, contact, case, more_segments(pair));
+    doubts.extend(force_doubt(force).filter(|_| carries));
+    let beyond = unestimated_doubts(summary, contact, case, more_segments(pair), carries);
     let trust_force = trust_force.map(|trust| trust && beyond.is_empty());
     doubts.extend(beyond);
-    doubts.extend(corner_doubt(contact, pair.between.each_ref().map(String::as_str)));
-    let unknown = unknown_words(contact, &pair.name, trust_force, on_order(more_segments(pair), pair, case));
+    let corners = corner_doubt(contact, pair.between.each_ref().map(String::as_str));
+    doubts.extend(corners.filter(|_| carries));
+    let unknown = unknown_of(contact, trust_force, on_order(more_segments(pair), pair, case)).filter(|_| carries);
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
-    Verdict { doubts, unknown, trust, trust_force }
+    let idle = idle.or_else(|| (contact.force == Some(0.0) && contact.zones.is_empty()).then(|| NOTHING_PRESSES.into()));
+    Verdict { doubts, unknown, trust, trust_force, idle }
+}
+
+/// What a contact is called that carries next to nothing of the largest force, with all that overlaps beside it are worth.
+fn idle_words(contact: &summary::ContactSummary, case: &Case, most: f64) -> Option<String> {
+    let share = share_of_nothing(case.accuracy.as_ref());
+    let force = contact.force?.abs();
+    let worth = force + contact.unresolved_force?.max(contact.missing_force.unwrap_or(0.0));
+    (worth < share * most).then(|| match force {
+        0.0 => NOTHING_PRESSES.into(),
+        _ => format!("touches; carries less than {share:e} of the largest force"),
+    })
 }
 
 /// Whether bodies have only moved, so that the little that presses is noise, which no mesh repeats.
@@ -190,13 +203,19 @@ fn is_strained(summary: &Summary, case: &Case) -> bool {
 fn stability_doubts(contact: &summary::ContactSummary, pair: &Pair, case: &Case) -> Vec<Doubt> {
     let unstable = contact.inf_sup.filter(|beta| *beta < LEAST_INF_SUP);
     let segment = contact.h_ratio.map_or(String::new(), |ratio| format!(" with segments of {} edges", short(ratio)));
-    let unstable = unstable.map(|beta| format!("inf-sup constant {beta:.3}{segment}, at least {LEAST_INF_SUP} wanted"));
+    let unstable = unstable.map(|beta| {
+        let figure = format!("inf-sup constant {beta:.3}{segment}, at least {LEAST_INF_SUP} wanted");
+        ("the inf-sup constant is too small", figure)
+    });
     // Beside a singular end λ swings without harm to its middle, which the estimate tells.
     let harmless = contact.zones.iter().filter(|zone| zone.counts(&contact.zones)).all(|zone| is_proved(zone.lambda));
     let rough = contact.oscillation.filter(|share| *share > MOST_OSCILLATION && !harmless);
-    let rough = rough.map(|share| format!("oscillation {share:.3}{segment}, at most {MOST_OSCILLATION} wanted"));
+    let rough = rough.map(|share| {
+        let figure = format!("oscillation {share:.3}{segment}, at most {MOST_OSCILLATION} wanted");
+        ("the pressure oscillates", figure)
+    });
     let remedy = stability(pair, case);
-    [unstable, rough].into_iter().flatten().map(|figure| Doubt { figure, remedy }).collect()
+    [unstable, rough].into_iter().flatten().map(|(cause, figure)| Doubt { cause, figure, remedy }).collect()
 }
 
 /// What tells that zones are too narrow, or too coarse, for their pressure.
@@ -217,30 +236,31 @@ fn zone_doubts(contact: &summary::ContactSummary, trust_force: Option<bool>, sho
         let good = proved || is_proved(zone.lambda) && zone.worst.is_some_and(|worst| worst <= MOST_PEAK_ERROR);
         if edges < LEAST_PARTS && !proved {
             doubts.push(Doubt {
+                cause: "contact is narrower than four edges",
                 figure: format!("contact{place} {edges:.1} edges wide, at least {LEAST_PARTS} wanted"),
                 remedy: FINER,
             });
         } else if (segments as f64) < LEAST_PARTS && !good {
             let words = format!("contact{place} on {segments} segments, at least {LEAST_PARTS} wanted");
-            doubts.push(Doubt { figure: words, remedy: shorter });
+            doubts.push(Doubt { cause: "contact lies on fewer than four segments", figure: words, remedy: shorter });
         }
         let force = zone.force.filter(|_| zone.share.is_some_and(|share| share.abs() >= LEAST_FORCE_SHARE));
         let steps = contact.multiplier.as_deref() == Some("p0");
         let most_all_over = if steps { MOST_ERROR_OF_STEPS } else { MOST_ERROR_ALL_OVER };
         let errors = [
-            ("of λ", zone.lambda, MOST_PRESSURE_ERROR),
-            ("of λ up to the ends of contact", zone.whole, most_all_over),
-            ("of the largest λ", zone.peak, MOST_PEAK_ERROR),
-            ("of the force", force, MOST_PRESSURE_ERROR),
+            ("of λ", "λ is too inexact", zone.lambda, MOST_PRESSURE_ERROR),
+            ("of λ up to the ends of contact", "λ is too inexact up to the ends of contact", zone.whole, most_all_over),
+            ("of the largest λ", "the largest λ is too inexact", zone.peak, MOST_PEAK_ERROR),
+            ("of the force", "the force is too inexact", force, MOST_PRESSURE_ERROR),
         ];
-        for (what, error, most) in errors {
+        for (what, cause, error, most) in errors {
             let wrong = error.filter(|error| *error > most);
             let figure = |error| format!("estimated error {what}{place} {error:.2}, at most {most} wanted");
-            doubts.extend(wrong.map(|error| Doubt { figure: figure(error), remedy: FINER }));
+            doubts.extend(wrong.map(|error| Doubt { cause, figure: figure(error), remedy: FINER }));
         }
     }
-    let words = "the bodies overlap where no segment presses";
-    doubts.extend(overlaps(contact).then(|| Doubt { figure: words.into(), remedy: shorter }));
+    let cause = "the bodies overlap where no segment presses";
+    doubts.extend(overlaps(contact).then(|| Doubt { cause, figure: cause.into(), remedy: shorter }));
     doubts
 }
 
@@ -265,9 +285,9 @@ pub fn passed_through(summary: &Summary) -> Option<String> {
         let is_idle = contact.force == Some(0.0) && contact.closed.as_ref().is_some_and(Vec::is_empty);
         is_idle && is_worth && contact.missing.is_some_and(|missing| missing > MOST_PASSED)
     };
-    let passed: Vec<&str> = summary.contact.iter().filter(|(_, contact)| is_passed(contact)).map(|at| at.0.as_str()).collect();
+    let passed = summary.named(is_passed);
     (!passed.is_empty()).then(|| {
-        let names = passed.join(", ");
+        let names = summary::listed(&passed);
         format!("on contact {names} nothing presses, though the bodies overlap: its segments are too few or too long to see it")
     })
 }
@@ -277,20 +297,23 @@ fn size_doubts(summary: &Summary, case: &Case) -> Vec<Doubt> {
     let mut doubts = Vec::new();
     let wrong = summary.estimate.energy.filter(|error| *error > MOST_ERROR);
     let words = |error| format!("estimated error in the energy norm {error:.2}, at most {MOST_ERROR} wanted");
-    doubts.extend(wrong.map(|error| (words(error), FINER)));
+    doubts.extend(wrong.map(|error| ("the error in the energy norm is too large", words(error), FINER)));
     let off = out_of_balance(summary, case).filter(|off| *off > MOST_UNBALANCED_BODY);
     let words = |off| format!("the forces on a body are out of balance by {}, at most {MOST_UNBALANCED_BODY} wanted", short(off));
-    doubts.extend(off.map(|off| (words(off), "take a smaller solver.tolerance, or correct what holds the bodies")));
+    let remedy = "take a smaller solver.tolerance, or correct what holds the bodies";
+    doubts.extend(off.map(|off| ("the forces on a body are out of balance", words(off), remedy)));
     let off = summary.balance.force.filter(|_| !is_balanced(summary));
     let words = |off| format!("forces on the two bodies differ by {}, at most {MOST_UNBALANCED} wanted", short(off));
-    doubts.extend(off.map(|off| (words(off), "see lost_points: the bodies must face each other all along the boundary")));
-    doubts.into_iter().map(|(figure, remedy)| Doubt { figure, remedy }).collect()
+    let remedy = "see lost_points: the bodies must face each other all along the boundary";
+    doubts.extend(off.map(|off| ("forces on the two bodies differ", words(off), remedy)));
+    doubts.into_iter().map(|(cause, figure, remedy)| Doubt { cause, figure, remedy }).collect()
 }
 
 /// What tells that the force of a contact is not known.
 fn force_doubt(error: Option<f64>) -> Option<Doubt> {
     let error = error.filter(|error| *error > MOST_PRESSURE_ERROR)?;
     Some(Doubt {
+        cause: "the whole force is too inexact",
         figure: format!("estimated error of the whole force {error:.2}, at most {MOST_PRESSURE_ERROR} wanted"),
         remedy: FINER,
     })
@@ -309,6 +332,7 @@ fn corner_doubt(contact: &summary::ContactSummary, [a, b]: [&str; 2]) -> Option<
     let error = contact.corner_error.filter(|error| *error > MOST_CORNER_ERROR)?;
     let angle = contact.corner_angle.unwrap_or(f64::NAN);
     Some(Doubt {
+        cause: "a body has corners within the contact",
         figure: format!(
             "\"{a}\" or \"{b}\" has corners of up to {angle:.0} degrees within the contact, which change λ by about {}",
             short(error)
@@ -317,24 +341,23 @@ fn corner_doubt(contact: &summary::ContactSummary, [a, b]: [&str; 2]) -> Option<
     })
 }
 
-/// What neither speaks for a pressure nor against it, in words.
-fn unknown_words(
-    contact: &summary::ContactSummary,
-    name: &str,
-    trust_force: Option<bool>,
-    remedy: &'static str,
-) -> Option<String> {
+/// What neither speaks for a pressure nor against it.
+fn unknown_of(contact: &summary::ContactSummary, trust_force: Option<bool>, remedy: &'static str) -> Option<Unknown> {
     let zones = &contact.zones;
     let counting = || zones.iter().filter(|zone| zone.counts(zones));
     if let Some(zone) = counting().find(|zone| is_concentrated(zone, trust_force)) {
         let edges = zone.edges.unwrap_or(f64::NAN);
-        return Some(format!(
-            "contact {name}: the corner of a body presses on {edges:.1} edges: its force is to be trusted, its pressure is singular there"
-        ));
+        let words = format!(
+            "the corner of a body presses on {edges:.1} edges: its force is to be trusted, its pressure is singular there"
+        );
+        return Some(Unknown { cause: "the corner of a body presses, the force is to be trusted", words, remedy: None });
     }
-    counting()
-        .any(|zone| zone.lambda.is_none() && !(is_proved(zone.worst) && is_divided(zone)))
-        .then(|| format!("contact {name}: nothing estimates the error of its pressure; {remedy}"))
+    let cause = "nothing estimates the error of its pressure";
+    counting().any(|zone| zone.lambda.is_none() && !(is_proved(zone.worst) && is_divided(zone))).then(|| Unknown {
+        cause,
+        words: cause.into(),
+        remedy: Some(remedy),
+    })
 }
 
 /// A reaction at the corner of a body that no mesh resolves: the force is right.

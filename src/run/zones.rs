@@ -1,7 +1,7 @@
 //! What each zone of a contact that presses is, and what is estimated of its pressure.
 
 use super::trust::{LEAST_PARTS, PROVES};
-use crate::contact::Zone;
+use crate::contact::{Zone, hertz_width};
 use crate::output::summary;
 use crate::system::Solved;
 use crate::system::recovery::TracePoint;
@@ -18,6 +18,7 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
     let forces: Vec<f64> = zones.iter().map(|zone| pressure.force_of(zone)).collect();
     let whole: f64 = forces.iter().map(|force| force.abs()).sum();
     let estimates = estimate.of_zones(at, &pressure, &zones, points);
+    let gaps_at_rest = || points.iter().map(|point| [point.arc, contact.pair.gap.at_rest(point.x, point.distance)]);
     let describe = |(k, zone): (usize, &Zone)| {
         let (found, at_ends) = &estimates[k];
         let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
@@ -31,6 +32,13 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
             edges: Some(edges),
             segments: Some(zone.segments.len()),
             share: Some(forces[k] / whole),
+            hertz_width: hertz_width(
+                gaps_at_rest(),
+                zone.arcs,
+                forces[k],
+                contact.modulus_at(0.5 * (zone.arcs[0] + zone.arcs[1])),
+            )
+            .filter(|width| *width <= contact.boundary.length()),
             pressure_max: Some(pressure.peak_of(zone)),
             lambda: found.pressure.filter(tells),
             whole: found.inside.filter(tells),

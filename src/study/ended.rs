@@ -13,6 +13,8 @@ pub enum RunStatus {
     Converged,
     /// Exit code 3: not converged, a mechanism, or an expected value missed.
     NotConverged,
+    /// Exit code 3 too: solved on a mesh, or contact boundaries, that cannot hold what the case says.
+    Unresolved,
     /// Exit code 2: the case cannot be used as the study makes it.
     Refused,
     /// It took too long and was stopped.
@@ -40,14 +42,21 @@ pub struct Ended {
 
 impl RunStatus {
     /// All of them, the good one first.
-    pub const ALL: [RunStatus; 5] =
-        [RunStatus::Converged, RunStatus::NotConverged, RunStatus::Refused, RunStatus::Timeout, RunStatus::Failed];
+    pub const ALL: [RunStatus; 6] = [
+        RunStatus::Converged,
+        RunStatus::Unresolved,
+        RunStatus::NotConverged,
+        RunStatus::Refused,
+        RunStatus::Timeout,
+        RunStatus::Failed,
+    ];
 
     /// As the table has it.
     pub fn words(self) -> &'static str {
         match self {
             Self::Converged => "converged",
             Self::NotConverged => "not_converged",
+            Self::Unresolved => "unresolved",
             Self::Refused => "refused",
             Self::Timeout => "timeout",
             Self::Failed => "failed",
@@ -58,7 +67,7 @@ impl RunStatus {
 impl Ended {
     /// Whether it was solved, and has left a summary that says how; that of an interrupted run only says how far it came.
     pub fn has_result(&self) -> bool {
-        !self.summary.is_null() && matches!(self.status, RunStatus::Converged | RunStatus::NotConverged)
+        !self.summary.is_null() && matches!(self.status, RunStatus::Converged | RunStatus::NotConverged | RunStatus::Unresolved)
     }
 
     /// Whether the run converged to a pressure that can be trusted, as far as is known; the reason goes without saying then.

@@ -173,11 +173,12 @@ fn judge(ending: ExitStatus, summary: &Value, said: &str) -> (RunStatus, String)
     let status = match ending.code() {
         Some(0) if summary["status"] == "converged" => RunStatus::Converged,
         Some(3) if summary["status"] == "not_converged" => RunStatus::NotConverged,
+        Some(3) if summary["status"] == "unresolved" => RunStatus::Unresolved,
         Some(2) => RunStatus::Refused,
         _ => RunStatus::Failed,
     };
     let words = match (status, reason) {
-        (RunStatus::Converged | RunStatus::NotConverged, Some(reason)) => Some(reason.to_owned()),
+        (RunStatus::Converged | RunStatus::NotConverged | RunStatus::Unresolved, Some(reason)) => Some(reason.to_owned()),
         _ => last_words(said),
     };
     let how = || match (ending.code(), ending.signal()) {
@@ -221,9 +222,12 @@ mod tests {
     fn exit_codes_and_summary_must_agree() {
         let good = json!({ "status": "converged", "reason": "residual" });
         let bad = json!({ "status": "not_converged", "reason": "body upper can move" });
+        let coarse = json!({ "status": "unresolved", "reason": "too narrow" });
         let table = [
             (ending(0), &good, "", RunStatus::Converged, "residual"),
             (ending(3), &bad, "mezha: NOT converged: body upper can move", RunStatus::NotConverged, "body upper can move"),
+            (ending(3), &coarse, "mezha: NOT resolved: too narrow", RunStatus::Unresolved, "too narrow"),
+            (ending(0), &coarse, "", RunStatus::Failed, "exit code 0, but summary.json does not say so"),
             (
                 ending(2),
                 &Value::Null,

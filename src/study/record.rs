@@ -114,7 +114,7 @@ impl Record {
     /// is gone.
     pub fn ended(&self, summary: Value, timeout: Duration, result: &str) -> Option<Ended> {
         let stands = match self.status {
-            RunStatus::Converged | RunStatus::NotConverged => !summary.is_null(),
+            RunStatus::Converged | RunStatus::NotConverged | RunStatus::Unresolved => !summary.is_null(),
             RunStatus::Refused => true,
             RunStatus::Timeout => self.timeout_s >= timeout.as_secs_f64(),
             RunStatus::Failed => false,

@@ -101,8 +101,11 @@ impl Contact {
         Ok(contacts)
     }
 
-    /// `first` counts the multipliers on.
-    fn new(
+    /// One contact by itself; `first` counts the multipliers on.
+    ///
+    /// # Errors
+    /// As of [`Contact::all_again`].
+    pub(super) fn new(
         scene: &Scene,
         numbering: &Numbering,
         rank: usize,
@@ -262,15 +265,10 @@ fn is_stabilised(pair: &Pair, has_short_segments: bool) -> bool {
 
 /// The boundaries of every contact must face each other, and no two contacts claim the same place.
 fn check_facing(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Result<(), SystemError> {
-    let words = |contact: &Contact, words: String| SystemError::Case(format!("contact.{}: {words}", contact.pair.name));
     let all: Vec<Facing> =
         contacts.iter().map(|contact| Facing::new(&scene.mesh, numbering, &contact.pair, &contact.boundary)).collect();
-    for (at, facing) in all.iter().enumerate() {
-        facing.check(&scene.mesh).map_err(|why| words(&contacts[at], why))?;
-        let clash = all[..at].iter().find_map(|other| facing.clash(other));
-        clash.map_or(Ok(()), |why| Err(words(&contacts[at], why)))?;
-    }
-    Ok(())
+    Facing::check_all(&all, &scene.mesh)
+        .map_err(|(at, why)| SystemError::Case(format!("contact.{}: {why}", contacts[at].pair.name)))
 }
 
 #[cfg(test)]

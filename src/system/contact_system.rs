@@ -6,15 +6,8 @@ use super::{
     SolverChoice, Space, SystemError, inf_sup,
 };
 use crate::petsc::{Matrix, Session, Vector};
-use nalgebra::DVector;
 use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
-
-/// Solves with rigid sets that move, for one active set: each brings their balance to its own tolerance of the one before.
-const MOST_BALANCED: usize = 8;
-
-/// Relative residual of the responses to their motion, at most.
-const RESPONSE: f64 = 1e-6;
 
 /// What a solve begins with.
 pub struct Start {
@@ -41,20 +34,10 @@ pub struct System<'a> {
     right_hand_side: OnceCell<Vector>,
     /// The residual of the unknowns, once somebody has asked for it or a solve has told it.
     residual: Cell<Option<Residual>>,
-    rigid: RigidState,
-}
-
-/// Rigid sets with an unknown motion.
-struct RigidState {
-    border: RigidBorder,
-    /// Free components of the motion.
+    /// Rigid motions that are unknown, if there are any.
+    border: Option<Rc<RigidBorder>>,
+    /// These motions, beside the unknowns.
     motion: Vec<f64>,
-    /// Unknowns that answer to each of them, for an active set.
-    responses: Vec<Vector>,
-    /// The border's product with each response.
-    products: Vec<DVector<f64>>,
-    /// Relative residual of the responses; nothing if they are those of another active set.
-    solved_to: Option<f64>,
 }
 
 impl<'a> System<'a> {
@@ -69,11 +52,27 @@ impl<'a> System<'a> {
         preconditioning: Preconditioning,
         session: &Session,
     ) -> Result<Self, SystemError> {
+        let border = RigidBorder::new(problem, session)?.map(Rc::new);
+        let blocks = match &border {
+            Some(border) => blocks.with_border(problem, border.clone(), session)?,
+            None => blocks,
+        };
         let solver = LinearSolver::new(&blocks, interpolations, choice, preconditioning, session)?;
         let unknowns = blocks.nest.create_vectors()?.0;
-        let rigid = RigidState::new(problem, &unknowns, session)?;
+        let motion = vec![0.0; border.as_ref().map_or(0, |border| border.components.len())];
         let (session, right_hand_side, residual) = (session.clone(), OnceCell::new(), Cell::new(None));
-        Ok(Self { problem, session, blocks, solver, is_solver_current: true, unknowns, right_hand_side, residual, rigid })
+        Ok(Self {
+            problem,
+            session,
+            blocks,
+            solver,
+            is_solver_current: true,
+            unknowns,
+            right_hand_side,
+            residual,
+            border,
+            motion,
+        })
     }
 
     /// What it was assembled from.
@@ -103,7 +102,6 @@ impl<'a> System<'a> {
         }
         self.blocks.set_active(self.problem, active)?;
         self.is_solver_current = false;
-        self.rigid.solved_to = None;
         self.right_hand_side.take();
         self.residual.take();
         let unknowns = self.space().local_unknowns();
@@ -117,17 +115,16 @@ impl<'a> System<'a> {
     /// Takes over the unknowns of a start, and its active set. **Collective**
     pub fn begin(&mut self, start: &Start) -> Result<(), SystemError> {
         self.residual.take();
-        if self.rigid.border.is_empty() {
-            put(&self.blocks, self.space(), start, &mut self.unknowns);
-        } else {
-            let motion = self.rigid.border.motion_of(self.problem, &start.displacement, &self.session);
-            let back: Vec<f64> = motion.iter().map(|component| -component).collect();
-            let mut displacement = start.displacement.clone();
-            self.rigid.border.displace(self.problem, &back, &mut displacement);
-            let (pressures, active) = (start.pressures.clone(), start.active.clone());
-            put(&self.blocks, self.space(), &Start { displacement, pressures, active }, &mut self.unknowns);
-            self.move_rigidly(motion);
-        }
+        let Some(border) = &self.border else {
+            put(&self.blocks, self.problem.finest(), start, &mut self.unknowns);
+            return self.set_active(&start.active);
+        };
+        self.motion = border.motion_of(self.problem, &start.displacement, &self.session);
+        let back: Vec<f64> = self.motion.iter().map(|component| -component).collect();
+        let mut displacement = start.displacement.clone();
+        border.displace(self.problem.finest(), &back, &mut displacement);
+        let (pressures, active) = (start.pressures.clone(), start.active.clone());
+        put(&self.blocks, self.problem.finest(), &Start { displacement, pressures, active }, &mut self.unknowns);
         self.set_active(&start.active)
     }
 
@@ -135,101 +132,34 @@ impl<'a> System<'a> {
     /// it. **Collective**
     pub fn solve(&mut self, tolerance: f64) -> Result<LinearSolve, SystemError> {
         self.bring_solver_up_to_date()?;
-        if self.rigid.border.is_empty() {
-            return self.solve_at_rest(tolerance);
-        }
-        self.balance_rigid_sets(tolerance)?;
-        let mut solve = self.solve_at_rest(tolerance)?;
-        for _ in 0..MOST_BALANCED {
-            if matches!(solve.ending, LinearEnding::Failed { .. }) || self.balance_rigid_sets(tolerance)? <= tolerance {
-                return Ok(solve);
-            }
-            let again = self.solve_at_rest(tolerance)?;
-            solve = LinearSolve { iterations: solve.iterations + again.iterations, ..again };
-        }
-        let reason = "the forces on rigid tools or plates do not come to balance".into();
-        let (iterations, residual) = (solve.iterations, solve.residual);
-        Ok(LinearSolve { ending: LinearEnding::Failed { reason, iterations, residual }, ..solve })
-    }
-
-    /// Solves with the rigid sets where they are. **Collective**
-    fn solve_at_rest(&mut self, tolerance: f64) -> Result<LinearSolve, SystemError> {
         self.right_hand_side()?;
         let (b, known) = (self.right_hand_side.get().expect("just made"), self.residual.take());
-        let (solve, residual) = self.solver.solve(&self.blocks, b, &mut self.unknowns, known, tolerance)?;
+        let (mut solve, residual) = self.solver.solve(&self.blocks, b, &mut self.unknowns, known, tolerance)?;
         self.residual.set(Some(residual));
+        self.motion = self.blocks.motion(&self.unknowns, &self.blocks.given(), None, &self.motion);
+        if self.blocks.border.as_ref().is_some_and(|border| border.borrow().is_driven_freely()) {
+            let reason = "the forces on rigid tools or plates do not come to balance".into();
+            let LinearSolve { iterations, residual, .. } = solve;
+            solve.ending = LinearEnding::Failed { reason, iterations, residual };
+        }
         Ok(solve)
-    }
-
-    /// Moves the rigid sets, and all else with them, to where their forces balance. What they were out of balance by before,
-    /// relative to the largest force on them, is returned; less than `enough` is left as it is. **Collective**
-    fn balance_rigid_sets(&mut self, enough: f64) -> Result<f64, SystemError> {
-        self.respond(enough.min(RESPONSE))?;
-        let pressures = self.pressures();
-        let product = self.with_free_displacement(|u| self.rigid.border.transposed(u, &pressures, &self.session));
-        let unbalanced = self.rigid.border.unbalanced(&product, &self.rigid.motion);
-        let share = self.rigid.border.share(&unbalanced, &pressures, self.largest_displacement());
-        if share > enough {
-            let correction = self.rigid.border.correction(&self.rigid.products, &unbalanced);
-            for (response, by) in self.rigid.responses.iter().zip(correction.iter()) {
-                self.unknowns.axpy(-by, response)?;
-            }
-            self.move_rigidly(self.rigid.motion.iter().zip(correction.iter()).map(|(q, by)| q + by).collect());
-        }
-        Ok(share)
-    }
-
-    fn move_rigidly(&mut self, motion: Vec<f64>) {
-        self.blocks.move_rigidly(&self.rigid.border, &motion);
-        self.rigid.motion = motion;
-        self.right_hand_side.take();
-        self.residual.take();
-    }
-
-    /// Solves for the responses to the motions of rigid sets, if those that are known are not exact enough or those of another
-    /// active set. **Collective**
-    fn respond(&mut self, tolerance: f64) -> Result<(), SystemError> {
-        if self.rigid.solved_to.is_some_and(|known| known <= tolerance) {
-            return Ok(());
-        }
-        self.rigid.products.clear();
-        for component in 0..self.rigid.border.len() {
-            let (forces, gaps) = self.rigid.border.column(component);
-            let b = self.blocks.right_hand_side_of(forces, gaps, self.problem.finest())?;
-            let response = &mut self.rigid.responses[component];
-            self.solver.solve(&self.blocks, &b, response, None, tolerance)?;
-            let unknowns = self.problem.finest().local_unknowns();
-            let pressures = pressures_of(&self.blocks, &response.values()[unknowns..], &self.session);
-            let [product, _] = self.rigid.border.transposed(&response.values()[..unknowns], &pressures, &self.session);
-            self.rigid.products.push(product);
-        }
-        self.rigid.solved_to = Some(tolerance);
-        Ok(())
     }
 
     /// Displacements under other nodal forces (`load`, of this rank) and other gaps, all else as it is: the active set,
     /// supports that do not move. **Collective**
     pub fn response(&mut self, load: &[f64], gap: &[f64], tolerance: f64) -> Result<Vec<f64>, SystemError> {
         self.bring_solver_up_to_date()?;
-        let b = self.blocks.right_hand_side_of(load, gap, self.space())?;
+        let loads = self.border.as_ref().map(|border| border.loads_of(self.space(), load, &self.session)).unwrap_or_default();
+        let given = [loads, vec![0.0; self.motion.len()]];
+        let b = self.blocks.right_hand_side_of(load, gap, &given, self.space())?;
         let mut x = self.unknowns.duplicate()?;
         x.set(0.0)?;
         self.solver.solve(&self.blocks, &b, &mut x, None, tolerance)?;
-        let unknowns = self.space().local_unknowns();
-        if self.rigid.border.is_empty() {
-            return Ok(x.values()[..unknowns].to_vec());
+        let mut displacement = x.values()[..self.space().local_unknowns()].to_vec();
+        if let Some(border) = &self.border {
+            let motion = self.blocks.motion(&x, &given, Some(gap), &vec![0.0; self.motion.len()]);
+            border.displace(self.space(), &motion, &mut displacement);
         }
-        self.respond(tolerance)?;
-        let pressures = pressures_of(&self.blocks, &x.values()[unknowns..], &self.session);
-        let given = self.rigid.border.loaded(self.problem, load, &self.session);
-        let [product, _] = self.rigid.border.transposed(&x.values()[..unknowns], &pressures, &self.session);
-        let unbalanced = given - product;
-        let motion = self.rigid.border.correction(&self.rigid.products, &unbalanced);
-        for (response, by) in self.rigid.responses.iter().zip(motion.iter()) {
-            x.axpy(-by, response)?;
-        }
-        let mut displacement = x.values()[..unknowns].to_vec();
-        self.rigid.border.displace(self.problem, motion.as_slice(), &mut displacement);
         Ok(displacement)
     }
 
@@ -274,7 +204,7 @@ impl<'a> System<'a> {
     fn residual_of(&self, x: &Vector) -> Result<(Vector, Residual), SystemError> {
         let b = self.right_hand_side()?;
         let mut r = b.duplicate()?;
-        self.blocks.nest.residual(b, x, &mut r)?;
+        self.blocks.product.residual(b, x, &mut r)?;
         let norms = Residual { norm: r.norm()?, whole: b.norm()? };
         Ok((r, norms))
     }
@@ -299,14 +229,16 @@ impl<'a> System<'a> {
                 displacement[2 * (node - space.own.start) + k] = constraint.value[k];
             }
         }
-        self.rigid.border.displace(self.problem, &self.rigid.motion, &mut displacement);
+        if let Some(border) = &self.border {
+            border.displace(space, &self.motion, &mut displacement);
+        }
         displacement
     }
 
     /// Largest displacement of a node along an axis of its frame (length). **Collective**
     pub fn largest_displacement(&self) -> f64 {
         let larger = |most: f64, value: &f64| most.max(value.abs());
-        let mut most = [if self.rigid.border.is_empty() {
+        let mut most = [if self.border.is_none() {
             let of_supports = self.space().constraints.iter().filter(|(node, _)| self.space().own.contains(node));
             let fixed = of_supports.flat_map(|(_, of)| of.fixed.iter().zip(&of.value).filter(|(fixed, _)| **fixed));
             fixed.map(|(_, value)| value).fold(self.with_free_displacement(|u| u.iter().fold(0.0, larger)), larger)
@@ -324,7 +256,7 @@ impl<'a> System<'a> {
 
     /// `(B u - c)_i` of all multipliers, active or not, for this rank's displacements (length squared). **Collective**
     pub fn penetration(&self, displacement: &[f64]) -> Vec<f64> {
-        self.blocks.penetration(displacement, self.space(), &self.session)
+        self.blocks.penetration(displacement, &self.motion, self.space(), &self.session)
     }
 
     /// `C λ` of the jump term (length squared).
@@ -361,21 +293,6 @@ impl<'a> System<'a> {
     /// Options that the user gave and nothing has asked for.
     pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
         self.solver.unused_options()
-    }
-}
-
-impl RigidState {
-    /// Sets at rest. **Collective**
-    fn new(problem: &Discretisation, unknowns: &Vector, session: &Session) -> Result<Self, SystemError> {
-        let border = RigidBorder::new(problem, session)?;
-        let count = border.len();
-        let mut responses = Vec::new();
-        for _ in 0..count {
-            let mut response = unknowns.duplicate()?;
-            response.set(0.0)?;
-            responses.push(response);
-        }
-        Ok(Self { border, motion: vec![0.0; count], responses, products: Vec::new(), solved_to: None })
     }
 }
 

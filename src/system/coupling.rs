@@ -68,6 +68,18 @@ impl Coupling {
     }
 }
 
+/// Rows of `B` and weighted gaps of contacts whose edges are all on this rank.
+///
+/// # Errors
+/// As of [`Coupling::new`].
+pub fn coupled_here(contacts: &[Contact]) -> Result<(Vec<Vec<Coupled>>, Vec<f64>), SystemError> {
+    let mut own = Share::new(contacts);
+    own.integrate(contacts)?;
+    let Share { entries, mut gap, .. } = own;
+    add_declared_gaps(contacts, &mut gap)?;
+    Ok((entries.into_rows(contacts), gap))
+}
+
 /// What the edges of one rank contribute to all contacts.
 struct Share {
     entries: Entries,

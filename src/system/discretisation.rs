@@ -21,6 +21,8 @@ pub struct Discretisation {
     pub motion: BoundaryMotion,
     /// What holds each body whose mean motion is held: force, and moment about its middle (per thickness).
     pub mean_forces: Vec<[f64; 3]>,
+    /// What presses as far as the programme of the first mesh tells, where no solution is known.
+    pub first_set: Option<Vec<bool>>,
 }
 
 impl Discretisation {
@@ -48,7 +50,7 @@ impl Discretisation {
     ) -> Result<Self, SystemError> {
         let coupling = Coupling::new(&scene, &spaces, &contacts, session)?;
         let mean_forces = vec![[0.0; 3]; scene.means.len()];
-        Ok(Self { scene, spaces, contacts, coupling, motion, mean_forces })
+        Ok(Self { scene, spaces, contacts, coupling, motion, mean_forces, first_set: None })
     }
 
     /// Puts contacts in place that were placed again on moved bodies, and couples them. **Collective**
@@ -57,7 +59,7 @@ impl Discretisation {
     /// [`SystemError::Case`] if a contact boundary cannot be measured.
     pub fn replace(&mut self, contacts: Vec<Contact>, motion: BoundaryMotion, session: &Session) -> Result<(), SystemError> {
         self.coupling = Coupling::new(&self.scene, &self.spaces, &contacts, session)?;
-        (self.contacts, self.motion) = (contacts, motion);
+        (self.contacts, self.motion, self.first_set) = (contacts, motion, None);
         Ok(())
     }
 

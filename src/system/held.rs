@@ -1,22 +1,17 @@
 //! Whether supports and contact hold every piece of every body.
 
+use super::free_motion::FreeMotion;
 use crate::body::{Constraints, RigidSet};
-use crate::contact::{Condition, Extent, Mechanism, Side, Touch, find_mechanism, integrate};
+use crate::contact::{self, Condition, Extent, Mechanism, Side, Touch, find_mechanism};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals};
 use crate::petsc::Session;
-use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError};
+use crate::system::{Contact, Coupled, Discretisation, Scene, SystemError, coupled_here};
 use std::collections::{HashMap, HashSet};
-
-/// Points of a boundary that are proposed for a support.
-const POINTS: usize = 8;
 
 /// Cosine of the angle (8 degrees) between a chord's normal and that of its arc at most.
 const ALIKE: f64 = 0.99;
-
-/// Points that are tried, whether a support there would hold all.
-const MOST_POINTS: usize = 32;
 
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
 pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
@@ -28,7 +23,7 @@ pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) ->
 /// # Errors
 /// [`SystemError::Case`] if a contact cannot be integrated.
 pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Result<Option<String>, SystemError> {
-    let rows = coupled_rows(contacts)?;
+    let rows = coupled_here(contacts)?.0;
     Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.not_held(&vec![true; rows.len()]))
 }
 
@@ -41,51 +36,31 @@ pub fn free_motion_if_closed(
     numbering: &Numbering,
     contacts: &[Contact],
 ) -> Result<Option<Mechanism>, SystemError> {
-    let rows = coupled_rows(contacts)?;
+    let rows = coupled_here(contacts)?.0;
     Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.mechanism(&vec![true; rows.len()]))
 }
 
-/// What each multiplier couples, of contacts whose edges are all on this rank.
-fn coupled_rows(contacts: &[Contact]) -> Result<Vec<Vec<Coupled>>, SystemError> {
-    let mut rows = vec![Vec::new(); contacts.last().map_or(0, |contact| contact.range().end)];
-    for contact in contacts {
-        for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
-            let (rule, edges) = (contact.pair.quadrature, &contact.edges[k]);
-            let own = integrate(&contact.boundary, &contact.multipliers, rule, side, edges, &contact.distance(k))
-                .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
-            for entry in own.entries {
-                let coupled = Coupled { node: entry.node, body: contact.bodies[k], side, value: entry.value };
-                rows[contact.first + entry.multiplier].push(coupled);
-            }
-        }
-    }
-    Ok(rows)
-}
-
-/// Whether some body could move if this contact were open: then equilibrium sets its force, and bodies that are a little
+/// For each contact whether some body could move if it were open: then equilibrium sets its force, and bodies that are a little
 /// farther apart there come together again. **Collective**
-pub fn is_needed(problem: &Discretisation, active: &[bool], contact: &Contact, session: &Session) -> bool {
-    let mut others = active.to_vec();
-    others[contact.range()].fill(false);
-    Restraints::of(problem, session).mechanism(&others).is_some()
+pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Session) -> Vec<bool> {
+    let (whole, extents) = (Restraints::of(problem, session), problem.scene.extents());
+    contact::needed_contacts(&extents, &support_conditions(&problem.scene, &extents), &whole.touches(&extents, active))
 }
 
-/// Of the open multipliers those with the largest `force`, 1, 2, 4, ... of them: as many as it takes to hold every body.
-/// **Collective**
+/// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
+/// the largest `force` on a contact of the body that moves. **Collective**
 pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64, session: &Session) -> Vec<usize> {
-    let mut open: Vec<usize> = (0..active.len()).filter(|&i| !active[i]).collect();
-    open.sort_by(|&a, &b| force(b).total_cmp(&force(a)));
-    let (whole, mut count) = (Restraints::of(problem, session), 1);
-    while count < open.len() {
-        let mut closed = active.to_vec();
-        open[..count].iter().for_each(|&i| closed[i] = true);
-        if whole.mechanism(&closed).is_none() {
-            break;
-        }
-        count *= 2;
+    let whole = Restraints::of(problem, session);
+    let (mut closed, mut few) = (active.to_vec(), Vec::new());
+    while let Some(mechanism) = whole.mechanism(&closed) {
+        let body = problem.scene.mesh.pieces[mechanism.piece].body;
+        let own = problem.contacts.iter().filter(|contact| contact.bodies.contains(&body));
+        let open = own.flat_map(Contact::range).filter(|&i| !closed[i]);
+        let Some(next) = open.max_by(|&a, &b| force(a).total_cmp(&force(b))) else { break };
+        closed[next] = true;
+        few.push(next);
     }
-    open.truncate(count);
-    open
+    few
 }
 
 /// Everything that holds bodies. Rigid motions are those of the undeformed bodies: a disc that is pressed flat rolls on.
@@ -128,15 +103,22 @@ impl<'a> Restraints<'a> {
     /// **Collective**
     fn not_held(&self, active: &[bool]) -> Option<String> {
         let extents = self.scene.extents();
-        let touches = self.touches(&extents, active);
-        let mechanism = find_mechanism(&extents, &support_conditions(self.scene, &extents), &touches)?;
+        let (supports, touches) = (support_conditions(self.scene, &extents), self.touches(&extents, active));
+        let mechanism = find_mechanism(&extents, &supports, &touches)?;
+        let free = FreeMotion { scene: self.scene, mechanism: &mechanism, extents: &extents, supports: &supports };
+        let name = self.scene.mesh.name_of_piece(mechanism.piece);
+        if let Some(contact) = free.stopped_by(&self.touches(&extents, &vec![true; active.len()])) {
+            return Some(format!(
+                "{name} can {} with what was found to press, but its loads drive it against contact {}, which would hold it: no set of what presses was found; refine the mesh where contact is, or draw the bodies where they touch",
+                mechanism.motion, self.contacts[contact].pair.name
+            ));
+        }
         let by = if active.contains(&true) {
             "supports and contact do not hold it"
         } else {
             "contact is open everywhere and supports do not hold it"
         };
-        let name = self.scene.mesh.name_of_piece(mechanism.piece);
-        Some(format!("{name} can {}: {by}; {}", mechanism.motion, self.remedy(&mechanism, &extents, &touches)))
+        Some(format!("{name} can {}: {by}; {}", mechanism.motion, free.remedy(&touches)))
     }
 
     /// What the closed multipliers of a contact that are this rank's resist, by the normals of body 1 and by those of body 2.
@@ -190,59 +172,6 @@ impl<'a> Restraints<'a> {
         };
         pieces.into_iter().filter_map(of_piece).collect()
     }
-
-    /// A support at one point that would hold the motion, on a named boundary without contact if there is one; rather such a
-    /// one that leaves no other motion free.
-    fn remedy(&self, mechanism: &Mechanism, extents: &[Extent], touches: &[Touch]) -> String {
-        if let Some(tool) = self.scene.tool(self.scene.mesh.pieces[mechanism.piece].body) {
-            return format!("prescribe ux, uy or angle of {}", tool.key);
-        }
-        let extent = &extents[mechanism.piece];
-        let supports = support_conditions(self.scene, extents);
-        let holds_all = |at: &SupportPoint| {
-            let terms = [(at.point, Point::ith(at.axis, 1.0))];
-            let with: Vec<Condition> = Condition::new(extents, mechanism.piece, None, &terms, 0.0).into_iter().collect();
-            find_mechanism(extents, &[supports.as_slice(), &with].concat(), touches).is_none()
-        };
-        let mut candidates = self.support_points(mechanism, extent);
-        candidates.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
-        let Some(at) = candidates.iter().take(MOST_POINTS).find(|at| holds_all(at)).or(candidates.first()) else {
-            return "hold it by a support at one of its points, at = [x, y] with ux or uy".into();
-        };
-        format!(
-            "hold it, for example by a support with at = [{}, {}], body = \"{}\" and {} = 0, which is a point of \"{}\"",
-            coordinate(at.point.x, extent.radius),
-            coordinate(at.point.y, extent.radius),
-            self.scene.bodies[self.scene.mesh.pieces[mechanism.piece].body].name,
-            ["ux", "uy"][at.axis],
-            at.boundary,
-        )
-    }
-
-    /// Vertices on the named boundaries of a piece, with the axis in which they move most; some of each boundary.
-    fn support_points(&self, mechanism: &Mechanism, extent: &Extent) -> Vec<SupportPoint<'_>> {
-        let mesh = &self.scene.mesh;
-        let touches = |name: &str| self.scene.pairs.iter().any(|pair| pair.between.iter().any(|side| side == name));
-        let mut found = Vec::new();
-        for boundary in mesh.physical_curves() {
-            let own: Vec<u32> =
-                boundary.edges.iter().copied().filter(|&edge| mesh.piece_beside(edge) == mechanism.piece).collect();
-            for &edge in own.iter().step_by(own.len().div_ceil(POINTS).max(1)) {
-                let point = mesh.vertices[mesh.edges[edge as usize].vertices[0] as usize];
-                let u = mechanism.displacement(extent, point);
-                // Rounded, so that the order does not hang on the last digit.
-                let moves = (1e6 * u.amax()).round();
-                found.push(SupportPoint {
-                    free: !touches(&boundary.name),
-                    moves,
-                    boundary: &boundary.name,
-                    point,
-                    axis: u.iamax(),
-                });
-            }
-        }
-        found
-    }
 }
 
 /// What the multipliers of all ranks resist, by the ranks that own them. **Collective**
@@ -264,23 +193,6 @@ fn of_all_ranks(own: &[Touch], session: &Session) -> Vec<Touch> {
         all[key[0] as usize / 2][key[0] as usize % 2].push(Condition { piece, against, sees, doubt: value[6] });
     }
     all
-}
-
-/// A coordinate as the case wants it: so many digits that a vertex is known again.
-fn coordinate(v: f64, large: f64) -> String {
-    let unit = 10f64.powf(large.log10().floor() - 9.0);
-    if v.abs() < unit { "0".into() } else { format!("{:.9e}", (v / unit).round() * unit).parse::<f64>().unwrap_or(v).to_string() }
-}
-
-/// Where a support might be.
-struct SupportPoint<'a> {
-    /// Whether no contact is there.
-    free: bool,
-    /// How far the point moves.
-    moves: f64,
-    boundary: &'a str,
-    point: Point,
-    axis: usize,
 }
 
 /// Everything that supports hold, at the macro vertices.

@@ -1,8 +1,8 @@
 //! Nodal forces of all loads.
 
-use super::mean_motion::mean_weights;
+use super::held_bodies::{HeldBodies, holds_of_bodies};
 use super::{Discretisation, Field, Scene, SystemError};
-use crate::body::{Applied, applied_forces, check_body_forces, check_loads};
+use crate::body::{Applied, applied_forces, body_forces, check_body_forces, check_loads};
 use crate::geometry::Point;
 use crate::mesh::Numbering;
 use crate::petsc::Session;
@@ -28,14 +28,28 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         session.agree(find_bad_force(scene, numbering, rank)).map_err(SystemError::Case)?;
         return Err(SystemError::Case("load or body_force: nodal forces are too large to be counted; make them smaller".into()));
     }
-    let mut forces = forces.sum(session)?;
-    for (hold, held) in problem.scene.means.iter().zip(&problem.mean_forces) {
-        for k in hold.held().filter(|&k| held[k] != 0.0) {
-            let weights = mean_weights(problem, hold, k, session)?;
-            forces.subtract(&weights.map(|weight| weight.map(|component| -held[k] * component)));
-        }
+    if problem.mean_forces.iter().flatten().any(|force| *force != 0.0) {
+        add_mean_forces(problem, &mut forces, session)?;
     }
-    Ok(forces)
+    forces.sum(session)
+}
+
+/// Adds what holds mean motions, as far as it acts on this rank's macro triangles. **Collective**
+fn add_mean_forces(problem: &Discretisation, forces: &mut Field<2>, session: &Session) -> Result<(), SystemError> {
+    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+    let (bodies, of_body) = (HeldBodies::new(problem, session)?, holds_of_bodies(problem));
+    for triangle in scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize) {
+        let Some(hold) = of_body[scene.mesh.triangles[triangle].body as usize] else { continue };
+        let spread = bodies.spread(hold, &problem.mean_forces[hold]);
+        let density = |points: &[Point; 6]| points.map(|x| bodies.moved(hold, &spread, x));
+        // No triangle is turned inside out: the bodies have been measured.
+        _ = body_forces(&scene.mesh, triangle, numbering, density, &mut |node, force: Point| {
+            let sum = forces.at_mut(node);
+            sum[0] += force.x;
+            sum[1] += force.y;
+        });
+    }
+    Ok(())
 }
 
 /// The load or force on this rank's macro triangles that has no finite value.

@@ -1,359 +1,274 @@
 //! Rigid motions that are unknown: of tools that carry a force, of plates that press, of bodies whose mean motion is held.
 //!
-//! The nodes of such a set are prescribed, by a motion `q` that follows from its balance. Beside the blocks `A x = b` of
-//! displacements and multipliers stands a border,
+//! Everything moves by `u + R q`: `q` are components of such motions, `R` the displacements of the nodes that move along. With the
+//! multipliers `μ` of the means, stationary energy beside the blocks of displacements and contact reads
 //!
 //! ```text
-//! [ A   T ] [x]   [b]        T = [ K R ]        R: displacements of the set's nodes by each free component of its motion
-//! [ Tᵀ  D ] [q] = [h]            [ B R ]        D = Rᵀ K R,   h = F + Rᵀ (f - K u_D)
+//! K u + Bᵀ λ + K R q + M μ = f          K R: zero but for plates; R moves all of a tool or a body
+//! B u - C λ + B R q        = c
+//! (K R)ᵀ u + (B R)ᵀ λ + Rᵀ K R q + μ = F + Rᵀ (f - K u_D)         what the motion is balanced by
+//! Mᵀ u + q                 = a          of bodies whose mean is held
 //! ```
-//! `R` moves all of a tool, so that `K R = 0`: its border is that of the gaps alone. The border
-//! is eliminated: `(D - Tᵀ A⁻¹ T) q = h - Tᵀ A⁻¹ b`, with one solve for each free component and active set. `A` is that
-//! of sets at rest, so that nothing in its solver has to know of them.
-//!
-//! A body whose mean motion is held has two unknowns for each component of it: how far the whole body has moved, `q`, a column as
-//! of a tool; and the force `μ` that holds it, spread over the body by the weights `M` of the mean, with the column `-M`. The row
-//! of `q` is the mean, `M u + M R q` as it was asked for; that of `μ` the balance of the body, `(B R)ᵀ λ - Rᵀ M μ = Rᵀ f`, so that
-//! its anchors carry nothing.
+//! Vertices hold the nodes of such bodies, the others are prescribed: the blocks are those of sets at rest. Here are the parts that
+//! no active set changes; [`super::SaddlePoint`] has what becomes of them in a system.
 
-use super::mean_motion::{mean_motion, mean_weights, nodes_of_body};
+use super::held_bodies::{HeldBodies, held_motions, holds_of_bodies};
 use super::rigid_motions;
-use crate::body::{MeanHold, RigidNodes, RigidSet, rigid_mode};
+use crate::body::{Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
 use crate::geometry::Point;
+use crate::mesh::lattice;
 use crate::petsc::Session;
 use crate::system::recovery::{SpringForces, internal_forces};
-use crate::system::{Coupled, Discretisation, Field, SystemError, nodal_forces};
-use nalgebra::{DMatrix, DVector};
-use std::collections::BTreeMap;
-use std::rc::Rc;
-
-/// Singular values of the border below this share of the largest belong to motions that nothing resists.
-const NOTHING: f64 = 1e-13;
+use crate::system::{Discretisation, Field, Space, SystemError, nodal_forces};
+use nalgebra::DMatrix;
+use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
 
 /// Gaps below this share of what their terms add up to are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Forces below this share of those that they are the difference of are rounding.
-const LOST: f64 = 16.0 * f64::EPSILON;
+/// Values at unknowns of this rank.
+pub type Sparse = Vec<(u32, f64)>;
 
-/// A column or a row of the border.
-#[derive(Clone)]
-struct BorderLine {
-    /// Its part on this rank's free unknowns, in the nodes' frames.
-    displacement: Rc<[f64]>,
-    /// Its part on all multipliers.
-    pressures: Rc<[f64]>,
-}
-
-/// An unknown of the border: a component of a rigid motion, or the force that holds its mean.
-struct Component {
-    /// Index of what moves: the rigid sets of the scene, then the bodies whose mean motion is held.
-    set: usize,
-    /// Which of its components.
-    k: usize,
-    /// Whether it is the force that holds the mean.
-    holds: bool,
-    /// What it and its row are multiplied and divided by, so that all entries of the border are alike.
-    scale: [f64; 2],
-    /// `T`.
-    column: BorderLine,
-    /// `Tᵀ`, or what stands in its place.
-    row: BorderLine,
-    /// `h`: force or moment to balance, or the mean that is asked for.
-    given: f64,
+/// A component of a rigid motion.
+pub struct RigidComponent {
+    mode: Motion,
+    /// `K R` on this rank's free unknowns, in the nodes' frames.
+    pub forces: Sparse,
+    /// Its row of `Mᵀ`, the same way, if its mean is held.
+    pub mean: Option<Sparse>,
+    /// Size that its motion is measured by: one, or for a turn the arm (length).
+    pub arm: f64,
+    /// `F + Rᵀ (f - K u_D)`: force or moment to balance.
+    pub load: f64,
+    /// `a - Mᵀ u_D`.
+    pub asked: f64,
 }
 
 /// All unknown components of rigid motions.
 pub struct RigidBorder {
-    components: Vec<Component>,
-    /// `D`.
-    corner: DMatrix<f64>,
+    /// Those of the rigid sets of the scene, then those of the bodies whose mean motion is held.
+    pub components: Vec<RigidComponent>,
+    /// Components of each.
+    of_set: Vec<Range<usize>>,
+    /// What each turns about.
+    about: Vec<Point>,
+    /// `B R` by multipliers: components with their gaps.
+    pub gaps: Vec<Vec<(usize, f64)>>,
+    /// `Rᵀ K R` of the rigid sets.
+    pub stiffness: DMatrix<f64>,
+    /// Largest Young's modulus of what is no tool: forces are measured by it.
+    pub young: f64,
     /// Nodes of this rank that move along: the place of their unknowns, with what they move, and where they are.
     nodes: Vec<(usize, usize, Point)>,
-    /// What each of these motions turns about.
-    about: Vec<Point>,
 }
 
 impl RigidBorder {
-    /// Assembles the columns. **Collective**
-    pub fn new(problem: &Discretisation, session: &Session) -> Result<Self, SystemError> {
-        let (mesh, sets, means) = (&problem.scene.mesh, &problem.scene.rigid, &problem.scene.means);
-        let about = sets.iter().map(|set| set.about).chain(means.iter().map(|hold| hold.middle(mesh))).collect();
-        let mut border = Self { components: Vec::new(), corner: DMatrix::zeros(0, 0), nodes: Vec::new(), about };
-        if means.is_empty() && sets.iter().all(|set| set.free().next().is_none()) {
-            return Ok(border);
+    /// Assembles them; nothing if there are none. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] from PETSc or an inverted triangle.
+    pub fn new(problem: &Discretisation, session: &Session) -> Result<Option<Self>, SystemError> {
+        let scene = &problem.scene;
+        if scene.means.is_empty() && scene.rigid.iter().all(|set| set.free().next().is_none()) {
+            return Ok(None);
         }
+        let mut border = Self {
+            components: Vec::new(),
+            of_set: Vec::new(),
+            about: Vec::new(),
+            gaps: Vec::new(),
+            stiffness: DMatrix::zeros(0, 0),
+            young: scene.young().into_iter().filter(|young| young.is_finite()).fold(f64::MIN_POSITIVE, f64::max),
+            nodes: Vec::new(),
+        };
         let loads = nodal_forces(problem, session)?;
-        let mut rows = Vec::new();
-        for (number, set) in sets.iter().enumerate() {
-            rows.extend(border.add_set(problem, number, set, &loads, session)?);
+        border.add_sets(problem, &loads, session)?;
+        if !scene.means.is_empty() {
+            border.add_held_bodies(problem, &loads, session)?;
         }
-        for (at, hold) in means.iter().enumerate() {
-            rows.extend(border.add_mean(problem, sets.len() + at, hold, &loads, session)?);
-        }
-        border.close(problem, &rows, session);
-        Ok(border)
+        border.gaps = border.moved_gaps(problem, session);
+        Ok(Some(border))
     }
 
-    /// Adds the free components of a rigid set, and returns the rows of their balances. **Collective**
-    fn add_set(
-        &mut self,
-        problem: &Discretisation,
-        number: usize,
-        set: &RigidSet,
-        loads: &Field<2>,
-        session: &Session,
-    ) -> Result<Vec<Field<2>>, SystemError> {
-        let space = problem.finest();
-        let places = set.places(&problem.scene.mesh, &space.numbering);
-        let arm = arm(problem, set, &places, session);
-        let moved = moved_nodes(problem, set, &places, session.rank());
-        self.nodes.extend(moved.into_iter().map(|(node, x)| (2 * (node - space.own.start), number, x)));
+    /// Adds the free components of the rigid sets. **Collective**
+    fn add_sets(&mut self, problem: &Discretisation, loads: &Field<2>, session: &Session) -> Result<(), SystemError> {
+        let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let mut rows = Vec::new();
-        for k in set.free() {
-            let row = moved_forces(problem, set, k, &places, session)?;
-            let (forces, at_rest) = free_part(problem, &row);
-            let own = space.own.clone().zip(loads.own());
-            let pushed = own.filter_map(|(node, load)| Some(Point::from(*load).dot(&set.mode(k, *places.get(&node)?))));
-            let given = pushed.sum::<f64>() - at_rest;
-            let gaps = moved_gaps(problem, session, |coupled| {
-                let x = places.get(&coupled.node.number(&problem.scene.mesh, &space.numbering));
-                x.map(|x| set.mode(k, *x))
-            });
-            let (arm, young) = (if k == 2 { arm } else { 1.0 }, largest_young(problem));
-            let column = BorderLine { displacement: forces, pressures: gaps };
-            let scale = [arm, arm * young];
-            self.components.push(Component { set: number, k, holds: false, scale, row: column.clone(), column, given });
-            rows.push(row);
-        }
-        Ok(rows)
-    }
-
-    /// Adds the components of a body whose mean is held, and returns the rows of its mean and of its balance. **Collective**
-    fn add_mean(
-        &mut self,
-        problem: &Discretisation,
-        number: usize,
-        hold: &MeanHold,
-        loads: &Field<2>,
-        session: &Session,
-    ) -> Result<Vec<Field<2>>, SystemError> {
-        let (mesh, space, about) = (&problem.scene.mesh, problem.finest(), self.about[number]);
-        let nodes = nodes_of_body(problem, &hold.body, session.rank());
-        let mut rows = Vec::new();
-        for k in hold.held() {
-            let weights = mean_weights(problem, hold, k, session)?;
-            let (mean, at_rest) = free_part(problem, &weights);
-            let force: Rc<[f64]> = mean.iter().map(|weight| -weight).collect();
-            let nothing: Rc<[f64]> = vec![0.0; mean.len()].into();
-            let gaps = moved_gaps(problem, session, |coupled| {
-                let x = coupled.node.place(mesh, &space.numbering);
-                (problem.scene.bodies[coupled.body].name == hold.body).then(|| rigid_mode(about, k, x))
-            });
-            let no_gaps: Rc<[f64]> = vec![0.0; gaps.len()].into();
-            let (arm, young) = (if k == 2 { hold.reach(mesh) } else { 1.0 }, largest_young(problem));
-            self.components.push(Component {
-                set: number,
-                k,
-                holds: false,
-                scale: [arm, 1.0 / arm],
-                column: BorderLine { displacement: nothing.clone(), pressures: gaps.clone() },
-                row: BorderLine { displacement: mean, pressures: no_gaps.clone() },
-                given: -at_rest,
-            });
-            let pushed = nodes.iter().map(|(&node, &x)| loads.point(node).dot(&rigid_mode(about, k, x)));
-            self.components.push(Component {
-                set: number,
-                k,
-                holds: true,
-                scale: [1.0 / (arm * young), arm * young],
-                column: BorderLine { displacement: force, pressures: no_gaps },
-                row: BorderLine { displacement: nothing, pressures: gaps },
-                given: pushed.sum(),
-            });
-            rows.extend([weights, Field::zeros(problem, session)]);
-        }
-        self.nodes.extend(nodes.into_iter().map(|(node, x)| (2 * (node - space.own.start), number, x)));
-        Ok(rows)
-    }
-
-    /// Adds up over the ranks what the nodes of each give, and forms `D`. **Collective**
-    fn close(&mut self, problem: &Discretisation, rows: &[Field<2>], session: &Session) {
-        let (scene, count) = (&problem.scene, self.components.len());
-        let mut sums = vec![0.0; count * count + count];
-        for (i, row) in rows.iter().enumerate() {
-            for (j, other) in self.components.iter().enumerate() {
-                let mode = |x: &Point| rigid_mode(self.about[other.set], other.k, *x);
-                let own = self.nodes.iter().filter(|(_, set, _)| *set == other.set);
-                sums[i * count + j] = own.map(|(at, _, x)| Point::from(row.own()[at / 2]).dot(&mode(x))).sum();
+        for (number, set) in problem.scene.rigid.iter().enumerate() {
+            let places = set.places(mesh, &space.numbering);
+            let arm = arm(problem, set, &places, session);
+            let moved = moved_nodes(problem, set, &places, session.rank());
+            self.nodes.extend(moved.into_iter().map(|(node, x)| (2 * (node - space.own.start), number, x)));
+            let first = self.components.len();
+            for k in set.free() {
+                let row = moved_forces(problem, set, k, &places, session)?;
+                let mut forces = Free::new(problem);
+                space.own.clone().zip(row.own()).for_each(|(node, force)| forces.add(node, Point::from(*force)));
+                let own = places.iter().filter(|(node, _)| space.own.contains(node));
+                let pushed: f64 = own.map(|(&node, &x)| loads.point(node).dot(&set.mode(k, x))).sum();
+                self.components.push(RigidComponent {
+                    mode: UNIT_MOTIONS[k],
+                    arm: if k == 2 { arm } else { 1.0 },
+                    load: pushed - forces.at_rest,
+                    forces: forces.values,
+                    mean: None,
+                    asked: 0.0,
+                });
+                rows.push(row);
             }
-            sums[count * count + i] = self.components[i].given;
+            self.of_set.push(first..self.components.len());
+            self.about.push(set.about);
+        }
+        let count = rows.len();
+        let mut sums: Vec<f64> = self.components.iter().map(|component| component.load).collect();
+        for row in &rows {
+            let mut works = vec![0.0; count];
+            for &(at, set, x) in &self.nodes {
+                let force = Point::from(row.own()[at / 2]);
+                self.of_set[set].clone().for_each(|j| works[j] += force.dot(&self.moved(set, j, x)));
+            }
+            sums.extend(works);
         }
         session.sum(&mut sums);
-        let all = DMatrix::from_row_slice(count, count, &sums[..count * count]);
-        let holds: Vec<bool> = self.components.iter().map(|component| component.holds).collect();
-        // Beside each mean stands its force, with `-Rᵀ M` of the same modes and weights.
-        self.corner = DMatrix::from_fn(count, count, |i, j| match (holds[i], holds[j]) {
-            (false, false) => all[(i, j)],
-            (true, true) => -all[(j - 1, i - 1)],
-            _ => 0.0,
-        });
-        for (component, given) in self.components.iter_mut().zip(&sums[count * count..]) {
-            let asked = match component.set.checked_sub(scene.rigid.len()) {
-                None => scene.rigid[component.set].applied[component.k],
-                Some(at) => scene.means[at].mean[component.k].filter(|_| !component.holds).unwrap_or_default(),
-            };
-            component.given = given + asked;
+        self.stiffness = DMatrix::from_row_slice(count, count, &sums[count..]);
+        let applied = problem.scene.rigid.iter().flat_map(|set| set.free().map(|k| set.applied[k]));
+        for ((component, load), applied) in self.components.iter_mut().zip(sums).zip(applied) {
+            component.load = load + applied;
         }
+        Ok(())
     }
 
-    /// Number of unknowns.
-    pub fn len(&self) -> usize {
-        self.components.len()
+    /// Adds the modes of bodies whose mean is held. **Collective**
+    fn add_held_bodies(&mut self, problem: &Discretisation, loads: &Field<2>, session: &Session) -> Result<(), SystemError> {
+        let (scene, space) = (&problem.scene, problem.finest());
+        let bodies = HeldBodies::new(problem, session)?;
+        let (sets, first) = (self.of_set.len(), self.components.len());
+        let mut means: Vec<Free> = Vec::new();
+        for (number, hold) in scene.means.iter().enumerate() {
+            self.of_set.push(self.components.len()..self.components.len() + hold.held.len());
+            self.about.push(bodies.about[number]);
+            for (held, &asked) in hold.held.iter().zip(&bodies.asked[number]) {
+                let (arm, forces) = (if held.is_turn() { hold.reach(&scene.mesh) } else { 1.0 }, Sparse::new());
+                self.components.push(RigidComponent { mode: held.mode, forces, mean: None, arm, load: 0.0, asked });
+                means.push(Free::new(problem));
+            }
+        }
+        let mut pushed = vec![0.0; means.len()];
+        for &(node, hold, x) in &bodies.nodes {
+            for (weight, j) in bodies.weights(problem, hold, node).into_iter().zip(self.of_set[sets + hold].clone()) {
+                means[j - first].add(node, weight);
+                pushed[j - first] += loads.point(node).dot(&self.moved(sets + hold, j, x));
+            }
+            self.nodes.push((2 * (node - space.own.start), sets + hold, x));
+        }
+        let mut sums: Vec<f64> = pushed.into_iter().chain(means.iter().map(|mean| mean.at_rest)).collect();
+        session.sum(&mut sums);
+        let (pushed, at_rest) = sums.split_at(means.len());
+        for (k, (component, mean)) in self.components[first..].iter_mut().zip(means).enumerate() {
+            (component.load, component.mean) = (pushed[k], Some(mean.values));
+            component.asked -= at_rest[k];
+        }
+        Ok(())
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.components.is_empty()
+    /// Displacement of a place when a component of its set is one.
+    fn moved(&self, set: usize, component: usize, x: Point) -> Point {
+        rigid_displacement(self.about[set], &self.components[component].mode, x)
     }
 
-    /// The column of an unknown: forces on this rank's unknowns in the nodes' frames, and gaps of all multipliers.
-    pub fn column(&self, component: usize) -> (&[f64], &[f64]) {
-        let BorderLine { displacement, pressures } = &self.components[component].column;
-        (displacement, pressures)
+    /// `B R` by multipliers; what cancels is left out. **Collective**
+    fn moved_gaps(&self, problem: &Discretisation, session: &Session) -> Vec<Vec<(usize, f64)>> {
+        let (scene, numbering, coupling) = (&problem.scene, &problem.finest().numbering, &problem.coupling);
+        let (of_body, mut of_node) = (holds_of_bodies(problem), HashMap::<usize, Vec<(usize, Point)>>::new());
+        for (number, set) in scene.rigid.iter().enumerate().filter(|(number, _)| !self.of_set[*number].is_empty()) {
+            let places = set.places(&scene.mesh, numbering);
+            places.into_iter().for_each(|(node, x)| of_node.entry(node).or_default().push((number, x)));
+        }
+        let (mut places, mut values) = (Vec::new(), Vec::new());
+        let mut sums = BTreeMap::<usize, [f64; 2]>::new();
+        for row in coupling.own(0..coupling.owners.len(), session.rank()) {
+            for coupled in &coupling.rows[row] {
+                let of_sets = of_node.get(&coupled.node.number(&scene.mesh, numbering)).into_iter().flatten().copied();
+                let held =
+                    of_body[coupled.body].map(|hold| (scene.rigid.len() + hold, coupled.node.place(&scene.mesh, numbering)));
+                for (set, x) in of_sets.chain(held) {
+                    for component in self.of_set[set].clone() {
+                        let u = self.moved(set, component, x);
+                        let [sum, whole] = sums.entry(component).or_default();
+                        *sum += coupled.value.dot(&u);
+                        *whole += coupled.value.norm() * u.norm();
+                    }
+                }
+            }
+            for (component, [sum, whole]) in std::mem::take(&mut sums) {
+                if sum.abs() > ROUNDING * whole {
+                    places.extend([row, component]);
+                    values.push(sum);
+                }
+            }
+        }
+        let (places, values) = (session.gather_all(&places), session.gather_all(&values));
+        let mut gaps = vec![Vec::new(); coupling.owners.len()];
+        places.chunks_exact(2).zip(values).for_each(|(place, value)| gaps[place[0]].push((place[1], value)));
+        gaps
     }
 
-    /// The unknowns that this rank's displacements, in the nodes' frames, have in them; forces that hold a mean begin with nothing.
-    /// **Collective**
+    /// The components that this rank's displacements, in the nodes' frames, have in them. **Collective**
     pub fn motion_of(&self, problem: &Discretisation, displacement: &[f64], session: &Session) -> Vec<f64> {
-        let scene = &problem.scene;
         let sets = rigid_motions(problem, displacement, session);
-        let free = scene.rigid.iter().zip(&sets).flat_map(|(set, motion)| set.free().map(|k| motion[k]));
-        let means = scene.means.iter().flat_map(|hold| mean_motion(problem, hold, displacement, session));
-        free.chain(means.flat_map(|q| [q, 0.0])).collect()
+        let free = problem.scene.rigid.iter().zip(&sets).flat_map(|(set, motion)| set.free().map(|k| motion[k]));
+        free.chain(held_motions(problem, displacement, session).into_iter().flatten()).collect()
     }
 
     /// Adds the displacements by a motion to those of this rank, in the nodes' frames.
-    pub fn displace(&self, problem: &Discretisation, motion: &[f64], displacement: &mut [f64]) {
-        let space = problem.finest();
+    pub fn displace(&self, space: &Space, motion: &[f64], displacement: &mut [f64]) {
         for &(at, set, x) in &self.nodes {
-            let moves = |(component, _): &(&Component, &f64)| component.set == set && !component.holds;
-            for (component, value) in self.components.iter().zip(motion).filter(moves) {
-                let u = space.to_frame(space.own.start + at / 2, *value * rigid_mode(self.about[set], component.k, x));
-                displacement[at] += u.x;
-                displacement[at + 1] += u.y;
-            }
+            let u = self.of_set[set].clone().map(|j| motion[j] * self.moved(set, j, x)).sum();
+            let u = space.to_frame(space.own.start + at / 2, u);
+            displacement[at] += u.x;
+            displacement[at + 1] += u.y;
         }
     }
 
-    /// `Tᵀ x`, or what stands in its place, from displacements of this rank without those of rigid motions, and pressures of all
-    /// multipliers; and the sums of the magnitudes of its terms. **Collective**
-    pub fn transposed(&self, displacement: &[f64], pressures: &[f64], session: &Session) -> [DVector<f64>; 2] {
-        let dot = |a: &[f64], b: &[f64]| {
-            let terms = a.iter().zip(b).map(|(a, b)| a * b);
-            terms.fold([0.0; 2], |[sum, whole], term| [sum + term, whole + term.abs()])
-        };
-        let of_rank = |component: &Component| dot(&component.row.displacement, displacement);
-        let mut sums: Vec<[f64; 2]> = self.components.iter().map(of_rank).collect();
-        session.sum(sums.as_flattened_mut());
-        for (component, sums) in self.components.iter().zip(&mut sums) {
-            let pressed = dot(&component.row.pressures, pressures);
-            sums.iter_mut().zip(pressed).for_each(|(sum, pressed)| *sum += pressed);
-        }
-        [0, 1].map(|k| DVector::from_iterator(self.len(), sums.iter().map(|sums| sums[k])))
-    }
-
-    /// `Rᵀ f` of the bodies whose mean motion is held, for other nodal forces of this rank in the nodes' frames. **Collective**
-    pub fn loaded(&self, problem: &Discretisation, load: &[f64], session: &Session) -> DVector<f64> {
-        let space = problem.finest();
-        let mut sums = vec![0.0; self.len()];
-        for (sum, component) in sums.iter_mut().zip(&self.components).filter(|(_, component)| component.holds) {
-            for &(at, _, x) in self.nodes.iter().filter(|(_, set, _)| *set == component.set) {
+    /// `Rᵀ f` of bodies whose mean is held, for other nodal forces of this rank in the nodes' frames; nothing of rigid sets.
+    /// **Collective**
+    pub fn loads_of(&self, space: &Space, load: &[f64], session: &Session) -> Vec<f64> {
+        let mut sums = vec![0.0; self.components.len()];
+        for &(at, set, x) in &self.nodes {
+            for j in self.of_set[set].clone().filter(|&j| self.components[j].mean.is_some()) {
                 let force = space.to_global(space.own.start + at / 2, Point::new(load[at], load[at + 1]));
-                *sum += force.dot(&rigid_mode(self.about[component.set], component.k, x));
+                sums[j] += force.dot(&self.moved(set, j, x));
             }
         }
         session.sum(&mut sums);
-        DVector::from_vec(sums)
+        sums
     }
 
-    /// `h - Tᵀ x - D q`: what sets and bodies are out of balance by, and means are off by; nothing where that is rounding beside
-    /// the terms of the three. Nodal forces of a body that hardly changes its volume are thousands of times as large as what they
-    /// add up to.
-    pub fn unbalanced(&self, [transposed, terms]: &[DVector<f64>; 2], motion: &[f64]) -> DVector<f64> {
-        let given = DVector::from_iterator(self.len(), self.components.iter().map(|component| component.given));
-        let motion = DVector::from_row_slice(motion);
-        let whole = given.abs() + terms + self.corner.abs() * motion.abs();
-        let left = given - transposed - &self.corner * motion;
-        left.zip_map(&whole, |left, whole| if left.abs() <= LOST * whole { 0.0 } else { left })
+    /// `B R q` of all multipliers.
+    pub fn gaps_of<'a>(&'a self, motion: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.gaps.iter().map(|row| row.iter().map(|&(j, gap)| gap * motion[j]).sum())
     }
-
-    /// The larger of two: forces out of balance over the largest force that is balanced, moments by the size of what moves; and
-    /// what means are off by, over the `largest` displacement. Forces that strain by no more than rounding are in balance: bodies
-    /// that touch nothing yet have no others.
-    pub fn share(&self, unbalanced: &DVector<f64>, pressures: &[f64], largest: f64) -> f64 {
-        let (mut out, mut whole, mut off) = (0.0f64, 0.0f64, 0.0f64);
-        for (i, (component, left)) in self.components.iter().zip(unbalanced.iter()).enumerate() {
-            let left = left.abs() / component.scale[1];
-            if self.components.get(i + 1).is_some_and(|next| next.holds) {
-                off = off.max(left);
-                continue;
-            }
-            let pressed: f64 = component.row.pressures.iter().zip(pressures).map(|(gap, pressure)| (gap * pressure).abs()).sum();
-            out = out.max(left);
-            whole = whole.max(pressed.max(component.given.abs()) / component.scale[1]);
-        }
-        let ratio = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
-        let out = if out <= f64::EPSILON * largest { 0.0 } else { out };
-        ratio(out, whole).max(ratio(off, largest))
-    }
-
-    /// The change of the unknowns that balances sets and bodies: `(D - Tᵀ Z)⁻¹ g`, with `Tᵀ Z` by columns. Motions that nothing
-    /// resists stay as they are.
-    pub fn correction(&self, responses: &[DVector<f64>], unbalanced: &DVector<f64>) -> DVector<f64> {
-        let scales = |of: usize| DVector::from_iterator(self.len(), self.components.iter().map(|component| component.scale[of]));
-        let (columns, rows) = (scales(0), scales(1));
-        let entry = |i: usize, j: usize| (self.corner[(i, j)] - responses[j][i]) / (rows[i] * columns[j]);
-        let schur = DMatrix::from_fn(self.len(), self.len(), entry);
-        let least = NOTHING * schur.amax();
-        let found = schur.svd(true, true).solve(&unbalanced.component_div(&rows), least);
-        found.map_or_else(|_| DVector::zeros(self.len()), |found| found.component_div(&columns))
-    }
-}
-
-/// Largest Young's modulus of what is no tool: forces are measured by it.
-fn largest_young(problem: &Discretisation) -> f64 {
-    problem.scene.young().into_iter().filter(|young| young.is_finite()).fold(f64::MIN_POSITIVE, f64::max)
 }
 
 /// A row on this rank's free unknowns, in the nodes' frames, and its product with what supports prescribe.
-fn free_part(problem: &Discretisation, row: &Field<2>) -> (Rc<[f64]>, f64) {
-    let space = problem.finest();
-    let (mut free, mut at_rest) = (Vec::with_capacity(space.local_unknowns()), 0.0);
-    for (node, value) in space.own.clone().zip(row.own()) {
-        let value = Point::from(*value);
-        free.extend_from_slice(space.free_part(node, value).as_slice());
-        at_rest += value.dot(&space.prescribed(node));
-    }
-    (free.into(), at_rest)
+struct Free<'a> {
+    space: &'a Space,
+    values: Sparse,
+    at_rest: f64,
 }
 
-/// `B R` of all multipliers, with the displacement of each coupled node that moves; where all of it cancels it is zero.
-/// **Collective**
-fn moved_gaps(problem: &Discretisation, session: &Session, moved: impl Fn(&Coupled) -> Option<Point>) -> Rc<[f64]> {
-    let coupling = &problem.coupling;
-    let gap = |row: usize| {
-        let (mut sum, mut whole) = (0.0, 0.0);
-        for (coupled, u) in coupling.rows[row].iter().filter_map(|coupled| Some((coupled, moved(coupled)?))) {
-            sum += coupled.value.dot(&u);
-            whole += coupled.value.norm() * u.norm();
-        }
-        if sum.abs() <= ROUNDING * whole { 0.0 } else { sum }
-    };
-    let mut gaps = vec![0.0; coupling.owners.len()];
-    coupling.own(0..gaps.len(), session.rank()).for_each(|i| gaps[i] = gap(i));
-    session.sum(&mut gaps);
-    gaps.into()
+impl<'a> Free<'a> {
+    fn new(problem: &'a Discretisation) -> Self {
+        Self { space: problem.finest(), values: Sparse::new(), at_rest: 0.0 }
+    }
+
+    /// Adds an entry of the row, of a node of this rank.
+    fn add(&mut self, node: usize, value: Point) {
+        self.at_rest += value.dot(&self.space.prescribed(node));
+        let (first, free) = (2 * (node - self.space.own.start), self.space.free_part(node, value));
+        self.values.extend((0..2).filter(|&k| free[k] != 0.0).map(|k| ((first + k) as u32, free[k])));
+    }
 }
 
 /// Largest distance from the reference point at which contact acts on a set; of its nodes where none does: a tool may be far longer
@@ -400,19 +315,20 @@ fn moved_forces(
     Ok(forces)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_rounding_leaves_of_large_forces_is_in_balance() {
-        let nothing = || BorderLine { displacement: Rc::new([]), pressures: Rc::new([]) };
-        let (column, row) = (nothing(), nothing());
-        let component = Component { set: 0, k: 1, holds: false, scale: [1.0; 2], column, row, given: 1.0 };
-        let border =
-            RigidBorder { components: vec![component], corner: DMatrix::zeros(1, 1), nodes: Vec::new(), about: Vec::new() };
-        let left = |off: f64, terms: f64| border.unbalanced(&[1.0 - off, terms].map(|v| DVector::from_vec(vec![v])), &[0.0])[0];
-        assert_eq!(left(1e-12, 1e4), 0.0, "ten thousand times a rounding");
-        assert!(left(1e-10, 1e4) > 9e-11 && left(1e-12, 1.0) > 9e-13, "more than that");
+/// Nodes of this rank in a body, and where they are.
+fn nodes_of_body(problem: &Discretisation, body: &str, rank: usize) -> BTreeMap<usize, Point> {
+    let (scene, space) = (&problem.scene, problem.finest());
+    let level = space.numbering.level;
+    let mut nodes = BTreeMap::new();
+    let is_own = |triangle: &&u32| scene.mesh.bodies[scene.mesh.triangles[**triangle as usize].body as usize] == body;
+    for &triangle in scene.partition.triangles_of(rank).iter().filter(is_own) {
+        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
+        for (i, j) in lattice::nodes(level.intervals) {
+            let node = numbers.node(i, j);
+            if space.own.contains(&node) {
+                nodes.entry(node).or_insert_with(|| scene.mesh.node_position(triangle as usize, level, (i, j)));
+            }
+        }
     }
+    nodes
 }

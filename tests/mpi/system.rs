@@ -12,6 +12,7 @@ mod meshes;
 
 use contact::with_contact;
 use launch::{Suite, named};
+use mezha::body::{HeldMode, MeanHold, RigidNodes, RigidSet, Support, UNIT_MOTIONS};
 use mezha::contact::{MultiplierSpace, Stabilise, jump_matrix};
 use mezha::element::Order;
 use mezha::geometry::{Curve, Formula, Point};
@@ -34,6 +35,7 @@ fn main() -> std::process::ExitCode {
             a_plain_system_has_the_solution_of_the_augmented_one,
             the_plain_residual_is_that_of_the_system_without_augmentation,
             responses_are_those_of_load_and_gap_and_reciprocal,
+            rigid_motions_are_those_of_every_solver_and_set,
             multipliers_live_where_body_one_does,
             rows_of_b_are_whole_where_they_are_needed_and_nowhere_else,
             ranks_are_dealt_equal_work,
@@ -62,6 +64,26 @@ fn problems(session: &Session) -> Vec<Discretisation> {
         with_contact(bars::on(large(), session, Order::P1, 1), P0, 20, Stabilise::Off),
     ];
     scenes.into_iter().map(|scene| Discretisation::new(scene, session).expect("a discretisation")).collect()
+}
+
+/// The upper bar held by its mean along x and against turning, of which contact resists both, or under a plate that presses; the
+/// line between them is inclined.
+fn moving_problems(session: &Session) -> Vec<Discretisation> {
+    let scene = |space, stabilise| {
+        let mut scene = with_contact(bars::scene(session, Order::P2, 2, false), space, 12, stabilise);
+        let (zero, table) = (Some(Formula::constant(0.0)), vec!["bottom".into()]);
+        scene.supports = vec![Support { name: "table".into(), on: table, at: None, ux: zero.clone(), uy: zero, normal: None }];
+        scene
+    };
+    let mut held = scene(MultiplierSpace::P1Discontinuous, Stabilise::Off);
+    let modes = [("ux", 0, 2e-3), ("angle", 2, 1e-3)];
+    let modes = modes.map(|(key, k, value)| HeldMode { key, mode: UNIT_MOTIONS[k], value });
+    held.means = vec![MeanHold { name: "mean".into(), body: held.mesh.bodies[1].clone(), held: modes.into() }];
+    let mut plate = scene(MultiplierSpace::P0, Stabilise::On);
+    let (nodes, about) = (RigidNodes::Boundaries(vec!["top".into()]), Point::new(3.0, 6.0));
+    let (prescribed, applied) = ([Some(1e-3), None, None], [0.0, -5.0, 0.5]);
+    plate.rigid = vec![RigidSet { key: "load.plate".into(), nodes, about, prescribed, applied }];
+    [held, plate].map(|scene| Discretisation::new(scene, session).expect("a discretisation")).into()
 }
 
 fn system<'a>(problem: &'a Discretisation, choice: SolverChoice, session: &Session) -> (System<'a>, Rc<[Interpolation]>) {
@@ -370,6 +392,42 @@ fn responses_are_those_of_load_and_gap_and_reciprocal(session: &Session) {
         }
         assert_eq!(system.solve(1e-11).expect("a solve").ending, LinearEnding::Converged, "responses leave the system as it was");
         assert!(apart(session, &own, &system.with_free_displacement(<[f64]>::to_vec)) < 1e-7);
+    }
+}
+
+/// Motions that are no unknowns of the blocks: the direct solver finds the same ones, and so does a system that has had other
+/// sets; forces that act on nodes act on each other's displacements alike.
+fn rigid_motions_are_those_of_every_solver_and_set(session: &Session) {
+    for problem in &moving_problems(session) {
+        let all = sets(problem.multiplier_count());
+        let found = [SolverChoice::FieldSplit, SolverChoice::Direct, SolverChoice::FieldSplit].map(|choice| {
+            let mut system = system(problem, choice, session).0;
+            for (k, set) in all.iter().enumerate().filter(|(k, _)| *k != 3) {
+                system.set_active(set).expect("a set");
+                if k == 0 || k == 2 {
+                    system.solve(1e-3).expect("a solve");
+                }
+            }
+            let solved = system.solve(1e-11).expect("a solve");
+            assert_eq!(solved.ending, LinearEnding::Converged);
+            assert!(choice == SolverChoice::FieldSplit || solved.iterations <= 8, "a factor: {} iterations", solved.iterations);
+            (system.pressures(), system.displacement())
+        });
+        let mut fresh = system(problem, SolverChoice::FieldSplit, session).0;
+        fresh.set_active(&all[all.len() - 1]).expect("a set");
+        assert_eq!(fresh.solve(1e-11).expect("a solve").ending, LinearEnding::Converged);
+        for (pressures, displacement) in &found {
+            assert!(apart(session, pressures, &fresh.pressures()) < 1e-6, "pressures");
+            assert!(apart(session, displacement, &fresh.displacement()) < 1e-7, "displacements");
+        }
+        let (first, count) = (problem.finest().own.start, problem.finest().local_unknowns());
+        let free = |k: usize, value: f64| if load_is_free(problem, first, k) { value } else { 0.0 };
+        let [f, g] = [0.3, 4.0].map(|seed| (0..count).map(|k| free(k, erratic(2 * first + k, seed))).collect::<Vec<f64>>());
+        let none = vec![0.0; problem.multiplier_count()];
+        let [by_f, by_g] = [&f, &g].map(|load| fresh.response(load, &none, 1e-11).expect("a response"));
+        let mut works = [(&f, &by_g), (&g, &by_f)].map(|(force, way)| force.iter().zip(way).map(|(a, b)| a * b).sum::<f64>());
+        session.sum(&mut works);
+        assert!((works[0] / works[1] - 1.0).abs() < 1e-6, "{works:?}");
     }
 }
 

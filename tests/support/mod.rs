@@ -117,6 +117,13 @@ impl Run {
         Ended { code, output, errors, time: start.elapsed(), out, folder }
     }
 
+    /// Runs to its end: solved, on whatever mesh; one that is too coarse for the scene is said to be.
+    pub fn solved(self) -> Ended {
+        let ended = self.ended();
+        assert!(["converged", "unresolved"].iter().any(|status| ended.value("/status") == *status), "{}", ended.said());
+        ended
+    }
+
     /// Runs to its end, which must be exit code 0.
     pub fn converged(self) -> Ended {
         let ended = self.ended();

@@ -19,10 +19,10 @@ pub static SUPPORT: TableForm = TableForm {
         key("on", ValueForm::Names, "The physical curves that are held.").like("\"bottom\", or at = [0.0, 1.0] for a point"),
         key("at", POINT, "Instead of `on`: a point of a body, whether the mesh has a vertex there or not, see [points](#points); with `ux`, `uy` or both.")
             .unit("length"),
-        key("body", ValueForm::Name, "Beside `at`, where two bodies touch: the one that is held. Beside `mean`: the body.")
+        key("body", ValueForm::Name, "Beside `at`, where two bodies touch: the one that is held. Beside `mean`: the body. A [pattern](#patterns) stands for a support on each body.")
             .or_else("the one that is there")
             .like("\"disc\""),
-        key("mean", ValueForm::Yes, "Beside `body`: holds the mean motion of a whole body, see [mean motions](#mean-motions); with `ux`, `uy`, `angle` (numbers) or several of them.")
+        key("mean", ValueForm::Yes, "Beside `body`: holds the mean motion of a whole body, see [mean motions](#mean-motions); with `ux`, `uy`, `angle`, `along`, `tangential` (numbers) or several of them.")
             .refused("holds a mean motion only as mean = true; leave it out for a support on = or at ="),
         key("ux", IN_PLANE, "Prescribed displacement.").or_else("free").unit("length"),
         key("uy", IN_PLANE, "Prescribed displacement.").or_else("free").unit("length"),
@@ -30,6 +30,13 @@ pub static SUPPORT: TableForm = TableForm {
             .or_else("free")
             .unit("radians")
             .refused("must be a number from -0.1 to 0.1: radians, small ones; draw the body turned instead"),
+        key("direction", POINT, "Beside `along`: its direction `[x, y]`, of any length.").like("[1.0, 1.0]"),
+        key("along", NUMBER, "Beside `mean` and `direction`: the mean shift in that direction.").or_else("free").unit("length").like("0.0"),
+        key("about", POINT, "Beside `tangential`: the centre `[x, y]`.").unit("length").like("[0.0, 0.0]"),
+        key("tangential", NUMBER, "Beside `mean` and `about`: the mean shift of the body around that centre, along the tangent at the middle of the body, counter-clockwise.")
+            .or_else("free")
+            .unit("length")
+            .like("0.0"),
         key("normal", IN_PLANE, "Instead of `ux` and `uy`: displacement along the outward normal, tangent free.")
             .or_else("free")
             .unit("length"),
@@ -37,10 +44,16 @@ pub static SUPPORT: TableForm = TableForm {
             .or_else("no springs"),
     ]],
     rules: &[
-        TableRule::OneOf(&[&["ux"], &["uy"], &["normal"], &["angle"], &["stiffness"]]),
+        TableRule::OneOf(&[&["ux"], &["uy"], &["normal"], &["angle"], &["along"], &["tangential"], &["stiffness"]]),
         TableRule::OneOf(&[&["on"], &["at"], &["body", "mean"]]),
         TableRule::Beside("body", &["at", "mean"]),
         TableRule::Beside("angle", &["mean"]),
+        TableRule::Beside("along", &["mean"]),
+        TableRule::Beside("tangential", &["mean"]),
+        TableRule::Beside("along", &["direction"]),
+        TableRule::Beside("direction", &["along"]),
+        TableRule::Beside("tangential", &["about"]),
+        TableRule::Beside("about", &["tangential"]),
         TableRule::Alone("at", &["on", "normal", "stiffness"]),
         TableRule::Alone("mean", &["on", "at", "normal", "stiffness"]),
         TableRule::Alone("normal", &["ux", "uy"]),

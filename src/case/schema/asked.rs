@@ -143,7 +143,7 @@ pub static STEPS: TableForm = TableForm {
 pub static OUTPUT: TableForm = TableForm {
     name: "output",
     sentence: "",
-    keys: &[&[key("fields", ValueForm::Boolean, "`false`: no fields, no figures and no report, only `summary.json`, `case.toml`, `contact_NAME.csv`, and `steps.csv` of load steps; for many runs, or very large ones.")
+    keys: &[&[key("fields", ValueForm::Boolean, "`false`: no fields, no figures and no report, only `summary.json`, `case.toml`, `contacts.csv`, `contact_NAME.csv`, and `steps.csv` of load steps; for many runs, or very large ones.")
         .or("true")]],
     rules: &[],
     inline: false,

@@ -13,7 +13,7 @@ use super::macro_mesh::{MacroMesh, RawMesh};
 use super::regular_file::{read_regular, read_start};
 use crate::geometry::Quote;
 use cursor::{Cursor, Encoding};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 /// A mesh file of more bytes has more nodes than 32 bits count.
@@ -72,9 +72,9 @@ pub fn parse_joined(bytes: &[u8], file: &Path, joined: HashMap<String, String>) 
 /// # Errors
 /// [`MeshError`] as of [`read_gmsh`].
 pub fn surfaces(bytes: &[u8], file: &Path) -> Result<Vec<String>, MeshError> {
-    let mut names: Vec<String> = Vec::new();
+    let (mut names, mut seen) = (Vec::new(), HashSet::new());
     for name in read(bytes, file)?.triangles.into_iter().flat_map(|(_, names, _)| names) {
-        if !names.contains(&name) {
+        if seen.insert(name.clone()) {
             names.push(name);
         }
     }

@@ -9,7 +9,7 @@ use plotters::style::{Color, FontStyle, FontTransform, RGBColor, ShapeStyle};
 use super::along::DrawnContact;
 use super::macro_edges::{BETWEEN, DrawnEdge, THIN, macro_lines};
 use super::outline::{loops, path_data, unmatched};
-use super::palette::{GREY, INK, viridis};
+use super::palette::{GREY, INK, VERMILION, viridis};
 use super::sheet::{Area, AxisSpec, DrawResult, PIXEL, Scale, Sheet, line, text_style};
 use super::ticks::{Ticks, cut_off, number_text, round_number};
 use crate::output::{ContactPoint, OutputError};
@@ -25,6 +25,21 @@ pub struct Facet {
     pub von_mises: [f64; 3],
 }
 
+/// The force of a contact as the figure shows it: a line along it, to both sides of the place where it acts.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnForce {
+    /// Where it acts.
+    pub place: [f64; 2],
+    /// The force on one of the bodies.
+    pub force: [f64; 2],
+    /// How far the line goes to either side (length).
+    pub reach: f64,
+    /// Whether the place lies on the deformed bodies.
+    pub is_deformed: bool,
+}
+
+/// Width of the line of the largest force, and of the smallest that is drawn (pixels).
+const FORCE_WIDTHS: [f64; 2] = [9.0, 0.2];
 /// Steps of the colour bar.
 const LEVELS: usize = 40;
 /// The largest displacement is drawn as about this fraction of the size of the bodies.
@@ -42,7 +57,7 @@ const BAR_ROOM: i32 = 120;
 ///
 /// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title
 /// states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
-/// themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small. Macro edges,
+/// themselves with the nearest boundary. Forces are lines, as wide as they are large. Areas of one colour are merged over triangles, which keeps the file small. Macro edges,
 /// if there are any, are thin lines on the deformed bodies, those between two materials thicker ones.
 ///
 /// # Errors
@@ -53,6 +68,7 @@ pub fn write_deformed(
     facets: &[Facet],
     [macro_edges, interfaces]: [&[DrawnEdge]; 2],
     contacts: &[DrawnContact],
+    forces: &[DrawnForce],
 ) -> Result<(), OutputError> {
     check_facets(path, facets)?;
     let scale = automatic_scale(facets);
@@ -60,15 +76,27 @@ pub fn write_deformed(
     let colours = Colours::of(facets);
     let boundary = boundary_edges(facets);
     let ([casing, core], undeformed) = (contact_line(), line(&GREY, 0.7));
+    let largest = forces.iter().map(DrawnForce::size).fold(0.0, f64::max);
+    let [widest, least] = FORCE_WIDTHS;
+    let forces = forces.iter().filter(|force| force.size() * widest > least * largest);
+    let lines: Vec<(f64, Vec<(f64, f64)>)> =
+        forces.map(|force| (widest * force.size() / largest, force.line(&boundary, scale))).collect();
     view.sheet.write(path, |sheet, area| {
         sheet.draw_title(area, &format!("{title}, displacements × {}", number_text(scale)))?;
-        let legend = [("undeformed", &[undeformed][..]), ("contact boundary", &[casing, core])];
-        sheet.draw_legend(area, if contacts.is_empty() { &legend[..1] } else { &legend })?;
+        let up_to = format!("contact force, up to {}", number_text(largest));
+        let legend = [
+            ("undeformed", &[undeformed][..], true),
+            ("contact boundary", &[casing, core], !contacts.is_empty()),
+            (&up_to, &[line(&VERMILION, 0.5 * widest)], !lines.is_empty()),
+        ];
+        let legend: Vec<_> = legend.iter().filter(|(_, _, is_drawn)| *is_drawn).map(|(name, style, _)| (*name, *style)).collect();
+        sheet.draw_legend(area, &legend)?;
         let mut chart = sheet.draw_axes(area, &view.x, &view.y, false)?;
         for contact in contacts {
             let moved = moved_contact(contact, &boundary, scale);
             chart.draw_series([casing, core].map(|style| PathElement::new(moved.clone(), style)))?;
         }
+        chart.draw_series(lines.iter().map(|(width, ends)| PathElement::new(ends.clone(), line(&VERMILION.mix(0.8), *width))))?;
         draw_colour_bar(sheet, area, &colours)?;
         let place = |x: [f64; 2]| chart.backend_coord(&x.into());
         Ok(outlines(&boundary, 0.0, GREY, place)
@@ -77,6 +105,21 @@ pub fn write_deformed(
             + &macro_lines(interfaces, BETWEEN, scale, place)
             + &outlines(&boundary, scale, INK, place))
     })
+}
+
+impl DrawnForce {
+    fn size(&self) -> f64 {
+        Some(self.force[0].hypot(self.force[1])).filter(|size| size.is_finite()).unwrap_or(0.0)
+    }
+
+    /// Its line, moved along with the nearest boundary.
+    fn line(&self, boundary: &[[FacetCorner; 2]], scale: f64) -> Vec<(f64, f64)> {
+        let there = if self.is_deformed { 1.0 } else { 0.0 };
+        let u = displacement_near(self.place, boundary, there);
+        let [x, y] = [0, 1].map(|axis| self.place[axis] + (scale - there) * u[axis]);
+        let [dx, dy] = self.force.map(|part| self.reach * part / self.size());
+        vec![(x - dx, y - dy), (x + dx, y + dy)]
+    }
 }
 
 /// Strokes of a contact boundary, which lie on each other.
@@ -366,7 +409,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deformed.svg");
         let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
-        write_deformed(&path, "blocks", facets, [&[], &[]], &[drawn(&contact)]).map(|()| std::fs::read_to_string(path).unwrap())
+        write_deformed(&path, "blocks", facets, [&[], &[]], &[drawn(&contact)], &[])
+            .map(|()| std::fs::read_to_string(path).unwrap())
     }
 
     #[test]
@@ -430,6 +474,23 @@ mod tests {
     }
 
     #[test]
+    fn forces_are_lines_as_wide_as_they_are_large() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deformed.svg");
+        let facets = block(0.0, 4, |_, _| [0.0, 1e-3], |_, _| 1.0);
+        let force = |x: f64, size: f64| DrawnForce { place: [x, 0.5], force: [0.0, size], reach: 0.25, is_deformed: false };
+        let forces = [force(0.2, 8.0), force(0.5, -4.0), force(0.8, 0.0), force(0.9, f64::NAN), force(0.9, 1e-3)];
+        write_deformed(&path, "blocks", &facets, [&[], &[]], &[], &forces).unwrap();
+        let figure = std::fs::read_to_string(path).unwrap();
+        let widths = [90, 45].map(|width| figure.matches(&format!("stroke-width=\"{width}\"")).count());
+        // The line of the legend is half as wide as that of the largest force.
+        assert_eq!(widths, [1, 2]);
+        assert!(figure.contains("contact force, up to 8") && !figure.contains("NaN"));
+        let moved = force(0.0, 2.0).line(&boundary_edges(&facets), 100.0);
+        assert!((moved[0].1 - 0.35).abs() < 1e-9 && (moved[1].1 - 0.85).abs() < 1e-9, "{moved:?}");
+    }
+
+    #[test]
     fn macro_edges_are_thin_lines_that_move_with_the_bodies() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deformed.svg");
@@ -437,7 +498,7 @@ mod tests {
         let edge = |x: f64| DrawnEdge([0.0, 0.5, 1.0].map(|y| ([x, y], [0.0, 1e-3 * y])).into());
         let mut edges = vec![edge(0.0), edge(0.25), edge(0.5)];
         edges[2].0[1].1 = [f64::NAN, 0.0];
-        write_deformed(&path, "blocks", &facets, [&edges, &[]], &[]).unwrap();
+        write_deformed(&path, "blocks", &facets, [&edges, &[]], &[], &[]).unwrap();
         let figure = std::fs::read_to_string(path).unwrap();
         let lines: Vec<&str> = figure.lines().filter(|line| line.contains("stroke-opacity")).collect();
         let [line] = lines[..] else { panic!("{lines:?}") };

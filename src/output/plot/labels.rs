@@ -15,6 +15,12 @@ const MARGIN: f64 = 2.0;
 /// A leader is drawn to a name that is farther away (pixels).
 const LEADER: f64 = 16.0;
 
+/// A name of which other names would hide more than this share is left out.
+const MOST_HIDDEN: f64 = 0.1;
+
+/// Points of lines that names are kept away from, about: more would be looked at for each place of each name.
+const MOST_POINTS: usize = 4000;
+
 /// A box in the figure: left, top, right, bottom (pixels).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame(pub [f64; 4]);
@@ -58,19 +64,21 @@ pub(super) struct Name<'a> {
 pub(super) struct PlacedNames {
     /// The part of the figure that names may stand in.
     room: Frame,
-    taken: Vec<Frame>,
+    marks: Vec<Frame>,
+    names: Vec<Frame>,
     /// Points of lines that names rather leave free.
     lines: Vec<[f64; 2]>,
 }
 
 impl PlacedNames {
     pub fn new(room: Frame, lines: Vec<[f64; 2]>) -> Self {
-        Self { room, taken: Vec::new(), lines }
+        let every = lines.len().div_ceil(MOST_POINTS).max(1);
+        Self { room, marks: Vec::new(), names: Vec::new(), lines: lines.into_iter().step_by(every).collect() }
     }
 
     /// Takes a place for something else.
     pub fn take(&mut self, place: [f64; 2], size: f64) {
-        self.taken.push(Frame::around(place, [size, size]));
+        self.marks.push(Frame::around(place, [size, size]));
     }
 
     /// The nearest place that is so far from the border at least.
@@ -79,22 +87,27 @@ impl PlacedNames {
         [x.max(left + far).min(right - far), y.max(top + far).min(bottom - far)]
     }
 
-    /// Puts a name where it is nearest to what it names and hides as little as can be, with a leader if that is far away.
-    pub fn put(&mut self, name: &Name) -> String {
+    /// Puts a name where it is nearest to what it names and hides as little as can be, with a leader if that is far away. Nothing
+    /// if there is no room left for it.
+    pub fn put(&mut self, name: &Name) -> Option<String> {
         let extent = [text_width(name.text, name.size) + 2.0 * MARGIN, name.size + 2.0 * MARGIN];
         let mut best: Option<(f64, [f64; 2])> = None;
         for (number, middle) in places(name, extent).into_iter().enumerate() {
             let frame = Frame::around(middle, extent);
-            let hidden: f64 = self.taken.iter().map(|other| frame.shared(other)).sum();
+            let hidden: f64 = self.names.iter().chain(&self.marks).map(|other| frame.shared(other)).sum();
             let crossed = self.lines.iter().filter(|point| frame.holds(**point)).count() as f64;
             let cost = 20.0 * hidden + 40.0 * frame.outside(&self.room) + 12.0 * crossed + number as f64;
             if best.is_none_or(|(least, _)| cost < least) {
                 best = Some((cost, middle));
             }
         }
-        let Some((_, [x, y])) = best else { return String::new() };
+        let (_, [x, y]) = best?;
         let frame = Frame::around([x, y], extent);
-        self.taken.push(frame);
+        let hidden: f64 = self.names.iter().map(|other| frame.shared(other)).sum();
+        if hidden > MOST_HIDDEN * extent[0] * extent[1] {
+            return None;
+        }
+        self.names.push(frame);
         let mut text = String::new();
         let [left, top, right, bottom] = frame.0;
         let near = [name.anchor[0].clamp(left, right), name.anchor[1].clamp(top, bottom)];
@@ -125,7 +138,7 @@ impl PlacedNames {
                 escaped(name.text)
             );
         }
-        text
+        Some(text)
     }
 }
 
@@ -158,6 +171,7 @@ pub(super) fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn names_of_one_place_do_not_hide_each_other() {
@@ -165,13 +179,27 @@ mod tests {
         let mut labels = PlacedNames::new(room, Vec::new());
         for text in ["bottom", "bottom too", "another name", "left.lower", "<&>"] {
             let towards = Some([0.0, 1.0]);
-            let drawn =
-                labels.put(&Name { text, size: 11.0, colour: "#262626", weight: "normal", anchor: [200.0, 280.0], towards });
+            let name = Name { text, size: 11.0, colour: "#262626", weight: "normal", anchor: [200.0, 280.0], towards };
+            let drawn = labels.put(&name).expect("room for a few");
             assert!(drawn.contains("<text") && !drawn.contains("<&>"));
         }
-        for (k, frame) in labels.taken.iter().enumerate() {
+        for (k, frame) in labels.names.iter().enumerate() {
             assert!(frame.outside(&room) < 1e-9, "{frame:?}");
-            assert!(labels.taken[..k].iter().all(|other| frame.shared(other) == 0.0), "{frame:?}");
+            assert!(labels.names[..k].iter().all(|other| frame.shared(other) == 0.0), "{frame:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn names_for_which_there_is_no_room_are_left_out(places in proptest::collection::vec((0.0..300.0, 0.0..200.0), 1..200)) {
+            let mut labels = PlacedNames::new(Frame([0.0, 0.0, 300.0, 200.0]), Vec::new());
+            let name = |anchor| Name { text: "a long name", size: 12.0, colour: "#000", weight: "bold", anchor, towards: None };
+            let put = places.iter().filter(|(x, y)| labels.put(&name([*x, *y])).is_some()).count();
+            prop_assert!(put >= 1 && put == labels.names.len());
+            for (k, frame) in labels.names.iter().enumerate() {
+                let hidden: f64 = labels.names[..k].iter().map(|other| frame.shared(other)).sum();
+                prop_assert!(hidden <= MOST_HIDDEN * frame.outside(&Frame([0.0; 4])), "{frame:?}");
+            }
         }
     }
 }

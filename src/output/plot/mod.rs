@@ -20,7 +20,7 @@ mod zoom;
 
 pub use accuracy::{Sequence, write_accuracy};
 pub use along::{DrawnContact, write_displacement, write_gap, write_pressure};
-pub use deformed::{Facet, write_deformed};
+pub use deformed::{DrawnForce, Facet, write_deformed};
 pub use diagrams::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};
 pub use macro_edges::DrawnEdge;
 pub use named::{NamedDiagram, NamedLine, named_diagrams};

@@ -26,6 +26,11 @@ const ARROWS: [f64; 2] = [30.0, 44.0];
 const TOOLS: f64 = 0.4;
 /// Height of a line of remarks (pixels).
 const REMARK: i32 = 17;
+/// Of more things of one kind some are named only, spread over all of them: a figure has room for some 60 names. Lines, marks and
+/// arrows are smaller there, by this factor.
+const MOST_NAMES: usize = 60;
+const FEW_NAMES: usize = 6;
+const SMALLER: f64 = 0.3;
 /// Fillings of bodies.
 const FILLS: [&str; 6] = ["#d9e6f2", "#f8e3d0", "#dcefe7", "#f3e2ee", "#faf0cd", "#e2e6ea"];
 
@@ -100,6 +105,8 @@ pub struct NamedRows {
     pub name: String,
     /// Where it is.
     pub rows: Rows,
+    /// Where its name belongs; nothing if anywhere along it.
+    pub place: Option<BoundaryPoint>,
 }
 
 /// What is drawn of a scene.
@@ -194,6 +201,7 @@ impl SceneFigure {
         canvas.loads(self);
         canvas.names(self);
         canvas.remarks(sheet, self);
+        canvas.counts(sheet);
         Ok(canvas.text)
     }
 }
@@ -209,6 +217,9 @@ fn contact_colour(number: usize) -> RGBColor {
     LINES[COLOURS[number % COLOURS.len()]]
 }
 
+/// A name, its colour, what it names, and where it would rather stand from there (pixels).
+type WantedName = (String, RGBColor, [f64; 2], Option<[f64; 2]>);
+
 /// What has been drawn so far.
 struct Canvas<'a> {
     text: String,
@@ -216,6 +227,8 @@ struct Canvas<'a> {
     labels: PlacedNames,
     /// Names that are put last, over everything.
     late: String,
+    /// Of each kind of which not all could be named: how many are, of how many.
+    counts: Vec<String>,
 }
 
 impl<'a> Canvas<'a> {
@@ -224,7 +237,7 @@ impl<'a> Canvas<'a> {
         let room = Frame([left + 3.0, top + 3.0, f64::from(sheet.width) - right - 3.0, f64::from(sheet.height) - bottom - 3.0]);
         let points = figure.boundaries.iter().flat_map(|named| named.rows.iter().flatten());
         let lines = points.map(|point| pixels(place, point.place)).collect();
-        Self { text: String::new(), place, labels: PlacedNames::new(room, lines), late: String::new() }
+        Self { text: String::new(), place, labels: PlacedNames::new(room, lines), late: String::new(), counts: Vec::new() }
     }
 
     fn at(&self, x: [f64; 2]) -> [f64; 2] {
@@ -267,14 +280,15 @@ impl<'a> Canvas<'a> {
 
     fn contacts(&mut self, figure: &SceneFigure) {
         for (number, contact) in figure.contacts.iter().enumerate() {
-            self.along(&contact.rows, &hex(contact_colour(number)), 4.0, 0.85);
+            self.along(&contact.rows, &hex(contact_colour(number)), 4.0 * size_of_marks(figure.contacts.len()), 0.85);
         }
     }
 
     fn supports(&mut self, figure: &SceneFigure) {
         let colour = hex(GREEN);
+        let size = size_of_marks(figure.supports.len());
         for support in &figure.supports {
-            self.along(&support.rows, &colour, 2.0, 1.0);
+            self.along(&support.rows, &colour, 2.0 * size, 1.0);
             for point in self.spread(&support.rows, APART[0]) {
                 let normal = flipped(point.normal);
                 let direction = match support.grip {
@@ -285,7 +299,7 @@ impl<'a> Canvas<'a> {
                     _ => normal,
                 };
                 let at = self.at(point.place);
-                self.mark(at, direction, support.grip, &colour);
+                self.mark(at, direction, support.grip, &colour, size);
             }
         }
     }
@@ -321,13 +335,15 @@ impl<'a> Canvas<'a> {
     }
 
     /// A triangle with its tip at the boundary: on a hatched ground, on rollers, or a spring.
-    fn mark(&mut self, at: [f64; 2], out: [f64; 2], grip: Grip, colour: &str) {
+    fn mark(&mut self, at: [f64; 2], out: [f64; 2], grip: Grip, colour: &str, size: f64) {
         let p = f64::from(PIXEL);
         let point = |away: f64, aside: f64| {
+            let [away, aside] = [size * away, size * aside];
             let [x, y] = [at[0] + away * out[0] - aside * out[1], at[1] + away * out[1] + aside * out[0]];
             format!("{:.0} {:.0}", p * x, p * y)
         };
-        let thin = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"10\"");
+        let width = 10.0 * size;
+        let thin = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width:.0}\"");
         if grip == Grip::Springs {
             let turns: String =
                 (1..7).map(|k| format!("L{}", point(2.0 + 1.8 * f64::from(k), if k % 2 == 0 { 3.5 } else { -3.5 }))).collect();
@@ -344,7 +360,7 @@ impl<'a> Canvas<'a> {
         } else {
             let _ = writeln!(
                 self.text,
-                "<path fill=\"#fff\" stroke=\"{colour}\" stroke-width=\"10\" d=\"M{}L{}L{}z\"/>",
+                "<path fill=\"#fff\" stroke=\"{colour}\" stroke-width=\"{width:.0}\" d=\"M{}L{}L{}z\"/>",
                 point(0.5, 0.0),
                 point(9.5, -5.5),
                 point(9.5, 5.5)
@@ -358,17 +374,19 @@ impl<'a> Canvas<'a> {
                 for aside in [-3.0, 3.0] {
                     let centre = point(11.8, aside);
                     let (x, y) = centre.split_once(' ').unwrap_or(("0", "0"));
-                    let _ = writeln!(self.text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"20\" {thin}/>");
+                    let _ = writeln!(self.text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{:.0}\" {thin}/>", 20.0 * size);
                 }
                 let _ = writeln!(self.text, "<path {thin} d=\"M{}L{}\"/>", point(14.5, -8.0), point(14.5, 8.0));
             }
         }
-        self.labels.take([at[0] + 8.0 * out[0], at[1] + 8.0 * out[1]], 15.0);
+        self.labels.take([at[0] + 8.0 * size * out[0], at[1] + 8.0 * size * out[1]], 15.0 * size);
     }
 
     fn loads(&mut self, figure: &SceneFigure) {
         let colour = hex(VERMILION);
         let size = |point: &BoundaryPoint| point.traction[0].hypot(point.traction[1]);
+        let smaller = size_of_marks(figure.loads.len());
+        let longest = ARROWS.map(|length| smaller * length);
         for load in &figure.loads {
             if load.is_plate {
                 self.along(&load.rows, &colour, 4.5, 0.9);
@@ -380,8 +398,8 @@ impl<'a> Canvas<'a> {
                 let normal = load.rows.iter().flatten().next().map_or(direction.map(|part| -part), |point| point.normal);
                 if length > 0.0 {
                     let direction = direction.map(|part| part / length);
-                    let at = self.labels.within(self.at(place), ARROWS[1]);
-                    self.arrow(at, flipped(direction), flipped(normal), ARROWS[1], &colour, 18.0);
+                    let at = self.labels.within(self.at(place), longest[1]);
+                    self.arrow(at, flipped(direction), flipped(normal), longest[1], &colour, 18.0 * smaller);
                 }
                 continue;
             }
@@ -390,8 +408,8 @@ impl<'a> Canvas<'a> {
                 let size = size(&point);
                 if size > 1e-6 * largest && largest.is_finite() {
                     let direction = point.traction.map(|part| part / size);
-                    let length = (ARROWS[0] * size / largest).max(8.0);
-                    self.arrow(self.at(point.place), flipped(direction), flipped(point.normal), length, &colour, 10.0);
+                    let length = (longest[0] * size / largest).max(8.0 * smaller);
+                    self.arrow(self.at(point.place), flipped(direction), flipped(point.normal), length, &colour, 10.0 * smaller);
                 }
             }
         }
@@ -404,7 +422,7 @@ impl<'a> Canvas<'a> {
             [from[0] + by * along[0] - aside * along[1], from[1] + by * along[1] + aside * along[0]]
         };
         let tip = if pushes { shift(at, -1.0, 0.0) } else { shift(at, length, 0.0) };
-        let head = 5.0 + 0.2 * width;
+        let head = (5.0 + 0.2 * width).min(0.5 * length);
         let p = f64::from(PIXEL);
         let text = |[x, y]: [f64; 2]| format!("{:.0} {:.0}", p * x, p * y);
         let _ = writeln!(
@@ -423,53 +441,71 @@ impl<'a> Canvas<'a> {
 
     /// Names: of bodies first, then of what was asked for, then of all boundaries.
     fn names(&mut self, figure: &SceneFigure) {
-        for part in &figure.parts {
-            let anchor = self.at(part.inside);
-            self.name(&part.name, 14.0, &hex(INK), "bold", anchor, None);
-        }
-        for (number, contact) in figure.contacts.iter().enumerate() {
-            if let Some((anchor, towards)) = self.middle(&contact.rows, 0.5) {
-                self.name(
-                    &format!("contact {}", contact.name),
-                    12.0,
-                    &hex(contact_colour(number)),
-                    "bold",
-                    anchor,
-                    Some(towards.map(|part| -part)),
-                );
+        let of_part = |part: &DrawnPart, own: &Self| Some((part.name.clone(), INK, own.at(part.inside), None));
+        self.named(&figure.parts, "bodies", 14.0, of_part);
+        let numbers: Vec<usize> = (0..figure.contacts.len()).collect();
+        let of_contact = |&number: &usize, own: &Self| {
+            let contact = &figure.contacts[number];
+            let place = contact.place.map(|point| (own.at(point.place), flipped(point.normal)));
+            let (anchor, [x, y]) = place.or_else(|| own.middle(&contact.rows, 0.5))?;
+            Some((format!("contact {}", contact.name), contact_colour(number), anchor, Some([-x, -y])))
+        };
+        self.named(&numbers, "contacts", 12.0, of_contact);
+        let of_support = |support: &DrawnSupport, own: &Self| {
+            let (anchor, towards) = own.middle(&support.rows, 0.5)?;
+            Some((support.name.clone(), GREEN, anchor, Some(towards)))
+        };
+        self.named(&figure.supports, "supports", 11.0, of_support);
+        let of_load = |load: &DrawnLoad, own: &Self| {
+            let resultant = || load.resultant.map(|(place, _)| (own.labels.within(own.at(place), ARROWS[1]), [1.0, 0.0]));
+            let (anchor, towards) = own.middle(&load.rows, 0.5).or_else(resultant)?;
+            Some((load.name.clone(), VERMILION, anchor, Some(towards)))
+        };
+        self.named(&figure.loads, "loads", 11.0, of_load);
+        let size = 18.0 * size_of_marks(figure.boundaries.len());
+        for row in figure.boundaries.iter().flat_map(|boundary| &boundary.rows) {
+            for end in [row.first(), row.last()].into_iter().flatten() {
+                let [x, y] = self.at(end.place).map(|x| f64::from(PIXEL) * x);
+                let _ = writeln!(self.text, "<circle cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"{size:.0}\" fill=\"{}\"/>", hex(INK));
             }
         }
-        for support in &figure.supports {
-            if let Some((anchor, towards)) = self.middle(&support.rows, 0.5) {
-                self.name(&support.name, 11.0, &hex(GREEN), "normal", anchor, Some(towards));
-            }
-        }
-        for load in &figure.loads {
-            let middle = self
-                .middle(&load.rows, 0.5)
-                .or_else(|| load.resultant.map(|(place, _)| (self.labels.within(self.at(place), ARROWS[1]), [1.0, 0.0])));
-            if let Some((anchor, towards)) = middle {
-                self.name(&load.name, 11.0, &hex(VERMILION), "normal", anchor, Some(towards));
-            }
-        }
-        for boundary in &figure.boundaries {
-            for row in &boundary.rows {
-                for end in [row.first(), row.last()].into_iter().flatten() {
-                    let [x, y] = self.at(end.place).map(|x| f64::from(PIXEL) * x);
-                    let _ = writeln!(self.text, "<circle cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"18\" fill=\"{}\"/>", hex(INK));
-                }
-            }
-            if let Some((anchor, towards)) = self.middle(&boundary.rows, 0.3) {
-                self.name(&boundary.name, 11.0, &hex(GREY), "normal", anchor, Some(towards));
-            }
-        }
+        let of_boundary = |boundary: &NamedRows, own: &Self| {
+            let (anchor, towards) = own.middle(&boundary.rows, 0.3)?;
+            Some((boundary.name.clone(), GREY, anchor, Some(towards)))
+        };
+        self.named(&figure.boundaries, "boundaries", 11.0, of_boundary);
         let late = std::mem::take(&mut self.late);
         self.text += &late;
     }
 
-    fn name(&mut self, text: &str, size: f64, colour: &str, weight: &str, anchor: [f64; 2], towards: Option<[f64; 2]>) {
-        let text: String = if text.chars().count() > 40 { text.chars().take(39).chain(['…']).collect() } else { text.into() };
-        self.late += &self.labels.put(&Name { text: &text, size, colour, weight, anchor, towards });
+    /// Names of one kind, as far as there is room: text, colour, what is named, and where the name would rather stand from there.
+    fn named<T>(&mut self, all: &[T], kind: &str, size: f64, of: impl Fn(&T, &Self) -> Option<WantedName>) {
+        let every = if all.len() > MOST_NAMES { all.len().div_ceil(FEW_NAMES) } else { 1 };
+        let weight = if size > 11.0 { "bold" } else { "normal" };
+        let mut count = 0;
+        for one in all.iter().step_by(every) {
+            let Some((text, colour, anchor, towards)) = of(one, self) else { continue };
+            let text: String = if text.chars().count() > 40 { text.chars().take(39).chain(['…']).collect() } else { text };
+            let put = self.labels.put(&Name { text: &text, size, colour: &hex(colour), weight, anchor, towards });
+            count += usize::from(put.is_some());
+            self.late += &put.unwrap_or_default();
+        }
+        if count < all.len() {
+            self.counts.push(format!("{count} of {} {kind}", all.len()));
+        }
+    }
+
+    /// Of how many things some are named only, between legend and plot.
+    fn counts(&mut self, sheet: &Sheet) {
+        if !self.counts.is_empty() {
+            let [x, y] = [sheet.width - 12, 57].map(|pixels| pixels * PIXEL);
+            let words = self.counts.join(", ");
+            let _ = writeln!(
+                self.text,
+                "<text x=\"{x}\" y=\"{y}\" text-anchor=\"end\" font-family=\"sans-serif\" font-size=\"100\" fill=\"{}\">named: {words}</text>",
+                hex(GREY)
+            );
+        }
     }
 
     /// A place at this share of the longest row, and the direction out of the body there, in the figure.
@@ -492,6 +528,11 @@ impl<'a> Canvas<'a> {
             );
         }
     }
+}
+
+/// How large marks are drawn of which there are so many.
+fn size_of_marks(count: usize) -> f64 {
+    if count > MOST_NAMES { SMALLER } else { 1.0 }
 }
 
 /// A place in pixels.

@@ -5,10 +5,7 @@ use std::path::Path;
 
 use super::page::ReportPage;
 use crate::output::markup::{escape, figure, paragraph, subsection};
-use crate::output::summary::Status;
-
-/// Contacts whose figures stand in the page; those of the others lie in the folder.
-const MOST_CONTACTS: usize = 8;
+use crate::output::summary::{MOST_WITH_FIGURES, Status};
 
 /// The text of a figure with a caption; nothing if there is no such figure.
 pub fn drawing(folder: &Path, name: &str, words: &str) -> String {
@@ -26,22 +23,20 @@ pub fn of_solution(folder: &Path, page: &ReportPage) -> String {
         "deformed.svg",
         "The deformed bodies, coloured by von Mises stress; displacements are drawn larger than they are by the factor above.",
     );
-    let mut names: Vec<&str> = page.contacts.iter().map(|(name, _)| name.as_str()).collect();
-    let force = |name: &str| summary.contact.get(name).and_then(|contact| contact.force).unwrap_or(0.0).abs();
-    if names.len() > MOST_CONTACTS {
-        names.sort_by(|a, b| force(b).total_cmp(&force(a)));
-        names.truncate(MOST_CONTACTS);
-    }
-    for &name in &names {
+    for (name, _) in page.told() {
         let own = of_contact(folder, page, name);
         if !own.is_empty() {
             all += &subsection(&format!("Contact {name}"));
             all += &own;
         }
     }
-    let left = page.contacts.len() - names.len();
+    let left = page.contacts.len() - page.told().count();
     if left > 0 && !all.is_empty() {
-        let words = format!("These are the contacts with the largest forces; the figures of {left} others lie beside this page.");
+        let others = match page.contacts.len() > MOST_WITH_FIGURES {
+            true => format!("the {left} others have none, but a contact_NAME.csv each"),
+            false => format!("the figures of {left} others lie beside this page"),
+        };
+        let words = format!("These are the contacts that are trusted least, and those with the largest forces; {others}.");
         all += &paragraph(&words);
     }
     let steps = summary.steps.as_ref().filter(|_| !all.is_empty() && summary.status != Status::Interrupted);

@@ -4,14 +4,11 @@ use std::path::Path;
 
 use super::drawings::drawing;
 use super::numbers::{count, number, trust_word};
-use super::page::ReportPage;
+use super::page::{ReportPage, long_table};
 use super::verdict::word;
-use crate::output::markup::{UNKNOWN, paragraph, subsection, table};
+use crate::output::markup::{UNKNOWN, subsection};
 use crate::output::summary::{AccuracyStep, BoundaryIteration, OuterIteration, StepSummary};
 
-/// Rows of a table at most; of more the first and the last are shown.
-const MOST_ROWS: usize = 60;
-const FIRST_ROWS: usize = 10;
 /// Contacts that have columns in the table of load steps; all of them stand in `steps.csv`.
 const MOST_COLUMNS: usize = 4;
 
@@ -44,18 +41,6 @@ pub fn history(folder: &Path, page: &ReportPage) -> String {
         text += &passes(&summary.outer);
     }
     text
-}
-
-/// A table of the first and the last rows, with a word on those between.
-fn long_table(header: &[&str], rows: Vec<Vec<String>>, place: &str) -> String {
-    if rows.len() <= MOST_ROWS {
-        return table(header, &rows);
-    }
-    let left = rows.len() - MOST_ROWS;
-    let last = rows.len() - (MOST_ROWS - FIRST_ROWS);
-    let dots = std::iter::once(vec!["…".to_owned(); header.len()]);
-    let shown: Vec<Vec<String>> = rows[..FIRST_ROWS].iter().cloned().chain(dots).chain(rows[last..].iter().cloned()).collect();
-    table(header, &shown) + &paragraph(&format!("{left} rows are left out here; all of them stand in {place}."))
 }
 
 fn load_steps(steps: &[StepSummary]) -> String {

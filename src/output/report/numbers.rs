@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::page::ReportPage;
+use super::page::{ReportPage, long_table};
+use crate::output::CONTACTS;
 use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, subsection, table};
 use crate::output::plot::{number_text, number_to};
 use crate::output::summary::Summary;
@@ -52,28 +53,29 @@ pub fn contacts(page: &ReportPage) -> String {
     }
     let row = |(name, [one, two]): &(String, [String; 2])| {
         let contact = summary.contact.get(name)?;
-        let closed = contact.closed.as_deref().unwrap_or_default();
-        let width: f64 = closed.iter().map(|[from, to]| to - from).sum();
         Some(vec![
             name.clone(),
             format!("{one}, {two}"),
             exact(contact.force),
             exact(contact.pressure_max),
-            number(contact.closed.as_ref().map(|_| width)),
+            number(contact.width()),
             number(contact.length),
             trust_word(contact.trust),
         ])
     };
-    let rows: Vec<Vec<String>> = page.contacts.iter().filter_map(row).collect();
+    let rows: Vec<Vec<String>> = page.told().filter_map(row).collect();
     let header = ["contact", "between", "force ∫λ ds", "largest λ", "closed length", "whole length", "pressure"];
-    table(&header, &rows) + &closed(summary)
+    let all = summary.contacts_in_words().map(|words| {
+        paragraph(&format!("{words}.")) + &paragraph(&format!("These are the worst and the largest; all stand in {CONTACTS}."))
+    });
+    all.unwrap_or_default() + &table(&header, &rows) + &closed(summary)
 }
 
 /// The intervals that press, as lengths and as places.
 fn closed(summary: &Summary) -> String {
     let mut rows = Vec::new();
     let mut left = 0;
-    for (name, contact) in &summary.contact {
+    for (name, contact) in summary.contacts_told() {
         let (arcs, places) =
             (contact.closed.as_deref().unwrap_or_default(), contact.closed_points.as_deref().unwrap_or_default());
         for (at, [from, to]) in arcs.iter().enumerate().take(MOST_INTERVALS) {
@@ -87,7 +89,7 @@ fn closed(summary: &Summary) -> String {
                 None => UNKNOWN.into(),
             };
             rows.push(vec![
-                name.clone(),
+                name.to_owned(),
                 (at + 1).to_string(),
                 number_text(*from),
                 number_text(*to),
@@ -110,7 +112,7 @@ fn closed(summary: &Summary) -> String {
 pub fn forces(page: &ReportPage) -> String {
     let summary = page.summary;
     let mut rows = Vec::new();
-    for (name, contact) in &summary.contact {
+    for (name, contact) in summary.contacts_told() {
         let two = page.contacts.iter().find(|(own, _)| own == name).map_or("body 2", |(_, bodies)| &bodies[1]);
         let [x, y] = pair(contact.resultant);
         rows.push(vec![format!("contact {name}, on {two}"), x, y, exact(contact.moment), "the origin".into()]);
@@ -125,7 +127,7 @@ pub fn forces(page: &ReportPage) -> String {
         let about = rigid.about.map_or(UNKNOWN.into(), |[x, y]| format!("({}, {})", number_text(x), number_text(y)));
         rows.push(vec![format!("rigid {name}, on the bodies"), x, y, exact(rigid.moment), about]);
     }
-    let mut text = table(&["", "force x", "force y", "moment", "about"], &rows);
+    let mut text = long_table(&["", "force x", "force y", "moment", "about"], rows, "summary.json");
     text += &motions(summary);
     let balance = &summary.balance;
     let balances = [
@@ -163,7 +165,7 @@ fn energies(summary: &Summary) -> String {
     ];
     let all = of_bodies.chain(whole.map(|(name, value)| (name.to_owned(), value))).filter(|(_, value)| value.is_some());
     let rows: Vec<Vec<String>> = all.map(|(name, value)| vec![name, exact(value)]).collect();
-    let table = table(&["", "energy"], &rows);
+    let table = long_table(&["", "energy"], rows, "summary.json");
     if table.is_empty() { table } else { subsection("Energies") + &table }
 }
 
@@ -181,7 +183,7 @@ pub fn points(page: &ReportPage) -> String {
         vec![name.clone(), number(*strain), number(summary.rotation.get(name).copied().flatten())]
     };
     let rows: Vec<Vec<String>> = summary.strain_max.iter().map(row).collect();
-    let bodies = table(&["body", "largest strain", "mean rotation (radians)"], &rows);
+    let bodies = long_table(&["body", "largest strain", "mean rotation (radians)"], rows, "summary.json");
     let largest =
         summary.displacement_max.map(|u| paragraph(&format!("The largest displacement of a node is {}.", number_text(u))));
     probes + &bodies + &largest.unwrap_or_default()

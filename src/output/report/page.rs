@@ -1,6 +1,8 @@
 //! What a page is made of.
 
 use crate::output::Summary;
+use crate::output::markup::{paragraph, table};
+use std::collections::BTreeSet;
 
 /// What a report tells of, beside the figures in the folder of the result.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +19,30 @@ pub struct ReportPage<'a> {
     pub warnings: &'a [String],
     /// The case as it ran.
     pub case: &'a str,
+}
+
+impl<'a> ReportPage<'a> {
+    /// The contacts that are told one by one.
+    pub fn told(&self) -> impl Iterator<Item = &'a (String, [String; 2])> {
+        let told: BTreeSet<&str> = self.summary.told().into_iter().collect();
+        self.contacts.iter().filter(move |(name, _)| told.contains(name.as_str()))
+    }
+}
+
+/// Rows of a table at most; of more the first and the last are shown.
+const MOST_ROWS: usize = 60;
+const FIRST_ROWS: usize = 10;
+
+/// A table of the first and the last rows, with a word on those between.
+pub fn long_table(header: &[&str], rows: Vec<Vec<String>>, place: &str) -> String {
+    if rows.len() <= MOST_ROWS {
+        return table(header, &rows);
+    }
+    let left = rows.len() - MOST_ROWS;
+    let last = rows.len() - (MOST_ROWS - FIRST_ROWS);
+    let dots = std::iter::once(vec!["…".to_owned(); header.len()]);
+    let shown: Vec<Vec<String>> = rows[..FIRST_ROWS].iter().cloned().chain(dots).chain(rows[last..].iter().cloned()).collect();
+    table(header, &shown) + &paragraph(&format!("{left} rows are left out here; all of them stand in {place}."))
 }
 
 /// A value that a case expects.

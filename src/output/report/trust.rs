@@ -27,7 +27,7 @@ pub fn trust(page: &ReportPage) -> String {
             number(contact.closed_edges),
         ])
     };
-    let rows: Vec<Vec<String>> = page.contacts.iter().filter_map(row).collect();
+    let rows: Vec<Vec<String>> = page.told().filter_map(row).collect();
     let header = [
         "contact",
         "pressure",
@@ -53,7 +53,7 @@ pub fn estimate(page: &ReportPage) -> String {
         paragraph(&format!("The displacement of all bodies has an estimated error of {} in the energy norm.", number_text(error)))
     });
     let mut rows = Vec::new();
-    for (name, contact) in &summary.contact {
+    for (name, contact) in summary.contacts_told() {
         let counting = contact.zones.iter().filter(|zone| zone.counts(&contact.zones));
         rows.extend(counting.map(|zone| row(name, zone)));
     }

@@ -2,15 +2,16 @@
 
 use super::page::{ExpectedValue, ReportPage};
 use crate::output::Summary;
-use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, subsection, table};
+use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, paragraph, subsection, table};
 use crate::output::plot::number_text;
-use crate::output::summary::{GoalSummary, Status};
+use crate::output::summary::{GoalSummary, MOST_TOLD, Status, WORST, listed};
 
 /// The verdict in a word or two.
 pub fn word(status: Status) -> &'static str {
     match status {
         Status::Converged => "Converged",
         Status::NotConverged => "Not converged",
+        Status::Unresolved => "Not resolved",
         Status::Interrupted => "Interrupted",
     }
 }
@@ -42,10 +43,8 @@ enum Trust {
 }
 
 fn is_trusted(summary: &Summary) -> Trust {
-    let named = |wanted: Option<bool>| {
-        let all = summary.contact.iter().filter(|(_, contact)| contact.trust == wanted);
-        all.map(|(name, _)| name.clone()).collect::<Vec<_>>()
-    };
+    let named =
+        |wanted: Option<bool>| summary.named(|contact| contact.trust == wanted).into_iter().map(String::from).collect::<Vec<_>>();
     match (named(Some(false)), named(None)) {
         (none, _) if !none.is_empty() => Trust::None(none),
         (_, unknown) if !unknown.is_empty() => Trust::Unknown(unknown),
@@ -57,10 +56,13 @@ fn is_trusted(summary: &Summary) -> Trust {
 fn sentence(summary: &Summary) -> String {
     let contacts = |names: &[String]| {
         let word = if names.len() == 1 { "contact" } else { "contacts" };
-        format!("{word} {}", names.join(", "))
+        format!("{word} {}", listed(names))
     };
     match (summary.status, is_trusted(summary)) {
         (Status::Interrupted, _) => "A signal has ended the run: there is no result, and below stands what was reached.".into(),
+        (Status::Unresolved, _) => {
+            "The equations are solved, but on a mesh, or contact boundaries, that cannot hold what the case says.".into()
+        }
         (Status::NotConverged, _) => not_converged(summary.reason.as_deref().unwrap_or_default()).into(),
         (Status::Converged, Trust::None(names)) => {
             format!("The equations are solved, but the pressure of {} cannot be trusted.", contacts(&names))
@@ -151,9 +153,19 @@ fn goals(summary: &Summary) -> String {
         let holds = if goal.estimate.is_some_and(|estimate| estimate <= goal.asked) { HOLDS } else { MISSED };
         Some(vec![name, number_text(goal.asked), number(goal.estimate), number(goal.error), holds.into()])
     };
+    all.retain(|(_, goal)| goal.is_some());
+    let count = all.len();
+    if count > MOST_TOLD {
+        let excess = |goal: &GoalSummary| goal.estimate.map_or(f64::INFINITY, |estimate| estimate / goal.asked);
+        let excess = |goal: &Option<GoalSummary>| goal.as_ref().map_or(0.0, excess);
+        all.sort_by(|(_, a), (_, b)| excess(b).total_cmp(&excess(a)));
+        all.truncate(WORST);
+    }
     let rows: Vec<Vec<String>> = all.into_iter().filter_map(row).collect();
+    let words = format!("The worst of {count} goals; all of them stand in summary.json.");
+    let words = if rows.len() < count { paragraph(&words) } else { String::new() };
     let header = ["", "error asked for", "estimated", "true", ""];
-    if rows.is_empty() { String::new() } else { subsection("Accuracy") + &table(&header, &rows) }
+    if rows.is_empty() { String::new() } else { subsection("Accuracy") + &words + &table(&header, &rows) }
 }
 
 #[cfg(test)]

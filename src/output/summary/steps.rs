@@ -59,8 +59,7 @@ impl StepSummary {
     /// What a list of steps keeps of the summary of one.
     pub fn new(step: usize, factors: &[(String, f64)], of: &Summary, seconds: f64) -> Self {
         let contact = |(name, contact): (&String, &super::ContactSummary)| {
-            let closed = contact.closed.clone();
-            let width = closed.as_ref().map(|intervals| intervals.iter().fold(0.0, |sum, [first, last]| sum + last - first));
+            let (closed, width) = (contact.closed.clone(), contact.width());
             let (force, resultant, pressure_max) = (contact.force, contact.resultant, contact.pressure_max);
             (name.clone(), StepContact { force, resultant, closed, width, pressure_max, trust: contact.trust })
         };

@@ -8,7 +8,8 @@ impl Summary {
         let scale = |value: &mut Option<f64>| *value = value.map(|value| thickness * value);
         let scale_both = |value: &mut Option<[f64; 2]>| *value = value.map(|value| value.map(|one| thickness * one));
         for contact in self.contact.values_mut() {
-            [&mut contact.force, &mut contact.unresolved_force, &mut contact.moment].into_iter().for_each(scale);
+            let forces = [&mut contact.force, &mut contact.unresolved_force, &mut contact.missing_force, &mut contact.moment];
+            forces.into_iter().for_each(scale);
             scale_both(&mut contact.resultant);
         }
         for support in self.support.values_mut() {

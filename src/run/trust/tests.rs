@@ -6,6 +6,7 @@ use crate::output::summary::{BalanceSummary, ContactSummary, EstimateSummary, Zo
 
 fn zone() -> ZoneSummary {
     ZoneSummary {
+        hertz_width: None,
         ends: Some([0.0, 0.4]),
         edges: Some(8.0),
         segments: Some(6),
@@ -145,22 +146,18 @@ fn the_pressure_at_a_corner_is_left_open_if_the_force_is_right() {
     let corner = ZoneSummary { edges: Some(1.5), corner: Some(true), lambda: None, worst: None, ..zone() };
     let contact = ContactSummary { zones: vec![corner], ..ContactSummary::default() };
     assert!(zone_doubts(&contact, Some(true), FINER).is_empty());
-    assert!(unknown_words(&contact, "seam", Some(true), FINER).is_some_and(|words| words.contains("singular")));
+    assert!(unknown_of(&contact, Some(true), FINER).is_some_and(|unknown| unknown.words.contains("singular")));
     assert!(!zone_doubts(&contact, Some(false), FINER).is_empty());
 }
 
 #[test]
 fn what_nothing_estimates_is_told() {
     let told = |lambda| {
-        unknown_words(
-            &ContactSummary { zones: vec![ZoneSummary { lambda, ..zone() }], ..ContactSummary::default() },
-            "seam",
-            None,
-            FINER,
-        )
+        let zones = vec![ZoneSummary { lambda, ..zone() }];
+        unknown_of(&ContactSummary { zones, ..ContactSummary::default() }, None, FINER)
     };
-    assert_eq!(told(Some(0.01)), None);
-    assert!(told(None).is_some_and(|words| words.contains("nothing estimates")));
+    assert!(told(Some(0.01)).is_none());
+    assert!(told(None).is_some_and(|unknown| unknown.words.contains("nothing estimates")));
 }
 
 const CASE: &str = r#"
@@ -285,4 +282,64 @@ fn bodies_that_pass_through_each_other_are_no_result() {
     assert_eq!(words(Some(vec![]), Some(1e-3)), None, "an overlap that the mesh explains");
     assert_eq!(words(Some(vec![]), None), None, "bodies apart");
     assert_eq!(words(Some(vec![[0.0, 0.1]]), Some(0.9)), None, "doubted, but something presses");
+}
+
+/// A scene of so many contacts: that of number `k` carries `force(k)`, on zones of so many edges.
+fn scene(count: usize, force: impl Fn(usize) -> f64, edges: impl Fn(usize) -> f64, settings: &[&str]) -> (Summary, Judgement) {
+    let contacts: String =
+        (0..count).map(|k| format!("contact.c{k} = {{ between = [\"lower.s{k}\", \"upper.s{k}\"] }}\n")).collect();
+    let text = CASE.replace("contact.seam = { between = [\"lower.seam\", \"upper.seam\"] }\n", &contacts);
+    let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+    let case = Case::parse(&text, std::path::Path::new("case.toml"), &settings).expect("a case");
+    let mut summary = Summary::default();
+    for k in 0..count {
+        let zones = vec![ZoneSummary { edges: Some(edges(k)), ..zone() }];
+        let (force, unresolved_force, missing_force) = (Some(force(k)), Some(0.0), Some(0.0));
+        let contact = ContactSummary { zones, force, unresolved_force, missing_force, ..ContactSummary::default() };
+        summary.contact.insert(format!("c{k}"), contact);
+    }
+    let judgement = judge(&mut summary, &case, true);
+    (summary, judgement)
+}
+
+#[test]
+fn a_contact_that_carries_next_to_nothing_holds_up_no_verdict() {
+    let verdict = |share: f64, settings: &[&str]| {
+        let (summary, judgement) = scene(2, |k| [-5.0, 5.0 * share][k], |k| [8.0, 1.0][k], settings);
+        let contact = summary.contact["c1"].clone();
+        assert_eq!(summary.contact["c0"].verdict.as_deref(), Some("trusted"));
+        assert_eq!(judgement.unreliable.is_some(), contact.trust == Some(false));
+        (contact.trust, contact.verdict.expect("a verdict"))
+    };
+    let touches = |share| (Some(true), format!("touches; carries less than {share} of the largest force"));
+    let narrow = (Some(false), "not trusted: contact is narrower than four edges".to_owned());
+    assert_eq!([verdict(9e-5, &[]), verdict(1.1e-4, &[])], [touches("1e-4"), narrow.clone()]);
+    assert_eq!([verdict(9e-3, &["accuracy=1e-2"]), verdict(1.1e-2, &["accuracy=1e-2"])], [touches("1e-2"), narrow]);
+}
+
+#[test]
+fn what_overlaps_is_not_said_to_touch() {
+    let case = Case::parse(CASE, std::path::Path::new("case.toml"), &[]).expect("a case");
+    let told = |unresolved: f64, missing: f64| {
+        let (force, unresolved_force, missing_force) = (Some(1e-6), Some(unresolved), Some(missing));
+        let contact = ContactSummary { force, unresolved_force, missing_force, ..ContactSummary::default() };
+        idle_words(&contact, &case, 1.0).is_some()
+    };
+    assert_eq!([told(1e-6, 1e-6), told(1e-3, 0.0), told(0.0, 1e-3)], [true, false, false]);
+    let unknown = ContactSummary { force: Some(0.0), ..ContactSummary::default() };
+    assert_eq!(idle_words(&unknown, &case, 1.0), None);
+}
+
+#[test]
+fn of_many_contacts_causes_are_counted_and_the_worst_are_named() {
+    let (summary, judgement) = scene(40, |k| 1.0 + k as f64, |k| if k < 14 { 1.0 } else { 8.0 }, &[]);
+    let words = judgement.unreliable.expect("words");
+    assert!(
+        words.starts_with("14 of 40 contacts (14 because contact is narrower than four edges); the worst: contact c13 ("),
+        "{words}"
+    );
+    assert_eq!(words.matches("contact c").count(), summary::WORST, "{words}");
+    assert!(words.ends_with(FINER) && summary.contact["c13"].trust == Some(false) && summary.contact["c39"].trust == Some(true));
+    let (_, few) = scene(summary::MOST_TOLD, |k| 1.0 + k as f64, |_| 1.0, &[]);
+    assert_eq!(few.unreliable.expect("words").matches("contact c").count(), summary::MOST_TOLD);
 }

@@ -42,16 +42,18 @@ const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies 
 /// times as large.
 const MOST_RESIDUAL: f64 = 1e-4;
 
-/// All of it, of one contact.
+/// All of it, of one contact. Of one that carries nothing what is measured by its own length or force does not count.
 pub fn unestimated_doubts(
     summary: &Summary,
     contact: &summary::ContactSummary,
     case: &Case,
     shorter: &'static str,
+    carries: bool,
 ) -> Vec<Doubt> {
-    let motions = slip_doubt(contact).into_iter().chain(end_doubt(contact)).chain(turning_doubt(contact));
+    let own = slip_doubt(contact).into_iter().chain(end_doubt(contact)).chain(unresolved_doubt(contact, shorter));
+    let turning = turning_doubt(contact).filter(|_| carries || contact.zones.is_empty());
     let bodies = strain_doubts(summary).into_iter().chain(rotation_doubts(summary)).chain(locking_doubt(case));
-    motions.chain(bodies).chain(residual_doubt(summary, case)).chain(unresolved_doubt(contact, shorter)).collect()
+    own.filter(|_| carries).chain(turning).chain(bodies).chain(residual_doubt(summary, case)).collect()
 }
 
 /// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.
@@ -59,6 +61,7 @@ pub(super) fn slip_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
     let (slip, error) = (contact.slip?, contact.slip_error?);
     let by_turning = contact.rotation_error.is_some_and(|turning| turning > MOST_SLIP_ERROR && turning > 0.5 * error);
     (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR && !by_turning).then(|| Doubt {
+        cause: "the bodies slide too far along each other",
         figure: format!(
             "the bodies slide along each other by {} of the length in contact: force or pressure wrong by about {} (relative), at most {MOST_SLIP_ERROR} wanted",
             short(slip),
@@ -85,6 +88,7 @@ pub(super) fn end_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
         })
     };
     Some(Doubt {
+        cause: "sliding changes what the bodies have in common",
         figure: lost.or_else(slid)?,
         remedy: "draw the bodies as they lie after sliding, or take curve = \"fit\" with configuration = \"deformed\"",
     })
@@ -93,18 +97,18 @@ pub(super) fn end_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
 /// What tells that bodies have turned too far for a theory that makes larger what turns.
 pub(super) fn turning_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
     let error = contact.rotation_error?;
-    let remedy = TURN_LESS;
+    let (cause, remedy) = ("the bodies turn too far", TURN_LESS);
     if contact.zones.is_empty() {
         let figure =
             format!("nothing presses, but bodies that turn grow in this theory, by {} times the smallest gap", short(error));
-        return (error > MOST_GROWTH).then_some(Doubt { figure, remedy });
+        return (error > MOST_GROWTH).then_some(Doubt { cause, figure, remedy });
     }
     // Sliding and turning may undo each other, as where a round body turns about its centre.
     let wrong = error > MOST_SLIP_ERROR && contact.slip_error.is_none_or(|error| error > MOST_SLIP_ERROR);
     let figure = || {
         format!("the bodies turn: force or pressure wrong by about {} (relative), at most {MOST_SLIP_ERROR} wanted", short(error))
     };
-    wrong.then(|| Doubt { figure: figure(), remedy })
+    wrong.then(|| Doubt { cause, figure: figure(), remedy })
 }
 
 /// What tells that bodies are strained beyond a theory of small strain.
@@ -115,14 +119,14 @@ pub(super) fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
         format!("body {body} strained by {:.0} %, at most {:.0} % wanted", 100.0 * strain, 100.0 * MOST_STRAIN)
     };
     let remedy = "press less, or correct the units of E, loads and displacements: the model is that of small strain";
-    large.map(|found| Doubt { figure: words(found), remedy }).collect()
+    large.map(|found| Doubt { cause: "a body is strained too much", figure: words(found), remedy }).collect()
 }
 
 /// What tells that bodies turn farther than any theory of small rotations goes.
 pub(super) fn rotation_doubts(summary: &Summary) -> Vec<Doubt> {
     let far = summary.rotation.iter().filter_map(|(body, angle)| Some((body, angle.filter(|a| a.abs() > MOST_ROTATION)?)));
     let words = |(body, angle): (&String, f64)| format!("body {body} turns by {angle:.2}, at most {MOST_ROTATION} wanted");
-    far.map(|found| Doubt { figure: words(found), remedy: TURN_LESS }).collect()
+    far.map(|found| Doubt { cause: "a body turns too far", figure: words(found), remedy: TURN_LESS }).collect()
 }
 
 /// What tells that P1 triangles have locked: meshes that all lock alike have differences that say too little.
@@ -130,13 +134,14 @@ pub(super) fn locking_doubt(case: &Case) -> Option<Doubt> {
     let locks = |part: &&BodyPart| case.mesh.order == Order::P1 && part.material.poisson_in_plane() > MOST_POISSON;
     let part = case.bodies.iter().flat_map(|body| &body.parts).find(locks)?;
     let figure = format!("body {} has ν = {} with P1 triangles, at most {MOST_POISSON} wanted", part.name, part.material.poisson);
-    Some(Doubt { figure, remedy: "take mesh.order = 2: P1 triangles lock" })
+    Some(Doubt { cause: "P1 triangles lock", figure, remedy: "take mesh.order = 2: P1 triangles lock" })
 }
 
 /// What tells that the linear solve has stopped too early for its forces.
 pub(super) fn residual_doubt(summary: &Summary, case: &Case) -> Option<Doubt> {
     let residual = summary.solver.residual.filter(|residual| *residual > MOST_RESIDUAL)?;
     (!case.solver.goes_by_estimate()).then(|| Doubt {
+        cause: "the linear solve has stopped early",
         figure: format!("the linear solve has stopped at a residual of {}, at most {MOST_RESIDUAL} wanted", short(residual)),
         remedy: "take a smaller solver.tolerance, or \"discretisation\"",
     })
@@ -147,5 +152,6 @@ pub(super) fn unresolved_doubt(contact: &summary::ContactSummary, shorter: &'sta
     let force = contact.force.unwrap_or(0.0).abs();
     let off = contact.unresolved_force.filter(|off| *off > MOST_UNRESOLVED * force)?;
     let worth = if force > 0.0 { format!(", which is worth {} of its force", short(off / force)) } else { String::new() };
-    Some(Doubt { figure: format!("the bodies penetrate each other within segments{worth}"), remedy: shorter })
+    let cause = "the bodies penetrate each other within segments";
+    Some(Doubt { cause, figure: format!("{cause}{worth}"), remedy: shorter })
 }

@@ -7,7 +7,6 @@ use super::following::{BoundaryStep, Following, NextBoundary, carried, standing,
 use super::observer::{Event, Work};
 use super::pass::Pass;
 use super::settings::Procedure;
-use super::widening::widened;
 use crate::system::{
     BoundaryMotion, Contact, Discretisation, Elastic, Form, Interpolation, Preconditioning, SaddlePoint, Solution, Start, System,
     SystemError, Tolerance, interpolations, load, nodal_forces, settle,
@@ -118,7 +117,7 @@ impl OneMesh<'_> {
         mut preconditioning: Preconditioning,
     ) -> Result<OnMesh, SystemError> {
         let exact = self.tolerance.residual().min(ON_THE_WAY);
-        let mut following = Following::new(problem, exact, start.is_some());
+        let mut following = Following::new(problem, exact, start.is_some(), self.is_last);
         self.begin(Some(following.tolerances()));
         let mut history = MeshHistory::default();
         // Where a coarser mesh knows the boundaries, the first solve may be the last, and the next one mostly is.
@@ -261,12 +260,6 @@ impl BoundaryLoop<'_, '_> {
                 self.mesh.sets(&mut system, start.take(), tolerance, position)?;
             self.history.passes.extend(passes);
             let after = match ending {
-                Ending::NotConverged(Failure::NotHeld(_)) if self.number == 1 => {
-                    match widened(system.problem(), self.mesh.procedure.session)? {
-                        Some((contacts, motion)) => After::Moved { contacts, motion, start: None, is_near: false },
-                        None => After::Ended(ending),
-                    }
-                }
                 Ending::NotConverged(_) => After::Ended(ending),
                 Ending::Converged(standing) => match self.next(system.problem(), &solution, standing, is_last)? {
                     Some(after) => after,

@@ -1,14 +1,14 @@
 //! What the solution on a coarser mesh says of the next finer one: where to start, which multipliers are active, where
 //! contact boundaries lie.
 
-use crate::contact::{ContactBoundary, Known, Meeting, MultiplierSpace, SmoothSide};
+use crate::contact::{ContactBoundary, Known, MultiplierSpace};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
 use crate::petsc::Session;
 use crate::system::{
     BoundaryMotion, Contact, ContactPressure, Discretisation, Field, Preconditioning, Scene, Solution, Space, Start, SystemError,
-    spaces,
+    nearest, spaces,
 };
 
 /// Share of the way of an end from one mesh to the next by which it goes on from there to the one after: its error falls by
@@ -174,13 +174,8 @@ impl ContactSolution {
         let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
         let mut known = Vec::new();
         for old in &self.contacts {
-            let mut meeting = None;
-            if old.known.meeting.is_some() {
-                let sides = SmoothSide::of_pair(&scene.mesh, &space.numbering, &old.pair, &displacement);
-                meeting = Meeting::now(&sides, &old.pair)
-                    .map_err(|words| SystemError::Case(format!("contact.{}: {words}", old.pair.name)))?;
-            }
-            known.push(Known { meeting, coarser: self.is_refined.then(|| old.ends()), ..Known::default() });
+            let nearest = nearest(scene, &space.numbering, &old.pair);
+            known.push(Known { coarser: self.is_refined.then(|| old.ends()), ..nearest });
         }
         let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         if scene.pairs.iter().any(|pair| pair.follows()) {

@@ -51,7 +51,7 @@ const AS_GOOD: f64 = 1e3;
 const MOST_AS_GOOD: f64 = 1e-3;
 
 /// How often contact that a body needs is kept against its forces.
-const MOST_KEPT: usize = 3;
+const MOST_KEPT: usize = 30;
 
 /// What the loop does next.
 enum Next {
@@ -139,7 +139,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
                 set.start_from(&carried);
             }
             system.begin(&Start { active: set.active().to_vec(), ..start })?;
-        } else if let Some(first) = first_set(system) {
+        } else if let Some(first) = problem.first_set.clone().or_else(|| first_set(system)) {
             set.start_from(&first);
             system.set_active(set.active())?;
         }

@@ -16,6 +16,15 @@ impl Ending {
     pub fn is_converged(&self) -> bool {
         matches!(self, Self::Converged(_))
     }
+
+    /// How far the ends of a contact boundary, which stand because they are held, had moved last, as a share of its length;
+    /// nothing if they came to rest.
+    pub fn still_moved(&self) -> Option<f64> {
+        match self {
+            Self::Converged(Standing::Boundary { held: Some(held), .. }) => Some(held.way.unwrap_or(1.0)),
+            _ => None,
+        }
+    }
 }
 
 impl Display for Ending {

@@ -2,7 +2,7 @@
 
 use super::change::relative_change;
 use super::ending::{Failure, HeldEnds, Standing};
-use crate::contact::{Configuration, End, Known, Meeting, SmoothSide, true_end};
+use crate::contact::{Configuration, End, Known, SmoothSide, true_end};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
@@ -11,11 +11,18 @@ use crate::system::{BoundaryMotion, Contact, ContactPressure, Discretisation, So
 /// Boundaries placed at most.
 const MOST_BOUNDARIES: usize = 30;
 
+/// The same on meshes before the last one, which tell the next where its boundaries lie: their ends are aligned with the pressure twice.
+const MOST_ON_THE_WAY: usize = 3;
+
 /// From this one on, a boundary keeps the nodes it is fitted to and its segments, and its ends follow the pressure.
 const FROZEN: usize = 3;
 
 /// From this one on the ends are held where they are, should they still move.
 const HELD: usize = 10;
+
+/// Segments that press, at least, where an end is told by the pressure beside it: of a contact narrower than that the mesh knows the
+/// force alone, and its ends would wander with the bend of the boundary from fit to fit.
+const TELLING: usize = 3;
 
 /// Change of the displacement, relative to its norm, at which it stands, by the relative residual of the last solve.
 const STILL_DISPLACEMENT: f64 = 1e2;
@@ -38,9 +45,6 @@ const MOST_BEYOND: f64 = 1e-3;
 
 /// An end of Γ_C lies at the end of a body if less than this share of an edge is between them.
 const AT_THE_END: f64 = 1e-2;
-
-/// A boundary whose ends move by less than this share of its length is the same.
-const SAME: f64 = 1e-5;
 
 /// Error that the ends have on a mesh anyway, as a share of their way since the coarser one: a third, if it falls by four from
 /// mesh to mesh, all of it, if by two.
@@ -85,6 +89,8 @@ type FoundEnd = Option<(f64, f64)>;
 pub struct Following {
     /// Number of the boundary from which on nodes and segments stay.
     frozen: usize,
+    /// Boundaries after which what there is stands, however far it would still move.
+    most: usize,
     /// Relative residual of the last solve.
     tolerance: f64,
     displacement: Vec<f64>,
@@ -100,8 +106,9 @@ pub struct Following {
 
 impl Following {
     /// Before the first solve; the last one goes to `tolerance`. Boundaries that a coarser mesh has found are `settled`.
-    pub fn new(problem: &Discretisation, tolerance: f64, settled: bool) -> Self {
+    pub fn new(problem: &Discretisation, tolerance: f64, settled: bool, is_last: bool) -> Self {
         Self {
+            most: if is_last { MOST_BOUNDARIES } else { MOST_ON_THE_WAY },
             frozen: if settled { 1 } else { FROZEN },
             tolerance,
             displacement: Vec::new(),
@@ -134,7 +141,7 @@ impl Following {
             .then(|| self.active.iter().zip(&solution.active).filter(|(a, b)| a != b).count());
         (self.displacement, self.active) = (solution.displacement.clone(), solution.active.clone());
         let motion = BoundaryMotion::new(&problem.scene, problem.finest(), &solution.displacement, session);
-        let known = self.proposals(problem, solution, number, &motion)?;
+        let known = self.proposals(problem, solution, number);
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
@@ -157,7 +164,8 @@ impl Following {
             Some(0.0) => self.beyond(problem, &motion, None),
             Some(way) if way <= still_boundary && still => self.beyond(problem, &motion, None),
             _ if left.is_some() => self.beyond(problem, &motion, left),
-            _ if number >= MOST_BOUNDARIES => NextBoundary::GivenUp(moves(&step)),
+            _ if number >= self.most && self.most == MOST_ON_THE_WAY => self.beyond(problem, &motion, moved),
+            _ if number >= self.most => NextBoundary::GivenUp(moves(&step)),
             _ => NextBoundary::Again(next, motion),
         };
         Ok((step, next_boundary))
@@ -165,6 +173,10 @@ impl Following {
 
     /// What stands must not leave contact out: bodies that penetrate each other beyond the ends of Γ_C.
     fn beyond(&self, problem: &Discretisation, motion: &BoundaryMotion, way: Option<f64>) -> NextBoundary {
+        // Edges wider than the contact bend into each other beside it, on meshes before the last one.
+        if self.most == MOST_ON_THE_WAY {
+            return NextBoundary::Stands(way);
+        }
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let fitted =
@@ -187,15 +199,7 @@ impl Following {
     }
 
     /// What the next boundary of each contact is placed by.
-    fn proposals(
-        &mut self,
-        problem: &Discretisation,
-        solution: &Solution,
-        number: usize,
-        motion: &BoundaryMotion,
-    ) -> Result<Vec<Known>, SystemError> {
-        let (mesh, space) = (&problem.scene.mesh, problem.finest());
-        let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+    fn proposals(&mut self, problem: &Discretisation, solution: &Solution, number: usize) -> Vec<Known> {
         let mut all = Vec::new();
         let settled = number >= self.frozen;
         for ((contact, ends), widest) in problem.contacts.iter().zip(&mut self.ends).zip(&mut self.widest) {
@@ -206,19 +210,6 @@ impl Following {
                 // Ends that find no rest, as where contact has several zones, are left to the active set.
                 all.push(Known { ends: Some(*widest), segments: None, ..known });
                 continue;
-            }
-            if contact.pair.curve.is_found() && !settled {
-                let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
-                let meeting = Meeting::now(&sides, &contact.pair)
-                    .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
-                if let Some(meeting) = meeting.filter(|meeting| differs(contact, meeting)) {
-                    if contact.known.meeting.as_ref().is_some_and(|before| before.seams != meeting.seams) {
-                        // What is known of the ends is counted from another place.
-                        (*ends, *widest) = ([None; 2], [f64::INFINITY, f64::NEG_INFINITY]);
-                    }
-                    all.push(Known { meeting: Some(meeting), ends: None, segments: None, ..known });
-                    continue;
-                }
             }
             if contact.has_free_ends() && number < HELD {
                 known.ends = Some(free_ends(&solution.pressure(contact), ends));
@@ -235,26 +226,8 @@ impl Following {
             }
             all.push(known);
         }
-        Ok(all)
+        all
     }
-}
-
-/// Whether a meeting gives a contact other ends than it has.
-fn differs(contact: &Contact, meeting: &Meeting) -> bool {
-    let knots = contact.boundary.knots();
-    let now = [knots[0], knots[knots.len() - 1]];
-    let before = contact.known.meeting.as_ref();
-    if let Some(before) = before.filter(|before| before.origin != meeting.origin || before.goes_round != meeting.goes_round) {
-        // Closed sides: both are counted from the first node of the mesh.
-        let (_, turn) = meeting.origin;
-        let ([a, b], [c, d]) = (before.ends_by_themselves(now), meeting.ends_by_themselves(meeting.ends));
-        let apart =
-            |a: f64, b: f64| turn.map_or((a - b).abs(), |turn| ((a - b + 0.5 * turn).rem_euclid(turn) - 0.5 * turn).abs());
-        return contact.boundary.is_closed() != meeting.goes_round
-            || !meeting.goes_round && apart(a, c).max(apart(b, d)) > SAME * (meeting.ends[1] - meeting.ends[0]);
-    }
-    let [first, last] = [meeting.ends[0].max(contact.limits[0]), meeting.ends[1].min(contact.limits[1])];
-    !meeting.goes_round && (first - now[0]).abs().max((last - now[1]).abs()) > SAME * (last - first)
 }
 
 /// Ends of a Γ_C that is to be a part of a closed one: half a segment beyond the only zone that presses. Nothing if that goes all
@@ -277,6 +250,9 @@ fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2]) -> [f64; 2
     let now = [knots[0], knots[knots.len() - 1]];
     let mut next = now;
     let edge = contact.edge_length() / boundary.speed(now[0]);
+    if pressing_segments(pressure) < TELLING {
+        return now;
+    }
     for (k, end) in [End::First, End::Last].into_iter().enumerate() {
         // At the end of a body contact may end with any pressure: it stays there, wherever the body goes.
         let last = multipliers_at(contact, end);
@@ -299,6 +275,14 @@ fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2]) -> [f64; 2
     }
     // A contact smaller than an edge is none that the mesh can tell.
     if next[1].min(contact.limits[1]) - next[0].max(contact.limits[0]) > edge { next } else { now }
+}
+
+/// Segments from the first that presses to the last.
+fn pressing_segments(pressure: &ContactPressure) -> usize {
+    let ContactPressure { contact, active, .. } = *pressure;
+    let all = (0..active.len()).filter(|&i| active[i]).map(|i| contact.multipliers.segment_of(i));
+    let [first, last] = all.fold([usize::MAX, 0], |[first, last], k| [first.min(k), last.max(k)]);
+    (last + 1).saturating_sub(first)
 }
 
 /// Multipliers of the segment at an end.

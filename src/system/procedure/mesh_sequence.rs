@@ -5,12 +5,14 @@ use super::foreseen::{Foreseen, Indicators, next_mesh};
 use super::solved::Solved;
 use crate::accuracy::{Accuracy, Adaptation, SequenceEnd};
 use crate::contact::SegmentRule;
+use crate::element::Order;
 use crate::mesh::{BisectedMesh, Origin, levels};
 use crate::system::{Scene, SystemError, node_count};
 use std::time::Instant;
 
-/// Refinements of each macro triangle, at least: what two of them tell is what the mesh is adapted by.
-const LEAST_REFINE: usize = 2;
+/// Refinements of each macro triangle, at least, where these are no more unknowns than are allowed: what two of them tell is what
+/// the mesh is adapted by. One tells enough to go on by; without any next to nothing is estimated.
+const USUAL_REFINE: usize = 2;
 
 /// A mesh of more triangles is not too coarse for a scene that is refused on it.
 const MOST_REFUSED: usize = 5000;
@@ -44,8 +46,8 @@ impl MeshSequence {
         let mesh = BisectedMesh::new(scene.mesh.as_ref().clone());
         Self {
             origins: mesh.origins.clone(),
+            scene: prepared(scene, &mesh, accuracy.most_unknowns),
             mesh,
-            scene: prepared(scene),
             adaptation: Adaptation::new(accuracy.clone()),
             foreseen: vec![None; accuracy.goals.len()],
             last: None,
@@ -55,12 +57,22 @@ impl MeshSequence {
         }
     }
 
+    /// Whether a mesh leaves room for finer ones: half of the unknowns that are allowed.
+    pub fn has_room_for(&self, mesh: &BisectedMesh) -> bool {
+        self.adaptation.accuracy.most_unknowns.is_none_or(|most| 2 * self.unknowns(mesh, self.scene.refine) <= most)
+    }
+
+    /// Begins with another mesh than that of the file.
+    pub fn begin_with(&mut self, mesh: BisectedMesh) {
+        (self.origins, self.mesh) = (mesh.origins.clone(), mesh);
+    }
+
     /// The first mesh has no more unknowns than are allowed.
     ///
     /// # Errors
     /// In words otherwise.
     pub fn check_first(&self) -> Result<(), SystemError> {
-        let unknowns = self.unknowns(&self.mesh);
+        let unknowns = self.unknowns(&self.mesh, self.scene.refine);
         match self.adaptation.accuracy.most_unknowns {
             Some(most) if unknowns > most => Err(SystemError::Case(format!(
                 "accuracy: the mesh of the file alone has {unknowns} unknowns with refine = {}, and max_unknowns, or half of the memory that is left, allows {most}; draw it coarser, or allow more",
@@ -91,7 +103,8 @@ impl MeshSequence {
                 return Some(self.ended_or_last(solved, SequenceEnd::Unsolved));
             }
         }
-        if !self.refine(missed) {
+        // Without a refinement there is nothing to judge by, and with one there would be too many unknowns.
+        if self.scene.refine == 0 || !self.refine(missed) {
             return Some(self.ended_or_last(solved, SequenceEnd::Unknowns));
         }
         if solved.ending.is_converged() {
@@ -155,8 +168,9 @@ impl MeshSequence {
 
     /// Refines where the goals are missed, everywhere without any, if the next mesh then has no more unknowns than are allowed.
     fn refine(&mut self, missed: &[Indicators]) -> bool {
-        let most = self.adaptation.accuracy.most_unknowns;
-        let Some(next) = next_mesh(&self.mesh, &self.scene.pairs, missed, |mesh| self.unknowns(mesh), most) else { return false };
+        let (most, refine) = (self.adaptation.accuracy.most_unknowns, self.scene.refine);
+        let unknowns = |mesh: &BisectedMesh| self.unknowns(mesh, refine);
+        let Some(next) = next_mesh(&self.mesh, &self.scene.pairs, missed, unknowns, most) else { return false };
         self.origins = next.mesh.origins.iter().map(|origin| origin.within(&self.origins)).collect();
         self.mesh = next.mesh;
         let places: Vec<usize> = self.adaptation.missed().map(|(place, _)| place).collect();
@@ -166,15 +180,22 @@ impl MeshSequence {
     }
 
     /// Displacement unknowns of a mesh.
-    fn unknowns(&self, mesh: &BisectedMesh) -> usize {
-        let levels = levels(self.scene.order, self.scene.refine);
-        2 * node_count(&mesh.mesh, levels[levels.len() - 1]) as usize
+    fn unknowns(&self, mesh: &BisectedMesh, refine: usize) -> usize {
+        unknown_count(mesh, self.scene.order, refine)
     }
 }
 
-/// The scene as the first mesh has it: fine enough to be judged, with segments that follow the edges of each mesh.
-fn prepared(mut scene: Scene) -> Scene {
-    scene.refine = scene.refine.max(LEAST_REFINE);
+/// Displacement unknowns of a mesh.
+fn unknown_count(mesh: &BisectedMesh, order: Order, refine: usize) -> usize {
+    let levels = levels(order, refine);
+    2 * node_count(&mesh.mesh, levels[levels.len() - 1]) as usize
+}
+
+/// The scene as the first mesh has it: fine enough to be judged, if it may be, with segments that follow the edges of each mesh.
+fn prepared(mut scene: Scene, mesh: &BisectedMesh, most: Option<usize>) -> Scene {
+    let usual = scene.refine.max(USUAL_REFINE);
+    let fits = |refine: &usize| most.is_none_or(|most| unknown_count(mesh, scene.order, *refine) <= most);
+    scene.refine = (0..=usual).rev().find(fits).unwrap_or(0);
     for pair in &mut scene.pairs {
         pair.segments = SegmentRule::Auto;
         pair.grading = [1.0, 1.0];
@@ -210,6 +231,7 @@ mod tests {
             coupling,
             motion: BoundaryMotion::default(),
             mean_forces: Vec::new(),
+            first_set: None,
         };
         sequence.adaptation.meshes.push(AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,

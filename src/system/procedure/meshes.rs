@@ -1,6 +1,7 @@
 //! The loop over meshes: coarser ones first, so that active sets, boundaries and errors are known; then that of the case.
 
 use super::at_rest::AtRest;
+use super::begun::Begun;
 use super::boundaries::{OnMesh, OneMesh};
 use super::coarse_solution::CoarseSolution;
 use super::duals::Duals;
@@ -10,11 +11,7 @@ use super::observer::{Event, Work};
 use super::predecessor::Predecessor;
 use super::settings::Procedure;
 use super::solved::{CoarseSolve, Solved};
-use crate::petsc::Session;
-use crate::system::{
-    BoundaryMotion, Contact, Discretisation, Preconditioning, Scene, SolverChoice, Start, SystemError, Tolerance, not_held,
-    spaces,
-};
+use crate::system::{Discretisation, Preconditioning, Scene, SolverChoice, Start, SystemError, Tolerance};
 
 /// Refinements that are solved before the case's own.
 const COARSER: usize = 2;
@@ -96,10 +93,13 @@ impl Procedure<'_> {
             }
         }
         take_up(scene.refine);
-        let (problem, start) = self.refine(scene, at_rest.contacts, &coarser)?;
-        if let (None, Some(words)) = (&start, not_held_at_all(&problem, self.session)) {
-            return Ok(Solved::nothing(problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
-        }
+        let (problem, start) = match self.refine(scene, &coarser)? {
+            Begun::Held(problem, start) => (*problem, Some(start)),
+            Begun::Unknown(problem) => (*problem, None),
+            Begun::Free(problem, words) => {
+                return Ok(Solved::nothing(*problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
+            }
+        };
         self.solve_last(problem, start, first, coarser)
     }
 
@@ -124,20 +124,16 @@ impl Procedure<'_> {
     /// Solves a coarser mesh, if it holds the bodies, and keeps what it tells. **Collective**
     fn coarse_mesh(&self, scene: Scene, first: &mut First, coarser: &mut Coarser) -> Result<(), SystemError> {
         let (refine, before) = (scene.refine, coarser.found.take());
-        let (mut problem, start) = {
+        let begun = {
             let _stage = self.observer.enter(Work::Contact);
-            let known = match &before {
-                Some(before) => Some(before.refined(scene.clone(), self.session)?),
-                None => self.begun_by_predecessor(&scene, coarser.predecessor)?,
-            };
-            match known {
-                Some((problem, start)) => (problem, Some(start)),
-                None => (Discretisation::new(scene, self.session)?, None),
-            }
+            self.begun_from(scene, before.as_ref(), coarser.predecessor)?
         };
-        if start.is_none() && not_held_at_all(&problem, self.session).is_some() {
-            return Ok(());
-        }
+        let (mut problem, start) = match begun {
+            Begun::Held(problem, start) => (*problem, Some(start)),
+            Begun::Unknown(problem) => (*problem, None),
+            // The finest mesh, which begins in the same way, says it.
+            Begun::Free(..) => return Ok(()),
+        };
         self.say(first);
         let is_hard = coarser.is_hard(before.as_ref());
         let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
@@ -172,22 +168,26 @@ impl Procedure<'_> {
     }
 
     /// Goes to the mesh of the case. **Collective**
-    fn refine(
+    fn refine(&self, scene: Scene, coarser: &Coarser) -> Result<Begun, SystemError> {
+        let _stage = self.observer.enter(Work::Contact);
+        self.begun_from(scene, coarser.found.as_ref(), coarser.predecessor)
+    }
+
+    /// A mesh with what is known of it: from the coarser one, from the adapted one before, or else from the programme. **Collective**
+    fn begun_from(
         &self,
         scene: Scene,
-        contacts: Vec<Contact>,
-        coarser: &Coarser,
-    ) -> Result<(Discretisation, Option<Start>), SystemError> {
-        let _stage = self.observer.enter(Work::Contact);
-        let known = match &coarser.found {
+        coarse: Option<&CoarseSolution>,
+        predecessor: Option<&Predecessor>,
+    ) -> Result<Begun, SystemError> {
+        let known = match coarse {
             Some(coarse) => Some(coarse.refined(scene.clone(), self.session)?),
-            None => self.begun_by_predecessor(&scene, coarser.predecessor)?,
+            None => self.begun_by_predecessor(&scene, predecessor)?,
         };
-        if let Some((problem, start)) = known {
-            return Ok((problem, Some(start)));
+        match known {
+            Some((problem, start)) => self.predicted(problem, start),
+            None => self.begun(scene),
         }
-        let spaces = spaces(&scene, self.session.rank())?;
-        Ok((Discretisation::with(scene, spaces, contacts, BoundaryMotion::default(), self.session)?, None))
     }
 
     /// A mesh with what the adapted mesh before says of it, if that can be had. **Collective**
@@ -250,9 +250,4 @@ impl Procedure<'_> {
             self.observer.observe(Event::Solver(&words));
         }
     }
-}
-
-/// Words for a body that can move though all contact is closed. **Collective**
-fn not_held_at_all(problem: &Discretisation, session: &Session) -> Option<String> {
-    not_held(problem, &vec![true; problem.multiplier_count()], session)
 }

@@ -12,7 +12,9 @@
 mod across;
 mod adapting;
 mod at_rest;
+mod begun;
 mod boundaries;
+mod by_forces;
 mod change;
 mod coarse_solution;
 mod contact_loop;
@@ -36,7 +38,6 @@ mod residual_scale;
 mod settings;
 mod solved;
 mod unsettled;
-mod widening;
 mod zone_estimate;
 
 pub use at_rest::AtRest;

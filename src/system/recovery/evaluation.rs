@@ -6,10 +6,12 @@ use super::deformation::{Deformation, deformations};
 use super::error_norm::energy_error;
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::{missing_force, unresolved_force};
+use super::penetrations::penetrations;
 use super::probe::{Probed, probe};
 use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
 use super::zone_ends::{EndSlip, slip_at_ends};
+use crate::contact::Penetration;
 use crate::geometry::{Formula, Point};
 use crate::mesh::Region;
 use crate::petsc::Session;
@@ -33,6 +35,8 @@ pub struct Evaluation<'a> {
     pub deformations: Vec<Deformation>,
     /// What finite motions spoil, for each contact.
     pub motions: Vec<Option<MotionError>>,
+    /// How deep the bodies of each contact lie in each other, by their whole sides.
+    pub penetrations: Vec<Penetration>,
 }
 
 impl<'a> Evaluation<'a> {
@@ -47,7 +51,9 @@ impl<'a> Evaluation<'a> {
         let balance = balance(problem, solution, &u, session)?;
         let deformations = deformations(problem, &u, session)?;
         let motions = motion_errors(problem, solution, &balance.strain, &deformations, session);
-        Ok(Self { problem, solution, session, u, moved: moved[0], balance, deformations, motions })
+        let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
+        let penetrations = penetrations(problem, solution, &forces, session);
+        Ok(Self { problem, solution, session, u, moved: moved[0], balance, deformations, motions, penetrations })
     }
 
     /// The pressure on one of the contacts.
@@ -73,7 +79,7 @@ impl<'a> Evaluation<'a> {
 
     /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the
     /// largest overlap relative to the largest relative displacement.
-    pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<f64> {
+    pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> (Option<f64>, f64) {
         missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.moved)
     }
 

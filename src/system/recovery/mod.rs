@@ -8,6 +8,7 @@ mod error_norm;
 mod evaluation;
 mod motion_error;
 mod overlaps;
+mod penetrations;
 mod probe;
 mod springs;
 mod stress;

@@ -5,7 +5,7 @@ use crate::body::RigidSet;
 use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, finite_motion};
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
-use crate::system::{BoundaryMotion, Contact, Discretisation, Solution, is_needed};
+use crate::system::{BoundaryMotion, Contact, Discretisation, Solution, needed_contacts};
 
 /// A gap smaller than this share of the growth counts as large as that.
 const NO_GAP: f64 = 1e-3;
@@ -41,13 +41,21 @@ pub fn motion_errors(
     session: &Session,
 ) -> Vec<Option<MotionError>> {
     let follows = |contact: &Contact| contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some();
+    // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
+    let mut needed = needed_contacts(problem, &solution.active, session);
+    for (contact, needed) in problem.contacts.iter().zip(&mut needed) {
+        *needed &= !is_between_tools(problem, contact, &|set| set.free().next().is_some());
+    }
+    let all = || problem.contacts.iter().zip(&needed);
     if !problem.contacts.iter().any(follows) {
-        return problem.contacts.iter().map(|contact| one(problem, solution, contact, energy, bodies, None, session)).collect();
+        return all()
+            .map(|(contact, &needed)| one(problem, solution, (contact, needed), energy, bodies, None, session))
+            .collect();
     }
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
     let displacement = |node: EdgeNode| motion.at(node, mesh, space);
-    let with_sides = |contact: &Contact| {
+    let with_sides = |(contact, &needed): (&Contact, &bool)| {
         let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact));
         let sides = meeting.map(|meeting| {
             let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
@@ -55,16 +63,16 @@ pub fn motion_errors(
             sides
         });
         let sides = meeting.zip(sides.as_ref()).map(|(meeting, sides)| meeting.sides(sides));
-        one(problem, solution, contact, energy, bodies, sides, session)
+        one(problem, solution, (contact, needed), energy, bodies, sides, session)
     };
-    problem.contacts.iter().map(with_sides).collect()
+    all().map(with_sides).collect()
 }
 
-/// What motions spoil of one contact. **Collective**
+/// What motions spoil of one contact, which may be `needed` to hold bodies. **Collective**
 fn one(
     problem: &Discretisation,
     solution: &Solution,
-    contact: &Contact,
+    (contact, needed): (&Contact, bool),
     energy: &[f64],
     bodies: &[Deformation],
     sides: Option<[&SmoothSide; 2]>,
@@ -78,9 +86,6 @@ fn one(
     if found.force <= 0.0 || energy <= 0.0 {
         return None;
     }
-    // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that. All ranks ask.
-    let needed = is_needed(problem, &solution.active, contact, session)
-        && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
     let is_straight = match sides {
         Some(sides) => sides.iter().all(|side| side.shape().is_line()),
         None => contact.boundary.is_straight(),

@@ -9,12 +9,12 @@ const LEFT: f64 = 1e-7;
 /// An overlap by less than this share of the largest displacement of all is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Force that is missing because bodies overlap where no segment presses, relative to the force found; without a force, the
-/// largest overlap relative to the largest relative displacement.
+/// Force that is missing because bodies overlap where no segment presses: relative to the force found, or, without a force, the
+/// largest overlap relative to the largest relative displacement; and as it is (force per thickness).
 ///
 /// A pressure p over a width w moves the boundary by about 2 p w/E; so an overlap δ asks for the force E δ/2, however wide. Bodies
 /// have `moved` by so much at most (length).
-pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint], force: f64, moved: f64) -> Option<f64> {
+pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint], force: f64, moved: f64) -> (Option<f64>, f64) {
     let within = |s: f64| zones.iter().any(|&[from, to]| s >= from && s <= to);
     // A zone of a closed boundary may go on across the seam.
     let outside = |s: f64| !within(s) && !contact.boundary.turn().is_some_and(|turn| within(s + turn));
@@ -30,7 +30,7 @@ pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint
     }
     sum += deepest;
     let missing = if zones.is_empty() { largest / whole } else { 0.5 * sum / force.abs() };
-    Some(missing).filter(|missing| missing.is_finite())
+    (Some(missing).filter(|missing| missing.is_finite()), 0.5 * sum)
 }
 
 /// Force that would push the bodies out of each other where they penetrate at single points, `E_c/H ∫ max(0, -gap) ds` with
@@ -99,11 +99,13 @@ mod tests {
             at(0.25 * k as f64, gap, if gap.is_nan() { 99.0 } else { 0.1 }, if k == 4 { 0.9 } else { -0.1 })
         };
         let points: Vec<TracePoint> = gaps.iter().enumerate().map(point).collect();
-        let near = |found: Option<f64>, wanted: f64| assert!((found.expect("a number") - wanted).abs() < 1e-12, "{found:?}");
+        let near = |(found, worth): (Option<f64>, f64), wanted: f64, force: f64| {
+            assert!((found.expect("a number") - wanted).abs() < 1e-12 && (worth - force).abs() < 1e-12, "{found:?}, {worth}")
+        };
         for force in [0.25, -0.25] {
-            near(missing_force(&contact, &[[0.5, 1.0]], &points, force, 1.0), 0.5 * 3.0 * 0.055 / 0.25);
+            near(missing_force(&contact, &[[0.5, 1.0]], &points, force, 1.0), 0.5 * 3.0 * 0.055 / 0.25, 0.5 * 3.0 * 0.055);
         }
-        near(missing_force(&contact, &[], &points, 0.0, 1.0), 0.5 / 0.8);
-        assert_eq!(missing_force(&contact, &[], &[at(0.0, 0.0, 0.0, 0.0)], 0.0, 1.0), None);
+        near(missing_force(&contact, &[], &points, 0.0, 1.0), 0.5 / 0.8, 0.5 * 3.0 * 0.525);
+        assert_eq!(missing_force(&contact, &[], &[at(0.0, 0.0, 0.0, 0.0)], 0.0, 1.0), (None, 0.0));
     }
 }

@@ -159,7 +159,15 @@ mod tests {
         let owners = (0..count).map(|i| i * RANKS / count).collect();
         let coupling = Coupling { rows, gap: vec![0.0; count], owners, lost: vec![0] };
         let contacts = contacts.into_iter().next().expect("rank 0");
-        Discretisation { scene, spaces, contacts, coupling, motion: BoundaryMotion::default(), mean_forces: Vec::new() }
+        Discretisation {
+            scene,
+            spaces,
+            contacts,
+            coupling,
+            motion: BoundaryMotion::default(),
+            mean_forces: Vec::new(),
+            first_set: None,
+        }
     }
 
     #[test]

@@ -12,12 +12,15 @@
 //! residuals of this and of the plain system agree in size.
 
 mod augmentation;
+mod border_blocks;
 mod contact_places;
 mod coupling_rows;
+mod elimination;
 mod load;
 mod multiplier_blocks;
 mod transposed;
 
+pub use border_blocks::{BorderBlocks, BorderUnknown};
 pub use multiplier_blocks::SchurPattern;
 
 use super::stiffness::{ContactNeighbours, Elastic, Stiffness};
@@ -27,8 +30,11 @@ use crate::petsc::{Matrix, Session, Vector};
 use augmentation::Augmentation;
 use contact_places::ContactPlaces;
 use coupling_rows::CouplingRows;
+use elimination::BorderedProduct;
 use load::KeptLoad;
 use multiplier_blocks::MultiplierBlocks;
+use std::cell::RefCell;
+use std::rc::Rc;
 
 /// The blocks and their levels for one active set at a time.
 pub struct SaddlePoint {
@@ -38,14 +44,12 @@ pub struct SaddlePoint {
     pub multipliers: MultiplierBlocks,
     /// All four blocks.
     pub nest: Matrix,
-    /// What they do to a vector, with as few messages as can be.
+    /// What they, and the unknown rigid motions that are eliminated, do to a vector, with as few messages as can be.
     pub product: Matrix,
-    /// `c - B u_D` (length squared), rigid sets where they are.
+    /// Unknown rigid motions, if there are any.
+    pub border: Option<Rc<RefCell<BorderBlocks>>>,
+    /// `c - B u_D` (length squared), what moves rigidly at rest.
     gap: Vec<f64>,
-    /// The same with rigid sets at rest.
-    gap_at_rest: Vec<f64>,
-    /// Forces on this rank's unknowns by which rigid sets have moved; nothing if none can.
-    moved: Vec<f64>,
     /// The set that all blocks are those of.
     active: Vec<bool>,
     /// `D` of the active multipliers, unscaled; nothing in the plain form.
@@ -91,29 +95,14 @@ impl SaddlePoint {
         let blocks = [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]];
         let (nest, product) = (Matrix::nest(session, blocks)?, Matrix::nest_product(session, blocks)?);
         let (gap, load) = (moved_gap(problem, session), KeptLoad::new(load));
-        let gap_at_rest = gap.clone();
-        let moved = Vec::new();
         let places = if form == Form::Augmented {
             let levels = rows.iter().zip(&problem.spaces).zip(&stiffness);
             levels.map(|((rows, space), matrix)| ContactPlaces::new(rows, augmentation.members(), &space.own, matrix)).collect()
         } else {
             Vec::new()
         };
-        let mut system = Self {
-            stiffness,
-            multipliers,
-            nest,
-            product,
-            gap,
-            gap_at_rest,
-            moved,
-            active,
-            augmentation,
-            rows,
-            places,
-            form,
-            load,
-        };
+        let mut system =
+            Self { stiffness, multipliers, nest, product, border: None, gap, active, augmentation, rows, places, form, load };
         system.augment(&change)?;
         system.fill(problem, &all)?;
         Ok(system)
@@ -136,19 +125,37 @@ impl SaddlePoint {
             let change = self.augmentation.change(&groups, &problem.contacts, active);
             self.augment(&change)?;
         }
-        self.fill(problem, &changed)
+        self.fill(problem, &changed)?;
+        self.set_border(problem);
+        Ok(())
     }
 
-    /// Moves the rigid sets by the free components of their motion: `b - T q`.
-    pub fn move_rigidly(&mut self, border: &RigidBorder, motion: &[f64]) {
-        self.gap.copy_from_slice(&self.gap_at_rest);
-        self.moved.clear();
-        for (component, value) in motion.iter().enumerate() {
-            let (forces, gaps) = border.column(component);
-            self.moved.resize(forces.len(), 0.0);
-            self.moved.iter_mut().zip(forces).for_each(|(sum, force)| *sum += value * force);
-            self.gap.iter_mut().zip(gaps).for_each(|(sum, gap)| *sum -= value * gap);
+    /// Takes unknown rigid motions in. **Collective**
+    pub fn with_border(
+        mut self,
+        problem: &Discretisation,
+        border: Rc<RigidBorder>,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
+        let border = Rc::new(RefCell::new(BorderBlocks::new(problem, border, self.form, session)));
+        let rows = self.product.local_size().0;
+        let product = BorderedProduct { blocks: self.product.share()?, border: border.clone() };
+        (self.product, self.border) = (Matrix::product(session, rows, Box::new(product))?, Some(border));
+        self.set_border(problem);
+        Ok(self)
+    }
+
+    fn set_border(&self, problem: &Discretisation) {
+        if let Some(border) = &self.border {
+            border.borrow_mut().set(problem, self.finest_rows(), &self.multipliers, &self.active);
         }
+    }
+
+    /// How far what moves rigidly has moved, beside these unknowns, for what [`Self::right_hand_side_of`] takes, with the gaps of the
+    /// scene or others; where nothing tells, as `before`. **Collective**
+    pub fn motion(&self, x: &Vector, given: &[Vec<f64>; 2], gap: Option<&[f64]>, before: &[f64]) -> Vec<f64> {
+        let gap = gap.unwrap_or(&self.gap);
+        self.border.as_ref().map_or_else(Vec::new, |border| border.borrow().motion(&x.values(), given, gap, before))
     }
 
     /// Adds `Bᵀ D B` of a change of the weights to every level. **Collective**
@@ -194,8 +201,9 @@ impl SaddlePoint {
         &self.rows[self.rows.len() - 1]
     }
 
-    /// `(B u - c)_i` of all multipliers, for this rank's displacements (length squared). **Collective**
-    pub fn penetration(&self, u: &[f64], space: &Space, session: &Session) -> Vec<f64> {
+    /// `(B (u + R q) - c)_i` of all multipliers, for this rank's displacements and the motion beside them (length squared).
+    /// **Collective**
+    pub fn penetration(&self, u: &[f64], motion: &[f64], space: &Space, session: &Session) -> Vec<f64> {
         let mut all = vec![0.0; self.gap.len()];
         for (i, sum) in all.iter_mut().enumerate() {
             for &(node, entry) in self.finest_rows().row(i).iter().filter(|(node, _)| space.own.contains(node)) {
@@ -205,25 +213,41 @@ impl SaddlePoint {
         }
         session.sum(&mut all);
         all.iter_mut().zip(&self.gap).for_each(|(sum, gap)| *sum -= gap);
+        if let Some(border) = &self.border {
+            all.iter_mut().zip(border.borrow().border.gaps_of(motion)).for_each(|(sum, moved)| *sum += moved);
+        }
         all
     }
 
-    /// Right-hand side: `f + Bᵀ D c`, and `ĉ` on active multipliers. **Collective**
-    pub fn right_hand_side(&self, space: &Space) -> Result<Vector, SystemError> {
-        let load = |values: &mut [f64]| {
-            self.load.put(values);
-            values.iter_mut().zip(&self.moved).for_each(|(value, moved)| *value -= moved);
-        };
-        self.right_hand_side_with(load, &self.gap, space)
+    /// Loads and means of unknown rigid motions, as the scene asks for them.
+    pub fn given(&self) -> [Vec<f64>; 2] {
+        self.border.as_ref().map_or_else(Default::default, |border| border.borrow().given())
     }
 
-    /// The same for other nodal forces of this rank, and other gaps. **Collective**
-    pub fn right_hand_side_of(&self, load: &[f64], gap: &[f64], space: &Space) -> Result<Vector, SystemError> {
-        self.right_hand_side_with(|values| values.copy_from_slice(load), gap, space)
+    /// Right-hand side: `f + Bᵀ D c`, and `ĉ` on active multipliers, without what rigid motions do. **Collective**
+    pub fn right_hand_side(&self, space: &Space) -> Result<Vector, SystemError> {
+        self.right_hand_side_with(|values| self.load.put(values), &self.gap, &self.given(), space)
+    }
+
+    /// The same for other nodal forces of this rank, other gaps, and others of [`Self::given`]. **Collective**
+    pub fn right_hand_side_of(
+        &self,
+        load: &[f64],
+        gap: &[f64],
+        given: &[Vec<f64>; 2],
+        space: &Space,
+    ) -> Result<Vector, SystemError> {
+        self.right_hand_side_with(|values| values.copy_from_slice(load), gap, given, space)
     }
 
     /// The same with nodal forces that are put where zeros were. **Collective**
-    fn right_hand_side_with(&self, load: impl FnOnce(&mut [f64]), gap: &[f64], space: &Space) -> Result<Vector, SystemError> {
+    fn right_hand_side_with(
+        &self,
+        load: impl FnOnce(&mut [f64]),
+        gap: &[f64],
+        given: &[Vec<f64>; 2],
+        space: &Space,
+    ) -> Result<Vector, SystemError> {
         let (_, mut b) = self.nest.create_vectors()?;
         b.set(0.0)?;
         let mut values = b.values_mut();
@@ -234,6 +258,9 @@ impl SaddlePoint {
         }
         for (at, &i) in self.multipliers.own.iter().enumerate() {
             values[unknowns + at] = if self.active[i] { self.multipliers.scale[i] * gap[i] } else { 0.0 };
+        }
+        if let Some(border) = &self.border {
+            border.borrow().subtract_given(given, gap, &mut values);
         }
         drop(values);
         Ok(b)

@@ -68,7 +68,7 @@ pub struct MultiplierBlocks {
     /// Nodes of this rank in each column of the transpose, whatever the active set.
     columns: Vec<Vec<usize>>,
     /// `C`, unscaled.
-    jumps: SparseRows,
+    pub(super) jumps: SparseRows,
     /// Room for a row of `-Ĉ` and one of the approximate Schur complement.
     row_of: [MultiplierRow; 2],
 }

@@ -7,6 +7,7 @@
 //! own override; only the tolerance is the case's.
 
 mod block_triangle;
+mod bordered;
 mod fallback;
 mod inf_sup;
 mod linear_solve;
@@ -17,6 +18,7 @@ pub use inf_sup::inf_sup;
 pub use linear_solve::{LinearEnding, LinearSolve, Residual};
 
 use self::block_triangle::BlockTriangle;
+use self::bordered::Bordered;
 use self::options::{
     CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_chosen,
     is_method_chosen, is_split_changed, lambda_options, preconditioning_options, wants_single,
@@ -27,7 +29,7 @@ use super::interpolation::Interpolation;
 use super::stiffness::Stiffness;
 use super::{Form, SaddlePoint, SolverChoice, SystemError};
 use crate::petsc::{
-    self, Krylov, KrylovEnding, Matrix, MultigridCycle, MultigridLevel, ReplacedAction, Session, Vector, WatchedSolve,
+    self, Action, Krylov, KrylovEnding, Matrix, MultigridCycle, MultigridLevel, ReplacedAction, Session, Vector, WatchedSolve,
 };
 use fallback::{MOST, needed};
 use std::rc::Rc;
@@ -50,8 +52,10 @@ const MOST_ROUNDING: f64 = 1e-6;
 /// A solver, ready for one system.
 pub struct LinearSolver {
     krylov: Krylov,
-    /// What does the work of PETSc's fieldsplit, where no option asks for more.
-    _block_triangle: Option<ReplacedAction>,
+    /// What does the work of PETSc's fieldsplit, where no option asks for more, or stands around its preconditioner.
+    _replaced: Option<ReplacedAction>,
+    /// What knows of rigid motions that are eliminated, if there are any.
+    bordered: Option<Rc<Bordered>>,
     session: Session,
     form: Form,
     /// The converted system of the direct solver.
@@ -147,12 +151,14 @@ impl LinearSolver {
             }
             solvers[0].set_up()?;
         }
-        let mut block_triangle = None;
-        if let Some(cycle) = cycle.as_ref().filter(|_| !is_split_changed(session)) {
-            let lower = preconditioner.field_split_solvers()?.pop().expect("two fields");
-            let action = BlockTriangle::new(cycle.clone(), lower, &system.multipliers.transpose, session)?;
-            block_triangle = Some(ReplacedAction::new(krylov.preconditioner(), Box::new(action))?);
-        }
+        let block_triangle = match cycle.as_ref().filter(|_| !is_split_changed(session)) {
+            Some(cycle) => {
+                let lower = preconditioner.field_split_solvers()?.pop().expect("two fields");
+                Some(BlockTriangle::new(cycle.clone(), lower, &system.multipliers.transpose, session)?)
+            }
+            None => None,
+        };
+        let (replaced, bordered) = replace_action(&krylov, block_triangle, system, Form::Augmented, session)?;
         let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
         let own = kind == "mg" || kind == "shell" || is_factor(kind.as_ref()) && preconditioning == Preconditioning::Factor;
         let is_single = is_single && cycle.is_some();
@@ -160,7 +166,8 @@ impl LinearSolver {
         let (session, form) = (session.clone(), Form::Augmented);
         Ok(Self {
             krylov,
-            _block_triangle: block_triangle,
+            _replaced: replaced,
+            bordered,
             session,
             form,
             converted: None,
@@ -194,7 +201,8 @@ impl LinearSolver {
         let name = "direct (MUMPS)".into();
         let mut solver = Self {
             krylov,
-            _block_triangle: None,
+            _replaced: None,
+            bordered: None,
             session: session.clone(),
             form: Form::Plain,
             converted: None,
@@ -212,15 +220,20 @@ impl LinearSolver {
         solver.krylov.set_from_options()?;
         solver.krylov.watch()?;
         solver.krylov.set_up()?;
+        (solver._replaced, solver.bordered) = replace_action(&solver.krylov, None, system, Form::Plain, session)?;
         Ok(solver)
     }
 
     /// Takes over changed blocks. **Collective**
     pub fn refresh(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
+        if let Some(bordered) = &self.bordered {
+            bordered.forget();
+        }
         if self.form == Form::Plain {
             let mut converted = system.nest.convert_aij()?;
             converted.set_symmetric(true)?;
-            self.krylov.set_operators(&converted, &converted)?;
+            let product = if system.border.is_some() { &system.product } else { &converted };
+            self.krylov.set_operators(product, &converted)?;
             self.converted = Some(converted);
         } else if !self.is_set_up {
             self.set_up(system)?;
@@ -292,7 +305,7 @@ impl LinearSolver {
         let at_start = match known {
             Some(known) => known,
             None => {
-                system.nest.residual(b, x, &mut r)?;
+                system.product.residual(b, x, &mut r)?;
                 r.norm()?
             }
         };
@@ -306,6 +319,10 @@ impl LinearSolver {
                 self.set_up(system)?;
             }
             let trial_iterations = self.trial_iterations().min(MOST_ITERATIONS - solve.iterations);
+            if let Some(bordered) = self.bordered.as_ref().filter(|bordered| bordered.is_stale()) {
+                self.krylov.set_up()?;
+                bordered.prepare(system)?;
+            }
             self.krylov.set_initial_guess_nonzero(true)?;
             self.krylov.set_tolerance(tolerance, trial_iterations)?;
             let solved = self.krylov.solve_allowing(b, x)?;
@@ -315,7 +332,7 @@ impl LinearSolver {
                 needed = needed.min(MOST[1].1);
             }
             solve.iterations += solved.iterations;
-            system.nest.residual(b, x, &mut r)?;
+            system.product.residual(b, x, &mut r)?;
             solve.residual = r.norm()? / norm;
             // A start from where rounding has left a solve does better, as long as its residual falls.
             let goes_on = solve.residual <= tolerance || solve.residual < 0.5 * before;
@@ -439,6 +456,29 @@ impl LinearSolver {
     }
 }
 
+/// Puts in the place of what the preconditioner does a block triangle, and around it what knows of rigid motions, if there are
+/// such. **Collective**
+fn replace_action(
+    krylov: &Krylov,
+    block_triangle: Option<BlockTriangle>,
+    system: &SaddlePoint,
+    form: Form,
+    session: &Session,
+) -> Result<(Option<ReplacedAction>, Option<Rc<Bordered>>), SystemError> {
+    let Some(border) = &system.border else {
+        let replaced = block_triangle.map(|action| ReplacedAction::new(krylov.preconditioner(), |_| Ok(Box::new(action))));
+        return Ok((replaced.transpose()?, None));
+    };
+    let mut bordered = None;
+    let replaced = ReplacedAction::new(krylov.preconditioner(), |of_kind| {
+        let of_blocks = block_triangle.map_or(of_kind, |action| Box::new(action) as Box<dyn Action>);
+        let action = Bordered::new(of_blocks, border.clone(), form, session);
+        bordered = Some(action.clone());
+        Ok(Box::new(action))
+    })?;
+    Ok((Some(replaced), bordered))
+}
+
 /// Whether this is the preconditioner that factorises, by all ranks together or by each for itself.
 fn is_factor(kind: &str) -> bool {
     kind == "cholesky" || kind == "redundant"
@@ -459,7 +499,7 @@ fn set_operators(
 ) -> Result<(), SystemError> {
     let stored = if preconditioning == Preconditioning::Factor { system.stored_nest(session)? } else { None };
     match &stored {
-        Some(nest) => krylov.set_operators(nest, nest)?,
+        Some(nest) => krylov.set_operators(if system.border.is_some() { &system.product } else { nest }, nest)?,
         None => krylov.set_operators(&system.product, &system.nest)?,
     }
     Ok(())

@@ -89,9 +89,12 @@ fn check_tags(page: &str) {
 
 #[test]
 fn every_status_has_its_page() {
-    for (status, words) in
-        [(Status::Converged, "Converged"), (Status::NotConverged, "Not converged"), (Status::Interrupted, "Interrupted")]
-    {
+    for (status, words) in [
+        (Status::Converged, "Converged"),
+        (Status::NotConverged, "Not converged"),
+        (Status::Unresolved, "Not resolved"),
+        (Status::Interrupted, "Interrupted"),
+    ] {
         let page = page(status, &["deformed.svg"]);
         check_tags(&page);
         assert!(page.contains(&format!("<strong>{words}</strong>")), "{page}");

@@ -1,0 +1,68 @@
+//! The mesh of a case with patterns: what names there are, and what lies where.
+
+use crate::geometry::{Point, cross};
+use crate::mesh::{Boundary, MacroMesh};
+use toml::Value;
+
+/// A point lies in a triangle if none of its barycentric coordinates is less: points on the boundary do, and those between a
+/// chord and its arc rather than elsewhere.
+const INSIDE: f64 = -1e-3;
+const BEHIND_CHORD: f64 = -0.2;
+
+/// Names of a mesh.
+pub struct MeshNames {
+    pub mesh: MacroMesh,
+    pub bodies: Vec<String>,
+    /// Physical surfaces that are parts of bodies.
+    pub parts: Vec<String>,
+    pub boundaries: Vec<String>,
+    /// Physical curves between parts of one body.
+    pub interfaces: Vec<String>,
+}
+
+impl MeshNames {
+    pub fn new(mesh: MacroMesh) -> Self {
+        let names = |all: &[Boundary]| all.iter().map(|boundary| boundary.name.clone()).collect();
+        let parts = mesh.parts.iter().filter(|part| mesh.bodies[part.body as usize] != part.name);
+        Self {
+            bodies: mesh.bodies.clone(),
+            parts: parts.map(|part| part.name.clone()).collect(),
+            boundaries: names(&mesh.boundaries),
+            interfaces: names(&mesh.interfaces),
+            mesh,
+        }
+    }
+
+    /// Those of some bodies that have a point: on a common boundary all of them.
+    pub fn holding(&self, bodies: &[String], x: Point) -> Vec<String> {
+        let mesh = &self.mesh;
+        let mut deepest = vec![f64::NEG_INFINITY; mesh.bodies.len()];
+        for triangle in &mesh.triangles {
+            let [a, b, c] = triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]);
+            let area = cross(b - a, c - a);
+            let shares = [cross(b - x, c - x), cross(c - x, a - x), cross(a - x, b - x)].map(|share| share / area);
+            let depth = &mut deepest[triangle.body as usize];
+            *depth = depth.max(shares.into_iter().fold(f64::INFINITY, f64::min));
+        }
+        let depth =
+            |name: &String| mesh.bodies.iter().position(|body| body == name).map_or(f64::NEG_INFINITY, |body| deepest[body]);
+        let inside: Vec<String> = bodies.iter().filter(|name| depth(name) >= INSIDE).cloned().collect();
+        let nearest = || bodies.iter().max_by(|a, b| depth(a).total_cmp(&depth(b))).filter(|name| depth(name) >= BEHIND_CHORD);
+        if inside.is_empty() { nearest().into_iter().cloned().collect() } else { inside }
+    }
+
+    /// The body beside a physical curve.
+    pub fn body_beside(&self, curve: &str) -> Option<&String> {
+        let edge = *self.mesh.boundary(curve)?.edges.first()?;
+        Some(&self.mesh.bodies[self.mesh.body_beside(edge)])
+    }
+}
+
+/// The point that a value says.
+pub fn point(value: &Value) -> Option<Point> {
+    let number = |value: &Value| value.as_float().or(value.as_integer().map(|whole| whole as f64));
+    match &value.as_array()?[..] {
+        [x, y] => Some(Point::new(number(x)?, number(y)?)),
+        _ => None,
+    }
+}

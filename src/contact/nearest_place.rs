@@ -1,0 +1,55 @@
+//! The place at which two smooth sides come nearest to each other, and how round they are there.
+
+use super::{Configuration, SmoothSide};
+use crate::geometry::{Point, cross};
+
+/// Places that are looked at in a window, and windows, each as wide as two steps of the one before.
+const PLACES: usize = 64;
+const WINDOWS: usize = 4;
+
+/// Share of a side over which its curvature is taken.
+const ALONG: f64 = 1e-3;
+
+/// Where two sides touch first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointContact {
+    /// The place on body 1's side.
+    pub place: Point,
+    /// Relative curvature of the sides there (1/length): positive if they part on both sides of the place.
+    pub curvature: f64,
+}
+
+/// The place where the gap between undeformed sides is smallest, within `reach` of `around` along body 1's side; nothing if it is
+/// smallest at an end of that.
+pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f64) -> Option<PointContact> {
+    let curve = first.curve(Configuration::Reference);
+    let gap = |t: f64| {
+        let x = curve.point(t);
+        let (foot, outward) = second.nearest_place(x);
+        (x - foot).dot(&outward)
+    };
+    let (mut middle, mut half) = (first.nearest(around, Configuration::Reference), reach);
+    for window in 0..WINDOWS {
+        let at = |k: usize| middle + half * (2.0 * k as f64 / PLACES as f64 - 1.0);
+        let is_there = |k: &usize| first.turn().is_some() || (0.0..=first.length()).contains(&at(*k));
+        let least = (0..=PLACES).filter(is_there).min_by(|&a, &b| gap(at(a)).total_cmp(&gap(at(b))))?;
+        if window == 0 && (least == 0 || least == PLACES || !is_there(&(least - 1)) || !is_there(&(least + 1))) {
+            return None;
+        }
+        (middle, half) = (at(least), 2.0 * half / PLACES as f64);
+    }
+    let place = curve.point(middle);
+    Some(PointContact { place, curvature: bulge(first, place) + bulge(second, place) })
+}
+
+/// Curvature of a side at the place nearest to a point (1/length), positive where the body bulges.
+fn bulge(side: &SmoothSide, x: Point) -> f64 {
+    let curve = side.curve(Configuration::Reference);
+    let (t, step) = (side.nearest(x, Configuration::Reference), ALONG * side.length());
+    let [low, high] = match side.turn() {
+        Some(_) => [t - step, t + step],
+        None => [(t - step).max(0.0), (t + step).min(side.length())],
+    };
+    let turn = cross(curve.tangent(low).normalize(), curve.tangent(high).normalize());
+    side.hand() * turn / (high - low)
+}

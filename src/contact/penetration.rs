@@ -1,0 +1,81 @@
+//! How deep two bodies lie in each other, by their whole sides: a contact boundary may see less than that.
+
+use super::{Law, Pair, SmoothSide};
+use crate::geometry::Point;
+
+/// Cosine of the angle between normals up to which sides face each other: elsewhere a gap along them means nothing.
+const FACING: f64 = 0.7;
+
+/// Reach beyond the ends of a side, as a share of its length.
+const REACH: f64 = 1e-9;
+
+/// How two bodies have come together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Penetration {
+    /// The deepest place of one in the other (length), but for the edges at the ends of the sides, where corners press; zero where
+    /// none is.
+    pub depth: f64,
+    /// Where that is.
+    pub place: Point,
+    /// How far the sides have come together since they touched first, or have parted that were drawn in each other (length).
+    pub approach: f64,
+}
+
+/// Of the two sides of a unilateral contact, by the nodes of both.
+pub fn penetration(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Penetration {
+    let mut found = Penetration::default();
+    if pair.law != Law::Unilateral {
+        return found;
+    }
+    let (mut closed, mut nearest) = (0.0_f64, f64::INFINITY);
+    for (own, others) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])] {
+        for (side, other) in own.iter().flat_map(|side| others.iter().map(move |other| (side, other))) {
+            for node in 0..side.nodes() {
+                let gaps = side.gaps(node, other, pair, REACH * other.length());
+                let Some(gaps) = gaps.filter(|gaps| gaps.facing > FACING && gaps.now.is_finite()) else { continue };
+                closed = closed.max(gaps.at_rest - gaps.now);
+                nearest = nearest.min(gaps.at_rest);
+                if gaps.is_inside && -gaps.now > found.depth {
+                    (found.depth, found.place) = (-gaps.now, side.points[node]);
+                }
+            }
+        }
+    }
+    found.approach = if nearest.is_finite() { (closed - nearest.max(0.0)).max(-nearest).max(0.0) } else { 0.0 };
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::samples::seam;
+    use crate::contact::{Configuration, CurveChoice};
+    use crate::element::Order;
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{EdgeNode, Level, Numbering, Partition};
+    use std::rc::Rc;
+
+    /// Of the two blocks, nodes every eighth of an edge, the upper one lowered by a function of x.
+    fn lowered(configuration: Configuration, by: impl Fn(f64) -> f64) -> Penetration {
+        let pair = Pair { curve: CurveChoice::Fit, configuration, ..seam() };
+        let mesh = two_blocks();
+        let numbering = Numbering::new(Level { intervals: 16, order: Order::P1 }, &Rc::new(Partition::new(&mesh, &[0; 6], 1)));
+        let upper = mesh.bodies.iter().position(|name| name == "upper");
+        let displacement = |node: EdgeNode| {
+            let x = node.place(&mesh, &numbering);
+            Point::new(0.0, if Some(mesh.body_beside(node.edge)) == upper { -by(x.x) } else { 0.0 })
+        };
+        penetration(&SmoothSide::of_pair(&mesh, &numbering, &pair, &displacement), &pair)
+    }
+
+    #[test]
+    fn the_deepest_place_and_the_approach_are_those_of_the_whole_sides() {
+        for configuration in [Configuration::Reference, Configuration::Deformed] {
+            let found = lowered(configuration, |x| 0.01 * x);
+            // The last nodes are the ends of the sides.
+            assert!((found.depth - 0.01875).abs() < 1e-3 && (found.approach - 0.02).abs() < 1e-4, "{found:?}");
+            assert!(found.place.x > 1.8 && found.place.x < 2.0, "{found:?}");
+            assert_eq!(lowered(configuration, |_| -0.03).depth, 0.0, "they are apart");
+        }
+    }
+}

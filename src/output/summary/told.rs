@@ -1,0 +1,146 @@
+//! Which contacts of many are told one by one, and how the others are summed up.
+
+use super::{ContactSummary, Summary};
+use std::cmp::Ordering;
+
+/// Contacts that are told one by one, at most: with a line or two for each they fill half of a screen of 24 lines.
+pub const MOST_TOLD: usize = 8;
+
+/// Contacts that have figures of their own, at most: three or four for each are some hundred files. Of more those have them that
+/// are told.
+pub const MOST_WITH_FIGURES: usize = 24;
+
+/// Of more so many are told: the worst, by trust, then by the force that they carry.
+pub const WORST: usize = 3;
+
+/// Names in a sentence: all of a few, of many the first ones and how many others there are.
+pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
+    let few = if names.len() > MOST_TOLD { WORST } else { names.len() };
+    let named = names[..few].iter().map(AsRef::as_ref).collect::<Vec<_>>().join(", ");
+    if few < names.len() { format!("{named} and {} others", names.len() - few) } else { named }
+}
+
+impl Summary {
+    /// Names of those contacts of which this is true.
+    pub fn named(&self, is: impl Fn(&ContactSummary) -> bool) -> Vec<&str> {
+        self.contact.iter().filter(|(_, contact)| is(contact)).map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// The largest force of a contact.
+    pub fn largest_force(&self) -> f64 {
+        self.contact.values().filter_map(|contact| contact.force).fold(0.0, |most: f64, force| most.max(force.abs()))
+    }
+
+    /// Names of all contacts: those that are not to be trusted before those of which nothing tells, these before the others, and
+    /// of each kind those with the largest forces first.
+    pub fn worst_first(&self) -> Vec<&str> {
+        let trust = |contact: &ContactSummary| contact.trust.map_or(1, |trust| if trust { 2 } else { 0 });
+        self.sorted(|a, b| trust(a).cmp(&trust(b)).then_with(|| by_force(a, b)))
+    }
+
+    /// Names of the contacts that are told one by one, in alphabetical order: all of a few; of many the worst, and those with the
+    /// largest forces.
+    pub fn told(&self) -> Vec<&str> {
+        if self.contact.len() <= MOST_TOLD {
+            return self.named(|_| true);
+        }
+        let mut told: Vec<&str> = self.worst_first().into_iter().take(WORST).collect();
+        let largest = self.sorted(by_force);
+        let others: Vec<&str> = largest.into_iter().filter(|name| !told.contains(name)).take(MOST_TOLD - WORST).collect();
+        told.extend(others);
+        told.sort_unstable();
+        told
+    }
+
+    /// Names of the contacts that have figures of their own.
+    pub fn with_figures(&self) -> Vec<&str> {
+        if self.contact.len() <= MOST_WITH_FIGURES { self.named(|_| true) } else { self.told() }
+    }
+
+    /// The contacts that are told, with what is known of them.
+    pub fn contacts_told(&self) -> impl Iterator<Item = (&str, &ContactSummary)> {
+        self.told().into_iter().filter_map(|name| Some((name, self.contact.get(name)?)))
+    }
+
+    /// What the contacts are, and the worst of them, of more than [`MOST_TOLD`].
+    pub fn contacts_in_words(&self) -> Option<String> {
+        let (count, largest) = (self.contact.len(), self.largest_force());
+        if count <= MOST_TOLD {
+            return None;
+        }
+        let counted = |is: &dyn Fn(&ContactSummary) -> bool, words: &str| {
+            let own = self.named(is).len();
+            (own > 0).then(|| format!("{own} {words}"))
+        };
+        let is_idle = |contact: &ContactSummary| contact.verdict.as_ref().is_some_and(|words| !words.contains("trusted"));
+        let kinds = [
+            counted(&|contact| contact.trust == Some(true) && !is_idle(contact), "are trusted"),
+            counted(&|contact| contact.trust == Some(true) && is_idle(contact), "touch or are open"),
+            counted(&|contact| contact.trust == Some(false), "are not trusted"),
+            counted(&|contact| contact.trust.is_none(), "nothing tells of"),
+        ];
+        let kinds: Vec<String> = kinds.into_iter().flatten().collect();
+        let one = |name: &&str| {
+            let contact = self.contact.get(*name)?;
+            let (force, verdict) = (contact.force.unwrap_or(f64::NAN), contact.verdict.as_deref().unwrap_or("nothing tells"));
+            Some(format!("{name} (force {force:.4e}, {:.2} of the largest; {verdict})", force.abs() / largest))
+        };
+        let worst: Vec<String> = self.worst_first().iter().take(WORST).filter_map(one).collect();
+        Some(format!("{count} contacts: {}; the worst {WORST}: {}", kinds.join(", "), worst.join(", ")))
+    }
+
+    fn sorted(&self, order: impl Fn(&ContactSummary, &ContactSummary) -> Ordering) -> Vec<&str> {
+        let mut all: Vec<(&String, &ContactSummary)> = self.contact.iter().collect();
+        all.sort_by(|a, b| order(a.1, b.1));
+        all.into_iter().map(|(name, _)| name.as_str()).collect()
+    }
+}
+
+/// The larger force first.
+fn by_force(a: &ContactSummary, b: &ContactSummary) -> Ordering {
+    let force = |contact: &ContactSummary| contact.force.map_or(0.0, f64::abs);
+    force(b).total_cmp(&force(a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn summary(contacts: &[(Option<bool>, f64)]) -> Summary {
+        let contact = |(at, &(trust, force)): (usize, &(Option<bool>, f64))| {
+            let verdict = Some(if trust == Some(true) { "trusted" } else { "not trusted: narrow" }.to_owned());
+            (format!("c{at:03}"), ContactSummary { trust, force: Some(force), verdict, ..ContactSummary::default() })
+        };
+        Summary { contact: contacts.iter().enumerate().map(contact).collect(), ..Summary::default() }
+    }
+
+    proptest! {
+        #[test]
+        fn of_many_contacts_the_worst_and_the_largest_are_told(
+            contacts in proptest::collection::vec((proptest::option::of(proptest::bool::ANY), -1.0..1.0), 0..60)
+        ) {
+            let summary = summary(&contacts);
+            let (told, worst) = (summary.told(), summary.worst_first());
+            prop_assert_eq!(worst.len(), contacts.len());
+            prop_assert_eq!(told.len(), contacts.len().min(MOST_TOLD));
+            prop_assert!(told.is_sorted() && worst.iter().take(WORST).all(|name| told.contains(name)));
+            let force = |name: &&str| summary.contact[*name].force.unwrap_or(0.0).abs();
+            let left = worst.iter().filter(|name| !told.contains(name)).map(force).fold(0.0, f64::max);
+            prop_assert!(told.iter().filter(|name| force(name) >= left).count() >= told.len().saturating_sub(WORST));
+            let key = |name: &&str| (summary.contact[*name].trust.map_or(1, |trust| 2 * usize::from(trust)), -force(name));
+            prop_assert!(worst.iter().map(key).is_sorted_by(|a, b| a <= b));
+            let words = summary.contacts_in_words();
+            prop_assert_eq!(words.is_some(), contacts.len() > MOST_TOLD);
+            let bad = contacts.iter().filter(|(trust, _)| *trust == Some(false)).count();
+            let counts = words.is_none_or(|words| bad == 0 || words.contains(&format!("{bad} are not trusted")));
+            prop_assert!(counts);
+        }
+    }
+
+    #[test]
+    fn names_of_many_are_counted() {
+        let names: Vec<String> = (0..30).map(|k| format!("c{k}")).collect();
+        assert_eq!((listed(&names[..2]), listed(&names)), ("c0, c1".into(), "c0, c1, c2 and 27 others".into()));
+    }
+}

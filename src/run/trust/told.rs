@@ -1,0 +1,109 @@
+//! What is said of contacts: of a few one by one, of many by causes.
+
+use super::doubt::Doubt;
+use crate::case::Case;
+use crate::output::Summary;
+use crate::output::summary;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What nothing tells of a contact.
+pub struct Unknown {
+    /// Without figures: contacts are counted by it.
+    pub cause: &'static str,
+    /// The same with figures.
+    pub words: String,
+    /// What to do about it, if there is anything.
+    pub remedy: Option<&'static str>,
+}
+
+/// What is said of one contact.
+#[derive(Default)]
+pub struct Verdict {
+    /// What speaks against its pressure.
+    pub doubts: Vec<Doubt>,
+    /// What nothing tells.
+    pub unknown: Option<Unknown>,
+    /// Whether its pressure is to be trusted.
+    pub trust: Option<bool>,
+    /// The same of its force.
+    pub trust_force: Option<bool>,
+    /// What it is called where it carries nothing that counts.
+    pub idle: Option<String>,
+}
+
+impl Verdict {
+    /// In a few words.
+    pub fn words(&self) -> String {
+        let causes: BTreeSet<&str> = self.doubts.iter().map(|doubt| doubt.cause).collect();
+        match (self.trust, &self.idle, &self.unknown) {
+            (Some(false), _, _) if causes.is_empty() => "not trusted: the run has not converged".into(),
+            (Some(false), ..) => format!("not trusted: {}", Vec::from_iter(causes).join("; ")),
+            (_, Some(idle), _) => idle.clone(),
+            (Some(true), ..) => "trusted".into(),
+            (None, _, unknown) => unknown.as_ref().map_or("nothing tells", |unknown| unknown.cause).into(),
+        }
+    }
+}
+
+/// All contacts in the order in which they are told: that of the case; of many the worst first.
+pub fn in_order<'a>(summary: &'a Summary, case: &'a Case, verdicts: &BTreeMap<String, Verdict>) -> Vec<&'a str> {
+    if verdicts.len() > summary::MOST_TOLD {
+        return summary.worst_first();
+    }
+    case.contacts.iter().map(|pair| pair.name.as_str()).filter(|name| verdicts.contains_key(*name)).collect()
+}
+
+/// What speaks against pressures: of many contacts how many have each cause, before the worst of them.
+pub fn unreliable(names: &[&str], verdicts: &BTreeMap<String, Verdict>) -> Option<String> {
+    let doubtful: Vec<(&str, &Verdict)> = names.iter().filter_map(|name| Some((*name, verdicts.get(*name)?))).collect();
+    let doubtful: Vec<(&str, &Verdict)> = doubtful.into_iter().filter(|(_, verdict)| !verdict.doubts.is_empty()).collect();
+    let one = |(name, verdict): &(&str, &Verdict)| {
+        let figures: Vec<&str> = verdict.doubts.iter().map(|doubt| doubt.figure.as_str()).collect();
+        let force = if verdict.trust_force == Some(true) { ", whose force is to be trusted" } else { "" };
+        format!("contact {name} ({}){force}", figures.join("; "))
+    };
+    let is_many = names.len() > summary::MOST_TOLD;
+    let few = if is_many { doubtful.len().min(summary::WORST) } else { doubtful.len() };
+    let told = doubtful[..few].iter().map(one).collect::<Vec<_>>().join(", ");
+    let told = if !is_many {
+        told
+    } else {
+        let causes =
+            doubtful.iter().flat_map(|(_, verdict)| verdict.doubts.iter().map(|doubt| doubt.cause).collect::<BTreeSet<_>>());
+        let counted = counted(causes).into_iter().map(|(cause, count)| format!("{count} because {cause}"));
+        let all = format!("{} of {} contacts", doubtful.len(), names.len());
+        format!("{all} ({}); the worst: {told}", counted.collect::<Vec<_>>().join("; "))
+    };
+    let mut remedies: Vec<&str> = Vec::new();
+    for doubt in doubtful.iter().flat_map(|(_, verdict)| &verdict.doubts) {
+        if !remedies.contains(&doubt.remedy) {
+            remedies.push(doubt.remedy);
+        }
+    }
+    (!doubtful.is_empty()).then(|| format!("{told}; {}", remedies.join("; ")))
+}
+
+/// What nothing tells: a sentence for each contact, or for each cause of many.
+pub fn unknown(names: &[&str], verdicts: &BTreeMap<String, Verdict>) -> Vec<String> {
+    let with = |words: String, remedy: Option<&str>| remedy.map_or(words.clone(), |remedy| format!("{words}; {remedy}"));
+    if names.len() <= summary::MOST_TOLD {
+        let unknown = names.iter().filter_map(|name| Some((name, verdicts[*name].unknown.as_ref()?)));
+        return unknown.map(|(name, unknown)| with(format!("contact {name}: {}", unknown.words), unknown.remedy)).collect();
+    }
+    let all = || verdicts.iter().filter_map(|(name, verdict)| Some((name, verdict.unknown.as_ref()?)));
+    let sentence = |(cause, count): (&str, usize)| {
+        let own: Vec<(&String, &Unknown)> = all().filter(|(_, unknown)| unknown.cause == cause).collect();
+        let few = summary::listed(&own.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>());
+        with(format!("{count} of {} contacts: {cause} ({few})", verdicts.len()), own.first().and_then(|(_, own)| own.remedy))
+    };
+    counted(all().map(|(_, unknown)| unknown.cause)).into_iter().map(sentence).collect()
+}
+
+/// How often each cause comes, the most frequent first.
+fn counted<'a>(causes: impl Iterator<Item = &'a str>) -> Vec<(&'a str, usize)> {
+    let mut counts = BTreeMap::new();
+    causes.for_each(|cause| *counts.entry(cause).or_insert(0) += 1);
+    let mut counts: Vec<(&str, usize)> = counts.into_iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    counts
+}

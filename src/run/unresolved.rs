@@ -1,0 +1,145 @@
+//! Whether a solution is one of what the case says: not if its mesh, or its contact boundaries, cannot hold that.
+
+use super::report::short;
+use super::trust::LEAST_PARTS;
+use crate::accuracy::share_of_nothing;
+use crate::case::Case;
+use crate::contact::{Law, SegmentRule};
+use crate::output::Summary;
+use crate::output::summary::{ContactSummary, ZoneSummary};
+
+/// Way of the ends of a contact boundary, as a share of its length, beyond which it moves.
+const MOST_MOVED: f64 = 1e-2;
+
+/// How deep bodies may lie in each other, as a share of how far they have come together.
+const MOST_DEEP: f64 = 0.1;
+
+/// Force that overlaps within segments are worth, as a share of the force that was found; where nothing presses, the largest overlap
+/// as a share of the displacements.
+const MOST_WORTH: [f64; 2] = [0.5, 1e-5];
+
+/// A depth by less than this share of the largest displacement is what the solve leaves.
+const LEFT: f64 = 1e-6;
+
+/// Edges that the narrowest contact has at least.
+const LEAST_EDGES: f64 = 1.0;
+
+/// What is judged at.
+struct Judged<'a> {
+    summary: &'a Summary,
+    case: &'a Case,
+    /// How far the ends of a contact boundary moved last that are held now, as a share of its length.
+    moved: Option<f64>,
+}
+
+/// A cause: words, if it holds.
+type Cause = fn(&Judged) -> Option<String>;
+
+/// All causes, the first one counts.
+const CAUSES: [Cause; 4] = [too_narrow, in_each_other, within_segments, still_moving];
+
+/// Why a solution is not resolved, and what would do; nothing if it is. `moved` is how far the ends of a contact boundary moved
+/// last that are held now, as a share of its length.
+pub fn unresolved(summary: &Summary, case: &Case, moved: Option<f64>) -> Option<String> {
+    let judged = Judged { summary, case, moved };
+    CAUSES.iter().find_map(|cause| cause(&judged))
+}
+
+/// A contact narrower than an edge that carries a force which counts.
+fn too_narrow(judged: &Judged) -> Option<String> {
+    let least = judged.least_force();
+    let narrow = judged.contacts().flat_map(|(name, contact)| contact.zones.iter().map(move |zone| (name, contact, zone)));
+    let counting = narrow.filter(|(_, contact, zone)| {
+        let force = contact.force.unwrap_or(0.0) * zone.share.unwrap_or(1.0);
+        // The force of a corner is right on any mesh.
+        force.abs() > least && (zone.corner != Some(true) || zone.hertz_width.is_some())
+    });
+    let widths = counting.filter_map(|(name, _, zone)| Some((name, width(zone)?)));
+    let (name, (width, edge)) = widths.filter(|(_, (width, edge))| *width < LEAST_EDGES * edge).min_by(|a, b| {
+        let share = |(_, (width, edge)): &(&str, (f64, f64))| width / edge;
+        share(a).total_cmp(&share(b))
+    })?;
+    Some(format!(
+        "contact {name} is {} wide by its force, less than an edge of {} there; {}",
+        short(width),
+        short(edge),
+        judged.remedy(name, width / edge)
+    ))
+}
+
+/// Width of a zone and length of the edges there: by what presses, and by what its force asks for.
+fn width(zone: &ZoneSummary) -> Option<(f64, f64)> {
+    let [from, to] = zone.ends?;
+    let edge = (to - from) / zone.edges.filter(|edges| *edges > 0.0)?;
+    Some((zone.hertz_width.map_or(to - from, |width| width.min(to - from)), edge))
+}
+
+/// Bodies that lie in each other, on Γ_C or beyond its ends.
+fn in_each_other(judged: &Judged) -> Option<String> {
+    let left = LEFT * judged.summary.displacement_max?;
+    let deep = |contact: &ContactSummary| contact.depth.zip(contact.approach).filter(|(depth, _)| *depth > left);
+    let share = |contact: &ContactSummary| deep(contact).map_or(0.0, |(depth, approach)| depth / approach);
+    let (name, contact) = judged.contacts().max_by(|a, b| share(a.1).total_cmp(&share(b.1)))?;
+    let (depth, approach) = deep(contact).filter(|_| share(contact) > MOST_DEEP)?;
+    let [x, y] = contact.deepest?;
+    let edges = contact.zones.iter().filter_map(width).map(|(width, edge)| width / edge).fold(f64::INFINITY, f64::min);
+    Some(format!(
+        "contact {name}: the bodies lie in each other by {depth:.1e} near ({}, {}), and have come together by {approach:.1e}; {}",
+        short(x),
+        short(y),
+        judged.remedy(name, edges)
+    ))
+}
+
+/// Bodies that lie in each other within segments which are longer than the contact.
+fn within_segments(judged: &Judged) -> Option<String> {
+    let [most, most_alone] = MOST_WORTH;
+    let is_missed = |contact: &ContactSummary| {
+        let (force, off) = (contact.force.unwrap_or(0.0).abs(), contact.unresolved_force.unwrap_or(0.0));
+        let is_worth = if force > 0.0 { off > most * force } else { contact.missing.is_some_and(|missing| missing > most_alone) };
+        off > judged.least_force() && is_worth
+    };
+    let (name, _) = judged.contacts().find(|(_, contact)| is_missed(contact))?;
+    let words = format!("contact {name}: the bodies lie in each other within segments that are longer than what presses");
+    let is_auto = judged.case.contacts.iter().any(|pair| pair.name == name && pair.segments == SegmentRule::Auto);
+    if is_auto || judged.case.accuracy.is_some() {
+        return Some(format!("{words}; {}", judged.remedy(name, f64::INFINITY)));
+    }
+    Some(format!("{words}; take contact.{name}.segments = \"auto\", or more of them"))
+}
+
+/// A contact boundary whose ends are held because they found no rest.
+fn still_moving(judged: &Judged) -> Option<String> {
+    let moved = judged.moved.filter(|moved| *moved > MOST_MOVED)?;
+    let (name, _) = judged.contacts().next()?;
+    Some(format!(
+        "the ends of the contact boundary find no rest: they still moved by {moved:.0e} of its length; {}",
+        judged.remedy(name, f64::INFINITY)
+    ))
+}
+
+impl Judged<'_> {
+    /// Unilateral contacts.
+    fn contacts(&self) -> impl Iterator<Item = (&str, &ContactSummary)> {
+        let pairs = self.case.contacts.iter().filter(|pair| pair.law == Law::Unilateral);
+        pairs.filter_map(|pair| Some((pair.name.as_str(), self.summary.contact.get(&pair.name)?)))
+    }
+
+    /// The force from which a contact counts.
+    fn least_force(&self) -> f64 {
+        share_of_nothing(self.case.accuracy.as_ref()) * self.summary.largest_force()
+    }
+
+    /// What would resolve a contact that is so many edges wide: enough edges on it, half as long ones at least, or an accuracy.
+    fn remedy(&self, contact: &str, edges: f64) -> String {
+        let finer = (LEAST_PARTS / edges).log2().ceil().max(1.0) as usize;
+        if self.case.accuracy.is_some() {
+            let tolerance = 0.25 * share_of_nothing(self.case.accuracy.as_ref());
+            return format!("ask for a smaller error, as in [accuracy.contact.{contact}] force = {tolerance:.0e}");
+        }
+        format!(
+            "take mesh.refine = {}, or a mesh that is adapted, by [accuracy] with force = 1e-2",
+            self.case.mesh.refine + finer
+        )
+    }
+}

@@ -1,0 +1,350 @@
+//! The first mesh, begun by the quadratic programme: where the sides come within reach, what presses, how every body moves.
+
+use super::by_forces::LoadedPlace;
+use super::settings::Procedure;
+use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, half_width, point_contact};
+use crate::geometry::Point;
+use crate::mesh::{EdgeNode, Numbering, Partition, lattice};
+use crate::system::{
+    BoundaryMotion, Contact, Discretisation, Prediction, Predictor, Scene, Space, Start, SystemError, bilateral,
+    finest_numbering, not_held_if_closed, spaces, widest,
+};
+use std::rc::Rc;
+
+/// Segments of the programme where no place is known to touch first.
+const EVEN: usize = 16;
+
+/// The shortest segment of the programme as a share of the contact, on either side of the place that touches first, and how segments
+/// grow from there. Its mean gap is that of s²/2R over a thousandth of R: less than what bodies of E = 1000 p bulge by.
+const SHORTEST: f64 = 2e-3;
+const GROWTH: f64 = 3.0;
+
+/// How far a contact boundary goes to either side of the place that its force presses, by the half width of that (Hertz), and at
+/// least as a share of what the sides face.
+const REACH: f64 = 2.0;
+const LEAST_REACH: f64 = 1e-2;
+
+/// Operations of a programme that are less than a few sets on the same mesh cost: some tenths of a second.
+const MOST_WORK: f64 = 3e8;
+
+/// Gap by the length of a contact that counts as closed: what the programme leaves of none.
+const TOUCHING: f64 = 1e-9;
+
+/// Segments beside what presses that a contact boundary begins with: an end that lies too far in is seen only if there is pressure
+/// beside it, one too far out costs a multiplier that opens.
+const ROOM: usize = 1;
+
+/// What the programme says of a mesh of which nothing else is known.
+pub(super) enum Begun {
+    /// The contacts as they will lie, and where to start.
+    Held(Box<Discretisation>, Start),
+    /// No solution to begin with: a first set at most, or contacts as they are drawn, where the programme has no answer.
+    Unknown(Box<Discretisation>),
+    /// A body that nothing holds, or that the loads drive off all its contacts, in words.
+    Free(Box<Discretisation>, String),
+}
+
+/// What rank 0 has found, as all ranks know it.
+struct FoundByProgramme {
+    displacement: Vec<Point>,
+    pressures: Vec<f64>,
+    gaps: Vec<f64>,
+}
+
+impl Procedure<'_> {
+    /// Begins a mesh of which nothing is known. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] if contacts cannot be placed, supports contradict each other, or a triangle is turned inside out.
+    pub(super) fn begun(&self, scene: Scene) -> Result<Begun, SystemError> {
+        let spaces = spaces(&scene, self.session.rank())?;
+        let whole = on_one_rank(&scene);
+        let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
+        if let Some(words) = self.session.agree(self.free_if_closed(&whole, &numbering)).map_err(SystemError::Case)? {
+            return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+        }
+        let wide = wide_contacts(&whole, &numbering)?;
+        let drawn: Vec<Contact> = wide.iter().map(|wide| wide.contact.clone()).collect();
+        let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
+        let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
+        let mut found = match self.shared(predictor.as_ref(), &drawn, numbering.node_count())? {
+            Ok(found) => found,
+            Err(Prediction::Driven(words)) => {
+                return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+            }
+            Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
+        };
+        let pressing = active(&drawn, &found);
+        let known: Vec<Known> = wide.iter().map(|wide| narrowed(wide, &pressing, &found)).collect();
+        let displacement = |node: EdgeNode| found.displacement[node.number(&whole.mesh, &numbering)];
+        let contacts = Contact::all_again(&whole, &numbering, 0, &known, &displacement)?;
+        match self.shared(predictor.as_ref(), &contacts, numbering.node_count())? {
+            Ok(again) => found = again,
+            Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
+        }
+        drop(predictor);
+        let space = &spaces[spaces.len() - 1];
+        let start = Start {
+            displacement: own_unknowns(&scene, space, &numbering, &found.displacement, self.session.rank()),
+            active: active(&contacts, &found),
+            pressures: found.pressures,
+        };
+        let motion = BoundaryMotion::new(&scene, space, &start.displacement, self.session);
+        let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
+        let contacts = Contact::all_again(&scene, &space.numbering, self.session.rank(), &known, &displacement)?;
+        let mut problem = Discretisation::with(scene, spaces, contacts, motion, self.session)?;
+        if !is_assembly(&problem.scene) {
+            problem.first_set = Some(start.active);
+            return Ok(Begun::Unknown(Box::new(problem)));
+        }
+        Ok(Begun::Held(Box::new(problem), start))
+    }
+
+    /// The same mesh with what the programme says of its contacts, where that costs less than the sets that it saves. **Collective**
+    ///
+    /// # Errors
+    /// As of [`Procedure::begun`].
+    pub(super) fn predicted(&self, problem: Discretisation, start: Start) -> Result<Begun, SystemError> {
+        let is_dear = work_of_programme(&problem) > MOST_WORK;
+        if is_dear || problem.contacts.is_empty() || !is_assembly(&problem.scene) {
+            return Ok(Begun::Held(Box::new(problem), start));
+        }
+        let whole = on_one_rank(&problem.scene);
+        let numbering = Numbering::new(problem.finest().numbering.level, &whole.partition);
+        let known: Vec<Known> = problem.contacts.iter().map(|contact| contact.known.clone()).collect();
+        let displacement = |node: EdgeNode| problem.motion.at(node, &whole.mesh, problem.finest());
+        let contacts = Contact::all_again(&whole, &numbering, 0, &known, &displacement)?;
+        let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
+        let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
+        let Ok(found) = self.shared(predictor.as_ref(), &contacts, numbering.node_count())? else {
+            return Ok(Begun::Held(Box::new(problem), start));
+        };
+        let rank = self.session.rank();
+        let start = Start {
+            displacement: own_unknowns(&problem.scene, problem.finest(), &numbering, &found.displacement, rank),
+            active: active(&contacts, &found),
+            pressures: found.pressures,
+        };
+        Ok(Begun::Held(Box::new(problem), start))
+    }
+
+    /// Where contacts press on the coarsest mesh, and how large their forces are; nothing if the programme has no answer.
+    /// **Collective**
+    ///
+    /// # Errors
+    /// As of [`Procedure::begun`].
+    pub(super) fn loaded_places(&self, scene: &Scene) -> Result<Option<Vec<LoadedPlace>>, SystemError> {
+        let whole = on_one_rank(scene);
+        let numbering = finest_numbering(&whole)?;
+        let wide = wide_contacts(&whole, &numbering)?;
+        let drawn: Vec<Contact> = wide.iter().map(|wide| wide.contact.clone()).collect();
+        let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
+        let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
+        let found = self.shared(predictor.as_ref(), &drawn, numbering.node_count())?.ok();
+        let places =
+            |found: FoundByProgramme| wide.iter().enumerate().map(|(at, wide)| wide.loaded(at, &found.pressures)).collect();
+        Ok(found.map(places))
+    }
+
+    /// Words for a body that can move though all contact is closed.
+    fn free_if_closed(&self, whole: &Scene, numbering: &Numbering) -> Result<Option<String>, SystemError> {
+        let known: Vec<Known> = whole.pairs.iter().map(|pair| widest(whole, numbering, pair)).collect();
+        let contacts = Contact::all_again(whole, numbering, 0, &known, &|_| Point::zeros())?;
+        not_held_if_closed(whole, numbering, &contacts)
+    }
+
+    /// What the programme of rank 0 says, on every rank. **Collective**
+    fn shared(
+        &self,
+        predictor: Option<&Predictor>,
+        contacts: &[Contact],
+        nodes: usize,
+    ) -> Result<Result<FoundByProgramme, Prediction>, SystemError> {
+        let own = predictor.map(|predictor| predictor.predict(contacts)).transpose();
+        let own = self.session.agree(own).map_err(SystemError::Case)?;
+        let is_held = self.session.any(matches!(own, Some(Prediction::Held { .. })));
+        if !is_held {
+            let is_driven = self.session.any(matches!(own, Some(Prediction::Driven(_))));
+            let words = || match own {
+                Some(Prediction::Driven(words) | Prediction::Unknown(words)) => Ok::<_, String>(words.into_bytes()),
+                _ => Ok(Vec::new()),
+            };
+            let words = self.session.share(words).map_err(SystemError::Case)?;
+            let words = String::from_utf8_lossy(&words).into_owned();
+            return Ok(Err(if is_driven { Prediction::Driven(words) } else { Prediction::Unknown(words) }));
+        }
+        let count = contacts.last().map_or(0, |contact| contact.range().end);
+        let mut all = vec![0.0; 2 * nodes + 2 * count];
+        if let Some(Prediction::Held { displacement, pressures, gaps }) = own {
+            let values = displacement.iter().flat_map(|u| [u.x, u.y]).chain(pressures).chain(gaps);
+            all.iter_mut().zip(values).for_each(|(to, value)| *to = value);
+        }
+        self.session.sum(&mut all);
+        let (moved, multipliers) = all.split_at(2 * nodes);
+        let displacement = moved.chunks_exact(2).map(|u| Point::new(u[0], u[1])).collect();
+        let (pressures, gaps) = multipliers.split_at(count);
+        Ok(Ok(FoundByProgramme { displacement, pressures: pressures.to_vec(), gaps: gaps.to_vec() }))
+    }
+}
+
+/// Operations of the programme on a mesh, roughly: the factor of each body, and a solve with it for each multiplier that it sees.
+fn work_of_programme(problem: &Discretisation) -> f64 {
+    let Discretisation { scene, contacts, .. } = problem;
+    let intervals = problem.finest().numbering.level.intervals as f64;
+    let mut bodies = vec![[0.0; 2]; scene.bodies.len()];
+    scene.mesh.triangles.iter().for_each(|triangle| bodies[triangle.body as usize][0] += intervals * intervals);
+    for contact in contacts {
+        contact.bodies.iter().for_each(|&body| bodies[body][1] += contact.multipliers.count() as f64);
+    }
+    bodies.iter().map(|[unknowns, multipliers]| 10.0 * unknowns.powf(1.5) + 60.0 * unknowns * multipliers).sum()
+}
+
+/// Whether bodies are free to roll or slide but for means that are held: there sets say nothing without the motions that go with them,
+/// and the programme serves on finer meshes, too. Where supports hold bodies, its set is enough to begin with.
+fn is_assembly(scene: &Scene) -> bool {
+    !scene.means.is_empty()
+}
+
+/// The scene with all of its mesh on this rank.
+fn on_one_rank(scene: &Scene) -> Scene {
+    let ranks = vec![0; scene.mesh.triangles.len()];
+    Scene { partition: Rc::new(Partition::new(&scene.mesh, &ranks, 1)), ..scene.clone() }
+}
+
+/// A contact as the programme has it: as far as the sides face each other within reach, with constant pressures on segments that
+/// become short towards the place where the sides touch first.
+pub(super) struct WideContact {
+    /// What it is placed by.
+    known: Known,
+    /// The contact.
+    contact: Contact,
+    /// Where smooth sides touch first.
+    touch: Option<PointContact>,
+}
+
+impl WideContact {
+    /// Its force, and where it acts if the sides touch at a point.
+    fn loaded(&self, at: usize, pressures: &[f64]) -> LoadedPlace {
+        let (contact, boundary) = (&self.contact, &self.contact.boundary);
+        let force = contact.range().map(|i| pressures[i].max(0.0) * contact.multipliers.integral(i - contact.first)).sum();
+        let half = |touch: &PointContact| {
+            half_width(touch.curvature, force, contact.modulus_at(boundary.arc(boundary.foot(touch.place))))
+        };
+        let width = self.touch.as_ref().and_then(|touch| Some((touch.place, half(touch)?)));
+        LoadedPlace { contact: at, force, width }
+    }
+}
+
+/// Contacts of undeformed bodies as the programme has them.
+fn wide_contacts(scene: &Scene, numbering: &Numbering) -> Result<Vec<WideContact>, SystemError> {
+    let (mut all, mut first) = (Vec::new(), 0);
+    for pair in &scene.pairs {
+        let wide = wide_contact(scene, numbering, pair, first)?;
+        first = wide.contact.range().end;
+        all.push(wide);
+    }
+    Ok(all)
+}
+
+fn wide_contact(scene: &Scene, numbering: &Numbering, pair: &Pair, first: usize) -> Result<WideContact, SystemError> {
+    let at_rest = |_: EdgeNode| Point::zeros();
+    let known = widest(scene, numbering, pair);
+    let even = Pair { space: MultiplierSpace::P0, stabilise: Stabilise::Off, ..pair.clone() };
+    let contact = Contact::new(scene, numbering, 0, &even, first, &known, &at_rest)?;
+    if !contact.has_free_ends() {
+        // Where ends stay, so do the segments: what presses is told as the case has it.
+        let contact = Contact::new(scene, numbering, 0, pair, first, &known, &at_rest)?;
+        return Ok(WideContact { known, contact, touch: None });
+    }
+    let sides = SmoothSide::of_pair(&scene.mesh, numbering, pair, &at_rest);
+    let boundary = &contact.boundary;
+    let (middle, half) = (boundary.point(boundary.parameter_at(0.5 * boundary.length())), 0.5 * boundary.length());
+    let nearest = |stretches: &'_ [SmoothSide]| {
+        let away = |side: &SmoothSide| (side.nearest_place(middle).0 - middle).norm();
+        (0..stretches.len()).min_by(|&a, &b| away(&stretches[a]).total_cmp(&away(&stretches[b])))
+    };
+    let touch = match [nearest(&sides[0]), nearest(&sides[1])] {
+        [Some(one), Some(other)] => point_contact([&sides[0][one], &sides[1][other]], middle, half),
+        _ => None,
+    };
+    let at = touch.map(|touch| boundary.arc(boundary.foot(touch.place)) / boundary.length());
+    let fractions = graded_towards(at.filter(|at| (SHORTEST..=1.0 - SHORTEST).contains(at)));
+    let graded = Pair { segments: SegmentRule::Fractions(fractions), grading: [1.0, 1.0], ..even };
+    let contact = Contact::new(scene, numbering, 0, &graded, first, &known, &at_rest)?;
+    Ok(WideContact { known, contact, touch })
+}
+
+/// Segment ends as fractions of the length: growing from one place to both sides, or even without one.
+fn graded_towards(place: Option<f64>) -> Vec<f64> {
+    let Some(place) = place else { return (0..=EVEN).map(|k| k as f64 / EVEN as f64).collect() };
+    let ways: Vec<f64> = std::iter::successors(Some(SHORTEST), |way| Some(GROWTH * way)).take_while(|way| *way < 1.0).collect();
+    // The last way before an end would leave a sliver.
+    let side = |room: f64| ways.iter().copied().filter(move |way| way * 0.5 * (1.0 + GROWTH) < room);
+    let mut all: Vec<f64> = side(place).map(|way| place - way).chain(side(1.0 - place).map(|way| place + way)).collect();
+    all.extend([0.0, 1.0]);
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// What presses: the pressure is worth more penetration than there is gap.
+fn active(contacts: &[Contact], found: &FoundByProgramme) -> Vec<bool> {
+    let both = bilateral(contacts);
+    let presses = |contact: &Contact, i: usize| {
+        let own = i - contact.first;
+        let worth = found.pressures[i] * contact.multipliers.length(own) / contact.multiplier_moduli[own];
+        both[i] || worth >= found.gaps[i] || found.gaps[i] <= TOUCHING * contact.boundary.length()
+    };
+    contacts.iter().flat_map(|contact| contact.range().map(move |i| (contact, i))).map(|(c, i)| presses(c, i)).collect()
+}
+
+/// Where a contact whose ends are free lies: as far as its force presses sides that touch at a point, twice; else what presses, and a
+/// segment on either side of it; what does not press lies where the gap is smallest.
+fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme) -> Known {
+    let WideContact { known, contact, touch } = wide;
+    if !contact.has_free_ends() {
+        return known.clone();
+    }
+    let (boundary, multipliers) = (&contact.boundary, &contact.multipliers);
+    let segment = |i: usize| multipliers.segment_of(i - contact.first);
+    let mut pressing: Vec<usize> = contact.range().filter(|&i| active[i]).map(segment).collect();
+    if pressing.is_empty() {
+        let nearest = contact.range().min_by(|&a, &b| found.gaps[a].total_cmp(&found.gaps[b]));
+        pressing.extend(nearest.map(segment));
+    }
+    let (Some(first), Some(last)) = (pressing.iter().min(), pressing.iter().max()) else { return known.clone() };
+    let arcs = boundary.arcs();
+    let mut ends = [arcs[first.saturating_sub(ROOM)], arcs[(last + 1 + ROOM).min(boundary.segments())]];
+    let force: f64 = contact.range().map(|i| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first)).sum();
+    if let Some(touch) = touch {
+        let at = boundary.arc(boundary.foot(touch.place));
+        let half = half_width(touch.curvature, force, contact.modulus_at(at));
+        let reach = half.map_or(LEAST_REACH * boundary.length(), |half| (REACH * half).max(LEAST_REACH * boundary.length()));
+        let way = |i: usize| boundary.segment_arcs(segment(i)).iter().sum::<f64>() * 0.5 - at;
+        let moment = |i: usize| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i).powi(2);
+        // What presses farther from the place than the force alone would has another reason: a corner, sides that conform.
+        let is_narrow = contact.range().map(moment).sum::<f64>() <= force * reach * reach;
+        if is_narrow && (half.is_some() || force <= 0.0) {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            let middle = if ends[0] <= at && at <= ends[1] { at } else { middle };
+            ends = [(middle - reach).max(0.0), (middle + reach).min(boundary.length())];
+        }
+    }
+    Known { ends: Some(ends.map(|arc| boundary.parameter_at(arc))), ..known.clone() }
+}
+
+/// This rank's displacements in the nodes' frames, from those of all nodes on one rank.
+fn own_unknowns(scene: &Scene, space: &Space, whole: &Numbering, displacement: &[Point], rank: usize) -> Vec<f64> {
+    let mut values = vec![0.0; space.local_unknowns()];
+    for &triangle in scene.partition.triangles_of(rank) {
+        let [here, there] = [&space.numbering, whole].map(|numbering| numbering.triangle(&scene.mesh, triangle as usize));
+        for (i, j) in lattice::nodes(space.numbering.level.intervals) {
+            let node = here.node(i, j);
+            if space.own.contains(&node) {
+                let u = space.to_frame(node, displacement[there.node(i, j)]);
+                let at = 2 * (node - space.own.start);
+                (values[at], values[at + 1]) = (u.x, u.y);
+            }
+        }
+    }
+    values
+}

@@ -1,0 +1,182 @@
+//! Products of a system from which rigid motions are eliminated, its right-hand side, and the motions that belong to its unknowns.
+
+use super::border_blocks::{BorderBlocks, BorderColumn, BorderUnknown};
+use crate::petsc::{Matrix, Product, Result, Vector};
+use crate::system::Form;
+use crate::system::rigid_border::{RigidComponent, Sparse};
+use nalgebra::DVector;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// Loads below this share of the largest are rounding.
+const UNLOADED: f64 = 1e-9;
+
+/// `p`, or a right-hand side beside it, of all components: motions with their balances, and multipliers of means with the means.
+#[derive(Clone, Debug, Default)]
+pub struct BorderValues {
+    /// `q`, or forces that balance.
+    pub motion: Vec<f64>,
+    /// `μ`, or means; zero for rigid sets.
+    pub mean: Vec<f64>,
+}
+
+impl BorderValues {
+    fn zeros(count: usize) -> Self {
+        Self { motion: vec![0.0; count], mean: vec![0.0; count] }
+    }
+
+    /// The value of an unknown, or of its row.
+    pub fn of(&self, unknown: BorderUnknown) -> f64 {
+        match unknown {
+            BorderUnknown::Motion(j) => self.motion[j],
+            BorderUnknown::Mean(j) => self.mean[j],
+        }
+    }
+}
+
+impl BorderBlocks {
+    fn arms(&self) -> DVector<f64> {
+        let rigid = &self.border.components[..self.border.stiffness.nrows()];
+        DVector::from_iterator(rigid.len(), rigid.iter().map(|component| component.arm))
+    }
+
+    /// Whether no product knows of any motion.
+    pub fn is_empty(&self) -> bool {
+        self.linked.is_empty()
+    }
+
+    /// `Wᵀ x` of what is linked. **Collective**
+    pub fn sums(&self, x: &[f64]) -> BorderValues {
+        let (u, lambda) = x.split_at(self.unknowns);
+        let row = |column: &BorderColumn| {
+            let mean = self.border.components[column.component].mean.as_ref();
+            [dot(&column.forces, u) + dot(&column.balance, lambda), mean.map_or(0.0, |mean| dot(mean, u))]
+        };
+        let mut sums: Vec<[f64; 2]> = self.columns.iter().map(row).collect();
+        self.session.sum(sums.as_flattened_mut());
+        let mut all = BorderValues::zeros(self.border.components.len());
+        for (&component, [motion, mean]) in self.linked.iter().zip(sums) {
+            (all.motion[component], all.mean[component]) = (motion, mean);
+        }
+        all
+    }
+
+    /// `E⁻¹ r`: zero in what rigid sets cannot tell.
+    fn pivot(&self, r: &BorderValues) -> BorderValues {
+        let mut p = BorderValues::zeros(r.motion.len());
+        let rigid = self.border.stiffness.nrows();
+        p.motion[rigid..].copy_from_slice(&r.mean[rigid..]);
+        let product = |j: usize, q: &[f64]| self.stiffness[j].iter().map(|(&k, value)| value * q[k]).sum::<f64>();
+        let arms = self.arms();
+        let left = DVector::from_fn(rigid, |j, _| (r.motion[j] - product(j, &p.motion)) / arms[j]);
+        let found = (&self.inverse * left).component_div(&arms);
+        p.motion[..rigid].copy_from_slice(found.as_slice());
+        for &j in self.linked.iter().filter(|&&j| j >= rigid) {
+            p.mean[j] = r.motion[j] - product(j, &p.motion);
+        }
+        p
+    }
+
+    /// `V` of an unknown, added to a vector; in the plain form, or where `whole`, with its gaps.
+    pub fn add_column(&self, unknown: BorderUnknown, factor: f64, whole: bool, y: &mut [f64]) {
+        let (upper, lower) = y.split_at_mut(self.unknowns);
+        let (BorderUnknown::Motion(component) | BorderUnknown::Mean(component)) = unknown;
+        let (of, Ok(at)) = (&self.border.components[component], self.linked.binary_search(&component)) else { return };
+        match unknown {
+            BorderUnknown::Mean(_) => add(of.mean.as_ref().unwrap_or(&Sparse::new()), factor, upper),
+            BorderUnknown::Motion(_) => {
+                add(if self.form == Form::Plain { &of.forces } else { &self.columns[at].forces }, factor, upper);
+                if whole {
+                    add(&self.columns[at].gaps, factor, lower);
+                }
+            }
+        }
+    }
+
+    /// `y + V p`, in what is linked.
+    fn add_moved(&self, p: &BorderValues, y: &mut [f64]) {
+        for &j in &self.linked {
+            self.add_column(BorderUnknown::Motion(j), p.motion[j], true, y);
+            if p.mean[j] != 0.0 {
+                self.add_column(BorderUnknown::Mean(j), p.mean[j], true, y);
+            }
+        }
+    }
+
+    /// `y - V E⁻¹ Wᵀ x`. **Collective**
+    fn subtract_eliminated(&self, x: &[f64], y: &mut [f64]) {
+        let mut sums = self.sums(x);
+        sums.motion.iter_mut().chain(&mut sums.mean).for_each(|sum| *sum = -*sum);
+        self.add_moved(&self.pivot(&sums), y);
+    }
+
+    /// `h` from loads, means and gaps of all multipliers.
+    fn right_hand_side(&self, loads: &[f64], asked: &[f64], gap: &[f64]) -> BorderValues {
+        let mut h = BorderValues { motion: loads.to_vec(), mean: asked.to_vec() };
+        for (row, weighted) in self.weighted_gaps().iter().enumerate() {
+            weighted.iter().for_each(|&(j, weight)| h.motion[j] += weight * gap[row]);
+        }
+        h
+    }
+
+    /// Loads and means of the scene.
+    pub fn given(&self) -> [Vec<f64>; 2] {
+        let components = &self.border.components;
+        [
+            components.iter().map(|component| component.load).collect(),
+            components.iter().map(|component| component.asked).collect(),
+        ]
+    }
+
+    /// `b - V E⁻¹ h`.
+    pub fn subtract_given(&self, [loads, asked]: &[Vec<f64>; 2], gap: &[f64], b: &mut [f64]) {
+        let mut p = self.pivot(&self.right_hand_side(loads, asked, gap));
+        p.motion.iter_mut().chain(&mut p.mean).for_each(|value| *value = -*value);
+        self.add_moved(&p, b);
+    }
+
+    /// `q = E⁻¹ (h - Wᵀ x)`, where rigid sets cannot tell as it was `before`. **Collective**
+    pub fn motion(&self, x: &[f64], [loads, asked]: &[Vec<f64>; 2], gap: &[f64], before: &[f64]) -> Vec<f64> {
+        let (mut left, sums) = (self.right_hand_side(loads, asked, gap), self.sums(x));
+        left.motion.iter_mut().zip(sums.motion).for_each(|(left, sum)| *left -= sum);
+        let mean = |component: &RigidComponent| component.mean.as_ref().map_or(0.0, |mean| dot(mean, &x[..self.unknowns]));
+        let mut means: Vec<f64> = self.border.components.iter().map(mean).collect();
+        self.session.sum(&mut means);
+        left.mean.iter_mut().zip(means).for_each(|(left, mean)| *left -= mean);
+        let (mut found, arms) = (self.pivot(&left).motion, self.arms());
+        let kept = &self.untold * DVector::from_fn(arms.len(), |j, _| before[j] * arms[j]);
+        found.iter_mut().zip(kept.component_div(&arms).iter()).for_each(|(q, kept)| *q += kept);
+        found
+    }
+
+    /// Whether loads drive a rigid set where nothing resists.
+    pub fn is_driven_freely(&self) -> bool {
+        let arms = self.arms();
+        let loads = DVector::from_fn(arms.len(), |j, _| self.border.components[j].load / arms[j]);
+        !arms.is_empty() && (&self.untold * &loads).amax() > UNLOADED * loads.amax()
+    }
+}
+
+/// A product of blocks, and the motions eliminated from it.
+pub struct BorderedProduct {
+    /// That of the blocks.
+    pub blocks: Matrix,
+    /// What is eliminated.
+    pub border: Rc<RefCell<BorderBlocks>>,
+}
+
+impl Product for BorderedProduct {
+    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        self.blocks.multiply(x, y)?;
+        self.border.borrow().subtract_eliminated(&x.values(), &mut y.values_mut());
+        Ok(())
+    }
+}
+
+fn dot(row: &Sparse, x: &[f64]) -> f64 {
+    row.iter().map(|&(at, value)| value * x[at as usize]).sum()
+}
+
+fn add(column: &Sparse, factor: f64, y: &mut [f64]) {
+    column.iter().for_each(|&(at, value)| y[at as usize] += factor * value);
+}

@@ -1,0 +1,173 @@
+//! A preconditioner of the blocks of sets at rest, made one of the system from which rigid motions are eliminated.
+//!
+//! Beside the preconditioner `P` of the blocks stands the border of [`BorderBlocks`]:
+//!
+//! ```text
+//! [ P   V ] [y]   [x]        y = P⁻¹ x - Z p,   p = -Σ⁻¹ Wᵀ P⁻¹ x
+//! [ Wᵀ  E ] [p] = [0]        Z = P⁻¹ V,         Σ = E - Wᵀ Z - Zᵀ (V - A Z)
+//! ```
+//! `V` is without its gaps where `P` is a block triangle: motions are displacements, which it eliminates before the multipliers.
+//! The last term of `Σ` makes its error that of `Z` squared. Held means that contact hardly resists are left out: a system with them
+//! is that of the blocks.
+
+use crate::petsc::{Action, Result, Session, Vector};
+use crate::system::{BorderBlocks, BorderUnknown, Form, SaddlePoint};
+use nalgebra::{DMatrix, DVector};
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+/// Stiffness that contact lends a held mean, relative to that of the body itself, from which `P` has to be told. Ten rollers between
+/// two plates whose shifts and turns are held, at up to half of it: 10 iterations instead of 7.
+const RESISTED: f64 = 1.0;
+
+/// Held means that it is told of at most: each takes two vectors, and two cycles or more for an active set. The others cost
+/// iterations: of the ten rollers, when contact resists their vertical shifts, too, 20 instead of 8.
+const MOST_HELD: usize = 8;
+
+/// Cycles for a column of `Z`, at most, and the relative residual that is enough.
+const MOST_CYCLES: usize = 4;
+const ENOUGH: f64 = 0.1;
+
+/// The same of a factor of the whole system, which has it for one solve with its triangles.
+const EXACT: f64 = 1e-6;
+
+/// Singular values of the scaled `Σ` below this share of the largest belong to motions that nothing resists.
+const NOTHING: f64 = 1e-13;
+
+/// The preconditioner, for one active set at a time.
+pub struct Bordered {
+    of_blocks: Box<dyn Action>,
+    border: Rc<RefCell<BorderBlocks>>,
+    form: Form,
+    session: Session,
+    /// What belongs to a set; nothing until somebody has asked for it.
+    of_set: RefCell<Option<OfSet>>,
+    /// Whether that is another set.
+    is_stale: Cell<bool>,
+}
+
+struct OfSet {
+    unknowns: Vec<BorderUnknown>,
+    /// Columns of `Z`.
+    responses: Vec<Vector>,
+    /// `Σ⁻¹`.
+    inverse: DMatrix<f64>,
+}
+
+impl Bordered {
+    /// Around a preconditioner of the blocks.
+    pub fn new(of_blocks: Box<dyn Action>, border: Rc<RefCell<BorderBlocks>>, form: Form, session: &Session) -> Rc<Self> {
+        Rc::new(Self { of_blocks, border, form, session: session.clone(), of_set: RefCell::new(None), is_stale: Cell::new(true) })
+    }
+
+    /// Blocks have changed.
+    pub fn forget(&self) {
+        self.is_stale.set(true);
+    }
+
+    /// Whether it has to be prepared.
+    pub fn is_stale(&self) -> bool {
+        self.is_stale.get()
+    }
+
+    /// Finds `Z` and `Σ` for the set; the preconditioner of the blocks is set up. **Collective**
+    pub fn prepare(&self, system: &SaddlePoint) -> Result<()> {
+        let border = self.border.borrow();
+        let unknowns = border.resisted(RESISTED, MOST_HELD);
+        let (mut responses, mut residuals) = (Vec::new(), Vec::new());
+        for &unknown in &unknowns {
+            let (z, r) = self.response(system, &border, unknown)?;
+            responses.push(z);
+            residuals.push(r);
+        }
+        let count = unknowns.len();
+        if count == 0 {
+            self.of_set.replace(Some(OfSet { unknowns, responses, inverse: DMatrix::zeros(0, 0) }));
+            return Ok(());
+        }
+        let mut works = vec![0.0; count * count];
+        for (i, z) in responses.iter().enumerate() {
+            for (j, r) in residuals.iter().enumerate() {
+                works[count * i + j] = z.values().iter().zip(r.values().iter()).map(|(a, b)| a * b).sum();
+            }
+        }
+        self.session.sum(&mut works);
+        let scales: Vec<f64> = unknowns.iter().map(|&unknown| border.scale(unknown)).collect();
+        let mut schur = DMatrix::zeros(count, count);
+        for (j, z) in responses.iter().enumerate() {
+            let sums = border.sums(&z.values());
+            for (i, &row) in unknowns.iter().enumerate() {
+                let entry = border.entry(row, unknowns[j]) - sums.of(row) - works[count * i + j];
+                schur[(i, j)] = entry / (scales[i] * scales[j]);
+            }
+        }
+        let least = NOTHING * schur.amax();
+        let mut inverse = schur.pseudo_inverse(least).unwrap_or_else(|_| DMatrix::zeros(count, count));
+        (0..count).for_each(|i| (0..count).for_each(|j| inverse[(i, j)] /= scales[i] * scales[j]));
+        self.of_set.replace(Some(OfSet { unknowns, responses, inverse }));
+        Ok(())
+    }
+
+    /// A column of `Z`, from that of the set before, and what is missing, `V - A Z` of that column. **Collective**
+    fn response(&self, system: &SaddlePoint, border: &BorderBlocks, unknown: BorderUnknown) -> Result<(Vector, Vector)> {
+        let (mut z, mut v) = system.nest.create_vectors()?;
+        z.set(0.0)?;
+        v.set(0.0)?;
+        border.add_column(unknown, 1.0, self.form == Form::Plain, &mut v.values_mut());
+        if let Some(OfSet { unknowns, responses, .. }) = &*self.of_set.borrow()
+            && let Some(at) = unknowns.iter().position(|&known| known == unknown)
+        {
+            z.copy_from(&responses[at])?;
+        }
+        let enough = if self.form == Form::Plain { EXACT } else { ENOUGH };
+        let (mut r, mut change, whole) = (v.duplicate()?, v.duplicate()?, v.norm()?);
+        let mut left = self.missing(system, &v, &z, &mut r)?;
+        if left > whole {
+            z.set(0.0)?;
+            left = self.missing(system, &v, &z, &mut r)?;
+        }
+        for _ in 0..MOST_CYCLES {
+            if left <= enough * whole {
+                break;
+            }
+            self.of_blocks.apply(&r, &mut change)?;
+            z.axpy(1.0, &change)?;
+            let now = self.missing(system, &v, &z, &mut r)?;
+            if now >= left {
+                z.axpy(-1.0, &change)?;
+                self.missing(system, &v, &z, &mut r)?;
+                break;
+            }
+            left = now;
+        }
+        Ok((z, r))
+    }
+
+    /// `r = v - A z`, of displacements alone where the blocks are a triangle; its norm. **Collective**
+    fn missing(&self, system: &SaddlePoint, v: &Vector, z: &Vector, r: &mut Vector) -> Result<f64> {
+        system.nest.residual(v, z, r)?;
+        if self.form == Form::Augmented {
+            let own = system.multipliers.own.len();
+            let mut values = r.values_mut();
+            let first = values.len() - own;
+            values[first..].fill(0.0);
+        }
+        r.norm()
+    }
+}
+
+impl Action for Rc<Bordered> {
+    fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        self.of_blocks.apply(x, y)?;
+        let of_set = self.of_set.borrow();
+        let Some(OfSet { unknowns, responses, inverse }) = of_set.as_ref().filter(|of_set| !of_set.unknowns.is_empty()) else {
+            return Ok(());
+        };
+        let sums = self.border.borrow().sums(&y.values());
+        let p = inverse * DVector::from_iterator(unknowns.len(), unknowns.iter().map(|&unknown| sums.of(unknown)));
+        for (z, p) in responses.iter().zip(p.iter()) {
+            y.axpy(*p, z)?;
+        }
+        Ok(())
+    }
+}
