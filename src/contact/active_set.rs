@@ -103,20 +103,22 @@ impl ActiveSet {
         SetChange::Changed { added, released }
     }
 
-    /// Closes `more` multipliers in the set that was found last, before anything is solved for it. Nothing changes, and the
-    /// answer is no, if that makes a set that was tried.
-    pub fn keep(&mut self, more: &[usize]) -> bool {
-        let mut next = self.active.clone();
-        more.iter().for_each(|&i| next[i] = true);
-        if self.tried.contains(&next) {
-            return false;
-        }
+    /// Closes `more` multipliers in the set that was found last, before anything is solved for it, and says what that makes of the
+    /// set `solved` for last: the same one again, where nothing but `more` was to open.
+    pub fn keep(&mut self, more: &[usize], solved: &[bool]) -> SetChange {
         if self.tried.last() == Some(&self.active) {
             self.tried.pop();
         }
-        self.tried.push(next.clone());
-        self.active = next;
-        true
+        more.iter().for_each(|&i| self.active[i] = true);
+        if self.active == solved {
+            return SetChange::Settled;
+        }
+        if self.tried.contains(&self.active) {
+            return SetChange::Repeated;
+        }
+        self.tried.push(self.active.clone());
+        let count = |now: bool| self.active.iter().zip(solved).filter(|&(&is, &was)| is != was && is == now).count();
+        SetChange::Changed { added: count(true), released: count(false) }
     }
 
     /// Forgets the sets tried so far, because the solves become more exact from here on.
@@ -158,14 +160,16 @@ mod tests {
     }
 
     #[test]
-    fn multipliers_are_kept_once_and_no_second_time() {
+    fn what_is_kept_closed_makes_no_set_twice() {
         let mut set = ActiveSet::new(vec![false; 3]);
         set.update(|_| -1.0);
-        assert!(set.keep(&[1]));
+        assert_eq!(set.keep(&[1], &[true; 3]), SetChange::Changed { added: 0, released: 2 });
         assert_eq!(set.active(), [false, true, false]);
         assert_eq!(set.update(|_| -1.0), SetChange::Changed { added: 0, released: 1 }, "the open set was never solved for");
-        assert!(!set.keep(&[1]));
-        assert_eq!(set.active(), [false; 3]);
+        assert_eq!(set.keep(&[1], &[false, true, false]), SetChange::Settled, "nothing else was to open");
+        assert_eq!(set.active(), [false, true, false]);
+        set.update(|i| if i == 0 { 1.0 } else { -1.0 });
+        assert_eq!(set.keep(&[1, 2], &[false, true, false]), SetChange::Repeated, "all was closed at first");
     }
 
     #[test]

@@ -216,6 +216,27 @@ pub fn stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -
     (worst > 0.0).then_some(worst)
 }
 
+/// How much longer than the longer of two sides Γ_C may be between its ends: half-way it is shorter.
+const LONGER: f64 = 0.1;
+
+/// Whether Γ_C is longer than both sides are between its ends: a fit that swings where long edges leave it few data.
+pub fn swings(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -> bool {
+    let knots = boundary.knots();
+    let ends = [knots[0], knots[knots.len() - 1]].map(|t| boundary.point(t));
+    let stretch = |side: &SmoothSide| {
+        let [a, b] = ends.map(|end| side.nearest(end, pair.configuration));
+        let way = (b - a).abs();
+        side.turn().map_or(way, |turn| way.min(turn - way))
+    };
+    !boundary.is_closed() && boundary.length() > (1.0 + LONGER) * stretch(sides[0]).max(stretch(sides[1]))
+}
+
+/// Even spans that samples, ascending, fill with two each at least: one without any would be anything.
+fn spans_with_data(samples: &[FitSample]) -> usize {
+    let apart = samples.windows(2).map(|two| two[1].0 - two[0].0).fold(0.0, f64::max);
+    ((samples[samples.len() - 1].0 - samples[0].0) / (2.0 * apart)) as usize
+}
+
 /// The fewest spans whose mean distance from the samples is as small as that of any number, but for a half: more would
 /// follow the scatter between the two bodies.
 fn fit_by_the_data(samples: &[FitSample], wish: Option<usize>, turn: Option<f64>) -> Spline {
@@ -227,7 +248,7 @@ fn fit_by_the_data(samples: &[FitSample], wish: Option<usize>, turn: Option<f64>
         return fit(spans);
     }
     let least = if turn.is_some() { LEAST_AROUND } else { 1 };
-    let most = (samples.len() / 4).clamp(least, MOST_SPANS);
+    let most = (samples.len() / 4).min(spans_with_data(samples)).clamp(least, MOST_SPANS);
     let counts = std::iter::successors(Some(least), |count| (2 * count <= most).then_some(2 * count));
     let fits: Vec<(f64, Spline)> = counts
         .map(|count| {
@@ -263,6 +284,13 @@ mod tests {
         scattered.extend(on_arc(1.01, 47));
         assert!(fit_by_the_data(&scattered, None, None).spans() <= 2, "scatter between two bodies is not followed");
         assert_eq!(fit_by_the_data(&on_arc(1.0, 200), Some(7), None).spans(), 7);
+        // Many samples in the middle of an arc, and eight on either side of it.
+        let all = on_arc(1.0, 1600);
+        let graded: Vec<FitSample> =
+            all.iter().enumerate().filter(|(k, _)| k % 100 == 0 || (700..900).contains(k)).map(|(_, x)| *x).collect();
+        let spline = fit_by_the_data(&graded, None, None);
+        assert!(spline.spans() <= 8, "{} spans are empty", spline.spans());
+        assert!(all.iter().all(|(t, x, _)| (spline.point(*t) - x).norm() < 1e-4));
     }
 
     use crate::contact::samples::seam;

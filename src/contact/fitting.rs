@@ -85,6 +85,31 @@ impl Meeting {
         REACH.iter().filter_map(|factor| Self::within(sides, pair, factor * MEETS_AT_REST).ok().flatten())
     }
 
+    /// Beside a Γ_C that has these ends: from the node before the one nearest to the first of them to the node behind the other one.
+    pub fn beside(sides: &[Vec<SmoothSide>; 2], pair: &Pair, ends: [Point; 2]) -> Option<Self> {
+        let mut found = Vec::new();
+        for stretches in sides {
+            let away = |at: &usize| ends.map(|x| (stretches[*at].nearest_place(x).0 - x).norm()).into_iter().fold(0.0, f64::max);
+            let stretch = (0..stretches.len()).min_by(|a, b| away(a).total_cmp(&away(b)))?;
+            let side = &stretches[stretch];
+            let [a, b] = ends.map(|x| side.nearest_node(x));
+            let round = side.turn().map(|_| side.nodes());
+            let way = |from: usize, to: usize| round.map(|count| (to + count - from) % count);
+            let near = match (way(a, b), way(b, a)) {
+                (Some(there), Some(back)) => {
+                    let first = if back < there { b } else { a };
+                    let before = (first + side.nodes() - 1) % side.nodes();
+                    [before, before + there.min(back) + 2]
+                }
+                _ => [a.min(b).saturating_sub(1), (a.max(b) + 1).min(side.nodes() - 1)],
+            };
+            found.push((stretch, near));
+        }
+        let [first, second] = [found[0], found[1]];
+        let of = |k: usize, (stretch, near): (usize, [usize; 2])| (&sides[k][stretch], near);
+        Some(Self::on_a_part([of(0, first), of(1, second)], [first.0, second.0], pair))
+    }
+
     fn within(sides: &[Vec<SmoothSide>; 2], pair: &Pair, share: f64) -> Result<Option<Self>, String> {
         let near: [Vec<Near>; 2] =
             [0, 1].map(|k| sides[k].iter().map(|side| near_nodes(side, &sides[1 - k], pair, share)).collect());
@@ -227,7 +252,7 @@ impl Meeting {
         let [low, high] = [ends[0] - margins[0], ends[1] + margins[1]];
         let place = |node: usize| own.as_ref().map_or(first.parameters[node], |own| own.node(node));
         let beyond = (0..first.points.len()).filter(|&node| place(node) < low || place(node) > high);
-        let depth = beyond.filter_map(|node| first.gap(node, second, pair, 1e-9 * second.length())).map(|gap| -gap);
+        let depth = beyond.filter_map(|node| first.facing_gaps(node, second, pair, 1e-9 * second.length())).map(|gaps| -gaps.now);
         depth.fold(0.0, f64::max)
     }
 

@@ -39,6 +39,7 @@ mod zones;
 
 pub use active_set::{ActiveSet, SetChange};
 pub use ascent::{Ascent, SetSolution};
+pub use bisector::swings;
 pub use closeness::{ClosePair, CloseSide, close_pairs, close_sides};
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, declared_gap, integrate};

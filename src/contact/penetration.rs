@@ -3,9 +3,6 @@
 use super::{Law, Pair, SmoothSide};
 use crate::geometry::Point;
 
-/// Cosine of the angle between normals up to which sides face each other: elsewhere a gap along them means nothing.
-const FACING: f64 = 0.7;
-
 /// Reach beyond the ends of a side, as a share of its length.
 const REACH: f64 = 1e-9;
 
@@ -31,8 +28,8 @@ pub fn penetration(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Penetration {
     for (own, others) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])] {
         for (side, other) in own.iter().flat_map(|side| others.iter().map(move |other| (side, other))) {
             for node in 0..side.nodes() {
-                let gaps = side.gaps(node, other, pair, REACH * other.length());
-                let Some(gaps) = gaps.filter(|gaps| gaps.facing > FACING && gaps.now.is_finite()) else { continue };
+                let gaps = side.facing_gaps(node, other, pair, REACH * other.length());
+                let Some(gaps) = gaps.filter(|gaps| gaps.now.is_finite()) else { continue };
                 closed = closed.max(gaps.at_rest - gaps.now);
                 nearest = nearest.min(gaps.at_rest);
                 if gaps.is_inside && -gaps.now > found.depth {

@@ -2,7 +2,9 @@
 
 use super::bisector::stray;
 use super::cutting::fractions;
-use super::{Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, SegmentRule, Side, SmoothSide};
+use super::{
+    Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, PointContact, SegmentRule, Side, SmoothSide,
+};
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 
@@ -27,6 +29,9 @@ pub struct Known {
     pub segments: Option<usize>,
     /// Its ends as a coarser mesh has found them, if there was one.
     pub coarser: Option<[Point; 2]>,
+    /// Where undeformed sides touch first, if they are smooth and convex against each other there: what its force presses on is as
+    /// wide as Hertz has it.
+    pub touch: Option<PointContact>,
 }
 
 /// A contact boundary with what it was placed by.

@@ -1,8 +1,11 @@
 //! One side of a contact as a smooth curve through its nodes, undeformed and as it lies now.
 
-use super::{Configuration, GapChoice, Pair};
+use super::{Configuration, CurveChoice, GapChoice, Pair, Side};
 use crate::geometry::{Curve, Point, Spline, chord_lengths, cross, turn_right};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering, Stretch};
+
+/// Cosine of the angle between normals up to which sides face each other.
+const FACING: f64 = 0.7;
 
 /// What lies deeper in a body than this share of a stretch belongs to another side of it.
 const DEEP: f64 = 0.25;
@@ -53,14 +56,21 @@ pub struct SmoothSide {
     closed: bool,
     /// Where it lies apart from Γ_C, which has its shape: the way there (length).
     pub shift: Point,
+    /// Whether Γ_C lies on this side, or on the other one, and has the normals of that; nothing if it lies between both.
+    bears: Option<bool>,
 }
 
 impl SmoothSide {
     /// The stretches of both sides of a pair.
     pub fn of_pair(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacement: Displacement) -> [Vec<Self>; 2] {
-        pair.between.each_ref().map(|name| {
-            let edges = mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-            mesh.stretches(edges).iter().map(|stretch| Self::new(mesh, numbering, stretch, displacement)).collect()
+        let bears = |side: Side| match pair.curve {
+            CurveChoice::Own(own) => Some(own == side),
+            CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => None,
+        };
+        [Side::First, Side::Second].map(|side| {
+            let edges = mesh.boundary(&pair.between[side as usize]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+            let new = |stretch: &Stretch| Self { bears: bears(side), ..Self::new(mesh, numbering, stretch, displacement) };
+            mesh.stretches(edges).iter().map(new).collect()
         })
     }
 
@@ -98,13 +108,13 @@ impl SmoothSide {
             false => Curve::Spline(Spline::through_at(parameters.clone(), points)),
         };
         let (undeformed, deformed, shift) = (spline(&places), spline(&points), Point::zeros());
-        Self { places, points, parameters, hand, degree, shape, undeformed, deformed, closed, shift }
+        Self { places, points, parameters, hand, degree, shape, undeformed, deformed, closed, shift, bears: None }
     }
 
     /// The same side begun at another of its nodes, if it is closed, and shifted from Γ_C.
     pub fn laid(&self, seam: usize, shift: Point) -> Self {
         let begun = if self.closed && seam > 0 { self.begun_at(seam) } else { self.clone() };
-        Self { shift, ..begun }
+        Self { shift, bears: self.bears, ..begun }
     }
 
     fn begun_at(&self, node: usize) -> Self {
@@ -183,6 +193,12 @@ impl SmoothSide {
         (self.undeformed.point(t), turn_right(self.undeformed.tangent(t)) * self.hand)
     }
 
+    /// The undeformed node nearest to `x`.
+    pub fn nearest_node(&self, x: Point) -> usize {
+        let away = |node: &usize| (self.places[*node] - x).norm_squared();
+        (0..self.nodes()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or_default()
+    }
+
     /// Whether a parameter is farther than an edge from both ends.
     fn is_inside(&self, t: f64) -> bool {
         let last = self.parameters.len() - 1;
@@ -205,6 +221,11 @@ impl SmoothSide {
         self.gaps(node, other, pair, reach).map(|gaps| gaps.now)
     }
 
+    /// Gaps where the sides face each other: elsewhere those along normals mean nothing.
+    pub fn facing_gaps(&self, node: usize, other: &Self, pair: &Pair, reach: f64) -> Option<SideGaps> {
+        self.gaps(node, other, pair, reach).filter(|gaps| gaps.facing > FACING)
+    }
+
     /// The same with what it was at rest, and how far the two sides face each other there.
     pub fn gaps(&self, node: usize, other: &Self, pair: &Pair, reach: f64) -> Option<SideGaps> {
         let configuration = pair.configuration;
@@ -220,11 +241,12 @@ impl SmoothSide {
         if drawn < -DEEP * other.length() {
             return None;
         }
-        // The normal of the contact law bisects those of both sides.
+        // The normal of the contact law is that of the side on which Γ_C lies, or bisects those of both.
         let own = turn_right(self.undeformed.tangent(self.parameters[node])) * self.hand;
         let moved = (self.points[node] - self.places[node]) - (other.deformed.point(t) - other.undeformed.point(t));
         let is_inside = self.is_inside(self.parameters[node]) && other.is_inside(t);
-        let (opened, facing) = (moved.dot(&(outward - own).normalize()), -own.dot(&outward));
+        let normal = self.bears.map_or_else(|| (outward - own).normalize(), |bears| if bears { -own } else { outward });
+        let (opened, facing) = (moved.dot(&normal), -own.dot(&outward));
         if configuration == Configuration::Deformed {
             return Some(SideGaps { now: drawn, at_rest: drawn - opened, facing, is_inside });
         }

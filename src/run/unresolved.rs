@@ -18,6 +18,9 @@ const MOST_DEEP: f64 = 0.1;
 /// as a share of the displacements.
 const MOST_WORTH: [f64; 2] = [0.5, 1e-5];
 
+/// Force of a contact narrower than its segment by that of `unresolved_force` at most (Hertz): π / (4 ln(4 R/b) - 2), and R > 5 b.
+const WORTH: f64 = 0.32;
+
 /// A depth by less than this share of the largest displacement is what the solve leaves.
 const LEFT: f64 = 1e-6;
 
@@ -78,7 +81,13 @@ fn width(zone: &ZoneSummary) -> Option<(f64, f64)> {
 fn in_each_other(judged: &Judged) -> Option<String> {
     let left = LEFT * judged.summary.displacement_max?;
     let deep = |contact: &ContactSummary| contact.depth.zip(contact.approach).filter(|(depth, _)| *depth > left);
-    let share = |contact: &ContactSummary| deep(contact).map_or(0.0, |(depth, approach)| depth / approach);
+    // What only touches has not come together by much: it lies in each other if others that carry would have.
+    let least = judged.least_force();
+    let largest = judged.contacts().filter_map(|(_, contact)| contact.approach).fold(0.0, f64::max);
+    let touches = |contact: &ContactSummary| contact.force.is_some_and(|force| force.abs() < least);
+    let share = |contact: &ContactSummary| {
+        deep(contact).map_or(0.0, |(depth, approach)| depth / if touches(contact) { largest } else { approach })
+    };
     let (name, contact) = judged.contacts().max_by(|a, b| share(a.1).total_cmp(&share(b.1)))?;
     let (depth, approach) = deep(contact).filter(|_| share(contact) > MOST_DEEP)?;
     let [x, y] = contact.deepest?;
@@ -97,7 +106,7 @@ fn within_segments(judged: &Judged) -> Option<String> {
     let is_missed = |contact: &ContactSummary| {
         let (force, off) = (contact.force.unwrap_or(0.0).abs(), contact.unresolved_force.unwrap_or(0.0));
         let is_worth = if force > 0.0 { off > most * force } else { contact.missing.is_some_and(|missing| missing > most_alone) };
-        off > judged.least_force() && is_worth
+        WORTH * off > judged.least_force() && is_worth
     };
     let (name, _) = judged.contacts().find(|(_, contact)| is_missed(contact))?;
     let words = format!("contact {name}: the bodies lie in each other within segments that are longer than what presses");

@@ -143,7 +143,7 @@ impl Contact {
         let segments = Some(boundary.segments());
         Ok(Self {
             pair: pair.clone(),
-            known: Known { meeting: placed.meeting, ends, segments, coarser: known.coarser },
+            known: Known { meeting: placed.meeting, ends, segments, coarser: known.coarser, touch: known.touch },
             found: None,
             limits: placed.limits,
             loaded: sides.each_ref().map(|edges| is_loaded(scene, edges)),

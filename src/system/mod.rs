@@ -62,7 +62,7 @@ pub use procedure::{
     ZoneDifference, ZoneEstimate,
 };
 pub use programme::{Prediction, Predictor};
-use reach::{nearest, widest};
+use reach::{beside, widest};
 pub use rigid_border::RigidBorder;
 pub use rigid_motion::{rigid_motions, settle};
 pub use rigid_start::rigid_start;

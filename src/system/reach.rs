@@ -1,42 +1,71 @@
 //! How far the sides of a contact face each other within reach, on undeformed bodies.
 
 use super::{Contact, Scene, coupled_here};
-use crate::contact::{Known, Meeting, Pair, SmoothSide};
+use crate::contact::{Configuration, CurveChoice, Known, Meeting, Pair, SmoothSide, point_contact, swings};
 use crate::geometry::Point;
 use crate::mesh::Numbering;
 
-/// Parts of a stretch within reach, about its middle, that are tried where the whole cannot be measured: between round bodies with long
-/// edges the normals of its ends may miss one of them.
-const PARTS: [f64; 2] = [0.5, 0.25];
+/// Parts of a stretch within reach, about the place where the sides touch first, that are tried one after the other: between round
+/// bodies with long edges the normals of its ends may miss one of them.
+const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 
-/// What places a contact as far as its sides face each other within reach: the widest stretch on which the normals of Γ_C meet both;
-/// where the sides are drawn nearest, if there is none, or if the curve is declared. All edges are on this rank.
+/// What places a contact as far as its sides face each other within reach: the widest stretch, about the place where they touch first,
+/// on which the normals of Γ_C meet both; where the sides are drawn nearest, if there is none, or if the curve is declared. All edges
+/// are on this rank.
 pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
     let at_rest = |_| Point::zeros();
     if !pair.curve.is_found() {
         return Known::default();
     }
     let sides = SmoothSide::of_pair(&scene.mesh, numbering, pair, &at_rest);
+    let lies_between = |contact: &Contact| {
+        let Some(meeting) = contact.known.meeting.as_ref().filter(|_| pair.curve == CurveChoice::Fit) else { return true };
+        let mut begun = sides.clone();
+        meeting.begin(&mut begun);
+        !swings(meeting.sides(&begun), &contact.boundary, pair)
+    };
     let can_be_measured = |known: &Known| {
         let contact = Contact::new(scene, numbering, 0, pair, 0, known, &at_rest);
-        contact.is_ok_and(|contact| coupled_here(std::slice::from_ref(&contact)).is_ok())
+        contact.is_ok_and(|contact| lies_between(&contact) && coupled_here(std::slice::from_ref(&contact)).is_ok())
     };
-    let whole = Meeting::within_reach(&sides, pair).map(|meeting| Known { meeting: Some(meeting), ..Known::default() });
-    let part = |meeting: Meeting| {
+    let whole = |meeting: &Meeting| Known { meeting: Some(meeting.clone()), ..Known::default() };
+    let parts = |meeting: &Meeting| {
         let [first, last] = meeting.ends;
-        let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
-        PARTS.map(|part| {
-            let ends = Some([middle - part * half, middle + part * half]);
-            Known { meeting: Some(meeting.clone()), ends, ..Known::default() }
-        })
+        let (middle, half) = (touching(&sides, meeting, pair).unwrap_or(0.5 * (first + last)), 0.5 * (last - first));
+        PARTS.map(|part| Known { ends: Some([middle - part * half, middle + part * half]), ..whole(meeting) })
     };
-    let parts = Meeting::within_reach(&sides, pair).filter(|meeting| !meeting.goes_round).flat_map(part);
-    whole.chain(std::iter::once(Known::default())).chain(parts).find(can_be_measured).unwrap_or_default()
+    let meetings: Vec<Meeting> = Meeting::within_reach(&sides, pair).collect();
+    let about = meetings.iter().filter(|meeting| !meeting.goes_round);
+    let (touched, others): (Vec<&Meeting>, Vec<&Meeting>) = about.partition(|meeting| touching(&sides, meeting, pair).is_some());
+    let known = touched.into_iter().flat_map(parts).chain(meetings.iter().map(whole));
+    known
+        .chain(std::iter::once(Known::default()))
+        .chain(others.into_iter().flat_map(parts))
+        .find(can_be_measured)
+        .unwrap_or_default()
 }
 
-/// What places a contact where its sides are drawn nearest, on a mesh of which the ends of Γ_C are known: its curve goes on as far as
-/// these.
-pub fn nearest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
+/// Parameter of Γ_C at which the sides touch first, if it has that of body 1's side, and if that is not at an end of where they meet.
+fn touching(sides: &[Vec<SmoothSide>; 2], meeting: &Meeting, pair: &Pair) -> Option<f64> {
+    if pair.curve != CurveChoice::Fit {
+        return None;
+    }
+    let mut begun = sides.clone();
+    meeting.begin(&mut begun);
+    let [first, second] = meeting.sides(&begun);
+    let [from, to] = meeting.ends;
+    let middle = first.curve(Configuration::Reference).point(0.5 * (from + to));
+    let touch = point_contact([first, second], middle, 0.5 * (to - from))?;
+    Some(first.nearest(touch.place, Configuration::Reference))
+}
+
+/// What places a contact beside where it lay on a coarser mesh, with its open ends there; where its sides are drawn nearest, if it goes
+/// all around.
+pub fn beside(scene: &Scene, numbering: &Numbering, pair: &Pair, ends: Option<[Point; 2]>) -> Known {
     let sides = pair.curve.is_found().then(|| SmoothSide::of_pair(&scene.mesh, numbering, pair, &|_| Point::zeros()));
-    Known { meeting: sides.and_then(|sides| Meeting::at_rest(&sides, pair).ok()), ..Known::default() }
+    let meeting = |sides: &[Vec<SmoothSide>; 2]| match ends {
+        Some(ends) => Meeting::beside(sides, pair, ends),
+        None => Meeting::at_rest(sides, pair).ok(),
+    };
+    Known { meeting: sides.as_ref().and_then(meeting), ..Known::default() }
 }

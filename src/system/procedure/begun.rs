@@ -2,6 +2,7 @@
 
 use super::by_forces::LoadedPlace;
 use super::settings::Procedure;
+use crate::accuracy::share_of_nothing;
 use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, half_width, point_contact};
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Numbering, Partition, lattice};
@@ -18,11 +19,6 @@ const EVEN: usize = 16;
 /// grow from there. Its mean gap is that of s²/2R over a thousandth of R: less than what bodies of E = 1000 p bulge by.
 const SHORTEST: f64 = 2e-3;
 const GROWTH: f64 = 3.0;
-
-/// How far a contact boundary goes to either side of the place that its force presses, by the half width of that (Hertz), and at
-/// least as a share of what the sides face.
-const REACH: f64 = 2.0;
-const LEAST_REACH: f64 = 1e-2;
 
 /// Operations of a programme that are less than a few sets on the same mesh cost: some tenths of a second.
 const MOST_WORK: f64 = 3e8;
@@ -75,7 +71,9 @@ impl Procedure<'_> {
             Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
         };
         let pressing = active(&drawn, &found);
-        let known: Vec<Known> = wide.iter().map(|wide| narrowed(wide, &pressing, &found)).collect();
+        let largest = wide.iter().map(|wide| wide.force(&found.pressures)).fold(0.0, f64::max);
+        let least = share_of_nothing(self.accuracy) * largest;
+        let known: Vec<Known> = wide.iter().map(|wide| narrowed(wide, &pressing, &found, least)).collect();
         let displacement = |node: EdgeNode| found.displacement[node.number(&whole.mesh, &numbering)];
         let contacts = Contact::all_again(&whole, &numbering, 0, &known, &displacement)?;
         match self.shared(predictor.as_ref(), &contacts, numbering.node_count())? {
@@ -223,10 +221,16 @@ pub(super) struct WideContact {
 }
 
 impl WideContact {
+    /// The force of what presses.
+    fn force(&self, pressures: &[f64]) -> f64 {
+        let contact = &self.contact;
+        contact.range().map(|i| pressures[i].max(0.0) * contact.multipliers.integral(i - contact.first)).sum()
+    }
+
     /// Its force, and where it acts if the sides touch at a point.
     fn loaded(&self, at: usize, pressures: &[f64]) -> LoadedPlace {
         let (contact, boundary) = (&self.contact, &self.contact.boundary);
-        let force = contact.range().map(|i| pressures[i].max(0.0) * contact.multipliers.integral(i - contact.first)).sum();
+        let force = self.force(pressures);
         let half = |touch: &PointContact| {
             half_width(touch.curvature, force, contact.modulus_at(boundary.arc(boundary.foot(touch.place))))
         };
@@ -297,9 +301,9 @@ fn active(contacts: &[Contact], found: &FoundByProgramme) -> Vec<bool> {
     contacts.iter().flat_map(|contact| contact.range().map(move |i| (contact, i))).map(|(c, i)| presses(c, i)).collect()
 }
 
-/// Where a contact whose ends are free lies: as far as its force presses sides that touch at a point, twice; else what presses, and a
-/// segment on either side of it; what does not press lies where the gap is smallest.
-fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme) -> Known {
+/// Where a contact whose ends are free lies: as far as its force, or the `least` one that counts, presses sides that touch at a point
+/// (Hertz); else what presses, and a segment on either side of it; what does not press lies where the gap is smallest.
+fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme, least: f64) -> Known {
     let WideContact { known, contact, touch } = wide;
     if !contact.has_free_ends() {
         return known.clone();
@@ -314,22 +318,24 @@ fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme) -> Kn
     let (Some(first), Some(last)) = (pressing.iter().min(), pressing.iter().max()) else { return known.clone() };
     let arcs = boundary.arcs();
     let mut ends = [arcs[first.saturating_sub(ROOM)], arcs[(last + 1 + ROOM).min(boundary.segments())]];
-    let force: f64 = contact.range().map(|i| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first)).sum();
+    let mut narrow = None;
+    let force = wide.force(&found.pressures);
     if let Some(touch) = touch {
         let at = boundary.arc(boundary.foot(touch.place));
-        let half = half_width(touch.curvature, force, contact.modulus_at(at));
-        let reach = half.map_or(LEAST_REACH * boundary.length(), |half| (REACH * half).max(LEAST_REACH * boundary.length()));
+        let half = half_width(touch.curvature, force.max(least), contact.modulus_at(at));
+        let reach = half.unwrap_or(boundary.length());
         let way = |i: usize| boundary.segment_arcs(segment(i)).iter().sum::<f64>() * 0.5 - at;
         let moment = |i: usize| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i).powi(2);
         // What presses farther from the place than the force alone would has another reason: a corner, sides that conform.
-        let is_narrow = contact.range().map(moment).sum::<f64>() <= force * reach * reach;
-        if is_narrow && (half.is_some() || force <= 0.0) {
+        let is_narrow = force <= least || contact.range().map(moment).sum::<f64>() <= force * reach * reach;
+        if is_narrow && half.is_some() {
             let middle = 0.5 * (ends[0] + ends[1]);
             let middle = if ends[0] <= at && at <= ends[1] { at } else { middle };
             ends = [(middle - reach).max(0.0), (middle + reach).min(boundary.length())];
+            narrow = Some(*touch);
         }
     }
-    Known { ends: Some(ends.map(|arc| boundary.parameter_at(arc))), ..known.clone() }
+    Known { ends: Some(ends.map(|arc| boundary.parameter_at(arc))), touch: narrow, ..known.clone() }
 }
 
 /// This rank's displacements in the nodes' frames, from those of all nodes on one rank.

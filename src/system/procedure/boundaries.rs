@@ -7,6 +7,7 @@ use super::following::{BoundaryStep, Following, NextBoundary, carried, standing,
 use super::observer::{Event, Work};
 use super::pass::Pass;
 use super::settings::Procedure;
+use crate::accuracy::share_of_nothing;
 use crate::system::{
     BoundaryMotion, Contact, Discretisation, Elastic, Form, Interpolation, Preconditioning, SaddlePoint, Solution, Start, System,
     SystemError, Tolerance, interpolations, load, nodal_forces, settle,
@@ -117,7 +118,8 @@ impl OneMesh<'_> {
         mut preconditioning: Preconditioning,
     ) -> Result<OnMesh, SystemError> {
         let exact = self.tolerance.residual().min(ON_THE_WAY);
-        let mut following = Following::new(problem, exact, start.is_some(), self.is_last);
+        let nothing = share_of_nothing(self.procedure.accuracy);
+        let mut following = Following::new(problem, exact, start.is_some(), self.is_last, nothing);
         self.begin(Some(following.tolerances()));
         let mut history = MeshHistory::default();
         // Where a coarser mesh knows the boundaries, the first solve may be the last, and the next one mostly is.

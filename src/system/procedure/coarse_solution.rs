@@ -8,7 +8,7 @@ use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
 use crate::petsc::Session;
 use crate::system::{
     BoundaryMotion, Contact, ContactPressure, Discretisation, Field, Preconditioning, Scene, Solution, Space, Start, SystemError,
-    nearest, spaces,
+    beside, spaces,
 };
 
 /// Share of the way of an end from one mesh to the next by which it goes on from there to the one after: its error falls by
@@ -174,8 +174,9 @@ impl ContactSolution {
         let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
         let mut known = Vec::new();
         for old in &self.contacts {
-            let nearest = nearest(scene, &space.numbering, &old.pair);
-            known.push(Known { coarser: self.is_refined.then(|| old.ends()), ..nearest });
+            let ends = (!old.boundary.is_closed()).then(|| old.ends());
+            let beside = beside(scene, &space.numbering, &old.pair, ends);
+            known.push(Known { coarser: self.is_refined.then(|| old.ends()), touch: old.known.touch, ..beside });
         }
         let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;
         if scene.pairs.iter().any(|pair| pair.follows()) {

@@ -254,13 +254,9 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         if lost.is_none() || self.kept == MOST_KEPT || !is_new {
             return NextSet { change, lost };
         }
-        if !self.set.keep(&few_that_hold(problem, self.set.active(), force, self.system.session())) {
-            return NextSet { change, lost };
-        }
         self.kept += 1;
-        let states = || self.system.active().iter().zip(self.set.active());
-        let changed = |now: bool| states().filter(|&(&was, &is)| was != is && is == now).count();
-        NextSet { change: SetChange::Changed { added: changed(true), released: changed(false) }, lost: None }
+        let few = few_that_hold(problem, self.set.active(), force, self.system.session());
+        NextSet { change: self.set.keep(&few, self.system.active()), lost: None }
     }
 
     /// Relative residual that the last solve is to reach, of what strains.

@@ -45,12 +45,12 @@ impl ContactState {
         Self { lambda, penetration, penalty, noise }
     }
 
-    /// The same without pulls and penetrations that are smaller than a `share` of the largest pressure of their contact, or than
-    /// rounding.
+    /// The same without pulls and penetrations that are smaller than a `share` of the largest pressure of all contacts, which solves
+    /// are exact for, or than rounding.
     pub(super) fn told_from(&self, problem: &Discretisation, share: f64) -> Self {
         let mut told = self.clone();
+        let share = share * self.largest_pressure();
         for contact in &problem.contacts {
-            let share = share * self.lambda[contact.range()].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             for i in contact.range() {
                 let least = share.max(self.noise[i]);
                 if self.lambda[i].abs() <= self.noise[i] {

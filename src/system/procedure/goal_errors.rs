@@ -14,6 +14,9 @@ const MOST_UNKNOWN: f64 = 0.08;
 /// Share of the largest force up to which it is asked whether a contact carries less than is asked for.
 const SMALL: f64 = 0.5;
 
+/// Force by E_c and a depth d that a contact on a short length is worth at most: by Hertz π E_c d / (4 ln(4 R/b) - 2), and R > 5 b.
+const WORTH: f64 = 0.32;
+
 /// Differences in the energy norm that say that the solution was there before.
 const ROUNDING: f64 = 1e-6;
 
@@ -57,8 +60,8 @@ impl Procedure<'_> {
         })
     }
 
-    /// Force of a contact, and what the overlap of its bodies between segments may be worth, by the largest force of all contacts: of a
-    /// contact on a short length a depth d is worth some .3 E_c d at most (Hertz), so E_c d is safe. **Collective**
+    /// Force of a contact, and what the overlap of its bodies between segments may be worth, by the largest force of all contacts.
+    /// **Collective**
     fn share_of_largest(&self, solved: &Solved, at: usize) -> Result<f64, SystemError> {
         let Solved { problem, solution, .. } = solved;
         let force = |contact: &Contact| solution.pressure(contact).force().abs();
@@ -73,7 +76,7 @@ impl Procedure<'_> {
         let complete = points.iter().filter(|point| point.is_complete());
         let depth = complete.map(|point| -point.gap).fold(0.0, f64::max);
         let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
-        Ok((own + modulus * depth) / largest)
+        Ok((own + WORTH * modulus * depth) / largest)
     }
 
     /// Errors of displacement and stress at a point.
