@@ -37,7 +37,7 @@ pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
     let meetings: Vec<Meeting> = Meeting::within_reach(&sides, pair).collect();
     let about = meetings.iter().filter(|meeting| !meeting.goes_round);
     let (touched, others): (Vec<&Meeting>, Vec<&Meeting>) = about.partition(|meeting| touching(&sides, meeting, pair).is_some());
-    let known = touched.into_iter().flat_map(parts).chain(meetings.iter().map(whole));
+    let known = meetings.iter().map(whole).chain(touched.into_iter().flat_map(parts));
     known
         .chain(std::iter::once(Known::default()))
         .chain(others.into_iter().flat_map(parts))

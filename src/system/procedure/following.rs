@@ -430,7 +430,6 @@ mod tests {
         near(way_to([0.25, 0.5], 5, EndRule::Free), 0.0);
         near(way_to([0.2, 0.5], 5, EndRule::Free), 0.1 / 0.5);
         near(way_to([0.3, 0.8], 5, EndRule::Free), 0.6 / 0.5);
-        near(way_to([0.3, 0.8], 5, EndRule::Fixed), 0.0);
         assert_eq!(way_to([0.25, 0.5], 4, EndRule::Free), None, "other segments");
     }
 }
