@@ -70,6 +70,8 @@ pub struct AdaptedMesh {
     pub refine: usize,
     /// Displacement unknowns.
     pub unknowns: usize,
+    /// Displacement unknowns of each refinement that was solved on it, the coarsest first, and Krylov iterations of all its solves.
+    pub cycles: Vec<[usize; 2]>,
     /// Estimated error of each goal; nothing where there is not enough to tell.
     pub errors: Vec<Option<f64>>,
     /// True error of each goal, where the case tells it; empty if nobody has looked.

@@ -110,12 +110,12 @@ angle = 0.0
 between = ["block.top", "disc.rim"]
 "#;
 
-/// Pressure and energy of a case on a mesh.
+/// Pressure and energy of a case on a mesh, refined until the contact is wider than an edge.
 fn solved(name: &str, case: &str) -> [f64; 2] {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scene = write_scene(folder.path(), "", case);
     std::fs::copy(file(name), folder.path().join("mesh.msh")).expect("a mesh can be copied");
-    let ended = Run::file(&scene).alone().set("solver.tolerance", 1e-12).solved();
+    let ended = Run::file(&scene).alone().set("mesh.refine", 2).set("solver.tolerance", 1e-12).solved();
     [ended.number("/contact/c/pressure_max"), ended.number("/energy/total")]
 }
 

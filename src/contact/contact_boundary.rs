@@ -137,6 +137,11 @@ impl ContactBoundary {
         self.period.map_or(t, |period| middle + nearest_turn(t - middle, period))
     }
 
+    /// Parameter of about the nearest point of the curve, as few looks tell it.
+    pub fn near(&self, p: Point) -> f64 {
+        self.curve.nearly_nearest(p)
+    }
+
     /// Feet of the two ends of an edge, in its direction; on a closed curve the edge is followed, not the long way round.
     pub fn directed_feet(&self, ends: [Point; 2]) -> [f64; 2] {
         let [a, b] = ends.map(|p| self.foot(p));

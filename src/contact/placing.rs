@@ -99,8 +99,8 @@ pub fn place(
     check_grading(pair, &boundary).map_err(error)?;
     if pair.curve.is_found() {
         let [of_first, of_second] = &mut edges;
-        of_first.retain(|edge| faces(&boundary, Side::First, edge));
-        of_second.retain(|edge| faces(&boundary, Side::Second, edge));
+        of_first.retain(|edge| lies_at(&boundary, Side::First, edge));
+        of_second.retain(|edge| lies_at(&boundary, Side::Second, edge));
     } else {
         check_cover(mesh, pair, sides, &boundary).map_err(error)?;
     }
@@ -340,6 +340,26 @@ pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacem
         }
     })
 }
+
+/// Whether an edge looks at a part of Γ_C, not beside it. On a large body most do not, which few looks tell.
+fn lies_at(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
+    let middle = 0.5 * (edge.points[0] + edge.points[1]);
+    let [first, last] = [boundary.knots()[0], boundary.knots()[boundary.segments()]];
+    let near = boundary.near(middle);
+    if edge.outward().dot(&boundary.normal(near)) * side.sign() < LOOKS_AWAY {
+        return false;
+    }
+    let beyond = (middle - boundary.point(near)).dot(&boundary.tangent(near));
+    let is_open = boundary.period().is_none();
+    if is_open && (near <= first && beyond < -edge.length() || near >= last && beyond > edge.length()) {
+        return false;
+    }
+    let is_within = |[from, to]: [f64; 2]| from < last && to > first;
+    faces(boundary, side, edge) && boundary.parts([edge.points[0], edge.points[1]]).any(is_within)
+}
+
+/// Cosine of the angle between the normals of an edge and of Γ_C about its foot, below which the foot itself tells nothing else.
+const LOOKS_AWAY: f64 = -0.5;
 
 /// Whether an edge looks at Γ_C: what lies behind a body does not touch. Neither does what has no foot on it: from the far side of
 /// a closed body the search for the nearest point of a short Γ_C may end anywhere, and the two ends of an edge there may have

@@ -6,9 +6,6 @@ use std::f64::consts::TAU;
 /// Ends of a curve nearer than this share of its speed times its range are one point, where its tangents are one, too.
 const MEETS_ITSELF: f64 = 1e-9;
 
-/// Spans of a spline from which the nearest point is looked for among their ends.
-const MANY: usize = 16;
-
 /// A plane curve `t -> (x, y)` over a range of its parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Curve {
@@ -115,6 +112,14 @@ impl Curve {
         }
     }
 
+    /// Point and derivative, of which a spline has both from one look.
+    fn point_and_derivative(&self, t: f64) -> [Point; 2] {
+        match self {
+            Self::Spline(spline) => spline.point_and_derivative(t),
+            _ => [self.point(t), self.derivative(t)],
+        }
+    }
+
     /// Unit tangent at parameter `t`.
     pub fn tangent(&self, t: f64) -> Point {
         self.derivative(t).normalize()
@@ -133,9 +138,15 @@ impl Curve {
                 r.y.atan2(r.x).rem_euclid(TAU)
             }
             Self::Parametric { .. } => self.nearest_by_search(p, 64),
-            // A spline of many spans turns little within one of them.
-            Self::Spline(spline) if spline.spans() >= MANY => self.nearest_from(p, spline.nearest_knot(p), spline.spans()),
-            Self::Spline(spline) => self.nearest_by_search(p, 4 * spline.spans()),
+            Self::Spline(spline) => self.nearest_from(p, spline.nearest_part_end(p), spline.parts()),
+        }
+    }
+
+    /// Parameter of a point of the curve that is as near as few looks tell.
+    pub fn nearly_nearest(&self, p: Point) -> f64 {
+        match self {
+            Self::Spline(spline) => spline.nearest_part_end(p),
+            _ => self.nearest(p),
         }
     }
 
@@ -158,8 +169,8 @@ impl Curve {
         let away = |t: f64| (p - self.point(t)).norm();
         let start = t;
         for _ in 0..200 {
-            let slope = self.derivative(t);
-            let straight = (p - self.point(t)).dot(&slope) / slope.norm_squared();
+            let [point, slope] = self.point_and_derivative(t);
+            let straight = (p - point).dot(&slope) / slope.norm_squared();
             // On a straight line the way that is left shrinks by as much as has been gone.
             let shrunk = before.map_or(1.0, |[at, left]| (left - straight) / (t - at));
             before = Some([t, straight]);

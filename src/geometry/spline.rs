@@ -12,7 +12,15 @@ pub struct Spline {
     spans: Vec<[Point; 4]>,
     /// Whether it ends where it begins, as smooth there as elsewhere.
     closed: bool,
+    /// Points of it, equally many in each span, from which the nearest one to another point is looked for.
+    points: Vec<Point>,
 }
+
+/// Spans of a spline which each turn so little that their ends are points enough to look for a nearest one.
+const MANY: usize = 16;
+
+/// Points for each span of a spline of fewer.
+const IN_A_SPAN: usize = 4;
 
 impl Spline {
     /// The spline through `points`, in their order, with the length of the chords as its parameter; at the second
@@ -47,7 +55,7 @@ impl Spline {
 
     /// The same spline at another place.
     pub fn moved(mut self, by: Point) -> Self {
-        self.spans.iter_mut().for_each(|span| span[0] += by);
+        self.spans.iter_mut().map(|span| &mut span[0]).chain(&mut self.points).for_each(|point| *point += by);
         self
     }
 
@@ -67,7 +75,13 @@ impl Spline {
             [points[k], slope, 0.5 * m0, (m1 - m0) / (6.0 * h)]
         };
         let spans = (0..points.len() - 1).map(span).collect();
-        Self { knots, spans, closed }
+        Self::of_spans(knots, spans, closed)
+    }
+
+    fn of_spans(knots: Vec<f64>, spans: Vec<[Point; 4]>, closed: bool) -> Self {
+        let mut spline = Self { knots, spans, closed, points: Vec::new() };
+        spline.points = (0..=spline.parts()).map(|k| spline.point(spline.part_end(k))).collect();
+        spline
     }
 
     /// The spline with `spans` equal spans over the parameters of `samples` that is nearest to them in the weighted
@@ -107,7 +121,7 @@ impl Spline {
             [line.0 + place, line.1 + slope, second, third]
         };
         let spans = (0..spans).map(span).collect();
-        Self { knots, spans, closed: false }
+        Self::of_spans(knots, spans, false)
     }
 
     /// The closed spline with `spans` equal spans over the parameters from 0 to `period` that is nearest to samples in the
@@ -137,7 +151,8 @@ impl Spline {
         let control = normal.cholesky().map_or(DMatrix::zeros(spans, 2), |factor| factor.solve(&right));
         let at = |i: usize| mean + Point::new(control[(i % spans, 0)], control[(i % spans, 1)]);
         let span = |k: usize| of_controls([0, 1, 2, 3].map(|i| at(k + i)), width);
-        Self { knots: (0..=spans).map(|k| width * k as f64).collect(), spans: (0..spans).map(span).collect(), closed: true }
+        let knots = (0..=spans).map(|k| width * k as f64).collect();
+        Self::of_spans(knots, (0..spans).map(span).collect(), true)
     }
 
     /// Length of one turn in the parameter, if it is closed.
@@ -156,9 +171,17 @@ impl Spline {
         }
     }
 
-    /// Number of spans.
-    pub fn spans(&self) -> usize {
-        self.spans.len()
+    /// Number of equal parts of its spans, of which each turns little.
+    pub fn parts(&self) -> usize {
+        self.spans.len() * if self.spans.len() < MANY { IN_A_SPAN } else { 1 }
+    }
+
+    /// Parameter at which part `k` begins, or the last one ends.
+    fn part_end(&self, k: usize) -> f64 {
+        let (in_a_span, last) = (self.parts() / self.spans.len(), self.spans.len() - 1);
+        let span = (k / in_a_span).min(last);
+        let share = (k - span * in_a_span) as f64 / in_a_span as f64;
+        self.knots[span] + share * (self.knots[span + 1] - self.knots[span])
     }
 
     /// Parameters of the span ends, ascending.
@@ -171,11 +194,11 @@ impl Spline {
         [self.knots[0], self.knots[self.knots.len() - 1]]
     }
 
-    /// Parameter of the span end that is nearest to `p`.
-    pub fn nearest_knot(&self, p: Point) -> f64 {
-        let last = (self.range()[1], self.point(self.range()[1]));
-        let ends = self.knots.iter().zip(&self.spans).map(|(&t, span)| (t, span[0])).chain([last]);
-        ends.map(|(t, x)| (t, (x - p).norm_squared())).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(last.0, |(t, _)| t)
+    /// Parameter of the end of a part that is nearest to `p`.
+    pub fn nearest_part_end(&self, p: Point) -> f64 {
+        let away = |k: &usize| (self.points[*k] - p).norm_squared();
+        let nearest = (0..self.points.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+        self.part_end(nearest.unwrap_or(0))
     }
 
     fn span(&self, t: f64) -> (&[Point; 4], f64) {
@@ -185,10 +208,15 @@ impl Spline {
 
     /// Point at parameter `t`; beyond its ends an open spline goes on along its tangents, and a closed one begins again.
     pub fn point(&self, t: f64) -> Point {
+        self.point_and_derivative(t)[0]
+    }
+
+    /// Point and derivative at once.
+    pub fn point_and_derivative(&self, t: f64) -> [Point; 2] {
         let inside = self.inside(t);
         let (&[a, b, c, d], tau) = self.span(inside);
-        let point = a + tau * (b + tau * (c + tau * d));
-        if t == inside || self.closed { point } else { point + (t - inside) * self.derivative(inside) }
+        let (point, slope) = (a + tau * (b + tau * (c + tau * d)), b + tau * (2.0 * c + 3.0 * tau * d));
+        [if t == inside || self.closed { point } else { point + (t - inside) * slope }, slope]
     }
 
     /// Derivative of the point by the parameter.

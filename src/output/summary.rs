@@ -11,7 +11,7 @@ mod steps;
 mod thickness;
 mod told;
 
-pub use accuracy::{AccuracyStep, ContactGoals, GoalSummary, ProbeGoals};
+pub use accuracy::{AccuracyStep, ContactGoals, Cycles, GoalSummary, ProbeGoals};
 pub use provenance::Provenance;
 pub use steps::{StepContact, StepSummary};
 pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, listed};
@@ -411,6 +411,9 @@ pub struct SolverSummary {
     pub iterations: Vec<usize>,
     /// Solves on coarser meshes before, the coarsest first.
     pub coarse: Vec<CoarseSolveSummary>,
+    /// Iterations on all meshes, each by its unknowns, in iterations on the last one.
+    #[serde(default)]
+    pub cycles: Option<f64>,
     /// Relative residual of the scaled augmented system.
     pub residual: Option<f64>,
     /// Relative residual of the system as it stands.

@@ -4,7 +4,7 @@ use super::memory;
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
 use crate::case::Case;
 use crate::output::plot::Sequence;
-use crate::output::summary::{AccuracyStep, GoalSummary, MOST_TOLD, Status, WORST};
+use crate::output::summary::{AccuracyStep, Cycles, GoalSummary, MOST_TOLD, Status, WORST};
 use crate::petsc::Session;
 use crate::system::Solved;
 
@@ -50,6 +50,7 @@ fn step(goals: &[Goal], mesh: &AdaptedMesh) -> AccuracyStep {
         macro_triangles: mesh.macro_triangles,
         refine: mesh.refine,
         unknowns: mesh.unknowns,
+        cycles: mesh.cycles.iter().map(|&[unknowns, iterations]| Cycles { unknowns, iterations }).collect(),
         seconds: mesh.seconds,
         ..AccuracyStep::default()
     };
@@ -272,6 +273,7 @@ mod tests {
             macro_triangles: 8 * number,
             refine: 3,
             unknowns,
+            cycles: vec![[unknowns, 12]],
             errors: errors.into(),
             true_errors: Vec::new(),
             seconds,

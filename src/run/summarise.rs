@@ -46,6 +46,7 @@ pub fn describe(summary: &mut Summary, case: &Case, solved: &Solved) {
                 iterations: solve.iterations.clone(),
             })
             .collect(),
+        cycles: Some(solved.work()),
         residual: Some(solution.residual),
         plain_residual: Some(solution.plain_residual),
         blas: Some(versions::blas()),

@@ -12,6 +12,9 @@ pub struct AccuracyStep {
     pub refine: usize,
     /// Displacement unknowns.
     pub unknowns: usize,
+    /// What was solved on it, the coarsest refinement first.
+    #[serde(default)]
+    pub cycles: Vec<Cycles>,
     /// Seconds since the first mesh was begun.
     pub seconds: f64,
     /// The displacement in the energy norm.
@@ -23,6 +26,15 @@ pub struct AccuracyStep {
     /// By name of the probe.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub probe: BTreeMap<String, ProbeGoals>,
+}
+
+/// All solves on one refinement of a mesh.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cycles {
+    /// Displacement unknowns.
+    pub unknowns: usize,
+    /// Krylov iterations, each with one cycle of the preconditioner.
+    pub iterations: usize,
 }
 
 /// What is asked of a contact.

@@ -69,7 +69,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
         ("/estimate/seam", "force lambda peak"),
         ("/balance", "bodies energy force moment"),
         ("/probe/corner", "stress u x"),
-        ("/solver", "blas coarse iterations krylov name plain_residual residual"),
+        ("/solver", "blas coarse cycles iterations krylov name plain_residual residual"),
         ("/time_s", "assemble contact mesh output setup solve total"),
         ("/memory_mib", "max_rank sum"),
     ];
@@ -87,7 +87,8 @@ fn an_accuracy_is_told_where_it_was_asked_for() {
     assert!(without.get("accuracy").is_none());
     assert_eq!(serde_json::from_value::<Summary>(without).unwrap(), filled());
     let goal = |estimate, asked| Some(GoalSummary { estimate, error: None, asked });
-    let first = AccuracyStep { macro_triangles: 8, refine: 2, unknowns: 600, seconds: 0.25, ..AccuracyStep::default() };
+    let cycles = vec![Cycles { unknowns: 160, iterations: 21 }, Cycles { unknowns: 600, iterations: 12 }];
+    let first = AccuracyStep { macro_triangles: 8, refine: 2, unknowns: 600, cycles, seconds: 0.25, ..AccuracyStep::default() };
     let seam =
         ContactGoals { force: goal(Some(1e-3), 1e-2), pressure: goal(None, 1e-3), peak: None, ends: goal(Some(f64::NAN), 0.02) };
     let tip = ProbeGoals { displacement: goal(Some(0.01), 0.05), stress: goal(None, 0.1) };
@@ -98,7 +99,8 @@ fn an_accuracy_is_told_where_it_was_asked_for() {
         ..first.clone()
     };
     let value = written(&Summary { accuracy: Some(vec![first.clone(), all]), ..filled() });
-    let size = json!({"macro_triangles": 8, "refine": 2, "unknowns": 600, "seconds": 0.25});
+    let cycles = json!([{"unknowns": 160, "iterations": 21}, {"unknowns": 600, "iterations": 12}]);
+    let size = json!({"macro_triangles": 8, "refine": 2, "unknowns": 600, "cycles": cycles, "seconds": 0.25});
     let mut told = size.clone();
     told["energy"] = json!({"estimate": 8.1e-5, "error": null, "asked": 1e-4});
     told["contact"] = json!({"seam": {

@@ -105,6 +105,7 @@ impl Procedure<'_> {
             macro_triangles: sequence.scene.mesh.triangles.len(),
             refine: sequence.scene.refine,
             unknowns: solved.problem.unknown_count(),
+            cycles: solved.cycles(),
             errors,
             true_errors: Vec::new(),
             seconds: sequence.started.elapsed().as_secs_f64(),

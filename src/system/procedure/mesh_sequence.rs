@@ -238,6 +238,7 @@ mod tests {
             macro_triangles: problem.scene.mesh.triangles.len(),
             refine: 2,
             unknowns: problem.unknown_count(),
+            cycles: Vec::new(),
             errors: vec![Some(1e-2)],
             true_errors: Vec::new(),
             seconds: 0.0,

@@ -63,6 +63,20 @@ impl Solved {
         }
     }
 
+    /// Displacement unknowns and Krylov iterations of all solves on each refinement of the last mesh, the coarsest first.
+    pub fn cycles(&self) -> Vec<[usize; 2]> {
+        let last = self.passes.iter().map(|pass| pass.krylov_iterations).sum();
+        let coarse = self.coarse.iter().map(|solve| [solve.unknowns, solve.iterations.iter().sum()]);
+        coarse.chain([[self.problem.unknown_count(), last]]).collect()
+    }
+
+    /// Krylov iterations on all meshes, each by its unknowns, in iterations on the last one: what the solves have cost.
+    pub fn work(&self) -> f64 {
+        let earlier = self.adaptation.iter().flat_map(|adaptation| &adaptation.meshes).flat_map(|mesh| mesh.cycles.clone());
+        let all = if self.adaptation.is_some() { earlier.collect() } else { self.cycles() };
+        all.iter().map(|[unknowns, iterations]| (unknowns * iterations) as f64).sum::<f64>() / self.problem.unknown_count() as f64
+    }
+
     /// Whether there are displacements to look at.
     pub fn is_solved(&self) -> bool {
         !self.passes.is_empty() && self.solution.residual.is_finite()
