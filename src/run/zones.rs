@@ -32,13 +32,8 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
             edges: Some(edges),
             segments: Some(zone.segments.len()),
             share: Some(forces[k] / whole),
-            hertz_width: hertz_width(
-                gaps_at_rest(),
-                zone.arcs,
-                forces[k],
-                contact.modulus_at(0.5 * (zone.arcs[0] + zone.arcs[1])),
-            )
-            .filter(|width| *width <= contact.boundary.length()),
+            hertz_width: hertz_width(gaps_at_rest(), zone.arcs, forces[k], contact.compliance)
+                .filter(|width| *width <= contact.boundary.length()),
             pressure_max: Some(pressure.peak_of(zone)),
             lambda: found.pressure.filter(tells),
             whole: found.inside.filter(tells),

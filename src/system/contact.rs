@@ -27,7 +27,9 @@ pub struct Contact {
     pub first: usize,
     /// Harmonic mean `E_c` of the two moduli beside each segment (stress): it follows the softer body.
     pub moduli: Vec<f64>,
-    /// The same for each multiplier.
+    /// `1/E'₁ + 1/E'₂` by the plane moduli of both surfaces (1/stress), of the softest part of each.
+    pub compliance: f64,
+    /// E_c for each multiplier.
     pub multiplier_moduli: Vec<f64>,
     /// Indices of body 1 and body 2.
     pub bodies: [usize; 2],
@@ -151,6 +153,7 @@ impl Contact {
             multipliers,
             first,
             moduli,
+            compliance: materials.softest.iter().map(|&part| scene.compliance(part)).sum(),
             multiplier_moduli,
             bodies,
             parts: materials.softest,

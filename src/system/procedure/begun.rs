@@ -229,12 +229,9 @@ impl WideContact {
 
     /// Its force, and where it acts if the sides touch at a point.
     fn loaded(&self, at: usize, pressures: &[f64]) -> LoadedPlace {
-        let (contact, boundary) = (&self.contact, &self.contact.boundary);
+        let contact = &self.contact;
         let force = self.force(pressures);
-        let half = |touch: &PointContact| {
-            half_width(touch.curvature, force, contact.modulus_at(boundary.arc(boundary.foot(touch.place))))
-        };
-        let width = self.touch.as_ref().and_then(|touch| Some((touch.place, half(touch)?)));
+        let width = self.touch.and_then(|touch| Some((touch.place, half_width(touch.curvature, force, contact.compliance)?)));
         LoadedPlace { contact: at, force, width }
     }
 }
@@ -322,7 +319,7 @@ fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme, least
     let force = wide.force(&found.pressures);
     if let Some(touch) = touch {
         let at = boundary.arc(boundary.foot(touch.place));
-        let half = half_width(touch.curvature, force.max(least), contact.modulus_at(at));
+        let half = half_width(touch.curvature, force.max(least), contact.compliance);
         let reach = half.unwrap_or(boundary.length());
         let way = |i: usize| boundary.segment_arcs(segment(i)).iter().sum::<f64>() * 0.5 - at;
         let moment = |i: usize| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i).powi(2);

@@ -325,7 +325,7 @@ fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]> {
         1 => 0.5 * boundary.length(),
         segments => (0..segments).map(of_segment).sum::<f64>() / force,
     };
-    let half = half_width(touch.curvature, force, pressure.contact.modulus_at(middle))?;
+    let half = half_width(touch.curvature, force, pressure.contact.compliance)?;
     let (t, speed) = (boundary.parameter_at(middle), boundary.speed(boundary.parameter_at(middle)));
     Some([(t - half / speed).max(limits[0]), (t + half / speed).min(limits[1])])
 }
