@@ -107,6 +107,8 @@ pub enum SequenceEnd {
 pub struct Adaptation {
     /// What was asked for.
     pub accuracy: Accuracy,
+    /// Contacts that lay at a point, on whose width the first mesh was refined before it was solved.
+    pub resolved: Vec<String>,
     /// Every mesh, the last one is that of the solution.
     pub meshes: Vec<AdaptedMesh>,
     /// Why there is no further one.
@@ -176,16 +178,17 @@ impl Accuracy {
 impl Adaptation {
     /// Before the first mesh.
     pub fn new(accuracy: Accuracy) -> Self {
-        Self { accuracy, meshes: Vec::new(), end: SequenceEnd::Unsolved, refusal: None }
+        Self { accuracy, resolved: Vec::new(), meshes: Vec::new(), end: SequenceEnd::Unsolved, refusal: None }
     }
 
     /// The goals that are missed on the last mesh, with their places among all. The first mesh may be too coarse to show how
-    /// slowly a value comes to rest: its estimate must be so much smaller.
+    /// slowly a value comes to rest: its estimate must be so much smaller, but of contacts whose width was known before.
     pub fn missed(&self) -> impl Iterator<Item = (usize, &Goal)> {
         let errors = self.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
         let is_first = self.meshes.len() == 1;
         let share = move |goal: &Goal| {
-            let may_be_luck = is_first && goal.quantity != Quantity::Energy;
+            let is_resolved = goal.quantity.contact().is_some_and(|name| self.resolved.iter().any(|resolved| resolved == name));
+            let may_be_luck = is_first && goal.quantity != Quantity::Energy && !is_resolved;
             if may_be_luck { FIRST } else { 1.0 }
         };
         let holds = move |place: usize, goal: &Goal| {

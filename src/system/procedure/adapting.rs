@@ -54,9 +54,7 @@ impl Procedure<'_> {
         let one = Procedure { observer: &observer, inf_sup, ..*self };
         let mut sequence = MeshSequence::new(scene, accuracy);
         sequence.check_first()?;
-        let halved =
-            self.halved_by_forces(&sequence.scene, sequence.mesh.clone(), accuracy, |mesh| sequence.has_room_for(mesh))?;
-        sequence.begin_with(halved);
+        self.halve_by_forces(&mut sequence, accuracy)?;
         sequence.scene = sequence.scene.on(sequence.mesh.mesh.clone(), self.session)?;
         loop {
             match one.solve_next(&sequence) {

@@ -24,9 +24,10 @@ const HELD: usize = 10;
 /// force alone, and its ends would wander with the bend of the boundary from fit to fit.
 const TELLING: usize = 3;
 
-/// The same where the force tells a width, too (Hertz): on three segments the pressure misses the width by 11 - 14 %, on four by 3 %, on
-/// nine by 1 % (`packing/discs_3`), and the force by some (b/R)².
-const TELLING_BESIDE_A_FORCE: usize = 5;
+/// Where the force tells the width 2b, too (Hertz), it does so better as long as the segments that press, times b/R, are fewer: the
+/// pressure of n segments misses the width by about .8/n² (11 - 14 % on three, 3 % on four, 1 - 4 % on nine; `packing/discs_3` and
+/// `roller`), the force by some (b/R)².
+const TELLING_BESIDE_A_FORCE: f64 = 0.9;
 
 /// Change of the displacement, relative to its norm, at which it stands, by the relative residual of the last solve.
 const STILL_DISPLACEMENT: f64 = 1e2;
@@ -309,7 +310,7 @@ fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least: f64
 /// smaller than the `least` one that counts; nothing if the sides conform, or the pressure tells the ends better.
 fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]> {
     let Contact { boundary, multipliers, limits, known, .. } = pressure.contact;
-    let touch = known.touch.filter(|_| pressing_segments(pressure) < TELLING_BESIDE_A_FORCE)?;
+    let touch = known.touch?;
     let force = pressure.force();
     if force.abs() <= least {
         let knots = boundary.knots();
@@ -326,6 +327,9 @@ fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]> {
         segments => (0..segments).map(of_segment).sum::<f64>() / force,
     };
     let half = half_width(touch.curvature, force, pressure.contact.compliance)?;
+    if pressing_segments(pressure) as f64 * half * touch.curvature > TELLING_BESIDE_A_FORCE {
+        return None;
+    }
     let (t, speed) = (boundary.parameter_at(middle), boundary.speed(boundary.parameter_at(middle)));
     Some([(t - half / speed).max(limits[0]), (t + half / speed).min(limits[1])])
 }

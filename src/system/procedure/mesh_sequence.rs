@@ -14,6 +14,11 @@ use std::time::Instant;
 /// the mesh is adapted by. One tells enough to go on by; without any next to nothing is estimated.
 const USUAL_REFINE: usize = 2;
 
+/// The same where the first mesh is refined on the width of contacts already, and no smaller error is asked for than `MOST_EXACT`:
+/// cutting all of its triangles into sixteen would add unknowns far from the contacts (a roller to 1e-2: 30 thousand for 12).
+const REFINE_OF_RESOLVED: usize = 1;
+const MOST_EXACT: f64 = 2e-3;
+
 /// A mesh of more triangles is not too coarse for a scene that is refused on it.
 const MOST_REFUSED: usize = 5000;
 
@@ -24,6 +29,8 @@ const MOST_FAILED: usize = 4;
 pub(super) struct MeshSequence {
     /// The scene on the present mesh.
     pub scene: Scene,
+    /// Refinement that the case asks for at least.
+    refine_of_case: usize,
     /// The present mesh.
     pub mesh: BisectedMesh,
     /// What was asked for, and every mesh so far.
@@ -46,6 +53,7 @@ impl MeshSequence {
         let mesh = BisectedMesh::new(scene.mesh.as_ref().clone());
         Self {
             origins: mesh.origins.clone(),
+            refine_of_case: scene.refine,
             scene: prepared(scene, &mesh, accuracy.most_unknowns),
             mesh,
             adaptation: Adaptation::new(accuracy.clone()),
@@ -60,6 +68,14 @@ impl MeshSequence {
     /// Whether a mesh leaves room for finer ones: half of the unknowns that are allowed.
     pub fn has_room_for(&self, mesh: &BisectedMesh) -> bool {
         self.adaptation.accuracy.most_unknowns.is_none_or(|most| 2 * self.unknowns(mesh, self.scene.refine) <= most)
+    }
+
+    /// Begins with a mesh on which these contacts are `resolved`, for errors of `tolerance` at least.
+    pub fn begin_with_resolved(&mut self, resolved: Vec<String>, tolerance: f64) {
+        self.adaptation.resolved = resolved;
+        if tolerance >= MOST_EXACT {
+            self.scene.refine = self.scene.refine.min(self.refine_of_case.max(REFINE_OF_RESOLVED));
+        }
     }
 
     /// Begins with another mesh than that of the file.
