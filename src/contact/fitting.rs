@@ -190,7 +190,11 @@ impl Meeting {
         let [(first, own), (second, other)] = sides;
         let configuration = pair.configuration;
         let far = other.map(|k| first.nearest(second.positions(configuration)[k], configuration));
-        let [low, high] = [far[0].min(far[1]), far[0].max(far[1])];
+        // A body that is near all around has no first and no last node there.
+        let [low, high] = match is_whole(second, other) {
+            true => [f64::NEG_INFINITY, f64::INFINITY],
+            false => [far[0].min(far[1]), far[0].max(far[1])],
+        };
         let edge = first.edge_length(own[0], own[1]).max(second.edge_length(other[0], other[1]));
         let ends = [first.parameters[own[0]].max(low) - edge, first.parameters[own[1]].min(high) + edge];
         let nodes = [own, other].map(|[from, to]| from..to + 1);
