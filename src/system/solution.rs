@@ -16,8 +16,6 @@ pub struct Solution {
     pub plain_residual: f64,
     /// Discrete inf-sup constant of each contact, where it was asked for.
     pub inf_sup: Vec<Option<f64>>,
-    /// For each goal of an accuracy, but the energy norm, its dual displacement: this rank's, in the nodes' frames.
-    pub duals: Vec<Option<Vec<f64>>>,
 }
 
 impl Solution {
@@ -30,7 +28,6 @@ impl Solution {
             residual: f64::NAN,
             plain_residual: f64::NAN,
             inf_sup: Vec::new(),
-            duals: Vec::new(),
         }
     }
 }

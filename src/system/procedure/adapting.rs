@@ -1,7 +1,8 @@
 //! The loop over meshes that are adapted to an accuracy: solved, judged, refined where the error is, until all goals are
 //! reached.
 
-use super::duals::weighted;
+use super::boundaries::OneMesh;
+use super::duals::{Duals, weighted};
 use super::estimate::Estimate;
 use super::foreseen::{Indicators, LocalIndicator};
 use super::mesh_sequence::MeshSequence;
@@ -145,9 +146,10 @@ impl Procedure<'_> {
         let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
         let errors = adaptation.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
         let mut all = Vec::new();
+        let mut duals = self.duals(adaptation, solved)?.into_iter();
         for (place, goal) in adaptation.missed() {
-            let own = match solved.solution.duals.get(place) {
-                Some(Some(dual)) if difference.is_some() => weighted(&solved.problem, left, dual, self.session)?,
+            let own = match duals.next().flatten() {
+                Some(dual) if difference.is_some() => weighted(&solved.problem, left, &dual, self.session)?,
                 _ => left.clone(),
             };
             let mut local = self.gathered(scene, &own, falls);
@@ -159,6 +161,19 @@ impl Procedure<'_> {
             all.push(Indicators { local, error, pace, is_norm: goal.quantity.is_norm() });
         }
         Ok(all)
+    }
+
+    /// The dual displacement of each goal that is missed, where the solution has one. **Collective**
+    fn duals(&self, adaptation: &Adaptation, solved: &Solved) -> Result<Vec<Option<Vec<f64>>>, SystemError> {
+        let Solved { problem, solution, preconditioning, is_hard, before, .. } = solved;
+        if !solved.ending.is_converged() || adaptation.missed().all(|(_, goal)| goal.quantity == Quantity::Energy) {
+            return Ok(Vec::new());
+        }
+        let mesh = OneMesh { procedure: self, tolerance: self.tolerance, is_last: false, is_hard: *is_hard };
+        let mut system = mesh.system_again(problem, &solution.active, *preconditioning)?;
+        let _stage = self.observer.enter(Work::Solve);
+        let duals = Duals { solution, coarse: before.as_ref() };
+        adaptation.missed().map(|(_, goal)| duals.solve(&mut system, goal)).collect()
     }
 
     /// Indicators of all macro triangles, from those of each rank. **Collective**

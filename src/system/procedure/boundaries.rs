@@ -1,7 +1,6 @@
 //! One mesh: one contact boundary after the other, until everything stands.
 
 use super::contact_loop::{ContactLoop, LoopOutcome, LoopPosition};
-use super::duals::Duals;
 use super::ending::{Ending, Failure, Standing};
 use super::following::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
 use super::observer::{Event, Work};
@@ -29,8 +28,6 @@ pub struct OneMesh<'p> {
     pub is_last: bool,
     /// Whether its active set was hard to find on the coarser mesh.
     pub is_hard: bool,
-    /// The goals whose dual problems are solved in the end.
-    pub duals: Option<Duals<'p>>,
 }
 
 /// What was found on one mesh.
@@ -155,6 +152,18 @@ impl OneMesh<'_> {
         unreachable!("boundaries are given up after a while")
     }
 
+    /// The system of a solution once more, for other right-hand sides. **Collective**
+    pub fn system_again<'a>(
+        &self,
+        problem: &'a Discretisation,
+        active: &[bool],
+        preconditioning: Preconditioning,
+    ) -> Result<System<'a>, SystemError> {
+        let mut system = self.system(problem, &self.bodies(problem)?, preconditioning)?;
+        system.set_active(active)?;
+        Ok(system)
+    }
+
     fn begin(&self, follows: Option<[f64; 2]>) {
         if self.is_last {
             self.procedure.observer.observe(Event::Begin(follows));
@@ -220,8 +229,7 @@ impl OneMesh<'_> {
         })
     }
 
-    /// A solution with what else the last system tells, as far as it is wanted: the inf-sup constants of its contacts, and dual
-    /// displacements. **Collective**
+    /// A solution with what else the last system tells, if it is wanted: the inf-sup constants of its contacts. **Collective**
     fn finished(
         &self,
         system: &mut System,
@@ -232,9 +240,6 @@ impl OneMesh<'_> {
         let _stage = self.procedure.observer.enter(Work::Solve);
         if self.is_last && self.procedure.wants_inf_sup(system.problem(), ascended || !ending.is_converged()) {
             solution.inf_sup = system.inf_sup()?;
-        }
-        if let (Some(duals), true) = (self.duals, ending.is_converged()) {
-            solution.duals = duals.solve(system, &solution)?;
         }
         Ok(solution)
     }

@@ -372,7 +372,6 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             residual: if whole == 0.0 { 0.0 } else { residual.norm / whole },
             plain_residual: plain_residual / share,
             inf_sup: Vec::new(),
-            duals: Vec::new(),
         };
         Ok(LoopOutcome { solution, ending, passes: self.passes, ascended: self.set.ascends() })
     }

@@ -23,11 +23,10 @@ const AT_THE_PEAK: usize = 1;
 /// Segments at an end of a zone that tell where it ends.
 const AT_AN_END: usize = 2;
 
-/// The goals of an accuracy, with the solution on the mesh before.
-#[derive(Clone, Copy)]
-pub struct Duals<'d> {
-    /// The goals.
-    pub goals: &'d [Goal],
+/// The dual problems of a solution.
+pub(super) struct Duals<'d> {
+    /// What the goals are of.
+    pub solution: &'d Solution,
     /// The solution on the mesh before, if there is any.
     pub coarse: Option<&'d CoarseSolution>,
 }
@@ -39,15 +38,11 @@ struct Functional {
 }
 
 impl Duals<'_> {
-    /// The dual displacement of each goal; none for the energy norm, where the error weighs itself. **Collective**
-    pub(super) fn solve(&self, system: &mut System, solution: &Solution) -> Result<Vec<Option<Vec<f64>>>, SystemError> {
-        self.goals
-            .iter()
-            .map(|goal| {
-                let functional = self.functional(&goal.quantity, system, solution)?;
-                functional.map(|Functional { load, gap }| system.response(&load, &gap, ROUGH)).transpose()
-            })
-            .collect()
+    /// The dual displacement of a goal, by a system with the set of the solution; none for the energy norm, where the error weighs
+    /// itself. **Collective**
+    pub fn solve(&self, system: &mut System, goal: &Goal) -> Result<Option<Vec<f64>>, SystemError> {
+        let functional = self.functional(&goal.quantity, system, self.solution)?;
+        functional.map(|Functional { load, gap }| system.response(&load, &gap, ROUGH)).transpose()
     }
 
     /// The right-hand side of the dual problem of a quantity. **Collective**

@@ -6,7 +6,7 @@ use super::solved::Solved;
 use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::contact::Zone;
 use crate::system::recovery::trace_points;
-use crate::system::{Contact, Discretisation, Field, SystemError};
+use crate::system::{Contact, Discretisation, Field, SystemError, needed_contacts};
 
 /// Error of λ above which it is not known where it presses.
 const MOST_UNKNOWN: f64 = 0.08;
@@ -31,7 +31,7 @@ impl Procedure<'_> {
         let Solved { problem, estimate, .. } = solved;
         if let Some(at) = quantity.contact().and_then(|name| contact_called(problem, name)) {
             // What carries less than is asked for of the largest force needs no zone to be resolved.
-            let share = self.share_of_largest(solved, at)?;
+            let share = self.share_of_largest(solved, at, *tolerance)?;
             if share < *tolerance {
                 return Ok(Some(share));
             }
@@ -60,9 +60,9 @@ impl Procedure<'_> {
         })
     }
 
-    /// Force of a contact, and what the overlap of its bodies between segments may be worth, by the largest force of all contacts.
-    /// **Collective**
-    fn share_of_largest(&self, solved: &Solved, at: usize) -> Result<f64, SystemError> {
+    /// Force of a contact, and what the overlap of its bodies between segments may be worth, by the largest force of all contacts. A
+    /// body that could move if the contact were open goes out of its way: there an overlap is worth nothing. **Collective**
+    fn share_of_largest(&self, solved: &Solved, at: usize, tolerance: f64) -> Result<f64, SystemError> {
         let Solved { problem, solution, .. } = solved;
         let force = |contact: &Contact| solution.pressure(contact).force().abs();
         let largest = problem.contacts.iter().map(force).fold(0.0, f64::max);
@@ -76,7 +76,9 @@ impl Procedure<'_> {
         let complete = points.iter().filter(|point| point.is_complete());
         let depth = complete.map(|point| -point.gap).fold(0.0, f64::max);
         let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
-        Ok((own + WORTH * modulus * depth) / largest)
+        let worth = WORTH * modulus * depth;
+        let is_needed = || needed_contacts(problem, &solution.active, self.session)[at];
+        Ok(if own + worth > tolerance * largest && is_needed() { own } else { own + worth } / largest)
     }
 
     /// Errors of displacement and stress at a point.

@@ -4,7 +4,6 @@ use super::at_rest::AtRest;
 use super::begun::Begun;
 use super::boundaries::{OnMesh, OneMesh};
 use super::coarse_solution::CoarseSolution;
-use super::duals::Duals;
 use super::ending::{Ending, Failure};
 use super::estimate::{Difference, Estimate};
 use super::observer::{Event, Work};
@@ -145,7 +144,7 @@ impl Procedure<'_> {
         } else {
             COARSE
         }));
-        let found = OneMesh { procedure: self, tolerance, is_last: false, is_hard, duals: None }.solve(
+        let found = OneMesh { procedure: self, tolerance, is_last: false, is_hard }.solve(
             &mut problem,
             start,
             preconditioning,
@@ -217,9 +216,8 @@ impl Procedure<'_> {
         let is_hard = coarser.is_hard(coarser.found.as_ref());
         let Coarser { found: coarse, mut differences, solves, .. } = coarser;
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
-        let duals = self.accuracy.map(|accuracy| Duals { goals: &accuracy.goals, coarse: coarse.as_ref() });
         let found =
-            OneMesh { procedure: self, tolerance, is_last: true, is_hard, duals }.solve(&mut problem, start, preconditioning)?;
+            OneMesh { procedure: self, tolerance, is_last: true, is_hard }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
@@ -241,6 +239,7 @@ impl Procedure<'_> {
             is_hard: is_hard || ascended,
             estimate,
             coarse: solves,
+            before: coarse.filter(|_| self.accuracy.is_some()),
             adaptation: None,
         })
     }

@@ -1,5 +1,6 @@
 //! A scene solved.
 
+use super::coarse_solution::CoarseSolution;
 use super::ending::Ending;
 use super::estimate::Estimate;
 use super::following::BoundaryStep;
@@ -40,6 +41,8 @@ pub struct Solved {
     pub estimate: Estimate,
     /// Coarser meshes that were solved first.
     pub coarse: Vec<CoarseSolve>,
+    /// The solution on the last of them, if an accuracy was asked for.
+    pub(super) before: Option<CoarseSolution>,
     /// How the mesh was adapted, if an accuracy was asked for.
     pub adaptation: Option<Adaptation>,
 }
@@ -59,6 +62,7 @@ impl Solved {
             is_hard: false,
             estimate: Estimate::default(),
             coarse,
+            before: None,
             adaptation: None,
         }
     }
