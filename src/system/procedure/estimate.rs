@@ -31,6 +31,9 @@ const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 /// left.
 const ENERGY_BY_ONE_ADAPTED: f64 = 0.7;
 
+/// The factor q of squares with q/(1 - q) = .7², for a mesh that is adapted by one difference.
+const ONE_FALLS: f64 = 0.33;
+
 /// Factors by which errors of a force fall on a smooth solution, P1 and P2.
 const FORCE_FALLS: [f64; 2] = [0.25, 0.125];
 
@@ -259,12 +262,13 @@ impl Estimate {
     }
 }
 
-/// Factor by which the difference has fallen on each macro triangle of this rank; what it falls by at a corner, where one
-/// difference is all there is.
+/// Factor by which the difference has fallen on each macro triangle of this rank; the one that leaves what is left by one difference,
+/// where that is all there is.
 fn falls(last: &Difference, before: Option<&Difference>) -> Vec<f64> {
     let fall = |(at, now): (usize, &f64)| match before.and_then(|before| before.of_triangles.get(at)) {
         Some(then) if *then > 0.0 => (now / then).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]),
-        _ => LOCAL_FACTORS[1],
+        Some(_) => LOCAL_FACTORS[1],
+        None => ONE_FALLS,
     };
     last.of_triangles.iter().enumerate().map(fall).collect()
 }

@@ -16,7 +16,7 @@ const MOST_GROWTH: f64 = 4.0;
 
 /// Shares of the sum of all indicators that the marked triangles hold at least, tried one after the other until the errors are
 /// foreseen to be small enough (the last one: Dörfler, SIAM J. Numer. Anal. 33, 1996).
-const SHARES: [f64; 2] = [0.4, 0.6];
+const SHARES: [f64; 3] = [0.2, 0.4, 0.6];
 
 /// Unknowns of the next mesh by those of the present one, at least, where an error is not known.
 const LEAST_GROWTH: f64 = 1.5;
