@@ -352,7 +352,7 @@ impl LinearSolver {
                 continue;
             }
             if solve.residual <= tolerance {
-                if self.form == Form::Augmented && self.preconditioning.is_too_weak(needed) {
+                if self.form == Form::Augmented && self.preconditioning.is_too_weak(needed, self.bordered.is_some()) {
                     self.fall_back(system, needed, &mut solve);
                 }
                 return Ok(solve);
@@ -380,7 +380,7 @@ impl LinearSolver {
     ) -> Result<(), SystemError> {
         (self.is_short, self.is_set_up) = (false, false);
         solve.fallback = Some(format!("{}, GMRES", self.name));
-        if self.preconditioning.is_too_weak(needed) {
+        if self.preconditioning.is_too_weak(needed, self.bordered.is_some()) {
             self.fall_back(system, needed, solve);
         }
         let is_better_than_nothing = solve.residual <= 1.0;
@@ -405,6 +405,7 @@ impl LinearSolver {
     /// Iterations before it is asked whether to fall back.
     fn trial_iterations(&self) -> usize {
         match self.form {
+            Form::Augmented if self.bordered.is_some() => self.preconditioning.trial_iterations().max(MOST_BORDERED),
             Form::Augmented => self.preconditioning.trial_iterations(),
             Form::Plain => MOST_ITERATIONS,
         }
