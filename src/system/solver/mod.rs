@@ -31,7 +31,7 @@ use super::{Form, SaddlePoint, SolverChoice, SystemError};
 use crate::petsc::{
     self, Action, Krylov, KrylovEnding, Matrix, MultigridCycle, MultigridLevel, ReplacedAction, Session, Vector, WatchedSolve,
 };
-use fallback::{MOST, needed};
+use fallback::{MOST, MOST_BORDERED, needed};
 use std::rc::Rc;
 
 /// Iterations after which a solve has failed.
