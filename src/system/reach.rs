@@ -10,11 +10,11 @@ use crate::mesh::Numbering;
 const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 
 /// What places a contact as far as its sides face each other within reach: the widest stretch, about the place where they touch first,
-/// on which the normals of Γ_C meet both; where the sides are drawn nearest, if there is none, or if the curve is declared. All edges
-/// are on this rank.
+/// on which the normals of Γ_C meet both; where the sides are drawn nearest, if there is none, or if the curve is declared, or if its
+/// ends stay where it is placed. All edges are on this rank.
 pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
     let at_rest = |_| Point::zeros();
-    if !pair.curve.is_found() {
+    if !pair.curve.is_found() || !pair.has_free_ends() {
         return Known::default();
     }
     let sides = SmoothSide::of_pair(&scene.mesh, numbering, pair, &at_rest);

@@ -144,11 +144,8 @@ impl Procedure<'_> {
         } else {
             COARSE
         }));
-        let found = OneMesh { procedure: self, tolerance, is_last: false, is_hard }.solve(
-            &mut problem,
-            start,
-            preconditioning,
-        )?;
+        let found =
+            OneMesh { procedure: self, tolerance, is_last: false, is_hard }.solve(&mut problem, start, preconditioning)?;
         let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
         let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
         coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
@@ -216,8 +213,7 @@ impl Procedure<'_> {
         let is_hard = coarser.is_hard(coarser.found.as_ref());
         let Coarser { found: coarse, mut differences, solves, .. } = coarser;
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
-        let found =
-            OneMesh { procedure: self, tolerance, is_last: true, is_hard }.solve(&mut problem, start, preconditioning)?;
+        let found = OneMesh { procedure: self, tolerance, is_last: true, is_hard }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
