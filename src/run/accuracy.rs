@@ -281,6 +281,7 @@ mod tests {
         let meshes = vec![mesh(1, 600, [Some(1e-2), None], 0.02), mesh(2, 21_868, last, 0.314)];
         Adaptation {
             accuracy: Accuracy { goals, most_unknowns: None, most_seconds: None },
+            resolved: Vec::new(),
             meshes,
             end: SequenceEnd::Reached,
             refusal: None,
@@ -322,6 +323,7 @@ mod tests {
         Adaptation {
             meshes: errors.iter().enumerate().map(mesh).collect(),
             accuracy: adapted.accuracy,
+            resolved: Vec::new(),
             end: SequenceEnd::Seconds,
             refusal: None,
         }
