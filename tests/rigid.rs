@@ -397,3 +397,27 @@ contact.seam = {{ between = [\"top\", \"rigid.roller\"], configuration = \"{conf
         }
     }
 }
+
+/// A rigid U hangs around a block with clearance on three sides, and is pushed aside and down: it comes to two of them, on coarse meshes
+/// and on fine ones, and statics gives both forces.
+#[test]
+fn a_tool_with_clearance_comes_to_the_sides_that_its_force_drives_it_to() {
+    let block = grid(4, 4, 3, |u, v| [2.0 * u - 1.0, 2.0 * v]);
+    let mesh = Mesh { bodies: vec![("block", block, ["bottom", "block.right", "block.top", "block.left"])] };
+    let case = r#"
+mesh.file = "mesh.msh"
+body.block = { young = 1000.0, poisson = 0.3 }
+support.ground = { on = "bottom", ux = 0.0, uy = 0.0 }
+rigid.u = { line = [[-1.01, 0.5], [-1.01, 2.01], [1.01, 2.01], [1.01, 0.5]], force = [2.0, -3.0], moment = 0.0 }
+contact.left = { between = ["block.left", "rigid.u.1"], gap = "geometry" }
+contact.top = { between = ["block.top", "rigid.u.2"], gap = "geometry" }
+contact.right = { between = ["block.right", "rigid.u.3"], gap = "geometry" }
+"#;
+    for (refine, ranks) in [(2, 1), (2, 2), (4, 2)] {
+        let ended = in_folder(&mesh, case, |run| run.set("mesh.refine", refine).ranks(ranks).converged());
+        for (contact, wanted) in [("left", 2.0), ("top", 3.0), ("right", 0.0)] {
+            let force = ended.number(&format!("/contact/{contact}/force"));
+            assert!((force - wanted).abs() < 1e-6, "refine {refine}, {ranks} ranks: {contact} carries {force}");
+        }
+    }
+}

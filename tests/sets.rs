@@ -290,3 +290,37 @@ fn ends_are_not_known_where_the_pressure_is_not() {
     println!("closed: {closed}");
     assert_eq!(closed.as_array().map(Vec::len), Some(2), "both sides of the bump: {closed}");
 }
+
+/// A leaf of sixty times its thickness, clamped at both ends, pressed through a gap onto its seat: its set is as symmetric as the scene,
+/// and ends of contact press, as a beam has them.
+#[test]
+fn a_leaf_that_is_clamped_at_both_ends_lies_on_its_seat_in_its_middle() {
+    let seat = rectangle([-3.5, -1.0], [7.0, 1.0], [14, 3], 1);
+    let leaf = rectangle([-3.0, 0.0], [6.0, 0.1], [60, 1], 2);
+    let mesh = Mesh {
+        bodies: vec![("seat", seat, ["base", "", "seat.top", ""]), ("leaf", leaf, ["leaf.bottom", "ends", "leaf.top", "ends"])],
+    };
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 4 }
+body.seat = { young = 1000.0, poisson = 0.3 }
+body.leaf = { young = 1000.0, poisson = 0.3 }
+support.base = { on = ["base", "ends"], ux = 0.0, uy = 0.0 }
+load.top = { on = "leaf.top", pressure = 0.004 }
+contact.c = { between = ["seat.top", "leaf.bottom"], curve = "line", gap = 0.02 }
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    // Euler and Bernoulli: between a clamp and what lies flat, p a⁴ = 72 EI g, and each end presses with p a/3 as a line.
+    let bending = 1000.0 / 0.91 * 0.1f64.powi(3) / 12.0;
+    let free = (72.0 * bending * 0.02 / 0.004f64).powf(0.25);
+    let force = 0.004 * (6.0 - 4.0 / 3.0 * free);
+    for ranks in [1, 2] {
+        let ended = Run::file(&file).ranks(ranks).converged();
+        let [from, to] = [0, 1].map(|end| ended.number(&format!("/contact/c/closed/0/{end}")));
+        let middle = 0.5 * ended.number("/contact/c/length");
+        assert!((0.5 * (from + to) - middle).abs() < 1e-9 && to - from > 1.0, "{ranks} ranks: closed from {from} to {to}");
+        let found = ended.number("/contact/c/force");
+        assert!((found / force - 1.0).abs() < 0.01, "{ranks} ranks: {found} instead of {force}");
+        assert_eq!(ended.value("/contact/c/trust_force"), true, "{}", ended.said());
+    }
+}

@@ -1,0 +1,45 @@
+//! What solves cost, counted: active sets on the finest mesh, and cycles of all meshes.
+
+mod support;
+
+use support::{Ended, Run};
+
+/// Cycles of one linear problem to 1e-8 (docs/method.md).
+const ONE: f64 = 12.0;
+
+/// Cycles of all meshes, boundaries and sets together, each by its unknowns, as cycles on the finest mesh; and solves on that mesh.
+fn cost(ended: &Ended) -> (f64, usize) {
+    let solves = ended.value("/solver/iterations");
+    let solves = solves.as_array().expect("a list").iter().filter(|iterations| iterations.as_u64() > Some(1));
+    (ended.number("/solver/cycles"), solves.count())
+}
+
+/// Bodies that hold each other cost what three linear problems do, and so do contacts that move.
+#[test]
+fn contact_costs_no_more_than_three_linear_problems() {
+    let cases =
+        ["roller", "roller/four.toml", "lug", "bending", "wheels", "chain_5", "packing", "hertz", "bars_parabola", "pin"];
+    for case in cases {
+        let ended = Run::case(case).ranks(2).set("output.fields", false).converged();
+        let (cycles, solves) = cost(&ended);
+        assert!(cycles <= 3.0 * ONE, "{case}: {cycles} cycles");
+        assert!(solves <= 3, "{case}: {solves} solves on the finest mesh");
+    }
+}
+
+/// The summary tells each mesh of a sequence by its refinements, and adds them up.
+#[test]
+fn cycles_are_counted_by_mesh() {
+    let ended = Run::case("bending").set("output.fields", false).converged();
+    let meshes = ended.value("/accuracy");
+    let mut work = 0.0;
+    for mesh in meshes.as_array().expect("meshes") {
+        let cycles = mesh["cycles"].as_array().expect("refinements");
+        let unknowns: Vec<u64> = cycles.iter().map(|of| of["unknowns"].as_u64().expect("a number")).collect();
+        assert!(unknowns.windows(2).all(|pair| pair[0] < pair[1]), "{unknowns:?}");
+        assert_eq!(unknowns.last(), mesh["unknowns"].as_u64().as_ref());
+        work += cycles.iter().map(|of| of["unknowns"].as_f64().unwrap() * of["iterations"].as_f64().unwrap()).sum::<f64>();
+    }
+    let told = ended.number("/solver/cycles") * ended.number("/unknowns/displacement");
+    assert!((told / work - 1.0).abs() < 1e-12, "{told} instead of {work}");
+}
