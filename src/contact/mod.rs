@@ -49,7 +49,7 @@ pub use facing::Facing;
 pub use fading::faded_end;
 pub use finite_motion::{FiniteMotion, GapError, Turn, finite_motion};
 pub use fitting::Meeting;
-pub use hertz::{half_width, hertz_width};
+pub use hertz::hertz_width;
 pub use jump_term::{Jump, SparseRows, jump_matrix, jumps};
 pub use mechanism::{Condition, Extent, Mechanism, Touch, describe_motion, find_mechanism, needed_contacts, tidy};
 pub use multiplier::{DiagonalBlock, Multipliers};

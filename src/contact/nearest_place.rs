@@ -1,5 +1,6 @@
 //! The place at which two smooth sides come nearest to each other, and how round they are there.
 
+use super::hertz::{MOST_ROUND, half_width};
 use super::{Configuration, SmoothSide};
 use crate::geometry::{Point, cross};
 
@@ -17,6 +18,16 @@ pub struct PointContact {
     pub place: Point,
     /// Relative curvature of the sides there (1/length): positive if they part on both sides of the place.
     pub curvature: f64,
+    /// Curvature of the rounder one of both (1/length).
+    pub roundest: f64,
+}
+
+impl PointContact {
+    /// Half width of what presses there with a force (per thickness), by the compliance of both surfaces together (1/stress; Hertz);
+    /// nothing if the sides conform.
+    pub fn half_width(&self, force: f64, compliance: f64) -> Option<f64> {
+        half_width(self.curvature, force, compliance).filter(|half| half * self.roundest <= MOST_ROUND)
+    }
 }
 
 /// The place where the gap between undeformed sides is smallest, within `reach` of `around` along body 1's side; nothing if it is
@@ -39,7 +50,8 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
         (middle, half) = (at(least), 2.0 * half / PLACES as f64);
     }
     let place = curve.point(middle);
-    Some(PointContact { place, curvature: bulge(first, place) + bulge(second, place) })
+    let [one, other] = [bulge(first, place), bulge(second, place)];
+    Some(PointContact { place, curvature: one + other, roundest: one.abs().max(other.abs()) })
 }
 
 /// Curvature of a side at the place nearest to a point (1/length), positive where the body bulges.

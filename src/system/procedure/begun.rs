@@ -3,7 +3,7 @@
 use super::by_forces::LoadedPlace;
 use super::settings::Procedure;
 use crate::accuracy::share_of_nothing;
-use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, half_width, point_contact};
+use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, point_contact};
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Numbering, Partition, lattice};
 use crate::system::{
@@ -231,7 +231,7 @@ impl WideContact {
     fn loaded(&self, at: usize, pressures: &[f64]) -> LoadedPlace {
         let contact = &self.contact;
         let force = self.force(pressures);
-        let width = self.touch.and_then(|touch| Some((touch.place, half_width(touch.curvature, force, contact.compliance)?)));
+        let width = self.touch.and_then(|touch| Some((touch.place, touch.half_width(force, contact.compliance)?)));
         LoadedPlace { contact: at, force, width }
     }
 }
@@ -319,7 +319,7 @@ fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme, least
     let force = wide.force(&found.pressures);
     if let Some(touch) = touch {
         let at = boundary.arc(boundary.foot(touch.place));
-        let half = half_width(touch.curvature, force.max(least), contact.compliance);
+        let half = touch.half_width(force.max(least), contact.compliance);
         let reach = half.unwrap_or(boundary.length());
         let way = |i: usize| boundary.segment_arcs(segment(i)).iter().sum::<f64>() * 0.5 - at;
         let moment = |i: usize| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i).powi(2);

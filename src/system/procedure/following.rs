@@ -2,7 +2,7 @@
 
 use super::change::relative_change;
 use super::ending::{Failure, HeldEnds, Standing};
-use crate::contact::{Configuration, End, Known, SmoothSide, half_width, true_end};
+use crate::contact::{Configuration, End, Known, SmoothSide, true_end};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
@@ -326,8 +326,8 @@ fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]> {
         1 => 0.5 * boundary.length(),
         segments => (0..segments).map(of_segment).sum::<f64>() / force,
     };
-    let half = half_width(touch.curvature, force, pressure.contact.compliance)?;
-    if pressing_segments(pressure) as f64 * half * touch.curvature > TELLING_BESIDE_A_FORCE {
+    let half = touch.half_width(force, pressure.contact.compliance)?;
+    if pressing_segments(pressure) as f64 * half * touch.roundest > TELLING_BESIDE_A_FORCE {
         return None;
     }
     let (t, speed) = (boundary.parameter_at(middle), boundary.speed(boundary.parameter_at(middle)));
