@@ -17,8 +17,7 @@ fn cost(ended: &Ended) -> (f64, usize) {
 /// Bodies that hold each other cost what three linear problems do, and so do contacts that move.
 #[test]
 fn contact_costs_no_more_than_three_linear_problems() {
-    let cases =
-        ["roller", "roller/four.toml", "lug", "bending", "wheels", "chain_5", "packing", "hertz", "bars_parabola", "pin"];
+    let cases = ["roller", "roller/four.toml", "lug", "bending", "wheels", "chain_5", "packing", "hertz", "bars_parabola", "pin"];
     for case in cases {
         let ended = Run::case(case).ranks(2).set("output.fields", false).converged();
         let (cycles, solves) = cost(&ended);

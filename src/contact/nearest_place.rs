@@ -54,14 +54,14 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
     Some(PointContact { place, curvature: one + other, roundest: one.abs().max(other.abs()) })
 }
 
-/// Curvature of a side at the place nearest to a point (1/length), positive where the body bulges.
+/// Curvature of a side at the place nearest to a point (1/length), positive where the body bulges: by the shape as it is known, since
+/// that of a spline through nodes is off by some 1e-4.
 fn bulge(side: &SmoothSide, x: Point) -> f64 {
-    let curve = side.curve(Configuration::Reference);
-    let (t, step) = (side.nearest(x, Configuration::Reference), ALONG * side.length());
-    let [low, high] = match side.turn() {
-        Some(_) => [t - step, t + step],
-        None => [(t - step).max(0.0), (t + step).min(side.length())],
-    };
-    let turn = cross(curve.tangent(low).normalize(), curve.tangent(high).normalize());
-    side.hand() * turn / (high - low)
+    let (curve, shape) = (side.curve(Configuration::Reference), side.shape());
+    let (t, half) = (shape.nearest(x), ALONG * side.length());
+    let step = half / shape.derivative(t).norm();
+    let turn = cross(shape.tangent(t - step), shape.tangent(t + step)).asin();
+    // A side goes from left to right, however its shape does.
+    let along = curve.tangent(side.nearest(x, Configuration::Reference)).dot(&shape.tangent(t)).signum();
+    side.hand() * along * turn / (2.0 * half)
 }
