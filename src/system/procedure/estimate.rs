@@ -189,8 +189,12 @@ impl Estimate {
         let local = local.map(|(cells, (last, left))| cells.scaled(share(*left, *last))).collect();
         let energy = match before {
             Some(before) => Some(whole).filter(|_| last.energy <= before.energy),
-            None if last.cells.is_empty() => Some(last.energy * ENERGY_BY_ONE[order.degree() - 1].powi(2)),
-            None => Some(last.energy * ENERGY_BY_ONE_ADAPTED.powi(2)),
+            None => {
+                // A rank may have no macro triangle: all of them must know whether the mesh is adapted.
+                let is_adapted = sum(last.cells.len() as f64) > 0.0;
+                let share = if is_adapted { ENERGY_BY_ONE_ADAPTED } else { ENERGY_BY_ONE[order.degree() - 1] };
+                Some(last.energy * share.powi(2))
+            }
         };
         // The error of a value is a product of two in the energy norm, and falls as the square of that does.
         let slow = before.map_or(0.0, |before| (last.energy / before.energy).min(FORCE_SLOWEST));

@@ -15,7 +15,7 @@ use std::time::Instant;
 const USUAL_REFINE: usize = 2;
 
 /// The same where the first mesh is refined on the width of contacts already, and no smaller error is asked for than `MOST_EXACT`:
-/// cutting all of its triangles into sixteen would add unknowns far from the contacts (a roller to 1e-2: 30 thousand for 12).
+/// cutting all of its triangles into sixteen would add unknowns far from the contacts (a roller to 1e-2: 36 thousand for 9).
 const REFINE_OF_RESOLVED: usize = 1;
 const MOST_EXACT: f64 = 2e-3;
 
