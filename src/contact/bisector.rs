@@ -86,7 +86,7 @@ impl Bisector {
 
     fn along(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, turn: Option<f64>) -> Result<Self, String> {
         let mut points = halfway(sides, nodes, pair);
-        points.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
+        sort(&mut points);
         if points.len() < 2 || points[0].parameter >= points[points.len() - 1].parameter {
             let [first, second] = &pair.between;
             return Err(format!(
@@ -110,6 +110,7 @@ impl Bisector {
         let whole = points[points.len() - 1].parameter - points[0].parameter;
         for correction in 0..MOST_CORRECTIONS {
             let moved = points.iter_mut().map(|point| point.centre(&curve, curves, whole)).fold(0.0, f64::max);
+            sort(&mut points);
             curve = fit(&points);
             if correction + 1 >= CORRECTIONS && moved <= CENTRED * whole {
                 break;
@@ -122,7 +123,9 @@ impl Bisector {
 }
 
 impl Halfway {
-    /// Moves it to the middle between the sides, along the normal of a curve that is nearly half-way; by how much is returned.
+    /// Moves it to the middle between the sides, along the normal of a curve that is nearly half-way, with the parameter of the point
+    /// of the first side that this normal meets; by how much is returned. Feet of the nodes of one side and of the other are not alike
+    /// where the sides part: a fit to both would turn at its ends.
     fn centre(&mut self, curve: &Curve, sides: [&Curve; 2], whole: f64) -> f64 {
         let before = self.place;
         let (x, normal) = (curve.point(self.parameter), turn_right(curve.tangent(self.parameter)));
@@ -131,11 +134,16 @@ impl Halfway {
             && [first, second].iter().zip(&self.feet).all(|(hit, foot)| (hit - foot).abs() <= NEAR_BY * whole)
         {
             self.feet = [first, second];
+            self.parameter = first;
             let away = [0, 1].map(|k| (sides[k].point(self.feet[k]) - x).dot(&normal));
             self.place = x + 0.5 * (away[0] + away[1]) * normal;
         }
         (self.place - before).norm()
     }
+}
+
+fn sort(points: &mut [Halfway]) {
+    points.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
 }
 
 /// Points half-way between the nodes of each side, and places between few of them, and their feet on the other side, where there is

@@ -4,9 +4,11 @@ use super::hertz::{MOST_ROUND, half_width};
 use super::{Configuration, SmoothSide};
 use crate::geometry::{Point, cross};
 
-/// Places that are looked at in a window, and windows, each as wide as two steps of the one before.
+/// Places that are looked at in the first window, and in the others, each as wide as two steps of the one before: the last has steps
+/// of a millionth of the first one's.
 const PLACES: usize = 64;
-const WINDOWS: usize = 4;
+const FEWER: usize = 16;
+const WINDOWS: usize = 6;
 
 /// Share of a side over which its curvature is taken.
 const ALONG: f64 = 1e-3;
@@ -41,13 +43,15 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
     };
     let (mut middle, mut half) = (first.nearest(around, Configuration::Reference), reach);
     for window in 0..WINDOWS {
-        let at = |k: usize| middle + half * (2.0 * k as f64 / PLACES as f64 - 1.0);
+        let places = if window == 0 { PLACES } else { FEWER };
+        let at = |k: usize| middle + half * (2.0 * k as f64 / places as f64 - 1.0);
         let is_there = |k: &usize| first.turn().is_some() || (0.0..=first.length()).contains(&at(*k));
-        let least = (0..=PLACES).filter(is_there).min_by(|&a, &b| gap(at(a)).total_cmp(&gap(at(b))))?;
-        if window == 0 && (least == 0 || least == PLACES || !is_there(&(least - 1)) || !is_there(&(least + 1))) {
+        let gaps = (0..=places).filter(is_there).map(|k| (k, gap(at(k))));
+        let (least, _) = gaps.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        if window == 0 && (least == 0 || least == places || !is_there(&(least - 1)) || !is_there(&(least + 1))) {
             return None;
         }
-        (middle, half) = (at(least), 2.0 * half / PLACES as f64);
+        (middle, half) = (at(least), 2.0 * half / places as f64);
     }
     let place = curve.point(middle);
     let [one, other] = [bulge(first, place), bulge(second, place)];

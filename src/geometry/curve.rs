@@ -198,20 +198,23 @@ impl Curve {
     /// Parameter of the point where the line from `origin` along the unit vector `direction` meets the curve, by Newton's
     /// method from the parameter `t`. Nothing if the line misses.
     pub fn hit_from(&self, mut t: f64, origin: Point, direction: Point) -> Option<f64> {
+        let mut at = self.point_and_derivative(t);
         for _ in 0..100 {
-            let offset = self.point(t) - origin;
-            let slope = cross(direction, self.derivative(t));
-            if slope.abs() <= 1e-12 * self.derivative(t).norm() {
+            let [point, derivative] = at;
+            let slope = cross(direction, derivative);
+            if slope.abs() <= 1e-12 * derivative.norm() {
                 return None;
             }
-            let step = cross(direction, offset) / slope;
+            let step = cross(direction, point - origin) / slope;
             t -= step;
-            if step.abs() <= 1e-15 * (1.0 + t.abs()) {
+            at = self.point_and_derivative(t);
+            // Far from the origin coordinates lose digits, and steps never become smaller than what is lost.
+            if step.abs() <= 1e-15 * (1.0 + t.abs()) + 2.0 * f64::EPSILON * origin.amax() / slope.abs() {
                 break;
             }
         }
-        let offset = self.point(t) - origin;
-        let missed = cross(direction, offset).abs() > 1e-9 * (offset.norm() + self.derivative(t).norm());
+        let offset = at[0] - origin;
+        let missed = cross(direction, offset).abs() > 1e-9 * (offset.norm() + at[1].norm());
         (!missed).then_some(t)
     }
 }

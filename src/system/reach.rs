@@ -29,20 +29,23 @@ pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
         contact.is_ok_and(|contact| lies_between(&contact) && coupled_here(std::slice::from_ref(&contact)).is_ok())
     };
     let whole = |meeting: &Meeting| Known { meeting: Some(meeting.clone()), ..Known::default() };
-    let parts = |meeting: &Meeting| {
+    let parts = |meeting: &Meeting, touch: Option<f64>| {
         let [first, last] = meeting.ends;
-        let (middle, half) = (touching(&sides, meeting, pair).unwrap_or(0.5 * (first + last)), 0.5 * (last - first));
+        let (middle, half) = (touch.unwrap_or(0.5 * (first + last)), 0.5 * (last - first));
         PARTS.map(|part| Known { ends: Some([middle - part * half, middle + part * half]), ..whole(meeting) })
     };
     let meetings: Vec<Meeting> = Meeting::within_reach(&sides, pair).collect();
+    if let Some(known) = meetings.iter().map(whole).find(can_be_measured) {
+        return known;
+    }
     let about = meetings.iter().filter(|meeting| !meeting.goes_round);
-    let (touched, others): (Vec<&Meeting>, Vec<&Meeting>) = about.partition(|meeting| touching(&sides, meeting, pair).is_some());
-    let known = meetings.iter().map(whole).chain(touched.into_iter().flat_map(parts));
-    known
-        .chain(std::iter::once(Known::default()))
-        .chain(others.into_iter().flat_map(parts))
-        .find(can_be_measured)
-        .unwrap_or_default()
+    let touches = about.map(|meeting| (meeting, touching(&sides, meeting, pair)));
+    let (touched, others): (Vec<_>, Vec<_>) = touches.partition(|(_, touch)| touch.is_some());
+    let parts_of = |all: &[(&Meeting, Option<f64>)]| -> Vec<Known> {
+        all.iter().flat_map(|(meeting, touch)| parts(meeting, *touch)).collect()
+    };
+    let about = parts_of(&touched).into_iter().chain(std::iter::once(Known::default())).chain(parts_of(&others));
+    about.into_iter().find(can_be_measured).unwrap_or_default()
 }
 
 /// Parameter of Γ_C at which the sides touch first, if it has that of body 1's side, and if that is not at an end of where they meet.

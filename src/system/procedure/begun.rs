@@ -56,11 +56,12 @@ impl Procedure<'_> {
         let spaces = spaces(&scene, self.session.rank())?;
         let whole = on_one_rank(&scene);
         let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
-        if let Some(words) = self.session.agree(self.free_if_closed(&whole, &numbering)).map_err(SystemError::Case)? {
-            return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
-        }
         let wide = wide_contacts(&whole, &numbering)?;
         let drawn: Vec<Contact> = wide.iter().map(|wide| wide.contact.clone()).collect();
+        let free = not_held_if_closed(&whole, &numbering, &drawn);
+        if let Some(words) = self.session.agree(free).map_err(SystemError::Case)? {
+            return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+        }
         let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
         let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
         let mut found = match self.shared(predictor.as_ref(), &drawn, numbering.node_count())? {
@@ -142,13 +143,6 @@ impl Procedure<'_> {
         let places =
             |found: FoundByProgramme| wide.iter().enumerate().map(|(at, wide)| wide.loaded(at, &found.pressures)).collect();
         Ok(found.map(places))
-    }
-
-    /// Words for a body that can move though all contact is closed.
-    fn free_if_closed(&self, whole: &Scene, numbering: &Numbering) -> Result<Option<String>, SystemError> {
-        let known: Vec<Known> = whole.pairs.iter().map(|pair| widest(whole, numbering, pair)).collect();
-        let contacts = Contact::all_again(whole, numbering, 0, &known, &|_| Point::zeros())?;
-        not_held_if_closed(whole, numbering, &contacts)
     }
 
     /// What the programme of rank 0 says, on every rank. **Collective**

@@ -154,7 +154,7 @@ impl Following {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
         let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
-        let pairs = self.counting(problem, solution, &next);
+        let pairs = self.counting(problem, solution, &next, number);
         let moved = way(&pairs);
         self.found = next.iter().map(Contact::ends).collect();
         let length = problem.contacts.iter().filter(|c| c.pair.follows()).map(|c| c.boundary.length()).sum();
@@ -181,10 +181,21 @@ impl Following {
         Ok((step, next_boundary))
     }
 
-    /// The contacts that follow before and after, without those that only touch.
-    fn counting<'c>(&self, problem: &'c Discretisation, solution: &Solution, next: &'c [Contact]) -> Vec<[&'c Contact; 2]> {
+    /// The contacts that follow before and after, without those that only touch, and without those that are narrower than an edge once
+    /// their force has placed them: the mesh does not feel where within an edge a force acts.
+    fn counting<'c>(
+        &self,
+        problem: &'c Discretisation,
+        solution: &Solution,
+        next: &'c [Contact],
+        number: usize,
+    ) -> Vec<[&'c Contact; 2]> {
         let least = self.least_force(problem, solution);
-        let counts = |contact: &Contact| contact.pair.follows() && solution.pressure(contact).force().abs() >= least;
+        let counts = |contact: &Contact| {
+            let pressure = solution.pressure(contact);
+            let is_narrow = || contact.boundary.length() < contact.edge_length() && ends_by_force(&pressure, least).is_some();
+            contact.pair.follows() && pressure.force().abs() >= least && (number == 1 || !is_narrow())
+        };
         problem.contacts.iter().zip(next).filter(|(old, _)| counts(old)).map(|(old, new)| [old, new]).collect()
     }
 
@@ -316,22 +327,28 @@ fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]> {
         let knots = boundary.knots();
         return Some([knots[0], knots[knots.len() - 1]]);
     }
+    let half = touch.half_width(force, pressure.contact.compliance)?;
+    if pressing_segments(pressure) as f64 * half * touch.roundest > TELLING_BESIDE_A_FORCE {
+        return None;
+    }
     let of_segment = |k: usize| {
         let [start, end] = boundary.segment_arcs(k);
         let [a, b] = [0.0, 1.0].map(|z| multipliers.value(pressure.values, k, z));
         (end - start) * (0.5 * (a + b) * start + (end - start) * (a + 2.0 * b) / 6.0)
     };
-    // One segment says nothing of the place within it.
-    let middle = match boundary.segments() {
-        1 => 0.5 * boundary.length(),
-        segments => (0..segments).map(of_segment).sum::<f64>() / force,
+    let knots = boundary.knots();
+    let now = [knots[0], knots[knots.len() - 1]];
+    let segment = boundary.length() / boundary.segments() as f64;
+    let middle = (0..boundary.segments()).map(of_segment).sum::<f64>() / force;
+    // The place within a segment is not known any better: where few press, the middle would go to and fro.
+    let t = match (middle - 0.5 * boundary.length()).abs() <= 0.5 * segment {
+        true => 0.5 * (now[0] + now[1]),
+        false => boundary.parameter_at(middle),
     };
-    let half = touch.half_width(force, pressure.contact.compliance)?;
-    if pressing_segments(pressure) as f64 * half * touch.roundest > TELLING_BESIDE_A_FORCE {
-        return None;
-    }
-    let (t, speed) = (boundary.parameter_at(middle), boundary.speed(boundary.parameter_at(middle)));
-    Some([(t - half / speed).max(limits[0]), (t + half / speed).min(limits[1])])
+    let speed = boundary.speed(t);
+    let ends = [(t - half / speed).max(limits[0]), (t + half / speed).min(limits[1])];
+    let stays = ends.iter().zip(now).all(|(end, now)| (end - now).abs() * speed <= OF_A_SEGMENT * segment);
+    Some(if stays { now } else { ends })
 }
 
 /// Segments from the first that presses to the last.
