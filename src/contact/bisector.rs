@@ -38,6 +38,8 @@ struct Halfway {
     place: Point,
     /// Length that it stands for.
     weight: f64,
+    /// Whether the normal of the curve there meets both sides near its feet; the curve is no better than a guess where it does not.
+    is_between: bool,
 }
 
 /// Places along a side between which its points are taken, at least: long edges, of a coarse mesh or beside short ones, leave spans of
@@ -103,20 +105,28 @@ impl Bisector {
         }
         let curves = sides.map(|side| side.curve(pair.configuration));
         let fit = |points: &[Halfway]| {
-            let samples: Vec<FitSample> = points.iter().map(|point| (point.parameter, point.place, point.weight)).collect();
+            let between = points.iter().filter(|point| point.is_between);
+            let samples: Vec<FitSample> = between.map(|point| (point.parameter, point.place, point.weight)).collect();
             Curve::Spline(fit_by_the_data(&samples, pair.spans, turn))
         };
         let mut curve = fit(&points);
         let whole = points[points.len() - 1].parameter - points[0].parameter;
         for correction in 0..MOST_CORRECTIONS {
-            let moved = points.iter_mut().map(|point| point.centre(&curve, curves, whole)).fold(0.0, f64::max);
+            let mut next = points.clone();
+            let moved = next.iter_mut().map(|point| point.centre(&curve, curves, whole)).fold(0.0, f64::max);
+            // A first guess that is far off says nothing of most points.
+            if 2 * next.iter().filter(|point| point.is_between).count() < next.len() {
+                break;
+            }
+            points = next;
             sort(&mut points);
             curve = fit(&points);
             if correction + 1 >= CORRECTIONS && moved <= CENTRED * whole {
                 break;
             }
         }
-        let data = [points[0].parameter, points[points.len() - 1].parameter];
+        let [first, last] = [points.iter().find(|point| point.is_between), points.iter().rfind(|point| point.is_between)];
+        let data = [first, last].map(|point| point.map_or(points[0].parameter, |point| point.parameter));
         let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);
         Ok(Self { curve, limits })
     }
@@ -130,9 +140,9 @@ impl Halfway {
         let before = self.place;
         let (x, normal) = (curve.point(self.parameter), turn_right(curve.tangent(self.parameter)));
         let hits = [0, 1].map(|k| sides[k].hit_from(self.feet[k], x, normal));
-        if let [Some(first), Some(second)] = hits
-            && [first, second].iter().zip(&self.feet).all(|(hit, foot)| (hit - foot).abs() <= NEAR_BY * whole)
-        {
+        let near = |hit: f64, foot: f64| (hit - foot).abs() <= NEAR_BY * whole;
+        self.is_between = hits.iter().zip(&self.feet).all(|(hit, foot)| hit.is_some_and(|hit| near(hit, *foot)));
+        if let ([Some(first), Some(second)], true) = (hits, self.is_between) {
             self.feet = [first, second];
             self.parameter = first;
             let away = [0, 1].map(|k| (sides[k].point(self.feet[k]) - x).dot(&normal));
@@ -179,7 +189,7 @@ fn halfway(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> V
             }
             let feet = if k == 0 { [own, foot] } else { [foot, own] };
             let place = 0.5 * (x + other_curve.point(foot));
-            points.push(Halfway { parameter: feet[0], feet, place, weight: side.weight(node) / between as f64 });
+            points.push(Halfway { parameter: feet[0], feet, place, weight: side.weight(node) / between as f64, is_between: true });
         }
     }
     points
