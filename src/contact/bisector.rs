@@ -189,7 +189,13 @@ fn halfway(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> V
             }
             let feet = if k == 0 { [own, foot] } else { [foot, own] };
             let place = 0.5 * (x + other_curve.point(foot));
-            points.push(Halfway { parameter: feet[0], feet, place, weight: side.weight(node) / between as f64, is_between: true });
+            points.push(Halfway {
+                parameter: feet[0],
+                feet,
+                place,
+                weight: side.weight(node) / between as f64,
+                is_between: true,
+            });
         }
     }
     points

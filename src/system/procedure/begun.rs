@@ -317,8 +317,10 @@ fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme, least
         let reach = half.unwrap_or(boundary.length());
         let way = |i: usize| boundary.segment_arcs(segment(i)).iter().sum::<f64>() * 0.5 - at;
         let moment = |i: usize| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i).powi(2);
-        // What presses farther from the place than the force alone would has another reason: a corner, sides that conform.
-        let is_narrow = force <= least || contact.range().map(moment).sum::<f64>() <= force * reach * reach;
+        // What presses farther from the place than the force alone would, or than the edge there bends, has another reason: a corner,
+        // sides that conform.
+        let near = reach.max(contact.edge_length());
+        let is_narrow = force <= least || contact.range().map(moment).sum::<f64>() <= force * near * near;
         if is_narrow && half.is_some() {
             let middle = 0.5 * (ends[0] + ends[1]);
             let middle = if ends[0] <= at && at <= ends[1] { at } else { middle };

@@ -56,7 +56,10 @@ impl Procedure<'_> {
         if wanted.is_empty() {
             return Ok(());
         }
-        sequence.begin_with_resolved(wanted.iter().map(|wanted| wanted.contact.to_string()).collect(), tolerance);
+        let name = |place: &LoadedPlace| coarsest.pairs[place.contact].name.clone();
+        // What carries less than the accuracy of the largest has nothing to resolve.
+        let light = loaded.iter().filter(|place| place.force <= tolerance * largest).map(name);
+        sequence.begin_with_resolved(wanted.iter().map(|wanted| wanted.contact.to_string()).chain(light).collect(), tolerance);
         for _ in 0..ROUNDS {
             let marked: Vec<u32> = wanted.iter().flat_map(|wanted| wanted.too_long(&sequence.mesh.mesh)).collect();
             let next: Option<BisectedMesh> = (!marked.is_empty()).then(|| sequence.mesh.refined(marked.into_iter()));

@@ -328,7 +328,8 @@ fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]> {
         return Some([knots[0], knots[knots.len() - 1]]);
     }
     let half = touch.half_width(force, pressure.contact.compliance)?;
-    if pressing_segments(pressure) as f64 * half * touch.roundest > TELLING_BESIDE_A_FORCE {
+    let pressing = pressing_segments(pressure);
+    if pressing as f64 * half * touch.roundest > TELLING_BESIDE_A_FORCE {
         return None;
     }
     let of_segment = |k: usize| {
@@ -340,14 +341,15 @@ fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]> {
     let now = [knots[0], knots[knots.len() - 1]];
     let segment = boundary.length() / boundary.segments() as f64;
     let middle = (0..boundary.segments()).map(of_segment).sum::<f64>() / force;
-    // The place within a segment is not known any better: where few press, the middle would go to and fro.
-    let t = match (middle - 0.5 * boundary.length()).abs() <= 0.5 * segment {
-        true => 0.5 * (now[0] + now[1]),
-        false => boundary.parameter_at(middle),
-    };
-    let speed = boundary.speed(t);
-    let ends = [(t - half / speed).max(limits[0]), (t + half / speed).min(limits[1])];
-    let stays = ends.iter().zip(now).all(|(end, now)| (end - now).abs() * speed <= OF_A_SEGMENT * segment);
+    let at = |arc: f64| boundary.parameter_at(arc).clamp(limits[0], limits[1]);
+    let place = |middle: f64| [at(middle - half), at(middle + half)];
+    if pressing >= TELLING {
+        return Some(place(middle));
+    }
+    // The place within a segment is not known any better: where few press, the ends would go to and fro.
+    let here = 0.5 * boundary.length();
+    let ends = place(if (middle - here).abs() <= 0.5 * segment { here } else { middle });
+    let stays = ends.iter().zip(now).all(|(end, now)| (end - now).abs() * boundary.speed(now) <= OF_A_SEGMENT * segment);
     Some(if stays { now } else { ends })
 }
 
