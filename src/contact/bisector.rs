@@ -377,6 +377,34 @@ mod tests {
         }
     }
 
+    /// The arc of a round body of radius 1 that touches the origin from below or above, by coarse nodes about 15 degrees apart.
+    fn round_side(centre: f64, turned: f64) -> SmoothSide {
+        let at = |k: i32| (turned + 15.0 * f64::from(k)).to_radians();
+        let points: Vec<Point> = (-4..=4).map(|k| Point::new(at(k).sin(), centre - centre.signum() * at(k).cos())).collect();
+        let shape = Curve::Circle { centre: [0.0, centre], radius: 1.0 };
+        SmoothSide::through(shape, points.clone(), points, centre.signum(), 2, false)
+    }
+
+    /// Round bodies part from each other widely within a few coarse edges: what lies half-way is the line on which they touch, but
+    /// for the outer tenths, and runs as evenly.
+    #[test]
+    fn between_round_bodies_with_long_edges_it_is_straight_and_even() {
+        for turned in 0..15 {
+            let sides = [round_side(-1.0, f64::from(turned) - 7.0), round_side(1.0, 5.0 - 0.7 * f64::from(turned))];
+            let sides = [&sides[0], &sides[1]];
+            let nodes = sides.map(|side| 2..side.points.len() - 2);
+            let bisector = Bisector::between(sides, &nodes, &pair(["one", "other"])).expect("they face each other");
+            for k in 0..=20 {
+                let t = bisector.limits[0] + (bisector.limits[1] - bisector.limits[0]) * (0.1 + 0.04 * f64::from(k));
+                let (x, slope) = (bisector.curve.point(t), bisector.curve.derivative(t));
+                // The sides are x² apart.
+                assert!(x.y.abs() < 1e-3 + 0.1 * x.x * x.x, "turned by {turned}: {x}");
+                assert!((slope.y / slope.x).abs() < 0.2, "turned by {turned}: it turns at {x}: {slope}");
+                assert!((0.7..1.1).contains(&slope.x), "turned by {turned}: it runs unevenly at {x}: {slope}");
+            }
+        }
+    }
+
     /// A boundary between two flat sides is where it should be; one that leaves them is told with its distance.
     #[test]
     fn a_boundary_that_leaves_both_sides_is_told_with_its_distance() {

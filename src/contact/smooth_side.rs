@@ -97,7 +97,15 @@ impl SmoothSide {
         Self::through(stretch.curve.clone(), places, points, hand, degree, closed)
     }
 
-    fn through(shape: Curve, mut places: Vec<Point>, mut points: Vec<Point>, hand: f64, degree: usize, closed: bool) -> Self {
+    /// Through nodes at rest and as they lie now, with the shape as it is known.
+    pub(super) fn through(
+        shape: Curve,
+        mut places: Vec<Point>,
+        mut points: Vec<Point>,
+        hand: f64,
+        degree: usize,
+        closed: bool,
+    ) -> Self {
         let last = places.len() - 1;
         if closed {
             (places[last], points[last]) = (places[0], points[0]);
