@@ -114,8 +114,9 @@ impl Bisector {
         for correction in 0..MOST_CORRECTIONS {
             let mut next = points.clone();
             let moved = next.iter_mut().map(|point| point.centre(&curve, curves, whole)).fold(0.0, f64::max);
-            // A first guess that is far off says nothing of most points.
-            if 2 * next.iter().filter(|point| point.is_between).count() < next.len() {
+            // A first guess that is far off says nothing of most points, and no curve goes through less than two places.
+            let (first, last) = parameters_between(&next);
+            if 2 * next.iter().filter(|point| point.is_between).count() < next.len() || first >= last {
                 break;
             }
             points = next;
@@ -125,8 +126,7 @@ impl Bisector {
                 break;
             }
         }
-        let [first, last] = [points.iter().find(|point| point.is_between), points.iter().rfind(|point| point.is_between)];
-        let data = [first, last].map(|point| point.map_or(points[0].parameter, |point| point.parameter));
+        let data = <[f64; 2]>::from(parameters_between(&points));
         let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);
         Ok(Self { curve, limits })
     }
@@ -152,6 +152,13 @@ impl Halfway {
     }
 }
 
+/// The smallest and the largest parameter of the points that lie between the sides.
+fn parameters_between(points: &[Halfway]) -> (f64, f64) {
+    let between = points.iter().filter(|point| point.is_between).map(|point| point.parameter);
+    between.fold((f64::INFINITY, f64::NEG_INFINITY), |(first, last), t| (first.min(t), last.max(t)))
+}
+
+/// By their parameters.
 fn sort(points: &mut [Halfway]) {
     points.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
 }

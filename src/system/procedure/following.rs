@@ -68,7 +68,8 @@ pub struct BoundaryStep {
     pub iteration: usize,
     /// Length of all contact boundaries that follow (length).
     pub length: f64,
-    /// Largest way of a segment end to the next boundary, relative to the length; nothing if the segments are others.
+    /// Largest way of a segment end to the next boundary, of contacts that count, relative to the length; nothing if the segments are
+    /// others.
     pub moved: Option<f64>,
     /// Change of the displacement since the boundary before, relative to its norm; nothing for the first.
     pub du: Option<f64>,
