@@ -11,9 +11,6 @@ const READ_LATER: [&str; 7] = ["-log_", "-malloc_", "-objects_", "-options_", "-
 /// Options that every session is started with.
 const STARTED_WITH: [&str; 2] = ["-no_signal_handler", "-options_left"];
 
-/// An option of mezha's own: its multigrid cycle works in single precision.
-pub const SINGLE_CYCLE: &str = "-fieldsplit_u_cycle_single";
-
 /// Parts of options that PETSc reads only in a solve.
 const READ_IN_SOLVES: [&str; 2] = ["converged_reason", "_view"];
 
@@ -77,7 +74,7 @@ pub fn unused(session: &Session) -> Result<Vec<String>> {
     Ok(left
         .into_iter()
         .filter(|(name, _)| !defaults.contains(&name.to_lowercase()))
-        .filter(|(name, _)| !is_read_later(name) && !name.eq_ignore_ascii_case(SINGLE_CYCLE))
+        .filter(|(name, _)| !is_read_later(name))
         .map(|(name, value)| format!("{name} {value}").trim_end().to_owned())
         .collect())
 }

@@ -1,7 +1,6 @@
 //! Small scenes for unit tests.
 
 use super::discretisation::finest_numbering;
-use super::space::Real;
 use super::{Contact, Scene};
 use crate::body::{Body, Material, Support};
 use crate::contact::{Known, MultiplierSpace, Pair, SegmentRule, samples};
@@ -12,8 +11,8 @@ use crate::mesh::{MacroMesh, Partition};
 use std::rc::Rc;
 
 /// Values of nodes: numbers between 0 and 1 that repeat late.
-pub fn vector<T: Real>(nodes: usize, seed: usize) -> Vec<[T; 2]> {
-    let value = |at: usize| T::of(((at + seed) * 7919 % 1009) as f64 / 1009.0);
+pub fn vector(nodes: usize, seed: usize) -> Vec<[f64; 2]> {
+    let value = |at: usize| ((at + seed) * 7919 % 1009) as f64 / 1009.0;
     (0..nodes).map(|node| [value(2 * node), value(2 * node + 1)]).collect()
 }
 

@@ -4,54 +4,11 @@ use super::{Scene, SystemError};
 use crate::body::Constraints;
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering, Partition};
-use std::ops::{Add, AddAssign, Mul, Neg, Range, Sub};
+use std::ops::Range;
 use std::rc::Rc;
 
 /// Two components at a node.
 pub type Components = [f64; 2];
-
-/// Numbers that a preconditioner may work with: in double or in single precision.
-pub trait Real:
-    Copy
-    + Default
-    + PartialEq
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Neg<Output = Self>
-    + AddAssign
-    + 'static
-{
-    /// Rounded to this precision.
-    fn of(value: f64) -> Self;
-
-    /// In double precision.
-    fn double(self) -> f64;
-}
-
-impl Real for f64 {
-    #[inline(always)]
-    fn of(value: f64) -> Self {
-        value
-    }
-
-    #[inline(always)]
-    fn double(self) -> f64 {
-        self
-    }
-}
-
-impl Real for f32 {
-    #[inline(always)]
-    fn of(value: f64) -> Self {
-        value as f32
-    }
-
-    #[inline(always)]
-    fn double(self) -> f64 {
-        f64::from(self)
-    }
-}
 
 /// Numbers and constraints of one level. Component `k` of node `j` is unknown `2 j + k`, in the node's frame.
 pub struct Space {

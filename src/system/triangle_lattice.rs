@@ -4,7 +4,6 @@
 //! another, and fill a vector register. Lattices of up to some 128 intervals stay in the cache.
 
 use super::Space;
-use super::space::Real;
 use crate::body::Constraint;
 use crate::element::Block;
 use crate::mesh::{TriangleNumbers, lattice};
@@ -12,17 +11,17 @@ use std::ops::Range;
 
 /// Memory for a lattice. It begins with a line of the cache: registers that lie in two lines are read twice.
 #[derive(Clone, Default)]
-pub struct LatticeRoom<T>(Vec<[T; 2]>);
+pub struct LatticeRoom(Vec<[f64; 2]>);
 
 /// Bytes of a line of the cache.
 const LINE: usize = 64;
 
-impl<T: Real> LatticeRoom<T> {
+impl LatticeRoom {
     /// A lattice with `n` intervals for `width` macro triangles; its values are what was there before, or zeros.
-    pub fn lattice(&mut self, n: usize, width: usize) -> &mut [[T; 2]] {
-        let (nodes, line) = (width * lattice::node_count(n), LINE / size_of::<[T; 2]>());
+    pub fn lattice(&mut self, n: usize, width: usize) -> &mut [[f64; 2]] {
+        let (nodes, line) = (width * lattice::node_count(n), LINE / size_of::<[f64; 2]>());
         if self.0.len() < nodes + line {
-            self.0 = vec![[T::default(); 2]; nodes + line];
+            self.0 = vec![[0.0; 2]; nodes + line];
         }
         // Where it cannot be told, any place will do.
         let first = self.0.as_ptr().align_offset(LINE).min(line);
@@ -125,14 +124,14 @@ impl TriangleNodes {
     }
 
     /// Brings the values of all nodes into a lattice, in global axes; without values of nodes elsewhere these are zero.
-    pub fn bring<T: Real>(&self, x: &[[T; 2]], far: &[[T; 2]], own: &mut [[T; 2]]) {
+    pub fn bring(&self, x: &[[f64; 2]], far: &[[f64; 2]], own: &mut [[f64; 2]]) {
         let inner = &x[self.inner.clone()];
         inner_rows(self.n).for_each(|(to, from)| own[to].copy_from_slice(&inner[from]));
         self.bring_sides(x, far, Lane::ALONE, own);
     }
 
     /// Brings those of the nodes on the sides to their places in a lattice of several macro triangles.
-    pub fn bring_sides<T: Real>(&self, x: &[[T; 2]], far: &[[T; 2]], lane: Lane, own: &mut [[T; 2]]) {
+    pub fn bring_sides(&self, x: &[[f64; 2]], far: &[[f64; 2]], lane: Lane, own: &mut [[f64; 2]]) {
         let (n, here) = (self.n, x.len());
         let value = |&at: &u32| match (at as usize).checked_sub(here) {
             None => x[at as usize],
@@ -148,12 +147,12 @@ impl TriangleNodes {
         for (k, frame) in &self.turned {
             let (i, j) = side_node(n, *k as usize);
             let x = &mut own[lane.node(n, i, j)];
-            *x = frame.map(|row| T::of(row[0]) * x[0] + T::of(row[1]) * x[1]);
+            *x = frame.map(|row| row[0] * x[0] + row[1] * x[1]);
         }
     }
 
     /// Takes the values of the inner nodes from a lattice.
-    pub fn take_inner<T: Real>(&self, own: &[[T; 2]], lane: Lane, x: &mut [[T; 2]]) {
+    pub fn take_inner(&self, own: &[[f64; 2]], lane: Lane, x: &mut [[f64; 2]]) {
         let x = &mut x[self.inner.clone()];
         for (j, (_, to)) in (1..).zip(inner_rows(self.n)) {
             x[to].iter_mut().zip(lane.inner(self.n, j)).for_each(|(to, from)| *to = own[from]);
@@ -161,12 +160,12 @@ impl TriangleNodes {
     }
 
     /// Adds the values of a lattice, which are forces: the transposed of [`TriangleNodes::bring`].
-    pub fn give<T: Real>(&self, own: &mut [[T; 2]], lane: Lane, x: &mut [[T; 2]], far: &mut [[T; 2]]) {
+    pub fn give(&self, own: &mut [[f64; 2]], lane: Lane, x: &mut [[f64; 2]], far: &mut [[f64; 2]]) {
         let (n, here) = (self.n, x.len());
         for (k, frame) in &self.turned {
             let (i, j) = side_node(n, *k as usize);
             let x = &mut own[lane.node(n, i, j)];
-            *x = [0, 1].map(|k| T::of(frame[0][k]) * x[0] + T::of(frame[1][k]) * x[1]);
+            *x = [0, 1].map(|k| frame[0][k] * x[0] + frame[1][k] * x[1]);
         }
         let inner = &mut x[self.inner.clone()];
         for (j, (_, to)) in (1..).zip(inner_rows(n)) {
@@ -183,19 +182,19 @@ impl TriangleNodes {
 }
 
 #[inline(always)]
-fn add<T: Real>(sum: &mut [T; 2], value: &[T; 2]) {
+fn add(sum: &mut [f64; 2], value: &[f64; 2]) {
     sum[0] += value[0];
     sum[1] += value[1];
 }
 
 /// Makes zeros of the nodes on the sides of a lattice of so many macro triangles.
-pub fn clear_sides<T: Real>(n: usize, width: usize, own: &mut [[T; 2]]) {
+pub fn clear_sides(n: usize, width: usize, own: &mut [[f64; 2]]) {
     let mut end = 0;
     for (row, _) in inner_rows(n) {
-        own[width * end..width * row.start].fill([T::default(); 2]);
+        own[width * end..width * row.start].fill([0.0; 2]);
         end = row.end;
     }
-    own[width * end..].fill([T::default(); 2]);
+    own[width * end..].fill([0.0; 2]);
 }
 
 /// What makes global axes of the free components of a node.
@@ -210,7 +209,7 @@ mod tests {
 
     #[test]
     fn lattices_begin_with_lines_of_the_cache() {
-        let mut room = LatticeRoom::<f64>::default();
+        let mut room = LatticeRoom::default();
         for (n, width) in [(8, 2), (16, 4), (8, 1)] {
             let lattice = room.lattice(n, width);
             assert_eq!(lattice.len(), width * lattice::node_count(n));

@@ -1,8 +1,8 @@
 //! What solves on the coarsest level of the mesh: a factor on the one rank that has all of it, or levels of mezha's own below it.
 
 use super::level::CycleLevel;
-use crate::petsc::{Datum, Error, Factor, Krylov, Matrix, MultigridCycle, MultigridLevel, Result, Session, Vector};
-use crate::system::stiffness::{LatticeOperator, Precision};
+use crate::petsc::{Error, Factor, Krylov, Matrix, MultigridCycle, MultigridLevel, Result, Session, Vector};
+use crate::system::stiffness::LatticeOperator;
 
 /// Prefix of the options of the smoothers and of the coarsest solver: that of PETSc's own multigrid, so that the defaults of
 /// [`super::super::solver`] hold here, too.
@@ -51,10 +51,10 @@ impl Coarsest {
     }
 
     /// Solves with the right-hand side of a level, on auxiliary levels by one such cycle. **Collective**
-    pub fn solve<T: Precision + Datum>(&mut self, cycle: MultigridCycle, level: &mut CycleLevel<T>) -> Result<()> {
+    pub fn solve(&mut self, cycle: MultigridCycle, level: &mut CycleLevel) -> Result<()> {
         let (from, to) = (level.b.as_flattened(), level.x.as_flattened_mut());
-        let set = |b: &mut [f64]| b.iter_mut().zip(from).for_each(|(to, from)| *to = from.double());
-        let mut get = |x: &[f64]| to.iter_mut().zip(x).for_each(|(to, &from)| *to = T::of(from));
+        let set = |b: &mut [f64]| b.copy_from_slice(from);
+        let mut get = |x: &[f64]| to.copy_from_slice(x);
         match self {
             Self::Factor(None) => Ok(()),
             Self::Factor(Some(factor)) => factor.solve(set, get),

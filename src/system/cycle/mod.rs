@@ -1,4 +1,4 @@
-//! The multigrid F-cycle of mezha's own, in double or single precision: it works on strips and stored rows directly, and
+//! The multigrid F-cycle of mezha's own: it works on strips and stored rows directly, and
 //! on nothing of PETSc's but what solves on the coarsest level.
 //!
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
@@ -12,8 +12,8 @@ mod level;
 use super::SystemError;
 use super::interpolation::{Interpolation, NodeInterpolation};
 use super::level_ranks::SMALL;
-use super::stiffness::{Precision, Stiffness, SweepHalves};
-use crate::petsc::{Action, Datum, MultigridCycle, MultigridLevel, Result, Session, Vector};
+use super::stiffness::{Stiffness, SweepHalves};
+use crate::petsc::{Action, MultigridCycle, MultigridLevel, Result, Session, Vector};
 use coarsest::Coarsest;
 use level::CycleLevel;
 use std::cell::RefCell;
@@ -23,17 +23,15 @@ use std::rc::Rc;
 /// Full multigrid: on each level, from the coarsest one up, a V-cycle with one Gauss-Seidel sweep before and one after the coarse
 /// correction, from what the coarser level has found. Sweeps are symmetric; before the coarse corrections of levels below the
 /// finest one they go forward alone, which saves a quarter of the sweeps there and costs one iteration in a hundred.
-pub struct FullCycle<T> {
+pub struct FullCycle {
     coarsest: Coarsest,
     /// The coarsest first; that one has no sweeps.
-    levels: Vec<CycleLevel<T>>,
+    levels: Vec<CycleLevel>,
     /// A residual, of one level at a time.
-    r: Vec<[T; 2]>,
-    /// Right-hand side and solution in this precision, if they are given in another.
-    finest: [Vec<[T; 2]>; 2],
+    r: Vec<[f64; 2]>,
 }
 
-impl<T: Precision + Datum> FullCycle<T> {
+impl FullCycle {
     /// On the levels of a stiffness; `levels` are those of PETSc's multigrid, with auxiliary ones below these. `None` if the mesh
     /// has one level, if options want entries of interpolations, or if the coarsest level is large and has no auxiliary ones.
     /// **Collective**
@@ -58,32 +56,23 @@ impl<T: Precision + Datum> FullCycle<T> {
         };
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
         let levels = rows.into_iter().zip(steps).map(|(rows, step)| CycleLevel::new(rows, step, session));
-        let mut levels: Vec<CycleLevel<T>> = levels.collect();
+        let mut levels: Vec<CycleLevel> = levels.collect();
         let last = levels.pop().expect("two levels at least");
-        let mut levels: Vec<CycleLevel<T>> = levels.into_iter().map(CycleLevel::with_vectors).collect();
+        let mut levels: Vec<CycleLevel> = levels.into_iter().map(CycleLevel::with_vectors).collect();
         let most = levels.iter().map(|level| level.b.len()).chain([last.nodes]).max();
         levels.push(last);
-        let r = vec![[T::default(); 2]; most.unwrap_or(0)];
-        Ok(Some(Self { coarsest, levels, r, finest: Default::default() }))
+        let r = vec![[0.0; 2]; most.unwrap_or(0)];
+        Ok(Some(Self { coarsest, levels, r }))
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
     fn refresh(&mut self, session: &Session) -> std::result::Result<(), SystemError> {
-        self.coarsest.refresh(&self.levels[0].lattice, session)?;
-        self.levels.iter_mut().for_each(CycleLevel::refresh);
-        Ok(())
+        Ok(self.coarsest.refresh(&self.levels[0].lattice, session)?)
     }
 
     /// `x = M⁻¹ b` for the nodes of this rank. **Collective**
     fn apply(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) -> Result<()> {
-        let mut finest = std::mem::take(&mut self.finest);
-        let outcome = T::on(b, x, &mut finest, |b, x| self.full_cycle(b, x));
-        self.finest = finest;
-        outcome
-    }
-
-    fn full_cycle(&mut self, b: &[[T; 2]], x: &mut [[T; 2]]) -> Result<()> {
-        let Self { coarsest, levels, r, .. } = self;
+        let Self { coarsest, levels, r } = self;
         let top = levels.len() - 1;
         for l in (1..=top).rev() {
             let (below, level) = levels.split_at_mut(l);
@@ -102,13 +91,13 @@ impl<T: Precision + Datum> FullCycle<T> {
 }
 
 /// A V-cycle from what the next coarser level has found. **Collective**
-fn begin<T: Precision + Datum>(
-    levels: &mut [CycleLevel<T>],
+fn begin(
+    levels: &mut [CycleLevel],
     coarsest: &mut Coarsest,
     before: SweepHalves,
-    b: &[[T; 2]],
-    x: &mut [[T; 2]],
-    r: &mut [[T; 2]],
+    b: &[[f64; 2]],
+    x: &mut [[f64; 2]],
+    r: &mut [[f64; 2]],
 ) -> Result<()> {
     let (level, below) = levels.split_last_mut().expect("a level");
     level.begin(&below[below.len() - 1].x, x);
@@ -117,12 +106,12 @@ fn begin<T: Precision + Datum>(
 }
 
 /// What follows the first sweep of a V-cycle on the last of these levels and those below. **Collective**
-fn correct<T: Precision + Datum>(
-    levels: &mut [CycleLevel<T>],
+fn correct(
+    levels: &mut [CycleLevel],
     coarsest: &mut Coarsest,
-    b: &[[T; 2]],
-    x: &mut [[T; 2]],
-    r: &mut [[T; 2]],
+    b: &[[f64; 2]],
+    x: &mut [[f64; 2]],
+    r: &mut [[f64; 2]],
 ) -> Result<()> {
     let (level, below) = levels.split_last_mut().expect("a level");
     let last = below.len() - 1;
@@ -140,16 +129,9 @@ fn correct<T: Precision + Datum>(
     Ok(())
 }
 
-type Shared<T> = Rc<RefCell<FullCycle<T>>>;
-
-/// A cycle in one of the precisions, shared with the preconditioner of PETSc's that it stands behind.
+/// A cycle, shared with the preconditioner of PETSc's that it stands behind.
 #[derive(Clone)]
-pub enum Cycle {
-    /// In double precision.
-    Double(Shared<f64>),
-    /// In single precision.
-    Single(Shared<f32>),
-}
+pub struct Cycle(Rc<RefCell<FullCycle>>);
 
 impl Cycle {
     /// On the levels of a system; `None` where there is no [`FullCycle`]. **Collective**
@@ -157,25 +139,15 @@ impl Cycle {
         stiffness: &[Stiffness],
         interpolations: &[Interpolation],
         levels: &[MultigridLevel],
-        is_single: bool,
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
-        Ok(if is_single {
-            let cycle = FullCycle::new(stiffness, interpolations, levels, session)?;
-            cycle.map(|cycle| Self::Single(Rc::new(RefCell::new(cycle))))
-        } else {
-            let cycle = FullCycle::new(stiffness, interpolations, levels, session)?;
-            cycle.map(|cycle| Self::Double(Rc::new(RefCell::new(cycle))))
-        })
+        let cycle = FullCycle::new(stiffness, interpolations, levels, session)?;
+        Ok(cycle.map(|cycle| Self(Rc::new(RefCell::new(cycle)))))
     }
 
     /// `x = M⁻¹ b` for the unknowns of this rank. **Collective**
     pub fn apply(&self, b: &[f64], x: &mut [f64]) -> Result<()> {
-        let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
-        match self {
-            Self::Double(cycle) => cycle.borrow_mut().apply(b, x),
-            Self::Single(cycle) => cycle.borrow_mut().apply(b, x),
-        }
+        self.0.borrow_mut().apply(b.as_chunks().0, x.as_chunks_mut().0)
     }
 
     /// What PETSc's preconditioner does.
@@ -185,10 +157,7 @@ impl Cycle {
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
     pub fn refresh(&self, session: &Session) -> std::result::Result<(), SystemError> {
-        match self {
-            Self::Double(cycle) => cycle.borrow_mut().refresh(session),
-            Self::Single(cycle) => cycle.borrow_mut().refresh(session),
-        }
+        self.0.borrow_mut().refresh(session)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Interpolation inside macro triangles: every second node has a coarse twin, the others are the mean of two coarse nodes.
 
 use crate::mesh::lattice;
-use crate::system::space::Real;
 use crate::system::{Scene, Space};
 use std::ops::Range;
 
@@ -25,9 +24,9 @@ impl HalvedRow {
 
     /// Adds the interpolated values of `x` to `y`.
     #[inline]
-    fn prolong<T: Real>(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
-        let (half, [a, b]) = (T::of(0.5), self.parents);
-        let mean = |sum: &mut [T; 2], x: [T; 2], y: [T; 2]| (0..2).for_each(|k| sum[k] += half * (x[k] + y[k]));
+    fn prolong(&self, x: &[[f64; 2]], y: &mut [[f64; 2]]) {
+        let (half, [a, b]) = (0.5, self.parents);
+        let mean = |sum: &mut [f64; 2], x: [f64; 2], y: [f64; 2]| (0..2).for_each(|k| sum[k] += half * (x[k] + y[k]));
         let (pairs, last) = y[self.first..][..self.count].as_chunks_mut::<2>();
         let n = pairs.len();
         // The second node of each two lies between a coarse node and the next, or right of the one below.
@@ -42,8 +41,8 @@ impl HalvedRow {
 
     /// Adds what the transposed interpolation makes of `y` to `x`. Each coarse node is met once.
     #[inline]
-    fn restrict<T: Real>(&self, y: &[[T; 2]], x: &mut [[T; 2]]) {
-        let (half, zero, [a, b]) = (T::of(0.5), [T::default(); 2], self.parents);
+    fn restrict(&self, y: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        let (half, zero, [a, b]) = (0.5, [0.0; 2], self.parents);
         let (pairs, last) = y[self.first..][..self.count].as_chunks::<2>();
         let (n, last) = (pairs.len(), last.first().copied().unwrap_or(zero));
         let mut before = zero;
@@ -85,17 +84,17 @@ impl HalvedRows {
     }
 
     /// Adds the interpolated values of `x` to `y`.
-    pub fn prolong<T: Real>(&self, x: &[[T; 2]], y: &mut [[T; 2]]) {
+    pub fn prolong(&self, x: &[[f64; 2]], y: &mut [[f64; 2]]) {
         self.0.iter().for_each(|row| row.prolong(x, y));
     }
 
     /// Makes zeros of the nodes of all rows.
-    pub fn clear<T: Real>(&self, y: &mut [[T; 2]]) {
-        self.0.iter().for_each(|row| y[row.first..][..row.count].fill([T::default(); 2]));
+    pub fn clear(&self, y: &mut [[f64; 2]]) {
+        self.0.iter().for_each(|row| y[row.first..][..row.count].fill([0.0; 2]));
     }
 
     /// Adds what the transposed interpolation makes of `y` to `x`.
-    pub fn restrict<T: Real>(&self, y: &[[T; 2]], x: &mut [[T; 2]]) {
+    pub fn restrict(&self, y: &[[f64; 2]], x: &mut [[f64; 2]]) {
         self.0.iter().for_each(|row| row.restrict(y, x));
     }
 

@@ -6,8 +6,7 @@ use super::whole;
 use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::lattice;
-use crate::petsc::{Datum, Halo, Result, Session, Transfer, Vector};
-use crate::system::space::Real;
+use crate::petsc::{Halo, Result, Session, Transfer, Vector};
 use crate::system::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, side_nodes};
 use crate::system::{Scene, Space};
 use std::ops::Range;
@@ -40,17 +39,17 @@ struct WholeTriangle {
 }
 
 /// Lattices to work in: a fine one with zeros on its sides, and a coarse one.
-pub struct InterpolationRoom<T>([LatticeRoom<T>; 2]);
+pub struct InterpolationRoom([LatticeRoom; 2]);
 
-impl<T: Default + Clone> Default for InterpolationRoom<T> {
+impl Default for InterpolationRoom {
     fn default() -> Self {
         Self(Default::default())
     }
 }
 
-impl<T: Real> InterpolationRoom<T> {
+impl InterpolationRoom {
     /// With a fine lattice with `n` intervals, and for so many macro triangles.
-    fn lattices(&mut self, n: usize, width: usize) -> [&mut [[T; 2]]; 2] {
+    fn lattices(&mut self, n: usize, width: usize) -> [&mut [[f64; 2]]; 2] {
         let [fine, coarse] = &mut self.0;
         [fine.lattice(n, width), coarse.lattice(n / 2, width)]
     }
@@ -119,41 +118,41 @@ impl NodeInterpolation {
     }
 
     /// `y += P x`, or `y = P x`. **Collective**
-    pub fn prolong<T: Real + Datum, const ADD: bool>(&self, x: &[[T; 2]], y: &mut [[T; 2]], room: &mut InterpolationRoom<T>) {
-        let mut far = vec![[T::default(); 2]; self.far];
+    pub fn prolong<const ADD: bool>(&self, x: &[[f64; 2]], y: &mut [[f64; 2]], room: &mut InterpolationRoom) {
+        let mut far = vec![[0.0; 2]; self.far];
         match &self.halo {
-            Some(halo) => halo.fetch(x, &mut far, || self.prolong_inside::<T, ADD>(true, x, &[], y, room)),
-            None => self.prolong_inside::<T, ADD>(true, x, &[], y, room),
+            Some(halo) => halo.fetch(x, &mut far, || self.prolong_inside::<ADD>(true, x, &[], y, room)),
+            None => self.prolong_inside::<ADD>(true, x, &[], y, room),
         }
-        self.prolong_inside::<T, ADD>(false, x, &far, y, room);
-        let (half, coarse) = (T::of(0.5), self.coarse);
+        self.prolong_inside::<ADD>(false, x, &far, y, room);
+        let (half, coarse) = (0.5, self.coarse);
         let value = |at: u32| if (at as usize) < coarse { x[at as usize] } else { far[at as usize - coarse] };
         for &[node, a, b] in &self.even {
             let (a, b, to) = (value(a), value(b), &mut y[node as usize]);
-            (0..2).for_each(|k| to[k] = half * (a[k] + b[k]) + if ADD { to[k] } else { T::default() });
+            (0..2).for_each(|k| to[k] = half * (a[k] + b[k]) + if ADD { to[k] } else { 0.0 });
         }
         if !ADD {
-            self.weighted.iter().for_each(|&(node, ..)| y[node as usize] = [T::default(); 2]);
+            self.weighted.iter().for_each(|&(node, ..)| y[node as usize] = [0.0; 2]);
         }
         for &(node, parent, block) in &self.weighted {
             let x = value(parent);
-            (0..2).for_each(|k| y[node as usize][k] += T::of(block[k][0]) * x[0] + T::of(block[k][1]) * x[1]);
+            (0..2).for_each(|k| y[node as usize][k] += block[k][0] * x[0] + block[k][1] * x[1]);
         }
     }
 
     /// The same inside of macro triangles whose coarse nodes are all here, or not.
-    fn prolong_inside<T: Real, const ADD: bool>(
+    fn prolong_inside<const ADD: bool>(
         &self,
         is_here: bool,
-        x: &[[T; 2]],
-        far: &[[T; 2]],
-        y: &mut [[T; 2]],
-        room: &mut InterpolationRoom<T>,
+        x: &[[f64; 2]],
+        far: &[[f64; 2]],
+        y: &mut [[f64; 2]],
+        room: &mut InterpolationRoom,
     ) {
         for triangle in self.whole.iter().filter(|triangle| triangle.coarse.is_here == is_here) {
             let [_, coarse] = room.lattices(self.n, 1);
             triangle.coarse.bring(x, far, coarse);
-            whole::prolong::<T, ADD>(self.n, coarse, &mut y[triangle.fine.clone()]);
+            whole::prolong::<ADD>(self.n, coarse, &mut y[triangle.fine.clone()]);
         }
         if is_here {
             if !ADD {
@@ -164,9 +163,9 @@ impl NodeInterpolation {
     }
 
     /// `x = Pᵀ y`. **Collective**
-    pub fn restrict<T: Real + Datum>(&self, y: &[[T; 2]], x: &mut [[T; 2]], room: &mut InterpolationRoom<T>) {
-        let mut far = vec![[T::default(); 2]; self.far];
-        x.fill([T::default(); 2]);
+    pub fn restrict(&self, y: &[[f64; 2]], x: &mut [[f64; 2]], room: &mut InterpolationRoom) {
+        let mut far = vec![[0.0; 2]; self.far];
+        x.fill([0.0; 2]);
         for triangle in &self.whole {
             let [_, coarse] = room.lattices(self.n, 1);
             whole::restrict_inner(self.n, &y[triangle.fine.clone()], coarse);
@@ -177,16 +176,16 @@ impl NodeInterpolation {
 
     /// The same where `inside` brings what `y` has inside of whole macro triangles into a lattice with zeros on its sides: of these
     /// groups side by side, the first one being group 0. **Collective**
-    pub fn restrict_from<'g, T: Real + Datum>(
+    pub fn restrict_from<'g>(
         &self,
         groups: impl Iterator<Item = (&'g [usize], usize)>,
-        mut inside: impl FnMut(usize, &mut [[T; 2]]),
-        y: &[[T; 2]],
-        x: &mut [[T; 2]],
-        room: &mut InterpolationRoom<T>,
+        mut inside: impl FnMut(usize, &mut [[f64; 2]]),
+        y: &[[f64; 2]],
+        x: &mut [[f64; 2]],
+        room: &mut InterpolationRoom,
     ) {
-        let mut far = vec![[T::default(); 2]; self.far];
-        x.fill([T::default(); 2]);
+        let mut far = vec![[0.0; 2]; self.far];
+        x.fill([0.0; 2]);
         for (group, (members, width)) in groups.enumerate() {
             let [fine, coarse] = room.lattices(self.n, width);
             inside(group, fine);
@@ -199,9 +198,9 @@ impl NodeInterpolation {
     }
 
     /// Adds what comes from the nodes that are not inside of whole macro triangles; `far` goes to other ranks. **Collective**
-    fn restrict_others<T: Real + Datum>(&self, y: &[[T; 2]], x: &mut [[T; 2]], mut far: Vec<[T; 2]>) {
-        let (half, coarse) = (T::of(0.5), self.coarse);
-        let mut add = |at: u32, value: [T; 2]| {
+    fn restrict_others(&self, y: &[[f64; 2]], x: &mut [[f64; 2]], mut far: Vec<[f64; 2]>) {
+        let (half, coarse) = (0.5, self.coarse);
+        let mut add = |at: u32, value: [f64; 2]| {
             let sum = if (at as usize) < coarse { &mut x[at as usize] } else { &mut far[at as usize - coarse] };
             (0..2).for_each(|k| sum[k] += value[k]);
         };
@@ -212,7 +211,7 @@ impl NodeInterpolation {
         }
         for &(node, parent, block) in &self.weighted {
             let y = y[node as usize];
-            add(parent, [0, 1].map(|k| T::of(block[0][k]) * y[0] + T::of(block[1][k]) * y[1]));
+            add(parent, [0, 1].map(|k| block[0][k] * y[0] + block[1][k] * y[1]));
         }
         self.halved.restrict(y, x);
         if let Some(halo) = &self.halo {
@@ -243,19 +242,19 @@ pub struct InterpolationShell(pub Rc<NodeInterpolation>);
 impl Transfer for InterpolationShell {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let (x, mut y) = (x.values(), y.values_mut());
-        self.0.prolong::<f64, false>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
+        self.0.prolong::<false>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
         Ok(())
     }
 
     fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let (x, mut y) = (x.values(), y.values_mut());
-        self.0.prolong::<f64, true>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
+        self.0.prolong::<true>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
         Ok(())
     }
 
     fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let (x, mut y) = (x.values(), y.values_mut());
-        self.0.restrict::<f64>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
+        self.0.restrict(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
         Ok(())
     }
 

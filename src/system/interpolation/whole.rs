@@ -1,18 +1,17 @@
 //! Interpolation inside a macro triangle from lattice to lattice.
 
 use crate::mesh::lattice;
-use crate::system::space::Real;
 
 /// Values of the inner nodes of a fine lattice with `n` intervals, row by row, from those of a coarse lattice; they are added to
 /// those of `y`, or take their place.
-pub fn prolong<T: Real, const ADD: bool>(n: usize, coarse: &[[T; 2]], y: &mut [[T; 2]]) {
+pub fn prolong<const ADD: bool>(n: usize, coarse: &[[f64; 2]], y: &mut [[f64; 2]]) {
     pulp::Arch::new().dispatch(
         #[inline(always)]
         || {
             let mut next = 0;
             for j in 1..n - 1 {
                 let count = n - 1 - j;
-                prolong_row::<T, ADD>(n, j, coarse, &mut y[next..next + count]);
+                prolong_row::<ADD>(n, j, coarse, &mut y[next..next + count]);
                 next += count;
             }
         },
@@ -20,9 +19,9 @@ pub fn prolong<T: Real, const ADD: bool>(n: usize, coarse: &[[T; 2]], y: &mut [[
 }
 
 #[inline(always)]
-fn prolong_row<T: Real, const ADD: bool>(n: usize, j: usize, coarse: &[[T; 2]], y: &mut [[T; 2]]) {
-    let half = T::of(0.5);
-    let put = |to: &mut [T; 2], a: [T; 2], b: [T; 2]| {
+fn prolong_row<const ADD: bool>(n: usize, j: usize, coarse: &[[f64; 2]], y: &mut [[f64; 2]]) {
+    let half = 0.5;
+    let put = |to: &mut [f64; 2], a: [f64; 2], b: [f64; 2]| {
         for k in 0..2 {
             let mean = half * (a[k] + b[k]);
             to[k] = if ADD { to[k] + mean } else { mean };
@@ -45,7 +44,7 @@ fn prolong_row<T: Real, const ADD: bool>(n: usize, j: usize, coarse: &[[T; 2]], 
 }
 
 /// What the transposed interpolation makes of the values of the inner nodes of a fine lattice, row by row, in all of a coarse one.
-pub fn restrict_inner<T: Real>(n: usize, y: &[[T; 2]], coarse: &mut [[T; 2]]) {
+pub fn restrict_inner(n: usize, y: &[[f64; 2]], coarse: &mut [[f64; 2]]) {
     pulp::Arch::new().dispatch(
         #[inline(always)]
         || {
@@ -58,13 +57,13 @@ pub fn restrict_inner<T: Real>(n: usize, y: &[[T; 2]], coarse: &mut [[T; 2]]) {
 }
 
 #[inline(always)]
-fn restrict_inner_row<T: Real>(n: usize, b: usize, y: &[[T; 2]], sums: &mut [[T; 2]]) {
-    let (half, zero) = (T::of(0.5), [T::default(); 2]);
+fn restrict_inner_row(n: usize, b: usize, y: &[[f64; 2]], sums: &mut [[f64; 2]]) {
+    let (half, zero) = (0.5, [0.0; 2]);
     // The inner nodes of a row, from the first one on; none in rows that lie on sides.
     let row = |j: usize| if (1..n - 1).contains(&j) { &y[lattice::row_start(n, j)..][..n - 1 - j] } else { &[] };
     let (below, own, above) = (if b == 0 { &[] } else { row(2 * b - 1) }, row(2 * b), row(2 * b + 1));
-    let value = |row: &[[T; 2]], k: usize| row.get(k).copied().unwrap_or(zero);
-    let put = |sum: &mut [T; 2], own: [[T; 2]; 3], below: [[T; 2]; 2], above: [[T; 2]; 2]| {
+    let value = |row: &[[f64; 2]], k: usize| row.get(k).copied().unwrap_or(zero);
+    let put = |sum: &mut [f64; 2], own: [[f64; 2]; 3], below: [[f64; 2]; 2], above: [[f64; 2]; 2]| {
         *sum = [0, 1].map(|k| {
             let beside = (own[0][k] + own[2][k]) + (below[0][k] + below[1][k]);
             own[1][k] + half * (beside + (above[0][k] + above[1][k]))
@@ -90,16 +89,15 @@ fn restrict_inner_row<T: Real>(n: usize, b: usize, y: &[[T; 2]], sums: &mut [[T;
 
 /// What the transposed interpolation makes of fine lattices, which are zero on their sides, in all of coarse ones: of so many
 /// macro triangles side by side.
-pub fn restrict<T: Real>(n: usize, width: usize, fine: &[[T; 2]], coarse: &mut [[T; 2]]) {
+pub fn restrict(n: usize, width: usize, fine: &[[f64; 2]], coarse: &mut [[f64; 2]]) {
     match width {
-        2 => restrict_side_by_side::<T, 2>(n, fine, coarse),
-        4 => restrict_side_by_side::<T, 4>(n, fine, coarse),
-        8 => restrict_side_by_side::<T, 8>(n, fine, coarse),
-        _ => panic!("registers hold 2, 4 or 8 nodes, not {width}"),
+        2 => restrict_side_by_side::<2>(n, fine, coarse),
+        4 => restrict_side_by_side::<4>(n, fine, coarse),
+        _ => panic!("registers hold 2 or 4 nodes, not {width}"),
     }
 }
 
-fn restrict_side_by_side<T: Real, const WIDTH: usize>(n: usize, fine: &[[T; 2]], coarse: &mut [[T; 2]]) {
+fn restrict_side_by_side<const WIDTH: usize>(n: usize, fine: &[[f64; 2]], coarse: &mut [[f64; 2]]) {
     let (fine, coarse) = (fine.as_chunks::<WIDTH>().0, coarse.as_chunks_mut::<WIDTH>().0);
     pulp::Arch::new().dispatch(
         #[inline(always)]
@@ -108,27 +106,27 @@ fn restrict_side_by_side<T: Real, const WIDTH: usize>(n: usize, fine: &[[T; 2]],
                 let to = lattice::index(n / 2, 0, b);
                 restrict_row(n, b, fine, &mut coarse[to..=to + n / 2 - b]);
             }
-            coarse[lattice::index(n / 2, 0, n / 2)] = [[T::default(); 2]; WIDTH];
+            coarse[lattice::index(n / 2, 0, n / 2)] = [[0.0; 2]; WIDTH];
         },
     );
 }
 
 #[inline(always)]
-fn restrict_row<T: Real, const WIDTH: usize>(n: usize, b: usize, fine: &[[[T; 2]; WIDTH]], sums: &mut [[[T; 2]; WIDTH]]) {
-    let half = T::of(0.5);
+fn restrict_row<const WIDTH: usize>(n: usize, b: usize, fine: &[[[f64; 2]; WIDTH]], sums: &mut [[[f64; 2]; WIDTH]]) {
+    let half = 0.5;
     // Beyond the ends of rows there are zeros: nodes on the sides.
-    let pairs = |j: usize, first: isize| -> &[[[[T; 2]; WIDTH]; 2]] {
+    let pairs = |j: usize, first: isize| -> &[[[[f64; 2]; WIDTH]; 2]] {
         let start = lattice::index(n, 0, j).wrapping_add_signed(first);
         fine[start..start + 2 * sums.len()].as_chunks().0
     };
     let above = pairs(2 * b + 1, -1);
-    let each = |sum: fn(T, T) -> T| {
-        move |a: &[[T; 2]; WIDTH], b: &[[T; 2]; WIDTH]| -> [[T; 2]; WIDTH] {
+    let each = |sum: fn(f64, f64) -> f64| {
+        move |a: &[[f64; 2]; WIDTH], b: &[[f64; 2]; WIDTH]| -> [[f64; 2]; WIDTH] {
             std::array::from_fn(|lane| [0, 1].map(|k| sum(a[lane][k], b[lane][k])))
         }
     };
     let add = each(|a, b| a + b);
-    let halved = |a: [[T; 2]; WIDTH]| a.map(|node| node.map(|v| half * v));
+    let halved = |a: [[f64; 2]; WIDTH]| a.map(|node| node.map(|v| half * v));
     if b == 0 {
         sums.iter_mut().zip(above).for_each(|(sum, above)| *sum = halved(add(&above[0], &above[1])));
         return;
@@ -152,14 +150,14 @@ mod tests {
     #[test]
     fn restriction_is_the_transposed_interpolation() {
         for n in [4, 8, 14, 32] {
-            let (y, coarse) = (vector::<f64>(lattice::inner_count(n), 3), vector::<f64>(lattice::node_count(n / 2), 55));
+            let (y, coarse) = (vector(lattice::inner_count(n), 3), vector(lattice::node_count(n / 2), 55));
             let (mut fine, mut sums) = (y.clone(), coarse.clone());
-            prolong::<f64, false>(n, &coarse, &mut fine);
+            prolong::<false>(n, &coarse, &mut fine);
             restrict_inner(n, &y, &mut sums);
             let (left, right) = (product(&fine, &y), product(&coarse, &sums));
             assert!((left - right).abs() < 1e-12 * left, "n = {n}: {left} {right}");
             let mut more = y.clone();
-            prolong::<f64, true>(n, &coarse, &mut more);
+            prolong::<true>(n, &coarse, &mut more);
             let apart = more.iter().zip(&fine).zip(&y).flat_map(|((more, fine), y)| [0, 1].map(|k| more[k] - fine[k] - y[k]));
             assert!(apart.fold(0.0, |most: f64, v| most.max(v.abs())) < 1e-14, "n = {n}");
         }
@@ -167,8 +165,8 @@ mod tests {
 
     #[test]
     fn macro_triangles_side_by_side_are_restricted_as_each_alone() {
-        for (n, width) in [(4, 2), (8, 4), (14, 8), (32, 4)] {
-            let each: Vec<_> = (0..width).map(|lane| vector::<f64>(lattice::inner_count(n), 7 * lane)).collect();
+        for (n, width) in [(4, 2), (8, 4), (14, 2), (32, 4)] {
+            let each: Vec<_> = (0..width).map(|lane| vector(lattice::inner_count(n), 7 * lane)).collect();
             let mut fine = vec![[0.0; 2]; width * lattice::node_count(n)];
             let mut coarse = vec![[9.0; 2]; width * lattice::node_count(n / 2)];
             for (lane, y) in each.iter().enumerate() {

@@ -21,7 +21,7 @@ use self::block_triangle::BlockTriangle;
 use self::bordered::Bordered;
 use self::options::{
     CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_chosen,
-    is_method_chosen, is_split_changed, lambda_options, preconditioning_options, wants_single,
+    is_method_chosen, is_split_changed, lambda_options, preconditioning_options,
 };
 use super::auxiliary::GalerkinLevels;
 use super::cycle::Cycle;
@@ -36,10 +36,6 @@ use std::rc::Rc;
 
 /// Iterations after which a solve has failed.
 const MOST_ITERATIONS: usize = 300;
-
-/// Iterations to 1e-8, by the rate of a solve, up to which the cycle may stay in single precision: on good triangles rates promise
-/// 12 to 17 in either precision.
-const MOST_IN_SINGLE: f64 = 18.0;
 
 /// Unknowns of the displacement above which BiCGStab takes the place of GMRES: it has nine vectors instead of fifteen for
 /// ten iterations, so that fewer are cleared and added. To 1e-8 that saves a tenth of a solve at a million unknowns. On smaller
@@ -64,10 +60,6 @@ pub struct LinearSolver {
     auxiliary: GalerkinLevels,
     /// The cycle, if it is mezha's own.
     cycle: Option<Cycle>,
-    /// Whether the cycle works in single precision.
-    is_single: bool,
-    /// Whether it did at first.
-    had_single: bool,
     /// Whether BiCGStab stands in the place of GMRES, to save memory and time. What it cannot solve GMRES gets.
     is_short: bool,
     /// What preconditions the displacement block, from the next solve on.
@@ -91,10 +83,7 @@ impl LinearSolver {
         session: &Session,
     ) -> Result<Self, SystemError> {
         match choice.form() {
-            Form::Augmented => {
-                let single = wants_single(session);
-                Self::field_split(system, interpolations.clone(), preconditioning, single, MANY, session)
-            }
+            Form::Augmented => Self::field_split(system, interpolations.clone(), preconditioning, MANY, session),
             Form::Plain => Self::direct(system, session),
         }
     }
@@ -103,7 +92,6 @@ impl LinearSolver {
         system: &SaddlePoint,
         interpolations: Rc<[Interpolation]>,
         preconditioning: Preconditioning,
-        is_single: bool,
         many: usize,
         session: &Session,
     ) -> Result<Self, SystemError> {
@@ -139,7 +127,7 @@ impl LinearSolver {
                 operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
             petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             if preconditioning == Preconditioning::Sweep && !is_changed(session) {
-                cycle = Cycle::new(&system.stiffness, &interpolations, &levels, is_single, session)?;
+                cycle = Cycle::new(&system.stiffness, &interpolations, &levels, session)?;
                 // PETSc's multigrid below the cycle has set this default; field u has a shell.
                 petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
             }
@@ -161,8 +149,7 @@ impl LinearSolver {
         let (replaced, bordered) = replace_action(&krylov, block_triangle, system, Form::Augmented, session)?;
         let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
         let own = kind == "mg" || kind == "shell" || is_factor(kind.as_ref()) && preconditioning == Preconditioning::Factor;
-        let is_single = is_single && cycle.is_some();
-        let name = if own { field_split_name(preconditioning, is_single) } else { format!("fieldsplit ({kind})") };
+        let name = if own { field_split_name(preconditioning) } else { format!("fieldsplit ({kind})") };
         let (session, form) = (session.clone(), Form::Augmented);
         Ok(Self {
             krylov,
@@ -175,8 +162,6 @@ impl LinearSolver {
             auxiliary,
             cycle,
             preconditioning,
-            is_single,
-            had_single: is_single,
             is_short,
             name,
             is_set_up: true,
@@ -210,8 +195,6 @@ impl LinearSolver {
             auxiliary: GalerkinLevels::default(),
             cycle: None,
             preconditioning: Preconditioning::Factor,
-            is_single: false,
-            had_single: false,
             is_short: false,
             name,
             is_set_up: true,
@@ -251,9 +234,7 @@ impl LinearSolver {
     fn set_up(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
         let many = if self.is_short { MANY } else { usize::MAX };
         let interpolations = self.interpolations.clone();
-        let had_single = self.had_single;
-        *self = Self::field_split(system, interpolations, self.preconditioning, self.is_single, many, &self.session)?;
-        self.had_single |= had_single;
+        *self = Self::field_split(system, interpolations, self.preconditioning, many, &self.session)?;
         Ok(())
     }
 
@@ -264,11 +245,7 @@ impl LinearSolver {
 
     /// Options that the user gave and no object of this solver has asked for.
     pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
-        let mut unused = petsc::options::unused(&self.session)?;
-        if wants_single(&self.session) && !self.had_single {
-            unused.push(format!("{} (the cycle of this run is PETSc's, or there is none)", petsc::options::SINGLE_CYCLE));
-        }
-        Ok(unused)
+        Ok(petsc::options::unused(&self.session)?)
     }
 
     /// Solves from the `x` that is given, until the residual is below `tolerance |b|` or rounding stops it; a solve that
@@ -334,14 +311,6 @@ impl LinearSolver {
             solve.iterations += solved.iterations;
             system.product.residual(b, x, &mut r)?;
             solve.residual = r.norm()? / norm;
-            // A start from where rounding has left a solve does better, as long as its residual falls.
-            let goes_on = solve.residual <= tolerance || solve.residual < 0.5 * before;
-            if self.is_single && !(goes_on && needed <= MOST_IN_SINGLE) {
-                self.go_over_to_double(&mut solve, x)?;
-                if solve.residual > tolerance && solve.iterations < MOST_ITERATIONS {
-                    continue;
-                }
-            }
             if self.is_short && solve.residual > tolerance && solve.iterations < MOST_ITERATIONS {
                 if solve.residual < 0.5 * before && solved.iterations < trial_iterations {
                     before = solve.residual;
@@ -357,6 +326,7 @@ impl LinearSolver {
                 }
                 return Ok(solve);
             }
+            // A start from where rounding has left a solve does better, as long as its residual falls.
             let falls = solve.residual < 0.5 * before;
             let slow = solved.iterations >= trial_iterations && needed > 1.0;
             if slow && solve.iterations < MOST_ITERATIONS && self.fall_back(system, needed, &mut solve) {
@@ -390,18 +360,6 @@ impl LinearSolver {
         Ok(())
     }
 
-    /// Single precision costs more than it saves, or is not enough: from the next solve on the cycle works in double precision.
-    fn go_over_to_double(&mut self, solve: &mut LinearSolve, x: &mut Vector) -> Result<(), SystemError> {
-        (self.is_single, self.is_set_up) = (false, false);
-        self.name = field_split_name(self.preconditioning, false);
-        solve.fallback = Some(self.name.clone());
-        if !solve.residual.is_finite() {
-            x.set(0.0)?;
-            solve.residual = f64::INFINITY;
-        }
-        Ok(())
-    }
-
     /// Iterations before it is asked whether to fall back.
     fn trial_iterations(&self) -> usize {
         match self.form {
@@ -426,7 +384,7 @@ impl LinearSolver {
         }
         let unknowns = system.finest_stiffness().operator().size().0;
         let Some(preconditioning) = self.preconditioning.fallback(needed, unknowns) else { return false };
-        (self.preconditioning, self.name, self.is_set_up) = (preconditioning, field_split_name(preconditioning, false), false);
+        (self.preconditioning, self.name, self.is_set_up) = (preconditioning, field_split_name(preconditioning), false);
         solve.fallback = Some(self.name.clone());
         true
     }
@@ -486,9 +444,8 @@ fn is_factor(kind: &str) -> bool {
 }
 
 /// The solver with a preconditioning, in words.
-fn field_split_name(preconditioning: Preconditioning, is_single: bool) -> String {
-    let cycle = if is_single { "multigrid F-cycle in single precision" } else { "multigrid F-cycle" };
-    format!("fieldsplit ({})", preconditioning.words(cycle))
+fn field_split_name(preconditioning: Preconditioning) -> String {
+    format!("fieldsplit ({})", preconditioning.words("multigrid F-cycle"))
 }
 
 /// The product of the nest and the nest, or for a factor the one with all rows stored. **Collective**

@@ -39,20 +39,14 @@ pub(super) fn is_chosen(session: &Session) -> bool {
 
 /// Whether the user has changed anything about it: then it is PETSc's own multigrid, which has options.
 pub(super) fn is_changed(session: &Session) -> bool {
-    options::any_of_user(session, |name| name.starts_with("-fieldsplit_u_") && name != options::SINGLE_CYCLE)
+    options::any_of_user(session, |name| name.starts_with("-fieldsplit_u_"))
 }
 
 /// Whether the user has changed anything about the preconditioner of the whole system or about one of its fields: then it is
 /// PETSc's own fieldsplit, which has options.
 pub(super) fn is_split_changed(session: &Session) -> bool {
     let is_like = |name: &str| name.starts_with("-fieldsplit_") || name.starts_with("-pc_");
-    options::any_of_user(session, |name| is_like(name) && name != options::SINGLE_CYCLE)
-}
-
-/// Whether the user wants the cycle in single precision.
-pub(super) fn wants_single(session: &Session) -> bool {
-    let value = options::get(session, options::SINGLE_CYCLE);
-    value.is_some_and(|value| !["0", "false", "no", "off"].contains(&value.to_lowercase().as_str()))
+    options::any_of_user(session, is_like)
 }
 
 /// The outer method and the smoother of each preconditioning.

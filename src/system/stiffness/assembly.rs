@@ -3,7 +3,7 @@
 use super::ContactNeighbours;
 use super::even_triangles::EvenTriangles;
 use super::pattern::RowColumns;
-use super::registers::Registers;
+use super::registers::strip_kernel;
 use super::stored_rows::{BlockColumn, StoredRows, place};
 use super::strip_set::{Strips, TriangleStrips};
 use super::strips::{Couplings, StripNodes};
@@ -240,7 +240,7 @@ impl<'a> Assembly<'a> {
         for strip in &part.strips {
             let kind = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
                 strips.couplings.push(Couplings::new(stiffness, order, strip));
-                strips.kernels.push(f64::strip_kernel(&strips.couplings[strips.couplings.len() - 1]));
+                strips.kernels.push(strip_kernel(&strips.couplings[strips.couplings.len() - 1]));
                 strips.couplings.len() - 1
             });
             let at = strips.nodes.len();

@@ -2,7 +2,6 @@
 
 use super::lanes::Lanes;
 use crate::element::Block;
-use crate::system::space::Real;
 
 /// A block for each node of a register: what it does to the component of the same name, and to the other one. Registers begin
 /// with lines of the cache: those that lie in two lines are read twice, and kernels read little else.
@@ -23,7 +22,7 @@ impl<L: Lanes> BlockLanes<L> {
 
     /// Of the block of each node.
     pub fn of(lanes: L, block: impl Fn(usize) -> Block) -> Self {
-        let register = |turned: usize| lanes.gather(|node| [0, 1].map(|a| L::Real::of(block(node)[a][a ^ turned])));
+        let register = |turned: usize| lanes.gather(|node| [0, 1].map(|a| block(node)[a][a ^ turned]));
         Self { same: register(0), other: register(1) }
     }
 

@@ -2,7 +2,7 @@
 //! worked on in lattices of their own, several side by side.
 
 use super::block_lanes::product;
-use super::registers::Registers;
+use super::registers::{side_by_side, triangles_kernel};
 use super::strip_kernel::SweepHalves;
 use super::strips::Couplings;
 use super::triangle_kernel::TriangleKernel;
@@ -15,31 +15,31 @@ use std::rc::Rc;
 
 /// Even macro triangles of this rank that are worked on as a whole.
 #[derive(Default)]
-pub struct EvenTriangles<T = f64> {
+pub struct EvenTriangles {
     /// Lattice intervals.
     pub n: usize,
     /// Couplings of the rows of each of them.
     pub couplings: Rc<Vec<Vec<Couplings>>>,
     /// Those that are worked on side by side.
-    groups: Rc<Vec<Group<T>>>,
+    groups: Rc<Vec<Group>>,
     /// Where they lie.
     pub triangles: Vec<TriangleNodes>,
     /// Lattices to work in.
-    room: RefCell<[LatticeRoom<T>; 2]>,
+    room: RefCell<[LatticeRoom; 2]>,
 }
 
 /// Macro triangles side by side.
-struct Group<T> {
+struct Group {
     /// Which they are.
     members: Vec<usize>,
     /// Their first inner nodes.
     first: Vec<usize>,
     /// Whether the nodes on the sides of all of them are here; otherwise none of them has all here.
     is_here: bool,
-    kernel: Box<dyn TriangleKernel<T>>,
+    kernel: Box<dyn TriangleKernel>,
 }
 
-impl<T: Registers> EvenTriangles<T> {
+impl EvenTriangles {
     /// Of triangles with these couplings.
     pub fn new(n: usize, couplings: Rc<Vec<Vec<Couplings>>>, triangles: Vec<TriangleNodes>) -> Self {
         let mut groups = Vec::new();
@@ -47,10 +47,10 @@ impl<T: Registers> EvenTriangles<T> {
             let all: Vec<usize> = (0..triangles.len()).filter(|&k| triangles[k].is_here == is_here).collect();
             let mut rest = all.as_slice();
             while !rest.is_empty() {
-                let (members, others) = rest.split_at(T::side_by_side(rest.len()));
+                let (members, others) = rest.split_at(side_by_side(rest.len()));
                 let of_members: Vec<&[Couplings]> = members.iter().map(|&k| couplings[k].as_slice()).collect();
                 let first = members.iter().map(|&k| triangles[k].inner.start).collect();
-                groups.push(Group { members: members.to_vec(), first, is_here, kernel: T::triangle_kernel(&of_members) });
+                groups.push(Group { members: members.to_vec(), first, is_here, kernel: triangles_kernel(&of_members) });
                 rest = others;
             }
         }
@@ -63,7 +63,7 @@ impl<T: Registers> EvenTriangles<T> {
     }
 
     /// The values of the nodes on the sides of a group, in a lattice; lanes that are left over repeat the last one.
-    fn sides<'a>(&self, group: &Group<T>, x: &[[T; 2]], far: &[[T; 2]], room: &'a mut LatticeRoom<T>) -> &'a mut [[T; 2]] {
+    fn sides<'a>(&self, group: &Group, x: &[[f64; 2]], far: &[[f64; 2]], room: &'a mut LatticeRoom) -> &'a mut [[f64; 2]] {
         let width = group.kernel.width();
         let own = room.lattice(self.n, width);
         for at in 0..width {
@@ -75,7 +75,7 @@ impl<T: Registers> EvenTriangles<T> {
 
     /// `y = K x` at inner nodes of those macro triangles whose sides are all here, or not; `far` are the values of other ranks, none
     /// stands for zeros.
-    pub fn multiply(&self, is_here: bool, x: &[[T; 2]], far: &[[T; 2]], y: &mut [[T; 2]]) {
+    pub fn multiply(&self, is_here: bool, x: &[[f64; 2]], far: &[[f64; 2]], y: &mut [[f64; 2]]) {
         let [room, own] = &mut *self.room.borrow_mut();
         for group in self.groups.iter().filter(|group| group.is_here == is_here) {
             let room = room.lattice(self.n, group.kernel.width());
@@ -84,7 +84,7 @@ impl<T: Registers> EvenTriangles<T> {
     }
 
     /// `r = b - K x` at inner nodes of those macro triangles whose sides are all here, or not.
-    pub fn residual(&self, is_here: bool, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
+    pub fn residual(&self, is_here: bool, b: &[[f64; 2]], x: &[[f64; 2]], far: &[[f64; 2]], r: &mut [[f64; 2]]) {
         let [room, own] = &mut *self.room.borrow_mut();
         for group in self.groups.iter().filter(|group| group.is_here == is_here) {
             let width = group.kernel.width();
@@ -97,7 +97,7 @@ impl<T: Registers> EvenTriangles<T> {
     }
 
     /// The residual of one of [`EvenTriangles::groups`] in a lattice, with zeros on its sides.
-    pub fn residual_of(&self, group: usize, b: &[[T; 2]], x: &[[T; 2]], far: &[[T; 2]], r: &mut [[T; 2]]) {
+    pub fn residual_of(&self, group: usize, b: &[[f64; 2]], x: &[[f64; 2]], far: &[[f64; 2]], r: &mut [[f64; 2]]) {
         let [_, own] = &mut *self.room.borrow_mut();
         let group = &self.groups[group];
         group.kernel.residual(self.n, &group.first, b, x, self.sides(group, x, far, own), r);
@@ -105,7 +105,7 @@ impl<T: Registers> EvenTriangles<T> {
     }
 
     /// A Gauss-Seidel sweep over the inner nodes of all macro triangles: they do not couple.
-    pub fn relax(&self, sweep: SweepHalves, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+    pub fn relax(&self, sweep: SweepHalves, b: &[[f64; 2]], x: &mut [[f64; 2]], far: &[[f64; 2]]) {
         let [_, own] = &mut *self.room.borrow_mut();
         for group in &*self.groups {
             let own = self.sides(group, x, far, own);

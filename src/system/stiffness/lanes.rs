@@ -3,30 +3,26 @@
 //!
 //! All operations are those of single numbers, but that vector instructions round a product and a sum together.
 
-use crate::system::space::Real;
-
 /// A kind of register that holds nodes side by side.
 pub trait Lanes: Copy + 'static {
-    /// Numbers.
-    type Real: Real;
     /// The register.
     type Register: Copy;
     /// The same in memory.
-    type Nodes: Copy + AsRef<[[Self::Real; 2]]>;
+    type Nodes: Copy + AsRef<[[f64; 2]]>;
     /// How many nodes: two, or a multiple.
     const COUNT: usize;
 
     /// Nodes in memory, as many as fill registers.
-    fn chunks(nodes: &[[Self::Real; 2]]) -> &[Self::Nodes];
+    fn chunks(nodes: &[[f64; 2]]) -> &[Self::Nodes];
 
     /// The same to write to.
-    fn chunks_mut(nodes: &mut [[Self::Real; 2]]) -> &mut [Self::Nodes];
+    fn chunks_mut(nodes: &mut [[f64; 2]]) -> &mut [Self::Nodes];
 
     /// A register from memory.
     fn load(self, nodes: Self::Nodes) -> Self::Register;
 
     /// A register of nodes that lie apart, by their places in it.
-    fn gather(self, node: impl Fn(usize) -> [Self::Real; 2]) -> Self::Register;
+    fn gather(self, node: impl Fn(usize) -> [f64; 2]) -> Self::Register;
 
     /// A register to memory.
     fn store(self, register: Self::Register) -> Self::Nodes;
@@ -64,22 +60,21 @@ pub trait LaneWork {
 }
 
 /// Arrays of two nodes, for processors without the instructions of the others.
-#[derive(Clone, Copy, Default)]
-pub struct PlainLanes<T>(std::marker::PhantomData<T>);
+#[derive(Clone, Copy)]
+pub struct PlainLanes;
 
-impl<T: Real> Lanes for PlainLanes<T> {
-    type Real = T;
-    type Register = [T; 4];
-    type Nodes = [[T; 2]; 2];
+impl Lanes for PlainLanes {
+    type Register = [f64; 4];
+    type Nodes = [[f64; 2]; 2];
     const COUNT: usize = 2;
 
     #[inline(always)]
-    fn chunks(nodes: &[[T; 2]]) -> &[Self::Nodes] {
+    fn chunks(nodes: &[[f64; 2]]) -> &[Self::Nodes] {
         nodes.as_chunks().0
     }
 
     #[inline(always)]
-    fn chunks_mut(nodes: &mut [[T; 2]]) -> &mut [Self::Nodes] {
+    fn chunks_mut(nodes: &mut [[f64; 2]]) -> &mut [Self::Nodes] {
         nodes.as_chunks_mut().0
     }
 
@@ -89,7 +84,7 @@ impl<T: Real> Lanes for PlainLanes<T> {
     }
 
     #[inline(always)]
-    fn gather(self, node: impl Fn(usize) -> [T; 2]) -> Self::Register {
+    fn gather(self, node: impl Fn(usize) -> [f64; 2]) -> Self::Register {
         self.load([node(0), node(1)])
     }
 
@@ -144,27 +139,15 @@ impl<T: Real> Lanes for PlainLanes<T> {
 mod x86 {
     use super::{LaneWork, Lanes};
     use pulp::x86::{V3, V4};
-    use pulp::{NullaryFnOnce, cast, f32x4, f32x8, f32x16, f64x4, f64x8};
+    use pulp::{NullaryFnOnce, cast, f64x4, f64x8};
 
     /// Two nodes in double precision, AVX2.
     #[derive(Clone, Copy)]
     pub struct DoubleLanes(pub V3);
 
-    /// Two nodes in single precision, AVX2.
-    #[derive(Clone, Copy)]
-    pub struct NarrowLanes(pub V3);
-
-    /// Four nodes in single precision, AVX2.
-    #[derive(Clone, Copy)]
-    pub struct SingleLanes(pub V3);
-
     /// Four nodes in double precision, AVX-512.
     #[derive(Clone, Copy)]
     pub struct WideDoubleLanes(pub V4);
-
-    /// Eight nodes in single precision, AVX-512.
-    #[derive(Clone, Copy)]
-    pub struct WideSingleLanes(pub V4);
 
     /// Work for one kind of processor.
     struct Call<W>(W);
@@ -178,21 +161,20 @@ mod x86 {
         }
     }
 
-    /// What is alike for all registers: numbers, sizes, memory.
+    /// What is alike for all registers: sizes, memory.
     macro_rules! memory {
-        ($real:ty, $register:ty, $count:literal) => {
-            type Real = $real;
+        ($register:ty, $count:literal) => {
             type Register = $register;
-            type Nodes = [[$real; 2]; $count];
+            type Nodes = [[f64; 2]; $count];
             const COUNT: usize = $count;
 
             #[inline(always)]
-            fn chunks(nodes: &[[$real; 2]]) -> &[Self::Nodes] {
+            fn chunks(nodes: &[[f64; 2]]) -> &[Self::Nodes] {
                 nodes.as_chunks().0
             }
 
             #[inline(always)]
-            fn chunks_mut(nodes: &mut [[$real; 2]]) -> &mut [Self::Nodes] {
+            fn chunks_mut(nodes: &mut [[f64; 2]]) -> &mut [Self::Nodes] {
                 nodes.as_chunks_mut().0
             }
 
@@ -202,8 +184,8 @@ mod x86 {
             }
 
             #[inline(always)]
-            fn gather(self, node: impl Fn(usize) -> [$real; 2]) -> Self::Register {
-                cast(std::array::from_fn::<[$real; 2], $count, _>(node))
+            fn gather(self, node: impl Fn(usize) -> [f64; 2]) -> Self::Register {
+                cast(std::array::from_fn::<[f64; 2], $count, _>(node))
             }
 
             #[inline(always)]
@@ -239,7 +221,7 @@ mod x86 {
     }
 
     impl Lanes for DoubleLanes {
-        memory!(f64, f64x4, 2);
+        memory!(f64x4, 2);
         arithmetic!(_mm256_add_pd, _mm256_mul_pd, _mm256_fmadd_pd, avx, fma);
 
         #[inline(always)]
@@ -263,62 +245,8 @@ mod x86 {
         }
     }
 
-    impl Lanes for NarrowLanes {
-        memory!(f32, f32x4, 2);
-        arithmetic!(_mm_add_ps, _mm_mul_ps, _mm_fmadd_ps, sse, fma);
-
-        #[inline(always)]
-        fn turned(self, a: f32x4) -> f32x4 {
-            let f32x4(a, b, c, d) = a;
-            f32x4(b, a, d, c)
-        }
-
-        #[inline(always)]
-        fn crossed(self, a: f32x4) -> f32x4 {
-            let f32x4(a, b, c, d) = a;
-            f32x4(c, d, a, b)
-        }
-
-        #[inline(always)]
-        fn earlier<const STEP: usize>(self, before: f32x4, a: f32x4) -> f32x4 {
-            f32x4(before.2, before.3, a.0, a.1)
-        }
-
-        #[inline(always)]
-        fn later<const STEP: usize>(self, a: f32x4, after: f32x4) -> f32x4 {
-            f32x4(a.2, a.3, after.0, after.1)
-        }
-    }
-
-    impl Lanes for SingleLanes {
-        memory!(f32, f32x8, 4);
-        arithmetic!(_mm256_add_ps, _mm256_mul_ps, _mm256_fmadd_ps, avx, fma);
-
-        #[inline(always)]
-        fn turned(self, a: f32x8) -> f32x8 {
-            cast(self.0.avx._mm256_permute_ps::<0b1011_0001>(cast(a)))
-        }
-
-        #[inline(always)]
-        fn crossed(self, a: f32x8) -> f32x8 {
-            cast(self.0.avx._mm256_permute_pd::<0b0101>(cast(a)))
-        }
-
-        #[inline(always)]
-        fn earlier<const STEP: usize>(self, before: f32x8, a: f32x8) -> f32x8 {
-            let two = self.0.avx._mm256_permute2f128_pd::<0x21>(cast(before), cast(a));
-            if STEP == 2 { cast(two) } else { cast(self.0.avx._mm256_shuffle_pd::<0b0101>(two, cast(a))) }
-        }
-
-        #[inline(always)]
-        fn later<const STEP: usize>(self, a: f32x8, after: f32x8) -> f32x8 {
-            let two = self.0.avx._mm256_permute2f128_pd::<0x21>(cast(a), cast(after));
-            if STEP == 2 { cast(two) } else { cast(self.0.avx._mm256_shuffle_pd::<0b0101>(cast(a), two)) }
-        }
-    }
-
     impl Lanes for WideDoubleLanes {
-        memory!(f64, f64x8, 4);
+        memory!(f64x8, 4);
         arithmetic!(_mm512_add_pd, _mm512_mul_pd, _mm512_fmadd_pd, avx512f, avx512f);
 
         #[inline(always)]
@@ -343,42 +271,7 @@ mod x86 {
             cast(if STEP == 1 { simd._mm512_alignr_epi64::<2>(after, a) } else { simd._mm512_alignr_epi64::<4>(after, a) })
         }
     }
-
-    impl Lanes for WideSingleLanes {
-        memory!(f32, f32x16, 8);
-        arithmetic!(_mm512_add_ps, _mm512_mul_ps, _mm512_fmadd_ps, avx512f, avx512f);
-
-        #[inline(always)]
-        fn turned(self, a: f32x16) -> f32x16 {
-            cast(self.0.avx512f._mm512_permute_ps::<0b1011_0001>(cast(a)))
-        }
-
-        #[inline(always)]
-        fn crossed(self, a: f32x16) -> f32x16 {
-            cast(self.0.avx512f._mm512_permute_pd::<0b0101_0101>(cast(a)))
-        }
-
-        #[inline(always)]
-        fn earlier<const STEP: usize>(self, before: f32x16, a: f32x16) -> f32x16 {
-            let (before, a, simd) = (cast(before), cast(a), self.0.avx512f);
-            cast(match STEP {
-                1 => simd._mm512_alignr_epi64::<7>(a, before),
-                2 => simd._mm512_alignr_epi64::<6>(a, before),
-                _ => simd._mm512_alignr_epi64::<4>(a, before),
-            })
-        }
-
-        #[inline(always)]
-        fn later<const STEP: usize>(self, a: f32x16, after: f32x16) -> f32x16 {
-            let (a, after, simd) = (cast(a), cast(after), self.0.avx512f);
-            cast(match STEP {
-                1 => simd._mm512_alignr_epi64::<1>(after, a),
-                2 => simd._mm512_alignr_epi64::<2>(after, a),
-                _ => simd._mm512_alignr_epi64::<4>(after, a),
-            })
-        }
-    }
 }
 
 #[cfg(target_arch = "x86_64")]
-pub use x86::{DoubleLanes, NarrowLanes, SingleLanes, WideDoubleLanes, WideSingleLanes};
+pub use x86::{DoubleLanes, WideDoubleLanes};

@@ -91,7 +91,8 @@ impl LatticeOperator {
         &self.order
     }
 
-    fn lattice_rows<'a>(&'a self, stored: &'a StoredRows) -> LatticeRows<'a, f64> {
+    /// All rows: those of strips and of even macro triangles with the `stored` ones.
+    pub fn lattice_rows<'a>(&'a self, stored: &'a StoredRows) -> LatticeRows<'a> {
         LatticeRows { strips: &self.strips, even: &self.even, stored, order: &self.order }
     }
 

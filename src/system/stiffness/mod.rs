@@ -10,7 +10,6 @@ mod lanes;
 mod lattice_operator;
 mod lattice_rows;
 mod pattern;
-mod precision;
 mod recurrence;
 mod registers;
 mod row_kernel;
@@ -24,13 +23,9 @@ mod triangle_kernel;
 
 pub use earlier_couplings::EarlierCouplings;
 pub use elastic::Elastic;
-pub use even_triangles::EvenTriangles;
 pub use lattice_operator::LatticeOperator;
-pub use lattice_rows::LatticeRows;
-pub use precision::Precision;
 pub use stored_rows::{BlockPlace, StoredRows};
 pub use strip_kernel::SweepHalves;
-pub use strip_set::Strips;
 
 use super::SystemError;
 use crate::element::Block;

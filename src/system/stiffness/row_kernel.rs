@@ -3,35 +3,34 @@
 use super::earlier_couplings::EarlierCouplings;
 use super::lanes::Lanes;
 use super::stored_rows::{Part, StoredRows};
-use crate::system::space::Real;
 use std::ops::Range;
 
 /// Work on the rows of a range. Vectors hold all nodes of the rank.
-pub enum RowTask<'a, T> {
-    Multiply { y: &'a mut [[T; 2]], x: &'a [[T; 2]] },
-    Residual { r: &'a mut [[T; 2]], b: &'a [[T; 2]], x: &'a [[T; 2]] },
-    Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
-    FromZero { earlier: &'a EarlierCouplings, b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
-    Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+pub enum RowTask<'a> {
+    Multiply { y: &'a mut [[f64; 2]], x: &'a [[f64; 2]] },
+    Residual { r: &'a mut [[f64; 2]], b: &'a [[f64; 2]], x: &'a [[f64; 2]] },
+    Forward { b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
+    FromZero { earlier: &'a EarlierCouplings, b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
+    Backward { b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
 }
 
 /// A task with what it works on; `far` are the values of columns of other ranks, none stands for zeros.
-pub struct OnRows<'a, T> {
-    pub rows: &'a StoredRows<T>,
+pub struct OnRows<'a> {
+    pub rows: &'a StoredRows,
     pub range: Range<usize>,
-    pub far: &'a [[T; 2]],
-    pub task: RowTask<'a, T>,
+    pub far: &'a [[f64; 2]],
+    pub task: RowTask<'a>,
 }
 
-impl<T: Real> OnRows<'_, T> {
+impl OnRows<'_> {
     /// Does it.
     #[inline(always)]
-    pub fn work<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(self, lanes: L) {
+    pub fn work<L: Lanes<Nodes = [[f64; 2]; 2]>>(self, lanes: L) {
         let Self { rows, range, far, task } = self;
         match task {
             RowTask::Multiply { y, x } => {
                 for k in range {
-                    let sum = rows.subtract(lanes, k, [T::default(); 2], x, far);
+                    let sum = rows.subtract(lanes, k, [0.0; 2], x, far);
                     y[rows.nodes[k] as usize] = [-sum[0], -sum[1]];
                 }
             }
@@ -60,14 +59,14 @@ impl<T: Real> OnRows<'_, T> {
     }
 }
 
-impl<T: Real> Part<T> {
+impl Part {
     /// `sum - Σ K x` of a row. A block fills a register, whose four products come together at the end.
     #[inline(always)]
-    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(&self, lanes: L, k: usize, sum: [T; 2], x: &[[T; 2]]) -> [T; 2] {
+    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>>(&self, lanes: L, k: usize, sum: [f64; 2], x: &[[f64; 2]]) -> [f64; 2] {
         let row = self.row(k);
         let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
         let (columns, blocks) = (self.columns[row].as_chunks::<2>(), blocks.as_chunks::<2>());
-        let zero = lanes.load([[T::default(); 2]; 2]);
+        let zero = lanes.load([[0.0; 2]; 2]);
         let (mut one, mut other) = (zero, zero);
         for (columns, blocks) in columns.0.iter().zip(blocks.0) {
             let [a, b] = columns.map(|column| lanes.load([x[column as usize]; 2]));
@@ -82,22 +81,22 @@ impl<T: Real> Part<T> {
     }
 }
 
-impl<T: Real> StoredRows<T> {
+impl StoredRows {
     #[inline(always)]
-    fn subtract<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
+    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>>(
         &self,
         lanes: L,
         k: usize,
-        sum: [T; 2],
-        x: &[[T; 2]],
-        far: &[[T; 2]],
-    ) -> [T; 2] {
+        sum: [f64; 2],
+        x: &[[f64; 2]],
+        far: &[[f64; 2]],
+    ) -> [f64; 2] {
         let sum = self.near.subtract(lanes, k, sum, x);
         if far.is_empty() { sum } else { self.far.subtract(lanes, k, sum, far) }
     }
 
     #[inline(always)]
-    fn relax<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(&self, lanes: L, k: usize, b: &[[T; 2]], x: &mut [[T; 2]], far: &[[T; 2]]) {
+    fn relax<L: Lanes<Nodes = [[f64; 2]; 2]>>(&self, lanes: L, k: usize, b: &[[f64; 2]], x: &mut [[f64; 2]], far: &[[f64; 2]]) {
         let node = self.nodes[k] as usize;
         let sum = self.subtract(lanes, k, b[node], x, far);
         let ([u, v], inverse) = (x[node], self.inverse(k));
@@ -106,17 +105,17 @@ impl<T: Real> StoredRows<T> {
 
     /// Relaxes a node that is zero, as are all but those of these couplings: columns and places.
     #[inline(always)]
-    fn relax_from_zero<L: Lanes<Real = T, Nodes = [[T; 2]; 2]>>(
+    fn relax_from_zero<L: Lanes<Nodes = [[f64; 2]; 2]>>(
         &self,
         lanes: L,
         k: usize,
         couplings: &[[u32; 2]],
-        b: &[[T; 2]],
-        x: &mut [[T; 2]],
+        b: &[[f64; 2]],
+        x: &mut [[f64; 2]],
     ) {
         let (node, inverse) = (self.nodes[k] as usize, self.inverse(k));
         let blocks = &self.near.blocks[self.near.firsts[k] as usize..];
-        let mut sum = lanes.load([[T::default(); 2]; 2]);
+        let mut sum = lanes.load([[0.0; 2]; 2]);
         for &[column, place] in couplings {
             sum = lanes.multiply_add(lanes.load(blocks[place as usize]), lanes.load([x[column as usize]; 2]), sum);
         }

@@ -3,34 +3,33 @@
 use super::strips::inverse;
 use crate::element::Block;
 use crate::petsc::Index;
-use crate::system::space::Real;
 use std::collections::HashMap;
 use std::ops::Range;
 
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
 /// their own. Rows with the same couplings share them: along an edge of the macro mesh, or inside along its sides, most are.
 #[derive(Clone, Default)]
-pub struct StoredRows<T = f64> {
+pub struct StoredRows {
     /// The nodes, ascending, counted from this rank's first.
     pub(in crate::system) nodes: Vec<u32>,
     /// Inverses of diagonal blocks.
-    pub(in crate::system) inverses: Vec<[[T; 2]; 2]>,
+    pub(in crate::system) inverses: Vec<[[f64; 2]; 2]>,
     /// The inverse of each row.
     pub(in crate::system) inverse_of: Vec<u32>,
     /// Columns of this rank.
-    pub(in crate::system) near: Part<T>,
+    pub(in crate::system) near: Part,
     /// Columns of other ranks.
-    pub(in crate::system) far: Part<T>,
+    pub(in crate::system) far: Part,
 }
 
 /// One part of all rows: the columns of row `k` are `starts[k]..starts[k + 1]`, ascending, and its blocks are as many from
 /// `firsts[k]` on.
 #[derive(Clone)]
-pub struct Part<T = f64> {
+pub struct Part {
     pub(in crate::system) starts: Vec<u32>,
     pub(in crate::system) columns: Vec<u32>,
     pub(in crate::system) firsts: Vec<u32>,
-    pub(in crate::system) blocks: Vec<[[T; 2]; 2]>,
+    pub(in crate::system) blocks: Vec<[[f64; 2]; 2]>,
 }
 
 /// A column of the stored rows.
@@ -60,13 +59,13 @@ impl BlockColumn {
     }
 }
 
-impl<T> Default for Part<T> {
+impl Default for Part {
     fn default() -> Self {
         Self { starts: vec![0], columns: Vec::new(), firsts: Vec::new(), blocks: Vec::new() }
     }
 }
 
-impl<T> Part<T> {
+impl Part {
     /// Places of the columns of row `k`.
     #[inline]
     pub fn row(&self, k: usize) -> Range<usize> {
@@ -74,7 +73,7 @@ impl<T> Part<T> {
     }
 
     /// Couplings of row `k`.
-    pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &[[T; 2]; 2])> {
+    pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &[[f64; 2]; 2])> {
         let row = self.row(k);
         let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
         self.columns[row].iter().copied().zip(blocks)
@@ -120,7 +119,7 @@ fn fingerprint(blocks: &[Block]) -> u64 {
     blocks.as_flattened().as_flattened().iter().fold(0, mix)
 }
 
-impl<T> StoredRows<T> {
+impl StoredRows {
     /// The nodes whose rows these are.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes
@@ -128,7 +127,7 @@ impl<T> StoredRows<T> {
 
     /// Inverse of the diagonal block of row `k`.
     #[inline(always)]
-    pub fn inverse(&self, k: usize) -> &[[T; 2]; 2] {
+    pub fn inverse(&self, k: usize) -> &[[f64; 2]; 2] {
         &self.inverses[self.inverse_of[k] as usize]
     }
 }
@@ -165,24 +164,6 @@ impl StoredRows {
             (columns.collect(), self.near.couplings(k).flat_map(|(_, block)| block[a]).collect())
         };
         (0..self.nodes.len()).flat_map(|k| [row(k, 0), row(k, 1)]).collect()
-    }
-
-    /// The same in another precision.
-    pub fn converted<U: Real>(&self) -> StoredRows<U> {
-        let blocks = |blocks: &[Block]| blocks.iter().map(|block| block.map(|row| row.map(U::of))).collect();
-        let part = |part: &Part| Part {
-            starts: part.starts.clone(),
-            columns: part.columns.clone(),
-            firsts: part.firsts.clone(),
-            blocks: blocks(&part.blocks),
-        };
-        StoredRows {
-            nodes: self.nodes.clone(),
-            inverses: blocks(&self.inverses),
-            inverse_of: self.inverse_of.clone(),
-            near: part(&self.near),
-            far: part(&self.far),
-        }
     }
 
     /// Adds a block to row `k`, which shares its blocks with none. Its inverse is that of before until [`StoredRows::invert`].

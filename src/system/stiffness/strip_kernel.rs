@@ -8,7 +8,6 @@ use super::lanes::{LaneWork, Lanes};
 use super::recurrence::{Chain, State, Way};
 use super::strips::{Couplings, Step, StripNodes, inverse};
 use crate::element::Block;
-use crate::system::space::Real;
 
 /// Which halves of a symmetric Gauss-Seidel sweep are done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,22 +22,22 @@ pub enum SweepHalves {
 }
 
 /// Work on strips with the same couplings. Vectors hold all nodes of the rank.
-pub trait StripKernel<T> {
+pub trait StripKernel {
     /// `y = K x` at the nodes of strips.
-    fn multiply(&self, strips: &[StripNodes], x: &[[T; 2]], y: &mut [[T; 2]]);
+    fn multiply(&self, strips: &[StripNodes], x: &[[f64; 2]], y: &mut [[f64; 2]]);
 
     /// `r = b - K x` at the nodes of strips.
-    fn residual(&self, strips: &[StripNodes], b: &[[T; 2]], x: &[[T; 2]], r: &mut [[T; 2]]);
+    fn residual(&self, strips: &[StripNodes], b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]);
 
     /// Relaxes strip after strip, the nodes of each one after the other.
-    fn forward(&self, strips: &[StripNodes], b: &[[T; 2]], x: &mut [[T; 2]]);
+    fn forward(&self, strips: &[StripNodes], b: &[[f64; 2]], x: &mut [[f64; 2]]);
 
     /// The same from the last to the first.
-    fn backward(&self, strips: &[StripNodes], b: &[[T; 2]], x: &mut [[T; 2]]);
+    fn backward(&self, strips: &[StripNodes], b: &[[f64; 2]], x: &mut [[f64; 2]]);
 }
 
 /// The kernel with given registers.
-pub fn kernel<L: Lanes>(lanes: L, couplings: &Couplings) -> Box<dyn StripKernel<L::Real>> {
+pub fn kernel<L: Lanes>(lanes: L, couplings: &Couplings) -> Box<dyn StripKernel> {
     match (couplings.up.len(), couplings.second) {
         (2, false) => Box::new(UnrolledKernel::<L, 2, false>::new(lanes, couplings)),
         (4, false) => Box::new(UnrolledKernel::<L, 4, false>::new(lanes, couplings)),
@@ -55,7 +54,7 @@ struct UnrolledKernel<L: Lanes, const UP: usize, const SECOND: bool> {
     backward: Half<L, UP>,
     product: Stencil<L, UP>,
     /// For nodes at the end of a strip that fill no register.
-    single: [EndNode<L::Real, UP>; 2],
+    single: [EndNode<UP>; 2],
     /// Ones at the nodes that a strip reaches before its first and behind its last one, zeros elsewhere.
     ends: [L::Register; 2],
     /// Minus one everywhere.
@@ -79,11 +78,11 @@ struct Stencil<L: Lanes, const UP: usize> {
 }
 
 /// Couplings of one node to others, that with itself and its inverse.
-struct EndNode<T, const UP: usize> {
-    up: [[[T; 2]; 2]; UP],
-    beside: [[[T; 2]; 2]; 2],
-    diagonal: [[T; 2]; 2],
-    inverse: [[T; 2]; 2],
+struct EndNode<const UP: usize> {
+    up: [[[f64; 2]; 2]; UP],
+    beside: [[[f64; 2]; 2]; 2],
+    diagonal: [[f64; 2]; 2],
+    inverse: [[f64; 2]; 2],
 }
 
 impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND> {
@@ -126,9 +125,9 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
                 beside: [1, 2].map(|step| BlockLanes::of_sum(lanes, &negative((step, 0)))),
             },
             single: [row(0), row(1)],
-            minus: lanes.load(L::chunks(&vec![[L::Real::of(-1.0); 2]; L::COUNT])[0]),
+            minus: lanes.load(L::chunks(&vec![[-1.0; 2]; L::COUNT])[0]),
             ends: [L::COUNT - Self::REACH..L::COUNT, 0..Self::REACH].map(|ones| {
-                let one = |node: usize| [L::Real::of(if ones.contains(&node) { 1.0 } else { 0.0 }); 2];
+                let one = |node: usize| [if ones.contains(&node) { 1.0 } else { 0.0 }; 2];
                 lanes.load(L::chunks(&(0..L::COUNT).map(one).collect::<Vec<_>>())[0])
             }),
         }
@@ -143,7 +142,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
 
     /// `r = b - K x` or `r = K x` at the nodes of a strip, which `b` and `r` hold alone.
     #[inline(always)]
-    fn product<const RESIDUAL: bool>(&self, nodes: StripNodes, b: &[[L::Real; 2]], x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
+    fn product<const RESIDUAL: bool>(&self, nodes: StripNodes, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
         let (lanes, product) = (self.lanes, &self.product);
         let registers = nodes.count / L::COUNT;
         let chunks = |start: usize| &L::chunks(&x[start..])[..registers];
@@ -184,10 +183,10 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
 
     /// `-(K - D) x` of one node.
     #[inline(always)]
-    fn without_diagonal(&self, nodes: StripNodes, k: usize, x: &[[L::Real; 2]]) -> [L::Real; 2] {
+    fn without_diagonal(&self, nodes: StripNodes, k: usize, x: &[[f64; 2]]) -> [f64; 2] {
         let (node, row) = (nodes.first + k, &self.single[k % 2]);
-        let mut sum = [L::Real::default(); 2];
-        let mut add = |block: &[[L::Real; 2]; 2], a: usize, b: usize| sum = sum2(sum, times(block, sum2(x[a], x[b])));
+        let mut sum = [0.0; 2];
+        let mut add = |block: &[[f64; 2]; 2], a: usize, b: usize| sum = sum2(sum, times(block, sum2(x[a], x[b])));
         for ((di, dj), block) in self.up.into_iter().zip(&row.up) {
             let [next, before] = [(di, dj), (-di, -dj)].map(|step| node.wrapping_add_signed(nodes.distance(step)));
             add(block, next, before);
@@ -199,14 +198,14 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
     }
 
     #[inline(always)]
-    fn relax(&self, nodes: StripNodes, k: usize, b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+    fn relax(&self, nodes: StripNodes, k: usize, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
         let sum = sum2(b[nodes.first + k], self.without_diagonal(nodes, k, x));
         x[nodes.first + k] = times(&self.single[k % 2].inverse, sum);
     }
 
     /// The nodes that come before those of a strip on the way.
     #[inline(always)]
-    fn beside(&self, way: Way, first: usize, count: usize, x: &[[L::Real; 2]]) -> State<L> {
+    fn beside(&self, way: Way, first: usize, count: usize, x: &[[f64; 2]]) -> State<L> {
         let (run, ends) = match way {
             Way::Forward => (x[..first].len().checked_sub(L::COUNT).map(|start| &x[start..first]), self.ends[0]),
             Way::Backward => (x[first + count..].get(..L::COUNT), self.ends[1]),
@@ -215,7 +214,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
             Some(run) => self.lanes.multiply(ends, self.lanes.load(L::chunks(run)[0])),
             // At the first and the last nodes of a rank.
             None => {
-                let mut nodes = [[L::Real::default(); 2]; 8];
+                let mut nodes = [[0.0; 2]; 8];
                 match way {
                     Way::Forward => nodes[L::COUNT - Self::REACH..L::COUNT].copy_from_slice(&x[first - Self::REACH..first]),
                     Way::Backward => nodes[..Self::REACH].copy_from_slice(&x[first + count..][..Self::REACH]),
@@ -228,7 +227,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
 
     /// The registers of a strip, one way.
     #[inline(always)]
-    fn sweep(&self, way: Way, nodes: StripNodes, b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+    fn sweep(&self, way: Way, nodes: StripNodes, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
         let (lanes, half) = (self.lanes, if way == Way::Forward { &self.forward } else { &self.backward });
         let (first, registers) = (nodes.first, nodes.count / L::COUNT);
         let count = registers * L::COUNT;
@@ -261,18 +260,18 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
 }
 
 /// What is to be done with the nodes of strips.
-enum StripTask<'a, T> {
-    Multiply { x: &'a [[T; 2]], y: &'a mut [[T; 2]] },
-    Residual { b: &'a [[T; 2]], x: &'a [[T; 2]], r: &'a mut [[T; 2]] },
-    Forward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
-    Backward { b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+enum StripTask<'a> {
+    Multiply { x: &'a [[f64; 2]], y: &'a mut [[f64; 2]] },
+    Residual { b: &'a [[f64; 2]], x: &'a [[f64; 2]], r: &'a mut [[f64; 2]] },
+    Forward { b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
+    Backward { b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
 }
 
 /// A task on some strips.
 struct OnStrips<'a, L: Lanes, const UP: usize, const SECOND: bool> {
     kernel: &'a UnrolledKernel<L, UP, SECOND>,
     strips: &'a [StripNodes],
-    task: StripTask<'a, L::Real>,
+    task: StripTask<'a>,
 }
 
 impl<L: Lanes, const UP: usize, const SECOND: bool> LaneWork for OnStrips<'_, L, UP, SECOND> {
@@ -310,36 +309,36 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> LaneWork for OnStrips<'_, L,
     }
 }
 
-impl<L: Lanes, const UP: usize, const SECOND: bool> StripKernel<L::Real> for UnrolledKernel<L, UP, SECOND> {
-    fn multiply(&self, strips: &[StripNodes], x: &[[L::Real; 2]], y: &mut [[L::Real; 2]]) {
+impl<L: Lanes, const UP: usize, const SECOND: bool> StripKernel for UnrolledKernel<L, UP, SECOND> {
+    fn multiply(&self, strips: &[StripNodes], x: &[[f64; 2]], y: &mut [[f64; 2]]) {
         self.lanes.run(OnStrips { kernel: self, strips, task: StripTask::Multiply { x, y } });
     }
 
-    fn residual(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &[[L::Real; 2]], r: &mut [[L::Real; 2]]) {
+    fn residual(&self, strips: &[StripNodes], b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
         self.lanes.run(OnStrips { kernel: self, strips, task: StripTask::Residual { b, x, r } });
     }
 
-    fn forward(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+    fn forward(&self, strips: &[StripNodes], b: &[[f64; 2]], x: &mut [[f64; 2]]) {
         self.lanes.run(OnStrips { kernel: self, strips, task: StripTask::Forward { b, x } });
     }
 
-    fn backward(&self, strips: &[StripNodes], b: &[[L::Real; 2]], x: &mut [[L::Real; 2]]) {
+    fn backward(&self, strips: &[StripNodes], b: &[[f64; 2]], x: &mut [[f64; 2]]) {
         self.lanes.run(OnStrips { kernel: self, strips, task: StripTask::Backward { b, x } });
     }
 }
 
 /// A block in another precision.
-fn rounded<T: Real>(block: &Block) -> [[T; 2]; 2] {
-    block.map(|row| row.map(T::of))
+fn rounded(block: &Block) -> [[f64; 2]; 2] {
+    block.map(|row| row)
 }
 
 #[inline(always)]
-fn times<T: Real>(block: &[[T; 2]; 2], x: [T; 2]) -> [T; 2] {
+fn times(block: &[[f64; 2]; 2], x: [f64; 2]) -> [f64; 2] {
     block.map(|row| row[0] * x[0] + row[1] * x[1])
 }
 
 #[inline(always)]
-fn sum2<T: Real>(a: [T; 2], b: [T; 2]) -> [T; 2] {
+fn sum2(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] + b[0], a[1] + b[1]]
 }
 

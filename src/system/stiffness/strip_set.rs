@@ -6,11 +6,11 @@ use std::ops::Range;
 
 /// Strips of this rank, with what they have in common.
 #[derive(Default)]
-pub struct Strips<T = f64> {
+pub struct Strips {
     /// Couplings; few strips have their own.
     pub couplings: Vec<Couplings>,
     /// The work on each of these.
-    pub kernels: Vec<Box<dyn StripKernel<T>>>,
+    pub kernels: Vec<Box<dyn StripKernel>>,
     /// The nodes of each strip.
     pub nodes: Vec<StripNodes>,
     /// Consecutive strips with the same couplings, and these.

@@ -9,29 +9,36 @@ use super::row_stencil::{Alike, Alternate, RowStencil};
 use super::strip_kernel::SweepHalves;
 use super::strips::Couplings;
 use crate::mesh::lattice;
-use crate::system::space::Real;
 
 /// Work on all inner nodes of a few macro triangles with `n` intervals; `first` are their first inner nodes in the vectors of
 /// the rank. `own` is a lattice of as many macro triangles as [`TriangleKernel::width`] says, which has the values of the nodes
 /// on the sides: lanes that are left over repeat the last macro triangle. Inner nodes come into the lattice row by row, and go
 /// back, while others are worked on: so memory and registers are busy at once.
-pub trait TriangleKernel<T> {
+pub trait TriangleKernel {
     /// Macro triangles side by side.
     fn width(&self) -> usize;
 
     /// `y = K x`; `room` is another lattice.
-    fn multiply(&self, n: usize, first: &[usize], x: &[[T; 2]], own: &mut [[T; 2]], room: &mut [[T; 2]], y: &mut [[T; 2]]);
+    fn multiply(
+        &self,
+        n: usize,
+        first: &[usize],
+        x: &[[f64; 2]],
+        own: &mut [[f64; 2]],
+        room: &mut [[f64; 2]],
+        y: &mut [[f64; 2]],
+    );
 
     /// `r = b - K x`, into the inner nodes of a lattice.
-    fn residual(&self, n: usize, first: &[usize], b: &[[T; 2]], x: &[[T; 2]], own: &mut [[T; 2]], r: &mut [[T; 2]]);
+    fn residual(&self, n: usize, first: &[usize], b: &[[f64; 2]], x: &[[f64; 2]], own: &mut [[f64; 2]], r: &mut [[f64; 2]]);
 
     /// A Gauss-Seidel sweep, row by row; nodes on the sides stay as they are.
-    fn relax(&self, n: usize, sweep: SweepHalves, first: &[usize], b: &[[T; 2]], x: &mut [[T; 2]], own: &mut [[T; 2]]);
+    fn relax(&self, n: usize, sweep: SweepHalves, first: &[usize], b: &[[f64; 2]], x: &mut [[f64; 2]], own: &mut [[f64; 2]]);
 }
 
 /// The kernel with given registers, for macro triangles with these couplings of rows with even and with odd `j`, or of all rows:
 /// as many as fill a register, or fewer.
-pub fn triangle_kernel<L: Lanes>(lanes: L, couplings: &[&[Couplings]]) -> Box<dyn TriangleKernel<L::Real>> {
+pub fn triangle_kernel<L: Lanes>(lanes: L, couplings: &[&[Couplings]]) -> Box<dyn TriangleKernel> {
     // Lanes that are left over repeat the last macro triangle.
     let row =
         |row: usize| -> Vec<&Couplings> { (0..L::COUNT).map(|lane| &couplings[lane.min(couplings.len() - 1)][row]).collect() };
@@ -60,7 +67,7 @@ struct InnerNodes<'a> {
 }
 
 /// The most macro triangles side by side.
-const WIDEST: usize = 8;
+const WIDEST: usize = 4;
 
 impl InnerNodes<'_> {
     /// Places of a row in a lattice.
@@ -72,7 +79,7 @@ impl InnerNodes<'_> {
 
     /// The values of row `j` of each macro triangle.
     #[inline(always)]
-    fn values<L: Lanes>(self, j: usize, values: &[[L::Real; 2]]) -> [&[[L::Real; 2]]; WIDEST] {
+    fn values<L: Lanes>(self, j: usize, values: &[[f64; 2]]) -> [&[[f64; 2]]; WIDEST] {
         let (start, count) = (lattice::row_start(self.n, j), self.n - 1 - j);
         let of = |lane: usize| &values[self.first[lane.min(self.first.len() - 1)] + start..][..count];
         std::array::from_fn(|lane| if lane < L::COUNT { of(lane) } else { &[] })
@@ -80,7 +87,7 @@ impl InnerNodes<'_> {
 
     /// Brings row `j` into a lattice.
     #[inline(always)]
-    fn bring<L: Lanes>(self, lanes: L, j: usize, x: &[[L::Real; 2]], own: &mut [L::Nodes]) {
+    fn bring<L: Lanes>(self, lanes: L, j: usize, x: &[[f64; 2]], own: &mut [L::Nodes]) {
         let values = self.values::<L>(j, x);
         for (k, to) in own[self.row(j)].iter_mut().enumerate() {
             *to = lanes.store(lanes.gather(|lane| values[lane][k]));
@@ -89,7 +96,7 @@ impl InnerNodes<'_> {
 
     /// Takes row `j` from a lattice.
     #[inline(always)]
-    fn take<L: Lanes>(self, j: usize, own: &[L::Nodes], x: &mut [[L::Real; 2]]) {
+    fn take<L: Lanes>(self, j: usize, own: &[L::Nodes], x: &mut [[f64; 2]]) {
         let own = &own[self.row(j)];
         for (lane, first) in self.first.iter().enumerate() {
             let to = &mut x[first + lattice::row_start(self.n, j)..][..own.len()];
@@ -100,7 +107,7 @@ impl InnerNodes<'_> {
 
 impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> OfRows<L, E, O> {
     #[inline(always)]
-    fn relax_row(&self, way: Way, row: (usize, usize), b: &[&[[L::Real; 2]]; WIDEST], own: &mut [L::Nodes]) {
+    fn relax_row(&self, way: Way, row: (usize, usize), b: &[&[[f64; 2]]; WIDEST], own: &mut [L::Nodes]) {
         let b = |k: usize| self.lanes.gather(|lane| b[lane][k]);
         match self.odd.as_ref().filter(|_| row.1 % 2 == 1) {
             Some(odd) => odd.relax(self.lanes, way, row, b, own),
@@ -118,18 +125,18 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> OfRows<L, E, O> {
 }
 
 /// What is to be done with the inner nodes.
-enum TriangleTask<'a, T> {
-    Multiply { x: &'a [[T; 2]], room: &'a mut [[T; 2]], y: &'a mut [[T; 2]] },
-    Residual { b: &'a [[T; 2]], x: &'a [[T; 2]], r: &'a mut [[T; 2]] },
-    Relax { sweep: SweepHalves, b: &'a [[T; 2]], x: &'a mut [[T; 2]] },
+enum TriangleTask<'a> {
+    Multiply { x: &'a [[f64; 2]], room: &'a mut [[f64; 2]], y: &'a mut [[f64; 2]] },
+    Residual { b: &'a [[f64; 2]], x: &'a [[f64; 2]], r: &'a mut [[f64; 2]] },
+    Relax { sweep: SweepHalves, b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
 }
 
 /// A task on some macro triangles, with the lattice of their values.
 struct OnLattice<'a, L: Lanes, E, O> {
     kernel: &'a OfRows<L, E, O>,
     nodes: InnerNodes<'a>,
-    own: &'a mut [[L::Real; 2]],
-    task: TriangleTask<'a, L::Real>,
+    own: &'a mut [[f64; 2]],
+    task: TriangleTask<'a>,
 }
 
 impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> LaneWork for OnLattice<'_, L, E, O> {
@@ -139,13 +146,13 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> LaneWork for OnLattice<'_, L,
         let (n, lanes, own) = (nodes.n, kernel.lanes, L::chunks_mut(own));
         // Rows that a row reaches are in the lattice before it is worked on.
         let ahead = if kernel.odd.is_some() { 2 } else { 1 };
-        let bring = |j: usize, x: &[[L::Real; 2]], own: &mut [L::Nodes]| {
+        let bring = |j: usize, x: &[[f64; 2]], own: &mut [L::Nodes]| {
             let rows = if j == 1 { 1..ahead + 2 } else { j + ahead..j + ahead + 1 };
             rows.filter(|&row| row < n - 1).for_each(|row| nodes.bring(lanes, row, x, own));
         };
         match task {
             TriangleTask::Multiply { x, room, y } => {
-                let (room, minus) = (L::chunks_mut(room), lanes.gather(|_| [L::Real::of(-1.0); 2]));
+                let (room, minus) = (L::chunks_mut(room), lanes.gather(|_| [-1.0; 2]));
                 for j in 1..n - 1 {
                     bring(j, x, own);
                     let sums = &mut room[nodes.row(j)];
@@ -165,7 +172,7 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> LaneWork for OnLattice<'_, L,
             }
             TriangleTask::Relax { sweep, b, x } => {
                 if sweep == SweepHalves::ForwardFromZero {
-                    let zero = lanes.store(lanes.gather(|_| [L::Real::default(); 2]));
+                    let zero = lanes.store(lanes.gather(|_| [0.0; 2]));
                     (1..n - 1).for_each(|j| own[nodes.row(j)].fill(zero));
                 }
                 for j in 1..n - 1 {
@@ -186,7 +193,7 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> LaneWork for OnLattice<'_, L,
     }
 }
 
-impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> TriangleKernel<L::Real> for OfRows<L, E, O> {
+impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> TriangleKernel for OfRows<L, E, O> {
     fn width(&self) -> usize {
         L::COUNT
     }
@@ -195,41 +202,25 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> TriangleKernel<L::Real> for O
         &self,
         n: usize,
         first: &[usize],
-        x: &[[L::Real; 2]],
-        own: &mut [[L::Real; 2]],
-        room: &mut [[L::Real; 2]],
-        y: &mut [[L::Real; 2]],
+        x: &[[f64; 2]],
+        own: &mut [[f64; 2]],
+        room: &mut [[f64; 2]],
+        y: &mut [[f64; 2]],
     ) {
         self.on(InnerNodes { n, first }, own, TriangleTask::Multiply { x, room, y });
     }
 
-    fn residual(
-        &self,
-        n: usize,
-        first: &[usize],
-        b: &[[L::Real; 2]],
-        x: &[[L::Real; 2]],
-        own: &mut [[L::Real; 2]],
-        r: &mut [[L::Real; 2]],
-    ) {
+    fn residual(&self, n: usize, first: &[usize], b: &[[f64; 2]], x: &[[f64; 2]], own: &mut [[f64; 2]], r: &mut [[f64; 2]]) {
         self.on(InnerNodes { n, first }, own, TriangleTask::Residual { b, x, r });
     }
 
-    fn relax(
-        &self,
-        n: usize,
-        sweep: SweepHalves,
-        first: &[usize],
-        b: &[[L::Real; 2]],
-        x: &mut [[L::Real; 2]],
-        own: &mut [[L::Real; 2]],
-    ) {
+    fn relax(&self, n: usize, sweep: SweepHalves, first: &[usize], b: &[[f64; 2]], x: &mut [[f64; 2]], own: &mut [[f64; 2]]) {
         self.on(InnerNodes { n, first }, own, TriangleTask::Relax { sweep, b, x });
     }
 }
 
 impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> OfRows<L, E, O> {
-    fn on(&self, nodes: InnerNodes<'_>, own: &mut [[L::Real; 2]], task: TriangleTask<'_, L::Real>) {
+    fn on(&self, nodes: InnerNodes<'_>, own: &mut [[f64; 2]], task: TriangleTask<'_>) {
         self.lanes.run(OnLattice { kernel: self, nodes, own, task });
     }
 }
