@@ -241,7 +241,14 @@ impl<'s> Predictor<'s> {
             let about = hold.middle(mesh);
             for held in &hold.held {
                 let mode = |x: Point| rigid_displacement(about, &held.mode, x);
-                let weights = self.mean_weights(hold, &mode)?;
+                let mut weights = self.mean_weights(hold, &mode)?;
+                if held.is_turn() {
+                    // A turn does not push: it is about the middle of the mesh.
+                    let even = self.mean_weights(hold, &|_| Point::new(1.0, 0.0))?;
+                    let push: Point = weights.iter().map(|(_, weight)| weight).sum();
+                    let area: f64 = even.iter().map(|(_, weight)| weight.x).sum();
+                    weights.iter_mut().zip(even).for_each(|((_, weight), (_, even))| *weight -= even.x / area * push);
+                }
                 let (mut row, mut whole) = (ProgrammeRow::default(), 0.0);
                 for (node, weight) in weights {
                     whole += weight.dot(&mode(self.elimination.freedoms.place(node)));
