@@ -206,8 +206,7 @@ impl Meeting {
 
     /// Leaves out nodes of both sides more than two edges beyond these ends of Γ_C: the spans of the curve are for what lies between.
     fn leave(&mut self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) {
-        let edges = [first, second].into_iter().zip(&self.nodes);
-        let edge = edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
+        let edge = edge_within(ends, [first, second], pair);
         let inside = |t: f64| t >= ends[0] - 2.0 * edge && t <= ends[1] + 2.0 * edge;
         for (k, side) in [first, second].into_iter().enumerate() {
             let parameter = |node: usize| match k {
@@ -223,8 +222,7 @@ impl Meeting {
 
     /// Takes in nodes of both sides up to an edge beyond these ends of Γ_C.
     fn reach(&mut self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) {
-        let edges = [first, second].into_iter().zip(&self.nodes);
-        let edge = edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
+        let edge = edge_within(ends, [first, second], pair);
         let inside = |t: f64| t >= ends[0] - edge && t <= ends[1] + edge;
         for (k, side) in [first, second].into_iter().enumerate() {
             let parameter = |node: usize| match k {
@@ -303,6 +301,16 @@ fn shifts([first, second]: [&SmoothSide; 2], pair: &Pair) -> [Point; 2] {
         CurveChoice::Own(Side::Second) => [Point::zeros(), way(second, first)],
         CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => [Point::zeros(); 2],
     }
+}
+
+/// The longest edge of both sides that Γ_C meets between these ends: long ones beside fine ones are no measure of it.
+fn edge_within(ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) -> f64 {
+    let far = ends.map(|t| second.nearest(first.curve(pair.configuration).point(t), pair.configuration));
+    let longest = |side: &SmoothSide, [a, b]: [f64; 2]| {
+        let beside = |t: f64| side.parameters.partition_point(|own| *own < t);
+        side.edge_length(beside(a.min(b)).saturating_sub(1), beside(a.max(b)))
+    };
+    longest(first, ends).max(longest(second, far))
 }
 
 /// A node of either side that is near the other body.
@@ -468,6 +476,31 @@ mod tests {
             assert!((found - depth).abs() < 1e-5, "{found} beyond {ends:?} by {margin}, instead of {depth}");
         }
         assert_eq!(meeting.depth_beyond(&lowered(|_| -0.01), &pair(), &part([0.5, 1.0]), 0.1), 0.0, "they are apart");
+    }
+
+    /// A round body on a plane, with edges of .02 where they touch and of up to 1 beside them: what lies half-way bends as evenly as
+    /// between fine edges. With the long ones it was tilted by 1e-3.
+    #[test]
+    fn long_edges_beside_fine_ones_do_not_tilt_the_curve() {
+        let round = [-66, -51, -36, -21].into_iter().chain(-6..=8).chain([23, 38, 53, 68]).map(|a| f64::from(a).to_radians());
+        let round: Vec<Point> = round.map(|a| Point::new(a.sin(), 1.0 - a.cos())).collect();
+        let long = [-1.6, -1.1, -0.6, -0.35];
+        let plane = long.into_iter().chain((-10..=10).map(|k| 0.01 * f64::from(k))).chain([0.35, 0.6, 1.1, 1.6]);
+        let plane: Vec<Point> = plane.map(|x| Point::new(x, 0.0)).collect();
+        let circle = Curve::Circle { centre: [0.0, 1.0], radius: 1.0 };
+        let nodes = [0..plane.len(), 0..round.len()];
+        let sides = [
+            vec![SmoothSide::through(Curve::Line([[-1.6, 0.0], [1.6, 0.0]]), plane.clone(), plane, -1.0, 2, false)],
+            vec![SmoothSide::through(circle, round.clone(), round, 1.0, 2, false)],
+        ];
+        let (seams, shifts) = ([0; 2], [Point::zeros(); 2]);
+        let ends = [1.55, 1.65];
+        let mut meeting = Meeting { stretches: [0, 0], nodes, ends, seams, origin: (0.0, None), goes_round: false, shifts };
+        let (curve, _) = meeting.curve(&sides, &pair(), ends).expect("they face each other");
+        for t in [1.55, 1.57, 1.6, 1.63, 1.65] {
+            let (x, slope) = (curve.point(t), curve.derivative(t));
+            assert!((slope.y / slope.x - 0.5 * x.x).abs() < 1e-4, "it turns at {x}: {slope}");
+        }
     }
 
     /// Contact is where the upper block is lowered: from the first node to the last, and an edge of 0.125 farther.

@@ -13,12 +13,14 @@ use std::collections::{BTreeMap, HashMap};
 
 /// All of them, in the order of the scene.
 pub struct HeldBodies {
-    /// What each turns about: its middle.
+    /// What each turns about: the middle of its mesh.
     pub about: Vec<Point>,
     /// Nodes of this rank in them: number, which body, and place.
     pub nodes: Vec<(usize, usize, Point)>,
-    /// `∫ N dA` and `∫ N (x - middle) dA` of every node in them.
+    /// `∫ N dA` and `∫ N (x - m) dA` of every node in them, with the middle `m` of the macro triangles.
     moments: Field<3>,
+    /// From there to the middle of the mesh, whose edges are bent: about any other place a turn would push.
+    off: Vec<Point>,
     /// `∫ r rᵀ dA` of shifts and turn.
     all: Vec<Matrix3<f64>>,
     /// `N⁻¹` of the modes that are held.
@@ -59,10 +61,22 @@ impl HeldBodies {
         });
         session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
         let nodes = places.into_iter().map(|(node, (hold, x))| (node, hold, x)).collect();
-        let (all, inverses, asked) = (Vec::new(), Vec::new(), Vec::new());
-        let mut bodies = Self { about, nodes, moments: moments.sum(session)?, all, inverses, asked };
+        let (all, inverses, asked, off) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut bodies = Self { about, nodes, moments: moments.sum(session)?, off, all, inverses, asked };
+        bodies.find_middles(session);
         bodies.weigh(problem, session);
         Ok(bodies)
+    }
+
+    /// Finds the middle of each body's mesh. **Collective**
+    fn find_middles(&mut self, session: &Session) {
+        let mut sums = vec![[0.0; 3]; self.about.len()];
+        for &(node, hold, _) in &self.nodes {
+            sums[hold].iter_mut().zip(self.moments.at(node)).for_each(|(sum, part)| *sum += part);
+        }
+        session.sum(sums.as_flattened_mut());
+        self.off = sums.iter().map(|[area, x, y]| Point::new(*x, *y) / *area).collect();
+        self.about.iter_mut().zip(&self.off).for_each(|(about, off)| *about += off);
     }
 
     /// Finds `N` of each body, and what follows from it. **Collective**
@@ -71,7 +85,7 @@ impl HeldBodies {
         let mut sums = vec![[0.0; 9]; means.len()];
         for &(node, hold, x) in &self.nodes {
             for (i, a) in UNIT_MOTIONS.iter().enumerate() {
-                let moment = self.moment(a, node);
+                let moment = self.moment(hold, a, node);
                 UNIT_MOTIONS.iter().enumerate().for_each(|(j, b)| sums[hold][3 * i + j] += moment.dot(&self.moved(hold, b, x)));
             }
         }
@@ -108,14 +122,15 @@ impl HeldBodies {
     }
 
     /// `∫ N r dA` of a node of a body.
-    fn moment(&self, [along, up, turn]: &Motion, node: usize) -> Point {
+    fn moment(&self, hold: usize, [along, up, turn]: &Motion, node: usize) -> Point {
         let [weight, x, y] = self.moments.at(node);
-        Point::new(along * weight - turn * y, up * weight + turn * x)
+        let arm = Point::new(x, y) - weight * self.off[hold];
+        Point::new(along * weight - turn * arm.y, up * weight + turn * arm.x)
     }
 
     /// What a node of this rank counts in the mean of each mode that is held.
     pub fn weights(&self, problem: &Discretisation, hold: usize, node: usize) -> Vec<Point> {
-        let moments: Vec<Point> = problem.scene.means[hold].held.iter().map(|held| self.moment(&held.mode, node)).collect();
+        let moments: Vec<Point> = problem.scene.means[hold].held.iter().map(|held| self.moment(hold, &held.mode, node)).collect();
         let inverse = &self.inverses[hold];
         (0..moments.len()).map(|k| moments.iter().enumerate().map(|(l, moment)| inverse[(k, l)] * moment).sum()).collect()
     }
@@ -128,9 +143,9 @@ pub fn holds_of_bodies(problem: &Discretisation) -> Vec<Option<usize>> {
     problem.scene.mesh.bodies.iter().map(|body| numbers.get(body.as_str()).copied()).collect()
 }
 
-/// How far bodies have been moved rigidly by the modes that are held, one body after the other: from the displacements of their
-/// anchors on this rank, in the nodes' frames. **Collective**
-pub fn held_motions(problem: &Discretisation, displacement: &[f64], session: &Session) -> Vec<Vec<f64>> {
+/// How far bodies have been moved rigidly by the modes that are held, one body after the other, with turns `about` these places: from
+/// the displacements of their anchors on this rank, in the nodes' frames. **Collective**
+pub fn held_motions(problem: &Discretisation, about: &[Point], displacement: &[f64], session: &Session) -> Vec<Vec<f64>> {
     let (space, mesh) = (problem.finest(), &problem.scene.mesh);
     let anchors: Vec<Vec<Anchor>> = problem.scene.means.iter().map(|hold| hold.anchors(mesh).unwrap_or_default()).collect();
     let moved = |anchor: &Anchor| {
@@ -142,13 +157,12 @@ pub fn held_motions(problem: &Discretisation, displacement: &[f64], session: &Se
     let mut all: Vec<f64> = anchors.iter().flatten().map(moved).collect();
     session.sum(&mut all);
     let mut all = all.into_iter();
-    let solve = |(hold, anchors): (&MeanHold, &Vec<Anchor>)| {
-        let about = hold.middle(mesh);
+    let solve = |((hold, anchors), about): ((&MeanHold, &Vec<Anchor>), &Point)| {
         let along =
-            |i: usize, j: usize| rigid_displacement(about, &hold.held[j].mode, anchors[i].place).dot(&anchors[i].direction);
+            |i: usize, j: usize| rigid_displacement(*about, &hold.held[j].mode, anchors[i].place).dot(&anchors[i].direction);
         let modes = DMatrix::from_fn(anchors.len(), hold.held.len(), along);
         let moved = DVector::from_iterator(anchors.len(), all.by_ref().take(anchors.len()));
         modes.lu().solve(&moved).map_or_else(|| vec![0.0; hold.held.len()], |q| q.as_slice().to_vec())
     };
-    problem.scene.means.iter().zip(&anchors).map(solve).collect()
+    problem.scene.means.iter().zip(&anchors).zip(about).map(solve).collect()
 }

@@ -14,7 +14,7 @@ use crate::system::{Discretisation, Solution, SystemError, nodal_forces};
 pub fn settle_means(problem: &mut Discretisation, solution: &Solution, session: &Session) -> Result<(), SystemError> {
     let bodies = HeldBodies::new(problem, session)?;
     let missing = missing_forces(problem, &bodies, solution, session)?;
-    let motions = held_motions(problem, &solution.displacement, session);
+    let motions = held_motions(problem, &bodies.about, &solution.displacement, session);
     let Discretisation { scene, spaces, mean_forces, .. } = &mut *problem;
     for (number, hold) in scene.means.iter().enumerate() {
         mean_forces[number].iter_mut().zip(missing[number]).for_each(|(sum, force)| *sum += force);

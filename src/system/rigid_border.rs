@@ -218,7 +218,8 @@ impl RigidBorder {
     pub fn motion_of(&self, problem: &Discretisation, displacement: &[f64], session: &Session) -> Vec<f64> {
         let sets = rigid_motions(problem, displacement, session);
         let free = problem.scene.rigid.iter().zip(&sets).flat_map(|(set, motion)| set.free().map(|k| motion[k]));
-        free.chain(held_motions(problem, displacement, session).into_iter().flatten()).collect()
+        let about = &self.about[problem.scene.rigid.len()..];
+        free.chain(held_motions(problem, about, displacement, session).into_iter().flatten()).collect()
     }
 
     /// Adds the displacements by a motion to those of this rank, in the nodes' frames.

@@ -105,6 +105,13 @@ fn twenty_assemblies() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Bent bodies whose turn is held, and loads under which bodies roll off the places where they touch.
+#[test]
+fn turns_of_assemblies() {
+    let wrong = assembly::many([47, 66, 67, 90].into_iter());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 /// A handful of them, on small meshes.
 #[test]
 fn a_handful_of_scenes() {

@@ -66,7 +66,7 @@ impl Procedure<'_> {
         let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
         let mut found = match self.shared(predictor.as_ref(), &drawn, numbering.node_count())? {
             Ok(found) => found,
-            Err(Prediction::Driven(words)) => {
+            Err(Prediction::Driven { words, .. }) => {
                 return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
             }
             Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
@@ -74,6 +74,12 @@ impl Procedure<'_> {
         let pressing = active(&drawn, &found);
         let largest = wide.iter().map(|wide| wide.force(&found.pressures)).fold(0.0, f64::max);
         let least = share_of_nothing(self.accuracy) * largest;
+        if wide.iter().any(|wide| wide.presses_elsewhere(&found.pressures, least)) {
+            let drawn: Vec<Known> = wide.iter().map(|wide| wide.as_drawn(&found.pressures, least)).collect();
+            if let Some(words) = self.tips(predictor.as_ref(), &whole, &numbering, &drawn)? {
+                return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+            }
+        }
         let known: Vec<Known> = wide.iter().map(|wide| narrowed(wide, &pressing, &found, least)).collect();
         let displacement = |node: EdgeNode| found.displacement[node.number(&whole.mesh, &numbering)];
         let contacts = Contact::all_again(&whole, &numbering, 0, &known, &displacement)?;
@@ -145,6 +151,22 @@ impl Procedure<'_> {
         Ok(found.map(places))
     }
 
+    /// Words for a body that has to turn before contacts which lie there hold it; nothing if none has. **Collective**
+    fn tips(
+        &self,
+        predictor: Option<&Predictor>,
+        whole: &Scene,
+        numbering: &Numbering,
+        drawn: &[Known],
+    ) -> Result<Option<String>, SystemError> {
+        // Where a contact cannot lie, nothing is said.
+        let Ok(contacts) = Contact::all_again(whole, numbering, 0, drawn, &|_: EdgeNode| Point::zeros()) else { return Ok(None) };
+        Ok(match self.shared(predictor, &contacts, numbering.node_count())? {
+            Err(Prediction::Driven { words, turns: true }) => Some(words),
+            _ => None,
+        })
+    }
+
     /// What the programme of rank 0 says, on every rank. **Collective**
     fn shared(
         &self,
@@ -156,14 +178,15 @@ impl Procedure<'_> {
         let own = self.session.agree(own).map_err(SystemError::Case)?;
         let is_held = self.session.any(matches!(own, Some(Prediction::Held { .. })));
         if !is_held {
-            let is_driven = self.session.any(matches!(own, Some(Prediction::Driven(_))));
+            let is_driven = self.session.any(matches!(own, Some(Prediction::Driven { .. })));
+            let turns = self.session.any(matches!(own, Some(Prediction::Driven { turns: true, .. })));
             let words = || match own {
-                Some(Prediction::Driven(words) | Prediction::Unknown(words)) => Ok::<_, String>(words.into_bytes()),
+                Some(Prediction::Driven { words, .. } | Prediction::Unknown(words)) => Ok::<_, String>(words.into_bytes()),
                 _ => Ok(Vec::new()),
             };
             let words = self.session.share(words).map_err(SystemError::Case)?;
             let words = String::from_utf8_lossy(&words).into_owned();
-            return Ok(Err(if is_driven { Prediction::Driven(words) } else { Prediction::Unknown(words) }));
+            return Ok(Err(if is_driven { Prediction::Driven { words, turns } } else { Prediction::Unknown(words) }));
         }
         let count = contacts.last().map_or(0, |contact| contact.range().end);
         let mut all = vec![0.0; 2 * nodes + 2 * count];
@@ -219,6 +242,32 @@ impl WideContact {
     fn force(&self, pressures: &[f64]) -> f64 {
         let contact = &self.contact;
         contact.range().map(|i| pressures[i].max(0.0) * contact.multipliers.integral(i - contact.first)).sum()
+    }
+
+    /// Arc of the place where the sides touch first, and how far a force presses to either side of it, if they touch at a point.
+    fn pressed_by(&self, force: f64) -> Option<[f64; 2]> {
+        let Self { contact, touch, .. } = self;
+        let (touch, boundary) = ((*touch)?, &contact.boundary);
+        Some([boundary.arc(boundary.foot(touch.place)), touch.half_width(force, contact.compliance)?])
+    }
+
+    /// Whether a force that counts presses farther from the place where the sides touch first than it is wide there: bodies have to
+    /// move so far before contact holds them that their theory is that of another scene.
+    fn presses_elsewhere(&self, pressures: &[f64], least: f64) -> bool {
+        let (contact, force) = (&self.contact, self.force(pressures));
+        let Some([at, half]) = self.pressed_by(force).filter(|_| force > least && contact.has_free_ends()) else { return false };
+        let (boundary, multipliers) = (&contact.boundary, &contact.multipliers);
+        let way = |own: usize| boundary.segment_arcs(multipliers.segment_of(own)).iter().sum::<f64>() * 0.5 - at;
+        let moment = |i: usize| pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i - contact.first);
+        contact.range().map(moment).sum::<f64>().abs() > force * half
+    }
+
+    /// Γ_C about the place where the sides touch first, as wide as its force presses there.
+    fn as_drawn(&self, pressures: &[f64], least: f64) -> Known {
+        let Some([at, half]) = self.pressed_by(self.force(pressures).max(least)) else { return self.known.clone() };
+        let boundary = &self.contact.boundary;
+        let ends = [(at - half).max(0.0), (at + half).min(boundary.length())];
+        Known { ends: Some(ends.map(|arc| boundary.parameter_at(arc))), touch: self.touch, ..self.known.clone() }
     }
 
     /// Its force, and where it acts if the sides touch at a point.

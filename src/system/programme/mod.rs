@@ -31,8 +31,13 @@ pub enum Prediction {
         /// Mean gap over each multiplier (length).
         gaps: Vec<f64>,
     },
-    /// The loads drive a body along a motion that no contact resists: the body, its motion, what drives it, what helps.
-    Driven(String),
+    /// The loads drive a body along a motion that no contact resists.
+    Driven {
+        /// The body, its motion, what drives it, what helps.
+        words: String,
+        /// Whether it turns more than it moves.
+        turns: bool,
+    },
     /// No answer, and why.
     Unknown(String),
 }
@@ -175,10 +180,11 @@ impl<'s> Predictor<'s> {
         let by = if loads.is_empty() { "what acts on it".into() } else { loads.join(", ") };
         let (name, body) = (self.scene.mesh.name_of_piece(piece), &self.scene.bodies[self.scene.mesh.pieces[piece].body].name);
         let motion = &mechanism.motion;
-        Ok(Prediction::Driven(format!(
+        let words = format!(
             "{name} can {motion}: {by} drives it there, and neither contact, which only pushes, nor a support holds it; turn the load round if it is meant to press the bodies together, or hold the body, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and {}",
             held_component(moves)
-        )))
+        );
+        Ok(Prediction::Driven { words, turns: moves[2].abs() > moves[0].hypot(moves[1]) })
     }
 
     /// Loads, body forces and forces on tools that do most of the work in a motion of a block.
@@ -241,7 +247,14 @@ impl<'s> Predictor<'s> {
             let about = hold.middle(mesh);
             for held in &hold.held {
                 let mode = |x: Point| rigid_displacement(about, &held.mode, x);
-                let weights = self.mean_weights(hold, &mode)?;
+                let mut weights = self.mean_weights(hold, &mode)?;
+                if held.is_turn() {
+                    // A turn does not push: it is about the middle of the mesh.
+                    let even = self.mean_weights(hold, &|_| Point::new(1.0, 0.0))?;
+                    let push: Point = weights.iter().map(|(_, weight)| weight).sum();
+                    let area: f64 = even.iter().map(|(_, weight)| weight.x).sum();
+                    weights.iter_mut().zip(even).for_each(|((_, weight), (_, even))| *weight -= even.x / area * push);
+                }
                 let (mut row, mut whole) = (ProgrammeRow::default(), 0.0);
                 for (node, weight) in weights {
                     whole += weight.dot(&mode(self.elimination.freedoms.place(node)));
