@@ -215,6 +215,29 @@ impl MacroStiffness {
     }
 }
 
+/// Lattice nodes of a macro triangle that is a single triangle: its corners, then its midsides.
+pub fn one_triangle<const N: usize>(level: Level) -> [(usize, usize); N] {
+    lattice::Triangle::at(0, 0, level.order, false).nodes()
+}
+
+/// Stiffness of a macro triangle that is a single triangle, by these nodes.
+///
+/// # Errors
+/// [`BadJacobian`] if it is turned inside out.
+pub fn one_stiffness<const N: usize>(
+    mesh: &MacroMesh,
+    triangle: usize,
+    level: Level,
+    law: &PlaneLaw,
+) -> Result<[[Block; N]; N], BadJacobian> {
+    let nodes = one_triangle::<N>(level);
+    if mesh.is_curved(triangle) {
+        return stiffness(&positions(mesh, triangle, level, &nodes), law, false);
+    }
+    let corners = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+    stiffness(&with_midsides(corners), law, true)
+}
+
 /// Nodes of a straight triangle: its corners, and for P2 the midsides of (01), (12), (20).
 fn with_midsides<const N: usize>(corners: [Point; 3]) -> [Point; N] {
     std::array::from_fn(|a| if a < 3 { corners[a] } else { 0.5 * (corners[a - 3] + corners[(a - 2) % 3]) })

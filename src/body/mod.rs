@@ -14,7 +14,7 @@ pub use applied_force::{Applied, applied_forces, body_forces};
 pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use folding::check_folding;
 pub use formula_check::{check_body_forces, check_loads, varies};
-pub use macro_stiffness::{MacroStiffness, neighbours};
+pub use macro_stiffness::{MacroStiffness, neighbours, one_stiffness, one_triangle};
 pub use mean_hold::{Anchor, HeldMode, MeanHold};
 pub use node_positions::{NodePositions, positions};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};

@@ -69,8 +69,8 @@ impl BisectedMesh {
                 next.add(part.0, known);
             }
         }
-        next.divide_edges(&self.mesh, |edge| Some((middles[edge]?, 0.5)));
-        Self { mesh: next.mesh, sides, origins }
+        let mesh = next.divide_edges(&self.mesh, |edge| Some((middles[edge]?, 0.5)));
+        Self { mesh, sides, origins }
     }
 
     /// Where a part of a triangle lies in it, from its corners: those of the triangle, and middles of its edges.

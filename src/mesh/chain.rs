@@ -2,6 +2,7 @@
 
 use super::MacroMesh;
 use crate::geometry::{Curve, Point, Spline, cross};
+use std::sync::Arc;
 
 /// A boundary that turns by more than this at a vertex (radians, 20 degrees) has a corner there.
 const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
@@ -52,20 +53,9 @@ impl MacroMesh {
     /// Edges in the order and direction of the boundary (body on the left), cut at corners and gaps, and where the
     /// shape changes.
     fn chains(&self, edges: &[u32]) -> Vec<Vec<u32>> {
-        let follows = |a: u32, b: u32| a != b && self.directed(a)[1] == self.directed(b)[0] && self.goes_on(a, b);
-        let next = |edge: u32| edges.iter().copied().find(|&other| follows(edge, other));
-        let mut left: Vec<u32> = edges.to_vec();
-        let mut chains = Vec::new();
-        while let Some(&start) = left.iter().find(|&&edge| !edges.iter().any(|&other| follows(other, edge))).or(left.first()) {
-            let mut chain = vec![start];
-            left.retain(|&edge| edge != start);
-            while let Some(edge) = next(chain[chain.len() - 1]).filter(|edge| left.contains(edge)) {
-                left.retain(|&other| other != edge);
-                chain.push(edge);
-            }
-            chains.push(chain);
-        }
-        chains
+        let ends: Vec<[u32; 2]> = edges.iter().map(|&edge| self.directed(edge)).collect();
+        let rows = rows(&ends, |a, b| edges[a] != edges[b] && self.goes_on(edges[a], edges[b]));
+        rows.into_iter().map(|row| row.into_iter().map(|at| edges[at]).collect()).collect()
     }
 
     /// Whether a boundary edge goes on as another that begins at its end: without a corner, in the same shape.
@@ -76,7 +66,7 @@ impl MacroMesh {
         };
         match (&self.edges[edge as usize].shape, &self.edges[other as usize].shape) {
             (None, None) => along(edge).dot(&along(other)) > CORNER.cos(),
-            (Some(a), Some(b)) => a.curve == b.curve,
+            (Some(a), Some(b)) => Arc::ptr_eq(&a.curve, &b.curve) || a.curve == b.curve,
             _ => false,
         }
     }
@@ -90,10 +80,51 @@ impl MacroMesh {
     }
 }
 
+/// Places of directed edges in rows in which each begins where the one before it ends and `goes_on` as it; of several the first
+/// one goes on. An open row begins at its first edge, a closed one at the first that is listed.
+fn rows(ends: &[[u32; 2]], mut goes_on: impl FnMut(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    let mut starts: Vec<(u32, usize)> = ends.iter().map(|ends| ends[0]).zip(0..).collect();
+    starts.sort_unstable();
+    let mut follows = vec![false; ends.len()];
+    let mut next = vec![None; ends.len()];
+    for (here, [_, end]) in ends.iter().enumerate() {
+        let behind = starts[starts.partition_point(|(start, _)| start < end)..].iter().take_while(|(start, _)| start == end);
+        for &(_, other) in behind {
+            if goes_on(here, other) {
+                follows[other] = true;
+                next[here] = next[here].or(Some(other));
+            }
+        }
+    }
+    let mut is_left = vec![true; ends.len()];
+    let mut rows = Vec::new();
+    for first in (0..ends.len()).filter(|&at| !follows[at]).chain(0..ends.len()) {
+        let row: Vec<usize> =
+            std::iter::successors(Some(first), |&at| next[at]).take_while(|&at| std::mem::take(&mut is_left[at])).collect();
+        rows.extend(Some(row).filter(|row| !row.is_empty()));
+    }
+    rows
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::samples::two_blocks;
     use super::*;
+
+    #[test]
+    fn looks_at_pairs_of_edges_grow_as_their_number() {
+        let looks = |count: usize| {
+            let ends: Vec<[u32; 2]> = (0..count).map(|k| [k as u32, (k + 1) as u32 % count as u32]).collect();
+            let mut looks = 0;
+            let rows = rows(&ends, |_, _| {
+                looks += 1;
+                true
+            });
+            assert_eq!((rows.len(), rows[0].len()), (1, count), "closed");
+            looks
+        };
+        assert_eq!([looks(1000), looks(4000)], [1000, 4000]);
+    }
 
     #[test]
     fn a_straight_boundary_of_many_edges_is_one_line() {

@@ -3,14 +3,11 @@
 use super::edge_shape::EdgeShape;
 use super::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle};
 use crate::geometry::Point;
-use std::collections::HashMap;
 
 /// A mesh that is being connected.
 pub(super) struct Connected {
-    /// The mesh so far.
+    /// The mesh so far, without edges.
     pub mesh: MacroMesh,
-    /// Edges by their ends, the smaller one first.
-    known: HashMap<[u32; 2], u32>,
 }
 
 impl Connected {
@@ -33,42 +30,37 @@ impl Connected {
             points: before.points.clone(),
             has_midsides: before.has_midsides,
         };
-        Self { mesh, known: HashMap::new() }
+        Self { mesh }
     }
 
     /// Adds a triangle of the same part and piece as one of the mesh before.
     pub fn add(&mut self, vertices: [u32; 3], before: &MacroTriangle) {
         let triangle = self.mesh.triangles.len() as u32;
-        let (mut edges, mut forward) = ([0; 3], [true; 3]);
-        for k in 0..3 {
-            let (a, b) = (vertices[k], vertices[(k + 1) % 3]);
-            let count = self.mesh.edges.len() as u32;
-            edges[k] = *self.known.entry([a.min(b), a.max(b)]).or_insert(count);
-            if edges[k] == count {
-                self.mesh.edges.push(MacroEdge { vertices: [a, b], triangles: [Some(triangle), None], shape: None });
-            } else {
-                self.mesh.edges[edges[k] as usize].triangles[1] = Some(triangle);
-                forward[k] = false;
-            }
-        }
         let piece = &mut self.mesh.pieces[before.piece as usize];
         piece.first = piece.first.min(triangle);
-        self.mesh.triangles.push(MacroTriangle { vertices, edges, forward, ..before.clone() });
+        self.mesh.triangles.push(MacroTriangle { vertices, ..before.clone() });
     }
 
-    /// Gives the edges the shapes, and the boundaries, of the edges that they are parts of; `divided` tells the vertex that
-    /// divides an edge, and at which fraction of it.
-    pub fn divide_edges(&mut self, before: &MacroMesh, divided: impl Fn(usize) -> Option<(u32, f64)>) {
+    /// Finds the edges and gives them the shapes, and the boundaries, of the edges that they are parts of; `divided` tells the
+    /// vertex that divides an edge, and at which fraction of it.
+    pub fn divide_edges(self, before: &MacroMesh, divided: impl Fn(usize) -> Option<(u32, f64)>) -> MacroMesh {
+        let mut mesh = self.mesh;
+        let (edges, _) = mesh.connect();
+        let find = |mesh: &MacroMesh, ends| edges.between(&mesh.triangles, ends).expect("parts of edges are edges");
+        let mut bend = |ends: [u32; 2], shape: EdgeShape| {
+            let edge = find(&mesh, ends);
+            bend(&mut mesh.edges[edge as usize], ends, shape);
+        };
         for (edge, known) in before.edges.iter().enumerate() {
             let Some(shape) = &known.shape else { continue };
             let [a, b] = known.vertices;
             match divided(edge) {
-                None => self.bend([a, b], shape.clone()),
+                None => bend([a, b], shape.clone()),
                 Some((middle, t)) => {
                     let [from, to] = shape.range;
                     let at = shape.parameter(t);
-                    self.bend([a, middle], EdgeShape { range: [from, at], ..shape.clone() });
-                    self.bend([middle, b], EdgeShape { range: [at, to], ..shape.clone() });
+                    bend([a, middle], EdgeShape { range: [from, at], ..shape.clone() });
+                    bend([middle, b], EdgeShape { range: [at, to], ..shape.clone() });
                 }
             }
         }
@@ -76,27 +68,22 @@ impl Connected {
             let parts = curve.edges.iter().flat_map(|&edge| {
                 let [a, b] = before.edges[edge as usize].vertices;
                 match divided(edge as usize) {
-                    None => vec![self.edge(a, b)],
-                    Some((middle, _)) => vec![self.edge(a, middle), self.edge(middle, b)],
+                    None => vec![find(&mesh, [a, b])],
+                    Some((middle, _)) => vec![find(&mesh, [a, middle]), find(&mesh, [middle, b])],
                 }
             });
             Boundary { edges: parts.collect(), ..curve.clone() }
         };
         let [boundaries, interfaces] =
             [&before.boundaries, &before.interfaces].map(|all| all.iter().map(&divided_curve).collect());
-        (self.mesh.boundaries, self.mesh.interfaces) = (boundaries, interfaces);
+        (mesh.boundaries, mesh.interfaces) = (boundaries, interfaces);
+        mesh
     }
+}
 
-    fn edge(&self, a: u32, b: u32) -> u32 {
-        self.known[&[a.min(b), a.max(b)]]
-    }
-
-    /// Gives the edge between two vertices a shape that runs from the first to the second.
-    fn bend(&mut self, [a, b]: [u32; 2], shape: EdgeShape) {
-        let edge = self.edge(a, b);
-        let edge = &mut self.mesh.edges[edge as usize];
-        let [from, to] = shape.range;
-        let range = if edge.vertices == [a, b] { [from, to] } else { [to, from] };
-        edge.shape = Some(EdgeShape { range, ..shape });
-    }
+/// Gives an edge between two vertices a shape that runs from the first to the second.
+fn bend(edge: &mut MacroEdge, ends: [u32; 2], shape: EdgeShape) {
+    let [from, to] = shape.range;
+    let range = if edge.vertices == ends { [from, to] } else { [to, from] };
+    edge.shape = Some(EdgeShape { range, ..shape });
 }

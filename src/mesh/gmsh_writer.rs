@@ -207,9 +207,7 @@ mod tests {
         let mut raw = super::super::macro_mesh::RawMesh { vertices: mesh.vertices.clone(), ..Default::default() };
         for start in 0..7 {
             let turn = mesh.triangles.iter().skip(start).step_by(7);
-            let corners = |t: &super::super::MacroTriangle| t.vertices.map(|vertex| vertex as usize);
-            raw.triangles
-                .extend(turn.map(|t| (corners(t), vec![mesh.bodies[t.body as usize].clone()], super::super::FilePlace::Line(0))));
+            turn.for_each(|t| raw.add(&mesh.bodies[t.body as usize], [t.vertices.map(|vertex| vertex as usize)]));
         }
         let mixed = MacroMesh::build(raw, Path::new("mixed.msh")).expect("the same triangles");
         assert_eq!(content(&again(&mixed)), content(&mixed));

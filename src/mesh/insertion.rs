@@ -120,8 +120,8 @@ impl MacroMesh {
                 next.add(corners, known);
             }
         }
-        next.divide_edges(self, |edge| split.filter(|(split, _)| *split as usize == edge).map(|(_, t)| (new, t)));
-        Insertion { mesh: next.mesh, angle }
+        let mesh = next.divide_edges(self, |edge| split.filter(|(split, _)| *split as usize == edge).map(|(_, t)| (new, t)));
+        Insertion { mesh, angle }
     }
 
     /// The triangle on the other side of an edge.

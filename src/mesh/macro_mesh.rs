@@ -1,6 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
 use super::edge_shape::EdgeShape;
+use super::edges::Edges;
 use super::{FilePlace, MeshError, NamedPoint};
 use crate::geometry::{Coordinates, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
@@ -29,12 +30,34 @@ impl Region {
 #[derive(Default)]
 pub(super) struct RawMesh {
     pub vertices: Vec<Point>,
-    pub triangles: Vec<([usize; 3], Vec<String>, FilePlace)>,
-    pub lines: Vec<(String, [usize; 2], FilePlace)>,
-    /// Midside nodes of second-order elements, by the ends of their sides, lower first.
-    pub midsides: HashMap<[usize; 2], Point>,
+    pub triangles: Vec<RawTriangle>,
+    /// Names of physical surfaces that triangles have together.
+    pub names: Vec<Vec<String>>,
+    pub lines: Vec<(String, [u32; 2], FilePlace)>,
+    /// Midside nodes of second-order elements, with the ends of their sides, lower first; one of an inner side comes twice.
+    pub midsides: Vec<([u32; 2], Point)>,
     /// Names of bodies, by the physical surfaces that are parts of them; other surfaces are bodies of their own.
     pub joined: HashMap<String, String>,
+}
+
+/// A triangle of the file.
+#[derive(Clone, Copy)]
+pub(super) struct RawTriangle {
+    pub corners: [u32; 3],
+    /// Place of its names among [`RawMesh::names`].
+    pub names: u32,
+    pub place: FilePlace,
+}
+
+impl RawMesh {
+    /// The number of names that triangles have together.
+    pub fn number_of(&mut self, names: Vec<String>) -> u32 {
+        let known = self.names.iter().position(|known| *known == names);
+        known.unwrap_or_else(|| {
+            self.names.push(names);
+            self.names.len() - 1
+        }) as u32
+    }
 }
 
 /// A macro triangle, counter-clockwise.
@@ -124,9 +147,10 @@ pub struct MacroMesh {
 }
 
 impl MacroMesh {
-    /// Checks what a file says and connects it.
+    /// Checks what a file says and connects it, a large mesh in an order of its own.
     pub(super) fn build(mut raw: RawMesh, file: &Path) -> Result<Self, MeshError> {
         drop_loose_vertices(&mut raw);
+        raw.put_in_order();
         let mut mesh = Self {
             file: file.to_path_buf(),
             ratios: vec![None; raw.vertices.len()],
@@ -141,11 +165,21 @@ impl MacroMesh {
             points: Vec::new(),
             has_midsides: false,
         };
-        let mut known = HashMap::new();
-        for (corners, names, place) in raw.triangles {
-            let part = mesh.part_of(&names, &raw.joined, place)?;
-            let corners = mesh.turned(corners, place)?;
-            mesh.add_triangle(corners, part, place, &mut known)?;
+        let mut parts = vec![None; raw.names.len()];
+        for &RawTriangle { corners, names, place } in &raw.triangles {
+            let part = match parts[names as usize] {
+                Some(part) => part,
+                None => mesh.part_of(&raw.names[names as usize], &raw.joined, place)?,
+            };
+            parts[names as usize] = Some(part);
+            let vertices = mesh.turned(corners, place)?;
+            let body = mesh.parts[part as usize].body;
+            mesh.triangles.push(MacroTriangle { vertices, edges: [0; 3], forward: [true; 3], body, part, piece: 0 });
+        }
+        let (edges, overlapping) = mesh.connect();
+        if let Some(triangle) = overlapping {
+            let words = "overlaps a triangle before it: they lie on the same side of an edge; mesh the scene again";
+            return Err(mesh.syntax(raw.triangles[triangle].place, words.into()));
         }
         if mesh.triangles.is_empty() {
             return Err(MeshError::unusable(file, "has no triangles; mesh it with `gmsh -2`"));
@@ -156,9 +190,9 @@ impl MacroMesh {
         mesh.check_parts_are_joined()?;
         let mut placed = HashSet::new();
         for (name, ends, place) in raw.lines {
-            mesh.add_line(name, ends, place, &known, &mut placed)?;
+            mesh.add_line(name, ends, place, &edges, &mut placed)?;
         }
-        mesh.bend_through_midsides(&raw.midsides)?;
+        mesh.bend_through_midsides(raw.midsides)?;
         Ok(mesh)
     }
 
@@ -194,8 +228,8 @@ impl MacroMesh {
     }
 
     /// The corners counter-clockwise; a clockwise triangle is turned round, a flat one refused.
-    fn turned(&self, corners: [usize; 3], place: FilePlace) -> Result<[u32; 3], MeshError> {
-        let [a, b, c] = corners.map(|corner| self.vertices[corner]);
+    fn turned(&self, corners: [u32; 3], place: FilePlace) -> Result<[u32; 3], MeshError> {
+        let [a, b, c] = corners.map(|corner| self.vertices[corner as usize]);
         let area = 0.5 * cross(b - a, c - a);
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
         if area.abs() <= 1e-10 * longest * longest {
@@ -210,40 +244,8 @@ impl MacroMesh {
                 ),
             ));
         }
-        let [a, b, c] = corners.map(|corner| corner as u32);
+        let [a, b, c] = corners;
         Ok(if area > 0.0 { [a, b, c] } else { [a, c, b] })
-    }
-
-    pub(super) fn add_triangle(
-        &mut self,
-        vertices: [u32; 3],
-        part: u32,
-        place: FilePlace,
-        known: &mut HashMap<[u32; 2], u32>,
-    ) -> Result<(), MeshError> {
-        let triangle = self.triangles.len() as u32;
-        let (mut edges, mut forward) = ([0; 3], [true; 3]);
-        for k in 0..3 {
-            let (a, b) = (vertices[k], vertices[(k + 1) % 3]);
-            let edge = *known.entry([a.min(b), a.max(b)]).or_insert(self.edges.len() as u32);
-            if edge as usize == self.edges.len() {
-                self.edges.push(MacroEdge { vertices: [a, b], triangles: [Some(triangle), None], shape: None });
-            } else {
-                let there = &mut self.edges[edge as usize];
-                if there.triangles[1].is_some() || there.vertices[0] == a {
-                    return Err(self.syntax(
-                        place,
-                        "overlaps a triangle before it: they lie on the same side of an edge; mesh the scene again".into(),
-                    ));
-                }
-                there.triangles[1] = Some(triangle);
-                forward[k] = false;
-            }
-            edges[k] = edge;
-        }
-        let body = self.parts[part as usize].body;
-        self.triangles.push(MacroTriangle { vertices, edges, forward, body, part, piece: 0 });
-        Ok(())
     }
 
     /// Bodies meet only in contact: no edge and no vertex may belong to two of them.
@@ -274,12 +276,11 @@ impl MacroMesh {
     fn add_line(
         &mut self,
         name: String,
-        ends: [usize; 2],
+        ends: [u32; 2],
         place: FilePlace,
-        known: &HashMap<[u32; 2], u32>,
+        edges: &Edges,
         placed: &mut HashSet<(usize, u32)>,
     ) -> Result<(), MeshError> {
-        let [a, b] = ends.map(|end| end as u32);
         let refused = |what: &str| {
             self.syntax(
                 place,
@@ -289,7 +290,7 @@ impl MacroMesh {
                 ),
             )
         };
-        let Some(&edge) = known.get(&[a.min(b), a.max(b)]) else { return Err(refused("is not an edge of a triangle")) };
+        let Some(edge) = edges.between(&self.triangles, ends) else { return Err(refused("is not an edge of a triangle")) };
         let parts = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));
         if parts[0] == parts[1] {
             return Err(refused("lies inside a body"));
@@ -332,12 +333,9 @@ impl MacroMesh {
         if self.boundary(name).is_some() {
             return;
         }
-        let mut edges: Vec<u32> = Vec::new();
-        for edge in curves.iter().filter_map(|curve| self.boundary(curve)).flat_map(|boundary| &boundary.edges) {
-            if !edges.contains(edge) {
-                edges.push(*edge);
-            }
-        }
+        let all = curves.iter().filter_map(|curve| self.boundary(curve)).flat_map(|boundary| boundary.edges.iter().copied());
+        let mut seen = HashSet::new();
+        let edges = all.filter(|edge| seen.insert(*edge)).collect();
         self.boundaries.push(Boundary { name: name.into(), edges, is_union: true });
     }
 
@@ -388,22 +386,18 @@ impl MacroMesh {
 /// Leaves out the points of the geometry that no triangle uses (centres of circles, say).
 fn drop_loose_vertices(raw: &mut RawMesh) {
     let mut used = vec![false; raw.vertices.len()];
-    raw.triangles.iter().flat_map(|(corners, ..)| corners).for_each(|&corner| used[corner] = true);
-    let mut new = vec![usize::MAX; raw.vertices.len()];
+    raw.triangles.iter().flat_map(|triangle| triangle.corners).for_each(|corner| used[corner as usize] = true);
+    let mut new = vec![u32::MAX; raw.vertices.len()];
     let mut count = 0;
     for (vertex, used) in used.iter().enumerate() {
         if *used {
             raw.vertices[count] = raw.vertices[vertex];
-            new[vertex] = count;
+            new[vertex] = count as u32;
             count += 1;
         }
     }
     raw.vertices.truncate(count);
-    raw.triangles.iter_mut().flat_map(|(corners, ..)| corners).for_each(|corner| *corner = new[*corner]);
-    let midsides = std::mem::take(&mut raw.midsides).into_iter().map(|(ends, middle)| (ends.map(|end| new[end]), middle));
-    raw.midsides = midsides.filter(|(ends, _)| !ends.contains(&usize::MAX)).collect();
-    for (_, ends, _) in &mut raw.lines {
-        // A line whose end no triangle uses keeps an index that no edge has, and is refused with words.
-        ends.iter_mut().for_each(|end| *end = new[*end].min(u32::MAX as usize));
-    }
+    // A line whose end no triangle uses keeps an index that no edge has, and is refused with words.
+    let ends = raw.lines.iter_mut().flat_map(|(_, ends, _)| ends).chain(raw.midsides.iter_mut().flat_map(|(ends, _)| ends));
+    ends.chain(raw.triangles.iter_mut().flat_map(|triangle| &mut triangle.corners)).for_each(|end| *end = new[*end as usize]);
 }

@@ -8,7 +8,7 @@ use super::edge_shape::EdgeShape;
 use super::{MacroMesh, MeshError};
 use crate::geometry::{Coordinates, Curve, Point, Spline, cross};
 use nalgebra::{Matrix3, Vector3};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -89,22 +89,24 @@ impl Bow {
 }
 
 impl MacroMesh {
-    /// Bends sides with a midside node off the chord onto curves through the nodes; `midsides` are known by the vertices at the
-    /// ends of their sides, lower first. Sides inside a part stay straight.
+    /// Bends sides with a midside node off the chord onto curves through the nodes; `midsides` come with the vertices at the ends
+    /// of their sides, lower first. Sides inside a part stay straight.
     ///
     /// # Errors
     /// [`MeshError::Unusable`] for a midside node that no smooth curve over its side can have.
-    pub(super) fn bend_through_midsides(&mut self, midsides: &HashMap<[usize; 2], Point>) -> Result<(), MeshError> {
+    pub(super) fn bend_through_midsides(&mut self, midsides: Vec<([u32; 2], Point)>) -> Result<(), MeshError> {
+        let is_inner = |edge: u32| self.edges[edge as usize].triangles[1].is_some();
+        let outer: Vec<u32> = (0..self.edges.len() as u32).filter(|&edge| !is_inner(edge) || self.is_interface(edge)).collect();
+        let key = |edge: u32| {
+            let [a, b] = self.edges[edge as usize].vertices;
+            [a.min(b), a.max(b)]
+        };
+        let keys: HashSet<[u32; 2]> = outer.iter().map(|&edge| key(edge)).collect();
+        let midsides: HashMap<[u32; 2], Point> = midsides.into_iter().filter(|(ends, _)| keys.contains(ends)).collect();
         let mut bows: [Vec<Bow>; 2] = Default::default();
-        for edge in 0..self.edges.len() as u32 {
-            let is_inside = self.edges[edge as usize].triangles[1].is_some();
-            if is_inside && !self.is_interface(edge) {
-                continue;
-            }
-            let ends = self.directed(edge);
-            let key = [ends[0].min(ends[1]) as usize, ends[0].max(ends[1]) as usize];
-            if let Some(&middle) = midsides.get(&key) {
-                bows[usize::from(is_inside)].push(self.bow(edge, ends, middle)?);
+        for edge in outer {
+            if let Some(&middle) = midsides.get(&key(edge)) {
+                bows[usize::from(is_inner(edge))].push(self.bow(edge, self.directed(edge), middle)?);
             }
         }
         self.has_midsides = bows.iter().flatten().any(|bow| !bow.is_flat());
@@ -300,7 +302,6 @@ fn circle_through(chain: &[Bow]) -> Option<Curve> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::FilePlace;
     use super::super::macro_mesh::RawMesh;
     use super::*;
     use std::path::Path;
@@ -312,10 +313,10 @@ mod tests {
         for k in 0..count {
             let next = (k + 1) % count;
             raw.vertices.push(rim(angle(k as f64)));
-            raw.triangles.push(([0, k + 1, next + 1], vec!["disc".into()], FilePlace::Line(k)));
-            raw.lines.push(("rim".into(), [k + 1, next + 1], FilePlace::Line(k)));
-            raw.midsides.insert([(k + 1).min(next + 1), (k + 1).max(next + 1)], rim(angle(k as f64 + 0.5)));
-            raw.midsides.insert([0, k + 1], 0.5 * rim(angle(k as f64)));
+            raw.add("disc", [[0, k + 1, next + 1]]);
+            raw.add_line("rim", [k + 1, next + 1]);
+            let [low, high] = [k.min(next), k.max(next)].map(|k| k as u32 + 1);
+            raw.midsides.extend([([low, high], rim(angle(k as f64 + 0.5))), ([0, k as u32 + 1], 0.5 * rim(angle(k as f64)))]);
         }
         raw
     }
@@ -441,7 +442,7 @@ mod tests {
         let mesh = built(fan(8, square));
         assert!(mesh.edges.iter().all(|edge| edge.shape.is_none()));
         let mut raw = fan(8, square);
-        raw.midsides.insert([1, 2], Point::new(2.0, 0.5));
+        raw.midsides.push(([1, 2], Point::new(2.0, 0.5)));
         let words = MacroMesh::build(raw, Path::new("fan.msh")).expect_err("too high").to_string();
         assert!(words.contains("fan.msh: the midside node (2, 0.5)") && words.contains("more elements"), "{words}");
     }

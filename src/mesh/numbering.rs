@@ -17,6 +17,11 @@ pub struct Level {
 }
 
 impl Level {
+    /// Whether a macro triangle is a single triangle.
+    pub fn is_one_triangle(&self) -> bool {
+        self.triangles_per_edge() == 1
+    }
+
     /// Triangles along a macro edge.
     pub fn triangles_per_edge(&self) -> usize {
         self.intervals / self.order.degree()

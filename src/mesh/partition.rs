@@ -1,7 +1,8 @@
 //! Which rank owns what: data made of the macro mesh, the same on every rank.
 
 use super::MacroMesh;
-use crate::geometry::{Disc, Point, overlapping_discs};
+use super::morton::MortonCurve;
+use crate::geometry::{Disc, overlapping_discs};
 
 /// The graph that is partitioned: one vertex per macro triangle, compressed rows.
 pub struct Graph {
@@ -86,6 +87,10 @@ pub struct Partition {
     pub(super) counts: Vec<[u32; 3]>,
     /// Macro triangles of each rank, in its order.
     orders: Vec<Vec<u32>>,
+    /// Those of them that have edges or vertices of other ranks.
+    borders: Vec<Vec<u32>>,
+    /// Macro triangles of other ranks that have edges or vertices of each rank.
+    guests: Vec<Vec<u32>>,
 }
 
 impl Partition {
@@ -103,6 +108,8 @@ impl Partition {
             triangles: vec![Home::default(); mesh.triangles.len()],
             counts: vec![[0; 3]; size],
             orders: Vec::new(),
+            borders: vec![Vec::new(); size],
+            guests: vec![Vec::new(); size],
         };
         for (rank, order) in orders.iter().enumerate() {
             for &triangle in order {
@@ -135,6 +142,18 @@ impl Partition {
         }
         self.triangles[triangle] = here(counts);
         counts[2] += 1;
+        let number = triangle as u32;
+        let triangle = &mesh.triangles[triangle];
+        let homes = triangle.vertices.iter().map(|&vertex| &self.vertices[vertex as usize]);
+        for home in homes.chain(triangle.edges.iter().map(|&edge| &self.edges[edge as usize])) {
+            let other = home.rank as usize;
+            if other != rank {
+                [&mut self.borders[rank], &mut self.guests[other]]
+                    .into_iter()
+                    .filter(|of| of.last() != Some(&number))
+                    .for_each(|of| of.push(number));
+            }
+        }
     }
 
     /// The partition in which each `group` ranks with consecutive numbers have given all that they own to the middle one.
@@ -154,6 +173,16 @@ impl Partition {
         &self.orders[rank]
     }
 
+    /// Macro triangles of a rank with nodes of other ranks, in its order.
+    pub fn with_nodes_of_others(&self, rank: usize) -> &[u32] {
+        &self.borders[rank]
+    }
+
+    /// Macro triangles of other ranks with nodes of this one.
+    pub fn of_others_with_nodes(&self, rank: usize) -> &[u32] {
+        &self.guests[rank]
+    }
+
     /// Owner of a macro triangle.
     pub fn owner(&self, triangle: u32) -> usize {
         self.triangles[triangle as usize].rank as usize
@@ -168,21 +197,9 @@ pub fn middle_of_group(rank: usize, group: usize, ranks: usize) -> usize {
 
 /// Position of each macro triangle along Morton's space-filling curve, body by body.
 fn morton_keys(mesh: &MacroMesh) -> Vec<u64> {
-    let (mut low, mut high) = (Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY));
-    for x in &mesh.vertices {
-        (low, high) = (low.inf(x), high.sup(x));
-    }
-    let size = (high - low).max();
-    let spread = |v: f64| {
-        let bits = (v / size * f64::from(1u32 << 20)) as u64;
-        (0..21).fold(0, |key, k| key | ((bits >> k) & 1) << (2 * k))
-    };
-    let key = |triangle: &super::MacroTriangle| {
-        let [a, b, c] = triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]);
-        let middle = (a + b + c) / 3.0 - low;
-        u64::from(triangle.body) << 44 | spread(middle.x) | spread(middle.y) << 1
-    };
-    mesh.triangles.iter().map(key).collect()
+    let curve = MortonCurve::around(&mesh.vertices);
+    let place = |triangle: &super::MacroTriangle| curve.place(&mesh.vertices, triangle.vertices);
+    mesh.triangles.iter().map(|triangle| u64::from(triangle.body) << 44 | place(triangle)).collect()
 }
 
 #[cfg(test)]
@@ -190,6 +207,7 @@ mod tests {
     use super::super::macro_mesh::RawMesh;
     use super::super::samples::two_blocks;
     use super::*;
+    use crate::geometry::Point;
     use std::collections::HashSet;
     use std::path::Path;
 
@@ -207,8 +225,7 @@ mod tests {
             for cell in (0..CELLS * CELLS).map(|k| (k * 37 + 11) % (CELLS * CELLS)) {
                 let (i, j) = (cell % CELLS, cell / CELLS);
                 let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-                let halves = [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]];
-                raw.triangles.extend(halves.map(|half| (half, vec![body.to_string()], super::super::FilePlace::Line(0))));
+                raw.add(body, [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]);
             }
         }
         MacroMesh::build(raw, Path::new("squares.msh")).expect("a good mesh")

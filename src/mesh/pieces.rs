@@ -61,8 +61,9 @@ impl MacroMesh {
     }
 
     fn check_count(&self) -> Result<(), MeshError> {
-        for (body, name) in self.bodies.iter().enumerate() {
-            let count = self.pieces.iter().filter(|piece| piece.body == body).count();
+        let mut counts = vec![0; self.bodies.len()];
+        self.pieces.iter().for_each(|piece| counts[piece.body] += 1);
+        for (name, count) in self.bodies.iter().zip(counts) {
             if count > MOST_PIECES {
                 return Err(MeshError::unusable(
                     &self.file,
@@ -80,10 +81,9 @@ impl MacroMesh {
     /// # Errors
     /// Words with both parts and the place.
     pub(super) fn check_parts_are_joined(&self) -> Result<(), MeshError> {
-        let is_one_of_several = |body: usize| self.parts.iter().filter(|part| part.body as usize == body).count() > 1;
-        for body in (0..self.bodies.len()).filter(|&body| is_one_of_several(body)) {
-            let outer = |edge: &u32| self.edges[*edge as usize].triangles[1].is_none() && self.body_beside(*edge) == body;
-            let edges: Vec<u32> = (0..self.edges.len() as u32).filter(outer).collect();
+        let mut parts = vec![0; self.bodies.len()];
+        self.parts.iter().for_each(|part| parts[part.body as usize] += 1);
+        for (body, edges) in self.outer_edges().iter().enumerate().filter(|(body, _)| parts[*body] > 1) {
             let ends = |at: usize| self.edges[edges[at] as usize].vertices.map(|vertex| self.vertices[vertex as usize]);
             let disc = |at: usize| Disc { middle: 0.5 * (ends(at)[0] + ends(at)[1]), radius: 0.5 * self.edge_length(edges[at]) };
             let discs: Vec<Disc> = (0..edges.len()).map(disc).collect();
@@ -180,7 +180,7 @@ mod tests {
         let words = build(RawMesh { joined: Default::default(), ..two_parts() }).expect_err("two bodies");
         assert!(words.contains("\"core\" and \"film\" share the node") && words.contains("part.\"film\""), "{words}");
         let mut raw = two_parts();
-        raw.lines.push(("bond".into(), [0, 1], super::super::FilePlace::Line(0)));
+        raw.add_line("bond", [0, 1]);
         assert!(build(raw).expect_err("a name for two kinds of lines").contains("name them apart"));
         let mut raw = two_parts();
         raw.lines.clear();
@@ -188,7 +188,7 @@ mod tests {
             let moved = [0, 2, 3].map(|vertex| raw.vertices[vertex] + Point::new(-by, by));
             raw.vertices.truncate(3);
             raw.vertices.extend(moved);
-            raw.triangles[1].0 = [3, 4, 5];
+            raw.triangles[1].corners = [3, 4, 5];
         };
         apart(&mut raw, 0.0);
         let words = build(raw).expect_err("nothing joins them");

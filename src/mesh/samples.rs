@@ -1,12 +1,26 @@
 //! Small meshes for unit tests.
 
 use super::FilePlace;
-use super::macro_mesh::{MacroMesh, RawMesh};
+use super::macro_mesh::{MacroMesh, RawMesh, RawTriangle};
 use crate::geometry::Point;
 use std::path::Path;
 
 /// They come from no file.
 const PLACE: FilePlace = FilePlace::Line(0);
+
+impl RawMesh {
+    /// Adds triangles of one physical surface.
+    pub fn add(&mut self, name: &str, triangles: impl IntoIterator<Item = [usize; 3]>) {
+        let names = self.number_of(vec![name.to_string()]);
+        let triangle = |corners: [usize; 3]| RawTriangle { corners: corners.map(|corner| corner as u32), names, place: PLACE };
+        self.triangles.extend(triangles.into_iter().map(triangle));
+    }
+
+    /// Adds a line of a physical curve.
+    pub fn add_line(&mut self, name: &str, ends: [usize; 2]) {
+        self.lines.push((name.to_string(), ends.map(|end| end as u32), PLACE));
+    }
+}
 
 /// Two blocks, `[0, 2] x [0, 1]` under `[0, 2] x [1, 2]`: one quadrangle below the line y = 1, two above, each of two
 /// triangles. Boundaries "lower.seam", "upper.seam", "bottom", "top".
@@ -20,14 +34,16 @@ pub fn two_blocks() -> MacroMesh {
 /// What a file says of a unit square of two triangles, parts "core" and "film" of the body "whole", with a line "bond" between
 /// them and "bottom" below.
 pub(super) fn two_parts() -> RawMesh {
-    let names = ["core", "film"].map(str::to_string);
-    RawMesh {
+    let mut raw = RawMesh {
         vertices: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Point::from).into(),
-        triangles: vec![([0, 1, 2], vec![names[0].clone()], PLACE), ([0, 2, 3], vec![names[1].clone()], PLACE)],
-        lines: vec![("bond".into(), [0, 2], PLACE), ("bottom".into(), [0, 1], PLACE)],
-        midsides: Default::default(),
-        joined: names.into_iter().map(|name| (name, "whole".to_string())).collect(),
-    }
+        joined: ["core", "film"].map(|name| (name.to_string(), "whole".to_string())).into(),
+        ..RawMesh::default()
+    };
+    raw.add("core", [[0, 1, 2]]);
+    raw.add("film", [[0, 2, 3]]);
+    raw.add_line("bond", [0, 2]);
+    raw.add_line("bottom", [0, 1]);
+    raw
 }
 
 /// One block of so many columns of width 1 over y = 0, each of two triangles.
@@ -53,12 +69,9 @@ pub fn fan(sides: usize) -> MacroMesh {
     let angle = |k: usize| std::f64::consts::TAU * k as f64 / sides as f64;
     let corner = |k: usize| Point::new(3.0 + 2.0 * angle(k).cos(), -1.0 + 2.0 * angle(k).sin());
     let next = |k: usize| (k + 1) % sides;
-    let raw = RawMesh {
-        vertices: (0..sides).map(corner).chain([Point::new(3.0, -1.0)]).collect(),
-        triangles: (0..sides).map(|k| ([k, next(k), sides], vec!["disc".to_string()], PLACE)).collect(),
-        lines: (0..sides).map(|k| ("rim".to_string(), [k, next(k)], PLACE)).collect(),
-        ..RawMesh::default()
-    };
+    let mut raw = RawMesh { vertices: (0..sides).map(corner).chain([Point::new(3.0, -1.0)]).collect(), ..RawMesh::default() };
+    raw.add("disc", (0..sides).map(|k| [k, next(k), sides]));
+    (0..sides).for_each(|k| raw.add_line("rim", [k, next(k)]));
     MacroMesh::build(raw, Path::new("fan.msh")).expect("a good mesh")
 }
 
@@ -69,7 +82,8 @@ fn block(raw: &mut RawMesh, body: &str, xs: &[f64], [low, high]: [f64; 2], names
     }
     for k in 0..xs.len() - 1 {
         let [a, d, b, c] = [0, 1, 2, 3].map(|corner| first + 2 * k + corner);
-        raw.triangles.extend([[a, b, c], [a, c, d]].map(|corners| (corners, vec![body.to_string()], PLACE)));
-        raw.lines.extend([(names[0].to_string(), [a, b], PLACE), (names[1].to_string(), [d, c], PLACE)]);
+        raw.add(body, [[a, b, c], [a, c, d]]);
+        raw.add_line(names[0], [a, b]);
+        raw.add_line(names[1], [d, c]);
     }
 }

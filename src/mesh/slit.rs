@@ -20,12 +20,19 @@ pub struct Slit {
 impl MacroMesh {
     /// What of each body is cut open though it is drawn closed; bodies without that are left out.
     pub fn slits(&self) -> Vec<Slit> {
-        (0..self.bodies.len()).filter_map(|body| self.slit_of(body)).collect()
+        self.outer_edges().iter().enumerate().filter_map(|(body, edges)| self.slit_of(body, edges)).collect()
     }
 
-    fn slit_of(&self, body: usize) -> Option<Slit> {
-        let outer = |edge: &u32| self.edges[*edge as usize].triangles[1].is_none() && self.body_beside(*edge) == body;
-        let edges: Vec<u32> = (0..self.edges.len() as u32).filter(outer).collect();
+    /// Edges on the outline of each body.
+    pub(super) fn outer_edges(&self) -> Vec<Vec<u32>> {
+        let mut outer = vec![Vec::new(); self.bodies.len()];
+        for edge in (0..self.edges.len() as u32).filter(|&edge| self.edges[edge as usize].triangles[1].is_none()) {
+            outer[self.body_beside(edge)].push(edge);
+        }
+        outer
+    }
+
+    fn slit_of(&self, body: usize, edges: &[u32]) -> Option<Slit> {
         let ends: Vec<[Point; 2]> =
             edges.iter().map(|&edge| self.edges[edge as usize].vertices.map(|vertex| self.vertices[vertex as usize])).collect();
         let disc = |[a, b]: &[Point; 2]| Disc { middle: 0.5 * (a + b), radius: 0.5 * SAME * (b - a).norm() };

@@ -3,11 +3,9 @@
 //! A tool does not strain, so what lies behind its surface does not matter. The layer gives it nodes, edges with their true shape,
 //! and a boundary like those of any body.
 
-use super::FilePlace;
 use super::edge_shape::EdgeShape;
-use super::macro_mesh::{BodyPiece, Boundary, MacroMesh, Surface};
+use super::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle, Surface};
 use crate::geometry::{Curve, Point, cross, turn_right};
-use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -171,12 +169,9 @@ impl MacroMesh {
         self.bodies.push(name.into());
         self.parts.push(Surface { name: name.into(), body });
         self.pieces.push(BodyPiece { body: body as usize, first: start });
-        let mut known = HashMap::new();
-        let mut surface = Vec::new();
-        let arcs: Vec<Arc<Curve>> = parts.iter().map(|part| Arc::new(part.curve.clone())).collect();
-        for (k, side) in sides.iter().enumerate() {
-            let next = (k + 1) % places.len();
-            let [a, b] = [k, next].map(|at| first + 2 * at as u32);
+        let ends = |k: usize| [k, (k + 1) % places.len()].map(|at| first + 2 * at as u32);
+        for k in 0..sides.len() {
+            let [a, b] = ends(k);
             let [c, d] = [b + 1, a + 1];
             for corners in [[a, b, c], [a, c, d]] {
                 let corners = if behind > 0.0 { [corners[0], corners[2], corners[1]] } else { corners };
@@ -187,10 +182,17 @@ impl MacroMesh {
                         places[k].x.x, places[k].x.y
                     ));
                 }
-                self.add_triangle(corners, part, FilePlace::Line(0), &mut known).map_err(|error| error.to_string())?;
-                self.triangles.last_mut().expect("just added").piece = piece;
+                self.triangles.push(MacroTriangle { vertices: corners, edges: [0; 3], forward: [true; 3], body, part, piece });
             }
-            let edge = known[&[a.min(b), a.max(b)]];
+        }
+        let shapes: Vec<_> = self.edges.iter_mut().map(|edge| edge.shape.take()).collect();
+        let (edges, _) = self.connect();
+        self.edges.iter_mut().zip(shapes).for_each(|(edge, shape)| edge.shape = shape);
+        let mut surface = Vec::new();
+        let arcs: Vec<Arc<Curve>> = parts.iter().map(|part| Arc::new(part.curve.clone())).collect();
+        for (k, side) in sides.iter().enumerate() {
+            let [a, b] = ends(k);
+            let edge = edges.between(&self.triangles, [a, b]).expect("a side of the first triangle there");
             let forward = self.edges[edge as usize].vertices[0] == a;
             let [from, to] = side.range;
             if !arcs[side.part].is_line() {

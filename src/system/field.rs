@@ -115,7 +115,7 @@ fn seen_nodes(problem: &Discretisation, rank: usize) -> Vec<usize> {
     let n = space.numbering.level.intervals;
     let mut seen: Vec<usize> = scene
         .partition
-        .triangles_of(rank)
+        .with_nodes_of_others(rank)
         .iter()
         .flat_map(|&triangle| {
             let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);

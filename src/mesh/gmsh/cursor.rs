@@ -48,6 +48,10 @@ impl<'a> Cursor<'a> {
 
     /// Next line that is not blank, or nothing at the end of the file.
     pub fn next_line(&mut self) -> Option<Cow<'a, str>> {
+        self.next_bytes().map(String::from_utf8_lossy)
+    }
+
+    fn next_bytes(&mut self) -> Option<&'a [u8]> {
         while self.at < self.bytes.len() {
             let rest = &self.bytes[self.at..];
             let length = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
@@ -55,7 +59,7 @@ impl<'a> Cursor<'a> {
             self.line += 1;
             let line = rest[..length].trim_ascii();
             if !line.is_empty() {
-                return Some(String::from_utf8_lossy(line));
+                return Some(line);
             }
         }
         None
@@ -75,8 +79,26 @@ impl<'a> Cursor<'a> {
         let found: Result<Vec<T>, _> = line.split_whitespace().map(str::parse).collect();
         match found {
             Ok(values) if values.len() >= least => Ok(values),
-            _ => Err(self.error(format!("in ${section}, expected {least} numbers, found `{}`", Quote(&line)))),
+            _ => Err(self.numbers_missing(section, least, line.as_bytes())),
         }
+    }
+
+    /// The numbers at the beginning of the next line.
+    pub fn line_into<T: FromStr>(&mut self, section: &str, values: &mut [T]) -> Result<(), MeshError> {
+        let line = self.next_bytes().ok_or_else(|| self.cut_off(section))?;
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        for value in values.iter_mut() {
+            *value = match words.next().and_then(|word| std::str::from_utf8(word).ok()?.parse().ok()) {
+                Some(number) => number,
+                None => return Err(self.numbers_missing(section, values.len(), line)),
+            };
+        }
+        Ok(())
+    }
+
+    fn numbers_missing(&self, section: &str, least: usize, line: &[u8]) -> MeshError {
+        let line = String::from_utf8_lossy(line);
+        self.error(format!("in ${section}, expected {least} numbers, found `{}`", Quote(&line)))
     }
 
     /// The next `N` bytes.

@@ -1,13 +1,16 @@
 //! Elements of a mesh file: corners, midside nodes, quadrangles split in two.
 
-use super::super::macro_mesh::RawMesh;
-use super::super::{FilePlace, MeshError};
+use super::super::MeshError;
+use super::super::macro_mesh::{RawMesh, RawTriangle};
 use super::cursor::Cursor;
+use super::groups::{Entity, Groups};
 use crate::geometry::{Point, cross};
-use std::collections::HashMap;
 
 /// Diagonals whose triangles have the same smallest angle up to this share are alike: the first corner decides.
 const ALIKE: f64 = 1e-9;
+
+/// No element has more nodes.
+pub(super) const MOST_NODES: usize = 9;
 
 /// What a Gmsh element type is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,10 +56,11 @@ fn refused(number: i64) -> String {
 /// Nodes and elements that have been read so far.
 #[derive(Default)]
 pub(super) struct Elements {
-    nodes: HashMap<i64, usize>,
+    /// Tags of the nodes and their vertices, ascending from [`Elements::end_nodes`] on.
+    nodes: Vec<(i64, u32)>,
     mesh: RawMesh,
-    /// Where each triangle is, by its corners, if the same one may come again with another name.
-    known: HashMap<[usize; 3], usize>,
+    /// The physical group of the last element that had but one, or none, and the number of its names.
+    last: Option<(Option<Entity>, u32)>,
 }
 
 impl Elements {
@@ -74,26 +78,60 @@ impl Elements {
             let z = crate::geometry::Rounded(x[2]);
             return Err(cursor.error(format!("node {tag} has z = {z}; the mesh must lie in the plane z = 0")));
         }
-        self.nodes.insert(tag, self.mesh.vertices.len());
+        self.nodes.push((tag, self.mesh.vertices.len() as u32));
         self.mesh.vertices.push(Point::new(x[0], x[1]));
         Ok(())
     }
 
-    /// Adds an element of the physical groups `names` by the tags of its nodes.
-    pub fn add(&mut self, cursor: &Cursor, kind: ElementKind, tags: &[i64], names: &[String]) -> Result<(), MeshError> {
-        let find = |tag| self.nodes.get(tag).copied();
-        let mut nodes = [0; 9];
-        for (node, tag) in nodes.iter_mut().zip(&tags[..kind.nodes]) {
-            *node = find(tag).ok_or_else(|| cursor.error(format!("node {tag} is not among the $Nodes")))?;
+    /// Sorts the nodes; of two with one tag the later one has it.
+    pub fn end_nodes(&mut self) {
+        self.nodes.sort_unstable();
+        self.nodes.dedup_by(|later, kept| {
+            let is_same = later.0 == kept.0;
+            kept.1 = if is_same { later.1 } else { kept.1 };
+            is_same
+        });
+    }
+
+    /// The vertex of a tag. Most files leave no tag out, and its distance from the first one is its place.
+    fn vertex(&self, tag: i64) -> Option<u32> {
+        let guess = usize::try_from(tag.checked_sub(self.nodes.first()?.0)?).ok()?;
+        let found = self.nodes.get(guess).filter(|node| node.0 == tag);
+        let search = || self.nodes.binary_search_by_key(&tag, |node| node.0).ok().map(|place| &self.nodes[place]);
+        found.or_else(search).map(|node| node.1)
+    }
+
+    /// The number of the names of physical groups that elements have, for [`Elements::add`].
+    pub fn names(&mut self, names: Vec<String>) -> u32 {
+        self.mesh.number_of(names)
+    }
+
+    /// The same of one group, or none. Elements of a group follow each other.
+    pub fn names_of_group(&mut self, groups: &Groups, group: Option<Entity>) -> u32 {
+        if let Some((_, number)) = self.last.filter(|(last, _)| *last == group) {
+            return number;
+        }
+        let number = self.names(group.map(|group| groups.name(group)).into_iter().collect());
+        self.last = Some((group, number));
+        number
+    }
+
+    /// Adds an element of physical groups by the tags of its nodes.
+    pub fn add(&mut self, cursor: &Cursor, kind: ElementKind, tags: &[i64], names: u32) -> Result<(), MeshError> {
+        let mut nodes = [0; MOST_NODES];
+        for (node, &tag) in nodes.iter_mut().zip(&tags[..kind.nodes]) {
+            *node = self.vertex(tag).ok_or_else(|| cursor.error(format!("node {tag} is not among the $Nodes")))?;
         }
         let (corners, place) = (&nodes[..kind.corners], cursor.place());
         match *corners {
-            [a, b] => self.mesh.lines.extend(names.iter().map(|name| (name.clone(), [a, b], place))),
-            [a, b, c] => self.add_triangle([a, b, c], names, place),
+            [a, b] => {
+                let names = &self.mesh.names[names as usize];
+                self.mesh.lines.extend(names.iter().map(|name| (name.clone(), [a, b], place)));
+            }
+            [a, b, c] => self.mesh.triangles.push(RawTriangle { corners: [a, b, c], names, place }),
             [a, b, c, d] => {
-                for corners in self.halves([a, b, c, d]) {
-                    self.add_triangle(corners, names, place);
-                }
+                let halves = self.halves([a, b, c, d]);
+                self.mesh.triangles.extend(halves.map(|corners| RawTriangle { corners, names, place }));
             }
             _ => {}
         }
@@ -101,45 +139,51 @@ impl Elements {
             let sides = if kind.corners == 2 { 1 } else { kind.corners };
             for k in 0..sides {
                 let (a, b) = (corners[k], corners[(k + 1) % kind.corners]);
-                self.mesh.midsides.insert([a.min(b), a.max(b)], self.mesh.vertices[nodes[kind.corners + k]]);
+                let middle = self.mesh.vertices[nodes[kind.corners + k] as usize];
+                self.mesh.midsides.push(([a.min(b), a.max(b)], middle));
             }
         }
         Ok(())
     }
 
-    fn add_triangle(&mut self, corners: [usize; 3], names: &[String], place: FilePlace) {
-        self.mesh.triangles.push((corners, names.to_vec(), place));
-    }
-
-    /// The same for formats that repeat an element for each of its physical groups: the names of a triangle are those of all.
-    pub fn add_repeated(&mut self, cursor: &Cursor, kind: ElementKind, tags: &[i64], names: &[String]) -> Result<(), MeshError> {
-        let first = self.mesh.triangles.len();
-        self.add(cursor, kind, tags, names)?;
-        let added: Vec<_> = self.mesh.triangles.drain(first..).collect();
-        for (corners, names, place) in added {
-            let mut sorted = corners;
-            sorted.sort_unstable();
-            let at = *self.known.entry(sorted).or_insert(self.mesh.triangles.len());
-            match self.mesh.triangles.get_mut(at) {
-                Some((_, known, _)) if names.iter().all(|name| !known.contains(name)) => known.extend(names),
-                _ => self.mesh.triangles.push((corners, names, place)),
+    /// For formats that repeat an element for each of its physical groups: the first of the triangles with the same corners gets
+    /// the names of all.
+    pub fn join_repeated(&mut self) {
+        let sorted = |(at, triangle): (usize, &RawTriangle)| {
+            let mut corners = triangle.corners;
+            corners.sort_unstable();
+            (corners, at)
+        };
+        let mut order: Vec<_> = self.mesh.triangles.iter().enumerate().map(sorted).collect();
+        order.sort_unstable();
+        let mut is_repeated = vec![false; order.len()];
+        for alike in order.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
+            let names_of = |(_, at): &([u32; 3], usize)| &self.mesh.names[self.mesh.triangles[*at].names as usize];
+            let mut names = names_of(&alike[0]).clone();
+            for other in &alike[1..] {
+                if names_of(other).iter().all(|name| !names.contains(name)) {
+                    names.extend_from_slice(names_of(other));
+                    is_repeated[other.1] = true;
+                }
             }
+            self.mesh.triangles[alike[0].1].names = self.mesh.number_of(names);
         }
-        Ok(())
+        let mut is_repeated = is_repeated.into_iter();
+        self.mesh.triangles.retain(|_| is_repeated.next() != Some(true));
     }
 
     /// A quadrangle as two triangles: by the diagonal that makes the smallest angle of both larger.
-    fn halves(&self, [a, b, c, d]: [usize; 4]) -> [[usize; 3]; 2] {
+    fn halves(&self, [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
         let (first, second) = ([[a, b, c], [a, c, d]], [[a, b, d], [b, c, d]]);
-        let x = |corner: usize| self.mesh.vertices[corner];
+        let x = |corner: u32| self.mesh.vertices[corner as usize];
         let sign = cross(x(c) - x(a), x(d) - x(b)).signum();
-        let smallest = |[p, q, r]: [usize; 3]| {
+        let smallest = |[p, q, r]: [u32; 3]| {
             let sides = [x(q) - x(p), x(r) - x(q), x(p) - x(r)];
             // Negative where the triangle is turned over, as beside a corner that points inwards.
             let angle = |k: usize| (sign * cross(sides[k], -sides[(k + 2) % 3])).atan2(-sides[k].dot(&sides[(k + 2) % 3]));
             (0..3).map(angle).fold(f64::INFINITY, f64::min)
         };
-        let quality = |halves: [[usize; 3]; 2]| smallest(halves[0]).min(smallest(halves[1]));
+        let quality = |halves: [[u32; 3]; 2]| smallest(halves[0]).min(smallest(halves[1]));
         if quality(second) > quality(first) + ALIKE { second } else { first }
     }
 }
@@ -148,7 +192,7 @@ impl Elements {
 mod tests {
     use super::*;
 
-    fn halves(corners: [[f64; 2]; 4]) -> [[usize; 3]; 2] {
+    fn halves(corners: [[f64; 2]; 4]) -> [[u32; 3]; 2] {
         let vertices = corners.map(Point::from).to_vec();
         let elements = Elements { mesh: RawMesh { vertices, ..Default::default() }, ..Default::default() };
         elements.halves([0, 1, 2, 3])

@@ -72,12 +72,13 @@ pub fn parse_joined(bytes: &[u8], file: &Path, joined: HashMap<String, String>) 
 /// # Errors
 /// [`MeshError`] as of [`read_gmsh`].
 pub fn surfaces(bytes: &[u8], file: &Path) -> Result<Vec<String>, MeshError> {
+    let mesh = read(bytes, file)?;
     let (mut names, mut seen) = (Vec::new(), HashSet::new());
-    for name in read(bytes, file)?.triangles.into_iter().flat_map(|(_, names, _)| names) {
-        if seen.insert(name.clone()) {
-            names.push(name);
-        }
+    for together in mesh.triangles.iter().map(|triangle| triangle.names).filter(|&together| seen.insert(together)) {
+        names.extend_from_slice(&mesh.names[together as usize]);
     }
+    let mut seen = HashSet::new();
+    names.retain(|name| seen.insert(name.clone()));
     Ok(names)
 }
 
@@ -88,14 +89,15 @@ pub fn surfaces(bytes: &[u8], file: &Path) -> Result<Vec<String>, MeshError> {
 pub fn touching_surfaces(bytes: &[u8], file: &Path) -> Result<Vec<Vec<String>>, MeshError> {
     let mut groups: Vec<Vec<String>> = Vec::new();
     let mut group_of: HashMap<String, usize> = HashMap::new();
-    let mut at_node: HashMap<usize, usize> = HashMap::new();
-    for (corners, names, _) in read(bytes, file)?.triangles {
-        let Some(name) = names.into_iter().next() else { continue };
+    let mut at_node: HashMap<u32, usize> = HashMap::new();
+    let mesh = read(bytes, file)?;
+    for triangle in &mesh.triangles {
+        let Some(name) = mesh.names[triangle.names as usize].first() else { continue };
         let mut own = *group_of.entry(name.clone()).or_insert_with(|| {
-            groups.push(vec![name]);
+            groups.push(vec![name.clone()]);
             groups.len() - 1
         });
-        for corner in corners {
+        for corner in triangle.corners {
             let other = *at_node.entry(corner).or_insert(own);
             if other != own {
                 let (first, second) = (own.min(other), own.max(other));
@@ -170,7 +172,7 @@ fn check_sections(seen: &[String], version: Version, file: &Path) -> Result<(), 
 
 /// Some triangle belongs to a physical group, with a name or without.
 fn check_groups(mesh: &RawMesh, file: &Path) -> Result<(), MeshError> {
-    if mesh.triangles.is_empty() || mesh.triangles.iter().any(|(_, names, _)| !names.is_empty()) {
+    if mesh.triangles.is_empty() || mesh.triangles.iter().any(|triangle| !mesh.names[triangle.names as usize].is_empty()) {
         return Ok(());
     }
     let words = "has no physical surfaces; name the bodies with `Physical Surface(\"name\") = {...}` and the boundaries with `Physical Curve(\"name\") = {...}` in the .geo file; where they are named there, drop `Mesh.SaveAll` or `-save_all`, which loses groups in format 2.2";

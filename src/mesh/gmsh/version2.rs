@@ -11,14 +11,17 @@ pub(super) fn read_nodes(cursor: &mut Cursor, elements: &mut Elements) -> Result
     let count: u64 = cursor.line_of(SECTION, 1)?[0];
     for _ in 0..count {
         let (tag, x) = if cursor.is_text() {
-            let values: Vec<f64> = cursor.line_of(SECTION, 4)?;
-            (values[0] as i64, [values[1], values[2], values[3]])
+            let mut values = [0.0; 4];
+            cursor.line_into(SECTION, &mut values)?;
+            let [tag, x, y, z] = values;
+            (tag as i64, [x, y, z])
         } else {
             let [tag] = cursor.whole(SECTION)?;
             (tag, cursor.floats(SECTION)?)
         };
         elements.add_node(cursor, tag, x)?;
     }
+    elements.end_nodes();
     Ok(())
 }
 
@@ -53,6 +56,7 @@ pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut
             read += 1;
         }
     }
+    elements.join_repeated();
     Ok(())
 }
 
@@ -74,6 +78,6 @@ fn add(
         return Err(cursor.error(super::PARTITIONED));
     }
     let group = tags.first().copied().filter(|&tag| tag != 0);
-    let names: Vec<String> = group.iter().map(|tag| groups.name((kind.dimension, tag.abs()))).collect();
-    elements.add_repeated(cursor, kind, nodes, &names)
+    let names = elements.names_of_group(groups, group.map(|tag| (kind.dimension, tag.abs())));
+    elements.add(cursor, kind, nodes, names)
 }

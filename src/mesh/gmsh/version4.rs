@@ -2,7 +2,7 @@
 
 use super::super::MeshError;
 use super::cursor::Cursor;
-use super::elements::{ElementKind, Elements};
+use super::elements::{ElementKind, Elements, MOST_NODES};
 use super::groups::Groups;
 
 /// The line before a block: dimension, entity, kind, and how many there are.
@@ -40,12 +40,18 @@ pub(super) fn read_nodes(cursor: &mut Cursor, elements: &mut Elements) -> Result
         let [dimension, _, parametric, count] = block(cursor, SECTION)?;
         let mut tags = Vec::new();
         for _ in 0..count {
-            tags.push(if cursor.is_text() { cursor.line_of(SECTION, 1)?[0] } else { cursor.size(SECTION)? });
+            let mut tag = [0];
+            match cursor.is_text() {
+                true => cursor.line_into(SECTION, &mut tag)?,
+                false => tag[0] = cursor.size(SECTION)?,
+            }
+            tags.extend(tag);
         }
         for tag in tags {
             let x = if cursor.is_text() {
-                let x: Vec<f64> = cursor.line_of(SECTION, 3)?;
-                [x[0], x[1], x[2]]
+                let mut x = [0.0; 3];
+                cursor.line_into(SECTION, &mut x)?;
+                x
             } else {
                 let x = cursor.floats(SECTION)?;
                 cursor.pass(SECTION, if parametric == 0 { 0 } else { dimension }, 8)?;
@@ -54,6 +60,7 @@ pub(super) fn read_nodes(cursor: &mut Cursor, elements: &mut Elements) -> Result
             elements.add_node(cursor, tag, x)?;
         }
     }
+    elements.end_nodes();
     Ok(())
 }
 
@@ -63,13 +70,18 @@ pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut
     for _ in 0..blocks(cursor, SECTION)? {
         let [dimension, entity, number, count] = block(cursor, SECTION)?;
         let kind = ElementKind::of(number).map_err(|words| cursor.error(words))?;
-        let names = groups.names_of((usize::try_from(dimension).unwrap_or(usize::MAX), entity));
+        let names = elements.names(groups.names_of((usize::try_from(dimension).unwrap_or(usize::MAX), entity)));
+        let mut words = [0; MOST_NODES + 1];
+        let words = &mut words[..=kind.nodes];
         for _ in 0..count {
-            let words: Vec<i64> = match cursor.is_text() {
-                true => cursor.line_of(SECTION, 1 + kind.nodes)?,
-                false => (0..=kind.nodes).map(|_| cursor.size(SECTION)).collect::<Result<_, _>>()?,
-            };
-            elements.add(cursor, kind, &words[1..], &names)?;
+            if cursor.is_text() {
+                cursor.line_into(SECTION, words)?;
+            } else {
+                for word in words.iter_mut() {
+                    *word = cursor.size(SECTION)?;
+                }
+            }
+            elements.add(cursor, kind, &words[1..], names)?;
         }
     }
     Ok(())

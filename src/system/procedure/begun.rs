@@ -5,10 +5,10 @@ use super::settings::Procedure;
 use crate::accuracy::share_of_nothing;
 use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, point_contact};
 use crate::geometry::Point;
-use crate::mesh::{EdgeNode, Numbering, Partition, lattice};
+use crate::mesh::{EdgeNode, Level, Numbering, Partition, lattice};
 use crate::system::{
     BoundaryMotion, Contact, Discretisation, Prediction, Predictor, Scene, Space, Start, SystemError, bilateral,
-    finest_numbering, not_held_if_closed, spaces, widest,
+    finest_numbering, not_held, not_held_if_closed, spaces, widest,
 };
 use std::rc::Rc;
 
@@ -34,7 +34,7 @@ const ROOM: usize = 1;
 pub(super) enum Begun {
     /// The contacts as they will lie, and where to start.
     Held(Box<Discretisation>, Start),
-    /// No solution to begin with: a first set at most, or contacts as they are drawn, where the programme has no answer.
+    /// No solution to begin with: a first set at most, or contacts as they are drawn, where the programme has no answer or is dear.
     Unknown(Box<Discretisation>),
     /// A body that nothing holds, or that the loads drive off all its contacts, in words.
     Free(Box<Discretisation>, String),
@@ -54,6 +54,19 @@ impl Procedure<'_> {
     /// [`SystemError`] if contacts cannot be placed, supports contradict each other, or a triangle is turned inside out.
     pub(super) fn begun(&self, scene: Scene) -> Result<Begun, SystemError> {
         let spaces = spaces(&scene, self.session.rank())?;
+        let finest = &spaces[spaces.len() - 1].numbering;
+        if !is_assembly(&scene)
+            && let Ok(contacts) = Contact::all(&scene, finest, self.session.rank())
+            && work_of_programme(&scene, finest.level, &contacts) > MOST_WORK
+        {
+            let problem = Discretisation::with(scene, spaces, contacts, BoundaryMotion::default(), self.session)?;
+            let free = not_held(&problem, &vec![true; problem.multiplier_count()], self.session);
+            let problem = Box::new(problem);
+            return Ok(match free {
+                Some(words) => Begun::Free(problem, words),
+                None => Begun::Unknown(problem),
+            });
+        }
         let whole = on_one_rank(&scene);
         let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
         let wide = wide_contacts(&whole, &numbering)?;
@@ -110,7 +123,7 @@ impl Procedure<'_> {
     /// # Errors
     /// As of [`Procedure::begun`].
     pub(super) fn predicted(&self, problem: Discretisation, start: Start) -> Result<Begun, SystemError> {
-        let is_dear = work_of_programme(&problem) > MOST_WORK;
+        let is_dear = work_of_programme(&problem.scene, problem.finest().numbering.level, &problem.contacts) > MOST_WORK;
         if is_dear || problem.contacts.is_empty() || !is_assembly(&problem.scene) {
             return Ok(Begun::Held(Box::new(problem), start));
         }
@@ -133,7 +146,8 @@ impl Procedure<'_> {
         Ok(Begun::Held(Box::new(problem), start))
     }
 
-    /// Where contacts press on the coarsest mesh, and how large their forces are; nothing if the programme has no answer.
+    /// Where contacts press on the coarsest mesh, and how large their forces are; nothing if the programme has no answer, or would
+    /// be dear.
     /// **Collective**
     ///
     /// # Errors
@@ -143,6 +157,9 @@ impl Procedure<'_> {
         let numbering = finest_numbering(&whole)?;
         let wide = wide_contacts(&whole, &numbering)?;
         let drawn: Vec<Contact> = wide.iter().map(|wide| wide.contact.clone()).collect();
+        if work_of_programme(scene, numbering.level, &drawn) > MOST_WORK {
+            return Ok(None);
+        }
         let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
         let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
         let found = self.shared(predictor.as_ref(), &drawn, numbering.node_count())?.ok();
@@ -203,9 +220,8 @@ impl Procedure<'_> {
 }
 
 /// Operations of the programme on a mesh, roughly: the factor of each body, and a solve with it for each multiplier that it sees.
-fn work_of_programme(problem: &Discretisation) -> f64 {
-    let Discretisation { scene, contacts, .. } = problem;
-    let intervals = problem.finest().numbering.level.intervals as f64;
+fn work_of_programme(scene: &Scene, level: Level, contacts: &[Contact]) -> f64 {
+    let intervals = level.intervals as f64;
     let mut bodies = vec![[0.0; 2]; scene.bodies.len()];
     scene.mesh.triangles.iter().for_each(|triangle| bodies[triangle.body as usize][0] += intervals * intervals);
     for contact in contacts {

@@ -2,9 +2,9 @@
 
 use super::agreed;
 use super::springs::SpringForces;
-use crate::body::{Holders, MacroStiffness, Motion, RigidSet};
+use crate::body::{Holders, MacroStiffness, Motion, RigidSet, one_stiffness, one_triangle};
 use crate::contact::{Configuration, Side};
-use crate::element::PlaneLaw;
+use crate::element::{Order, PlaneLaw};
 use crate::geometry::{Point, cross};
 use crate::mesh::{EdgeNode, lattice};
 use crate::petsc::Session;
@@ -356,6 +356,12 @@ fn each_force(
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
     let law = &laws[mesh.triangles[triangle].part as usize];
+    if numbering.level.is_one_triangle() {
+        return match numbering.level.order {
+            Order::P1 => each_force_of_one::<3>(problem, law, u, triangle, take),
+            Order::P2 => each_force_of_one::<6>(problem, law, u, triangle, take),
+        };
+    }
     let stiffness = MacroStiffness::new(mesh, triangle, numbering.level, law)?;
     let numbers = numbering.triangle(mesh, triangle);
     let local: Vec<Point> = lattice::nodes(n).map(|(i, j)| u.point(numbers.node(i, j))).collect();
@@ -367,6 +373,29 @@ fn each_force(
             force.y += block[1][0] * u.x + block[1][1] * u.y;
         }
         take(numbers.node(i, j), force, local[at]);
+    }
+    Ok(())
+}
+
+/// The same where the macro triangle is a single triangle.
+fn each_force_of_one<const N: usize>(
+    problem: &Discretisation,
+    law: &PlaneLaw,
+    u: &Field<2>,
+    triangle: usize,
+    mut take: impl FnMut(usize, Point, Point),
+) -> Result<(), SystemError> {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let numbers = numbering.triangle(mesh, triangle);
+    let nodes = one_triangle::<N>(numbering.level).map(|(i, j)| numbers.node(i, j));
+    let local = nodes.map(|node| u.point(node));
+    for (a, row) in one_stiffness::<N>(mesh, triangle, numbering.level, law)?.iter().enumerate() {
+        let mut force = Point::zeros();
+        for (block, u) in row.iter().zip(&local) {
+            force.x += block[0][0] * u.x + block[0][1] * u.y;
+            force.y += block[1][0] * u.x + block[1][1] * u.y;
+        }
+        take(nodes[a], force, local[a]);
     }
     Ok(())
 }

@@ -53,7 +53,7 @@ pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -
     });
     agreed(session, added)?;
     session.sum(sums.as_flattened_mut());
-    let mut found: Vec<Deformation> = (0..mesh.bodies.len()).map(|body| whole(mesh, body, &sums)).collect();
+    let mut found = whole_bodies(mesh, &sums);
     for _ in problem.scene.refine..MANY {
         sums = with_neighbours(mesh, &sums);
     }
@@ -66,15 +66,25 @@ pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -
     Ok(found)
 }
 
-/// What is known of a body as a whole; its strain is left at zero.
-fn whole(mesh: &MacroMesh, body: usize, sums: &[TriangleIntegrals]) -> Deformation {
-    let own = || mesh.triangles.iter().zip(sums).filter(|(triangle, _)| triangle.body as usize == body);
-    let total = |k: usize| own().map(|(_, sum)| sum[k]).sum::<f64>();
-    let area = total(1);
-    let middle = own().map(|(triangle, sum)| centroid(mesh, triangle) * sum[1]).sum::<Point>() / area;
-    let distance = |vertex: u32| (mesh.vertices[vertex as usize] - middle).norm();
-    let radius = own().flat_map(|(triangle, _)| triangle.vertices).map(distance).fold(0.0, f64::max);
-    Deformation { strain: 0.0, place: middle, rotation: total(2) / area, growth: total(3), middle, radius }
+/// What is known of each body as a whole; its strain is left at zero.
+fn whole_bodies(mesh: &MacroMesh, sums: &[TriangleIntegrals]) -> Vec<Deformation> {
+    let mut totals = vec![(TriangleIntegrals::default(), Point::zeros()); mesh.bodies.len()];
+    for (triangle, sum) in mesh.triangles.iter().zip(sums) {
+        let (total, moment) = &mut totals[triangle.body as usize];
+        (0..sum.len()).for_each(|k| total[k] += sum[k]);
+        *moment += centroid(mesh, triangle) * sum[1];
+    }
+    let whole = |&([_, area, rotation, growth], moment): &(TriangleIntegrals, Point)| {
+        let middle = moment / area;
+        Deformation { strain: 0.0, place: middle, rotation: rotation / area, growth, middle, radius: 0.0 }
+    };
+    let mut found: Vec<Deformation> = totals.iter().map(whole).collect();
+    for triangle in &mesh.triangles {
+        let Deformation { middle, radius, .. } = &mut found[triangle.body as usize];
+        let farthest = triangle.vertices.map(|vertex| (mesh.vertices[vertex as usize] - *middle).norm());
+        *radius = farthest.into_iter().fold(*radius, f64::max);
+    }
+    found
 }
 
 fn centroid(mesh: &MacroMesh, triangle: &MacroTriangle) -> Point {
@@ -156,7 +166,7 @@ mod tests {
         let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].body as usize == body).collect();
         let mut sums = vec![[9.0, 9.0, 9.0, 9.0]; mesh.triangles.len()];
         (sums[own[0]], sums[own[1]]) = ([0.0, 1.0, 0.02, 0.3], [0.0, 3.0, 0.18, 0.5]);
-        let found = whole(&mesh, body, &sums);
+        let found = &whole_bodies(&mesh, &sums)[body];
         assert!((found.rotation - 0.05).abs() < 1e-12 && (found.growth - 0.8).abs() < 1e-12);
         let [a, b] = [0, 1].map(|k| centroid(&mesh, &mesh.triangles[own[k]]));
         assert!((found.middle - (0.25 * a + 0.75 * b)).norm() < 1e-12);

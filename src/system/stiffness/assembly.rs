@@ -7,10 +7,10 @@ use super::registers::strip_kernel;
 use super::stored_rows::{BlockColumn, StoredRows, place};
 use super::strip_set::{Strips, TriangleStrips};
 use super::strips::{Couplings, StripNodes};
-use crate::body::{Constraint, MacroStiffness, neighbours};
-use crate::element::{BadJacobian, Block};
+use crate::body::{Constraint, MacroStiffness, neighbours, one_stiffness, one_triangle};
+use crate::element::{BadJacobian, Block, Order, PlaneLaw};
 use crate::geometry::Point;
-use crate::mesh::{Strip, TriangleNumbers, lattice};
+use crate::mesh::{Level, Strip, TriangleNumbers, lattice};
 use crate::system::triangle_lattice::{TriangleNodes, side_nodes};
 use crate::system::{Scene, Space};
 use std::collections::BTreeMap;
@@ -54,16 +54,20 @@ impl<'a> Assembly<'a> {
     /// With strips, or with all rows stored.
     pub fn new(scene: &'a Scene, space: &'a Space, with_strips: bool, rank: usize) -> Self {
         let level = space.numbering.level;
-        let part = |triangle: usize| {
+        let partition = space.numbering.partition();
+        let part = |&triangle: &u32| {
+            let triangle = triangle as usize;
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
-            let is_own = space.numbering.partition().owner(triangle as u32) == rank;
-            let is_repeated = is_own && with_strips;
+            let is_own = partition.owner(triangle as u32) == rank;
+            let is_repeated = is_own && with_strips && !level.is_one_triangle();
             let is_whole = is_repeated && level.is_whole() && scene.mesh.is_even(triangle, level);
             let strips = if is_repeated && !is_whole { scene.mesh.strips(triangle, level) } else { Vec::new() };
             let part = AssemblyPart { triangle, numbers, is_own, is_whole, strips };
             (is_own || touches(level.intervals, space, &part.numbers)).then_some(part)
         };
-        let parts = (0..scene.mesh.triangles.len()).filter_map(part).collect();
+        let mut triangles = [partition.triangles_of(rank), partition.of_others_with_nodes(rank)].concat();
+        triangles.sort_unstable();
+        let parts = triangles.iter().filter_map(part).collect();
         let mut assembly = Self { scene, space, parts, nodes: Vec::new() };
         assembly.nodes = assembly.stored_nodes();
         assembly
@@ -83,6 +87,13 @@ impl<'a> Assembly<'a> {
         for part in &self.parts {
             let (mesh, level) = (&self.scene.mesh, self.space.numbering.level);
             let law = &laws[mesh.triangles[part.triangle].part as usize];
+            if level.is_one_triangle() {
+                match level.order {
+                    Order::P1 => self.add_triangle::<3>(part, law, &far, &mut rows, &mut lift)?,
+                    Order::P2 => self.add_triangle::<6>(part, law, &far, &mut rows, &mut lift)?,
+                }
+                continue;
+            }
             let made = if part.is_own { MacroStiffness::new } else { MacroStiffness::of_sides };
             let stiffness = made(mesh, part.triangle, level, law)?;
             self.add_rows(part, &stiffness, &far, &mut rows, &mut lift);
@@ -110,20 +121,12 @@ impl<'a> Assembly<'a> {
         };
         let mut counts = vec![0; self.nodes.len()];
         for part in &self.parts {
-            self.each_row(part, |k, (i, j)| counts[k] += neighbours(level.order, i, j).len() as u32);
+            self.each_row(part, |k, (i, j)| counts[k] += coupled(level, i, j).count() as u32);
         }
         of_contact().for_each(|(k, others)| counts[k] += others.len() as u32);
         let mut couplings = RowColumns::new(&counts);
         for part in &self.parts {
-            let n = level.intervals;
-            self.each_row(part, |k, (i, j)| {
-                for &(di, dj) in neighbours(level.order, i, j) {
-                    let (a, b) = (i.wrapping_add_signed(di), j.wrapping_add_signed(dj));
-                    if a <= n && b <= n && a + b <= n {
-                        couplings.push(k, part.numbers.node(a, b));
-                    }
-                }
-            });
+            self.each_row(part, |k, (i, j)| coupled(level, i, j).for_each(|(a, b)| couplings.push(k, part.numbers.node(a, b))));
         }
         for (k, others) in of_contact() {
             others.iter().for_each(|&other| couplings.push(k, other));
@@ -201,6 +204,32 @@ impl<'a> Assembly<'a> {
         }
     }
 
+    /// Adds the part that a macro triangle has in the stored rows where it is one triangle.
+    fn add_triangle<const N: usize>(
+        &self,
+        part: &AssemblyPart,
+        law: &PlaneLaw,
+        far: &[usize],
+        rows: &mut StoredRows,
+        lift: &mut impl FnMut(usize, Point),
+    ) -> Result<(), BadJacobian> {
+        let (level, own) = (self.space.numbering.level, &self.space.own);
+        let stiffness = one_stiffness::<N>(&self.scene.mesh, part.triangle, level, law)?;
+        let nodes = one_triangle::<N>(level).map(|(i, j)| part.numbers.node(i, j));
+        let held = nodes.map(|node| self.space.constraints.get(node));
+        for (a, &row) in nodes.iter().enumerate().filter(|(_, row)| own.contains(row)) {
+            let place = place(&self.nodes, row - own.start).expect("a stored row");
+            for (b, &node) in nodes.iter().enumerate() {
+                let block = match (held[a], held[b]) {
+                    (None, None) => stiffness[a][b],
+                    (left, right) => constrained(&stiffness[a][b], left, right, a == b, |force| lift(row, force)),
+                };
+                rows.add(place, BlockColumn::of(node, own, far), &block);
+            }
+        }
+        Ok(())
+    }
+
     /// Shows what prescribed displacements on the sides of a macro triangle do to its inner nodes.
     fn lift_inner(&self, part: &AssemblyPart, stiffness: &MacroStiffness, lift: &mut impl FnMut(usize, Point)) {
         let n = self.space.numbering.level.intervals;
@@ -275,6 +304,12 @@ fn touches(n: usize, space: &Space, numbers: &TriangleNumbers) -> bool {
         let middle = lattice::side_node(n, side, n / 2);
         [corner, middle].into_iter().any(|(i, j)| space.own.contains(&numbers.node(i, j)))
     })
+}
+
+/// Lattice nodes that a node couples to.
+fn coupled(level: Level, i: usize, j: usize) -> impl Iterator<Item = (usize, usize)> {
+    let nodes = neighbours(level.order, i, j).iter().map(move |&(di, dj)| (i.wrapping_add_signed(di), j.wrapping_add_signed(dj)));
+    nodes.filter(move |&(a, b)| a <= level.intervals && b <= level.intervals && a + b <= level.intervals)
 }
 
 /// Nodes on the sides of a lattice.

@@ -4,6 +4,7 @@ use super::strips::inverse;
 use crate::element::Block;
 use crate::petsc::Index;
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 use std::ops::Range;
 
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
@@ -93,23 +94,42 @@ impl Part {
 impl Part {
     /// Shares the blocks of rows that have the same ones, but for those that are to keep their own.
     fn share(&mut self, keeps: &[bool]) {
-        let mut known: HashMap<u64, Vec<(u32, usize)>> = HashMap::new();
+        let mut known: HashMap<u64, u32, Fingerprints> = HashMap::default();
         let mut blocks: Vec<Block> = Vec::new();
         for (k, keeps) in keeps.iter().enumerate() {
             let row = &self.blocks[self.firsts[k] as usize..][..self.row(k).len()];
-            let alike = known.entry(fingerprint(row)).or_default();
-            let found = alike.iter().find(|&&(first, count)| blocks[first as usize..][..count] == *row).filter(|_| !keeps);
-            let first = found.map_or(blocks.len() as u32, |found| found.0);
-            if found.is_none() {
+            let next = blocks.len() as u32;
+            let first = if *keeps { next } else { *known.entry(fingerprint(row)).or_insert(next) };
+            // Two rows with one fingerprint are told apart.
+            let first = if blocks[first as usize..].starts_with(row) { first } else { next };
+            if first == next {
                 blocks.extend_from_slice(row);
-                if !keeps {
-                    alike.push((first, row.len()));
-                }
             }
             self.firsts[k] = first;
         }
         blocks.shrink_to_fit();
         self.blocks = blocks;
+    }
+}
+
+/// Fingerprints need no more hashing.
+type Fingerprints = BuildHasherDefault<FingerprintHasher>;
+
+/// A fingerprint as its own hash.
+#[derive(Default)]
+struct FingerprintHasher(u64);
+
+impl Hasher for FingerprintHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.0 = self.0 << 8 | u64::from(byte));
+    }
+
+    fn write_u64(&mut self, fingerprint: u64) {
+        self.0 = fingerprint;
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
     }
 }
 
@@ -140,7 +160,7 @@ impl StoredRows {
         contact.filter_map(|node| self.place(node)).for_each(|k| keeps[k] = true);
         self.near.share(&keeps);
         self.far.share(&keeps);
-        let mut known: HashMap<u64, u32> = HashMap::new();
+        let mut known: HashMap<u64, u32, Fingerprints> = HashMap::default();
         let mut inverses: Vec<Block> = Vec::new();
         for (k, keeps) in keeps.iter().enumerate() {
             let own = self.inverses[self.inverse_of[k] as usize];
