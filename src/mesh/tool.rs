@@ -170,7 +170,7 @@ impl MacroMesh {
         self.parts.push(Surface { name: name.into(), body });
         self.pieces.push(BodyPiece { body: body as usize, first: start });
         let ends = |k: usize| [k, (k + 1) % places.len()].map(|at| first + 2 * at as u32);
-        for k in 0..sides.len() {
+        for (k, place) in places.iter().enumerate().take(sides.len()) {
             let [a, b] = ends(k);
             let [c, d] = [b + 1, a + 1];
             for corners in [[a, b, c], [a, c, d]] {
@@ -179,7 +179,7 @@ impl MacroMesh {
                 if cross(y - x, z - x) <= 0.0 {
                     return Err(format!(
                         "its surface turns too sharply near ({:.6}, {:.6}); make it smoother, or of several tools",
-                        places[k].x.x, places[k].x.y
+                        place.x.x, place.x.y
                     ));
                 }
                 self.triangles.push(MacroTriangle { vertices: corners, edges: [0; 3], forward: [true; 3], body, part, piece });

@@ -39,13 +39,8 @@ struct WholeTriangle {
 }
 
 /// Lattices to work in: a fine one with zeros on its sides, and a coarse one.
+#[derive(Default)]
 pub struct InterpolationRoom([LatticeRoom; 2]);
-
-impl Default for InterpolationRoom {
-    fn default() -> Self {
-        Self(Default::default())
-    }
-}
 
 impl InterpolationRoom {
     /// With a fine lattice with `n` intervals, and for so many macro triangles.

@@ -38,6 +38,7 @@ mod residual_scale;
 mod settings;
 mod solved;
 mod unsettled;
+mod wide_contact;
 mod zone_estimate;
 
 pub use at_rest::AtRest;
