@@ -2,7 +2,7 @@
 
 use super::by_forces::LoadedPlace;
 use super::settings::Procedure;
-use super::wide_contact::{narrowed, wide_contacts};
+use super::wide_contact::{narrowed, wide_contacts, with_touch};
 use crate::accuracy::share_of_nothing;
 use crate::contact::Known;
 use crate::geometry::Point;
@@ -48,16 +48,10 @@ impl Procedure<'_> {
         let spaces = spaces(&scene, self.session.rank())?;
         let finest = &spaces[spaces.len() - 1].numbering;
         if !is_assembly(&scene)
-            && let Ok(contacts) = Contact::all(&scene, finest, self.session.rank())
-            && work_of_programme(&scene, finest.level, &contacts) > MOST_WORK
+            && let Ok(drawn) = Contact::all(&scene, finest, self.session.rank())
+            && work_of_programme(&scene, finest.level, &drawn) > MOST_WORK
         {
-            let problem = Discretisation::with(scene, spaces, contacts, BoundaryMotion::default(), self.session)?;
-            let free = not_held(&problem, &vec![true; problem.multiplier_count()], self.session);
-            let problem = Box::new(problem);
-            return Ok(match free {
-                Some(words) => Begun::Free(problem, words),
-                None => Begun::Unknown(problem),
-            });
+            return self.begun_without_programme(scene, spaces, &drawn);
         }
         let whole = on_one_rank(&scene);
         let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
@@ -108,6 +102,20 @@ impl Procedure<'_> {
             return Ok(Begun::Unknown(Box::new(problem)));
         }
         Ok(Begun::Held(Box::new(problem), start))
+    }
+
+    /// Begins a mesh with contacts as they are `drawn`, which their forces place later on where sides touch at a point. **Collective**
+    fn begun_without_programme(&self, scene: Scene, spaces: Vec<Space>, drawn: &[Contact]) -> Result<Begun, SystemError> {
+        let numbering = &spaces[spaces.len() - 1].numbering;
+        let known = with_touch(&scene, numbering, drawn);
+        let contacts = Contact::all_again(&scene, numbering, self.session.rank(), &known, &|_| Point::zeros())?;
+        let problem = Discretisation::with(scene, spaces, contacts, BoundaryMotion::default(), self.session)?;
+        let free = not_held(&problem, &vec![true; problem.multiplier_count()], self.session);
+        let problem = Box::new(problem);
+        Ok(match free {
+            Some(words) => Begun::Free(problem, words),
+            None => Begun::Unknown(problem),
+        })
     }
 
     /// The same mesh with what the programme says of its contacts, where that costs less than the sets that it saves. **Collective**

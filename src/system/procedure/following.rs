@@ -291,7 +291,8 @@ fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least: f64
     if let Some(ends) = ends_by_force(pressure, least) {
         return ends;
     }
-    if pressing_segments(pressure) < TELLING {
+    // What presses up to both ends lies on too short a boundary.
+    if pressing_segments(pressure) < TELLING && active.contains(&false) {
         return now;
     }
     for (k, end) in [End::First, End::Last].into_iter().enumerate() {

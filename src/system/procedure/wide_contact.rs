@@ -93,22 +93,31 @@ fn wide_contact(scene: &Scene, numbering: &Numbering, pair: &Pair, first: usize)
         let contact = Contact::new(scene, numbering, 0, pair, first, &known, &at_rest)?;
         return Ok(WideContact { known, contact, touch: None });
     }
-    let sides = SmoothSide::of_pair(&scene.mesh, numbering, pair, &at_rest);
+    let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact));
+    let at = touch.map(|touch| boundary.arc(boundary.foot(touch.place)) / boundary.length());
+    let fractions = graded_towards(at.filter(|at| (SHORTEST..=1.0 - SHORTEST).contains(at)));
+    let graded = Pair { segments: SegmentRule::Fractions(fractions), grading: [1.0, 1.0], ..even };
+    let contact = Contact::new(scene, numbering, 0, &graded, first, &known, &at_rest)?;
+    Ok(WideContact { known, contact, touch })
+}
+
+/// Where the smooth sides of a contact of undeformed bodies touch first, if they do so at a point.
+fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact) -> Option<PointContact> {
+    let sides = SmoothSide::of_pair(&scene.mesh, numbering, &contact.pair, &|_| Point::zeros());
     let boundary = &contact.boundary;
     let (middle, half) = (boundary.point(boundary.parameter_at(0.5 * boundary.length())), 0.5 * boundary.length());
     let nearest = |stretches: &'_ [SmoothSide]| {
         let away = |side: &SmoothSide| (side.nearest_place(middle).0 - middle).norm();
         (0..stretches.len()).min_by(|&a, &b| away(&stretches[a]).total_cmp(&away(&stretches[b])))
     };
-    let touch = match [nearest(&sides[0]), nearest(&sides[1])] {
-        [Some(one), Some(other)] => point_contact([&sides[0][one], &sides[1][other]], middle, half),
-        _ => None,
-    };
-    let at = touch.map(|touch| boundary.arc(boundary.foot(touch.place)) / boundary.length());
-    let fractions = graded_towards(at.filter(|at| (SHORTEST..=1.0 - SHORTEST).contains(at)));
-    let graded = Pair { segments: SegmentRule::Fractions(fractions), grading: [1.0, 1.0], ..even };
-    let contact = Contact::new(scene, numbering, 0, &graded, first, &known, &at_rest)?;
-    Ok(WideContact { known, contact, touch })
+    let [one, other] = [nearest(&sides[0])?, nearest(&sides[1])?];
+    point_contact([&sides[0][one], &sides[1][other]], middle, half)
+}
+
+/// What contacts that lie as they are drawn are placed by later on: where they touch first, if they do so at a point.
+pub(super) fn with_touch(scene: &Scene, numbering: &Numbering, drawn: &[Contact]) -> Vec<Known> {
+    let touch = |contact: &Contact| contact.has_free_ends().then(|| touch(scene, numbering, contact)).flatten();
+    drawn.iter().map(|contact| Known { touch: touch(contact), ..contact.known.clone() }).collect()
 }
 
 /// Segment ends as fractions of the length: growing from one place to both sides, or even without one.
