@@ -2,6 +2,7 @@
 
 mod support;
 
+use support::mesh::{Mesh, grid, write_scene};
 use support::{Ended, PAIRS, Run};
 
 /// Contact boundaries that were solved for.
@@ -118,4 +119,39 @@ fn graded_segments_are_shorter_at_the_end_that_asks() {
     assert_eq!(ends.len(), 9);
     let length = |k: usize| ends[k + 1] - ends[k];
     assert!(length(0) > 2.5 * length(7) && (length(0) / length(3) - 1.0).abs() < 1e-6, "{ends:?}");
+}
+
+/// Half of a parabola of radius 1 on half of a block.
+const PARABOLA: &str = r#"
+mesh = { file = "mesh.msh", order = 2, refine = 0 }
+body.lower = { young = 7000.0, poisson = 0.227 }
+body.upper = { young = 7000.0, poisson = 0.227 }
+support.table = { on = "bottom", uy = 0.0 }
+support.symmetry = { on = "left", ux = 0.0 }
+load.top = { on = "top", pressure = 3.6 }
+contact.seam = { between = ["lower.seam", "upper.seam"], curve = "fit" }
+output.fields = false
+"#;
+
+/// On a mesh too fine for the programme of the first mesh, Γ_C begins as narrow as two edges, and forces place it.
+#[test]
+fn forces_place_the_boundary_where_the_programme_is_dear() {
+    let graded = |v: f64| 0.1 * v + 0.9 * v * v;
+    let lower = grid(110, 100, 1, |u, v| [2.0 * graded(u), -2.0 * graded(1.0 - v)]);
+    let upper = grid(100, 100, 2, |u, v| {
+        let foot = 0.5 * graded(u) * graded(u);
+        [graded(u), foot + (1.0 - foot) * graded(v)]
+    });
+    let bodies =
+        vec![("lower", lower, ["bottom", "", "lower.seam", "left"]), ("upper", upper, ["upper.seam", "", "top", "left"])];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), PARABOLA);
+    for ranks in [1, 2] {
+        let ended = Run::file(&file).ranks(ranks).converged();
+        let (peak, force) = (by_hertz(&ended), ended.number("/contact/seam/force"));
+        assert!((force / 3.6 - 1.0).abs() < 1e-6, "{ranks} ranks: {force}");
+        // The parabola is 20 half widths high.
+        assert!((peak - 1.0).abs() < 0.02, "{ranks} ranks: {peak}");
+        assert!(fits(&ended) <= 4, "{ranks} ranks: {} boundaries", fits(&ended));
+    }
 }
