@@ -33,7 +33,7 @@ pub fn many(seeds: impl Iterator<Item = u64>) -> Vec<String> {
         std::fs::create_dir_all(&folder).expect("a folder");
         let file = write_scene(&folder, &assembly.mesh(), &assembly.case());
         let words = format!("{} bodies, {} contacts, {}", assembly.members.len(), assembly.touches.len(), name(&finding));
-        let (verdict, seconds) = run(&file, 1 + (seed % 3) as usize, &assembly, &finding);
+        let (verdict, seconds) = run(&file, 1 + (seed % 2) as usize, &assembly, &finding);
         times.extend(seconds);
         let line = format!(
             "{seed:6} {words}: {} ({:.1} s)",
