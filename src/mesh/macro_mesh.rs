@@ -1,7 +1,6 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
 use super::edge_shape::EdgeShape;
-use super::edges::Edges;
 use super::{FilePlace, MeshError, NamedPoint};
 use crate::geometry::{Coordinates, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
@@ -190,7 +189,8 @@ impl MacroMesh {
         mesh.check_parts_are_joined()?;
         let mut placed = HashSet::new();
         for (name, ends, place) in raw.lines {
-            mesh.add_line(name, ends, place, &edges, &mut placed)?;
+            let edge = edges.between(&mesh.triangles, ends);
+            mesh.add_line(name, edge, place, &mut placed)?;
         }
         mesh.bend_through_midsides(raw.midsides)?;
         Ok(mesh)
@@ -272,13 +272,12 @@ impl MacroMesh {
         Ok(())
     }
 
-    /// Puts a line onto its boundary, once; `placed` are the boundaries, by their indices, and edges that have been.
+    /// Puts a line on an edge, if it is one, onto its boundary, once; `placed` are the boundaries, by their indices, and edges that have been.
     fn add_line(
         &mut self,
         name: String,
-        ends: [u32; 2],
+        edge: Option<u32>,
         place: FilePlace,
-        edges: &Edges,
         placed: &mut HashSet<(usize, u32)>,
     ) -> Result<(), MeshError> {
         let refused = |what: &str| {
@@ -290,7 +289,7 @@ impl MacroMesh {
                 ),
             )
         };
-        let Some(edge) = edges.between(&self.triangles, ends) else { return Err(refused("is not an edge of a triangle")) };
+        let Some(edge) = edge else { return Err(refused("is not an edge of a triangle")) };
         let parts = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));
         if parts[0] == parts[1] {
             return Err(refused("lies inside a body"));

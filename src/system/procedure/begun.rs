@@ -2,7 +2,7 @@
 
 use super::by_forces::LoadedPlace;
 use super::settings::Procedure;
-use super::wide_contact::{narrowed, wide_contacts, with_touch};
+use super::wide_contact::{FoundByProgramme, narrowed, wide_contacts, with_touch};
 use crate::accuracy::share_of_nothing;
 use crate::contact::Known;
 use crate::geometry::Point;
@@ -27,16 +27,6 @@ pub(super) enum Begun {
     Unknown(Box<Discretisation>),
     /// A body that nothing holds, or that the loads drive off all its contacts, in words.
     Free(Box<Discretisation>, String),
-}
-
-/// What rank 0 has found, as all ranks know it.
-pub(super) struct FoundByProgramme {
-    /// Displacements of all nodes (length).
-    pub displacement: Vec<Point>,
-    /// Pressures of all multipliers.
-    pub pressures: Vec<f64>,
-    /// Mean gaps of theirs (length).
-    pub gaps: Vec<f64>,
 }
 
 impl Procedure<'_> {

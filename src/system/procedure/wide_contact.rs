@@ -1,6 +1,5 @@
 //! Contacts as the programme of the first mesh has them, and where Γ_C lies by what it says of them.
 
-use super::begun::FoundByProgramme;
 use super::by_forces::LoadedPlace;
 use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, point_contact};
 use crate::geometry::Point;
@@ -18,6 +17,16 @@ const GROWTH: f64 = 3.0;
 /// Segments beside what presses that a contact boundary begins with: an end that lies too far in is seen only if there is pressure
 /// beside it, one too far out costs a multiplier that opens.
 const ROOM: usize = 1;
+
+/// What rank 0 has found, as all ranks know it.
+pub(super) struct FoundByProgramme {
+    /// Displacements of all nodes (length).
+    pub displacement: Vec<Point>,
+    /// Pressures of all multipliers.
+    pub pressures: Vec<f64>,
+    /// Mean gaps of theirs (length).
+    pub gaps: Vec<f64>,
+}
 
 /// A contact as the programme has it: as far as the sides face each other within reach, with constant pressures on segments that
 /// become short towards the place where the sides touch first.
