@@ -204,18 +204,18 @@ impl Meeting {
         meeting
     }
 
-    /// The longest edge of both sides that Γ_C meets between these ends: long ones beside fine ones are no measure of it.
+    /// The longest edge of both sides; where it is more than twice the longest that Γ_C meets between these ends, that one: long ones
+    /// beside fine ones are no measure of it.
     fn edge_within(&self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) -> f64 {
-        if self.goes_round {
-            let edges = [first, second].into_iter().zip(&self.nodes);
-            return edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
-        }
+        let edges = [first, second].into_iter().zip(&self.nodes);
+        let all = edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
         let far = ends.map(|t| second.nearest(first.curve(pair.configuration).point(t), pair.configuration));
         let longest = |side: &SmoothSide, [a, b]: [f64; 2]| {
             let beside = |t: f64| side.parameters.partition_point(|own| *own < t);
             side.edge_length(beside(a.min(b)).saturating_sub(1), beside(a.max(b)))
         };
-        longest(first, ends).max(longest(second, far))
+        let within = longest(first, ends).max(longest(second, far));
+        if all > 2.0 * within { within } else { all }
     }
 
     /// Leaves out nodes of both sides more than two edges beyond these ends of Γ_C: the spans of the curve are for what lies between.
