@@ -52,7 +52,6 @@ pub fn integrate(
     let points = quadrature_points(boundary, edges, rule);
     let mut entries = Vec::new();
     let mut gap = vec![0.0; multipliers.count()];
-    let mut near = Vec::new();
     for together in points.chunk_by(|a, b| (a.edge, a.segment) == (b.edge, b.segment)) {
         let (small, segment) = (&edges[together[0].edge], together[0].segment);
         let first = entries.len();
@@ -63,7 +62,7 @@ pub fn integrate(
             let normal = boundary.normal(point.parameter);
             let here = trace(boundary, small, point.parameter);
             let (rows, values) = multipliers.on_segment(segment, point.fraction);
-            let d = distance.at(boundary.point(point.parameter), normal, here.place, &mut near)?;
+            let d = distance.at(boundary.point(point.parameter), normal, here.place)?;
             for k in 0..multipliers.per_segment() {
                 let weight = side.sign() * point.weight * values[k];
                 gap[rows[k]] -= weight * d;
@@ -78,17 +77,15 @@ pub fn integrate(
 
 impl Distance<'_> {
     /// Distance along the normal from `x` on Γ_C to the boundary, undeformed; `place` is where the corresponding point
-    /// lies on the mesh. A piece goes on beyond its ends, but one that is met within them comes first. `near` are the parameters of
-    /// hits close by, one for each piece, for a start.
+    /// lies on the mesh. A piece goes on beyond its ends, but one that is met within them comes first.
     ///
     /// # Errors
     /// Words, if the normal meets no piece.
-    pub fn at(&self, x: Point, normal: Point, place: Point, near: &mut Vec<Option<f64>>) -> Result<f64, String> {
+    pub fn at(&self, x: Point, normal: Point, place: Point) -> Result<f64, String> {
         match self {
             Self::Declared => Ok(0.0),
             Self::Curves(curves) => {
-                near.resize(curves.len(), None);
-                let hits = curves.iter().zip(near).filter_map(|(curve, near)| curve.hit(x, normal, near));
+                let hits = curves.iter().filter_map(|curve| curve.hit(x, normal));
                 let nearer = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1).then(a.0.abs().total_cmp(&b.0.abs()));
                 hits.min_by(nearer).map(|(distance, _)| distance).ok_or_else(|| {
                     format!(

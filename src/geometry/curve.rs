@@ -35,9 +35,6 @@ pub enum Curve {
 /// is nearest is not told by slopes.
 const LEAST_SHRUNK: f64 = 0.1;
 
-/// Places of a curve of formulas among which a foot is looked for.
-const SAMPLES: usize = 64;
-
 impl Curve {
     /// The same curve at another place.
     pub fn moved(&self, by: Point) -> Self {
@@ -140,7 +137,7 @@ impl Curve {
                 let r = p - Point::new(centre[0], centre[1]);
                 r.y.atan2(r.x).rem_euclid(TAU)
             }
-            Self::Parametric { .. } => self.nearest_by_search(p, SAMPLES),
+            Self::Parametric { .. } => self.nearest_by_search(p, 64),
             Self::Spline(spline) => self.nearest_from(p, spline.nearest_part_end(p), spline.parts()),
         }
     }
@@ -189,16 +186,11 @@ impl Curve {
     }
 
     /// Where the line from `origin` along the unit vector `direction` meets the curve next to the origin: signed
-    /// distance, and by what share of its range the hit lies beyond an end (0 within). Nothing if the line misses. `near` is the
-    /// parameter of a hit close by, if one is known, and then of this one.
-    pub fn hit(&self, origin: Point, direction: Point, near: &mut Option<f64>) -> Option<(f64, f64)> {
-        let [first, last] = self.range();
-        // Where the search would begin again between the same two samples.
-        let is_close = |t: &f64, near: f64| (t - near).abs() * SAMPLES as f64 <= last - first && (first..=last).contains(t);
-        let from_near = near.and_then(|near| self.hit_from(near, origin, direction).filter(|t| is_close(t, near)));
-        let t = from_near.or_else(|| self.hit_from(self.nearest(origin), origin, direction))?;
-        *near = Some(t);
+    /// distance, and by what share of its range the hit lies beyond an end (0 within). Nothing if the line misses.
+    pub fn hit(&self, origin: Point, direction: Point) -> Option<(f64, f64)> {
+        let t = self.hit_from(self.nearest(origin), origin, direction)?;
         let offset = self.point(t) - origin;
+        let [first, last] = self.range();
         let beyond = if self.period().is_some() { 0.0 } else { (first - t).max(t - last) / (last - first) };
         Some((offset.dot(&direction), if beyond > 1e-9 { beyond } else { 0.0 }))
     }
@@ -264,7 +256,7 @@ mod tests {
         let curve = parabola();
         let (t, d) = (1.7, 0.3);
         let normal = super::super::turn_right(curve.tangent(t));
-        let found = curve.hit(curve.point(t) - d * normal, normal, &mut None);
+        let found = curve.hit(curve.point(t) - d * normal, normal);
         let (distance, beyond) = found.expect("a hit");
         assert!((distance - d).abs() < 1e-12 && beyond == 0.0);
     }
@@ -287,6 +279,6 @@ mod tests {
     #[test]
     fn a_line_that_misses_is_told() {
         let circle = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
-        assert_eq!(circle.hit(Point::new(0.0, 2.0), Point::new(1.0, 0.0), &mut None), None);
+        assert_eq!(circle.hit(Point::new(0.0, 2.0), Point::new(1.0, 0.0)), None);
     }
 }

@@ -178,7 +178,7 @@ fn on_edge(
     let distance = match contact.distance(body) {
         // Boundaries that are said to touch: how far they do is seen on the mesh.
         Distance::Declared => (here.place - x).dot(&normal),
-        measured => measured.at(x, normal, here.place, &mut Vec::new()).map_err(SystemError::Case)?,
+        measured => measured.at(x, normal, here.place).map_err(SystemError::Case)?,
     };
     Ok([moved.dot(&normal), pressure, distance, moved.dot(&contact.boundary.tangent(t))])
 }
