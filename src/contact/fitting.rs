@@ -204,23 +204,9 @@ impl Meeting {
         meeting
     }
 
-    /// The longest edge of both sides; where it is more than twice the longest that Γ_C meets between these ends, that one: long ones
-    /// beside fine ones are no measure of it.
-    fn edge_within(&self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) -> f64 {
-        let edges = [first, second].into_iter().zip(&self.nodes);
-        let all = edges.map(|(side, nodes)| side.edge_length(nodes.start, nodes.end - 1)).fold(0.0, f64::max);
-        let far = ends.map(|t| second.nearest(first.curve(pair.configuration).point(t), pair.configuration));
-        let longest = |side: &SmoothSide, [a, b]: [f64; 2]| {
-            let beside = |t: f64| side.parameters.partition_point(|own| *own < t);
-            side.edge_length(beside(a.min(b)).saturating_sub(1), beside(a.max(b)))
-        };
-        let within = longest(first, ends).max(longest(second, far));
-        if all > 2.0 * within { within } else { all }
-    }
-
     /// Leaves out nodes of both sides more than two edges beyond these ends of Γ_C: the spans of the curve are for what lies between.
     fn leave(&mut self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) {
-        let edge = self.edge_within(ends, [first, second], pair);
+        let edge = edge_within(ends, [first, second], pair);
         let inside = |t: f64| t >= ends[0] - 2.0 * edge && t <= ends[1] + 2.0 * edge;
         for (k, side) in [first, second].into_iter().enumerate() {
             let parameter = |node: usize| match k {
@@ -236,7 +222,7 @@ impl Meeting {
 
     /// Takes in nodes of both sides up to an edge beyond these ends of Γ_C.
     fn reach(&mut self, ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) {
-        let edge = self.edge_within(ends, [first, second], pair);
+        let edge = edge_within(ends, [first, second], pair);
         let inside = |t: f64| t >= ends[0] - edge && t <= ends[1] + edge;
         for (k, side) in [first, second].into_iter().enumerate() {
             let parameter = |node: usize| match k {
@@ -315,6 +301,16 @@ fn shifts([first, second]: [&SmoothSide; 2], pair: &Pair) -> [Point; 2] {
         CurveChoice::Own(Side::Second) => [Point::zeros(), way(second, first)],
         CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => [Point::zeros(); 2],
     }
+}
+
+/// The longest edge of both sides that Γ_C meets between these ends: long ones beside fine ones are no measure of it.
+fn edge_within(ends: [f64; 2], [first, second]: [&SmoothSide; 2], pair: &Pair) -> f64 {
+    let far = ends.map(|t| second.nearest(first.curve(pair.configuration).point(t), pair.configuration));
+    let longest = |side: &SmoothSide, [a, b]: [f64; 2]| {
+        let beside = |t: f64| side.parameters.partition_point(|own| *own < t);
+        side.edge_length(beside(a.min(b)).saturating_sub(1), beside(a.max(b)))
+    };
+    longest(first, ends).max(longest(second, far))
 }
 
 /// A node of either side that is near the other body.

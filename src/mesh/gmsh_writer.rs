@@ -204,7 +204,7 @@ mod tests {
         let text = mesh.to_gmsh();
         let blocks = text.lines().filter(|line| line.starts_with("2 ") && line.split(' ').nth(2) == Some("2")).count();
         assert!(mesh.bodies.len() > 1 && blocks >= mesh.bodies.len(), "{blocks} blocks");
-        let mut raw = super::super::macro_mesh::RawMesh { vertices: mesh.vertices.clone(), ..Default::default() };
+        let mut raw = super::super::raw_mesh::RawMesh { vertices: mesh.vertices.clone(), ..Default::default() };
         for start in 0..7 {
             let turn = mesh.triangles.iter().skip(start).step_by(7);
             turn.for_each(|t| raw.add(&mesh.bodies[t.body as usize], [t.vertices.map(|vertex| vertex as usize)]));

@@ -1,6 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
 use super::edge_shape::EdgeShape;
+use super::raw_mesh::{RawMesh, RawTriangle};
 use super::{FilePlace, MeshError, NamedPoint};
 use crate::geometry::{Coordinates, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
@@ -22,40 +23,6 @@ impl Region {
             Self::Body(body) => triangle.body == body,
             Self::Part(part) => triangle.part == part,
         }
-    }
-}
-
-/// What a mesh file says, before it is checked, each with its place in the file.
-#[derive(Default)]
-pub(super) struct RawMesh {
-    pub vertices: Vec<Point>,
-    pub triangles: Vec<RawTriangle>,
-    /// Names of physical surfaces that triangles have together.
-    pub names: Vec<Vec<String>>,
-    pub lines: Vec<(String, [u32; 2], FilePlace)>,
-    /// Midside nodes of second-order elements, with the ends of their sides, lower first; one of an inner side comes twice.
-    pub midsides: Vec<([u32; 2], Point)>,
-    /// Names of bodies, by the physical surfaces that are parts of them; other surfaces are bodies of their own.
-    pub joined: HashMap<String, String>,
-}
-
-/// A triangle of the file.
-#[derive(Clone, Copy)]
-pub(super) struct RawTriangle {
-    pub corners: [u32; 3],
-    /// Place of its names among [`RawMesh::names`].
-    pub names: u32,
-    pub place: FilePlace,
-}
-
-impl RawMesh {
-    /// The number of names that triangles have together.
-    pub fn number_of(&mut self, names: Vec<String>) -> u32 {
-        let known = self.names.iter().position(|known| *known == names);
-        known.unwrap_or_else(|| {
-            self.names.push(names);
-            self.names.len() - 1
-        }) as u32
     }
 }
 
@@ -148,7 +115,7 @@ pub struct MacroMesh {
 impl MacroMesh {
     /// Checks what a file says and connects it, a large mesh in an order of its own.
     pub(super) fn build(mut raw: RawMesh, file: &Path) -> Result<Self, MeshError> {
-        drop_loose_vertices(&mut raw);
+        raw.drop_loose_vertices();
         raw.put_in_order();
         let mut mesh = Self {
             file: file.to_path_buf(),
@@ -272,7 +239,8 @@ impl MacroMesh {
         Ok(())
     }
 
-    /// Puts a line on an edge, if it is one, onto its boundary, once; `placed` are the boundaries, by their indices, and edges that have been.
+    /// Puts a line on an edge, if it is one, onto its boundary, once; `placed` are the boundaries, by their indices, and edges that
+    /// have been.
     fn add_line(
         &mut self,
         name: String,
@@ -380,23 +348,4 @@ impl MacroMesh {
         }
         bounds
     }
-}
-
-/// Leaves out the points of the geometry that no triangle uses (centres of circles, say).
-fn drop_loose_vertices(raw: &mut RawMesh) {
-    let mut used = vec![false; raw.vertices.len()];
-    raw.triangles.iter().flat_map(|triangle| triangle.corners).for_each(|corner| used[corner as usize] = true);
-    let mut new = vec![u32::MAX; raw.vertices.len()];
-    let mut count = 0;
-    for (vertex, used) in used.iter().enumerate() {
-        if *used {
-            raw.vertices[count] = raw.vertices[vertex];
-            new[vertex] = count as u32;
-            count += 1;
-        }
-    }
-    raw.vertices.truncate(count);
-    // A line whose end no triangle uses keeps an index that no edge has, and is refused with words.
-    let ends = raw.lines.iter_mut().flat_map(|(_, ends, _)| ends).chain(raw.midsides.iter_mut().flat_map(|(ends, _)| ends));
-    ends.chain(raw.triangles.iter_mut().flat_map(|triangle| &mut triangle.corners)).for_each(|end| *end = new[*end as usize]);
 }

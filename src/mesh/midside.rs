@@ -302,7 +302,7 @@ fn circle_through(chain: &[Bow]) -> Option<Curve> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::macro_mesh::RawMesh;
+    use super::super::raw_mesh::RawMesh;
     use super::*;
     use std::path::Path;
 

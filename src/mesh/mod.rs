@@ -27,6 +27,7 @@ mod origin;
 mod overlap;
 mod partition;
 mod pieces;
+mod raw_mesh;
 mod regular_file;
 #[cfg(test)]
 pub(crate) mod samples;

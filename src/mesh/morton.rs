@@ -1,6 +1,6 @@
 //! Morton's space-filling curve: what follows each other on it lies together in the plane.
 
-use super::macro_mesh::{RawMesh, RawTriangle};
+use super::raw_mesh::{RawMesh, RawTriangle};
 use crate::geometry::Point;
 
 /// Meshes of more triangles are put in order: what passes over them finds neighbours in the caches then.

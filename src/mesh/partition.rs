@@ -204,7 +204,7 @@ fn morton_keys(mesh: &MacroMesh) -> Vec<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::macro_mesh::RawMesh;
+    use super::super::raw_mesh::RawMesh;
     use super::super::samples::two_blocks;
     use super::*;
     use crate::geometry::Point;

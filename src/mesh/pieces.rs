@@ -141,7 +141,7 @@ fn lie_on_each_other(a: [Point; 2], b: [Point; 2]) -> bool {
 mod tests {
     use super::super::bisection::BisectedMesh;
     use super::super::gmsh::parse_joined;
-    use super::super::macro_mesh::RawMesh;
+    use super::super::raw_mesh::RawMesh;
     use super::super::samples::two_parts;
     use super::*;
     use std::path::Path;

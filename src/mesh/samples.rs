@@ -1,7 +1,8 @@
 //! Small meshes for unit tests.
 
 use super::FilePlace;
-use super::macro_mesh::{MacroMesh, RawMesh, RawTriangle};
+use super::macro_mesh::MacroMesh;
+use super::raw_mesh::{RawMesh, RawTriangle};
 use crate::geometry::Point;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Elements of a mesh file: corners, midside nodes, quadrangles split in two.
 
 use super::super::MeshError;
-use super::super::macro_mesh::{RawMesh, RawTriangle};
+use super::super::raw_mesh::{RawMesh, RawTriangle};
 use super::cursor::Cursor;
 use super::groups::{Entity, Groups};
 use crate::geometry::{Point, cross};

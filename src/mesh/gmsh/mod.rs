@@ -9,7 +9,8 @@ mod version2;
 mod version4;
 
 use super::MeshError;
-use super::macro_mesh::{MacroMesh, RawMesh};
+use super::macro_mesh::MacroMesh;
+use super::raw_mesh::RawMesh;
 use super::regular_file::{read_regular, read_start};
 use crate::geometry::Quote;
 use cursor::{Cursor, Encoding};

@@ -1,4 +1,5 @@
-//! The first mesh, begun by the quadratic programme: where the sides come within reach, what presses, how every body moves.
+//! The first mesh, begun by the quadratic programme, unless that is dear: where the sides come within reach, what presses, how every
+//! body moves.
 
 use super::by_forces::LoadedPlace;
 use super::settings::Procedure;

@@ -377,7 +377,7 @@ fn each_force(
     Ok(())
 }
 
-/// The same where the macro triangle is a single triangle.
+/// Shows each node of a macro triangle that is a single triangle: number, `K u` of the triangle there, displacement.
 fn each_force_of_one<const N: usize>(
     problem: &Discretisation,
     law: &PlaneLaw,

@@ -1,0 +1,59 @@
+//! What a mesh file says, before it is checked and connected.
+
+use super::FilePlace;
+use crate::geometry::Point;
+use std::collections::HashMap;
+
+/// What a mesh file says, before it is checked, each with its place in the file.
+#[derive(Default)]
+pub(super) struct RawMesh {
+    pub vertices: Vec<Point>,
+    pub triangles: Vec<RawTriangle>,
+    /// Names of physical surfaces that triangles have together.
+    pub names: Vec<Vec<String>>,
+    pub lines: Vec<(String, [u32; 2], FilePlace)>,
+    /// Midside nodes of second-order elements, with the ends of their sides, lower first; one of an inner side comes twice.
+    pub midsides: Vec<([u32; 2], Point)>,
+    /// Names of bodies, by the physical surfaces that are parts of them; other surfaces are bodies of their own.
+    pub joined: HashMap<String, String>,
+}
+
+/// A triangle of the file.
+#[derive(Clone, Copy)]
+pub(super) struct RawTriangle {
+    pub corners: [u32; 3],
+    /// Place of its names among [`RawMesh::names`].
+    pub names: u32,
+    pub place: FilePlace,
+}
+
+impl RawMesh {
+    /// The number of names that triangles have together.
+    pub fn number_of(&mut self, names: Vec<String>) -> u32 {
+        let known = self.names.iter().position(|known| *known == names);
+        known.unwrap_or_else(|| {
+            self.names.push(names);
+            self.names.len() - 1
+        }) as u32
+    }
+
+    /// Leaves out the points of the geometry that no triangle uses (centres of circles, say).
+    pub fn drop_loose_vertices(&mut self) {
+        let mut used = vec![false; self.vertices.len()];
+        self.triangles.iter().flat_map(|triangle| triangle.corners).for_each(|corner| used[corner as usize] = true);
+        let mut new = vec![u32::MAX; self.vertices.len()];
+        let mut count = 0;
+        for (vertex, used) in used.iter().enumerate() {
+            if *used {
+                self.vertices[count] = self.vertices[vertex];
+                new[vertex] = count as u32;
+                count += 1;
+            }
+        }
+        self.vertices.truncate(count);
+        // A line whose end no triangle uses keeps an index that no edge has, and is refused with words.
+        let ends = self.lines.iter_mut().flat_map(|(_, ends, _)| ends).chain(self.midsides.iter_mut().flat_map(|(ends, _)| ends));
+        ends.chain(self.triangles.iter_mut().flat_map(|triangle| &mut triangle.corners))
+            .for_each(|end| *end = new[*end as usize]);
+    }
+}
