@@ -106,7 +106,8 @@ fn run_case(arguments: &RunArguments, started: Instant) -> i32 {
         Err(alike) => {
             let all_know = session.meet(PATIENCE);
             let code = if session.rank() == 0 || !all_know { print(&alike) } else { alike.code() };
-            if all_know { code } else { session.abort(code) }
+            // The first rank that ends makes mpirun end the others: not before rank 0 has spoken.
+            if all_know && session.meet(PATIENCE) { code } else { session.abort(code) }
         }
     }
 }

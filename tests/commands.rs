@@ -533,7 +533,7 @@ fn words_of_petsc_end_the_run() {
         ("-fp_trap", 2, "-fp_trap"),
     ] {
         for ranks in [1, 3] {
-            let ended = Run::case("patch_flat").ranks(ranks).petsc(options).ended();
+            let ended = Run::case("patch_flat").ranks(ranks).petsc(options).with_grace().ended();
             assert_eq!(ended.code, Some(code), "{}", ended.said());
             assert!(ended.time < SOON && ended.errors.contains(told), "{}", ended.said());
             assert_eq!(ended.left_behind(), Vec::<String>::new());

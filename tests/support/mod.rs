@@ -27,6 +27,7 @@ pub struct Run {
     ranks: Option<usize>,
     words: Vec<String>,
     petsc: Vec<String>,
+    has_grace: bool,
 }
 
 /// How a run ended, with its result folder while this lives.
@@ -64,7 +65,7 @@ impl Run {
 
     /// Any case file.
     pub fn file(file: &Path) -> Self {
-        Self { file: file.to_path_buf(), ranks: Some(1), words: Vec::new(), petsc: Vec::new() }
+        Self { file: file.to_path_buf(), ranks: Some(1), words: Vec::new(), petsc: Vec::new(), has_grace: false }
     }
 
     /// On so many ranks.
@@ -76,6 +77,12 @@ impl Run {
     /// Without `mpirun`.
     pub fn alone(mut self) -> Self {
         self.ranks = None;
+        self
+    }
+
+    /// Leaves its ranks the second that mpirun leaves them by default to clear away what they have begun.
+    pub fn with_grace(mut self) -> Self {
+        self.has_grace = true;
         self
     }
 
@@ -113,7 +120,11 @@ impl Run {
             words.extend(self.petsc);
         }
         let start = Instant::now();
-        let (code, output, errors) = mezha(self.ranks, &words);
+        let mut command = command_in(Path::new("."), self.ranks, &words);
+        if self.has_grace {
+            command.envs(process::GRACE.map(|name| (name, "1")));
+        }
+        let (code, output, errors) = process::finish(command);
         Ended { code, output, errors, time: start.elapsed(), out, folder }
     }
 
@@ -218,6 +229,11 @@ pub fn mezha<S: AsRef<str>>(ranks: Option<usize>, words: &[S]) -> (Option<i32>, 
 /// # Panics
 /// If it takes too long.
 pub fn mezha_in<S: AsRef<str>>(folder: &Path, ranks: Option<usize>, words: &[S]) -> (Option<i32>, String, String) {
+    process::finish(command_in(folder, ranks, words))
+}
+
+/// The command that [`mezha_in`] runs.
+fn command_in<S: AsRef<str>>(folder: &Path, ranks: Option<usize>, words: &[S]) -> Command {
     let mut command = Command::new("mpirun");
     match ranks {
         Some(ranks) => {
@@ -229,7 +245,7 @@ pub fn mezha_in<S: AsRef<str>>(folder: &Path, ranks: Option<usize>, words: &[S])
         }
     };
     command.args(words.iter().map(S::as_ref)).env("PETSC_OPTIONS", "").current_dir(folder);
-    process::finish(command)
+    command
 }
 
 /// Meets an exact value to 1e-9 of a size.

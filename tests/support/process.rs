@@ -18,8 +18,12 @@ pub const ENVIRONMENT: [(&str, &str); 5] = [
     ("OPENBLAS_NUM_THREADS", "1"),
 ];
 
+/// How many seconds mpirun leaves to the other ranks after one has ended with an error, before it kills them (Open MPI 4, and 5).
+/// Its default of 1 costs one to two seconds for each run that is refused.
+pub const GRACE: [&str; 2] = ["OMPI_MCA_odls_base_sigkill_timeout", "PRTE_MCA_odls_base_sigkill_timeout"];
+
 /// Exit code, standard output and standard error of a command, without standard input, in a session folder of its own:
-/// runs at the same time must not clear away each other's.
+/// runs at the same time must not clear away each other's. Without a [`GRACE`] of its own there is none.
 ///
 /// # Panics
 /// If it takes too long.
@@ -29,6 +33,11 @@ pub fn finish(mut command: Command) -> (Option<i32>, String, String) {
     // Of Open MPI 4, and of 5.
     for name in ["OMPI_MCA_orte_tmpdir_base", "PRTE_MCA_prte_tmpdir_base"] {
         command.env(name, sessions.path());
+    }
+    for name in GRACE {
+        if !command.get_envs().any(|(given, _)| given == name) {
+            command.env(name, "0");
+        }
     }
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("mpirun starts (Debian: apt-get install openmpi-bin)");
