@@ -106,7 +106,10 @@ impl<'a> Assembly<'a> {
         }
         self.add_springs(&far, &mut rows, &mut lift);
         (0..rows.nodes.len()).for_each(|k| rows.invert(k, rows.diagonal_place(k)));
-        rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
+        // Rows of a mesh that is not cut up are alike by chance only.
+        if !self.space.numbering.level.is_one_triangle() {
+            rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
+        }
         strips.triangles.sort_unstable_by_key(|triangle| triangle.nodes.start);
         let even = EvenTriangles::new(self.space.numbering.level.intervals, Rc::new(couplings), triangles);
         Ok(Assembled { rows, far, strips, even })

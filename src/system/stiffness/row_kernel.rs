@@ -3,6 +3,7 @@
 use super::earlier_couplings::EarlierCouplings;
 use super::lanes::Lanes;
 use super::stored_rows::{Part, StoredRows};
+use crate::element::Block;
 use std::ops::Range;
 
 /// Work on the rows of a range. Vectors hold all nodes of the rank.
@@ -30,19 +31,19 @@ impl OnRows<'_> {
         match task {
             RowTask::Multiply { y, x } => {
                 for k in range {
-                    let sum = rows.subtract(lanes, k, [0.0; 2], x, far);
+                    let sum = rows.subtract::<L, false>(lanes, k, [0.0; 2], x, far);
                     y[rows.nodes[k] as usize] = [-sum[0], -sum[1]];
                 }
             }
             RowTask::Residual { r, b, x } => {
                 for k in range {
                     let node = rows.nodes[k] as usize;
-                    r[node] = rows.subtract(lanes, k, b[node], x, far);
+                    r[node] = rows.subtract::<L, false>(lanes, k, b[node], x, far);
                 }
             }
             RowTask::Forward { b, x } => {
                 for k in range {
-                    rows.relax(lanes, k, b, x, far);
+                    rows.relax::<L, false>(lanes, k, b, x, far);
                 }
             }
             RowTask::FromZero { earlier, b, x } => {
@@ -52,7 +53,7 @@ impl OnRows<'_> {
             }
             RowTask::Backward { b, x } => {
                 for k in range.rev() {
-                    rows.relax(lanes, k, b, x, far);
+                    rows.relax::<L, true>(lanes, k, b, x, far);
                 }
             }
         }
@@ -60,21 +61,34 @@ impl OnRows<'_> {
 }
 
 impl Part {
-    /// `sum - Σ K x` of a row. A block fills a register, whose four products come together at the end.
+    /// `sum - Σ K x` of a row. A block fills a register, whose four products come together at the end. Where rows are taken from
+    /// the last to the first, their blocks are, too: memory that is read in one direction arrives before it is asked for.
     #[inline(always)]
-    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>>(&self, lanes: L, k: usize, sum: [f64; 2], x: &[[f64; 2]]) -> [f64; 2] {
+    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>, const BACKWARD: bool>(
+        &self,
+        lanes: L,
+        k: usize,
+        sum: [f64; 2],
+        x: &[[f64; 2]],
+    ) -> [f64; 2] {
         let row = self.row(k);
         let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
         let (columns, blocks) = (self.columns[row].as_chunks::<2>(), blocks.as_chunks::<2>());
         let zero = lanes.load([[0.0; 2]; 2]);
         let (mut one, mut other) = (zero, zero);
-        for (columns, blocks) in columns.0.iter().zip(blocks.0) {
+        if let ([column], [block]) = (columns.1, blocks.1) {
+            one = lanes.multiply_add(lanes.load(*block), lanes.load([x[*column as usize]; 2]), one);
+        }
+        let mut add_two = |(columns, blocks): (&[u32; 2], &[Block; 2])| {
             let [a, b] = columns.map(|column| lanes.load([x[column as usize]; 2]));
             one = lanes.multiply_add(lanes.load(blocks[0]), a, one);
             other = lanes.multiply_add(lanes.load(blocks[1]), b, other);
-        }
-        if let ([column], [block]) = (columns.1, blocks.1) {
-            one = lanes.multiply_add(lanes.load(*block), lanes.load([x[*column as usize]; 2]), one);
+        };
+        let twos = columns.0.iter().zip(blocks.0);
+        if BACKWARD {
+            twos.rev().for_each(&mut add_two)
+        } else {
+            twos.for_each(&mut add_two)
         }
         let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
         [sum[0] - (a + b), sum[1] - (c + d)]
@@ -83,7 +97,7 @@ impl Part {
 
 impl StoredRows {
     #[inline(always)]
-    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>>(
+    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>, const BACKWARD: bool>(
         &self,
         lanes: L,
         k: usize,
@@ -91,14 +105,21 @@ impl StoredRows {
         x: &[[f64; 2]],
         far: &[[f64; 2]],
     ) -> [f64; 2] {
-        let sum = self.near.subtract(lanes, k, sum, x);
-        if far.is_empty() { sum } else { self.far.subtract(lanes, k, sum, far) }
+        let sum = self.near.subtract::<L, BACKWARD>(lanes, k, sum, x);
+        if far.is_empty() { sum } else { self.far.subtract::<L, BACKWARD>(lanes, k, sum, far) }
     }
 
     #[inline(always)]
-    fn relax<L: Lanes<Nodes = [[f64; 2]; 2]>>(&self, lanes: L, k: usize, b: &[[f64; 2]], x: &mut [[f64; 2]], far: &[[f64; 2]]) {
+    fn relax<L: Lanes<Nodes = [[f64; 2]; 2]>, const BACKWARD: bool>(
+        &self,
+        lanes: L,
+        k: usize,
+        b: &[[f64; 2]],
+        x: &mut [[f64; 2]],
+        far: &[[f64; 2]],
+    ) {
         let node = self.nodes[k] as usize;
-        let sum = self.subtract(lanes, k, b[node], x, far);
+        let sum = self.subtract::<L, BACKWARD>(lanes, k, b[node], x, far);
         let ([u, v], inverse) = (x[node], self.inverse(k));
         x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
     }
