@@ -109,34 +109,6 @@ impl Procedure<'_> {
         })
     }
 
-    /// The same mesh with what the programme says of its contacts, where that costs less than the sets that it saves. **Collective**
-    ///
-    /// # Errors
-    /// As of [`Procedure::begun`].
-    pub(super) fn predicted(&self, problem: Discretisation, start: Start) -> Result<Begun, SystemError> {
-        let is_dear = work_of_programme(&problem.scene, problem.finest().numbering.level, &problem.contacts) > MOST_WORK;
-        if is_dear || problem.contacts.is_empty() || !is_assembly(&problem.scene) {
-            return Ok(Begun::Held(Box::new(problem), start));
-        }
-        let whole = on_one_rank(&problem.scene);
-        let numbering = Numbering::new(problem.finest().numbering.level, &whole.partition);
-        let known: Vec<Known> = problem.contacts.iter().map(|contact| contact.known.clone()).collect();
-        let displacement = |node: EdgeNode| problem.motion.at(node, &whole.mesh, problem.finest());
-        let contacts = Contact::all_again(&whole, &numbering, 0, &known, &displacement)?;
-        let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
-        let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
-        let Ok(found) = self.shared(predictor.as_ref(), &contacts, numbering.node_count())? else {
-            return Ok(Begun::Held(Box::new(problem), start));
-        };
-        let rank = self.session.rank();
-        let start = Start {
-            displacement: own_unknowns(&problem.scene, problem.finest(), &numbering, &found.displacement, rank),
-            active: active(&contacts, &found),
-            pressures: found.pressures,
-        };
-        Ok(Begun::Held(Box::new(problem), start))
-    }
-
     /// Where contacts press on the coarsest mesh, and how large their forces are; nothing if the programme has no answer, or would
     /// be dear.
     /// **Collective**

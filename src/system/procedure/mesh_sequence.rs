@@ -1,7 +1,7 @@
 //! A sequence of meshes that is adapted to an accuracy, on its way: what it is refined by, and what becomes of meshes that cannot
 //! be solved.
 
-use super::foreseen::{Foreseen, Indicators, next_mesh};
+use super::foreseen::{Foreseen, Indicators, Reach, next_mesh};
 use super::solved::Solved;
 use crate::accuracy::{Accuracy, Adaptation, SequenceEnd};
 use crate::contact::SegmentRule;
@@ -186,7 +186,9 @@ impl MeshSequence {
     fn refine(&mut self, missed: &[Indicators]) -> bool {
         let (most, refine) = (self.adaptation.accuracy.most_unknowns, self.scene.refine);
         let unknowns = |mesh: &BisectedMesh| self.unknowns(mesh, refine);
-        let Some(next) = next_mesh(&self.mesh, &self.scene.pairs, missed, unknowns, most) else { return false };
+        let Some(next) = next_mesh(&self.mesh, &self.scene.pairs, (missed, Reach::of(refine)), unknowns, most) else {
+            return false;
+        };
         self.origins = next.mesh.origins.iter().map(|origin| origin.within(&self.origins)).collect();
         self.mesh = next.mesh;
         let places: Vec<usize> = self.adaptation.missed().map(|(place, _)| place).collect();

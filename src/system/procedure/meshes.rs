@@ -181,7 +181,7 @@ impl Procedure<'_> {
             None => self.begun_by_predecessor(&scene, predecessor)?,
         };
         match known {
-            Some((problem, start)) => self.predicted(problem, start),
+            Some((problem, start)) => Ok(Begun::Held(Box::new(problem), start)),
             None => self.begun(scene),
         }
     }
