@@ -119,9 +119,7 @@ impl OneMesh<'_> {
         let mut following = Following::new(problem, exact, start.is_some(), self.is_last, nothing);
         self.begin(Some(following.tolerances()));
         let mut history = MeshHistory::default();
-        // Where a coarser mesh knows the boundaries, the first solve may be the last, and the next one mostly is.
-        let is_settled = start.is_some();
-        let (mut is_last, mut ascended) = (is_settled, false);
+        let (mut is_last, mut ascended) = (false, false);
         for number in 1.. {
             let on_boundary = BoundaryLoop { mesh: self, following: &mut following, history: &mut history, number, exact };
             let found = on_boundary.solve(self.system(problem, bodies, preconditioning)?, start.take(), is_last)?;
@@ -145,7 +143,7 @@ impl OneMesh<'_> {
                 After::Moved { contacts, motion, start: next, is_near } => {
                     let _stage = self.procedure.observer.enter(Work::Contact);
                     problem.replace(contacts, motion, self.procedure.session)?;
-                    (start, is_last) = (next, is_near || is_settled);
+                    (start, is_last) = (next, is_near);
                 }
             }
         }
