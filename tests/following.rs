@@ -50,16 +50,17 @@ fn a_cylinder_on_a_block_converges_for_all_meshes_segments_spaces_and_loads() {
 /// Coarser meshes find boundary and set: about one linear solve is left for the finest.
 #[test]
 fn the_finest_mesh_costs_about_one_linear_solve() {
-    for (case, refine, most_fits, most_solves) in [
-        ("hertz", 4, 1, 1),
-        ("hertz/deformed.toml", 3, 2, 2),
-        ("hertz_discs", 3, 2, 2),
-        ("pin", 3, 1, 2),
-        ("bars_parabola", 5, 0, 2),
+    // One linear problem takes 9 to 12 iterations to the same tolerance.
+    for (case, refine, most_fits, most_iterations) in [
+        ("hertz", 4, 1, 8),
+        ("hertz/deformed.toml", 3, 2, 12),
+        ("hertz_discs", 3, 2, 16),
+        ("pin", 3, 1, 14),
+        ("bars_parabola", 5, 0, 16),
     ] {
         let ended = Run::case(case).set("mesh.refine", refine).set("output.fields", false).converged();
-        let solves = ended.value("/outer").as_array().expect("a list").len();
-        assert!(fits(&ended) <= most_fits && solves <= most_solves, "{case}: {} fits, {solves} solves", fits(&ended));
+        let (fits, iterations) = (fits(&ended), ended.iterations());
+        assert!(fits <= most_fits && iterations <= most_iterations, "{case}: {fits} fits, {iterations} iterations");
     }
 }
 
