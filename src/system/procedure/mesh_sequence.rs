@@ -3,7 +3,7 @@
 
 use super::foreseen::{Foreseen, Indicators, Reach, next_mesh};
 use super::solved::Solved;
-use crate::accuracy::{Accuracy, Adaptation, SequenceEnd};
+use crate::accuracy::{Accuracy, Adaptation, Quantity, SequenceEnd};
 use crate::contact::SegmentRule;
 use crate::element::Order;
 use crate::mesh::{BisectedMesh, Origin, levels};
@@ -186,7 +186,9 @@ impl MeshSequence {
     fn refine(&mut self, missed: &[Indicators]) -> bool {
         let (most, refine) = (self.adaptation.accuracy.most_unknowns, self.scene.refine);
         let unknowns = |mesh: &BisectedMesh| self.unknowns(mesh, refine);
-        let Some(next) = next_mesh(&self.mesh, &self.scene.pairs, (missed, Reach::of(refine)), unknowns, most) else {
+        let is_energy_alone = self.adaptation.missed().all(|(_, goal)| goal.quantity == Quantity::Energy);
+        let reach = Reach::of(refine, is_energy_alone);
+        let Some(next) = next_mesh(&self.mesh, &self.scene.pairs, (missed, reach), unknowns, most) else {
             return false;
         };
         self.origins = next.mesh.origins.iter().map(|origin| origin.within(&self.origins)).collect();
@@ -224,7 +226,7 @@ fn prepared(mut scene: Scene, mesh: &BisectedMesh, most: Option<usize>) -> Scene
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::{AdaptedMesh, Goal, Quantity};
+    use crate::accuracy::{AdaptedMesh, Goal};
     use crate::contact::MultiplierSpace;
     use crate::geometry::Point;
     use crate::system::procedure::ending::{Ending, Failure, Standing};
