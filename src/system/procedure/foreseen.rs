@@ -20,9 +20,10 @@ pub(super) struct Reach {
 /// Parts of a third round are single cells.
 const NEAR: Reach = Reach { rounds: 3, most_growth: 4.0 };
 
-/// Where the energy alone is missed, with one refinement below each mesh. It saves `packing/case`, `discs_3` and `discs_14` one mesh of three, and 30 to 40 % of
-/// their time. With two, errors fall faster than it is foreseen from the first meshes: `hertz` to 1e-2 of its energy would have
-/// 48 000 unknowns where 25 000 do; and pressures need less: `bending` would have 99 000 where 54 000 do.
+/// Where the energy alone is missed, with one refinement below each mesh. It saves `packing/case`, `discs_3` and `discs_14` the
+/// third mesh, and the latter two a third of their time. With two refinements, errors fall faster than it is foreseen from the
+/// first meshes: `hertz` to 1e-2 of its energy would have 48 000 unknowns where 25 000 do. Pressures need less: `bending` would
+/// have 99 000 where 54 000 do.
 const FAR: Reach = Reach { rounds: 4, most_growth: 6.0 };
 
 /// Shares of the sum of all indicators that the marked triangles hold at least, tried one after the other until the errors are
