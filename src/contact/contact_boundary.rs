@@ -5,6 +5,13 @@ use crate::geometry::{Curve, Point, gauss_points, turn_right};
 /// What is left of a turn by less than this share is rounding: the boundary is closed.
 const WHOLE: f64 = 1e-9;
 
+/// Pieces that arc lengths are summed over.
+const PIECES: usize = 32;
+
+/// Steps of Newton's method within a piece at most, and the last of them by the parameters: each doubles the digits.
+const MOST_STEPS: usize = 20;
+const ROUNDED: f64 = 1e-15;
+
 /// The contact boundary of one pair. The same on every rank; it knows nothing of the meshes.
 ///
 /// One that goes all around a closed curve is closed: it begins and ends at its seam, and what is said of a parameter, an arc
@@ -18,6 +25,8 @@ pub struct ContactBoundary {
     knots: Vec<f64>,
     /// Arc length from the start to each segment end.
     arcs: Vec<f64>,
+    /// Arc length from the start to the ends of pieces that are as long in the parameter.
+    pieces: Vec<f64>,
     /// Length of one turn in the parameter, if the curve closes in itself.
     period: Option<f64>,
 }
@@ -32,9 +41,9 @@ impl ContactBoundary {
             _ => range,
         };
         let side = turn_right(curve.tangent(0.5 * (range[0] + range[1]))).dot(&towards).signum();
-        let mut boundary = Self { curve, side, knots: range.to_vec(), arcs: vec![0.0; 2], period };
-        boundary.arcs[1] = boundary.arc_between(range[0], range[1]);
-        boundary
+        let pieces = pieces(&curve, range);
+        let arcs = vec![0.0, pieces[pieces.len() - 1]];
+        Self { curve, side, knots: range.to_vec(), arcs, pieces, period }
     }
 
     /// Cuts it at these fractions of its arc length (from 0 to 1, ascending).
@@ -173,41 +182,57 @@ impl ContactBoundary {
         self.period
     }
 
-    /// Arc length between two parameters: exact for lines and circles, otherwise by 16 Gauss points on each of 32 pieces.
-    fn arc_between(&self, from: f64, to: f64) -> f64 {
-        if matches!(self.curve, Curve::Line(_) | Curve::Circle { .. }) {
-            return (to - from) * self.speed(from);
-        }
-        const PIECES: usize = 32;
-        let step = (to - from) / PIECES as f64;
-        let piece = |k: usize| {
-            let start = from + step * k as f64;
-            gauss_points(16).iter().map(|(x, w)| w * step * self.speed(start + step * x)).sum::<f64>()
-        };
-        (0..PIECES).map(piece).sum()
-    }
-
     /// Arc length from the start to parameter `t`.
     pub fn arc(&self, t: f64) -> f64 {
         let (k, _) = self.locate(t);
-        let (from, step) = (self.knots[k], t - self.knots[k]);
-        let rest: f64 = gauss_points(16).iter().map(|(x, w)| w * step * self.speed(from + step * x)).sum();
-        self.arcs[k] + rest
+                self.arcs[k] + arc_of(&self.curve, [self.knots[k], t])
     }
 
-    /// Parameter at arc length `s` from the start, by Newton's method from the uniform guess.
+    /// Parameter at arc length `s` from the start, by Newton's method on one of its pieces.
     pub fn parameter_at(&self, s: f64) -> f64 {
         let (first, last) = (self.knots[0], self.knots[self.knots.len() - 1]);
-        let mut t = first + (last - first) * s / self.length();
-        for _ in 0..60 {
-            let step = (s - self.arc_between(first, t)) / self.speed(t);
+        if is_even(&self.curve) {
+            return first + s / self.speed(first);
+        }
+        let turn = self.turn().map_or(0.0, |length| (s / length).floor());
+        let s = s - turn * self.length();
+        let count = self.pieces.len() - 1;
+        let piece = self.pieces.partition_point(|&arc| arc <= s).clamp(1, count) - 1;
+        let parameter = |k: usize| first + (last - first) * k as f64 / count as f64;
+        let [from, to] = [self.pieces[piece], self.pieces[piece + 1]];
+        let start = parameter(piece);
+        let mut t = start + (parameter(piece + 1) - start) * (s - from) / (to - from);
+        for _ in 0..MOST_STEPS {
+            let step = (s - from - arc_of(&self.curve, [start, t])) / self.speed(t);
             t += step;
-            if step.abs() <= 1e-15 * (last - first) {
+            if step.abs() <= ROUNDED * first.abs().max(last.abs()).max(last - first) {
                 break;
             }
         }
-        t
+        t + turn * self.period.unwrap_or(0.0)
     }
+}
+
+/// Whether arc lengths go with the parameter.
+fn is_even(curve: &Curve) -> bool {
+    matches!(curve, Curve::Line(_) | Curve::Circle { .. })
+}
+
+/// Arc length between two parameters that lie near each other, by 16 Gauss points.
+fn arc_of(curve: &Curve, [from, to]: [f64; 2]) -> f64 {
+    let speed = |t: f64| curve.derivative(t).norm();
+    gauss_points(16).iter().map(|(x, w)| w * (to - from) * speed(from + (to - from) * x)).sum()
+}
+
+/// Arc lengths from the start of a range to the ends of its pieces, all as long in the parameter: one, where these lengths go with it.
+fn pieces(curve: &Curve, [first, last]: [f64; 2]) -> Vec<f64> {
+    if is_even(curve) {
+        return vec![0.0, (last - first) * curve.derivative(first).norm()];
+    }
+    let end = |k: usize| first + (last - first) * k as f64 / PIECES as f64;
+    let mut arcs = vec![0.0; PIECES + 1];
+    (0..PIECES).for_each(|k| arcs[k + 1] = arcs[k] + arc_of(curve, [end(k), end(k + 1)]));
+    arcs
 }
 
 /// What is left of a way in a parameter without whole turns: at most half of one, in either direction.

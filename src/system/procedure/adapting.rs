@@ -142,7 +142,7 @@ impl Procedure<'_> {
     /// Where the errors of the goals that are missed lie. **Collective**
     fn indicators(&self, sequence: &MeshSequence, solved: &Solved) -> Result<Vec<Indicators>, SystemError> {
         // A rank may have no macro triangle: all of them know whether there is a difference.
-        let Estimate { local: left, falls, difference, .. } = &solved.estimate;
+        let Estimate { local: left, falls, difference, foreseen, .. } = &solved.estimate;
         let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
         let errors = adaptation.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
         let mut all = Vec::new();
@@ -156,7 +156,8 @@ impl Procedure<'_> {
             if local.iter().all(|indicator| indicator.cells.sum() == 0.0) {
                 local = self.gathered(scene, left, falls);
             }
-            let error = errors.get(place).copied().flatten().map(|error| error / goal.tolerance);
+            let error = errors.get(place).copied().flatten();
+            let error = if goal.quantity == Quantity::Energy { foreseen.or(error) } else { error }.map(|error| error / goal.tolerance);
             let pace = sequence.foreseen[place].zip(error).map_or(1.0, |(foreseen, error)| foreseen.pace(error));
             all.push(Indicators { local, error, pace, is_norm: goal.quantity.is_norm() });
         }

@@ -211,14 +211,18 @@ impl Procedure<'_> {
         self.say(&mut first);
         let preconditioning = coarser.preconditioning(coarser.found.as_ref()).max(first.preconditioning);
         let is_hard = coarser.is_hard(coarser.found.as_ref());
-        let Coarser { found: coarse, mut differences, solves, .. } = coarser;
+        let Coarser { found: coarse, mut differences, solves, predecessor } = coarser;
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
         let found = OneMesh { procedure: self, tolerance, is_last: true, is_hard }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
         }
-        let estimate = Estimate::new(&differences, problem.scene.order, found.solution.residual, |own| {
+        let share_left = match (predecessor, differences.as_slice()) {
+            (Some(before), [one]) => before.share_left(&problem, &found.solution, one.energy(), self.session)?,
+            _ => None,
+        };
+        let estimate = Estimate::new(&differences, share_left, problem.scene.order, found.solution.residual, |own| {
             let mut sum = [own];
             self.session.sum(&mut sum);
             sum[0]

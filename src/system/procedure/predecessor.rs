@@ -1,12 +1,13 @@
 //! What the solution on one adapted mesh says of the next one, which has other macro triangles.
 
 use super::coarse_solution::ContactSolution;
+use super::estimate::{energy_apart, share_left};
 use super::solved::Solved;
 use crate::geometry::Point;
 use crate::mesh::{Origin, lattice};
 use crate::petsc::Session;
 use crate::system::recovery::shapes_at;
-use crate::system::{Discretisation, Field, Preconditioning, Scene, Space, Start, SystemError, spaces};
+use crate::system::{Discretisation, Field, Preconditioning, Scene, Solution, Space, Start, SystemError, spaces};
 
 /// A solution on the mesh before, whose macro triangles those of the next mesh are parts of.
 pub(super) struct Predecessor<'s> {
@@ -17,6 +18,9 @@ pub(super) struct Predecessor<'s> {
     pub preconditioning: Preconditioning,
     /// Whether its active set was hard to find, or that of a mesh before.
     pub is_hard: bool,
+    /// Its last difference from a coarser solution in the energy norm, and the square of the share of it that is left, if known.
+    difference: Option<f64>,
+    share_left: Option<f64>,
     /// Where each macro triangle of the next mesh lies.
     origins: &'s [Origin],
 }
@@ -24,10 +28,12 @@ pub(super) struct Predecessor<'s> {
 impl<'s> Predecessor<'s> {
     /// Takes a solution over, for a mesh whose macro triangles have these origins. **Collective**
     pub fn new(solved: &'s Solved, origins: &'s [Origin], session: &Session) -> Result<Self, SystemError> {
-        let Solved { problem, solution, preconditioning, is_hard, .. } = solved;
+        let Solved { problem, solution, preconditioning, is_hard, estimate, .. } = solved;
         let displacement = Field::displacement(problem, &solution.displacement, session)?;
         let contact = ContactSolution::new(problem.contacts.clone(), solution, false);
-        Ok(Self { problem, displacement, contact, preconditioning: *preconditioning, is_hard: *is_hard, origins })
+        let (preconditioning, is_hard) = (*preconditioning, *is_hard);
+        let (difference, share_left) = (estimate.difference, estimate.share_left);
+        Ok(Self { problem, displacement, contact, preconditioning, is_hard, difference, share_left, origins })
     }
 
     /// The next mesh with the contacts where this solution says, and where to start on it. **Collective**
@@ -38,6 +44,21 @@ impl<'s> Predecessor<'s> {
         let spaces = spaces(&scene, session.rank())?;
         let displacement = self.displacement(&scene, &spaces[spaces.len() - 1], session)?;
         self.contact.start_on(scene, spaces, displacement, session)
+    }
+
+    /// Square of the share that is left of the difference of a solution on the next mesh from a coarser one there, whose square is
+    /// `now`: as it has been from this mesh to that one. **Collective**
+    pub fn share_left(
+        &self,
+        problem: &Discretisation,
+        solution: &Solution,
+        now: f64,
+        session: &Session,
+    ) -> Result<Option<f64>, SystemError> {
+        let Some(before) = self.difference else { return Ok(None) };
+        let displacement = self.displacement(&problem.scene, problem.finest(), session)?;
+        let apart = energy_apart(problem, solution, displacement, session)?;
+        Ok(share_left(apart, before * before, now).or(self.share_left))
     }
 
     /// The same displacement on the next mesh: this rank's unknowns in the nodes' frames. Every rank knows it on the macro
