@@ -185,7 +185,7 @@ impl ContactBoundary {
     /// Arc length from the start to parameter `t`.
     pub fn arc(&self, t: f64) -> f64 {
         let (k, _) = self.locate(t);
-                self.arcs[k] + arc_of(&self.curve, [self.knots[k], t])
+        self.arcs[k] + arc_of(&self.curve, [self.knots[k], t])
     }
 
     /// Parameter at arc length `s` from the start, by Newton's method on one of its pieces.

@@ -157,7 +157,8 @@ impl Procedure<'_> {
                 local = self.gathered(scene, left, falls);
             }
             let error = errors.get(place).copied().flatten();
-            let error = if goal.quantity == Quantity::Energy { foreseen.or(error) } else { error }.map(|error| error / goal.tolerance);
+            let error =
+                if goal.quantity == Quantity::Energy { foreseen.or(error) } else { error }.map(|error| error / goal.tolerance);
             let pace = sequence.foreseen[place].zip(error).map_or(1.0, |(foreseen, error)| foreseen.pace(error));
             all.push(Indicators { local, error, pace, is_norm: goal.quantity.is_norm() });
         }

@@ -467,7 +467,8 @@ mod tests {
 
     #[test]
     fn a_force_is_no_better_than_the_difference_before_allows() {
-        let force = |before, last| Estimate::new(&[difference(before), difference(last)], None, Order::P1, 1e-8, |own| own).force[0];
+        let force =
+            |before, last| Estimate::new(&[difference(before), difference(last)], None, Order::P1, 1e-8, |own| own).force[0];
         // Errors 16, 4, 1.
         assert!((force(12.0, 3.0).expect("two differences") - 1.0).abs() < 1e-12);
         assert!(force(12.0, 1e-5).expect("two differences") > 1.0 - 1e-12, "a difference that is small by luck");

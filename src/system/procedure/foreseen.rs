@@ -46,6 +46,10 @@ const SMALLEST: f64 = 1e-10;
 /// Share of what is asked for at which an error that is only foreseen counts as reached.
 const SURELY: f64 = 0.8;
 
+/// Share of an error that is left on the next mesh, at most: what one difference leaves is told by how it falls from mesh to mesh, and
+/// next to nothing of it that has gone tells nothing (`estimate::LEAST_GONE`).
+const LEAST_FALL: f64 = 0.75;
+
 /// What a macro triangle counts for a goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LocalIndicator {
@@ -103,8 +107,9 @@ impl Indicators {
     }
 
     /// Whether it takes another round, as far as can be told; `grown` is by how much the mesh has.
-    fn is_foreseen_to_be_missed(&self, grown: f64) -> bool {
-        self.error.map_or(grown < LEAST_GROWTH, |error| error > SURELY)
+    fn is_foreseen_to_be_missed(&self, first: &Self, grown: f64) -> bool {
+        let most = |error: f64| SURELY.min(LEAST_FALL * error);
+        self.error.map_or(grown < LEAST_GROWTH, |error| error > first.error.map_or(SURELY, most))
     }
 
     /// The fewest triangles that hold a share of it, without those that are too small.
@@ -155,7 +160,10 @@ pub(super) fn next_mesh(
     };
     for round in 0..reach.rounds {
         let now = next.as_ref().unwrap_or(&first);
-        let open: Vec<&Indicators> = left.iter().filter(|goal| round == 0 || goal.is_foreseen_to_be_missed(grown(now))).collect();
+        let is_missed =
+            |(goal, first): (&Indicators, &Indicators), mesh: &BisectedMesh| goal.is_foreseen_to_be_missed(first, grown(mesh));
+        let open = left.iter().zip(missed).filter(|pair| round == 0 || is_missed(*pair, now));
+        let open: Vec<&Indicators> = open.map(|(goal, _)| goal).collect();
         if round > 0 && open.is_empty() {
             break;
         }
@@ -165,7 +173,7 @@ pub(super) fn next_mesh(
             (refined, left)
         });
         let is_enough = |(mesh, left): &(BisectedMesh, Vec<Indicators>)| {
-            !left.is_empty() && !left.iter().any(|goal| goal.is_foreseen_to_be_missed(grown(mesh)))
+            !left.is_empty() && !left.iter().zip(missed).any(|pair| is_missed(pair, mesh))
         };
         let Some(found) = first_or_last(candidates.filter(|(mesh, _)| fits(mesh, round)), is_enough) else { break };
         (next, left) = (Some(found.0), found.1);
@@ -212,7 +220,10 @@ mod tests {
     use super::*;
     use crate::element::Order;
     use crate::geometry::Point;
-    use crate::mesh::{Level, samples::two_blocks};
+    use crate::mesh::{
+        Level,
+        samples::{columns, two_blocks},
+    };
     use crate::system::node_count;
 
     fn unknowns(mesh: &BisectedMesh) -> usize {
@@ -248,6 +259,20 @@ mod tests {
             assert!((0.4f64.powi(times)..=0.55f64.powi(times)).contains(fall), "{times}: {fall}");
             assert!(*length <= 5f64.sqrt() * 0.5f64.powi(times), "{times}: {length}");
         }
+    }
+
+    /// What is foreseen to be small already, and is not known to be: a mesh that is next to the same would tell no more.
+    #[test]
+    fn the_next_mesh_is_finer_enough_to_tell_something() {
+        let first = BisectedMesh::new(columns(40, 1.0));
+        let everywhere = (0..first.mesh.triangles.len()).map(|k| {
+            let mut cells = Cells::default();
+            cells.add_evenly(1.0 + 0.01 * k as f64);
+            LocalIndicator { cells, fall: 0.25 }
+        });
+        let goal = Indicators { local: everywhere.collect(), error: Some(0.79), pace: 1.0, is_norm: true };
+        let next = next_mesh(&first, &[], (&[goal], NEAR), unknowns, None).expect("no limit");
+        assert!(next.foreseen[0].expect("known").fall <= LEAST_FALL);
     }
 
     #[test]
