@@ -31,8 +31,9 @@ const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 /// (`chain_5`): the meshes after the first measure it.
 const ENERGY_BY_ONE_ADAPTED: f64 = 0.7;
 
-/// The share that finer meshes are foreseen by: halfway between what is left beside smooth sides and beside corners. And the factor q of
-/// squares with q/(1 - q) = .5².
+/// Share of one difference that finer meshes are foreseen by, and the factor by which squares fall from there, where no mesh before has
+/// shown them. What they foretell of the second mesh came true to 15 % on discs, rollers and a pyramid; with .5 and .2 errors were two
+/// to three times smaller than foretold, for up to twice the unknowns.
 const FORESEEN_BY_ONE: f64 = 0.4;
 const ONE_FALLS: f64 = 0.09;
 
