@@ -3,7 +3,7 @@
 
 use super::boundaries::OneMesh;
 use super::duals::{Duals, weighted};
-use super::estimate::Estimate;
+use super::estimate::{ENERGY_FALLS, Estimate};
 use super::foreseen::{Indicators, LocalIndicator};
 use super::mesh_sequence::MeshSequence;
 use super::observer::{Event, Observer, Work};
@@ -146,12 +146,14 @@ impl Procedure<'_> {
         let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
         let errors = adaptation.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
         let mut all = Vec::new();
+        let quickly = (*foreseen != solved.estimate.energy).then(|| vec![ENERGY_FALLS; falls.len()]);
         let mut duals = self.duals(adaptation, solved)?.into_iter();
         for (place, goal) in adaptation.missed() {
             let own = match duals.next().flatten() {
                 Some(dual) if difference.is_some() => weighted(&solved.problem, left, &dual, self.session)?,
                 _ => left.clone(),
             };
+            let falls = quickly.as_ref().filter(|_| goal.quantity == Quantity::Energy).unwrap_or(falls);
             let mut local = self.gathered(scene, &own, falls);
             if local.iter().all(|indicator| indicator.cells.sum() == 0.0) {
                 local = self.gathered(scene, left, falls);
