@@ -3,7 +3,7 @@
 
 use super::boundaries::OneMesh;
 use super::duals::{Duals, weighted};
-use super::estimate::{ENERGY_FALLS, Estimate};
+use super::estimate::Estimate;
 use super::foreseen::{Indicators, LocalIndicator};
 use super::mesh_sequence::MeshSequence;
 use super::observer::{Event, Observer, Work};
@@ -142,25 +142,26 @@ impl Procedure<'_> {
     /// Where the errors of the goals that are missed lie. **Collective**
     fn indicators(&self, sequence: &MeshSequence, solved: &Solved) -> Result<Vec<Indicators>, SystemError> {
         // A rank may have no macro triangle: all of them know whether there is a difference.
-        let Estimate { local: left, falls, difference, foreseen, .. } = &solved.estimate;
+        let Estimate { local: left, falls, energy_falls, difference, foreseen, .. } = &solved.estimate;
         let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
         let errors = adaptation.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
         let mut all = Vec::new();
-        let quickly = (*foreseen != solved.estimate.energy).then(|| vec![ENERGY_FALLS; falls.len()]);
         let mut duals = self.duals(adaptation, solved)?.into_iter();
         for (place, goal) in adaptation.missed() {
             let own = match duals.next().flatten() {
                 Some(dual) if difference.is_some() => weighted(&solved.problem, left, &dual, self.session)?,
                 _ => left.clone(),
             };
-            let falls = quickly.as_ref().filter(|_| goal.quantity == Quantity::Energy).unwrap_or(falls);
+            let error = errors.get(place).copied().flatten();
+            let (falls, error) = match goal.quantity {
+                Quantity::Energy => (energy_falls, foreseen.or(error)),
+                _ => (falls, error),
+            };
             let mut local = self.gathered(scene, &own, falls);
             if local.iter().all(|indicator| indicator.cells.sum() == 0.0) {
                 local = self.gathered(scene, left, falls);
             }
-            let error = errors.get(place).copied().flatten();
-            let error =
-                if goal.quantity == Quantity::Energy { foreseen.or(error) } else { error }.map(|error| error / goal.tolerance);
+            let error = error.map(|error| error / goal.tolerance);
             let pace = sequence.foreseen[place].zip(error).map_or(1.0, |(foreseen, error)| foreseen.pace(error));
             all.push(Indicators { local, error, pace, is_norm: goal.quantity.is_norm() });
         }

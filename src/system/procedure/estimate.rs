@@ -27,8 +27,8 @@ const LOCAL_FACTORS: [f64; 2] = [1.0 / 16.0, 0.5];
 /// Error in the energy norm by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
 const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 
-/// The same on a mesh that is adapted, where what converges quickly is coarse. Between smooth sides .31 - .36 is left, with corners .85
-/// (`chain_5`): the meshes after the first measure it.
+/// The same on a mesh that is adapted, where what converges quickly is coarse. Between smooth sides .31 to .39 is left, with corners .80
+/// to .90 (`chain_5`): the meshes after the first measure it on each macro triangle.
 const ENERGY_BY_ONE_ADAPTED: f64 = 0.7;
 
 /// The factor q of squares with q/(1 - q) = .7², for a mesh that is adapted by one difference.
@@ -39,12 +39,13 @@ const ONE_FALLS: f64 = 0.33;
 /// were two to three times smaller than foretold, for up to twice the unknowns. Values fall more slowly: `bending` would take 42 cycles
 /// for its pressure, in the place of 34.
 const FORESEEN_BY_ONE: f64 = 0.4;
-pub(super) const ENERGY_FALLS: f64 = 0.09;
+const ENERGY_FALLS: f64 = 0.09;
 
 /// Squares of the share of a difference that may be left, at least and at most: q/(1 - q) of `LOCAL_FACTORS` and of `FACTORS`.
 const SHARES_LEFT: [f64; 2] = [1.0 / 15.0, 3.0];
 
-/// Share of the square of the difference on the mesh before that must have gone, for what went with it to tell of the rest.
+/// Share of the square of the difference on the mesh before that must have gone, for what went with it to tell of the rest: one
+/// that is halved once loses 1 - √½ at the slowest of `LOCAL_FACTORS`, one that is not refined only what its neighbours change.
 const LEAST_GONE: f64 = 0.3;
 
 /// Factors by which errors of a force fall on a smooth solution, P1 and P2.
@@ -111,8 +112,10 @@ pub struct Estimate {
     pub energy: Option<f64>,
     /// The last difference in that norm.
     pub difference: Option<f64>,
-    /// Square of the share of the last difference that is left, where the adapted mesh before has shown it.
-    pub share_left: Option<f64>,
+    /// Its square on each macro triangle of this rank, in the rank's order.
+    pub of_triangles: Vec<f64>,
+    /// Square of the share of it that is left there, where the adapted mesh before has shown it; empty if there is none.
+    pub shares_left: Vec<Option<f64>>,
     /// Error in the energy norm that finer meshes are foreseen by.
     pub foreseen: Option<f64>,
     /// Square of the error in that norm in the macro triangles of this rank, in the rank's order, of the last difference where
@@ -120,6 +123,8 @@ pub struct Estimate {
     pub local: Vec<Cells>,
     /// Factor by which the difference has fallen on each of them with the last refinement, in the same order.
     pub falls: Vec<f64>,
+    /// The same for the energy, as long as nothing is known of how it falls.
+    pub energy_falls: Vec<f64>,
     /// Of `∫λ ds`, for each contact.
     pub force: Vec<Option<f64>>,
     /// Of the largest λ, for each contact.
@@ -176,9 +181,9 @@ impl Difference {
         Ok(Self { energy, of_triangles, cells, force, peak, above, ends, within_segments, probes, zones })
     }
 
-    /// Its square in the relative energy norm.
-    pub(super) fn energy(&self) -> f64 {
-        self.energy
+    /// Its square in the relative energy norm on each macro triangle of this rank, in the rank's order.
+    pub(super) fn of_triangles(&self) -> &[f64] {
+        &self.of_triangles
     }
 }
 
@@ -186,10 +191,11 @@ impl Estimate {
     /// From the differences between successive meshes, the coarsest first. `residual` is that of the solve (relative): no
     /// force is better than it. `sum` adds up what the ranks have. **Collective**
     ///
-    /// `share_left` is the square of the share of one difference that is left, where it is known.
+    /// `shares_left` are the squares of the share of one difference that is left on each macro triangle of this rank, where they are
+    /// known; empty if none is.
     pub fn new(
         differences: &[Difference],
-        share_left: Option<f64>,
+        shares_left: Vec<Option<f64>>,
         order: Order,
         residual: f64,
         sum: impl Fn(f64) -> f64,
@@ -205,9 +211,15 @@ impl Estimate {
             Some(before) => {
                 before.of_triangles.iter().zip(&last.of_triangles).map(|(before, last)| left(*before, *last)).collect()
             }
-            None => last.of_triangles.clone(),
+            None if shares_left.is_empty() => last.of_triangles.clone(),
+            None => {
+                let left = |(last, share): (&f64, &Option<f64>)| last * share.unwrap_or(ENERGY_BY_ONE_ADAPTED.powi(2));
+                last.of_triangles.iter().zip(&shares_left).map(left).collect()
+            }
         };
         let whole = sum(of_triangles.iter().sum());
+        let falls = falls(last, before, &shares_left);
+        let is_first_guess = before.is_none() && sum(shares_left.len() as f64) == 0.0;
         let local = last.cells.iter().zip(last.of_triangles.iter().zip(&of_triangles));
         let local = local.map(|(cells, (last, left))| cells.scaled(share(*left, *last))).collect();
         let energy = match before {
@@ -216,10 +228,9 @@ impl Estimate {
                 // A rank may have no macro triangle: all of them must know whether the mesh is adapted.
                 let is_adapted = sum(last.cells.len() as f64) > 0.0;
                 let share = if is_adapted { ENERGY_BY_ONE_ADAPTED } else { ENERGY_BY_ONE[order.degree() - 1] };
-                Some(last.energy * share_left.unwrap_or(share.powi(2)))
+                Some(if is_first_guess { last.energy * share.powi(2) } else { whole })
             }
         };
-        let is_first_guess = before.is_none() && share_left.is_none();
         let foreseen = if is_first_guess { Some(last.energy * FORESEEN_BY_ONE.powi(2)) } else { energy };
         // The error of a value is a product of two in the energy norm, and falls as the square of that does.
         let slow = before.map_or(0.0, |before| (last.energy / before.energy).min(FORCE_SLOWEST));
@@ -255,10 +266,12 @@ impl Estimate {
         Self {
             energy: energy.map(f64::sqrt).filter(|error| error.is_finite()),
             difference: Some(last.energy.sqrt()).filter(|difference| difference.is_finite()),
-            share_left,
+            of_triangles: last.of_triangles.clone(),
             foreseen: foreseen.map(f64::sqrt).filter(|error| error.is_finite()),
             local,
-            falls: falls(last, before, share_left),
+            energy_falls: if is_first_guess { vec![ENERGY_FALLS; last.of_triangles.len()] } else { falls.clone() },
+            falls,
+            shares_left,
             force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
             peak: contacts.clone().map(peak).collect(),
             ends: contacts.clone().map(ends).collect(),
@@ -295,17 +308,17 @@ impl Estimate {
 
 /// Factor by which the difference has fallen on each macro triangle of this rank; the one that leaves what is left by one difference,
 /// where that is all there is.
-fn falls(last: &Difference, before: Option<&Difference>, share_left: Option<f64>) -> Vec<f64> {
-    let by_one = share_left.map_or(ONE_FALLS, |share| (share / (1.0 + share)).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]));
+fn falls(last: &Difference, before: Option<&Difference>, shares_left: &[Option<f64>]) -> Vec<f64> {
+    let by_share = |share: f64| (share / (1.0 + share)).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]);
     let fall = |(at, now): (usize, &f64)| match before.and_then(|before| before.of_triangles.get(at)) {
         Some(then) if *then > 0.0 => (now / then).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]),
         Some(_) => LOCAL_FACTORS[1],
-        None => by_one,
+        None => shares_left.get(at).copied().flatten().map_or(ONE_FALLS, by_share),
     };
     last.of_triangles.iter().enumerate().map(fall).collect()
 }
 
-/// Square of the share of a difference that is left, from one adapted mesh to the next. By Galerkin's orthogonality the error e of the
+/// Square of the share of a difference that is left on a macro triangle, from one adapted mesh to the next. By Galerkin's orthogonality the error e of the
 /// mesh before has the square `|u - u_before|² + e_now²`; with e = s D on both meshes, `s² = |u - u_before|²/(D_before² - D²)`.
 pub(super) fn share_left(apart: f64, before: f64, now: f64) -> Option<f64> {
     let is_enough = before - now > LEAST_GONE * before;
@@ -333,19 +346,19 @@ fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Re
     Ok(if sums[1] > LEAST_LEFT * sums[0] || sums[0] == 0.0 { sums[1] } else { f64::NAN })
 }
 
-/// Square of the difference of a solution from another displacement in the relative energy norm. **Collective**
+/// Square of the difference of a solution from another displacement in the relative energy norm, on each macro triangle of this rank, in
+/// the rank's order. **Collective**
 pub(super) fn energy_apart(
     problem: &Discretisation,
     solution: &Solution,
     mut other: Vec<f64>,
     session: &Session,
-) -> Result<f64, SystemError> {
+) -> Result<Vec<f64>, SystemError> {
     other.iter_mut().zip(&solution.displacement).for_each(|(other, now)| *other = now - *other);
     let [u, apart] = [&solution.displacement, &other].map(|values| Field::displacement(problem, values, session));
     let whole = whole_energy(problem, &u?, session)?;
-    let mut sum = [without_points(problem, local_strain_energy(problem, &apart?, session)?, session).iter().sum()];
-    session.sum(&mut sum);
-    Ok(share(sum[0], whole))
+    let parts = without_points(problem, local_strain_energy(problem, &apart?, session)?, session);
+    Ok(parts.into_iter().map(|part| share(part, whole)).collect())
 }
 
 /// Relative differences of displacement and stress at a point; not a number where no body holds it. **Collective**
@@ -415,11 +428,11 @@ mod tests {
             // Errors 1, q, q² in the square; differences of squares.
             let squares = [1.0, factor, factor * factor];
             let differences = [difference(squares[0] - squares[1]), difference(squares[1] - squares[2])];
-            let found = Estimate::new(&differences, None, Order::P1, 0.0, |own| own);
+            let found = Estimate::new(&differences, Vec::new(), Order::P1, 0.0, |own| own);
             assert!((found.energy.expect("two differences") / factor - 1.0).abs() < 1e-12);
         }
-        assert!(Estimate::new(&[difference(1.0)], None, Order::P1, 0.0, |own| own).energy.is_some_and(|error| error > 0.5));
-        assert_eq!(Estimate::new(&[], None, Order::P1, 0.0, |own| own), Estimate::default());
+        assert!(Estimate::new(&[difference(1.0)], Vec::new(), Order::P1, 0.0, |own| own).energy.is_some_and(|error| error > 0.5));
+        assert_eq!(Estimate::new(&[], Vec::new(), Order::P1, 0.0, |own| own), Estimate::default());
     }
 
     /// Two macro triangles: errors of one fall by 16, of the other, which has a corner, by 2. Of the last difference the latter
@@ -441,39 +454,58 @@ mod tests {
                 ..difference(1.0)
             }
         };
-        let found = Estimate::new(&[difference(0), difference(1)], None, Order::P2, 0.0, |own| own);
+        let found = Estimate::new(&[difference(0), difference(1)], Vec::new(), Order::P2, 0.0, |own| own);
         assert!((found.energy.expect("two differences") - 16.25_f64.sqrt()).abs() < 1e-12, "{:?}", found.energy);
         assert!(found.local.iter().zip([6.25, 10.0]).all(|(found, wanted)| (found.sum() - wanted).abs() < 1e-12));
     }
 
-    /// Two adapted meshes: of the errors 3 and 1 the differences from a coarser solution were twice as large, or half as large.
+    /// Of the errors 3 and 1 on two adapted meshes the differences from a coarser solution were twice as large, or two thirds of them.
     #[test]
     fn what_is_left_of_one_difference_is_what_was_left_on_the_mesh_before() {
         for share in [0.5f64, 1.5] {
             let [before, now] = [3.0, 1.0].map(|error: f64| (error / share).powi(2));
             let found = share_left(9.0 - 1.0, before, now).expect("much has gone");
             assert!((found - share * share).abs() < 1e-12, "{share}: {found}");
-            let estimate = Estimate::new(&[difference(now)], Some(found), Order::P2, 0.0, |own| own);
-            assert!((estimate.energy.expect("known") - 1.0).abs() < 1e-12);
-            assert_eq!(estimate.foreseen, estimate.energy);
         }
         assert_eq!(share_left(1.0, 1.0, 0.9), None, "next to nothing has gone");
         assert_eq!(share_left(100.0, 1.0, 0.0), Some(SHARES_LEFT[1]));
-        let first = Estimate::new(&[difference(1.0)], None, Order::P2, 0.0, |own| own);
-        assert!(first.foreseen < first.energy, "what is not known counts for more than what is hoped for");
+    }
+
+    /// Each macro triangle has a share of its own; where none is known, that of a first mesh counts.
+    #[test]
+    fn shares_hold_where_they_were_measured() {
+        let two = |first: f64, second: f64| Difference {
+            energy: first + second,
+            of_triangles: vec![first, second],
+            cells: vec![Cells::default(); 2],
+            ..difference(1.0)
+        };
+        let energy = |shares: Vec<Option<f64>>| {
+            let found = Estimate::new(&[two(8.0, 2.0)], shares, Order::P2, 0.0, |own| own);
+            (found.energy.expect("known").powi(2), found.foreseen.expect("known").powi(2), found.energy_falls)
+        };
+        let (left, foreseen, falls) = energy(vec![Some(0.125), Some(1.0)]);
+        assert!((left - 3.0).abs() < 1e-12 && left == foreseen, "{left}, {foreseen}");
+        assert!((falls[0] - 1.0 / 9.0).abs() < 1e-12 && falls[1] == 0.5, "{falls:?}");
+        assert!((energy(vec![Some(0.125), None]).0 - 1.98).abs() < 1e-12);
+        let (left, foreseen, falls) = energy(Vec::new());
+        assert!((left - 4.9).abs() < 1e-12 && foreseen < left, "what is not known counts for more than what is hoped for");
+        assert_eq!(falls, [ENERGY_FALLS; 2]);
     }
 
     #[test]
     fn ends_that_stay_are_no_better_than_segments_are_short() {
-        let ends = |before, last| Estimate::new(&[difference(before), difference(last)], None, Order::P2, 0.0, |own| own).ends[0];
+        let ends =
+            |before, last| Estimate::new(&[difference(before), difference(last)], Vec::new(), Order::P2, 0.0, |own| own).ends[0];
         assert_eq!(ends(0.0, 0.0), Some(0.01));
         assert!(ends(0.4, 0.2).is_some_and(|error| error > 0.1));
     }
 
     #[test]
     fn a_force_is_no_better_than_the_difference_before_allows() {
-        let force =
-            |before, last| Estimate::new(&[difference(before), difference(last)], None, Order::P1, 1e-8, |own| own).force[0];
+        let force = |before, last| {
+            Estimate::new(&[difference(before), difference(last)], Vec::new(), Order::P1, 1e-8, |own| own).force[0]
+        };
         // Errors 16, 4, 1.
         assert!((force(12.0, 3.0).expect("two differences") - 1.0).abs() < 1e-12);
         assert!(force(12.0, 1e-5).expect("two differences") > 1.0 - 1e-12, "a difference that is small by luck");

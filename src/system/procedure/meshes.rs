@@ -218,11 +218,11 @@ impl Procedure<'_> {
             let _stage = self.observer.enter(Work::Recovery);
             differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
         }
-        let share_left = match (predecessor, differences.as_slice()) {
-            (Some(before), [one]) => before.share_left(&problem, &found.solution, one.energy(), self.session)?,
-            _ => None,
+        let shares_left = match (predecessor, differences.as_slice()) {
+            (Some(before), [one]) => before.shares_left(&problem, &found.solution, one.of_triangles(), self.session)?,
+            _ => Vec::new(),
         };
-        let estimate = Estimate::new(&differences, share_left, problem.scene.order, found.solution.residual, |own| {
+        let estimate = Estimate::new(&differences, shares_left, problem.scene.order, found.solution.residual, |own| {
             let mut sum = [own];
             self.session.sum(&mut sum);
             sum[0]

@@ -1,7 +1,7 @@
 //! What the solution on one adapted mesh says of the next one, which has other macro triangles.
 
 use super::coarse_solution::ContactSolution;
-use super::estimate::{energy_apart, share_left};
+use super::estimate::{Estimate, energy_apart, share_left};
 use super::solved::Solved;
 use crate::geometry::Point;
 use crate::mesh::{Origin, lattice};
@@ -18,9 +18,8 @@ pub(super) struct Predecessor<'s> {
     pub preconditioning: Preconditioning,
     /// Whether its active set was hard to find, or that of a mesh before.
     pub is_hard: bool,
-    /// Its last difference from a coarser solution in the energy norm, and the square of the share of it that is left, if known.
-    difference: Option<f64>,
-    share_left: Option<f64>,
+    /// Its last difference from a coarser solution, and what is left of it.
+    estimate: &'s Estimate,
     /// Where each macro triangle of the next mesh lies.
     origins: &'s [Origin],
 }
@@ -32,8 +31,7 @@ impl<'s> Predecessor<'s> {
         let displacement = Field::displacement(problem, &solution.displacement, session)?;
         let contact = ContactSolution::new(problem.contacts.clone(), solution, false);
         let (preconditioning, is_hard) = (*preconditioning, *is_hard);
-        let (difference, share_left) = (estimate.difference, estimate.share_left);
-        Ok(Self { problem, displacement, contact, preconditioning, is_hard, difference, share_left, origins })
+        Ok(Self { problem, displacement, contact, preconditioning, is_hard, estimate, origins })
     }
 
     /// The next mesh with the contacts where this solution says, and where to start on it. **Collective**
@@ -46,19 +44,39 @@ impl<'s> Predecessor<'s> {
         self.contact.start_on(scene, spaces, displacement, session)
     }
 
-    /// Square of the share that is left of the difference of a solution on the next mesh from a coarser one there, whose square is
-    /// `now`: as it has been from this mesh to that one. **Collective**
-    pub fn share_left(
+    /// Squares of the shares that are left of the difference of a solution on the next mesh from a coarser one there, on each macro
+    /// triangle of this rank; `now` are the squares of that difference. Each share is what it was on the triangle before that this one is
+    /// a part of, if enough has gone there; else as it has been, if that is known. Empty if this mesh has no difference. **Collective**
+    pub fn shares_left(
         &self,
         problem: &Discretisation,
         solution: &Solution,
-        now: f64,
+        now: &[f64],
         session: &Session,
-    ) -> Result<Option<f64>, SystemError> {
-        let Some(before) = self.difference else { return Ok(None) };
+    ) -> Result<Vec<Option<f64>>, SystemError> {
+        if self.estimate.difference.is_none() {
+            return Ok(Vec::new());
+        }
         let displacement = self.displacement(&problem.scene, problem.finest(), session)?;
         let apart = energy_apart(problem, solution, displacement, session)?;
-        Ok(share_left(apart, before * before, now).or(self.share_left))
+        let Estimate { of_triangles, shares_left, .. } = self.estimate;
+        // Of each triangle of this mesh: its difference, that of its parts, how far these are from it, and its share.
+        let mut sums = vec![[0.0; 4]; self.problem.scene.mesh.triangles.len()];
+        for (k, &triangle) in self.problem.scene.partition.triangles_of(session.rank()).iter().enumerate() {
+            sums[triangle as usize][0] = of_triangles[k];
+            sums[triangle as usize][3] = shares_left.get(k).copied().flatten().unwrap_or_default();
+        }
+        let own = problem.scene.partition.triangles_of(session.rank());
+        for ((&triangle, now), apart) in own.iter().zip(now).zip(&apart) {
+            let sums = &mut sums[self.origins[triangle as usize].triangle as usize];
+            (sums[1], sums[2]) = (sums[1] + now, sums[2] + apart);
+        }
+        session.sum(sums.as_flattened_mut());
+        let share = |&triangle: &u32| {
+            let [before, now, apart, share] = sums[self.origins[triangle as usize].triangle as usize];
+            share_left(apart, before, now).or(Some(share).filter(|share| *share > 0.0))
+        };
+        Ok(own.iter().map(share).collect())
     }
 
     /// The same displacement on the next mesh: this rank's unknowns in the nodes' frames. Every rank knows it on the macro
