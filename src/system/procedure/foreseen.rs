@@ -272,7 +272,8 @@ mod tests {
         });
         let goal = Indicators { local: everywhere.collect(), error: Some(0.79), pace: 1.0, is_norm: true };
         let next = next_mesh(&first, &[], (&[goal], NEAR), unknowns, None).expect("no limit");
-        assert!(next.foreseen[0].expect("known").fall <= LEAST_FALL);
+        let fall = next.foreseen[0].expect("known").fall;
+        assert!(fall <= 0.75, "{fall}, .91 if the fewest triangles do");
     }
 
     #[test]
