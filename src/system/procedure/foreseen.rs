@@ -47,7 +47,7 @@ const SMALLEST: f64 = 1e-10;
 const SURELY: f64 = 0.8;
 
 /// Share of an error that is left on the next mesh, at most: what one difference leaves is told by how it falls from mesh to mesh, and
-/// next to nothing of it that has gone tells nothing: its square must fall below .7 (`estimate::LEAST_GONE`), the error below .84.
+/// next to nothing of it that has gone tells nothing: its square must fall below .7 (`energy_norm::LEAST_GONE`), the error below .84.
 const LEAST_FALL: f64 = 0.75;
 
 /// What a macro triangle counts for a goal.

@@ -22,6 +22,7 @@ mod contact_state;
 mod duals;
 mod end_estimate;
 mod ending;
+mod energy_norm;
 mod estimate;
 mod first_set;
 mod following;

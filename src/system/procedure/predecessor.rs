@@ -1,7 +1,8 @@
 //! What the solution on one adapted mesh says of the next one, which has other macro triangles.
 
 use super::coarse_solution::ContactSolution;
-use super::estimate::{Estimate, energy_apart, share_left};
+use super::energy_norm::{energy_apart, share_left};
+use super::estimate::Estimate;
 use super::solved::Solved;
 use crate::geometry::Point;
 use crate::mesh::{Origin, lattice};
