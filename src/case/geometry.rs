@@ -3,7 +3,7 @@
 use super::Geometry;
 use super::section::Section;
 use super::values;
-use crate::geometry::Curve;
+use crate::geometry::{Curve, ParametricCurve};
 
 /// `[geometry.NAME]`
 pub fn read_geometry(section: &Section) -> Option<Geometry> {
@@ -51,7 +51,7 @@ fn read_parametric(section: &Section) -> Option<Curve> {
             return None;
         }
     }
-    Some(Curve::Parametric { x, y, range })
+    Some(Curve::Parametric(ParametricCurve::new(x, y, range)))
 }
 
 /// A boundary has one shape.

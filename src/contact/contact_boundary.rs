@@ -243,7 +243,7 @@ fn nearest_turn(way: f64, period: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Formula;
+    use crate::geometry::{Formula, ParametricCurve};
 
     fn on_circle(angle: f64) -> Point {
         Point::new(1.0 + 2.0 * angle.cos(), 2.0 * angle.sin())
@@ -256,7 +256,7 @@ mod tests {
     /// The same circle as formulas, begun at the top and run through in the other direction.
     fn formulas() -> ContactBoundary {
         let read = |text| Formula::parse(text, &["t"]).expect("a formula");
-        let curve = Curve::Parametric { x: read("1 + 2*sin(2*t)"), y: read("2*cos(2*t)"), range: [0.0, std::f64::consts::PI] };
+        let curve = Curve::Parametric(ParametricCurve::new(read("1 + 2*sin(2*t)"), read("2*cos(2*t)"), [0.0, std::f64::consts::PI]));
         ContactBoundary::new(curve, [0.0, std::f64::consts::PI], Point::new(0.0, -1.0))
     }
 
@@ -306,7 +306,7 @@ mod tests {
 
     fn parabola() -> ContactBoundary {
         let read = |text| Formula::parse(text, &["t"]).expect("a formula");
-        let curve = Curve::Parametric { x: read("t"), y: read("4 + t - 0.25*t^2"), range: [0.0, 4.0] };
+        let curve = Curve::Parametric(ParametricCurve::new(read("t"), read("4 + t - 0.25*t^2"), [0.0, 4.0]));
         ContactBoundary::new(curve, [0.0, 4.0], Point::new(0.0, 1.0))
     }
 

@@ -146,6 +146,7 @@ mod tests {
     use super::*;
     use crate::contact::MultiplierSpace;
     use crate::element::Order;
+    use crate::geometry::ParametricCurve;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, MacroMesh, Numbering, Partition};
     use std::rc::Rc;
@@ -154,7 +155,7 @@ mod tests {
     fn setting(space: MultiplierSpace) -> (MacroMesh, ContactBoundary, Multipliers, [Vec<BoundaryEdge>; 2]) {
         let mut mesh = two_blocks();
         let read = |text| Formula::parse(text, &["t"]).expect("a formula");
-        let curve = Curve::Parametric { x: read("t"), y: read("1 + 0.1*t*(2-t)*(t-0.9)"), range: [0.0, 2.0] };
+        let curve = Curve::Parametric(ParametricCurve::new(read("t"), read("1 + 0.1*t*(2-t)*(t-0.9)"), [0.0, 2.0]));
         mesh.bend("seam", &["lower.seam".into(), "upper.seam".into()], &curve).expect("the vertices lie on it");
         let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
         let numbering = Numbering::new(Level { intervals: 4, order: Order::P2 }, &partition);

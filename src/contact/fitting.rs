@@ -423,7 +423,7 @@ mod tests {
     use super::*;
     use crate::contact::samples::seam;
     use crate::element::Order;
-    use crate::geometry::{Curve, Formula};
+    use crate::geometry::{Curve, Formula, ParametricCurve};
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{EdgeNode, Level, Numbering, Partition};
     use std::rc::Rc;
@@ -447,7 +447,7 @@ mod tests {
     /// Γ_C over a part of the seam; its parameter is x.
     fn part([from, to]: [f64; 2]) -> ContactBoundary {
         let formula = |text| Formula::parse(text, &["t"]).expect("a formula");
-        let curve = Curve::Parametric { x: formula("t"), y: formula("1"), range: [0.0, 2.0] };
+        let curve = Curve::Parametric(ParametricCurve::new(formula("t"), formula("1"), [0.0, 2.0]));
         ContactBoundary::new(curve, [from, to], Point::new(0.0, 1.0))
     }
 

@@ -1,10 +1,8 @@
 //! Plane curves with a parameter.
 
-use super::{Formula, Point, Spline, cross};
+use super::parametric_curve::{self, ParametricCurve};
+use super::{Point, Spline, cross};
 use std::f64::consts::TAU;
-
-/// Ends of a curve nearer than this share of its speed times its range are one point, where its tangents are one, too.
-const MEETS_ITSELF: f64 = 1e-9;
 
 /// A plane curve `t -> (x, y)` over a range of its parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,14 +17,7 @@ pub enum Curve {
         radius: f64,
     },
     /// Formulas of `t`.
-    Parametric {
-        /// x(t).
-        x: Formula,
-        /// y(t).
-        y: Formula,
-        /// First and last value of t.
-        range: [f64; 2],
-    },
+    Parametric(ParametricCurve),
     /// A spline through or near points.
     Spline(Spline),
 }
@@ -43,7 +34,7 @@ impl Curve {
             same if by == Point::zeros() => same.clone(),
             Self::Line(ends) => Self::Line(ends.map(place)),
             Self::Circle { centre, radius } => Self::Circle { centre: place(*centre), radius: *radius },
-            Self::Parametric { x, y, range } => Self::Parametric { x: x.plus(by.x), y: y.plus(by.y), range: *range },
+            Self::Parametric(curve) => Self::Parametric(curve.moved(by)),
             Self::Spline(spline) => Self::Spline(spline.clone().moved(by)),
         }
     }
@@ -53,7 +44,7 @@ impl Curve {
         match self {
             Self::Line(_) => [0.0, 1.0],
             Self::Circle { .. } => [0.0, TAU],
-            Self::Parametric { range, .. } => *range,
+            Self::Parametric(curve) => curve.range(),
             Self::Spline(spline) => spline.range(),
         }
     }
@@ -64,21 +55,9 @@ impl Curve {
         match self {
             Self::Line(_) => None,
             Self::Circle { .. } => Some(TAU),
-            Self::Parametric { x, y, range } => {
-                let place = range.map(|t| Point::new(x.value(&[t]), y.value(&[t])));
-                let slope = range.map(|t| Point::new(x.derivative(0, &[t]), y.derivative(0, &[t])));
-                let (period, speed) = (range[1] - range[0], slope[0].norm());
-                let near = |a: Point, b: Point, size: f64| (a - b).norm() <= MEETS_ITSELF * size;
-                (near(place[0], place[1], speed * period) && near(slope[0], slope[1], speed)).then_some(period)
-            }
+            Self::Parametric(curve) => curve.period(),
             Self::Spline(spline) => spline.period(),
         }
-    }
-
-    /// The parameter within the range that means the same point of a closed curve of formulas.
-    fn within(&self, t: f64) -> f64 {
-        let [first, last] = self.range();
-        if (first..=last).contains(&t) || self.period().is_none() { t } else { first + (t - first).rem_euclid(last - first) }
     }
 
     /// Whether the curve is a straight line by its kind.
@@ -91,10 +70,7 @@ impl Curve {
         match self {
             Self::Line([a, b]) => Point::new(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])),
             Self::Circle { centre, radius } => Point::new(centre[0] + radius * t.cos(), centre[1] + radius * t.sin()),
-            Self::Parametric { x, y, .. } => {
-                let t = self.within(t);
-                Point::new(x.value(&[t]), y.value(&[t]))
-            }
+            Self::Parametric(curve) => curve.point(t),
             Self::Spline(spline) => spline.point(t),
         }
     }
@@ -104,10 +80,7 @@ impl Curve {
         match self {
             Self::Line([a, b]) => Point::new(b[0] - a[0], b[1] - a[1]),
             Self::Circle { radius, .. } => Point::new(-radius * t.sin(), radius * t.cos()),
-            Self::Parametric { x, y, .. } => {
-                let t = self.within(t);
-                Point::new(x.derivative(0, &[t]), y.derivative(0, &[t]))
-            }
+            Self::Parametric(curve) => curve.derivative(t),
             Self::Spline(spline) => spline.derivative(t),
         }
     }
@@ -137,7 +110,7 @@ impl Curve {
                 let r = p - Point::new(centre[0], centre[1]);
                 r.y.atan2(r.x).rem_euclid(TAU)
             }
-            Self::Parametric { .. } => self.nearest_by_search(p, 64),
+            Self::Parametric(curve) => self.nearest_from(p, curve.nearest_part_end(p), parametric_curve::PARTS),
             Self::Spline(spline) => self.nearest_from(p, spline.nearest_part_end(p), spline.parts()),
         }
     }
@@ -150,18 +123,9 @@ impl Curve {
         }
     }
 
-    /// Best of a fixed number of samples, then Newton's method on `(p - x(t)) . x'(t) = 0`, with the curvature from the step
-    /// before (a secant): without it, points farther away than the curve's radius would go back and forth.
-    fn nearest_by_search(&self, p: Point, samples: usize) -> f64 {
-        let [first, last] = self.range();
-        let sample = |k: usize| first + (last - first) * k as f64 / samples as f64;
-        let distance = |t: f64| (self.point(t) - p).norm_squared();
-        let t = (0..=samples).map(sample).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(first);
-        self.nearest_from(p, t, samples)
-    }
-
-    /// The same from a parameter near it, by secant steps of one part of its range at most: where `p` is farther away than the radius
-    /// of curvature, the way that is left on the tangent is too long.
+    /// The nearest point from a parameter near it: Newton's method on `(p - x(t)) . x'(t) = 0`, with the curvature from the step before
+    /// (a secant), since points farther away than the curve's radius would go back and forth without it; by steps of one part of its
+    /// range at most, since the way that is left on the tangent is too long there.
     fn nearest_from(&self, p: Point, mut t: f64, parts: usize) -> f64 {
         let [first, last] = self.range();
         let longest = (last - first).abs() / parts as f64;
@@ -221,11 +185,12 @@ impl Curve {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Formula;
     use super::*;
 
     fn parabola() -> Curve {
         let read = |text| Formula::parse(text, &["t"]).expect("a formula");
-        Curve::Parametric { x: read("t"), y: read("4 + t - 0.25*t^2"), range: [0.0, 4.0] }
+        Curve::Parametric(ParametricCurve::new(read("t"), read("4 + t - 0.25*t^2"), [0.0, 4.0]))
     }
 
     /// A triangle with round corners of radius .2 to a width of 2: points farther from a corner than that.
@@ -233,7 +198,7 @@ mod tests {
     fn the_nearest_point_of_a_corner_is_found_from_afar() {
         let read = |text| Formula::parse(text, &["t"]).expect("a formula");
         let [x, y] = ["(1 + 0.1*cos(3*t))*cos(t) + 0.3*sin(3*t)*sin(t)", "(1 + 0.1*cos(3*t))*sin(t) - 0.3*sin(3*t)*cos(t)"];
-        let curve = Curve::Parametric { x: read(x), y: read(y), range: [0.0, std::f64::consts::TAU] };
+        let curve = Curve::Parametric(ParametricCurve::new(read(x), read(y), [0.0, std::f64::consts::TAU]));
         for p in [Point::new(1.8, 0.1), Point::new(2.5, -0.3), Point::new(-1.2, 1.7)] {
             let t = curve.nearest(p);
             assert!((p - curve.point(t)).dot(&curve.tangent(t)).abs() < 1e-12, "{p}: {t}");

@@ -4,6 +4,7 @@ mod curve;
 mod formula;
 mod gauss;
 mod nearness;
+mod parametric_curve;
 mod place;
 mod spline;
 
@@ -11,6 +12,7 @@ pub use curve::Curve;
 pub use formula::{Formula, FormulaError};
 pub use gauss::gauss_points;
 pub use nearness::{Disc, overlapping_discs};
+pub use parametric_curve::ParametricCurve;
 pub use place::{Coordinates, Quote, Rounded};
 pub use spline::{Spline, chord_lengths};
 

@@ -15,7 +15,7 @@ use launch::{Suite, named};
 use mezha::body::{HeldMode, MeanHold, RigidNodes, RigidSet, Support, UNIT_MOTIONS};
 use mezha::contact::{MultiplierSpace, Stabilise, jump_matrix};
 use mezha::element::Order;
-use mezha::geometry::{Curve, Formula, Point};
+use mezha::geometry::{Curve, Formula, ParametricCurve, Point};
 use mezha::mesh::{Graph, parse_gmsh};
 use mezha::petsc::{Matrix, Session, Vector, partition};
 use mezha::system::{
@@ -535,7 +535,7 @@ fn ranks_are_dealt_equal_work(session: &Session) {
     for (name, slope, start) in [("bottom", 0.0, 0.0), ("lower.seam", 1.0 / 6.0, 3.0)] {
         let formula = format!("{start} + {slope} * t + 0.002 * t * (6 - t)");
         let read = |text: &str| Formula::parse(text, &["t"]).expect("a formula");
-        let curve = Curve::Parametric { x: read("t"), y: read(&formula), range: [0.0, 6.0] };
+        let curve = Curve::Parametric(ParametricCurve::new(read("t"), read(&formula), [0.0, 6.0]));
         mesh.bend("arc", &[name.into()], &curve).expect("the ends of the edges lie near it");
     }
     let graph = Graph::new(&mesh, &[]);
