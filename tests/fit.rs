@@ -3,17 +3,15 @@
 mod support;
 
 use support::mesh::{GOOD, Mesh, grid, write_scene};
-use support::{PAIRS, RANKS, Run};
+use support::{RANKS, Run, pairs_on_ranks};
 
 #[test]
 fn patches_hold_on_a_fitted_line() {
     for case in ["patch_flat/case.toml", "patch_inclined/case.toml"] {
-        for (order, space) in PAIRS {
-            for ranks in RANKS {
-                let run = Run::case(case).ranks(ranks).set("mesh.order", order).set("contact.seam.multiplier", space);
-                // The case's own expected values hold to 1e-9, or it would end with exit code 3.
-                run.set("contact.seam.curve", "fit").set("contact.seam.gap", "geometry").converged();
-            }
+        for (order, space, ranks) in pairs_on_ranks() {
+            let run = Run::case(case).ranks(ranks).set("mesh.order", order).set("contact.seam.multiplier", space);
+            // The case's own expected values hold to 1e-9, or it would end with exit code 3.
+            run.set("contact.seam.curve", "fit").set("contact.seam.gap", "geometry").converged();
         }
     }
 }

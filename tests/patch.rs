@@ -4,7 +4,7 @@ mod support;
 
 use mezha::mesh::read_gmsh;
 use std::path::Path;
-use support::{Ended, PAIRS, RANKS, Run, difference};
+use support::{Ended, PAIRS, RANKS, Run, difference, pairs_on_ranks};
 
 const EXACT: f64 = 1e-9;
 
@@ -23,25 +23,23 @@ fn holds(case: &str, contacts: &[&str], refine: usize) {
 }
 
 fn holds_on(case: &str, contacts: &[&str], refine: usize, change: impl Fn(Run) -> Run) {
-    for (order, space) in PAIRS {
-        for ranks in RANKS {
-            let words = format!("{case}, P{order} and {space}, refine {refine}, {ranks} ranks");
-            let mut run = change(Run::case(case).ranks(ranks).set("mesh.order", order).set("mesh.refine", refine));
-            for contact in contacts {
-                run = run.set(&format!("contact.{contact}.multiplier"), space);
-            }
-            let ended = run.set("solver.tolerance", "1e-12").converged();
-            contacts.iter().for_each(|contact| pressed_evenly(&ended, contact, &words));
-            let errors = ended.value("/errors");
-            let errors = errors.as_object().expect("errors by name");
-            assert!(errors.len() >= 8, "{errors:?}");
-            for (name, error) in errors {
-                assert!(error.as_f64().is_some_and(|error| error <= EXACT), "{words}: {name} {error}");
-            }
-            for balance in ["force", "moment", "energy"] {
-                let off = ended.number(&format!("/balance/{balance}"));
-                assert!(off <= EXACT, "{words}: balance of {balance} {off:e}");
-            }
+    for (order, space, ranks) in pairs_on_ranks() {
+        let words = format!("{case}, P{order} and {space}, refine {refine}, {ranks} ranks");
+        let mut run = change(Run::case(case).ranks(ranks).set("mesh.order", order).set("mesh.refine", refine));
+        for contact in contacts {
+            run = run.set(&format!("contact.{contact}.multiplier"), space);
+        }
+        let ended = run.set("solver.tolerance", "1e-12").converged();
+        contacts.iter().for_each(|contact| pressed_evenly(&ended, contact, &words));
+        let errors = ended.value("/errors");
+        let errors = errors.as_object().expect("errors by name");
+        assert!(errors.len() >= 8, "{errors:?}");
+        for (name, error) in errors {
+            assert!(error.as_f64().is_some_and(|error| error <= EXACT), "{words}: {name} {error}");
+        }
+        for balance in ["force", "moment", "energy"] {
+            let off = ended.number(&format!("/balance/{balance}"));
+            assert!(off <= EXACT, "{words}: balance of {balance} {off:e}");
         }
     }
 }

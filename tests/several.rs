@@ -5,7 +5,7 @@ mod support;
 
 use std::fmt::Write;
 use support::mesh::{Block, Mesh, grid, write_scene};
-use support::{PAIRS, RANKS, Run};
+use support::{RANKS, Run, pairs_on_ranks};
 
 const EXACT: f64 = 1e-9;
 
@@ -80,9 +80,7 @@ impl Scene {
     }
 
     fn holds_with_all_spaces(&self) {
-        for (order, space) in PAIRS {
-            RANKS.into_iter().for_each(|ranks| self.holds(order, space, ranks));
-        }
+        pairs_on_ranks().for_each(|(order, space, ranks)| self.holds(order, space, ranks));
     }
 }
 

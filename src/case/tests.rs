@@ -97,7 +97,9 @@ fn a_full_case_is_read() {
     assert_eq!((lower.name.as_str(), young, poisson), ("lower", 7000.0, 0.227));
     assert_eq!(lower_part.force[1].value(&[0.0, 2.0]), -19.62);
     assert_eq!((upper.name.as_str(), upper_part.force[0].as_constant()), ("upper.left", Some(0.0)));
-    assert!(matches!(&case.geometries[0].curve, Curve::Parametric(curve) if curve.range() == [0.0, 4.0] && curve.point(2.0).y == 5.0));
+    assert!(
+        matches!(&case.geometries[0].curve, Curve::Parametric(curve) if curve.range() == [0.0, 4.0] && curve.point(2.0).y == 5.0)
+    );
     assert_eq!(case.geometries[1].curve, Curve::Circle { centre: [1.0, 2.5], radius: 0.5 });
     assert_eq!(case.geometries[1].curves, ["hole"]);
     let [table, roller] = &case.supports[..] else { panic!("{:?}", case.supports) };

@@ -256,7 +256,8 @@ mod tests {
     /// The same circle as formulas, begun at the top and run through in the other direction.
     fn formulas() -> ContactBoundary {
         let read = |text| Formula::parse(text, &["t"]).expect("a formula");
-        let curve = Curve::Parametric(ParametricCurve::new(read("1 + 2*sin(2*t)"), read("2*cos(2*t)"), [0.0, std::f64::consts::PI]));
+        let curve =
+            Curve::Parametric(ParametricCurve::new(read("1 + 2*sin(2*t)"), read("2*cos(2*t)"), [0.0, std::f64::consts::PI]));
         ContactBoundary::new(curve, [0.0, std::f64::consts::PI], Point::new(0.0, -1.0))
     }
 

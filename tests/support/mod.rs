@@ -20,6 +20,16 @@ pub const RANKS: [usize; 3] = [1, 2, 3];
 pub const PAIRS: [(usize, &str); 6] =
     [(1, "p0"), (1, "p1-discontinuous"), (1, "p1-continuous"), (2, "p0"), (2, "p1-discontinuous"), (2, "p1-continuous")];
 
+/// All of [`PAIRS`] on two ranks, and in turn on one or on three besides; with `ALL_RANKS` set, as by `ci/test --long`, on all of
+/// [`RANKS`].
+pub fn pairs_on_ranks() -> impl Iterator<Item = (usize, &'static str, usize)> {
+    let is_long = std::env::var_os("ALL_RANKS").is_some();
+    PAIRS.into_iter().enumerate().flat_map(move |(at, (order, space))| {
+        let is_run = move |ranks: &usize| is_long || *ranks == 2 || *ranks == [1, 3][at % 2];
+        RANKS.into_iter().filter(is_run).map(move |ranks| (order, space, ranks))
+    })
+}
+
 /// A run of `mezha run`, to be started.
 #[derive(Clone)]
 pub struct Run {
