@@ -1,4 +1,14 @@
 //! Supports at the nodes of one level: which displacement components are prescribed, in which frame.
+//!
+//! # Rows and frames
+//!
+//! A prescribed component keeps its row, with the diagonal of K and zeros elsewhere, on every level; its column goes to the
+//! right-hand side, its columns in B and rows and columns in the interpolation are zero. So all levels have two unknowns per
+//! node, PETSc sees 2 × 2 blocks, and the rigid scale of the diagonal fits.
+//! Under an inclined support (`normal`) the unknowns of a node are its components along and across the normal: the node has a
+//! *frame*. Stiffness, coupling, load and interpolation turn into the frames of their nodes where they are assembled, on coarse
+//! levels too; `Field` turns back. Supports that hold two directions at a node fix it; contradictions are errors that name
+//! both.
 
 use super::{Anchor, MOTIONS, MeanHold, Motion, RigidSet, Support};
 use crate::geometry::{Coordinates, Formula, Point, Rounded, cross};

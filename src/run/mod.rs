@@ -1,4 +1,54 @@
 //! From a case to its result.
+//!
+//! # Errors, and the end of ranks
+//!
+//! - Rank 0 alone reads files; `Session::share` sends their bytes to all (or its error), and each rank works on the same ones.
+//!   Ranks with other words on their command line than rank 0 do not start.
+//! - Bad input is found as early as it can be and on all ranks alike: each rank checks for itself, `Session::agree` makes one
+//!   outcome of it, rank 0 prints, all end with 2. Nothing is left on the disk. A rank with such an error waits for the others by
+//!   `Session::meet`; if they do not come within seconds, it speaks and ends them.
+//! - A failure of PETSc comes back as an `Err` with its deepest message. A linear solver that gives up is a verdict, not an
+//!   error: PETSc returns 0 for it, so the reason is always read.
+//! - An error that one rank alone has, and a panic on any rank (by a hook), is printed and ends all with `MPI_Abort`; until
+//!   then nothing of PETSc's is given back, since that can take all ranks (a factor of MUMPS). PETSc's signal handler is off.
+//! - A signal that ends a run (SIGTERM, SIGINT, SIGHUP) may come to any rank at any moment, and mpirun kills all ranks a second
+//!   later: too short for an agreement in mid-solve. So nothing is agreed on. Each rank has a thread that waits for signals. That
+//!   of rank 0 owns what is known so far and the unfinished folder, behind a lock: it writes `summary.json` with `status`
+//!   `interrupted`, gives the folder its name and ends the process, which ends all others; a result that is being put in its
+//!   place first is left to be. Other ranks wait for that, clear away what a dead rank 0 has left, and end. A rank that has
+//!   failed leaves a file `failed` in the hidden folder before it ends all: the SIGTERM that rank 0 gets from mpirun then is no
+//!   interruption, and the folder goes.
+//! - The same command on as many ranks gives the same digits: sums over ranks have a fixed order, and the partition one seed.
+//!   What several ranks know of one node its owner adds up in the order of the ranks (`Session::add_to_owners`), not in that of
+//!   the messages. The exception is a factor that several ranks make together (MUMPS: `solver.name = "direct"`, the last fallback
+//!   of `fieldsplit` and inf-sup constants, above 10 000 unknowns): contributions are added as their messages come, which MUMPS
+//!   cannot change, and runs differ in the last digits (1e-15 of the energy). A factor by each rank for itself would not (`--
+//!   -pc_type redundant -redundant_pc_type cholesky -redundant_pc_factor_mat_solver_type mumps`); it takes 1.7 times the time to
+//!   set up and 1.7 times the memory of each rank at 264 thousand unknowns on 2 ranks, and more on more of them. Up to 10 000
+//!   unknowns it is taken.
+//! - A result holds what made it (`run/origin.rs`): `provenance` in its summary, the resolved case, and the bytes of the mesh
+//!   that rank 0 has read, up to 4 MiB. A case that lies beside a summary with its own hash is a repeat: another mesh is refused,
+//!   and what else differs is said. What is told of host, date and command stands in `provenance` alone, so that summaries
+//!   compare without it. The hash is SHA-256 because people have `sha256sum`; the 64 bits of `fingerprint` go on telling a study
+//!   its own runs.
+//! - The line that says where a run is (`run/progress.rs`) is written by a thread of rank 0, which reads what the run notes:
+//!   the work that begins, events of the procedure, and by a monitor of PETSc's the residual of each iteration. So it lives on in
+//!   the longest assembly, asks nothing of other ranks, and changes no digit. Whatever else is printed takes the line away first,
+//!   under one lock. Under mpirun standard error is a pipe: the terminal is looked for where mpirun's own leads to, in /proc.
+//! - Not converged, a mechanism, or a missed value that must hold: exit code 3, with a `summary.json` that says why.
+//! - `Session::end`, or dropping the last `Session`, ends PETSc, then MPI. Every wrapper holds one. PETSc may fail at its start
+//!   or its end on one rank alone, where it opens the file of an option: that rank speaks and ends all, for MPI's own end would
+//!   wait for ranks that PETSc has left in the middle. A failure at the end is exit code 1 though the result stands: something
+//!   that was asked for is missing. Where PETSc ends the process itself (`-help intro`), the exit code is 1 too.
+//! - A result is written to a folder with a name of its own (host, process, random number) beside the target, which rank 0
+//!   makes and tells the others. At the end it takes the target's name in one step: `rename` onto nothing or an empty folder, an
+//!   exchange (`renameat2`) with the result that stood there at the start; two steps where the file system has no exchange.
+//!   Whoever finds another result there than at the start is told, and ends with 1. What a killed run leaves is removed by the
+//!   next one into that target if its maker is known to be dead: same host, no such process, no lock on the folder. Elsewhere it
+//!   stays.
+//! - A study gives each run the fingerprints of its case file and mesh (`--inputs`); a run that reads others ends with 1, and
+//!   so its row says that it failed. The study itself looks whether its program and PETSc's option files are still what they
+//!   were.
 
 mod accuracy;
 mod check;

@@ -1,4 +1,24 @@
 //! Rows of `B` and weighted gaps of all contacts. A row is on the rank that owns its multiplier, and where it is needed.
+//!
+//! # In parallel
+//!
+//! Body 1 and body 2 never meet. Γ_C, its segments and its multipliers are O(√N) numbers, computed by the same pure functions
+//! on every rank. Then
+//!
+//! 1. each rank runs over the boundary edges **it owns**, of any body, projects their ends onto Γ_C, cuts, and integrates ∫ψ_i
+//!    N_j n ds and its share of the gap;
+//! 2. the entries, some per boundary node, go to the rank that owns the multiplier, which sends the whole row to those that
+//!    need it: two exchanges, one sum for the gaps, and the agreement that no rank has failed are the only communication of the
+//!    coupling;
+//! 3. each rank inserts the rows of B, and of BᵀDB, that it owns. A multiplier belongs to the rank that owns body 1's macro
+//!    triangle at the middle of its segment.
+//!
+//! No rank ever searches the other body's mesh, no parallel search structure exists, and bodies may lie on the ranks in any
+//! way. Rows of B on the coarser levels, B_l = B_{l+1} P_{l+1}, follow from the same lists. A rank keeps those rows that it
+//! needs: on the finest level those of its own multipliers, and on each level those that couple to a node of its own there.
+//! What every rank holds of the whole of Γ_C are a few numbers for each segment: its ends, moduli, λ, gap, weight and state;
+//! while it is asked whether contact holds the bodies, what each segment resists; where boundaries follow the solution, the
+//! displacement of their nodes; and after the solve the values along Γ_C that are judged. Rank 0 alone writes these.
 
 use super::{Contact, Scene, Space, SystemError};
 use crate::contact::{GapChoice, Law, Quadrature, Side, declared_gap, integrate};

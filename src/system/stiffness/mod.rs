@@ -1,4 +1,71 @@
 //! The stiffness of the bodies on each level: rows that are stored, and strips that need not be.
+//!
+//! # Rows that are not stored
+//!
+//! Inside a straight macro triangle all small triangles are translations of one another and of its reflection, so the couplings
+//! of its nodes repeat: 7 blocks of 2 × 2 for P1, for P2 two alternating rows of 19 and 9 and of 9 and 9. The rows of such
+//! nodes are never assembled:
+//!
+//! ```text
+//! \
+//! | \          o   on a side: stored, with contact and supports
+//! o   o
+//! |     \      =   inside: the couplings of one node stand for all
+//! o  =    o
+//! |         \
+//! o  =  =    o
+//! |            \
+//! o--o--o--o--o--o
+//! ```
+//!
+//! An even macro triangle of 8 to 128 intervals (P2: 16 to 1024) is worked on as a whole (`triangle_lattice.rs`,
+//! `stiffness/even_triangles.rs`), several of them side by side: a vector register holds the same node of two, four or eight of
+//! them, as the processor and the precision allow. Their values, with those of their sides, come into a lattice, which up to
+//! some 128 intervals stays in the cache, and where neighbours lie at fixed distances, and the inner nodes go back when they
+//! are done. Nodes of different macro triangles do not wait for each other in a sweep, so registers are as full on a lattice of
+//! eight intervals as on one of 128, and each macro triangle may have couplings of its own. Residuals are restricted in that
+//! lattice, and never stored. Only the nodes of macro edges and vertices have stored rows: at 128 intervals 2 % of all.
+//!
+//! Finer macro triangles, and the affine pieces of graded ones, have *strips* (`mesh::Strip`): parts of lattice rows whose
+//! neighbours all lie inside; the ring of nodes next to the sides is stored there, too. Bent ones have none. Interpolation is
+//! treated alike: whole macro triangles from lattice to lattice (`interpolation/whole.rs`), of others a fine inner row from two
+//! coarse ones (`HalvedRow`), the other nodes one by one.
+//!
+//! Stored rows are mezha's own, too: blocks of 2 × 2 in compressed rows of the nodes that are neither in strips nor inside of
+//! whole macro triangles, so that nothing is kept for the others. A rank makes the whole rows of its own nodes: it goes through
+//! its macro triangles, and through those of other ranks that share a side or a corner with them, of which only the small
+//! triangles at the sides are integrated. So nothing is sent, and every sum is made by ascending macro triangles, whatever the
+//! ranks. A contact boundary that moves gets a copy in which the rows of Γ_C alone are widened; the strips are shared.
+//!
+//! A sweep over whole macro triangles relaxes a node of several of them at once. One over strips first does for several nodes
+//! of a strip at once, in a register, all that does not depend on the node before; what remains is a recurrence x_k = t_k + P
+//! x_(k-1), which is summed up by doubling steps, so that only registers wait for each other. The instructions (AVX-512, AVX2
+//! with multiply-add, or none) are asked for at run time by `pulp`, so that no code of ours is `unsafe`. The nodes on sides of
+//! macro triangles come first, those that need no node of another rank before the others: meanwhile the values of other ranks
+//! arrive. Then each macro triangle goes forward and backward while it is in the cache, as no macro triangle couples to
+//! another; then the sides again.
+//!
+//! The cycle (`system/cycle`) works on these rows directly. It is PETSc's preconditioner of field `u` as a shell, so that the
+//! MatNest, fieldsplit and the Krylov method around it are PETSc's. Fieldsplit copies the parts of its vectors some ten times;
+//! where no option of the user's begins with `-pc_` or `-fieldsplit_`, its function is replaced by one that does the same
+//! without copies (`solver/block_triangle.rs`, `petsc::ReplacedAction`; it needs PETSc's `private/pcimpl.h`, which PETSc
+//! installs), while its kind, parts and set-up stay. Levels of up to 3000 unknowns are on one rank, larger ones on one of every
+//! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`level_ranks.rs`); the finest stays on all.
+//! From the first level on one rank downwards nothing is sent, and that rank solves the coarsest with a factor. Where the macro
+//! mesh is larger, a cycle of PETSc's multigrid on it and the auxiliary levels stands in the place of the factor
+//! (`cycle/coarsest.rs`). All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a
+//! sweep, are worked on. The product of the saddle point is a shell, too (`nest_product`): PETSc's nest finds the parts of its
+//! vectors by a sum over all ranks, four in each product. So an iteration of GMRES has two sums over all ranks for its inner
+//! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them.
+//!
+//! Any option of the user's that begins with `-fieldsplit_u_` brings PETSc's own multigrid back, on the same levels, as do
+//! stronger smoothers that a slow solve falls back on, and a mesh of one level (P1, `refine = 0`), below which all levels are
+//! auxiliary. Then PETSc sees a level as a shell (`petsc::Operator`): product, residual, one symmetric Gauss-Seidel sweep,
+//! diagonal, norm. Where options of the user's may want more, as another smoother, omega, or `-fieldsplit_u_pc_type hypre`, and
+//! on the coarsest level, it sees a matrix with all rows, made from the same storage and changed along with it. Where a
+//! factorisation wants one (the last fallback preconditioner, the inf-sup constant), it is made first. Contact changes stored
+//! rows alone: nodes of Γ_C lie on sides of macro triangles.
+//! After the stencils of hierarchical hybrid grids (Bergen, Hülsemann 2004).
 
 mod assembly;
 mod block_lanes;
