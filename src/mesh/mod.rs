@@ -6,8 +6,7 @@
 //!
 //! # Numbers of nodes
 //!
-//! A Gmsh file is a *macro mesh*; `refine = r` cuts each macro triangle into 4^r. At n intervals per macro edge a macro
-//! triangle carries a lattice of nodes (i, j):
+//! `refine = r` cuts each macro triangle into 4^r. At n intervals per macro edge it carries a lattice of nodes (i, j):
 //!
 //! ```text
 //! n = 4            2                       macro vertices   0 1 2         one node each

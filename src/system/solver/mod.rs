@@ -15,7 +15,7 @@
 //! - **augment the system itself, K_γ = K + BᵀDB**: K is singular where a body floats. Augmenting only the preconditioner: 23
 //!   and 25 instead of 11 and 11. Not at all: no convergence in 1000, even with an exact factor of K. Augmentation as in Benzi,
 //!   Golub, Liesen 2005 and Benzi, Olshanskii 2006.
-//! - **γ_i = 3 E_c/H_i, local, E_c the harmonic mean**: flat from 2 to 7 (the figures of this table are at 5); at a million
+//! - **γ_i = 3 E_c/H_i, local, E_c the harmonic mean**: flat from 2 to 7 (the figures of this list are at 5); at a million
 //!   unknowns on 3 ranks 13 at most for every pair of spaces, against 16 at 5; one global γ on segments graded to 2⁻⁸: 36 and
 //!   45 instead of 11 and 12. With E₂/E₁ from 1e-6 to 1e6: 10 to 13.
 //! - **right-preconditioned GMRES (above half a million unknowns flexible BiCGStab: 5 or 6 iterations of two cycles instead of
