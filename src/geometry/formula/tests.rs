@@ -172,7 +172,10 @@ proptest! {
         let formula = Formula::parse(&tree.text(1), &["x", "y"]).unwrap();
         let all = formula.values(&at.map(|(x, y)| Point::new(x, y)));
         for ((x, y), value) in at.into_iter().zip(all) {
-            prop_assert_eq!(formula.value(&[x, y]).to_bits(), value.to_bits());
+            let alone = formula.value(&[x, y]);
+            // Which sign a NaN has is the processor's and the compiler's, and no formula can tell.
+            let undefined = alone.is_nan() && value.is_nan();
+            prop_assert!(undefined || alone.to_bits() == value.to_bits(), "{}: {} is not {}", formula.text(), value, alone);
         }
     }
 
