@@ -1,5 +1,7 @@
 //! What a case asks of the solver.
 
+use super::form::Form;
+
 /// Which linear solver the case asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolverChoice {
@@ -9,15 +11,6 @@ pub enum SolverChoice {
     FieldSplit,
     /// Sparse factorisation of the whole system.
     Direct,
-}
-
-/// Whether the system is augmented.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// With the augmentation, for the iterative solver.
-    Augmented,
-    /// Without, for the direct solver.
-    Plain,
 }
 
 impl SolverChoice {

@@ -3,7 +3,7 @@
 use crate::body::SupportError;
 use crate::contact::PlacingError;
 use crate::element::BadJacobian;
-use crate::petsc;
+use crate::petsc::{self, Session};
 
 /// Why a system cannot be set up or solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -35,4 +35,12 @@ impl From<SupportError> for SystemError {
     fn from(error: SupportError) -> Self {
         Self::Case(error.0)
     }
+}
+
+/// An outcome on which all ranks agree: an inverted triangle on one of them is an error of all. **Collective**
+///
+/// # Errors
+/// [`SystemError::Case`] with the words of the first rank that has any.
+pub fn agreed<T>(session: &Session, outcome: Result<T, SystemError>) -> Result<T, SystemError> {
+    session.agree(outcome).map_err(SystemError::Case)
 }

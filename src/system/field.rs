@@ -2,7 +2,7 @@
 
 use super::{Discretisation, SystemError};
 use crate::geometry::Point;
-use crate::mesh::lattice;
+use crate::mesh::lattice::{self, Triangle};
 use crate::petsc::{Gather, Index, Session, Vector};
 use std::collections::HashMap;
 
@@ -102,6 +102,12 @@ impl Field<2> {
     pub fn point(&self, node: usize) -> Point {
         let [x, y] = self.at(node);
         Point::new(x, y)
+    }
+
+    /// Displacements at the nodes of one triangle of a macro triangle's lattice.
+    pub fn of_triangle<const N: usize>(&self, problem: &Discretisation, triangle: usize, small: &Triangle) -> [Point; N] {
+        let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
+        small.nodes::<N>().map(|(i, j)| self.point(numbers.node(i, j)))
     }
 }
 

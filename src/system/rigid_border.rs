@@ -13,12 +13,13 @@
 //! no active set changes; [`super::SaddlePoint`] has what becomes of them in a system.
 
 use super::held_bodies::{HeldBodies, held_motions, holds_of_bodies};
+use super::internal_forces::internal_forces;
 use super::rigid_motions;
+use super::springs::SpringForces;
 use crate::body::{Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::Session;
-use crate::system::recovery::{SpringForces, internal_forces};
 use crate::system::{Discretisation, Field, Space, SystemError, nodal_forces};
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, HashMap};

@@ -10,8 +10,7 @@ use mezha::element::Order;
 use mezha::geometry::{Curve, Formula};
 use mezha::mesh::{Partition, lattice};
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
-use mezha::system::recovery::local_strain_energy;
-use mezha::system::{Discretisation, Elastic, Field, Form, Space, interpolations};
+use mezha::system::{Discretisation, Elastic, Field, Form, Space, interpolations, local_strain_energy};
 use std::rc::Rc;
 
 fn main() -> std::process::ExitCode {

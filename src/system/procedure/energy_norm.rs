@@ -1,7 +1,7 @@
 //! Solutions compared in the energy norm: how far they are from each other, and what that tells of the error on the next adapted mesh.
 
 use crate::petsc::Session;
-use crate::system::recovery::local_strain_energy;
+use crate::system::local_strain_energy;
 use crate::system::{Discretisation, Field, Solution, SystemError};
 
 /// Squares of the share of a difference that may be left, at least and at most: q/(1 - q), where squares fall by the q of a smooth

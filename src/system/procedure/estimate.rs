@@ -16,7 +16,8 @@ use crate::contact::Zone;
 use crate::element::Order;
 use crate::mesh::Cells;
 use crate::petsc::Session;
-use crate::system::recovery::{TracePoint, ZoneErrors, cell_energies, local_strain_energy, probe, stress_around, zone_errors};
+use crate::system::local_strain_energy;
+use crate::system::recovery::{TracePoint, ZoneErrors, cell_energies, probe, stress_around, zone_errors};
 use crate::system::{ContactPressure, Discretisation, Field, Solution, SystemError};
 
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.

@@ -1,11 +1,11 @@
 //! Where in the macro triangles the strain energy of a displacement lies.
 
-use super::{agreed, nodal};
 use crate::body::NodePositions;
 use crate::element::{BadJacobian, Order, PlaneLaw, energies};
 use crate::geometry::Point;
 use crate::mesh::{Cells, lattice};
 use crate::petsc::Session;
+use crate::system::error::agreed;
 use crate::system::{Discretisation, Field, SystemError};
 
 /// Share of the energy of a triangle that lies in its middle quarter, if it lies evenly.
@@ -45,7 +45,7 @@ fn in_triangle<const N: usize>(
             let [x, y] = [0, 1].map(|axis| (0..3).map(|k| l[k] * corners[k][axis]).sum::<f64>());
             [1.0 - x - y, x, y]
         };
-        let (x, moved): (_, [Point; N]) = (all.of(&nodes), nodal(problem, u, triangle, &small));
+        let (x, moved): (_, [Point; N]) = (all.of(&nodes), u.of_triangle(problem, triangle, &small));
         for (l, energy) in energies(&x, &moved, law)? {
             cells.add(place(l), (1.0 - MIDDLE) * energy);
             cells.add(place([1.0 / 3.0; 3]), MIDDLE * energy);

@@ -1,11 +1,11 @@
 //! How far the bodies are strained and turned: whether a theory of small strains and rotations holds.
 
-use super::agreed;
 use crate::body::positions;
 use crate::element::{Order, PlaneLaw, jacobian};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, MacroTriangle, lattice};
 use crate::petsc::Session;
+use crate::system::error::agreed;
 use crate::system::{Discretisation, Field, SystemError};
 use nalgebra::Matrix2;
 

@@ -1,11 +1,11 @@
 //! Error of the stress in the energy norm, against formulas.
 
-use super::{agreed, nodal};
 use crate::body::NodePositions;
 use crate::element::{Order, PlaneLaw, SIX_POINTS, jacobian, six_points, stress};
 use crate::geometry::Formula;
 use crate::mesh::{Region, lattice};
 use crate::petsc::Session;
+use crate::system::error::agreed;
 use crate::system::{Discretisation, Field, SystemError};
 
 /// Integrals over a body or a part of one (`∫(σ_h - σ):C⁻¹(σ_h - σ)`, `∫σ:C⁻¹σ`) of the computed stress against formulas
@@ -47,7 +47,7 @@ fn add<const N: usize>(
     let all = NodePositions::new(&problem.scene.mesh, triangle, level);
     for small in lattice::triangles(level.intervals, level.order) {
         let x = all.of(&small.nodes::<N>());
-        let u = nodal::<N>(problem, u, triangle, &small);
+        let u = u.of_triangle::<N>(problem, triangle, &small);
         // Also for P1: the exact stress is no polynomial.
         let wanted = exact.each_ref().map(|formula| formula.values(&six_points(&x)));
         for (k, &(l, weight)) in SIX_POINTS.iter().enumerate() {

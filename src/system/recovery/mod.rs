@@ -10,36 +10,18 @@ mod motion_error;
 mod overlaps;
 mod penetrations;
 mod probe;
-mod springs;
 mod stress;
 mod traces;
 mod zone_ends;
 mod zone_errors;
 
-pub use balance::{Balance, ContactForce, internal_forces, local_strain_energy};
+pub use balance::{Balance, ContactForce};
 pub use cell_energies::cell_energies;
 pub use corners::Corners;
 pub use deformation::Deformation;
 pub use evaluation::Evaluation;
 pub use motion_error::MotionError;
 pub use probe::{Probed, holding, probe, shapes_at, stress_around, stress_forces};
-pub use springs::SpringForces;
 pub use stress::NodalStress;
 pub use traces::{TracePoint, trace_points};
 pub use zone_errors::{ZoneErrors, zone_errors};
-
-use super::{Discretisation, Field, SystemError};
-use crate::geometry::Point;
-use crate::mesh::lattice::Triangle;
-use crate::petsc::Session;
-
-/// Displacements at the nodes of one triangle of a macro triangle's lattice.
-fn nodal<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: usize, small: &Triangle) -> [Point; N] {
-    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
-    small.nodes::<N>().map(|(i, j)| u.point(numbers.node(i, j)))
-}
-
-/// A result on which all ranks agree: an inverted triangle on one of them is an error of all. **Collective**
-fn agreed<T>(session: &Session, outcome: Result<T, SystemError>) -> Result<T, SystemError> {
-    session.agree(outcome).map_err(SystemError::Case)
-}

@@ -1,12 +1,12 @@
 //! Displacement and stress at a point of a body.
 
-use super::{agreed, nodal};
 use crate::body::positions;
 use crate::element::{Order, PlaneLaw, SIX_POINTS, shape, stress};
 use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::mesh::lattice::Triangle;
 use crate::petsc::Session;
+use crate::system::error::agreed;
 use crate::system::{Discretisation, Field, SystemError};
 
 /// How far outside a macro triangle a point may lie (barycentric): as far as on the mesh of the file first; a point that lies as
@@ -128,7 +128,7 @@ fn add_squares<const N: usize>(
 ) -> Result<(), SystemError> {
     let small = small_triangle(problem, triangle, at).0;
     let x = positions(&problem.scene.mesh, triangle, problem.finest().numbering.level, &small.nodes::<N>());
-    let nodal = nodal::<N>(problem, u, triangle, &small);
+    let nodal = u.of_triangle::<N>(problem, triangle, &small);
     for &(l, weight) in SIX_POINTS {
         let s = stress(&x, &nodal, l, law)?;
         sums[0] += weight * (s[0] * s[0] + s[1] * s[1] + 2.0 * s[2] * s[2]);
@@ -183,7 +183,7 @@ fn add_stress_forces<const N: usize>(
     let level = problem.finest().numbering.level;
     let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
     let mean = |u: &[Point; N]| stress(&x, u, MIDDLE, law);
-    let pointing = mean(&nodal::<N>(problem, u, triangle, &small))?;
+    let pointing = mean(&u.of_triangle::<N>(problem, triangle, &small))?;
     let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
     for (k, (i, j)) in small.nodes::<N>().into_iter().enumerate() {
         let sum = forces.at_mut(numbers.node(i, j));
@@ -213,7 +213,7 @@ fn values_at<const N: usize>(
     let (small, l) = small_triangle(problem, triangle, at);
     let level = problem.finest().numbering.level;
     let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
-    let nodal = nodal::<N>(problem, u, triangle, &small);
+    let nodal = u.of_triangle::<N>(problem, triangle, &small);
     let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
     let s = stress(&x, &nodal, l, law)?;
     Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])

@@ -1,10 +1,10 @@
 //! Stress at the nodes.
 
-use super::{agreed, nodal};
 use crate::body::NodePositions;
 use crate::element::{Order, PlaneLaw, jacobian, stress};
 use crate::mesh::{MacroMesh, lattice};
 use crate::petsc::Session;
+use crate::system::error::agreed;
 use crate::system::{Discretisation, Field, SystemError};
 
 /// Stress at the nodes of each part of the bodies: where two parts meet it has two values, for some of its components jump.
@@ -78,7 +78,7 @@ fn add<const N: usize>(
     for small in lattice::triangles(level.intervals, level.order) {
         let nodes = small.nodes::<N>();
         let x = all.of(&nodes);
-        let u = nodal::<N>(problem, u, triangle, &small);
+        let u = u.of_triangle::<N>(problem, triangle, &small);
         for (&(i, j), l) in nodes.iter().zip(NODES) {
             let (_, area) = jacobian(&x, l)?;
             let s = stress(&x, &u, l, law)?;

@@ -1,12 +1,12 @@
 //! Both bodies' traces along Γ_C.
 
-use super::{agreed, nodal};
 use crate::body::positions;
 use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
 use crate::element::{Order, PlaneLaw, stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
+use crate::system::error::agreed;
 use crate::system::{Contact, ContactPressure, Discretisation, Field, SystemError};
 
 /// Gauss points of each part of Γ_C that results are given at.
@@ -192,6 +192,6 @@ fn stress_beside<const N: usize>(
     law: &PlaneLaw,
 ) -> Result<[f64; 4], SystemError> {
     let x = positions(&problem.scene.mesh, small.triangle, problem.finest().numbering.level, &small.beside.nodes::<N>());
-    let nodal = nodal::<N>(problem, u, small.triangle, &small.beside);
+    let nodal = u.of_triangle::<N>(problem, small.triangle, &small.beside);
     Ok(stress(&x, &nodal, small.barycentric(fraction), law)?)
 }

@@ -1,8 +1,8 @@
 //! What elastic supports do: their forces on the bodies, and the energy in them.
 
+use super::{Discretisation, Field, SystemError};
 use crate::geometry::Point;
 use crate::petsc::Session;
-use crate::system::{Discretisation, Field, SystemError};
 
 /// Forces and energy of all springs.
 pub struct SpringForces {
