@@ -70,7 +70,15 @@ pub mod body;
 
 pub mod contact;
 
+pub mod discretisation;
+
+pub mod multigrid;
+pub mod programme;
+pub mod recovery;
+
 pub mod system;
+
+pub mod procedure;
 
 pub mod case;
 pub mod output;

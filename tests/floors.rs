@@ -1,11 +1,11 @@
 //! Imports go down only: reads every path in `src` and finds those that go up a floor, and cycles of imports among the files
-//! and folders of a module. No two types bear one name.
+//! and folders of a module, or by way of the file of their folder. No two types bear one name.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Modules and their floors. A module imports from lower floors and from itself.
-const FLOORS: [(&str, u8); 15] = [
+const FLOORS: [(&str, u8); 20] = [
     ("petsc", 0),
     ("geometry", 0),
     ("origin", 0),
@@ -14,17 +14,25 @@ const FLOORS: [(&str, u8); 15] = [
     ("mesh", 2),
     ("body", 3),
     ("contact", 4),
-    ("system", 5),
-    ("case", 6),
-    ("output", 6),
-    ("arguments", 6),
-    ("run", 7),
-    ("study", 7),
-    ("main", 8),
+    ("discretisation", 5),
+    ("multigrid", 6),
+    ("programme", 6),
+    ("recovery", 6),
+    ("system", 7),
+    ("procedure", 8),
+    ("case", 9),
+    ("output", 9),
+    ("arguments", 9),
+    ("run", 10),
+    ("study", 10),
+    ("main", 11),
 ];
 
 /// Modules of the kernels, which return values and never see PETSc.
 const KERNELS: [&str; 6] = ["accuracy", "geometry", "element", "mesh", "body", "contact"];
+
+/// Modules whose files import from each other, and not by way of the file of their folder.
+const STRAIGHT: [&str; 6] = ["discretisation", "multigrid", "programme", "recovery", "system", "procedure"];
 
 fn floor(module: &str) -> Option<u8> {
     FLOORS.iter().find(|(name, _)| *name == module).map(|(_, floor)| *floor)
@@ -165,6 +173,9 @@ fn an_upward_import_is_found_however_it_is_written() {
         ("geometry", "use crate::petsc::Vector;"),
         ("petsc", "use crate::geometry::Point;"),
         ("case", "use crate::output::Summary;"),
+        ("discretisation", "use crate::multigrid::Elastic;"),
+        ("multigrid", "use crate::recovery::Evaluation;"),
+        ("system", "use crate::procedure::Ending;"),
         ("system", "use mpi::topology::Communicator;"),
         ("system", "let world = ::mpi::initialize();"),
         ("run", "unsafe { f() }"),
@@ -377,18 +388,56 @@ fn a_cycle_is_found_however_it_is_written() {
     assert_eq!(cycles(&down), Vec::<String>::new());
 }
 
+/// Names that files of a folder take from the file of the folder, which has them from other files of it.
+fn roundabout(files: &[(Vec<String>, String)]) -> Vec<String> {
+    let folders = files.iter().map(|(path, _)| path).filter(|path| !path.is_empty() && path[0] != "lib");
+    let all: Vec<Parts> = folders.map(|path| Parts::new(path, files)).filter(|parts| !parts.names.is_empty()).collect();
+    let mut found = Vec::new();
+    for (path, code) in files {
+        for parts in all.iter().filter(|parts| path.len() > parts.module.len() && path.starts_with(&parts.module)) {
+            let through =
+                absolute(path, code).into_iter().filter_map(|to| to.strip_prefix(parts.module.as_slice())?.first().cloned());
+            let shown = through.filter(|name| !parts.names.contains(name) && parts.exported.contains_key(name));
+            found.extend(shown.map(|name| format!("{} takes {name} from {}", path.join("::"), parts.module.join("::"))));
+        }
+    }
+    found
+}
+
+#[test]
+fn files_of_a_folder_import_from_each_other() {
+    let files: Vec<_> = modules().into_iter().filter(|(path, _)| STRAIGHT.contains(&path[0].as_str())).collect();
+    assert!(files.len() > 100, "{}", files.len());
+    let found = roundabout(&files);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn an_import_through_the_file_of_the_folder_is_found() {
+    let file = |path: &str, code: &str| (path.split("::").map(String::from).collect::<Vec<_>>(), code.to_string());
+    let own = "mod a;\nmod b;\npub use a::One;\npub struct Own;\n";
+    for code in ["use super::One;", "use crate::m::{One, Own};", "fn f() -> crate::m::One {}"] {
+        assert_eq!(roundabout(&[file("m", own), file("m::a", ""), file("m::b", code)]), ["m::b takes One from m"], "{code}");
+    }
+    for code in ["use super::a::One;", "use super::Own;", "use crate::n::One;"] {
+        assert_eq!(roundabout(&[file("m", own), file("m::a", ""), file("m::b", code)]), [""; 0], "{code}");
+    }
+}
+
 /// What one module names of another, by the names under which that one shows it.
 fn named(files: &[(Vec<String>, String)], user: &str, used: &str) -> BTreeSet<String> {
     let own = files.iter().filter(|(path, _)| path[0] == user);
     let paths = own.flat_map(|(path, code)| absolute(path, code));
-    paths.filter(|path| path[0] == used && path.len() > 1).map(|path| path[1..].join("::")).collect()
+    paths.filter(|path| path[0] == used && path.len() > 1).map(|path| path.join("::")).collect()
 }
 
 #[test]
-fn a_run_names_few_items_of_the_system() {
-    let names = named(&modules(), "run", "system");
+fn a_run_names_few_items_of_what_solves_its_scene() {
+    let solving = ["discretisation", "multigrid", "programme", "recovery", "system", "procedure"];
+    let names: BTreeSet<String> = solving.iter().flat_map(|used| named(&modules(), "run", used)).collect();
     assert!(names.len() <= 12, "{}: {names:?}", names.len());
-    assert!(names.contains("Procedure") && names.contains("recovery::Evaluation"), "{names:?}");
+    assert!(names.contains("procedure::Procedure") && names.contains("recovery::Evaluation"), "{names:?}");
+    assert!(!names.iter().any(|name| name.starts_with("multigrid") || name.starts_with("system")), "{names:?}");
 }
 
 /// Names of the types that a file defines: structs, enums, unions, traits and type aliases. Types that belong to an

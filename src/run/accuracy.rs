@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::output::plot::Sequence;
 use crate::output::summary::{AccuracyStep, Cycles, GoalSummary, MOST_TOLD, Status, WORST};
 use crate::petsc::Session;
-use crate::system::Solved;
+use crate::procedure::Solved;
 
 /// File of the last mesh, in the result folder.
 pub const ADAPTED_MESH: &str = "adapted.msh";

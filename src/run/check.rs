@@ -8,10 +8,11 @@ use super::turns::far_turns;
 use super::{RunError, accuracy, memory, origin, scene};
 use crate::body::{Body, Material};
 use crate::case::{Case, Matched, read_text};
+use crate::discretisation::Scene;
 use crate::element::{Order, Plane};
 use crate::mesh::MacroMesh;
 use crate::output::summary::{MOST_TOLD, listed};
-use crate::system::{Procedure, Scene};
+use crate::procedure::Procedure;
 use std::collections::HashMap;
 use std::path::Path;
 

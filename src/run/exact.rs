@@ -6,7 +6,7 @@ use super::outcome::outside;
 use crate::case::{Case, LambdaExact};
 use crate::geometry::Point;
 use crate::mesh::Region;
-use crate::system::recovery::Evaluation;
+use crate::recovery::Evaluation;
 use std::collections::BTreeMap;
 
 /// Relative errors by name, and words for each that misses its tolerance.

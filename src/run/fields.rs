@@ -5,7 +5,7 @@ use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::{ContactZoom, DrawnEdge, Facet};
 use crate::output::vtk::{Piece, write_parallel, write_piece};
-use crate::system::recovery::Evaluation;
+use crate::recovery::Evaluation;
 use std::collections::HashMap;
 use std::path::Path;
 

@@ -4,12 +4,12 @@ use super::{Run, RunError, accuracy, fields};
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, Pair};
+use crate::discretisation::{Contact, Scene};
 use crate::mesh::MacroMesh;
 use crate::output::plot::{self, ContactZoom, DrawnContact, DrawnForce, Facet};
 use crate::output::summary::MOST_WITH_FIGURES;
 use crate::output::{ContactPoint, Summary};
-use crate::system::recovery::Evaluation;
-use crate::system::{Contact, Scene};
+use crate::recovery::Evaluation;
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -10,7 +10,7 @@ use crate::case::Case;
 use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{CoarseSolveSummary, Mesh, Status, StepSummary, Summary, Unknowns};
 use crate::output::{OutputError, ResultFolder, recover};
-use crate::system::{Event, Work};
+use crate::procedure::{Event, Work};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::{exit, signal_name};

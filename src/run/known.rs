@@ -2,9 +2,9 @@
 
 use crate::case::{BodyExact, Case, ContactExact, LambdaExact};
 use crate::contact::ContactBoundary;
+use crate::discretisation::Contact;
 use crate::geometry::{Coordinates, Formula, Point, Rounded, gauss_points};
 use crate::mesh::MacroMesh;
-use crate::system::Contact;
 
 /// Points inside a macro triangle at which a stress is looked at: their barycentric coordinates.
 const INSIDE: [[f64; 2]; 3] = [[1.0 / 6.0, 1.0 / 6.0], [2.0 / 3.0, 1.0 / 6.0], [1.0 / 6.0, 2.0 / 3.0]];

@@ -96,8 +96,8 @@ pub use outcome::{Outcome, RunError};
 pub use run_options::RunOptions;
 
 use crate::case::Case;
+use crate::discretisation::Scene;
 use crate::petsc::{self, Session};
-use crate::system::Scene;
 use origin::ResultOrigin;
 use report::Report;
 use stages::Stages;

@@ -5,8 +5,9 @@ use super::true_errors::true_errors;
 use super::{Run, RunError, Stages, accuracy, interruption, memory, progress};
 use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
+use crate::discretisation::Scene;
 use crate::petsc::StageGuard;
-use crate::system::{Event, Observer, Procedure, Scene, Solved, Work};
+use crate::procedure::{Event, Observer, Procedure, Solved, Work};
 
 impl Run<'_> {
     /// Solves a scene as the case wants it, from the solution of the load step before, if there is any. **Collective**

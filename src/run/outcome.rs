@@ -2,9 +2,9 @@
 
 use super::forecast;
 use crate::case::{Case, LoadStep};
+use crate::discretisation::SystemError;
 use crate::output::OutputError;
 use crate::petsc;
-use crate::system::SystemError;
 
 /// How a run ended; becomes the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

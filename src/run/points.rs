@@ -3,7 +3,7 @@
 use super::report::short;
 use crate::body::{MeanHold, PointLoad, Support};
 use crate::geometry::Point;
-use crate::system::recovery::Evaluation;
+use crate::recovery::Evaluation;
 
 /// A support at a point that carries more than this share of all forces changes displacements by what shows.
 const LITTLE: f64 = 1e-4;

@@ -6,7 +6,7 @@
 use crate::arguments::ShowProgress;
 use crate::output::clock;
 use crate::petsc::{SolveAtWork, solve_at_work};
-use crate::system::{Event, Work};
+use crate::procedure::{Event, Work};
 use rustix::fs::{Mode, OFlags};
 use std::fs::File;
 use std::io::{IsTerminal, Write, stderr};

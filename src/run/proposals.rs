@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::contact::{ClosePair, Extent, Mechanism, close_pairs};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
-use crate::system::Procedure;
+use crate::procedure::Procedure;
 use std::collections::HashSet;
 use std::path::Path;
 use toml::Value;

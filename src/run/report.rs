@@ -4,13 +4,14 @@ use super::{Outcome, RunOptions, Stages, accuracy, interruption, origin, progres
 use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::body::BodyPart;
 use crate::case::{Case, LoadStep};
+use crate::discretisation::{Contact, Scene};
 use crate::element::Order;
 use crate::mesh::Numbering;
 use crate::output::Summary;
 use crate::output::summary::{MOST_TOLD, Memory, Provenance, Time, WORST, listed};
 use crate::petsc::Session;
-use crate::system::recovery::Evaluation;
-use crate::system::{Contact, Event, Scene};
+use crate::procedure::Event;
+use crate::recovery::Evaluation;
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;

@@ -10,13 +10,14 @@ use super::{
 };
 use crate::accuracy::Adaptation;
 use crate::contact::{Configuration, GapChoice};
+use crate::discretisation::Contact;
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{self, Status, Summary};
 use crate::output::{CONTACTS, ContactPoint, OutputError, ResultFolder, vtk, write_contact, write_contacts};
-use crate::system::recovery::{Evaluation, TracePoint};
-use crate::system::{Contact, Solved, Work};
+use crate::procedure::{Solved, Work};
+use crate::recovery::{Evaluation, TracePoint};
 use std::collections::BTreeSet;
 use std::path::Path;
 

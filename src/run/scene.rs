@@ -6,10 +6,11 @@ use super::means::check_means;
 use crate::body::Body;
 use crate::case::{Case, CaseError, LoadStep, listed};
 use crate::contact::Pair;
+use crate::discretisation::{self, Scene};
 use crate::geometry::{Coordinates, Formula, Point, Quote, Rounded};
 use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces, touching_surfaces};
 use crate::petsc::Session;
-use crate::system::{self, Scene};
+use crate::procedure::Procedure;
 use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
@@ -169,7 +170,7 @@ fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String>)
 
 /// A scene with its macro triangles spread over the ranks. **Collective**
 pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, RunError> {
-    let partition = system::spread(&mesh, &case.contacts, case.mesh.order, case.mesh.refine, session)?;
+    let partition = discretisation::spread(&mesh, &case.contacts, case.mesh.order, case.mesh.refine, session)?;
     Ok(assemble(case, mesh, partition))
 }
 
@@ -178,7 +179,7 @@ pub fn first(case: &Case, mesh: MacroMesh) -> Result<Scene, RunError> {
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = assemble(case, mesh, partition);
     Ok(match &case.accuracy {
-        Some(accuracy) => system::Procedure::first_of_sequence(scene, accuracy)?,
+        Some(accuracy) => Procedure::first_of_sequence(scene, accuracy)?,
         None => scene,
     })
 }

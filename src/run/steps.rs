@@ -4,9 +4,10 @@
 use super::known::check_pressures;
 use super::{Run, RunError, interruption, scene};
 use crate::case::LoadStep;
+use crate::discretisation::Scene;
 use crate::output::summary::{Status, StepSummary, Summary};
 use crate::output::{CONTACTS, OutputError, plot, vtk, write_steps};
-use crate::system::{Procedure, Scene, Solved};
+use crate::procedure::{Procedure, Solved};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

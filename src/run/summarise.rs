@@ -2,12 +2,13 @@
 
 use crate::case::Case;
 use crate::contact::{MultiplierSpace, Zone};
+use crate::discretisation::Contact;
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::output::summary::{self, Summary};
 use crate::petsc::versions;
-use crate::system::recovery::{Corners, Evaluation, TracePoint};
-use crate::system::{Contact, Solved};
+use crate::procedure::Solved;
+use crate::recovery::{Corners, Evaluation, TracePoint};
 
 /// From this error on λ may grow at a corner as it does towards a singular end.
 const GROWS_AT_CORNERS: f64 = 5e-3;

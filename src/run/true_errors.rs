@@ -2,11 +2,12 @@
 
 use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::case::{BodyExact, Case, ContactExact, LambdaExact};
+use crate::discretisation::SystemError;
 use crate::geometry::Point;
 use crate::mesh::{Region, Surface};
 use crate::petsc::Session;
-use crate::system::recovery::Evaluation;
-use crate::system::{Solved, SystemError};
+use crate::procedure::Solved;
+use crate::recovery::Evaluation;
 
 /// The true relative error of each goal; nothing where `[exact]` does not tell it, or nothing was solved. **Collective**
 ///

@@ -3,8 +3,8 @@
 use super::trust::{LEAST_PARTS, PROVES};
 use crate::contact::{Zone, hertz_width};
 use crate::output::summary;
-use crate::system::Solved;
-use crate::system::recovery::TracePoint;
+use crate::procedure::Solved;
+use crate::recovery::TracePoint;
 
 /// Fewer segments say nothing of each other.
 const LEAST_SEGMENTS: usize = 3;

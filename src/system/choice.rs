@@ -1,6 +1,6 @@
 //! What a case asks of the solver.
 
-use super::form::Form;
+use crate::discretisation::Form;
 
 /// Which linear solver the case asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

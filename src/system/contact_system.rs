@@ -1,11 +1,13 @@
 //! The system of one contact boundary with its state: the active set, the unknowns, and what solves it.
 
-use super::stiffness::Stiffness;
-use super::{
-    Discretisation, Interpolation, LinearEnding, LinearSolve, LinearSolver, Preconditioning, Residual, RigidBorder, SaddlePoint,
-    SolverChoice, Space, SystemError, inf_sup,
-};
+use crate::discretisation::{Discretisation, Space, SystemError};
+use crate::multigrid::Interpolation;
+use crate::multigrid::Stiffness;
 use crate::petsc::{Matrix, Session, Vector};
+use crate::system::choice::SolverChoice;
+use crate::system::rigid_border::RigidBorder;
+use crate::system::saddle_point::SaddlePoint;
+use crate::system::solver::{LinearEnding, LinearSolve, LinearSolver, Preconditioning, Residual, inf_sup};
 use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
 

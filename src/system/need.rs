@@ -4,12 +4,14 @@
 //! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are
 //! there already when this is asked.
 
-use super::discretisation::node_count;
-use super::level_ranks::ranks_in_group;
-use super::solver::MANY;
-use super::{Form, Preconditioning, Scene, SolverChoice, Tolerance};
+use crate::discretisation::node_count;
+use crate::discretisation::ranks_in_group;
+use crate::discretisation::{Form, Scene};
 use crate::element::Order;
 use crate::mesh::{Level, Numbering, lattice, levels};
+use crate::system::choice::{SolverChoice, Tolerance};
+use crate::system::solver::MANY;
+use crate::system::solver::Preconditioning;
 
 /// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve: with GMRES, of
 /// some ten iterations; with BiCGStab, on so many unknowns that it takes the place of GMRES; and where BiCGStab does not come to a
@@ -106,8 +108,8 @@ fn nodes_not_stored(scene: &Scene, level: Level, rank: usize) -> usize {
 mod tests {
     use super::*;
     use crate::contact::MultiplierSpace;
+    use crate::discretisation::samples::{blocks, pair};
     use crate::geometry::{Curve, Point};
-    use crate::system::samples::{blocks, pair};
     use std::rc::Rc;
 
     /// Each refinement takes four times as much, in the end, a bent mesh more than a straight one, and a factor more than both.

@@ -12,15 +12,15 @@
 //! Vertices hold the nodes of such bodies, the others are prescribed: the blocks are those of sets at rest. Here are the parts that
 //! no active set changes; [`super::SaddlePoint`] has what becomes of them in a system.
 
-use super::held_bodies::{HeldBodies, held_motions, holds_of_bodies};
-use super::internal_forces::internal_forces;
-use super::rigid_motions;
-use super::springs::SpringForces;
 use crate::body::{Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
+use crate::discretisation::SpringForces;
+use crate::discretisation::internal_forces;
+use crate::discretisation::rigid_motions;
+use crate::discretisation::{Discretisation, Field, Space, SystemError, nodal_forces};
+use crate::discretisation::{HeldBodies, held_motions, holds_of_bodies};
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::Session;
-use crate::system::{Discretisation, Field, Space, SystemError, nodal_forces};
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;

@@ -13,12 +13,12 @@ mod contact;
 mod meshes;
 
 use mezha::contact::{MultiplierSpace, Stabilise};
+use mezha::discretisation::{Discretisation, Scene, load, nodal_forces};
 use mezha::element::Order;
 use mezha::mesh::parse_gmsh;
+use mezha::multigrid::interpolations;
 use mezha::petsc::Session;
-use mezha::system::{
-    Discretisation, Preconditioning, SaddlePoint, Scene, SolverChoice, System, interpolations, load, nodal_forces,
-};
+use mezha::system::{Preconditioning, SaddlePoint, SolverChoice, System};
 use std::time::Instant;
 
 /// Segments of the long seam.

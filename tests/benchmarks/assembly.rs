@@ -7,9 +7,10 @@
 #[path = "../support/bars.rs"]
 mod bars;
 
+use mezha::discretisation::{Discretisation, Form};
 use mezha::element::Order;
+use mezha::multigrid::Elastic;
 use mezha::petsc::Session;
-use mezha::system::{Discretisation, Elastic, Form};
 use std::time::Instant;
 
 fn main() {

@@ -8,9 +8,10 @@
 #[path = "../support/bars.rs"]
 mod bars;
 
+use mezha::discretisation::{Discretisation, Form};
 use mezha::element::Order;
+use mezha::multigrid::{Elastic, interpolations};
 use mezha::petsc::{Operator, Session, Vector};
-use mezha::system::{Discretisation, Elastic, Form, interpolations};
 use std::hint::black_box;
 use std::time::Instant;
 

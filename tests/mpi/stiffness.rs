@@ -6,11 +6,12 @@ mod launch;
 
 use launch::{Suite, named};
 use mezha::body::Support;
+use mezha::discretisation::{Discretisation, Field, Form, Space, local_strain_energy};
 use mezha::element::Order;
 use mezha::geometry::{Curve, Formula};
 use mezha::mesh::{Partition, lattice};
+use mezha::multigrid::{Elastic, interpolations};
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
-use mezha::system::{Discretisation, Elastic, Field, Form, Space, interpolations, local_strain_energy};
 use std::rc::Rc;
 
 fn main() -> std::process::ExitCode {

@@ -14,14 +14,13 @@ use contact::with_contact;
 use launch::{Suite, named};
 use mezha::body::{HeldMode, MeanHold, RigidNodes, RigidSet, Support, UNIT_MOTIONS};
 use mezha::contact::{MultiplierSpace, Stabilise, jump_matrix};
+use mezha::discretisation::{Contact, Coupled, Discretisation, Form, load, nodal_forces};
 use mezha::element::Order;
 use mezha::geometry::{Curve, Formula, ParametricCurve, Point};
 use mezha::mesh::{Graph, parse_gmsh};
+use mezha::multigrid::{Elastic, Interpolation, interpolations};
 use mezha::petsc::{Matrix, Session, Vector, partition};
-use mezha::system::{
-    Contact, Coupled, Discretisation, Elastic, Form, Interpolation, LinearEnding, Preconditioning, SaddlePoint, SolverChoice,
-    Start, System, interpolations, load, nodal_forces,
-};
+use mezha::system::{LinearEnding, Preconditioning, SaddlePoint, SolverChoice, Start, System};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 

@@ -1,11 +1,11 @@
 //! The two bars of example 1 without contact, for programs that use the crate's parts.
 
 use mezha::body::{Body, Material, Support};
+use mezha::discretisation::{Scene, spread};
 use mezha::element::{Order, Plane};
 use mezha::geometry::Formula;
 use mezha::mesh::{MacroMesh, read_gmsh};
 use mezha::petsc::Session;
-use mezha::system::{Scene, spread};
 use std::path::Path;
 use std::rc::Rc;
 

@@ -4,8 +4,8 @@ use mezha::body::{Load, LoadKind, Support};
 use mezha::contact::{
     Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise,
 };
+use mezha::discretisation::Scene;
 use mezha::geometry::Formula;
-use mezha::system::Scene;
 
 /// Two bars pressed together by a load on the upper one and by the support of the lower one.
 pub fn with_contact(mut scene: Scene, space: MultiplierSpace, segments: usize, stabilise: Stabilise) -> Scene {

@@ -1,7 +1,7 @@
 //! What the solution procedure keeps of its steps, in the terms of `summary.json`.
 
 use super::{BoundaryIteration, OuterIteration};
-use crate::system::{BoundaryStep, Pass};
+use crate::procedure::{BoundaryStep, Pass};
 
 impl From<&Pass> for OuterIteration {
     fn from(pass: &Pass) -> Self {

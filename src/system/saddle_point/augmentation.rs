@@ -1,7 +1,7 @@
 //! The weights `D` of the active multipliers, and how they change with them.
 
 use crate::contact::DiagonalBlock;
-use crate::system::Contact;
+use crate::discretisation::Contact;
 use std::ops::Range;
 
 /// `D` of all contacts, numbered through: block diagonal, a block for each group of multipliers that the mass matrix couples.
@@ -88,9 +88,9 @@ impl Augmentation {
 mod tests {
     use super::*;
     use crate::contact::{Known, MultiplierSpace};
+    use crate::discretisation::Scene;
+    use crate::discretisation::samples::{blocks, contact, pair};
     use crate::geometry::Point;
-    use crate::system::Scene;
-    use crate::system::samples::{blocks, contact, pair};
 
     #[test]
     fn a_change_of_the_set_hands_over_the_blocks_that_change_and_no_others() {

@@ -17,9 +17,10 @@
 use super::augmentation::Augmentation;
 use super::coupling_rows::CouplingRows;
 use super::multiplier_blocks::MultiplierBlocks;
+use crate::discretisation::{Discretisation, Form, Space};
 use crate::petsc::Session;
+use crate::system::rigid_border::RigidBorder;
 use crate::system::rigid_border::Sparse;
-use crate::system::{Discretisation, Form, RigidBorder, Space};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::collections::BTreeMap;
 use std::rc::Rc;

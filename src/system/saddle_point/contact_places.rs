@@ -2,9 +2,9 @@
 
 use super::coupling_rows::CouplingRows;
 use crate::contact::DiagonalBlock;
+use crate::discretisation::SystemError;
 use crate::element::Block;
-use crate::system::SystemError;
-use crate::system::stiffness::{BlockPlace, RowPlaces, Stiffness};
+use crate::multigrid::{BlockPlace, RowPlaces, Stiffness};
 use std::ops::Range;
 
 /// Where the couplings of each group of multipliers lie among the rows of a stiffness. The search for them takes longer than a

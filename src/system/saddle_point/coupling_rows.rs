@@ -1,8 +1,8 @@
 //! Rows of `B` on every level, in the nodes' frames: `B_l = B_{l+1} P_{l+1}`, without any matrix product.
 
+use crate::discretisation::{Coupled, Discretisation, Space};
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroMesh};
-use crate::system::{Coupled, Discretisation, Space};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -130,11 +130,11 @@ impl CouplingRows {
 mod tests {
     use super::*;
     use crate::contact::{MultiplierSpace, Side};
+    use crate::discretisation::samples::{blocks, pair};
+    use crate::discretisation::{BoundaryMotion, Contact, Coupling, spaces};
     use crate::geometry::Point;
     use crate::mesh::{Numbering, Partition};
     use crate::system::saddle_point::augmentation::Augmentation;
-    use crate::system::samples::{blocks, pair};
-    use crate::system::{BoundaryMotion, Contact, Coupling, spaces};
     use std::rc::Rc;
 
     const RANKS: usize = 6;

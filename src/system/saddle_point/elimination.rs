@@ -1,8 +1,8 @@
 //! Products of a system from which rigid motions are eliminated, its right-hand side, and the motions that belong to its unknowns.
 
 use super::border_blocks::{BorderBlocks, BorderColumn, BorderUnknown};
+use crate::discretisation::Form;
 use crate::petsc::{Matrix, Product, Result, Vector};
-use crate::system::Form;
 use crate::system::rigid_border::{RigidComponent, Sparse};
 use nalgebra::DVector;
 use std::cell::RefCell;

@@ -23,10 +23,11 @@ mod transposed;
 pub use border_blocks::{BorderBlocks, BorderUnknown};
 pub use multiplier_blocks::SchurPattern;
 
-use super::stiffness::{ContactNeighbours, Elastic, Stiffness};
-use super::{Coupled, Discretisation, Form, RigidBorder, Space, SystemError};
 use crate::contact::DiagonalBlock;
+use crate::discretisation::{Coupled, Discretisation, Form, Space, SystemError};
+use crate::multigrid::{ContactNeighbours, Elastic, Stiffness};
 use crate::petsc::{Matrix, Session, Vector};
+use crate::system::rigid_border::RigidBorder;
 use augmentation::Augmentation;
 use contact_places::ContactPlaces;
 use coupling_rows::CouplingRows;

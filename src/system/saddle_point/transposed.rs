@@ -1,9 +1,9 @@
 //! `B̂ᵀ (I - D̂ Ĉ)` by its columns: all but few of its rows are empty, and a matrix by rows has its tables for each of them.
 
+use crate::discretisation::Components;
+use crate::discretisation::Space;
 use crate::geometry::Point;
 use crate::petsc::{Gather, Index, Result, Session, Transfer, Vector};
-use crate::system::Space;
-use crate::system::space::Components;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 

@@ -1,6 +1,6 @@
 //! The preconditioner of the whole system, without the copies of its parts that PETSc's fieldsplit makes.
 
-use super::super::cycle::Cycle;
+use crate::multigrid::Cycle;
 use crate::petsc::{Action, Krylov, Matrix, Result, Session, Vector, Window};
 use std::cell::RefCell;
 

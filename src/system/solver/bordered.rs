@@ -10,8 +10,9 @@
 //! The last term of `Σ` makes its error that of `Z` squared. Held means that contact hardly resists are left out: a system with them
 //! is that of the blocks.
 
+use crate::discretisation::Form;
 use crate::petsc::{Action, Result, Session, Vector};
-use crate::system::{BorderBlocks, BorderUnknown, Form, SaddlePoint};
+use crate::system::saddle_point::{BorderBlocks, BorderUnknown, SaddlePoint};
 use nalgebra::{DMatrix, DVector};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;

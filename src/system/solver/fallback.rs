@@ -4,7 +4,7 @@
 //! 0.5 make it slow; two or four steps of CG with the same sweep are stronger and cost two and four times as much; a
 //! Cholesky factor of `K + BᵀDB` always does, as long as there is memory for it.
 
-use crate::system::level_ranks::SMALL;
+use crate::discretisation::SMALL;
 
 /// Iterations that a solve to 1e-8 may need before the next one pays.
 pub(super) const MOST: [(Preconditioning, f64); 3] =

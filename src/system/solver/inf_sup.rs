@@ -1,8 +1,9 @@
 //! The discrete inf-sup constant of a contact.
 
 use super::options::MOST_REDUNDANT;
+use crate::discretisation::{Contact, SystemError};
 use crate::petsc::{Krylov, Session, options};
-use crate::system::{Contact, SaddlePoint, SystemError};
+use crate::system::saddle_point::SaddlePoint;
 
 /// Accuracy and length of the solve that shows the constant.
 const TOLERANCE: f64 = 1e-6;

@@ -69,14 +69,16 @@ use self::options::{
     CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_chosen,
     is_method_chosen, is_split_changed, lambda_options, preconditioning_options,
 };
-use super::auxiliary::GalerkinLevels;
-use super::cycle::Cycle;
-use super::interpolation::Interpolation;
-use super::stiffness::Stiffness;
-use super::{Form, SaddlePoint, SolverChoice, SystemError};
+use crate::discretisation::{Form, SystemError};
+use crate::multigrid::Cycle;
+use crate::multigrid::GalerkinLevels;
+use crate::multigrid::Interpolation;
+use crate::multigrid::Stiffness;
 use crate::petsc::{
     self, Action, Krylov, KrylovEnding, Matrix, MultigridCycle, MultigridLevel, ReplacedAction, Session, Vector, WatchedSolve,
 };
+use crate::system::choice::SolverChoice;
+use crate::system::saddle_point::SaddlePoint;
 use fallback::{MOST, MOST_BORDERED, needed};
 use std::rc::Rc;
 

@@ -1,8 +1,9 @@
 //! The solver's recipes as PETSc options. What a user gives after `--` wins over all of them.
 
+use crate::discretisation::SMALL;
 use crate::petsc::{Session, options};
-use crate::system::level_ranks::SMALL;
-use crate::system::{Preconditioning, SchurPattern};
+use crate::system::saddle_point::SchurPattern;
+use crate::system::solver::fallback::Preconditioning;
 
 /// Names and values of PETSc options.
 pub(super) type Options = &'static [(&'static str, &'static str)];

@@ -1,0 +1,161 @@
+//! The pressure on one contact boundary.
+
+use crate::contact::{Zone, faded_end, oscillation, recovered_peak, zone_counts};
+use crate::discretisation::contacts::contact::Contact;
+use crate::discretisation::solution::Solution;
+use crate::geometry::{Formula, Point, gauss_points};
+
+/// λ of one contact, with the set that it was solved for.
+#[derive(Clone, Copy)]
+pub struct ContactPressure<'a> {
+    /// The contact.
+    pub contact: &'a Contact,
+    /// Values of its multipliers (stress).
+    pub values: &'a [f64],
+    /// Which of them are active.
+    pub active: &'a [bool],
+}
+
+impl<'a> ContactPressure<'a> {
+    /// Out of the multipliers of all contacts.
+    pub fn new(contact: &'a Contact, multipliers: &'a [f64], active: &'a [bool]) -> Self {
+        Self { contact, values: &multipliers[contact.range()], active: &active[contact.range()] }
+    }
+
+    /// λ at the fraction `z` of segment `k`.
+    pub fn value(&self, k: usize, z: f64) -> f64 {
+        self.contact.multipliers.value(self.values, k, z)
+    }
+
+    /// λ at the foot of a point, on the segment that holds it.
+    pub fn at_foot(&self, x: Point) -> f64 {
+        let boundary = &self.contact.boundary;
+        let (segment, z) = boundary.locate(boundary.foot(x));
+        self.value(segment, z.clamp(0.0, 1.0))
+    }
+
+    /// λ at the foot of a point; at a segment end the mean of both values.
+    pub fn mean_at_foot(&self, x: Point) -> f64 {
+        let boundary = &self.contact.boundary;
+        let knots = boundary.knots();
+        let (k, z) = boundary.locate(boundary.foot(x).clamp(knots[0], knots[knots.len() - 1]));
+        let near = 1e-9;
+        let (here, last) = (self.value(k, z.clamp(0.0, 1.0)), boundary.segments() - 1);
+        if z < near && (k > 0 || boundary.is_closed()) {
+            0.5 * (here + self.value(k.checked_sub(1).unwrap_or(last), 1.0))
+        } else if z > 1.0 - near && (k < last || boundary.is_closed()) {
+            0.5 * (here + self.value(k + 1, 0.0))
+        } else {
+            here
+        }
+    }
+
+    /// `∫λ ds` (force per thickness).
+    pub fn force(&self) -> f64 {
+        self.values.iter().enumerate().map(|(i, value)| value * self.contact.multipliers.integral(i)).sum()
+    }
+
+    /// The largest value of a multiplier.
+    pub fn largest(&self) -> f64 {
+        self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The zones that press, in order of arc length.
+    pub fn zones(&self) -> Vec<Zone> {
+        Zone::all(&self.contact.boundary, &self.contact.multipliers, self.values, self.active)
+    }
+
+    /// Which of its zones anyone would look at.
+    pub fn counting(&self, zones: &[Zone]) -> Vec<bool> {
+        let forces: Vec<f64> = zones.iter().map(|zone| self.force_of(zone)).collect();
+        let peaks: Vec<f64> = zones.iter().map(|zone| self.peak_of(zone)).collect();
+        let whole: f64 = forces.iter().map(|force| force.abs()).sum();
+        let highest = peaks.iter().copied().fold(0.0, f64::max);
+        forces.iter().zip(&peaks).map(|(force, peak)| zone_counts(force / whole, *peak, highest)).collect()
+    }
+
+    /// `∫λ ds` of one zone.
+    pub fn force_of(&self, zone: &Zone) -> f64 {
+        zone.force(&self.contact.multipliers, self.values)
+    }
+
+    /// The largest λ of one zone.
+    pub fn peak_of(&self, zone: &Zone) -> f64 {
+        zone.peak(&self.contact.multipliers, self.values)
+    }
+
+    /// The largest value of a smooth pressure with the means of λ; nothing where λ is largest on a zone of less than three
+    /// segments.
+    pub fn recovered_peak(&self) -> Option<f64> {
+        let zones = self.zones();
+        let highest = zones.iter().max_by(|a, b| self.peak_of(a).total_cmp(&self.peak_of(b)))?;
+        recovered_peak(&self.contact.boundary, &self.contact.multipliers, self.values, highest)
+    }
+
+    /// Arc length at which the pressure of a zone fades out at one of its ends (0 or 1); nothing where it does not.
+    pub fn faded_end(&self, zone: &Zone, end: usize) -> Option<f64> {
+        faded_end(&self.contact.boundary, &self.contact.multipliers, self.values, zone, end)
+    }
+
+    /// How much of it is checkerboard; nothing if there is not enough to tell.
+    pub fn oscillation(&self) -> Option<f64> {
+        oscillation(&self.contact.boundary, &self.contact.multipliers, self.values, self.active)
+    }
+
+    /// Root mean square error over the middle of the worst zone that counts, against a formula of `x, y`, by that of the formula;
+    /// nothing where nothing presses.
+    pub fn middle_error(&self, exact: &Formula) -> Option<f64> {
+        let boundary = &self.contact.boundary;
+        let error = |zone: &Zone| {
+            let mut sums = [0.0; 2];
+            for k in zone.segments.clone() {
+                let ([from, _], length) = (boundary.segment_arcs(k), boundary.segment_length(k));
+                for (z, weight) in gauss_points(8).iter().filter(|(z, _)| zone.has_in_its_middle(from + z * length)) {
+                    let x = boundary.point(boundary.parameter_on(k, *z));
+                    let wanted = exact.value(&[x.x, x.y]);
+                    sums[0] += weight * length * (self.value(k, *z) - wanted).powi(2);
+                    sums[1] += weight * length * wanted * wanted;
+                }
+            }
+            (sums[0] / sums[1]).sqrt()
+        };
+        let zones = self.zones();
+        let counting = zones.iter().zip(self.counting(&zones)).filter(|(_, counts)| *counts);
+        counting.map(|(zone, _)| error(zone)).reduce(f64::max)
+    }
+
+    /// Relative error of the largest value, against the largest one of a formula of `x, y` on Γ_C.
+    pub fn peak_error(&self, exact: &Formula) -> f64 {
+        let boundary = &self.contact.boundary;
+        let places = boundary.knots().windows(2).flat_map(|ends| {
+            let inside = gauss_points(8).iter().map(move |(z, _)| ends[0] + z * (ends[1] - ends[0]));
+            [ends[0], ends[1]].into_iter().chain(inside)
+        });
+        let values = places.map(|t| boundary.point(t)).map(|x| exact.value(&[x.x, x.y]));
+        (self.largest() / values.fold(f64::NEG_INFINITY, f64::max) - 1.0).abs()
+    }
+
+    /// Relative L2 error on Γ_C against a formula of `x, y`.
+    pub fn error(&self, exact: &Formula) -> f64 {
+        let boundary = &self.contact.boundary;
+        let mut sums = [0.0; 2];
+        for (k, ends) in boundary.knots().windows(2).enumerate() {
+            for (z, weight) in gauss_points(8) {
+                let t = ends[0] + z * (ends[1] - ends[0]);
+                let x = boundary.point(t);
+                let wanted = exact.value(&[x.x, x.y]);
+                let ds = weight * (ends[1] - ends[0]) * boundary.speed(t);
+                sums[0] += ds * (self.value(k, *z) - wanted).powi(2);
+                sums[1] += ds * wanted * wanted;
+            }
+        }
+        (sums[0] / sums[1]).sqrt()
+    }
+}
+
+impl Solution {
+    /// The pressure on one of the contacts that were solved for.
+    pub fn pressure<'a>(&'a self, contact: &'a Contact) -> ContactPressure<'a> {
+        ContactPressure::new(contact, &self.multipliers, &self.active)
+    }
+}

@@ -1,0 +1,67 @@
+//! What the two sides of a contact are made of.
+
+use crate::contact::ContactBoundary;
+use crate::discretisation::scene::Scene;
+use crate::mesh::BoundaryEdge;
+
+/// Young's moduli of the parts beside both boundaries of a contact; most boundaries have one part.
+pub struct SideMaterials {
+    /// Modulus of each part of the mesh (stress), without bound of rigid tools.
+    young: Vec<f64>,
+    /// Part of each macro triangle.
+    part_of: Vec<u32>,
+    /// The softest and the hardest part beside each boundary.
+    extremes: [[usize; 2]; 2],
+    /// The softest part beside each boundary.
+    pub softest: [usize; 2],
+}
+
+impl SideMaterials {
+    /// Of the macro edges of both boundaries.
+    pub fn new(scene: &Scene, sides: &[Vec<u32>; 2]) -> Self {
+        let mesh = &scene.mesh;
+        let young = scene.young();
+        let extremes = sides.each_ref().map(|edges| {
+            let mut parts: Vec<usize> =
+                edges.iter().map(|&edge| mesh.triangles[mesh.beside(edge).0 as usize].part as usize).collect();
+            parts.sort_by(|a, b| young[*a].total_cmp(&young[*b]));
+            [parts[0], parts[parts.len() - 1]]
+        });
+        let part_of = mesh.triangles.iter().map(|triangle| triangle.part).collect();
+        Self { young, part_of, extremes, softest: extremes.map(|[softest, _]| softest) }
+    }
+
+    /// The moduli by which the softer body is told, whose edges rule the length of the segments. Where one body is softer here
+    /// and the other one there they are equal: then both rule.
+    pub fn ruling(&self) -> [f64; 2] {
+        let [[a, b], [c, d]] = self.extremes.map(|parts| parts.map(|part| self.young[part]));
+        if a <= d && c <= b { [a.min(c); 2] } else { [a, c] }
+    }
+
+    /// `E_c = 2/(1/E₁ + 1/E₂)` beside each segment (stress), by the softest part of each body there.
+    pub fn moduli(&self, boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2]) -> Vec<f64> {
+        let sides = [0, 1].map(|k| self.of_side(k, boundary, &edges[k]));
+        sides[0].iter().zip(&sides[1]).map(|(first, second)| 2.0 / (1.0 / first + 1.0 / second)).collect()
+    }
+
+    /// Modulus of one body beside each segment; its smallest one where a segment sees no edge of it.
+    fn of_side(&self, side: usize, boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<f64> {
+        let [least, most] = self.extremes[side].map(|part| self.young[part]);
+        if least == most {
+            return vec![least; boundary.segments()];
+        }
+        let knots = boundary.knots();
+        let mut found = vec![f64::INFINITY; boundary.segments()];
+        for edge in edges {
+            let young = self.young[self.part_of[edge.triangle] as usize];
+            let feet = boundary.feet([edge.points[0], edge.points[1]]);
+            let inner = [0.99 * feet[0] + 0.01 * feet[1], 0.01 * feet[0] + 0.99 * feet[1]];
+            if inner[1] < knots[0] || inner[0] > knots[knots.len() - 1] {
+                continue;
+            }
+            let [first, last] = inner.map(|t| boundary.locate(t).0);
+            found[first..=last].iter_mut().for_each(|known| *known = known.min(young));
+        }
+        found.into_iter().map(|young| if young.is_finite() { young } else { least }).collect()
+    }
+}

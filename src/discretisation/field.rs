@@ -1,0 +1,136 @@
+//! Values at the nodes that a rank can see: those of the macro triangles it owns.
+
+use crate::discretisation::error::SystemError;
+use crate::discretisation::levels::Discretisation;
+use crate::geometry::Point;
+use crate::mesh::lattice::{self, Triangle};
+use crate::petsc::{Gather, Index, Session, Vector};
+use std::collections::HashMap;
+
+/// `K` numbers at every node of the macro triangles that this rank owns.
+pub struct Field<const K: usize> {
+    first: usize,
+    own: Vec<[f64; K]>,
+    others: HashMap<usize, [f64; K]>,
+}
+
+impl<const K: usize> Field<K> {
+    /// Zeros.
+    pub fn zeros(problem: &Discretisation, session: &Session) -> Self {
+        let others = seen_nodes(problem, session.rank()).into_iter().map(|node| (node, [0.0; K])).collect();
+        let own = problem.finest().own.clone();
+        Self { first: own.start, own: vec![[0.0; K]; own.len()], others }
+    }
+
+    /// Values at a node.
+    ///
+    /// # Panics
+    /// If this rank owns no macro triangle with that node.
+    #[inline]
+    pub fn at(&self, node: usize) -> [f64; K] {
+        match self.own.get(node.wrapping_sub(self.first)) {
+            Some(values) => *values,
+            None => self.others[&node],
+        }
+    }
+
+    /// Values at a node, to change.
+    #[inline]
+    pub fn at_mut(&mut self, node: usize) -> &mut [f64; K] {
+        match self.own.get_mut(node.wrapping_sub(self.first)) {
+            Some(values) => values,
+            None => self.others.get_mut(&node).expect("a node of a macro triangle of this rank"),
+        }
+    }
+
+    /// Values at the nodes that this rank owns.
+    pub fn own(&self) -> &[[f64; K]] {
+        &self.own
+    }
+
+    /// Takes away another field of the same nodes.
+    pub fn subtract(&mut self, other: &Self) {
+        let minus = |values: &mut [f64; K], others: [f64; K]| (0..K).for_each(|k| values[k] -= others[k]);
+        self.own.iter_mut().zip(&other.own).for_each(|(values, others)| minus(values, *others));
+        self.others.iter_mut().for_each(|(node, values)| minus(values, other.others[node]));
+    }
+
+    /// Other values, each of those at the same node.
+    pub fn map<const M: usize>(&self, f: impl Fn([f64; K]) -> [f64; M]) -> Field<M> {
+        let others = self.others.iter().map(|(&node, &values)| (node, f(values))).collect();
+        Field { first: self.first, own: self.own.iter().map(|&values| f(values)).collect(), others }
+    }
+
+    /// Adds up what all ranks have gathered at each node, and shares the sums. **Collective**
+    pub fn sum(mut self, session: &Session) -> Result<Self, SystemError> {
+        let others = self.others.iter().map(|(&node, &values)| (node, values)).collect();
+        session.add_to_owners(&(self.first..self.first + self.own.len()), &mut self.own, others);
+        let mut sums = Vector::new(session, K * self.own.len())?;
+        sums.values_mut().copy_from_slice(self.own.as_flattened());
+        self.fetch(&sums)?;
+        Ok(self)
+    }
+
+    /// Takes the values of other ranks' nodes from their owners.
+    fn fetch(&mut self, values: &Vector) -> Result<(), SystemError> {
+        let nodes: Vec<usize> = self.others.keys().copied().collect();
+        let wanted: Vec<Index> = nodes.iter().flat_map(|&node| indices::<K>(node)).collect();
+        let found = Gather::new(values, &wanted)?.fetch(values)?;
+        for (node, values) in nodes.iter().zip(found.chunks_exact(K)) {
+            self.others.insert(*node, std::array::from_fn(|k| values[k]));
+        }
+        Ok(())
+    }
+}
+
+impl Field<2> {
+    /// Displacements in global axes, from this rank's unknowns in the nodes' frames. **Collective**
+    pub fn displacement(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Result<Self, SystemError> {
+        let mut field = Self::zeros(problem, session);
+        let space = problem.finest();
+        for (at, (own, u)) in field.own.iter_mut().zip(unknowns.chunks_exact(2)).enumerate() {
+            let u = space.to_global(space.own.start + at, Point::new(u[0], u[1]));
+            *own = [u.x, u.y];
+        }
+        let mut values = Vector::new(session, unknowns.len())?;
+        values.values_mut().copy_from_slice(field.own.as_flattened());
+        field.fetch(&values)?;
+        Ok(field)
+    }
+
+    /// Displacement of a node.
+    #[inline]
+    pub fn point(&self, node: usize) -> Point {
+        let [x, y] = self.at(node);
+        Point::new(x, y)
+    }
+
+    /// Displacements at the nodes of one triangle of a macro triangle's lattice.
+    pub fn of_triangle<const N: usize>(&self, problem: &Discretisation, triangle: usize, small: &Triangle) -> [Point; N] {
+        let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
+        small.nodes::<N>().map(|(i, j)| self.point(numbers.node(i, j)))
+    }
+}
+
+fn indices<const K: usize>(node: usize) -> [Index; K] {
+    std::array::from_fn(|k| (K * node + k) as Index)
+}
+
+/// Nodes of this rank's macro triangles that other ranks own.
+fn seen_nodes(problem: &Discretisation, rank: usize) -> Vec<usize> {
+    let (scene, space) = (&problem.scene, problem.finest());
+    let n = space.numbering.level.intervals;
+    let mut seen: Vec<usize> = scene
+        .partition
+        .with_nodes_of_others(rank)
+        .iter()
+        .flat_map(|&triangle| {
+            let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
+            (0..3).flat_map(move |side| (0..n).map(move |p| lattice::side_node(n, side, p))).map(move |(i, j)| numbers.node(i, j))
+        })
+        .filter(|node| !space.own.contains(node))
+        .collect();
+    seen.sort_unstable();
+    seen.dedup();
+    seen
+}

@@ -1,0 +1,104 @@
+//! What a displacement does inside the bodies: the forces `K u` of their stresses at the nodes, and strain energies.
+
+use crate::body::{MacroStiffness, one_stiffness, one_triangle};
+use crate::discretisation::error::SystemError;
+use crate::discretisation::error::agreed;
+use crate::discretisation::field::Field;
+use crate::discretisation::levels::Discretisation;
+use crate::element::{Order, PlaneLaw};
+use crate::geometry::Point;
+use crate::mesh::lattice;
+use crate::petsc::Session;
+
+/// Strain energy of each macro triangle of this rank, in its order. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc or an inverted triangle.
+pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
+    let laws = problem.scene.laws();
+    let own = problem.scene.partition.triangles_of(session.rank());
+    let energy = |&triangle: &u32| {
+        let mut energy = 0.0;
+        each_force(problem, &laws, u, triangle as usize, |_, force, u| energy += 0.5 * force.dot(&u))?;
+        // Rounding may leave a rigid motion a little less than nothing.
+        Ok(energy.max(0.0))
+    };
+    agreed(session, own.iter().map(energy).collect())
+}
+
+/// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc or an inverted triangle.
+pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
+    let scene = &problem.scene;
+    let laws = scene.laws();
+    let mut strain = vec![0.0; scene.mesh.parts.len()];
+    let mut forces = Field::<2>::zeros(problem, session);
+    let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
+        let part = scene.mesh.triangles[triangle as usize].part as usize;
+        each_force(problem, &laws, u, triangle as usize, |node, force, u| {
+            strain[part] += 0.5 * force.dot(&u);
+            let sum = forces.at_mut(node);
+            sum[0] += force.x;
+            sum[1] += force.y;
+        })
+    });
+    agreed(session, added)?;
+    Ok((strain, forces.sum(session)?))
+}
+
+/// Internal forces of one macro triangle: number, force and displacement of each of its nodes.
+fn each_force(
+    problem: &Discretisation,
+    laws: &[PlaneLaw],
+    u: &Field<2>,
+    triangle: usize,
+    mut take: impl FnMut(usize, Point, Point),
+) -> Result<(), SystemError> {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let n = numbering.level.intervals;
+    let law = &laws[mesh.triangles[triangle].part as usize];
+    if numbering.level.is_one_triangle() {
+        return match numbering.level.order {
+            Order::P1 => each_force_of_one::<3>(problem, law, u, triangle, take),
+            Order::P2 => each_force_of_one::<6>(problem, law, u, triangle, take),
+        };
+    }
+    let stiffness = MacroStiffness::new(mesh, triangle, numbering.level, law)?;
+    let numbers = numbering.triangle(mesh, triangle);
+    let local: Vec<Point> = lattice::nodes(n).map(|(i, j)| u.point(numbers.node(i, j))).collect();
+    for (at, (i, j)) in lattice::nodes(n).enumerate() {
+        let mut force = Point::zeros();
+        for ((k, l), block) in stiffness.row(i, j) {
+            let u = local[lattice::index(n, k, l)];
+            force.x += block[0][0] * u.x + block[0][1] * u.y;
+            force.y += block[1][0] * u.x + block[1][1] * u.y;
+        }
+        take(numbers.node(i, j), force, local[at]);
+    }
+    Ok(())
+}
+
+/// Shows each node of a macro triangle that is a single triangle: number, `K u` of the triangle there, displacement.
+fn each_force_of_one<const N: usize>(
+    problem: &Discretisation,
+    law: &PlaneLaw,
+    u: &Field<2>,
+    triangle: usize,
+    mut take: impl FnMut(usize, Point, Point),
+) -> Result<(), SystemError> {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let numbers = numbering.triangle(mesh, triangle);
+    let nodes = one_triangle::<N>(numbering.level).map(|(i, j)| numbers.node(i, j));
+    let local = nodes.map(|node| u.point(node));
+    for (a, row) in one_stiffness::<N>(mesh, triangle, numbering.level, law)?.iter().enumerate() {
+        let mut force = Point::zeros();
+        for (block, u) in row.iter().zip(&local) {
+            force.x += block[0][0] * u.x + block[0][1] * u.y;
+            force.y += block[1][0] * u.x + block[1][1] * u.y;
+        }
+        take(nodes[a], force, local[a]);
+    }
+    Ok(())
+}

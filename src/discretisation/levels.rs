@@ -1,0 +1,198 @@
+//! A scene cut into unknowns: spaces of all levels, contacts, couplings.
+
+use crate::contact::Jump;
+use crate::discretisation::contacts::{BoundaryMotion, Contact, Coupling};
+use crate::discretisation::error::SystemError;
+use crate::discretisation::level_ranks::ranks_in_group;
+use crate::discretisation::scene::Scene;
+use crate::discretisation::space::Space;
+use crate::mesh::{Level, MacroMesh, Numbering, levels};
+use crate::petsc::{Index, Session};
+use std::rc::Rc;
+
+/// Everything that a system is assembled from.
+pub struct Discretisation {
+    /// The physics.
+    pub scene: Scene,
+    /// Displacement spaces, coarsest first: the macro mesh with P1.
+    pub spaces: Vec<Space>,
+    /// The contacts, on the finest level.
+    pub contacts: Vec<Contact>,
+    /// Their couplings.
+    pub coupling: Coupling,
+    /// Displacement of the boundary nodes by which contacts on deformed bodies were placed.
+    pub motion: BoundaryMotion,
+    /// What holds each body whose mean motion is held: force, and moment about its middle (per thickness).
+    pub mean_forces: Vec<[f64; 3]>,
+    /// What presses as far as the programme of the first mesh tells, where no solution is known.
+    pub first_set: Option<Vec<bool>>,
+}
+
+impl Discretisation {
+    /// A scene with its contacts at rest. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if supports contradict each other, the mesh is too fine, or a contact boundary cannot be placed or
+    /// measured.
+    pub fn new(scene: Scene, session: &Session) -> Result<Self, SystemError> {
+        let spaces = spaces(&scene, session.rank())?;
+        let contacts = Contact::all(&scene, &spaces[spaces.len() - 1].numbering, session.rank())?;
+        Self::with(scene, spaces, contacts, BoundaryMotion::default(), session)
+    }
+
+    /// Couples contacts that are placed, on bodies that have moved. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact boundary cannot be measured.
+    pub fn with(
+        scene: Scene,
+        spaces: Vec<Space>,
+        contacts: Vec<Contact>,
+        motion: BoundaryMotion,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
+        let coupling = Coupling::new(&scene, &spaces, &contacts, session)?;
+        let mean_forces = vec![[0.0; 3]; scene.means.len()];
+        Ok(Self { scene, spaces, contacts, coupling, motion, mean_forces, first_set: None })
+    }
+
+    /// Puts contacts in place that were placed again on moved bodies, and couples them. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact boundary cannot be measured.
+    pub fn replace(&mut self, contacts: Vec<Contact>, motion: BoundaryMotion, session: &Session) -> Result<(), SystemError> {
+        self.coupling = Coupling::new(&self.scene, &self.spaces, &contacts, session)?;
+        (self.contacts, self.motion, self.first_set) = (contacts, motion, None);
+        Ok(())
+    }
+
+    /// Whether some contact boundary depends on the solution.
+    pub fn follows(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.pair.follows())
+    }
+
+    /// Space of the finest level: the one that is solved in.
+    pub fn finest(&self) -> &Space {
+        &self.spaces[self.spaces.len() - 1]
+    }
+
+    /// The contact of a multiplier.
+    pub fn contact_of(&self, multiplier: usize) -> &Contact {
+        let at = self.contacts.partition_point(|contact| contact.first <= multiplier);
+        &self.contacts[at - 1]
+    }
+
+    /// The jump terms of all contacts.
+    pub fn jumps(&self) -> impl Iterator<Item = &Jump> {
+        self.contacts.iter().flat_map(|contact| &contact.jumps)
+    }
+
+    /// Number of displacement unknowns of all ranks.
+    pub fn unknown_count(&self) -> usize {
+        2 * self.finest().numbering.node_count()
+    }
+
+    /// Number of multipliers of all contacts.
+    pub fn multiplier_count(&self) -> usize {
+        self.coupling.gap.len()
+    }
+}
+
+/// Numbers of 32 bits that a rank has for each of its nodes in its longest lists: it counts 11.5 couplings in stored rows of P2
+/// in the mean, without a sign, and 6 corners of triangles in files for ParaView, with one.
+const PLACES: usize = 7;
+
+/// PETSc's indices of so many bits must count the five numbers of a node's stress on all ranks, and 32 bits what one rank has.
+fn check_size(scene: &Scene, numbering: &Numbering, bits: u32) -> Result<(), SystemError> {
+    let nodes = numbering.node_count();
+    let refused = |words: String| Err(SystemError::Case(format!("mesh.refine = {}: {words}", scene.refine)));
+    if nodes as u64 > (u64::MAX >> (65 - bits)) / 5 {
+        return refused(format!(
+            "{nodes} nodes are more than PETSc can count with {bits}-bit indices; refine less, or build mezha with a PETSc of 64-bit indices (docs/install.md says how)"
+        ));
+    }
+    let most = (0..scene.partition.size()).map(|rank| numbering.range(rank).len()).max().unwrap_or(0);
+    if most > i32::MAX as usize / PLACES {
+        return refused(format!(
+            "{most} nodes on one rank are more than it can count with 32-bit numbers; refine less, or take more ranks"
+        ));
+    }
+    Ok(())
+}
+
+/// Nodes of a level, whoever owns them.
+pub fn node_count(mesh: &MacroMesh, level: Level) -> u64 {
+    let n = level.intervals as u64;
+    let inner = if n < 3 { 0 } else { (n - 1) * (n - 2) / 2 };
+    mesh.vertices.len() as u64 + mesh.edges.len() as u64 * (n - 1) + mesh.triangles.len() as u64 * inner
+}
+
+/// The nodes of the level that is solved in.
+///
+/// # Errors
+/// [`SystemError::Case`] if the mesh is too fine.
+pub fn finest_numbering(scene: &Scene) -> Result<Numbering, SystemError> {
+    let levels = levels(scene.order, scene.refine);
+    let numbering = Numbering::new(levels[levels.len() - 1], &scene.partition);
+    check_size(scene, &numbering, Index::BITS)?;
+    Ok(numbering)
+}
+
+/// Spaces of all levels that multigrid uses, coarsest first. Levels with few unknowns are brought together on fewer ranks.
+///
+/// # Errors
+/// [`SystemError::Case`] if supports contradict each other, or the mesh is too fine.
+pub fn spaces(scene: &Scene, rank: usize) -> Result<Vec<Space>, SystemError> {
+    finest_numbering(scene)?;
+    let levels = levels(scene.order, scene.refine);
+    let mut partitions = vec![(1, scene.partition.clone())];
+    let mut spaces = Vec::with_capacity(levels.len());
+    for &level in levels.iter().rev() {
+        let unknowns = 2 * node_count(&scene.mesh, level) as usize;
+        let group = if spaces.is_empty() { 1 } else { ranks_in_group(unknowns, scene.partition.size()) };
+        if group > partitions[partitions.len() - 1].0 {
+            partitions.push((group, Rc::new(scene.partition.brought_together(&scene.mesh, group))));
+        }
+        spaces.push(Space::new(scene, level, &partitions[partitions.len() - 1].1, rank)?);
+    }
+    spaces.reverse();
+    Ok(spaces)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::MultiplierSpace;
+    use crate::discretisation::samples::{blocks, pair};
+    use crate::geometry::Point;
+    use crate::mesh::Partition;
+
+    /// The two blocks are grids of one and of two cells, each of n by n.
+    #[test]
+    fn a_mesh_that_cannot_be_counted_is_refused_with_the_number_of_its_nodes() {
+        let mut scene = blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new());
+        let level = |intervals| Level { intervals, order: scene.order };
+        let (fine, too_fine, n) = (level(8192), level(16384), 16384u64);
+        let words = |nodes: u64, rest: &str| format!("mesh.refine = 14: {nodes} nodes {rest}");
+        let all = (n + 1) * (n + 1) + (2 * n + 1) * (n + 1);
+        let count = scene.mesh.triangles.len();
+        scene.refine = 14;
+        // On one rank 32 bits are not enough, however wide PETSc's indices are; on six PETSc's alone decide.
+        for (ranks, bits, refusal) in [
+            (1, 32, Some(words(all, "are more than PETSc can count with 32-bit indices; refine less, or build"))),
+            (1, 64, Some(words(all, "on one rank are more than it can count with 32-bit numbers; refine less, or take more"))),
+            (count, 32, Some(words(all, "are more than PETSc can count with 32-bit indices"))),
+            (count, 64, None),
+        ] {
+            let owners: Vec<i32> = (0..count).map(|triangle| (triangle % ranks) as i32).collect();
+            scene.partition = Rc::new(Partition::new(&scene.mesh, &owners, ranks));
+            let check = |level| check_size(&scene, &Numbering::new(level, &scene.partition), bits);
+            assert!(check(fine).is_ok());
+            match (check(too_fine), refusal) {
+                (Ok(()), None) => {}
+                (Err(error), Some(words)) => assert!(error.to_string().contains(&words), "{error}"),
+                other => panic!("{ranks} ranks, {bits} bits: {other:?}"),
+            }
+        }
+    }
+}

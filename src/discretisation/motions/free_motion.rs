@@ -1,0 +1,193 @@
+//! A rigid motion that nothing holds: what drives it, what would stop it, and what would hold it.
+
+use crate::body::{Applied, MOTIONS, RigidNodes, UNIT_MOTIONS, applied_forces, rigid_displacement};
+use crate::contact::{Condition, Extent, Mechanism, Touch, find_mechanism};
+use crate::discretisation::scene::Scene;
+use crate::element::Order;
+use crate::geometry::Point;
+use crate::mesh::{Level, Numbering};
+use std::collections::HashMap;
+
+/// Points of a boundary that are proposed for a support.
+const POINTS: usize = 8;
+
+/// Points that are tried, whether a support there would hold all.
+const MOST_POINTS: usize = 32;
+
+/// Work of the loads in a motion, as a share of their sizes times the ways of their points, that is none: as much as polygons make
+/// of round bodies.
+const NOTHING: f64 = 1e-2;
+
+/// Share of a motion that goes along the normals of a contact which stops it.
+const STOPS: f64 = 0.5;
+
+/// Share of the largest component of a motion from which another one holds it as well.
+const AS_LARGE: f64 = 0.5;
+
+/// A motion of one piece that nothing holds.
+pub struct FreeMotion<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The motion.
+    pub mechanism: &'a Mechanism,
+    /// All pieces.
+    pub extents: &'a [Extent],
+    /// What supports resist.
+    pub supports: &'a [Condition],
+}
+
+impl FreeMotion<'_> {
+    /// A support that would hold the motion: rather such a one that leaves no other motion free. The mean of a body that nothing
+    /// drives and no support holds; else one point, on a named boundary without contact if there is one.
+    pub fn remedy(&self, touches: &[Touch]) -> String {
+        if let Some(tool) = self.scene.tool(self.body()) {
+            return format!("prescribe ux, uy or angle of {}", tool.key);
+        }
+        if let Some(words) = self.mean_hold(touches) {
+            return words;
+        }
+        let extent = &self.extents[self.mechanism.piece];
+        let holds_all = |at: &SupportPoint| self.is_held_by(&[(at.point, Point::ith(at.axis, 1.0))], touches);
+        let mut candidates = self.support_points(extent);
+        candidates.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
+        let Some(at) = candidates.iter().take(MOST_POINTS).find(|at| holds_all(at)).or(candidates.first()) else {
+            return "hold it by a support at one of its points, at = [x, y] with ux or uy".into();
+        };
+        format!(
+            "hold it, for example by a support with at = [{}, {}], body = \"{}\" and {} = 0, which is a point of \"{}\"",
+            coordinate(at.point.x, extent.radius),
+            coordinate(at.point.y, extent.radius),
+            self.scene.bodies[self.body()].name,
+            ["ux", "uy"][at.axis],
+            at.boundary,
+        )
+    }
+
+    /// The contact that the loads drive the piece against, by the normals of both bodies.
+    pub fn stopped_by(&self, touches: &[Touch]) -> Option<usize> {
+        let Mechanism { piece, moves: (shift, turn), .. } = *self.mechanism;
+        let work = self.work();
+        let motion = [shift.x, shift.y, turn * self.extents[piece].radius].map(|v| v * work.signum());
+        let most = STOPS * motion.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let closes = |condition: &Condition| {
+            let of = |own: Option<usize>, sees: &[f64; 3]| {
+                if own == Some(piece) { (0..3).map(|k| sees[k] * motion[k]).sum() } else { 0.0 }
+            };
+            of(Some(condition.piece), &condition.sees[0]) + of(condition.against, &condition.sees[1]) > most
+        };
+        let stops = |touch: &Touch| touch.iter().all(|own| own.iter().any(closes));
+        if work.abs() > NOTHING { touches.iter().position(stops) } else { None }
+    }
+
+    /// The hold of a mean motion, in words; nothing if the body has other supports, or is of several pieces, or if loads drive it.
+    fn mean_hold(&self, touches: &[Touch]) -> Option<String> {
+        let Mechanism { piece, moves: (shift, turn), .. } = *self.mechanism;
+        let (mesh, name) = (&self.scene.mesh, &self.scene.bodies[self.body()].name);
+        let before = self.scene.means.iter().find(|hold| hold.body == *name);
+        let held = UNIT_MOTIONS.map(|mode| before.is_some_and(|hold| hold.held.iter().any(|held| held.mode == mode)));
+        let count = before.map_or(0, |hold| hold.held.len());
+        let others = self.supports.iter().filter(|condition| condition.piece == piece).count() > count;
+        let is_whole = mesh.pieces.iter().filter(|own| own.body == self.body()).count() == 1;
+        if others || !is_whole || self.work().abs() > NOTHING {
+            return None;
+        }
+        let Extent { middle, radius } = self.extents[piece];
+        let sizes = [shift.x.abs(), shift.y.abs(), turn.abs() * radius];
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let mut able: Vec<usize> = (0..3).filter(|&k| !held[k] && sizes[k] >= AS_LARGE * largest).collect();
+        able.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
+        let arms = [Point::new(radius, 0.0), Point::new(0.0, radius)].map(|arm| [arm, -arm]);
+        let places = || arms.as_flattened().iter().map(|arm| middle + arm);
+        let terms = |k: usize| places().map(|x| (x, rigid_displacement(middle, &UNIT_MOTIONS[k], x))).collect::<Vec<_>>();
+        let k = able.iter().copied().find(|&k| self.is_held_by(&terms(k), touches)).or(able.first().copied())?;
+        Some(match before {
+            Some(hold) => format!("nothing drives that: hold it by {} = 0.0 in support.{}, too", MOTIONS[k], hold.name),
+            None => format!(
+                "nothing drives that: hold its mean, for example by a support with mean = true, body = \"{name}\" and {} = 0.0",
+                MOTIONS[k]
+            ),
+        })
+    }
+
+    fn body(&self) -> usize {
+        self.scene.mesh.pieces[self.mechanism.piece].body
+    }
+
+    /// Whether all is held if these points of the piece are, too, each along a direction, in the mean.
+    fn is_held_by(&self, terms: &[(Point, Point)], touches: &[Touch]) -> bool {
+        let with: Vec<Condition> = Condition::new(self.extents, self.mechanism.piece, None, terms, 0.0).into_iter().collect();
+        find_mechanism(self.extents, &[self.supports, &with].concat(), touches).is_none()
+    }
+
+    /// Work of the loads on the piece in the motion, as a share of their sizes times the ways of their points.
+    fn work(&self) -> f64 {
+        let Scene { mesh, partition, rigid, loads, point_loads, .. } = self.scene;
+        let extent = &self.extents[self.mechanism.piece];
+        let moved = |x: Point| self.mechanism.displacement(extent, x);
+        let (mut work, mut size) = (0.0, 0.0);
+        let mut add = |force: Point, way: Point| {
+            work += force.dot(&way);
+            size += force.norm() * way.norm();
+        };
+        let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, partition);
+        let own = mesh.triangles.iter().filter(|triangle| triangle.piece as usize == self.mechanism.piece);
+        let places: HashMap<usize, Point> =
+            own.flat_map(|own| own.vertices).map(|vertex| (numbering.vertex(vertex), mesh.vertices[vertex as usize])).collect();
+        let applied = Applied { parts: &self.scene.parts(), loads, point_loads };
+        for rank in 0..partition.size() {
+            // A load without a value is an error elsewhere.
+            let _ = applied_forces(mesh, partition, rank, &numbering, &applied, |node, force| {
+                places.get(&node).into_iter().for_each(|&x| add(force, moved(x)));
+            });
+        }
+        for set in rigid {
+            let is_own = match &set.nodes {
+                RigidNodes::Body(name) => *name == mesh.bodies[self.body()],
+                RigidNodes::Boundaries(_) => set.edges(mesh).iter().any(|&edge| mesh.piece_beside(edge) == self.mechanism.piece),
+            };
+            if is_own {
+                let [x, y, moment] = set.applied;
+                add(Point::new(x, y), moved(set.about));
+                add(Point::new(moment / extent.radius, 0.0), Point::new(self.mechanism.moves.1 * extent.radius, 0.0));
+            }
+        }
+        if size > 0.0 { work / size } else { 0.0 }
+    }
+
+    /// Vertices on the named boundaries of a piece, with the axis in which they move most; some of each boundary.
+    fn support_points(&self, extent: &Extent) -> Vec<SupportPoint<'_>> {
+        let mesh = &self.scene.mesh;
+        let touches = |name: &str| self.scene.pairs.iter().any(|pair| pair.between.iter().any(|side| side == name));
+        let mut found = Vec::new();
+        for boundary in mesh.physical_curves() {
+            let is_own = |edge: &u32| mesh.piece_beside(*edge) == self.mechanism.piece;
+            let own: Vec<u32> = boundary.edges.iter().copied().filter(is_own).collect();
+            for &edge in own.iter().step_by(own.len().div_ceil(POINTS).max(1)) {
+                let point = mesh.vertices[mesh.edges[edge as usize].vertices[0] as usize];
+                let u = self.mechanism.displacement(extent, point);
+                // Rounded, so that the order does not hang on the last digit.
+                let moves = (1e6 * u.amax()).round();
+                let (free, axis) = (!touches(&boundary.name), u.iamax());
+                found.push(SupportPoint { free, moves, boundary: &boundary.name, point, axis });
+            }
+        }
+        found
+    }
+}
+
+/// A coordinate as the case wants it: so many digits that a vertex is known again.
+fn coordinate(v: f64, large: f64) -> String {
+    let unit = 10f64.powf(large.log10().floor() - 9.0);
+    if v.abs() < unit { "0".into() } else { format!("{:.9e}", (v / unit).round() * unit).parse::<f64>().unwrap_or(v).to_string() }
+}
+
+/// Where a support might be.
+struct SupportPoint<'a> {
+    /// Whether no contact is there.
+    free: bool,
+    /// How far the point moves.
+    moves: f64,
+    boundary: &'a str,
+    point: Point,
+    axis: usize,
+}

@@ -1,0 +1,320 @@
+//! Whether supports and contact hold every piece of every body.
+
+use crate::body::{Constraints, RigidSet};
+use crate::contact::{self, Condition, Extent, Mechanism, Side, Touch, find_mechanism};
+use crate::discretisation::contacts::{Contact, Coupled, coupled_here};
+use crate::discretisation::error::SystemError;
+use crate::discretisation::levels::Discretisation;
+use crate::discretisation::motions::free_motion::FreeMotion;
+use crate::discretisation::scene::Scene;
+use crate::element::Order;
+use crate::geometry::Point;
+use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals};
+use crate::petsc::Session;
+use std::collections::{HashMap, HashSet};
+
+/// Cosine of the angle (8 degrees) between a chord's normal and that of its arc at most.
+const ALIKE: f64 = 0.99;
+
+/// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
+pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
+    Restraints::of(problem, session).not_held(active)
+}
+
+/// The same where all contact is closed, of contacts whose edges are all on this rank.
+///
+/// # Errors
+/// [`SystemError::Case`] if a contact cannot be integrated.
+pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Result<Option<String>, SystemError> {
+    let rows = coupled_here(contacts)?.0;
+    Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.not_held(&vec![true; rows.len()]))
+}
+
+/// A rigid motion of a piece that nothing holds there; nothing if all are held.
+///
+/// # Errors
+/// As of [`not_held_if_closed`].
+pub fn free_motion_if_closed(
+    scene: &Scene,
+    numbering: &Numbering,
+    contacts: &[Contact],
+) -> Result<Option<Mechanism>, SystemError> {
+    let rows = coupled_here(contacts)?.0;
+    Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.mechanism(&vec![true; rows.len()]))
+}
+
+/// For each contact whether some body could move if it were open: then equilibrium sets its force, and bodies that are a little
+/// farther apart there come together again. **Collective**
+pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Session) -> Vec<bool> {
+    let (whole, extents) = (Restraints::of(problem, session), problem.scene.extents());
+    contact::needed_contacts(&extents, &support_conditions(&problem.scene, &extents), &whole.touches(&extents, active))
+}
+
+/// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
+/// the largest `force` on a contact of the body that moves. **Collective**
+pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64, session: &Session) -> Vec<usize> {
+    let whole = Restraints::of(problem, session);
+    let (mut closed, mut few) = (active.to_vec(), Vec::new());
+    while let Some(mechanism) = whole.mechanism(&closed) {
+        let body = problem.scene.mesh.pieces[mechanism.piece].body;
+        let own = problem.contacts.iter().filter(|contact| contact.bodies.contains(&body));
+        let open = own.flat_map(Contact::range).filter(|&i| !closed[i]);
+        let Some(next) = open.max_by(|&a, &b| force(a).total_cmp(&force(b))) else { break };
+        closed[next] = true;
+        few.push(next);
+    }
+    few
+}
+
+/// Everything that holds bodies. Rigid motions are those of the undeformed bodies: a disc that is pressed flat rolls on.
+struct Restraints<'a> {
+    scene: &'a Scene,
+    numbering: &'a Numbering,
+    contacts: &'a [Contact],
+    /// Rows of all multipliers, or at least of those of this rank.
+    rows: &'a [Vec<Coupled>],
+    /// All ranks with the owners of the multipliers; nothing if this rank has all rows.
+    shared: Option<(&'a Session, &'a [usize])>,
+}
+
+impl<'a> Restraints<'a> {
+    fn of(problem: &'a Discretisation, session: &'a Session) -> Self {
+        Self {
+            scene: &problem.scene,
+            numbering: &problem.finest().numbering,
+            contacts: &problem.contacts,
+            rows: &problem.coupling.rows,
+            shared: Some((session, &problem.coupling.owners)),
+        }
+    }
+
+    /// What the closed multipliers of all contacts resist, the same on every rank. **Collective**
+    fn touches(&self, extents: &[Extent], active: &[bool]) -> Vec<Touch> {
+        let own: Vec<Touch> = self.contacts.iter().map(|contact| self.touch(contact, extents, active)).collect();
+        match self.shared {
+            Some((session, _)) => of_all_ranks(&own, session),
+            None => own,
+        }
+    }
+
+    /// **Collective**
+    fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
+        let extents = self.scene.extents();
+        find_mechanism(&extents, &support_conditions(self.scene, &extents), &self.touches(&extents, active))
+    }
+
+    /// **Collective**
+    fn not_held(&self, active: &[bool]) -> Option<String> {
+        let extents = self.scene.extents();
+        let (supports, touches) = (support_conditions(self.scene, &extents), self.touches(&extents, active));
+        let mechanism = find_mechanism(&extents, &supports, &touches)?;
+        let free = FreeMotion { scene: self.scene, mechanism: &mechanism, extents: &extents, supports: &supports };
+        let name = self.scene.mesh.name_of_piece(mechanism.piece);
+        if let Some(contact) = free.stopped_by(&self.touches(&extents, &vec![true; active.len()])) {
+            return Some(format!(
+                "{name} can {} with what was found to press, but its loads drive it against contact {}, which would hold it: no set of what presses was found; refine the mesh where contact is, or draw the bodies where they touch",
+                mechanism.motion, self.contacts[contact].pair.name
+            ));
+        }
+        let by = if active.contains(&true) {
+            "supports and contact do not hold it"
+        } else {
+            "contact is open everywhere and supports do not hold it"
+        };
+        Some(format!("{name} can {}: {by}; {}", mechanism.motion, free.remedy(&touches)))
+    }
+
+    /// What the closed multipliers of a contact that are this rank's resist, by the normals of body 1 and by those of body 2.
+    fn touch(&self, contact: &Contact, extents: &[Extent], active: &[bool]) -> Touch {
+        let mesh = &self.scene.mesh;
+        let normals = contact.pair.between.each_ref().map(|name| {
+            let edges = mesh.boundary(name).map(|boundary| boundary.edges.as_slice()).unwrap_or(&[]);
+            SmoothNormals::new(mesh, edges)
+        });
+        let mut touch = Touch::default();
+        let is_own = |i: usize| self.shared.is_none_or(|(session, owners)| owners[i] == session.rank());
+        for row in contact.range().filter(|&i| active[i] && is_own(i)).map(|i| &self.rows[i]) {
+            let pieces = [Side::First, Side::Second].map(|side| self.heaviest_piece(row, side));
+            let [Some(first), Some(second)] = pieces else { continue };
+            for (k, (side, against)) in [(Side::First, second), (Side::Second, first)].into_iter().enumerate() {
+                touch[k].extend(self.conditions(row, side, &normals[k], against, extents));
+            }
+        }
+        touch
+    }
+
+    /// The piece that takes most of a multiplier on one side.
+    fn heaviest_piece(&self, row: &[Coupled], side: Side) -> Option<usize> {
+        let own = row.iter().filter(|coupled| coupled.side == side);
+        let heaviest = own.max_by(|a, b| a.value.norm().total_cmp(&b.value.norm()))?;
+        Some(self.scene.mesh.piece_beside(heaviest.node.edge))
+    }
+
+    /// What one multiplier resists by the normals of one body, for each of its pieces that takes part.
+    fn conditions(
+        &self,
+        row: &[Coupled],
+        side: Side,
+        normals: &SmoothNormals,
+        against: usize,
+        extents: &[Extent],
+    ) -> Vec<Condition> {
+        let mesh = &self.scene.mesh;
+        let of_side = || row.iter().filter(|coupled| coupled.side == side);
+        let mut pieces: Vec<usize> = of_side().map(|coupled| mesh.piece_beside(coupled.node.edge)).collect();
+        pieces.sort_unstable();
+        pieces.dedup();
+        let of_piece = |piece: usize| {
+            let (mut terms, mut doubt) = (Vec::new(), 0.0_f64);
+            for coupled in of_side().filter(|coupled| mesh.piece_beside(coupled.node.edge) == piece) {
+                let point = normals.at(mesh, coupled.node.edge, coupled.node.fraction(mesh, self.numbering));
+                terms.push((point.place, coupled.value.norm() * point.normal));
+                doubt = doubt.max(point.doubt);
+            }
+            Condition::new(extents, piece, Some(against), &terms, doubt)
+        };
+        pieces.into_iter().filter_map(of_piece).collect()
+    }
+}
+
+/// What the multipliers of all ranks resist, by the ranks that own them. **Collective**
+fn of_all_ranks(own: &[Touch], session: &Session) -> Vec<Touch> {
+    let (mut keys, mut values) = (Vec::new(), Vec::new());
+    for (number, touch) in own.iter().enumerate() {
+        for (k, condition) in (0..2).flat_map(|k| touch[k].iter().map(move |condition| (k, condition))) {
+            let against = condition.against.map_or(-1, |piece| piece as i32);
+            keys.extend([(2 * number + k) as i32, condition.piece as i32, against]);
+            values.extend_from_slice(condition.sees.as_flattened());
+            values.push(condition.doubt);
+        }
+    }
+    let (keys, values) = (session.gather_all(&keys), session.gather_all(&values));
+    let mut all = vec![Touch::default(); own.len()];
+    for (key, value) in keys.chunks_exact(3).zip(values.chunks_exact(7)) {
+        let sees = [[value[0], value[1], value[2]], [value[3], value[4], value[5]]];
+        let (piece, against) = (key[1] as usize, usize::try_from(key[2]).ok());
+        all[key[0] as usize / 2][key[0] as usize % 2].push(Condition { piece, against, sees, doubt: value[6] });
+    }
+    all
+}
+
+/// Everything that supports hold, at the macro vertices.
+fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
+    let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
+    let normals = normal_supports(scene);
+    let condition = |held: Held| {
+        // A direction along the mean of two chords' normals stands for the normal of their arc.
+        let smooth = normals.get(&held.vertex).map(|normal| normal * normal.dot(&held.direction).signum());
+        let direction = smooth.filter(|normal| normal.dot(&held.direction) > ALIKE).unwrap_or(held.direction);
+        Condition::new(extents, held.piece, None, &[(held.place, direction)], 0.0)
+    };
+    let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
+    let rigid = free.flat_map(|set| rigid_conditions(scene, set, extents));
+    supported(scene, &numbering).into_iter().filter_map(condition).chain(rigid).chain(spring_conditions(scene, extents)).collect()
+}
+
+/// What is prescribed of the motion of a rigid set that is free otherwise: the shift of its reference point, and its turn.
+fn rigid_conditions(scene: &Scene, set: &RigidSet, extents: &[Extent]) -> Vec<Condition> {
+    let mesh = &scene.mesh;
+    let edges = set.edges(mesh);
+    let Some(&first) = edges.first() else { return Vec::new() };
+    let ends = edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
+    let arm = ends.map(|x| (x - set.about).norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let [along, up] = [Point::new(arm, 0.0), Point::new(0.0, 1.0)];
+    let terms =
+        [vec![(set.about, Point::new(1.0, 0.0))], vec![(set.about, up)], vec![(set.about + along, up), (set.about - along, -up)]];
+    let piece = mesh.piece_beside(first);
+    let prescribed = terms.into_iter().zip(set.prescribed).filter(|(_, component)| component.is_some());
+    prescribed.filter_map(|(terms, _)| Condition::new(extents, piece, None, &terms, 0.0)).collect()
+}
+
+/// What springs resist at the macro vertices, however soft they are.
+fn spring_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
+    let mesh = &scene.mesh;
+    let mut all = Vec::new();
+    for springs in &scene.springs {
+        let edges = springs.edges(mesh);
+        let normals = mean_normals(mesh, &edges);
+        for &edge in &edges {
+            for vertex in mesh.edges[edge as usize].vertices {
+                let place = mesh.vertices[vertex as usize];
+                let held = springs.stiffness.at(place, normals[&vertex]).into_iter().filter(|(_, k)| *k > 0.0);
+                let piece = mesh.piece_beside(edge);
+                all.extend(held.filter_map(|(direction, _)| Condition::new(extents, piece, None, &[(place, direction)], 0.0)));
+            }
+        }
+    }
+    all
+}
+
+/// Smooth normals at the vertices of some edges.
+fn mean_normals(mesh: &MacroMesh, edges: &[u32]) -> HashMap<u32, Point> {
+    let smooth = SmoothNormals::new(mesh, edges);
+    let mut normals = HashMap::new();
+    for &edge in edges {
+        for (vertex, t) in mesh.edges[edge as usize].vertices.into_iter().zip([0.0, 1.0]) {
+            *normals.entry(vertex).or_insert_with(Point::zeros) += smooth.at(mesh, edge, t).normal;
+        }
+    }
+    normals.values_mut().for_each(|normal: &mut Point| *normal = normal.normalize());
+    normals
+}
+
+/// Smooth normals at the vertices that supports hold along the normal.
+fn normal_supports(scene: &Scene) -> HashMap<u32, Point> {
+    let mesh = &scene.mesh;
+    let mut normals = HashMap::new();
+    for support in scene.supports.iter().filter(|support| support.normal.is_some()) {
+        let on = support.on.iter().filter_map(|name| mesh.boundary(name));
+        let edges: Vec<u32> = on.flat_map(|boundary| boundary.edges.iter().copied()).collect();
+        let smooth = SmoothNormals::new(mesh, &edges);
+        for &edge in &edges {
+            for (vertex, t) in mesh.edges[edge as usize].vertices.into_iter().zip([0.0, 1.0]) {
+                *normals.entry(vertex).or_insert_with(Point::zeros) += smooth.at(mesh, edge, t).normal;
+            }
+        }
+    }
+    normals.values_mut().for_each(|normal: &mut Point| *normal = normal.normalize());
+    normals
+}
+
+/// A displacement that is prescribed.
+pub struct Held {
+    /// Piece of a body.
+    pub piece: usize,
+    /// Macro vertex.
+    pub vertex: u32,
+    /// Where.
+    pub place: Point,
+    /// In which direction, a unit vector.
+    pub direction: Point,
+    /// How far (length).
+    pub value: f64,
+}
+
+/// Everything that supports prescribe at the macro vertices, and rigid sets that are not free in any component.
+pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
+    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports, &scene.means, &scene.rigid) else {
+        return Vec::new();
+    };
+    let mut piece = vec![0; scene.mesh.vertices.len()];
+    for triangle in &scene.mesh.triangles {
+        triangle.vertices.iter().for_each(|&vertex| piece[vertex as usize] = triangle.piece as usize);
+    }
+    let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
+    let moving: HashSet<usize> = free.flat_map(|set| set.places(&scene.mesh, numbering).into_keys()).collect();
+    let mut all = Vec::new();
+    for (vertex, &place) in scene.mesh.vertices.iter().enumerate() {
+        if moving.contains(&numbering.vertex(vertex as u32)) {
+            continue;
+        }
+        let Some(constraint) = constraints.get(numbering.vertex(vertex as u32)) else { continue };
+        for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
+            if constraint.fixed[k] {
+                let direction = constraint.to_global(axis);
+                all.push(Held { piece: piece[vertex], vertex: vertex as u32, place, direction, value: constraint.value[k] });
+            }
+        }
+    }
+    all
+}

@@ -1,0 +1,12 @@
+//! Rigid motions of the bodies: which of them supports and contact hold, what drives one that is free, and what each body or
+//! tool has moved by once a solution is found.
+
+mod free_motion;
+mod held;
+mod mean_force;
+mod rigid_motion;
+mod rigid_start;
+
+pub use held::{few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed};
+pub use rigid_motion::{rigid_motions, settle};
+pub use rigid_start::rigid_start;

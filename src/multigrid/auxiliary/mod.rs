@@ -1,0 +1,74 @@
+//! Levels of mezha's own, below a mesh that has none, or whose macro mesh is large: continuous bilinear functions on
+//! quadtrees, one for each body, whose cells are 2.5 edges wide and double from level to level (auxiliary space method,
+//! Xu 1996). Nodes of the mesh take over the values of the functions, those of supports nothing of what they prescribe.
+//!
+//! The macro mesh is on every rank, and so are the trees.
+
+mod grid;
+mod level;
+mod operators;
+mod tree;
+
+pub use operators::GalerkinLevels;
+
+use crate::discretisation::{Discretisation, SystemError};
+use crate::discretisation::{SMALL, ranks_in_group};
+use crate::petsc::{Index, Matrix, Session};
+use grid::Grid;
+use level::{Coarsening, LevelNodes};
+use tree::Tree;
+
+/// Unknowns of a level that needs none below it.
+const FEW: usize = 500;
+
+/// Share of unknowns that the next level must do without.
+const LEAST_GAIN: f64 = 0.3;
+
+/// Interpolations from auxiliary levels up to the coarsest space of a problem, the first from the coarsest of them; none if
+/// that space is small. **Collective**
+pub fn auxiliary_interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Matrix>, SystemError> {
+    let space = &problem.spaces[0];
+    if 2 * space.numbering.node_count() <= SMALL {
+        return Ok(Vec::new());
+    }
+    let grid = Grid::new(&problem.scene.mesh);
+    let (mut nodes, mut trees) = (grid.nodes(space, session.size()), grid.trees());
+    let mut interpolations = Vec::new();
+    while nodes.count() > FEW {
+        let mut coarsening = Coarsening::new(&nodes, &trees);
+        if coarsening.coarse.count() as f64 > (1.0 - LEAST_GAIN) * nodes.count() as f64 {
+            break;
+        }
+        let ranks = session.size();
+        coarsening.coarse.bring_together(ranks_in_group(coarsening.coarse.count(), ranks));
+        interpolations.push(interpolation(&nodes, &coarsening, session)?);
+        nodes = coarsening.coarse;
+        let coarser: Vec<Option<Tree>> = trees.iter().map(Tree::coarser).collect();
+        trees = coarser.into_iter().zip(trees).map(|(coarser, tree)| coarser.unwrap_or(tree)).collect();
+    }
+    interpolations.reverse();
+    Ok(interpolations)
+}
+
+/// The interpolation of a coarsening (fine unknowns x coarse unknowns). Rows of prescribed components are zero. **Collective**
+fn interpolation(fine: &LevelNodes, coarsening: &Coarsening, session: &Session) -> Result<Matrix, SystemError> {
+    let rank = session.rank();
+    let (rows, columns) = (fine.own(rank), coarsening.coarse.own(rank));
+    let nodes = fine.first[rank]..fine.first[rank + 1];
+    let components = || nodes.clone().flat_map(|at| fine.all[at].components().map(move |(unknown, axis)| (unknown, at, axis)));
+    let (mut diagonal, mut off_diagonal) = (vec![0; rows.len()], vec![0; rows.len()]);
+    for (row, at, axis) in components() {
+        for (column, _) in coarsening.row(at, axis) {
+            let counts = if columns.contains(&column) { &mut diagonal } else { &mut off_diagonal };
+            counts[row - rows.start] += 1;
+        }
+    }
+    let mut matrix = Matrix::aij(session, rows.len(), columns.len(), 1, &diagonal, &off_diagonal)?;
+    for (row, at, axis) in components() {
+        let (columns, weights): (Vec<Index>, Vec<f64>) =
+            coarsening.row(at, axis).map(|(column, weight)| (column as Index, weight)).unzip();
+        matrix.insert(&[row as Index], &columns, &weights)?;
+    }
+    matrix.assemble()?;
+    Ok(matrix)
+}

@@ -1,0 +1,105 @@
+//! One level of the cycle: its rows, its vectors, and the way to the next coarser level.
+
+use crate::multigrid::interpolation::{InterpolationRoom, NodeInterpolation};
+use crate::multigrid::stiffness::{EarlierCouplings, LatticeOperator, SweepHalves};
+use crate::petsc::{Halo, Session};
+use std::rc::Rc;
+
+/// A level with the vectors of the cycle. A rank may have no nodes of it.
+pub struct CycleLevel {
+    /// Its rows.
+    pub lattice: Rc<LatticeOperator>,
+    /// Brings values of other ranks; `None` on one rank.
+    halo: Option<Rc<Halo>>,
+    /// Interpolation from the next coarser level.
+    step: Option<Rc<NodeInterpolation>>,
+    /// Whether residuals inside of even macro triangles are restricted where they are made.
+    is_fused: bool,
+    /// Right-hand side and solution, but for the finest level, which works on those that it is given.
+    pub b: Vec<[f64; 2]>,
+    pub x: Vec<[f64; 2]>,
+    /// For sweeps from zero; only levels between the coarsest and the finest have them.
+    earlier: Option<EarlierCouplings>,
+    far: Vec<[f64; 2]>,
+    room: InterpolationRoom,
+    /// Nodes of this rank.
+    pub nodes: usize,
+}
+
+impl CycleLevel {
+    /// With the interpolation from the next coarser level, if there is one.
+    pub fn new(lattice: Rc<LatticeOperator>, step: Option<Rc<NodeInterpolation>>, session: &Session) -> Self {
+        let halo = (session.size() > 1).then(|| lattice.halo().clone());
+        let is_of_rows = |step: &Rc<NodeInterpolation>| step.is_of(lattice.even().triangles.iter().map(|of| of.inner.clone()));
+        let is_fused = step.as_ref().is_some_and(is_of_rows);
+        let (nodes, far) = (lattice.node_count(), vec![[0.0; 2]; lattice.far_count()]);
+        let (b, x, room) = (Vec::new(), Vec::new(), InterpolationRoom::default());
+        Self { lattice, halo, step, is_fused, b, x, earlier: None, far, room, nodes }
+    }
+
+    /// Makes what levels below the finest have beside it: vectors, and what sweeps from zero need.
+    pub fn with_vectors(mut self) -> Self {
+        self.b = vec![[0.0; 2]; self.nodes];
+        self.x = self.b.clone();
+        let (rows, order) = (self.lattice.rows().borrow(), self.lattice.order());
+        let earlier = |_: &Rc<NodeInterpolation>| EarlierCouplings::new(&rows, self.lattice.strips(), order, self.nodes);
+        self.earlier = self.step.as_ref().map(earlier);
+        drop(rows);
+        self
+    }
+
+    /// Restricts the residual `b - K x` to the next coarser level; `r` has room for it. **Collective**
+    pub fn restrict_residual(&mut self, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]], below: &mut [[f64; 2]]) {
+        let Self { lattice, halo, far, nodes, step, is_fused, room, .. } = self;
+        let (r, step, stored) = (&mut r[..*nodes], step.as_ref().expect("a way down"), lattice.rows().borrow());
+        let (even, rows) = (lattice.even(), lattice.lattice_rows(&stored));
+        match halo {
+            Some(halo) => halo.fetch(x, far, || rows.residual_inside(!*is_fused, b, x, r)),
+            None => rows.residual_inside(!*is_fused, b, x, r),
+        }
+        if *is_fused {
+            stored.residual(0..stored.nodes().len(), b, x, far, r);
+            step.restrict_from(even.groups(), |k, own| even.residual_of(k, b, x, far, own), r, below, room);
+        } else {
+            rows.residual_in_others(b, x, far, r);
+            step.restrict(r, below, room);
+        }
+    }
+
+    /// Restricts forces to the next coarser level. **Collective**
+    pub fn restrict(&mut self, fine: &[[f64; 2]], below: &mut [[f64; 2]]) {
+        self.step.as_ref().expect("a way down").restrict(fine, below, &mut self.room);
+    }
+
+    /// Takes what the next coarser level has found. **Collective**
+    pub fn begin(&mut self, below: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        self.step.as_ref().expect("a way up").prolong::<false>(below, x, &mut self.room);
+    }
+
+    /// Adds what the next coarser level has found. **Collective**
+    pub fn correct(&mut self, below: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        self.step.as_ref().expect("a way up").prolong::<true>(below, x, &mut self.room);
+    }
+
+    /// A Gauss-Seidel sweep over the nodes here; those of other ranks stay as they are. **Collective**
+    pub fn relax(&mut self, sweep: SweepHalves, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        let Self { lattice, halo, far, .. } = self;
+        let stored = lattice.rows().borrow();
+        let rows = lattice.lattice_rows(&stored);
+        match halo {
+            Some(halo) => halo.fetch_before(x, far, |x| rows.begin_to_relax(b, x)),
+            None => rows.begin_to_relax(b, x),
+        }
+        rows.end_to_relax(sweep, b, x, far);
+    }
+
+    /// The forward half of a sweep from zero, whatever `x` holds.
+    ///
+    /// # Panics
+    /// On the coarsest level and on the finest.
+    pub fn relax_from_zero(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        let stored = self.lattice.rows().borrow();
+        let rows = self.lattice.lattice_rows(&stored);
+        rows.relax_from_zero(self.earlier.as_ref().expect("a level between the coarsest and the finest"), b, x);
+    }
+}

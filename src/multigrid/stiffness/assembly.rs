@@ -1,0 +1,359 @@
+//! Assembly of the stiffness of one level: each rank makes the whole rows of its own nodes, without a word to the others.
+
+use super::ContactNeighbours;
+use super::even_triangles::EvenTriangles;
+use super::pattern::RowColumns;
+use super::registers::strip_kernel;
+use super::stored_rows::{BlockColumn, StoredRows, place};
+use super::strip_set::{Strips, TriangleStrips};
+use super::strips::{Couplings, StripNodes};
+use crate::body::{Constraint, MacroStiffness, neighbours, one_stiffness, one_triangle};
+use crate::discretisation::{Scene, Space};
+use crate::element::{BadJacobian, Block, Order, PlaneLaw};
+use crate::geometry::Point;
+use crate::mesh::{Level, Strip, TriangleNumbers, lattice};
+use crate::multigrid::triangle_lattice::{TriangleNodes, side_nodes};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// A level to assemble, and what need not be.
+pub struct Assembly<'a> {
+    scene: &'a Scene,
+    space: &'a Space,
+    /// Macro triangles with nodes of this rank, ascending: every sum is made in this order, whatever the ranks.
+    parts: Vec<AssemblyPart>,
+    /// Nodes whose rows are stored, ascending, counted from this rank's first.
+    nodes: Vec<u32>,
+}
+
+/// What a macro triangle has of this rank's nodes.
+struct AssemblyPart {
+    triangle: usize,
+    numbers: TriangleNumbers,
+    /// Whether it is this rank's own; of those of others only nodes on the sides are.
+    is_own: bool,
+    /// Whether all of its inner rows are alike and not stored.
+    is_whole: bool,
+    /// Row by row; none if it is whole.
+    strips: Vec<Strip>,
+}
+
+/// The stiffness of a level on this rank.
+pub struct Assembled {
+    /// Rows that are stored, with zeros at those couplings of contact that are none of the bodies'.
+    pub rows: StoredRows,
+    /// Columns of other ranks, ascending.
+    pub far: Vec<usize>,
+    /// The other rows.
+    pub strips: Strips,
+    pub even: EvenTriangles,
+}
+
+impl<'a> Assembly<'a> {
+    /// With strips, or with all rows stored.
+    pub fn new(scene: &'a Scene, space: &'a Space, with_strips: bool, rank: usize) -> Self {
+        let level = space.numbering.level;
+        let partition = space.numbering.partition();
+        let part = |&triangle: &u32| {
+            let triangle = triangle as usize;
+            let numbers = space.numbering.triangle(&scene.mesh, triangle);
+            let is_own = partition.owner(triangle as u32) == rank;
+            let is_repeated = is_own && with_strips && !level.is_one_triangle();
+            let is_whole = is_repeated && level.is_whole() && scene.mesh.is_even(triangle, level);
+            let strips = if is_repeated && !is_whole { scene.mesh.strips(triangle, level) } else { Vec::new() };
+            let part = AssemblyPart { triangle, numbers, is_own, is_whole, strips };
+            (is_own || touches(level.intervals, space, &part.numbers)).then_some(part)
+        };
+        let mut triangles = [partition.triangles_of(rank), partition.of_others_with_nodes(rank)].concat();
+        triangles.sort_unstable();
+        let parts = triangles.iter().filter_map(part).collect();
+        let mut assembly = Self { scene, space, parts, nodes: Vec::new() };
+        assembly.nodes = assembly.stored_nodes();
+        assembly
+    }
+
+    /// Makes the rows of this rank's nodes, with places for the couplings of contact. Rows and columns of prescribed components
+    /// are zero but for the diagonal; what their displacement does to free rows of this rank goes to
+    /// `lift(node, force in the node's frame)`.
+    ///
+    /// # Errors
+    /// That of a triangle that is turned inside out.
+    pub fn assemble(&self, contact: &ContactNeighbours, mut lift: impl FnMut(usize, Point)) -> Result<Assembled, BadJacobian> {
+        let laws = self.scene.laws();
+        let (mut rows, far) = self.pattern(contact);
+        let mut strips = Strips::default();
+        let (mut couplings, mut triangles) = (Vec::new(), Vec::new());
+        for part in &self.parts {
+            let (mesh, level) = (&self.scene.mesh, self.space.numbering.level);
+            let law = &laws[mesh.triangles[part.triangle].part as usize];
+            if level.is_one_triangle() {
+                match level.order {
+                    Order::P1 => self.add_triangle::<3>(part, law, &far, &mut rows, &mut lift)?,
+                    Order::P2 => self.add_triangle::<6>(part, law, &far, &mut rows, &mut lift)?,
+                }
+                continue;
+            }
+            let made = if part.is_own { MacroStiffness::new } else { MacroStiffness::of_sides };
+            let stiffness = made(mesh, part.triangle, level, law)?;
+            self.add_rows(part, &stiffness, &far, &mut rows, &mut lift);
+            if part.is_whole {
+                couplings.push(Couplings::of_rows(&stiffness, level.order));
+                triangles.push(TriangleNodes::new(&part.numbers, self.space, &self.space.own, &far));
+            } else if part.is_own {
+                self.add_strips(part, &stiffness, &mut strips);
+            }
+        }
+        self.add_springs(&far, &mut rows, &mut lift);
+        (0..rows.nodes.len()).for_each(|k| rows.invert(k, rows.diagonal_place(k)));
+        // Rows of a mesh that is not cut up are alike by chance only.
+        if !self.space.numbering.level.is_one_triangle() {
+            rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
+        }
+        strips.triangles.sort_unstable_by_key(|triangle| triangle.nodes.start);
+        let even = EvenTriangles::new(self.space.numbering.level.intervals, Rc::new(couplings), triangles);
+        Ok(Assembled { rows, far, strips, even })
+    }
+
+    /// The stored rows with zeros, and their columns of other ranks.
+    fn pattern(&self, contact: &ContactNeighbours) -> (StoredRows, Vec<usize>) {
+        let (level, own) = (self.space.numbering.level, &self.space.own);
+        let of_contact = || {
+            let place = |row: usize| place(&self.nodes, row - own.start).expect("nodes of contact lie on sides");
+            contact.range(own.clone()).map(move |(&row, others)| (place(row), others))
+        };
+        let mut counts = vec![0; self.nodes.len()];
+        for part in &self.parts {
+            self.each_row(part, |k, (i, j)| counts[k] += coupled(level, i, j).count() as u32);
+        }
+        of_contact().for_each(|(k, others)| counts[k] += others.len() as u32);
+        let mut couplings = RowColumns::new(&counts);
+        for part in &self.parts {
+            self.each_row(part, |k, (i, j)| coupled(level, i, j).for_each(|(a, b)| couplings.push(k, part.numbers.node(a, b))));
+        }
+        for (k, others) in of_contact() {
+            others.iter().for_each(|&other| couplings.push(k, other));
+        }
+        let whole = self.parts.iter().filter(|part| part.is_whole);
+        let of_sides = whole.flat_map(|part| side_nodes(level.intervals).map(|(i, j)| part.numbers.node(i, j)));
+        couplings.into_rows(self.nodes.clone(), own, of_sides)
+    }
+
+    /// Nodes of this rank outside of strips, ascending.
+    fn stored_nodes(&self) -> Vec<u32> {
+        let strips = self.parts.iter().flat_map(|part| part.strips.iter().map(move |strip| (part, strip)));
+        let whole = self.parts.iter().filter(|part| part.is_whole).map(|part| self.inner_nodes(part));
+        let mut strips: Vec<_> = strips.map(|(part, strip)| self.strip_nodes(part, strip).range()).chain(whole).collect();
+        strips.sort_unstable_by_key(|nodes| nodes.start);
+        let count = self.space.own.len();
+        let mut nodes = Vec::with_capacity(count - strips.iter().map(|nodes| nodes.len()).sum::<usize>());
+        let starts = std::iter::once(0).chain(strips.iter().map(|nodes| nodes.end));
+        for (start, end) in starts.zip(strips.iter().map(|nodes| nodes.start).chain([count])) {
+            nodes.extend(start as u32..end as u32);
+        }
+        nodes
+    }
+
+    /// Shows the stored rows of this rank that a macro triangle has a part in: place and lattice node.
+    #[inline]
+    fn each_row(&self, part: &AssemblyPart, mut show: impl FnMut(usize, (usize, usize))) {
+        let n = self.space.numbering.level.intervals;
+        // Inner nodes come in the order of their numbers: the place of the first one tells the others.
+        let mut next = None;
+        let mut show = |(i, j): (usize, usize)| {
+            let node = part.numbers.node(i, j);
+            if !self.space.own.contains(&node) {
+                return;
+            }
+            let place = || place(&self.nodes, node - self.space.own.start).expect("a stored row");
+            let k = match lattice::place(n, i, j) {
+                lattice::Place::Inside(_) => *next.insert(next.map_or_else(place, |k| k + 1)),
+                _ => place(),
+            };
+            show(k, (i, j));
+        };
+        if part.is_own && !part.is_whole { outside(n, &part.strips).for_each(&mut show) } else { sides(n).for_each(&mut show) }
+    }
+
+    /// Adds the part that a macro triangle has in the stored rows.
+    fn add_rows(
+        &self,
+        part: &AssemblyPart,
+        stiffness: &MacroStiffness,
+        far: &[usize],
+        rows: &mut StoredRows,
+        lift: &mut impl FnMut(usize, Point),
+    ) {
+        let n = self.space.numbering.level.intervals;
+        let constraint = |i: usize, j: usize, node: usize| match lattice::place(n, i, j) {
+            lattice::Place::Inside(_) => None,
+            _ => self.space.constraints.get(node),
+        };
+        let is_supported = sides(n).any(|(i, j)| constraint(i, j, part.numbers.node(i, j)).is_some());
+        self.each_row(part, |place, (i, j)| {
+            let row = part.numbers.node(i, j);
+            let held = if is_supported { constraint(i, j, row) } else { None };
+            for ((k, l), block) in stiffness.row(i, j) {
+                let node = part.numbers.node(k, l);
+                let block = match (held, if is_supported { constraint(k, l, node) } else { None }) {
+                    (None, None) => *block,
+                    (left, right) => constrained(block, left, right, row == node, |force| lift(row, force)),
+                };
+                rows.add(place, BlockColumn::of(node, &self.space.own, far), &block);
+            }
+        });
+        if part.is_whole && is_supported {
+            self.lift_inner(part, stiffness, lift);
+        }
+    }
+
+    /// Adds the part that a macro triangle has in the stored rows where it is one triangle.
+    fn add_triangle<const N: usize>(
+        &self,
+        part: &AssemblyPart,
+        law: &PlaneLaw,
+        far: &[usize],
+        rows: &mut StoredRows,
+        lift: &mut impl FnMut(usize, Point),
+    ) -> Result<(), BadJacobian> {
+        let (level, own) = (self.space.numbering.level, &self.space.own);
+        let stiffness = one_stiffness::<N>(&self.scene.mesh, part.triangle, level, law)?;
+        let nodes = one_triangle::<N>(level).map(|(i, j)| part.numbers.node(i, j));
+        let held = nodes.map(|node| self.space.constraints.get(node));
+        for (a, &row) in nodes.iter().enumerate().filter(|(_, row)| own.contains(row)) {
+            let place = place(&self.nodes, row - own.start).expect("a stored row");
+            for (b, &node) in nodes.iter().enumerate() {
+                let block = match (held[a], held[b]) {
+                    (None, None) => stiffness[a][b],
+                    (left, right) => constrained(&stiffness[a][b], left, right, a == b, |force| lift(row, force)),
+                };
+                rows.add(place, BlockColumn::of(node, own, far), &block);
+            }
+        }
+        Ok(())
+    }
+
+    /// Shows what prescribed displacements on the sides of a macro triangle do to its inner nodes.
+    fn lift_inner(&self, part: &AssemblyPart, stiffness: &MacroStiffness, lift: &mut impl FnMut(usize, Point)) {
+        let n = self.space.numbering.level.intervals;
+        for (i, j) in (1..n - 1).flat_map(|j| (1..n - j).map(move |i| (i, j))) {
+            let near = |(k, l): &(usize, usize)| !matches!(lattice::place(n, *k, *l), lattice::Place::Inside(_));
+            for ((k, l), block) in stiffness.row(i, j).filter(|(other, _)| near(other)) {
+                if let Some(column) = self.space.constraints.get(part.numbers.node(k, l)) {
+                    constrained(block, None, Some(column), false, |force| lift(part.numbers.node(i, j), force));
+                }
+            }
+        }
+    }
+
+    /// Adds the springs of elastic supports: they stand on sides, whose rows are stored.
+    fn add_springs(&self, far: &[usize], rows: &mut StoredRows, lift: &mut impl FnMut(usize, Point)) {
+        let (mesh, own) = (&self.scene.mesh, &self.space.own);
+        let constraint = |node: usize| self.space.constraints.get(node);
+        for springs in &self.scene.springs {
+            for edge in springs.edges(mesh) {
+                springs.stiffness(mesh, edge, &self.space.numbering, |row, node, block| {
+                    if own.contains(&row) {
+                        let place = place(&self.nodes, row - own.start).expect("a stored row");
+                        let held = constraint(row);
+                        let block = constrained(&block, held, constraint(node), row == node, |force| lift(row, force));
+                        rows.add(place, BlockColumn::of(node, own, far), &block);
+                    }
+                });
+            }
+        }
+    }
+
+    /// Adds the strips of a macro triangle: one stencil for each shape, and for P2 for even and odd rows.
+    fn add_strips(&self, part: &AssemblyPart, stiffness: &MacroStiffness, strips: &mut Strips) {
+        let order = self.space.numbering.level.order;
+        let mut known = BTreeMap::new();
+        let first = strips.alike.len();
+        for strip in &part.strips {
+            let kind = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
+                strips.couplings.push(Couplings::new(stiffness, order, strip));
+                strips.kernels.push(strip_kernel(&strips.couplings[strips.couplings.len() - 1]));
+                strips.couplings.len() - 1
+            });
+            let at = strips.nodes.len();
+            strips.nodes.push(self.strip_nodes(part, strip));
+            let begun = strips.alike.len() > first;
+            match strips.alike.last_mut().filter(|(_, last)| begun && *last == kind) {
+                Some((alike, _)) => alike.end = at + 1,
+                None => strips.alike.push((at..at + 1, kind)),
+            }
+        }
+        strips.triangles.push(TriangleStrips { nodes: self.inner_nodes(part), alike: first..strips.alike.len() });
+    }
+
+    /// The inner nodes of a macro triangle of this rank's, counted from the first node of the rank.
+    fn inner_nodes(&self, part: &AssemblyPart) -> Range<usize> {
+        let n = self.space.numbering.level.intervals;
+        let start = if n < 3 { 0 } else { part.numbers.node(1, 1) - self.space.own.start };
+        start..start + lattice::inner_count(n)
+    }
+
+    /// Where a strip lies among the nodes of this rank.
+    fn strip_nodes(&self, part: &AssemblyPart, strip: &Strip) -> StripNodes {
+        let first = part.numbers.node(strip.i.start, strip.j) - self.space.own.start;
+        StripNodes { first, count: strip.i.len(), width: self.space.numbering.level.intervals - 1 - strip.j }
+    }
+}
+
+/// Whether this rank owns nodes of a macro triangle that it does not own itself.
+fn touches(n: usize, space: &Space, numbers: &TriangleNumbers) -> bool {
+    (0..3).any(|side| {
+        let corner = lattice::side_node(n, side, 0);
+        let middle = lattice::side_node(n, side, n / 2);
+        [corner, middle].into_iter().any(|(i, j)| space.own.contains(&numbers.node(i, j)))
+    })
+}
+
+/// Lattice nodes that a node couples to.
+fn coupled(level: Level, i: usize, j: usize) -> impl Iterator<Item = (usize, usize)> {
+    let nodes = neighbours(level.order, i, j).iter().map(move |&(di, dj)| (i.wrapping_add_signed(di), j.wrapping_add_signed(dj)));
+    nodes.filter(move |&(a, b)| a <= level.intervals && b <= level.intervals && a + b <= level.intervals)
+}
+
+/// Nodes on the sides of a lattice.
+fn sides(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..3).flat_map(move |side| (0..n).map(move |position| lattice::side_node(n, side, position)))
+}
+
+/// Nodes of a lattice outside of its strips, row by row.
+fn outside(n: usize, strips: &[Strip]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    (0..=n).flat_map(move |j| {
+        let of_row = strips.partition_point(|strip| strip.j < j)..strips.partition_point(|strip| strip.j <= j);
+        let starts = std::iter::once(0).chain(strips[of_row.clone()].iter().map(|strip| strip.i.end));
+        let ends = strips[of_row].iter().map(|strip| strip.i.start).chain([n + 1 - j]);
+        starts.zip(ends).flat_map(move |(start, end)| (start..end).map(move |i| (i, j)))
+    })
+}
+
+/// A block in the frames of its nodes, without the couplings of prescribed components.
+fn constrained(
+    block: &Block,
+    row: Option<&Constraint>,
+    column: Option<&Constraint>,
+    diagonal: bool,
+    mut lift: impl FnMut(Point),
+) -> Block {
+    let mut k = nalgebra::Matrix2::new(block[0][0], block[0][1], block[1][0], block[1][1]);
+    if let Some(row) = row {
+        k = row.frame().transpose() * k;
+    }
+    if let Some(column) = column {
+        k *= column.frame();
+        let force = k * column.prescribed();
+        if force != Point::zeros() {
+            lift(row.map_or(force, |row| row.free_part(force)));
+        }
+    }
+    let fixed = |constraint: Option<&Constraint>, a: usize| constraint.is_some_and(|c| c.fixed[a]);
+    std::array::from_fn(|a| {
+        std::array::from_fn(|b| {
+            let kept = diagonal && a == b;
+            if !kept && (fixed(row, a) || fixed(column, b)) { 0.0 } else { k[(a, b)] }
+        })
+    })
+}

@@ -1,0 +1,81 @@
+//! The bodies without contact: what no contact boundary and no active set changes.
+
+use super::ContactNeighbours;
+use super::SolverView;
+use super::Stiffness;
+use super::assembly::{Assembled, Assembly};
+use super::lattice_operator::LatticeOperator;
+use crate::discretisation::{Discretisation, Form, SystemError};
+use crate::geometry::Point;
+use crate::multigrid::user_options::want_entries;
+use crate::petsc::Session;
+use std::rc::Rc;
+
+/// Stiffness and load of the bodies.
+pub struct Elastic {
+    /// `K` on every level, coarsest first; only the finest in the plain form.
+    pub stiffness: Vec<Stiffness>,
+    /// Nodal forces of this rank's unknowns, those of prescribed displacements included, in the nodes' frames.
+    pub load: Vec<f64>,
+}
+
+impl Elastic {
+    /// Assembles `K` of every level that the form needs, with places for the couplings of contact on each level. `load` are
+    /// nodal forces, zero where displacement is prescribed; what prescribed displacements add is put in here.
+    /// **Collective**
+    pub fn new(
+        problem: &Discretisation,
+        mut load: Vec<f64>,
+        form: Form,
+        neighbours: &[ContactNeighbours],
+        session: &Session,
+    ) -> Result<Self, SystemError> {
+        let mut stiffness = Vec::new();
+        for (l, space) in problem.spaces.iter().enumerate().skip(first_level(problem, form)) {
+            let last = l + 1 == problem.spaces.len();
+            let lift = |node, force: Point| {
+                let at = 2 * (node - space.own.start);
+                if last {
+                    (load[at], load[at + 1]) = (load[at] - force.x, load[at + 1] - force.y);
+                }
+            };
+            let assembly = Assembly::new(&problem.scene, space, form == Form::Augmented, session.rank());
+            let assembled = assembly.assemble(&neighbours[l], lift).map_err(SystemError::from);
+            let assembled = session.agree(assembled).map_err(SystemError::Case)?;
+            let Assembled { rows, far, strips, even } = assembled;
+            let lattice = LatticeOperator::new(rows, &space.own, far, &Rc::new(strips), &Rc::new(even), session)?;
+            stiffness.push(Stiffness::new(lattice, seen(l, form, session), session)?);
+        }
+        Ok(Self { stiffness, load })
+    }
+
+    /// The same without places for contact: for boundaries that move, each of which has its own. **Collective**
+    pub fn alone(problem: &Discretisation, load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
+        Self::new(problem, load, form, &vec![ContactNeighbours::new(); problem.spaces.len()], session)
+    }
+
+    /// Copies of the stiffness with places for the couplings of a contact boundary. **Collective**
+    pub fn with_places(
+        &self,
+        problem: &Discretisation,
+        form: Form,
+        neighbours: &[ContactNeighbours],
+        session: &Session,
+    ) -> Result<Vec<Stiffness>, SystemError> {
+        let levels = neighbours.iter().skip(first_level(problem, form)).zip(&self.stiffness);
+        levels.map(|(neighbours, stiffness)| stiffness.with_places(neighbours, session)).collect()
+    }
+}
+
+/// What solvers see of level `l`: all rows of the coarsest, which is factorised or multiplied with auxiliary interpolations, and
+/// of every level where something else than products and sweeps may be wanted.
+fn seen(l: usize, form: Form, session: &Session) -> SolverView {
+    if l == 0 || form == Form::Plain || want_entries(session) { SolverView::Entries } else { SolverView::Action }
+}
+
+fn first_level(problem: &Discretisation, form: Form) -> usize {
+    match form {
+        Form::Augmented => 0,
+        Form::Plain => problem.spaces.len() - 1,
+    }
+}

@@ -1,0 +1,215 @@
+//! The stiffness of a level, its rows stored or in strips: what PETSc's solvers see of it.
+
+use super::ContactNeighbours;
+use super::RowPlaces;
+use super::even_triangles::EvenTriangles;
+use super::lattice_rows::LatticeRows;
+use super::stored_rows::{BlockColumn, BlockPlace, StoredRows};
+use super::strip_kernel::SweepHalves;
+use super::strip_set::Strips;
+use super::strips::Couplings;
+use super::sweep_order::SweepOrder;
+use crate::discretisation::Components;
+use crate::element::Block;
+use crate::petsc::{Halo, Operator, Result, Session, Vector};
+use std::cell::RefCell;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// Stored rows and strips together.
+pub struct LatticeOperator {
+    /// The nodes of this rank.
+    pub(crate) own: Range<usize>,
+    pub(crate) strips: Rc<Strips>,
+    pub(crate) even: Rc<EvenTriangles>,
+    pub(crate) rows: Rc<RefCell<StoredRows>>,
+    /// Columns of other ranks, ascending.
+    pub(crate) far: Vec<usize>,
+    /// Couplings of all nodes in strips and in even macro triangles.
+    in_strips: f64,
+    /// What brings the values of the columns of other ranks.
+    halo: Rc<Halo>,
+    order: SweepOrder,
+}
+
+impl LatticeOperator {
+    /// From the stored rows and the others; `far` are the columns of other ranks. **Collective**
+    pub fn new(
+        rows: StoredRows,
+        own: &Range<usize>,
+        far: Vec<usize>,
+        strips: &Rc<Strips>,
+        even: &Rc<EvenTriangles>,
+        session: &Session,
+    ) -> Result<Self> {
+        let couplings = |(alike, kind): &(Range<usize>, usize)| {
+            let [even, odd] = [0, 1].map(|k| strips.couplings[*kind].of(k).len());
+            strips.nodes[alike.clone()].iter().map(|nodes| 0.5 * (nodes.count * (even + odd)) as f64).sum::<f64>()
+        };
+        let in_even = even.couplings.iter().zip(&even.triangles).map(|(couplings, triangle)| {
+            let all: usize = couplings.iter().flat_map(|couplings| [0, 1].map(|k| couplings.of(k).len())).sum();
+            (triangle.inner.len() * all) as f64 / (2 * couplings.len()) as f64
+        });
+        let in_strips = strips.alike.iter().map(couplings).chain(in_even).sum();
+        let (order, halo) = (SweepOrder::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
+        let rows = Rc::new(RefCell::new(rows));
+        Ok(Self { own: own.clone(), strips: strips.clone(), even: even.clone(), rows, far, in_strips, halo, order })
+    }
+
+    /// A copy with places for the couplings of a contact boundary; the strips are the same. **Collective**
+    pub fn with_places(&self, contact: &ContactNeighbours, session: &Session) -> Result<Self> {
+        let (rows, far) = self.rows.borrow().with_places(contact, &self.own, &self.far);
+        let moved: Vec<u32> = self.far.iter().map(|node| far.binary_search(node).expect("it is among them") as u32).collect();
+        let even = if far.len() == self.far.len() { self.even.clone() } else { Rc::new(self.even.moved(self.own.len(), &moved)) };
+        Self::new(rows, &self.own, far, &self.strips, &even, session)
+    }
+
+    /// Shows where the couplings of a node, one of this rank's, with others lie, and gives its stored row.
+    ///
+    /// # Panics
+    /// If there is no place for one: rows of contact have places.
+    pub fn places(&self, row: usize, columns: impl Iterator<Item = usize>, mut show: impl FnMut(BlockPlace)) -> u32 {
+        let rows = self.rows.borrow();
+        let k = rows.place(row - self.own.start).expect("rows of contact are stored");
+        columns.for_each(|column| show(rows.block_place(k, BlockColumn::of(column, &self.own, &self.far))));
+        k as u32
+    }
+
+    /// Adds blocks to a row at their places, and inverts its diagonal block again if that is asked for.
+    pub fn add_to_row(&self, places: RowPlaces, blocks: &[Block]) {
+        let mut rows = self.rows.borrow_mut();
+        for (place, block) in places.blocks.iter().zip(blocks) {
+            rows.add_at(*place, block);
+        }
+        if let Some(diagonal) = places.diagonal {
+            rows.invert(places.stored as usize, diagonal);
+        }
+    }
+
+    /// In which order rows are worked on.
+    pub fn order(&self) -> &SweepOrder {
+        &self.order
+    }
+
+    /// All rows: those of strips and of even macro triangles with the `stored` ones.
+    pub fn lattice_rows<'a>(&'a self, stored: &'a StoredRows) -> LatticeRows<'a> {
+        LatticeRows { strips: &self.strips, even: &self.even, stored, order: &self.order }
+    }
+
+    /// The stored rows.
+    pub fn rows(&self) -> &Rc<RefCell<StoredRows>> {
+        &self.rows
+    }
+
+    /// What brings the values of other ranks' nodes.
+    pub fn halo(&self) -> &Rc<Halo> {
+        &self.halo
+    }
+
+    /// Nodes of this rank.
+    pub fn node_count(&self) -> usize {
+        self.own.len()
+    }
+
+    /// Nodes of other ranks that the rows here couple to.
+    pub fn far_count(&self) -> usize {
+        self.far.len()
+    }
+
+    /// The strips.
+    pub fn strips(&self) -> &Rc<Strips> {
+        &self.strips
+    }
+
+    /// The even macro triangles.
+    pub fn even(&self) -> &Rc<EvenTriangles> {
+        &self.even
+    }
+
+    /// Shows the rows of all nodes in strips and in even macro triangles: couplings with nodes by their numbers, that with itself
+    /// first.
+    pub fn each_row(&self, mut show: impl FnMut(usize, &[(usize, Block)])) {
+        let mut row = Vec::new();
+        for (strips, kind) in &self.strips.alike {
+            for nodes in &self.strips.nodes[strips.clone()] {
+                let couplings = &self.strips.couplings[*kind];
+                for k in 0..nodes.count {
+                    let node = nodes.first + k;
+                    let number = |step| (self.own.start + node).wrapping_add_signed(nodes.distance(step));
+                    row.clear();
+                    row.extend(couplings.of(k).iter().map(|&(step, block)| (number(step), block)));
+                    show(node, &row);
+                }
+            }
+        }
+        let near = self.own.len();
+        self.even.each_row(|node, couplings| {
+            let number = |at: usize| if at < near { self.own.start + at } else { self.far[at - near] };
+            row.clear();
+            row.extend(couplings.iter().map(|&(at, block)| (number(at), block)));
+            show(node, &row);
+        });
+    }
+
+    /// The values of the columns of other ranks, while `meanwhile` works on rows that need none of them. **Collective**
+    fn fetch(&self, x: &[Components], meanwhile: impl FnOnce()) -> Vec<Components> {
+        let mut far = vec![[0.0; 2]; self.far.len()];
+        self.halo.fetch(x, &mut far, meanwhile);
+        far
+    }
+}
+
+impl Operator for Rc<LatticeOperator> {
+    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
+        let (x, mut y, stored) = (x.values(), y.values_mut(), self.rows.borrow());
+        let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
+        let far = self.fetch(x, || self.lattice_rows(&stored).multiply_inside(x, y));
+        self.lattice_rows(&stored).multiply_in_others(x, &far, y);
+        Ok(())
+    }
+
+    fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()> {
+        let (b, x, mut r, stored) = (b.values(), x.values(), r.values_mut(), self.rows.borrow());
+        let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
+        let far = self.fetch(x, || self.lattice_rows(&stored).residual_inside(true, b, x, r));
+        self.lattice_rows(&stored).residual_in_others(b, x, &far, r);
+        Ok(())
+    }
+
+    fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()> {
+        let (b, mut x, stored) = (b.values(), x.values_mut(), self.rows.borrow());
+        let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
+        let (rows, mut far) = (self.lattice_rows(&stored), Vec::new());
+        if from_zero {
+            x.fill([0.0; 2]);
+            rows.begin_to_relax(b, x);
+        } else {
+            far.resize(self.far.len(), [0.0; 2]);
+            self.halo.fetch_before(x, &mut far, |x| rows.begin_to_relax(b, x));
+        }
+        rows.end_to_relax(SweepHalves::Both, b, x, &far);
+        Ok(())
+    }
+
+    fn diagonal(&self, diagonal: &mut Vector) -> Result<()> {
+        let mut values = diagonal.values_mut();
+        let pairs = values.as_chunks_mut::<2>().0;
+        let rows = self.rows.borrow();
+        for (k, &node) in rows.nodes.iter().enumerate() {
+            let block = rows.diagonal(k);
+            pairs[node as usize] = [block[0][0], block[1][1]];
+        }
+        self.each_row(|node, couplings| pairs[node] = [couplings[0].1[0][0], couplings[0].1[1][1]]);
+        Ok(())
+    }
+
+    fn norm_infinity(&self) -> Result<f64> {
+        let stored = self.rows.borrow().norm_infinity();
+        let all = self.strips.couplings.iter().chain(self.even.couplings.iter().flatten());
+        Ok(all.map(Couplings::norm_infinity).fold(stored, f64::max))
+    }
+
+    fn work(&self) -> f64 {
+        8.0 * (self.rows.borrow().block_count() as f64 + self.in_strips)
+    }
+}

@@ -1,0 +1,197 @@
+//! The stiffness of the bodies on each level: rows that are stored, and strips that need not be.
+//!
+//! # Rows that are not stored
+//!
+//! Inside a straight macro triangle all small triangles are translations of one another and of its reflection, so the couplings
+//! of its nodes repeat: 7 blocks of 2 × 2 for P1, for P2 two alternating rows of 19 and 9 and of 9 and 9. The rows of such
+//! nodes are never assembled:
+//!
+//! ```text
+//! \
+//! | \          o   on a side: stored, with contact and supports
+//! o   o
+//! |     \      =   inside: the couplings of one node stand for all
+//! o  =    o
+//! |         \
+//! o  =  =    o
+//! |            \
+//! o--o--o--o--o--o
+//! ```
+//!
+//! An even macro triangle of 8 to 128 intervals (P2: 16 to 1024) is worked on as a whole (`triangle_lattice.rs`,
+//! `stiffness/even_triangles.rs`), several of them side by side: a vector register holds the same node of two, four or eight of
+//! them, as the processor and the precision allow. Their values, with those of their sides, come into a lattice, which up to
+//! some 128 intervals stays in the cache, and where neighbours lie at fixed distances, and the inner nodes go back when they
+//! are done. Nodes of different macro triangles do not wait for each other in a sweep, so registers are as full on a lattice of
+//! eight intervals as on one of 128, and each macro triangle may have couplings of its own. Residuals are restricted in that
+//! lattice, and never stored. Only the nodes of macro edges and vertices have stored rows: at 128 intervals 2 % of all.
+//!
+//! Finer macro triangles, and the affine pieces of graded ones, have *strips* (`mesh::Strip`): parts of lattice rows whose
+//! neighbours all lie inside; the ring of nodes next to the sides is stored there, too. Bent ones have none. Interpolation is
+//! treated alike: whole macro triangles from lattice to lattice (`interpolation/whole.rs`), of others a fine inner row from two
+//! coarse ones (`HalvedRow`), the other nodes one by one.
+//!
+//! Stored rows are mezha's own, too: blocks of 2 × 2 in compressed rows of the nodes that are neither in strips nor inside of
+//! whole macro triangles, so that nothing is kept for the others. A rank makes the whole rows of its own nodes: it goes through
+//! its macro triangles, and through those of other ranks that share a side or a corner with them, of which only the small
+//! triangles at the sides are integrated. So nothing is sent, and every sum is made by ascending macro triangles, whatever the
+//! ranks. A contact boundary that moves gets a copy in which the rows of Γ_C alone are widened; the strips are shared.
+//!
+//! A sweep over whole macro triangles relaxes a node of several of them at once. One over strips first does for several nodes
+//! of a strip at once, in a register, all that does not depend on the node before; what remains is a recurrence x_k = t_k + P
+//! x_(k-1), which is summed up by doubling steps, so that only registers wait for each other. The instructions (AVX-512, AVX2
+//! with multiply-add, or none) are asked for at run time by `pulp`, so that no code of ours is `unsafe`. The nodes on sides of
+//! macro triangles come first, those that need no node of another rank before the others: meanwhile the values of other ranks
+//! arrive. Then each macro triangle goes forward and backward while it is in the cache, as no macro triangle couples to
+//! another; then the sides again.
+//!
+//! The cycle (`multigrid/cycle`) works on these rows directly. It is PETSc's preconditioner of field `u` as a shell, so that the
+//! MatNest, fieldsplit and the Krylov method around it are PETSc's. Fieldsplit copies the parts of its vectors some ten times;
+//! where no option of the user's begins with `-pc_` or `-fieldsplit_`, its function is replaced by one that does the same
+//! without copies (`solver/block_triangle.rs`, `petsc::ReplacedAction`; it needs PETSc's `private/pcimpl.h`, which PETSc
+//! installs), while its kind, parts and set-up stay. Levels of up to 3000 unknowns are on one rank, larger ones on one of every
+//! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`level_ranks.rs`); the finest stays on all.
+//! From the first level on one rank downwards nothing is sent, and that rank solves the coarsest with a factor. Where the macro
+//! mesh is larger, a cycle of PETSc's multigrid on it and the auxiliary levels stands in the place of the factor
+//! (`cycle/coarsest.rs`). All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a
+//! sweep, are worked on. The product of the saddle point is a shell, too (`nest_product`): PETSc's nest finds the parts of its
+//! vectors by a sum over all ranks, four in each product. So an iteration of GMRES has two sums over all ranks for its inner
+//! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them.
+//!
+//! Any option of the user's that begins with `-fieldsplit_u_` brings PETSc's own multigrid back, on the same levels, as do
+//! stronger smoothers that a slow solve falls back on, and a mesh of one level (P1, `refine = 0`), below which all levels are
+//! auxiliary. Then PETSc sees a level as a shell (`petsc::Operator`): product, residual, one symmetric Gauss-Seidel sweep,
+//! diagonal, norm. Where options of the user's may want more, as another smoother, omega, or `-fieldsplit_u_pc_type hypre`, and
+//! on the coarsest level, it sees a matrix with all rows, made from the same storage and changed along with it. Where a
+//! factorisation wants one (the last fallback preconditioner, the inf-sup constant), it is made first. Contact changes stored
+//! rows alone: nodes of Γ_C lie on sides of macro triangles.
+//! After the stencils of hierarchical hybrid grids (Bergen, Hülsemann 2004).
+
+mod assembly;
+mod block_lanes;
+mod earlier_couplings;
+mod elastic;
+mod even_triangles;
+mod expanded;
+mod lanes;
+mod lattice_operator;
+mod lattice_rows;
+mod pattern;
+mod recurrence;
+mod registers;
+mod row_kernel;
+mod row_stencil;
+mod stored_rows;
+mod strip_kernel;
+mod strip_set;
+mod strips;
+mod sweep_order;
+mod triangle_kernel;
+
+pub use earlier_couplings::EarlierCouplings;
+pub use elastic::Elastic;
+pub use lattice_operator::LatticeOperator;
+pub use stored_rows::BlockPlace;
+pub use strip_kernel::SweepHalves;
+
+use crate::discretisation::SystemError;
+use crate::element::Block;
+use crate::petsc::{Matrix, Session};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// Nodes that contact couples to each node.
+pub type ContactNeighbours = BTreeMap<usize, BTreeSet<usize>>;
+
+/// Where some couplings of a stored row lie.
+#[derive(Clone, Copy)]
+pub struct RowPlaces<'a> {
+    /// The row.
+    pub stored: u32,
+    /// The place of its diagonal block, if that is to be inverted again.
+    pub diagonal: Option<BlockPlace>,
+    /// The places of the couplings.
+    pub blocks: &'a [BlockPlace],
+}
+
+/// What solvers of PETSc's see of a stiffness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SolverView {
+    /// What it does: a shell.
+    Action,
+    /// All its rows, in a matrix of PETSc's.
+    Entries,
+}
+
+/// `K`, or `K + Bᵀ D B`, of one level.
+pub struct Stiffness {
+    lattice: Rc<LatticeOperator>,
+    matrix: Matrix,
+    seen: SolverView,
+    /// Stored rows that have been added to since the matrix had its entries, each perhaps several times.
+    changed: Vec<u32>,
+}
+
+impl Stiffness {
+    /// From its rows. **Collective**
+    fn new(lattice: LatticeOperator, seen: SolverView, session: &Session) -> Result<Self, SystemError> {
+        let lattice = Rc::new(lattice);
+        let mut matrix = match seen {
+            SolverView::Action => Matrix::operator(session, 2 * lattice.own.len(), Box::new(lattice.clone()))?,
+            SolverView::Entries => lattice.expanded(session)?,
+        };
+        matrix.set_positive_definite(true)?;
+        Ok(Self { lattice, matrix, seen, changed: Vec::new() })
+    }
+
+    /// What solvers see.
+    pub fn operator(&self) -> &Matrix {
+        &self.matrix
+    }
+
+    /// Its rows.
+    pub fn lattice(&self) -> &Rc<LatticeOperator> {
+        &self.lattice
+    }
+
+    /// The matrix of all rows, if there is one.
+    pub fn into_stored(self) -> Option<Matrix> {
+        (self.seen == SolverView::Entries).then_some(self.matrix)
+    }
+
+    /// Whether some rows of this rank lie in strips or in even macro triangles.
+    pub fn has_strips(&self) -> bool {
+        !self.lattice.strips.nodes.is_empty() || !self.lattice.even.triangles.is_empty()
+    }
+
+    /// Adds blocks to the couplings of a node of contact, one of this rank's. Holds after [`Stiffness::assemble`].
+    pub fn add_to_row(&mut self, places: RowPlaces, blocks: &[Block]) {
+        self.lattice.add_to_row(places, blocks);
+        if self.seen == SolverView::Entries {
+            self.changed.push(places.stored);
+        }
+    }
+
+    /// Makes added blocks hold. **Collective**
+    pub fn assemble(&mut self) -> Result<(), SystemError> {
+        self.changed.sort_unstable();
+        self.changed.dedup();
+        self.lattice.renew(self.changed.drain(..), &mut self.matrix)?;
+        // Of a shell PETSc is told that values have changed. It forgets what else it knew.
+        self.matrix.assemble()?;
+        Ok(self.matrix.set_positive_definite(true)?)
+    }
+
+    /// A copy with places for the couplings of a contact boundary. **Collective**
+    fn with_places(&self, neighbours: &ContactNeighbours, session: &Session) -> Result<Self, SystemError> {
+        Self::new(self.lattice.with_places(neighbours, session)?, self.seen, session)
+    }
+
+    /// With all its rows in a matrix of PETSc's, as factorisations want it; `None` if that is what solvers see. **Collective**
+    pub fn expanded(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
+        match self.seen {
+            SolverView::Entries => Ok(None),
+            SolverView::Action => Ok(Some(self.lattice.expanded(session)?)),
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! The rows of a stiffness that are stored, as blocks of two by two.
+
+use super::strips::inverse;
+use crate::element::Block;
+use crate::petsc::Index;
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+use std::ops::Range;
+
+/// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
+/// their own. Rows with the same couplings share them: along an edge of the macro mesh, or inside along its sides, most are.
+#[derive(Clone, Default)]
+pub struct StoredRows {
+    /// The nodes, ascending, counted from this rank's first.
+    pub(crate) nodes: Vec<u32>,
+    /// Inverses of diagonal blocks.
+    pub(crate) inverses: Vec<[[f64; 2]; 2]>,
+    /// The inverse of each row.
+    pub(crate) inverse_of: Vec<u32>,
+    /// Columns of this rank.
+    pub(crate) near: Part,
+    /// Columns of other ranks.
+    pub(crate) far: Part,
+}
+
+/// One part of all rows: the columns of row `k` are `starts[k]..starts[k + 1]`, ascending, and its blocks are as many from
+/// `firsts[k]` on.
+#[derive(Clone)]
+pub struct Part {
+    pub(crate) starts: Vec<u32>,
+    pub(crate) columns: Vec<u32>,
+    pub(crate) firsts: Vec<u32>,
+    pub(crate) blocks: Vec<[[f64; 2]; 2]>,
+}
+
+/// A column of the stored rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BlockColumn {
+    /// A node of this rank, counted from its first.
+    Near(u32),
+    /// A place in the list of nodes of other ranks.
+    Far(u32),
+}
+
+/// Where a block lies: among those of columns of this rank, or behind these among those of other ranks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlockPlace(u32);
+
+impl BlockColumn {
+    /// The column of a node of any rank, `far` being the list, ascending.
+    ///
+    /// # Panics
+    /// If neither this rank nor the list has the node.
+    #[inline]
+    pub fn of(node: usize, own: &Range<usize>, far: &[usize]) -> Self {
+        match own.contains(&node) {
+            true => Self::Near((node - own.start) as u32),
+            false => Self::Far(far.binary_search(&node).expect("a known column") as u32),
+        }
+    }
+}
+
+impl Default for Part {
+    fn default() -> Self {
+        Self { starts: vec![0], columns: Vec::new(), firsts: Vec::new(), blocks: Vec::new() }
+    }
+}
+
+impl Part {
+    /// Places of the columns of row `k`.
+    #[inline]
+    pub fn row(&self, k: usize) -> Range<usize> {
+        self.starts[k] as usize..self.starts[k + 1] as usize
+    }
+
+    /// Couplings of row `k`.
+    pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &[[f64; 2]; 2])> {
+        let row = self.row(k);
+        let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
+        self.columns[row].iter().copied().zip(blocks)
+    }
+
+    /// The block of row `k` in a column.
+    ///
+    /// # Panics
+    /// If the row has no such column.
+    #[inline]
+    fn at(&self, k: usize, column: u32) -> usize {
+        let place = self.columns[self.row(k)].binary_search(&column).expect("the pattern of a stiffness stays");
+        self.firsts[k] as usize + place
+    }
+}
+
+impl Part {
+    /// Shares the blocks of rows that have the same ones, but for those that are to keep their own.
+    fn share(&mut self, keeps: &[bool]) {
+        let mut known: HashMap<u64, u32, Fingerprints> = HashMap::default();
+        let mut blocks: Vec<Block> = Vec::new();
+        for (k, keeps) in keeps.iter().enumerate() {
+            let row = &self.blocks[self.firsts[k] as usize..][..self.row(k).len()];
+            let next = blocks.len() as u32;
+            let first = if *keeps { next } else { *known.entry(fingerprint(row)).or_insert(next) };
+            // Two rows with one fingerprint are told apart.
+            let first = if blocks[first as usize..].starts_with(row) { first } else { next };
+            if first == next {
+                blocks.extend_from_slice(row);
+            }
+            self.firsts[k] = first;
+        }
+        blocks.shrink_to_fit();
+        self.blocks = blocks;
+    }
+}
+
+/// Fingerprints need no more hashing.
+type Fingerprints = BuildHasherDefault<FingerprintHasher>;
+
+/// A fingerprint as its own hash.
+#[derive(Default)]
+struct FingerprintHasher(u64);
+
+impl Hasher for FingerprintHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.0 = self.0 << 8 | u64::from(byte));
+    }
+
+    fn write_u64(&mut self, fingerprint: u64) {
+        self.0 = fingerprint;
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}
+
+/// A number that is the same for the same blocks.
+fn fingerprint(blocks: &[Block]) -> u64 {
+    let mix = |sum: u64, value: &f64| (sum.rotate_left(5) ^ value.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    // Zeros in different numbers are different: what is shared must not reach into the next row.
+    blocks.as_flattened().as_flattened().iter().fold(blocks.len() as u64, mix)
+}
+
+impl StoredRows {
+    /// The nodes whose rows these are.
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    /// Inverse of the diagonal block of row `k`.
+    #[inline(always)]
+    pub fn inverse(&self, k: usize) -> &[[f64; 2]; 2] {
+        &self.inverses[self.inverse_of[k] as usize]
+    }
+}
+
+impl StoredRows {
+    /// Shares what rows have in common, but for rows of these nodes (counted from this rank's first, ascending): contact adds
+    /// to them.
+    pub fn share(&mut self, contact: impl Iterator<Item = usize>) {
+        let mut keeps = vec![false; self.nodes.len()];
+        contact.filter_map(|node| self.place(node)).for_each(|k| keeps[k] = true);
+        self.near.share(&keeps);
+        self.far.share(&keeps);
+        let mut known: HashMap<u64, u32, Fingerprints> = HashMap::default();
+        let mut inverses: Vec<Block> = Vec::new();
+        for (k, keeps) in keeps.iter().enumerate() {
+            let own = self.inverses[self.inverse_of[k] as usize];
+            let next = inverses.len() as u32;
+            let place = if *keeps { next } else { *known.entry(fingerprint(&[own])).or_insert(next) };
+            // Two inverses with one fingerprint are told apart.
+            let place = if place < next && inverses[place as usize] != own { next } else { place };
+            if place == next {
+                inverses.push(own);
+            }
+            self.inverse_of[k] = place;
+        }
+        inverses.shrink_to_fit();
+        self.inverses = inverses;
+    }
+
+    /// The rows of single unknowns, if these are those of all nodes: columns and values.
+    pub fn scalar_rows(&self) -> Vec<(Vec<Index>, Vec<f64>)> {
+        let row = |k: usize, a: usize| {
+            let columns = self.near.couplings(k).flat_map(|(column, _)| [2 * column as Index, 2 * column as Index + 1]);
+            (columns.collect(), self.near.couplings(k).flat_map(|(_, block)| block[a]).collect())
+        };
+        (0..self.nodes.len()).flat_map(|k| [row(k, 0), row(k, 1)]).collect()
+    }
+
+    /// Adds a block to row `k`, which shares its blocks with none. Its inverse is that of before until [`StoredRows::invert`].
+    ///
+    /// # Panics
+    /// If the row has no such column.
+    #[inline]
+    pub fn add(&mut self, k: usize, column: BlockColumn, block: &Block) {
+        self.add_at(self.block_place(k, column), block);
+    }
+
+    /// The place of a block of row `k`; it holds for as long as no rows are shared.
+    ///
+    /// # Panics
+    /// If the row has no such column.
+    #[inline]
+    pub fn block_place(&self, k: usize, column: BlockColumn) -> BlockPlace {
+        match column {
+            BlockColumn::Near(column) => BlockPlace(self.near.at(k, column) as u32),
+            BlockColumn::Far(column) => BlockPlace((self.near.blocks.len() + self.far.at(k, column)) as u32),
+        }
+    }
+
+    /// As [`StoredRows::add`], where the place is known.
+    #[inline]
+    pub fn add_at(&mut self, BlockPlace(place): BlockPlace, block: &Block) {
+        let (place, near) = (place as usize, self.near.blocks.len());
+        let sum = if place < near { &mut self.near.blocks[place] } else { &mut self.far.blocks[place - near] };
+        for a in 0..2 {
+            for b in 0..2 {
+                sum[a][b] += block[a][b];
+            }
+        }
+    }
+
+    /// Whether row `k` has columns of other ranks.
+    pub fn needs_far(&self, k: usize) -> bool {
+        !self.far.row(k).is_empty()
+    }
+
+    /// The row of a node, if it is stored; the node is counted from this rank's first.
+    pub fn place(&self, node: usize) -> Option<usize> {
+        place(&self.nodes, node)
+    }
+
+    /// Inverts the diagonal block of row `k`, which lies at `diagonal`.
+    ///
+    /// # Panics
+    /// If it has no inverse: that of a stiffness has one.
+    #[inline]
+    pub fn invert(&mut self, k: usize, BlockPlace(diagonal): BlockPlace) {
+        let block = &self.near.blocks[diagonal as usize];
+        self.inverses[self.inverse_of[k] as usize] = inverse(block).expect("a stiffness has a diagonal");
+    }
+
+    /// Where the diagonal block of row `k` lies.
+    pub fn diagonal_place(&self, k: usize) -> BlockPlace {
+        BlockPlace(self.near.at(k, self.nodes[k]) as u32)
+    }
+
+    /// The diagonal block of row `k`.
+    pub fn diagonal(&self, k: usize) -> &Block {
+        &self.near.blocks[self.near.at(k, self.nodes[k])]
+    }
+
+    /// Largest sum of magnitudes in a row.
+    pub fn norm_infinity(&self) -> f64 {
+        let of_row = |k: usize, a: usize| -> f64 {
+            self.near.couplings(k).chain(self.far.couplings(k)).map(|(_, block)| block[a][0].abs() + block[a][1].abs()).sum()
+        };
+        (0..self.nodes.len()).map(|k| of_row(k, 0).max(of_row(k, 1))).fold(0.0, f64::max)
+    }
+
+    /// Blocks in all rows.
+    pub fn block_count(&self) -> usize {
+        self.near.columns.len() + self.far.columns.len()
+    }
+}
+
+/// Place of a node among ascending ones.
+#[inline]
+pub fn place(nodes: &[u32], node: usize) -> Option<usize> {
+    let is_it = |at: &usize| nodes.get(*at) == Some(&(node as u32));
+    // Where none is missing before it, its place is its number.
+    Some(node).filter(is_it).or_else(|| nodes.binary_search(&(node as u32)).ok())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_zeros_share_nothing_with_rows_that_keep_their_own() {
+        let zero = [[0.0; 2]; 2];
+        // No coupling, two that contact will add to, and one.
+        let mut part = Part { starts: vec![0, 0, 2, 3], columns: vec![0, 1, 0], firsts: vec![0, 0, 2], blocks: vec![zero; 3] };
+        part.share(&[false, true, false]);
+        let [_, kept, other] = [0, 1, 2].map(|k| part.firsts[k] as usize);
+        assert!(other >= kept + 2 || other < kept, "the row from {other} on lies in the one from {kept} on");
+        assert_eq!(part.blocks.len(), 3);
+    }
+}

@@ -1,0 +1,213 @@
+//! The loop over meshes that are adapted to an accuracy: solved, judged, refined where the error is, until all goals are
+//! reached.
+
+use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
+use crate::discretisation::{Scene, SystemError};
+use crate::mesh::Cells;
+use crate::petsc::StageGuard;
+use crate::procedure::estimates::Estimate;
+use crate::procedure::estimates::{Duals, weighted};
+use crate::procedure::observer::{Event, Observer, Work};
+use crate::procedure::one_mesh::OneMesh;
+use crate::procedure::predecessor::Predecessor;
+use crate::procedure::sequence::MeshSequence;
+use crate::procedure::sequence::{Indicators, LocalIndicator};
+use crate::procedure::settings::Procedure;
+use crate::procedure::solved::Solved;
+use std::cell::Cell;
+
+/// Meshes at most.
+const MOST_MESHES: usize = 40;
+
+/// Meshes within which the error of a goal must fall to this share, or it will not.
+const STUCK: usize = 4;
+const FALLS: f64 = 0.8;
+
+/// Meshes in a row on which a largest λ is unknown, before it is asked whether it grows without bound.
+const UNBOUNDED: usize = 4;
+
+/// How much larger a mesh must be after so many, at least, if that is to be said.
+const LARGER: f64 = 4.0;
+
+/// Tells what is known before the first mesh is solved; of the rest of a sequence it keeps the times alone.
+struct BeforeTheFirst<'a> {
+    observer: &'a dyn Observer,
+    is_first: Cell<bool>,
+}
+
+impl Observer for BeforeTheFirst<'_> {
+    fn observe(&self, event: Event) {
+        if matches!(event, Event::AtRest { .. }) && self.is_first.replace(false) {
+            self.observer.observe(event);
+        }
+    }
+
+    fn enter(&self, work: Work) -> Option<StageGuard<'_>> {
+        self.observer.enter(work)
+    }
+}
+
+impl Procedure<'_> {
+    /// Solves a scene on one mesh after the other, until the accuracy is reached or a limit is. **Collective**
+    pub(super) fn adapt(&self, scene: Scene, accuracy: &Accuracy) -> Result<Solved, SystemError> {
+        let observer = BeforeTheFirst { observer: self.observer, is_first: Cell::new(true) };
+        let inf_sup = Some(self.inf_sup == Some(true));
+        let one = Procedure { observer: &observer, inf_sup, ..*self };
+        let mut sequence = MeshSequence::new(scene, accuracy);
+        sequence.check_first()?;
+        self.halve_by_forces(&mut sequence, accuracy)?;
+        sequence.scene = sequence.scene.on(sequence.mesh.mesh.clone(), self.session)?;
+        loop {
+            match one.solve_next(&sequence) {
+                Err(error @ SystemError::Case(_)) => {
+                    let late = self.session.any(sequence.is_late());
+                    if late || !sequence.goes_on_after(error) {
+                        return sequence.given_up();
+                    }
+                }
+                outcome => {
+                    let solved = outcome?;
+                    self.judge(&mut sequence, &solved)?;
+                    let end = self.end(&sequence, &solved);
+                    let missed = if end.is_none() { self.indicators(&sequence, &solved)? } else { Vec::new() };
+                    if let Some(ended) = sequence.go_on(solved, end, &missed) {
+                        return Ok(ended);
+                    }
+                }
+            }
+            sequence.scene = sequence.scene.on(sequence.mesh.mesh.clone(), self.session)?;
+        }
+    }
+
+    /// The scene as it is solved first where its mesh is adapted to an accuracy.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if that has more unknowns than are allowed.
+    pub fn first_of_sequence(scene: Scene, accuracy: &Accuracy) -> Result<Scene, SystemError> {
+        let sequence = MeshSequence::new(scene, accuracy);
+        sequence.check_first()?;
+        Ok(sequence.scene)
+    }
+
+    /// Solves the next mesh of a sequence. **Collective**
+    fn solve_next(&self, sequence: &MeshSequence) -> Result<Solved, SystemError> {
+        let predecessor = sequence.last().map(|(last, origins)| Predecessor::new(last, origins, self.session)).transpose()?;
+        self.solve_on_mesh(sequence.scene.clone(), predecessor.as_ref())
+    }
+
+    /// Estimates the errors on a mesh. **Collective**
+    fn judge(&self, sequence: &mut MeshSequence, solved: &Solved) -> Result<(), SystemError> {
+        let goals = &sequence.adaptation.accuracy.goals;
+        let errors = if solved.ending.is_converged() { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
+        let adapted = AdaptedMesh {
+            number: sequence.adaptation.meshes.len() + 1,
+            macro_triangles: sequence.scene.mesh.triangles.len(),
+            refine: sequence.scene.refine,
+            unknowns: solved.problem.unknown_count(),
+            cycles: solved.cycles(),
+            errors,
+            true_errors: Vec::new(),
+            seconds: sequence.started.elapsed().as_secs_f64(),
+        };
+        self.observer.observe(Event::Adapted { accuracy: &sequence.adaptation.accuracy, mesh: &adapted, solved });
+        sequence.adaptation.meshes.push(adapted);
+        Ok(())
+    }
+
+    /// Why there is no further mesh, if so: the accuracy is reached, or will not be. The same on every rank. **Collective**
+    fn end(&self, MeshSequence { adaptation, .. }: &MeshSequence, solved: &Solved) -> Option<SequenceEnd> {
+        let meshes = &adaptation.meshes;
+        let late = adaptation.accuracy.most_seconds.zip(meshes.last()).is_some_and(|(most, last)| last.seconds > most);
+        // Clocks differ from rank to rank.
+        let late = self.session.any(late);
+        let all = [
+            (!solved.is_solved(), SequenceEnd::Unsolved),
+            (adaptation.is_reached(), SequenceEnd::Reached),
+            (late, SequenceEnd::Seconds),
+            (self.is_unbounded(adaptation, solved), SequenceEnd::Unbounded),
+            (is_stuck(adaptation), SequenceEnd::Stuck),
+            (meshes.len() == MOST_MESHES, SequenceEnd::Meshes),
+        ];
+        all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end)
+    }
+
+    /// Whether the largest λ of a contact is asked for, was unknown on some meshes in a row, and grows without bound on the last.
+    fn is_unbounded(&self, adaptation: &Adaptation, solved: &Solved) -> bool {
+        let Some(then) = adaptation.meshes.len().checked_sub(UNBOUNDED) else { return false };
+        let never = |place: usize| adaptation.meshes[then..].iter().all(|mesh| mesh.errors[place].is_none());
+        let grows = |goal: &Goal| matches!(&goal.quantity, Quantity::Peak(name) if self.has_unbounded_peak(solved, name));
+        adaptation.missed().any(|(place, goal)| never(place) && grows(goal))
+    }
+
+    /// Where the errors of the goals that are missed lie. **Collective**
+    fn indicators(&self, sequence: &MeshSequence, solved: &Solved) -> Result<Vec<Indicators>, SystemError> {
+        // A rank may have no macro triangle: all of them know whether there is a difference.
+        let Estimate { local: left, falls, energy_falls, difference, foreseen, .. } = &solved.estimate;
+        let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
+        let errors = adaptation.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
+        let mut all = Vec::new();
+        let mut duals = self.duals(adaptation, solved)?.into_iter();
+        for (place, goal) in adaptation.missed() {
+            let own = match duals.next().flatten() {
+                Some(dual) if difference.is_some() => weighted(&solved.problem, left, &dual, self.session)?,
+                _ => left.clone(),
+            };
+            let error = errors.get(place).copied().flatten();
+            let (falls, error) = match goal.quantity {
+                Quantity::Energy => (energy_falls, foreseen.or(error)),
+                _ => (falls, error),
+            };
+            let mut local = self.gathered(scene, &own, falls);
+            if local.iter().all(|indicator| indicator.cells.sum() == 0.0) {
+                local = self.gathered(scene, left, falls);
+            }
+            let error = error.map(|error| error / goal.tolerance);
+            let pace = sequence.foreseen[place].zip(error).map_or(1.0, |(foreseen, error)| foreseen.pace(error));
+            all.push(Indicators { local, error, pace, is_norm: goal.quantity.is_norm() });
+        }
+        Ok(all)
+    }
+
+    /// The dual displacement of each goal that is missed, where the solution has one. **Collective**
+    fn duals(&self, adaptation: &Adaptation, solved: &Solved) -> Result<Vec<Option<Vec<f64>>>, SystemError> {
+        let Solved { problem, solution, preconditioning, is_hard, before, .. } = solved;
+        if !solved.ending.is_converged() || adaptation.missed().all(|(_, goal)| goal.quantity == Quantity::Energy) {
+            return Ok(Vec::new());
+        }
+        let mesh = OneMesh { procedure: self, tolerance: self.tolerance, is_last: false, is_hard: *is_hard };
+        let mut system = mesh.system_again(problem, &solution.active, *preconditioning)?;
+        let _stage = self.observer.enter(Work::Solve);
+        let duals = Duals { solution, coarse: before.as_ref() };
+        adaptation.missed().map(|(_, goal)| duals.solve(&mut system, goal)).collect()
+    }
+
+    /// Indicators of all macro triangles, from those of each rank. **Collective**
+    fn gathered(&self, scene: &Scene, own: &[Cells], falls: &[f64]) -> Vec<LocalIndicator> {
+        const COUNT: usize = 1 + Cells::COUNT;
+        let mut all = vec![[0.0; COUNT]; scene.mesh.triangles.len()];
+        for ((&triangle, cells), fall) in scene.partition.triangles_of(self.session.rank()).iter().zip(own).zip(falls) {
+            all[triangle as usize][0] = *fall;
+            all[triangle as usize][1..].copy_from_slice(cells.values());
+        }
+        self.session.sum(all.as_flattened_mut());
+        all.iter().map(|values| LocalIndicator { fall: values[0], cells: Cells::new(|k| values[1 + k]) }).collect()
+    }
+}
+
+/// Whether the estimate of a goal that is missed has not fallen for some meshes.
+fn is_stuck(adaptation: &Adaptation) -> bool {
+    let meshes = &adaptation.meshes;
+    let Some(then) = meshes.len().checked_sub(STUCK + 1) else { return false };
+    let last = &meshes[meshes.len() - 1];
+    // The best of the meshes before, and the best of the last few.
+    // An estimate that was small enough then was so by luck.
+    let best = |meshes: &[AdaptedMesh], place: usize| {
+        let tolerance = adaptation.accuracy.goals[place].tolerance;
+        meshes.iter().filter_map(|mesh| mesh.errors[place]).filter(|error| *error > tolerance).fold(f64::INFINITY, f64::min)
+    };
+    let stuck = |place: usize| {
+        let last = best(&meshes[then + 1..], place);
+        last.is_infinite() || last > FALLS * best(&meshes[..=then], place)
+    };
+    last.unknowns as f64 > LARGER * meshes[then].unknowns as f64 && adaptation.missed().any(|(place, _)| stuck(place))
+}

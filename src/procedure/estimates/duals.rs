@@ -1,0 +1,234 @@
+//! What the goals of an accuracy are sensitive to: the dual problem of each, on the set and the boundaries of the solution.
+//!
+//! The error of a linear functional J is `a(u - u_h, z - z_h)`, where z solves the same system with J as its right-hand side
+//! (Becker, Rannacher, Acta Numerica 10, 2001; with contact on a frozen set: Blum, Suttmeier, Computing 65, 2000). So a macro
+//! triangle counts by the product of what is left there of u and of z. The stress at a point is no functional of
+//! displacements with finite energy; its mean over the triangle of the lattice that holds the point is.
+
+use crate::accuracy::{Goal, ProbePoint, Quantity};
+use crate::contact::Zone;
+use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, Space, SystemError};
+use crate::geometry::{Point, gauss_points};
+use crate::mesh::{Cells, lattice};
+use crate::petsc::Session;
+use crate::procedure::coarse_solution::{CoarseSolution, coarse_values};
+use crate::recovery::{cell_energies, holding, shapes_at, stress_forces};
+use crate::system::System;
+
+/// Relative residual of dual solutions: they weigh errors, and are no results.
+const ROUGH: f64 = 1e-3;
+
+/// Segments on either side of the one with the largest pressure that tell of it.
+const AT_THE_PEAK: usize = 1;
+
+/// Segments at an end of a zone that tell where it ends.
+const AT_AN_END: usize = 2;
+
+/// The dual problems of a solution.
+pub(crate) struct Duals<'d> {
+    /// What the goals are of.
+    pub solution: &'d Solution,
+    /// The solution on the mesh before, if there is any.
+    pub coarse: Option<&'d CoarseSolution>,
+}
+
+/// The right-hand side of a dual problem: this rank's nodal forces, and gaps of all multipliers.
+struct Functional {
+    load: Vec<f64>,
+    gap: Vec<f64>,
+}
+
+impl Duals<'_> {
+    /// The dual displacement of a goal, by a system with the set of the solution; none for the energy norm, where the error weighs
+    /// itself. **Collective**
+    pub fn solve(&self, system: &mut System, goal: &Goal) -> Result<Option<Vec<f64>>, SystemError> {
+        let functional = self.functional(&goal.quantity, system, self.solution)?;
+        functional.map(|Functional { load, gap }| system.response(&load, &gap, ROUGH)).transpose()
+    }
+
+    /// The right-hand side of the dual problem of a quantity. **Collective**
+    fn functional(&self, quantity: &Quantity, system: &System, solution: &Solution) -> Result<Option<Functional>, SystemError> {
+        let problem = system.problem();
+        let nothing = vec![0.0; problem.finest().local_unknowns()];
+        let of_pressure = |name: &str, weights: &dyn Fn(usize, &ContactPressure) -> Vec<f64>| {
+            let at = problem.contacts.iter().position(|contact| contact.pair.name == name)?;
+            let contact = &problem.contacts[at];
+            let mut gap = vec![0.0; problem.multiplier_count()];
+            gap[contact.range()].copy_from_slice(&weights(at, &solution.pressure(contact)));
+            Some(Functional { load: nothing.clone(), gap })
+        };
+        Ok(match quantity {
+            Quantity::Energy => None,
+            Quantity::Force(name) => of_pressure(name, &|_, pressure| force_weights(pressure)),
+            Quantity::Pressure(name) => of_pressure(name, &|at, pressure| self.pressure_weights(at, pressure)),
+            Quantity::Peak(name) => of_pressure(name, &|_, pressure| peak_weights(pressure)),
+            Quantity::Ends(name) => of_pressure(name, &|_, pressure| end_weights(pressure)),
+            Quantity::Displacement(point) => Some(Functional {
+                load: point_force(problem, point, solution, system)?,
+                gap: vec![0.0; problem.multiplier_count()],
+            }),
+            Quantity::Stress(point) => Some(Functional {
+                load: self.stress_load(problem, point, solution, system)?,
+                gap: vec![0.0; problem.multiplier_count()],
+            }),
+        })
+    }
+
+    /// `∫ψ_i e ds` over the middle of each zone, where e is how λ differs from that on the mesh before: its product with an
+    /// error of λ is largest where λ is worst.
+    fn pressure_weights(&self, at: usize, pressure: &ContactPressure) -> Vec<f64> {
+        let Some(coarse) = self.coarse else { return force_weights(pressure) };
+        let contact = pressure.contact;
+        let (knots, arcs) = (contact.boundary.knots(), contact.boundary.arcs());
+        let zones = pressure.zones();
+        let mut weights = vec![0.0; pressure.values.len()];
+        for k in 0..contact.boundary.segments() {
+            for (z, weight) in gauss_points(3) {
+                let arc = arcs[k] + z * (arcs[k + 1] - arcs[k]);
+                if !zones.iter().any(|zone| zone.has_in_its_middle(arc)) {
+                    continue;
+                }
+                let x = contact.boundary.point(knots[k] + z * (knots[k + 1] - knots[k]));
+                let error = pressure.value(k, *z) - coarse.pressure(at).at_foot(x);
+                let (rows, shapes) = contact.multipliers.on_segment(k, *z);
+                for (row, shape) in rows.into_iter().zip(shapes) {
+                    weights[row] += weight * (arcs[k + 1] - arcs[k]) * error * shape;
+                }
+            }
+        }
+        weights
+    }
+
+    /// The nodal forces of the mean stress over the triangles that hold a point, in the direction in which it changed from the
+    /// mesh before: this rank's part. **Collective**
+    fn stress_load(
+        &self,
+        problem: &Discretisation,
+        point: &ProbePoint,
+        solution: &Solution,
+        system: &System,
+    ) -> Result<Vec<f64>, SystemError> {
+        let (space, session) = (problem.finest(), system.session());
+        let mut change = solution.displacement.clone();
+        if let Some(coarse) = self.coarse {
+            let before = coarse.displacement(&problem.scene, space, session.rank());
+            change.iter_mut().zip(before).for_each(|(now, before)| *now -= before);
+        }
+        let change = Field::displacement(problem, &change, session)?;
+        let Some(region) = problem.scene.mesh.region(&point.body) else {
+            return Ok(vec![0.0; space.local_unknowns()]);
+        };
+        let forces = stress_forces(problem, &change, region, point.point, session)?;
+        Ok(free_forces(space, &forces))
+    }
+}
+
+/// `∫ψ_i ds`: the force.
+fn force_weights(pressure: &ContactPressure) -> Vec<f64> {
+    (0..pressure.values.len()).map(|i| pressure.contact.multipliers.integral(i)).collect()
+}
+
+/// The force on the segments beside the largest pressure.
+fn peak_weights(pressure: &ContactPressure) -> Vec<f64> {
+    let multipliers = &pressure.contact.multipliers;
+    let highest = |k: usize| pressure.value(k, 0.0).max(pressure.value(k, 1.0));
+    let segments = pressure.contact.boundary.segments();
+    let top = (0..segments).max_by(|a, b| highest(*a).total_cmp(&highest(*b))).unwrap_or(0);
+    let mut weights = vec![0.0; pressure.values.len()];
+    let near = match pressure.contact.boundary.is_closed() && segments > 2 * AT_THE_PEAK {
+        true => top + segments - AT_THE_PEAK..top + segments + 1 + AT_THE_PEAK,
+        false => top.saturating_sub(AT_THE_PEAK)..(top + 1 + AT_THE_PEAK).min(segments),
+    };
+    for k in near {
+        multipliers.on_segment(k, 0.5).0.into_iter().for_each(|row| weights[row] = multipliers.integral(row));
+    }
+    weights
+}
+
+/// The force near both ends of each zone, but for those where a body ends.
+fn end_weights(pressure: &ContactPressure) -> Vec<f64> {
+    let contact = pressure.contact;
+    let (multipliers, knots) = (&contact.multipliers, contact.boundary.knots());
+    let whole = [knots[0] <= contact.limits[0], knots[knots.len() - 1] >= contact.limits[1]];
+    let mut weights = vec![0.0; pressure.values.len()];
+    let beside = |zone: &Zone, k: usize| {
+        let [first, last] = [k - zone.segments.start, zone.segments.end - 1 - k].map(|away| away < AT_AN_END);
+        (first && !(zone.is_at_end[0] && whole[0])) || (last && !(zone.is_at_end[1] && whole[1]))
+    };
+    for zone in pressure.zones().into_iter().filter(|zone| !zone.goes_round()) {
+        for k in zone.segments.clone().filter(|&k| beside(&zone, k)) {
+            multipliers.on_segment(k, 0.5).0.into_iter().for_each(|row| weights[row] = multipliers.integral(row));
+        }
+    }
+    weights
+}
+
+/// A force of one at a point, in the direction that it moves in: this rank's part. **Collective**
+fn point_force(
+    problem: &Discretisation,
+    point: &ProbePoint,
+    solution: &Solution,
+    system: &System,
+) -> Result<Vec<f64>, SystemError> {
+    let (space, session) = (problem.finest(), system.session());
+    let u = Field::displacement(problem, &solution.displacement, session)?;
+    let mut force = Field::<2>::zeros(problem, session);
+    let region = problem.scene.mesh.region(&point.body);
+    for (triangle, at) in region.map_or_else(Vec::new, |region| holding(problem, region, point.point, session)) {
+        let shapes = shapes_at(problem, triangle, at);
+        let moved: Point = shapes.iter().fold(Point::zeros(), |sum, (node, value)| sum + *value * u.point(*node));
+        let direction = moved.try_normalize(0.0).unwrap_or(Point::y());
+        for (node, value) in shapes {
+            let sum = force.at_mut(node);
+            sum[0] += value * direction.x;
+            sum[1] += value * direction.y;
+        }
+    }
+    Ok(free_forces(space, &force.sum(session)?))
+}
+
+/// This rank's nodal forces in the nodes' frames, without what supports take.
+fn free_forces(space: &Space, forces: &Field<2>) -> Vec<f64> {
+    let free = |(at, [x, y]): (usize, &[f64; 2])| {
+        let v = space.free_part(space.own.start + at, Point::new(*x, *y));
+        [v.x, v.y]
+    };
+    forces.own().iter().enumerate().flat_map(free).collect()
+}
+
+/// What each cell of this rank's macro triangles counts for a goal: the product of what is left there of the solution and of the
+/// dual one. `left` are squares in the energy norm. **Collective**
+pub(crate) fn weighted(
+    problem: &Discretisation,
+    left: &[Cells],
+    dual: &[f64],
+    session: &Session,
+) -> Result<Vec<Cells>, SystemError> {
+    let dual = cell_energies(problem, &surplus(problem, dual, session)?, session)?;
+    // Rounding may leave a rigid motion a little less than nothing.
+    Ok(left.iter().zip(dual).map(|(u, z)| u.combined(&z, |u, z| (u * z).max(0.0).sqrt())).collect())
+}
+
+/// What the finest level adds to a displacement: its difference from its interpolant on the next coarser one. **Collective**
+fn surplus(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Result<Field<2>, SystemError> {
+    let whole = Field::displacement(problem, unknowns, session)?;
+    let (mesh, space) = (&problem.scene.mesh, problem.finest());
+    let level = space.numbering.level;
+    let mut left = vec![0.0; unknowns.len()];
+    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
+        let numbers = space.numbering.triangle(mesh, triangle as usize);
+        for (i, j) in lattice::nodes(level.intervals) {
+            let node = numbers.node(i, j);
+            if !space.own.contains(&node) {
+                continue;
+            }
+            let mut u = whole.point(node);
+            for ((k, l), weight) in coarse_values(mesh, triangle as usize, level, (i, j)) {
+                u -= weight * whole.point(numbers.node(2 * k, 2 * l));
+            }
+            let (at, u) = (2 * (node - space.own.start), space.to_frame(node, u));
+            (left[at], left[at + 1]) = (u.x, u.y);
+        }
+    }
+    Field::displacement(problem, &left, session)
+}

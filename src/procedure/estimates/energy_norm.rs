@@ -1,0 +1,76 @@
+//! Solutions compared in the energy norm: how far they are from each other, and what that tells of the error on the next adapted mesh.
+
+use crate::discretisation::local_strain_energy;
+use crate::discretisation::{Discretisation, Field, Solution, SystemError};
+use crate::petsc::Session;
+
+/// Squares of the share of a difference that may be left, at least and at most: q/(1 - q), where squares fall by the q of a smooth
+/// solution of P2, 1/16, and by 3/4.
+const SHARES_LEFT: [f64; 2] = [1.0 / 15.0, 3.0];
+
+/// Share of the square of the difference on the mesh before that must have gone, for what went with it to tell of the rest: one
+/// that is halved once loses 1 - √½ where a refinement halves it, as at a sharp corner, one that is not refined only what its neighbours change.
+const LEAST_GONE: f64 = 0.3;
+
+/// Share of the energy that must be left without the triangles at forces on points, for the rest to tell anything.
+const LEAST_LEFT: f64 = 0.05;
+
+/// Square of the share of a difference that is left on a macro triangle, from one adapted mesh to the next. By Galerkin's orthogonality
+/// the error e of the mesh before has the square `|u - u_before|² + e_now²`; with e = s D on both meshes, `s² = |u - u_before|²/(D_before² - D²)`.
+pub(crate) fn share_left(apart: f64, before: f64, now: f64) -> Option<f64> {
+    let is_enough = before - now > LEAST_GONE * before;
+    is_enough.then(|| (apart / (before - now)).clamp(SHARES_LEFT[0], SHARES_LEFT[1]))
+}
+
+/// A part of a whole; none where both are nothing, as on a contact that stays open.
+pub(crate) fn share(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part / whole }
+}
+
+/// Strain energies of macro triangles of this rank. Forces at points make one without limit, which says nothing of what is farther away:
+/// it is left out.
+pub(crate) fn without_points(problem: &Discretisation, parts: Vec<f64>, session: &Session) -> Vec<f64> {
+    let left_out = problem.scene.has_point_load(session.rank());
+    parts.into_iter().zip(left_out).map(|(part, is_out)| if is_out { 0.0 } else { part }).collect()
+}
+
+/// Strain energy without that at forces on points; not a number if too little is left to tell anything. **Collective**
+pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<f64, SystemError> {
+    let parts = local_strain_energy(problem, u, session)?;
+    let mut sums = [parts.iter().sum::<f64>(), 0.0];
+    sums[1] = without_points(problem, parts, session).iter().sum();
+    session.sum(&mut sums);
+    Ok(if sums[1] > LEAST_LEFT * sums[0] || sums[0] == 0.0 { sums[1] } else { f64::NAN })
+}
+
+/// Square of the difference of a solution from another displacement in the relative energy norm, on each macro triangle of this rank, in
+/// the rank's order. **Collective**
+pub(crate) fn energy_apart(
+    problem: &Discretisation,
+    solution: &Solution,
+    mut other: Vec<f64>,
+    session: &Session,
+) -> Result<Vec<f64>, SystemError> {
+    other.iter_mut().zip(&solution.displacement).for_each(|(other, now)| *other = now - *other);
+    let [u, apart] = [&solution.displacement, &other].map(|values| Field::displacement(problem, values, session));
+    let whole = whole_energy(problem, &u?, session)?;
+    let parts = without_points(problem, local_strain_energy(problem, &apart?, session)?, session);
+    Ok(parts.into_iter().map(|part| share(part, whole)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of the errors 3 and 1 on two adapted meshes the differences from a coarser solution were twice as large, or two thirds of them.
+    #[test]
+    fn what_is_left_of_one_difference_is_what_was_left_on_the_mesh_before() {
+        for share in [0.5f64, 1.5] {
+            let [before, now] = [3.0, 1.0].map(|error: f64| (error / share).powi(2));
+            let found = share_left(9.0 - 1.0, before, now).expect("much has gone");
+            assert!((found - share * share).abs() < 1e-12, "{share}: {found}");
+        }
+        assert_eq!(share_left(1.0, 1.0, 0.9), None, "next to nothing has gone");
+        assert_eq!(share_left(100.0, 1.0, 0.0), Some(SHARES_LEFT[1]));
+    }
+}

@@ -1,0 +1,163 @@
+//! Estimated errors of the goals of an accuracy.
+
+use crate::accuracy::{Goal, ProbePoint, Quantity};
+use crate::contact::Zone;
+use crate::discretisation::{Contact, Discretisation, Field, SystemError, needed_contacts};
+use crate::procedure::estimates::AtEnds;
+use crate::procedure::settings::Procedure;
+use crate::procedure::solved::Solved;
+use crate::recovery::trace_points;
+
+/// Error of λ above which it is not known where it presses.
+const MOST_UNKNOWN: f64 = 0.08;
+
+/// Share of the largest force up to which it is asked whether a contact carries less than is asked for.
+const SMALL: f64 = 0.5;
+
+/// Force by E_c and a depth d that a contact on a short length is worth at most: by Hertz π E_c d / (4 ln(4 R/b) - 2), and R > 5 b.
+const WORTH: f64 = 0.32;
+
+/// Differences in the energy norm that say that the solution was there before.
+const ROUNDING: f64 = 1e-6;
+
+impl Procedure<'_> {
+    /// The estimated relative error of each goal; nothing where there is not enough to tell. **Collective**
+    pub(super) fn goal_errors(&self, goals: &[Goal], solved: &Solved) -> Result<Vec<Option<f64>>, SystemError> {
+        goals.iter().map(|goal| self.goal_error(goal, solved)).collect()
+    }
+
+    /// Of one goal. **Collective**
+    fn goal_error(&self, Goal { quantity, tolerance }: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
+        let Solved { problem, estimate, .. } = solved;
+        if let Some(at) = quantity.contact().and_then(|name| contact_called(problem, name)) {
+            // What carries less than is asked for of the largest force needs no zone to be resolved.
+            let share = self.share_of_largest(solved, at, *tolerance)?;
+            if share < *tolerance {
+                return Ok(Some(share));
+            }
+            if !self.presses_or_is_clear(solved, at)? {
+                return Ok(None);
+            }
+        }
+        Ok(match quantity {
+            // Where everything is found on the mesh before, rounding is all that the differences tell.
+            Quantity::Energy => estimate.energy.or_else(|| rounded(solved)),
+            Quantity::Force(name) => contact_called(problem, name).and_then(|at| estimate.force.get(at).copied().flatten()),
+            Quantity::Pressure(name) => match contact_called(problem, name) {
+                Some(at) => self.pressure_error(solved, at)?,
+                None => None,
+            },
+            Quantity::Peak(name) => match contact_called(problem, name) {
+                Some(at) if !has_unbounded_peak(solved, at) => estimate.peak.get(at).copied().flatten(),
+                _ => None,
+            },
+            Quantity::Ends(name) => match contact_called(problem, name) {
+                Some(at) if self.presses_throughout(solved, at)? => estimate.ends.get(at).copied().flatten(),
+                _ => None,
+            },
+            Quantity::Displacement(probe) => self.probe_errors(solved, probe)[0],
+            Quantity::Stress(probe) => self.probe_errors(solved, probe)[1],
+        })
+    }
+
+    /// Force of a contact, and what the overlap of its bodies between segments may be worth, by the largest force of all contacts. A
+    /// body that could move if the contact were open goes out of its way: there an overlap is worth nothing. **Collective**
+    fn share_of_largest(&self, solved: &Solved, at: usize, tolerance: f64) -> Result<f64, SystemError> {
+        let Solved { problem, solution, .. } = solved;
+        let force = |contact: &Contact| solution.pressure(contact).force().abs();
+        let largest = problem.contacts.iter().map(force).fold(0.0, f64::max);
+        let own = force(&problem.contacts[at]);
+        if problem.contacts.len() == 1 || largest == 0.0 || own > SMALL * largest {
+            return Ok(1.0);
+        }
+        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let contact = &problem.contacts[at];
+        let points = trace_points(problem, &solution.pressure(contact), &u, self.session)?;
+        let complete = points.iter().filter(|point| point.is_complete());
+        let depth = complete.map(|point| -point.gap).fold(0.0, f64::max);
+        let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
+        let worth = WORTH * modulus * depth;
+        let is_needed = || needed_contacts(problem, &solution.active, self.session)[at];
+        Ok(if own + worth > tolerance * largest && is_needed() { own } else { own + worth } / largest)
+    }
+
+    /// Errors of displacement and stress at a point.
+    fn probe_errors(&self, solved: &Solved, probe: &ProbePoint) -> [Option<f64>; 2] {
+        let at = self.probes().iter().position(|other| other == probe);
+        at.and_then(|at| solved.estimate.probes.get(at).copied()).unwrap_or([None; 2])
+    }
+
+    /// Error of λ on the worst zone of a contact. **Collective**
+    fn pressure_error(&self, solved: &Solved, at: usize) -> Result<Option<f64>, SystemError> {
+        let Solved { problem, solution, estimate, .. } = solved;
+        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let pressure = solution.pressure(&problem.contacts[at]);
+        let points = trace_points(problem, &pressure, &u, self.session)?;
+        let zones = pressure.zones();
+        let all = estimate.of_zones(at, &pressure, &zones, &points);
+        let counting = all.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
+        let errors: Option<Vec<f64>> = counting.map(|((zone, _), _)| zone.pressure).collect();
+        if zones.is_empty() {
+            // Where nothing presses, the force is all that there is to know of λ.
+            return Ok(estimate.force.get(at).copied().flatten());
+        }
+        Ok(errors.and_then(|errors| errors.into_iter().reduce(f64::max)))
+    }
+
+    /// Whether something presses on a contact, or nothing does for sure: nothing moves, or its bodies are farther apart than that
+    /// distance changes from one point to the next, so that they do not meet in between. **Collective**
+    fn presses_or_is_clear(&self, solved: &Solved, at: usize) -> Result<bool, SystemError> {
+        let Solved { problem, solution, estimate, .. } = solved;
+        let pressure = solution.pressure(&problem.contacts[at]);
+        if !pressure.zones().is_empty() || estimate.difference == Some(0.0) {
+            return Ok(true);
+        }
+        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let points = trace_points(problem, &pressure, &u, self.session)?;
+        let gaps: Vec<f64> = points.iter().filter(|point| point.is_complete()).map(|point| point.gap).collect();
+        let change = gaps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+        Ok(gaps.iter().all(|gap| *gap > change))
+    }
+
+    /// Whether λ of a contact is known well enough that its zones cannot be open in their middle: its error is smaller than the
+    /// smallest value there is, or nothing presses. **Collective**
+    fn presses_throughout(&self, solved: &Solved, at: usize) -> Result<bool, SystemError> {
+        let pressure = solved.solution.pressure(&solved.problem.contacts[at]);
+        let boundary = &pressure.contact.boundary;
+        let smallest = |zone: &Zone| {
+            let middle =
+                zone.segments.clone().filter(|&k| zone.has_in_its_middle(0.5 * boundary.segment_arcs(k).iter().sum::<f64>()));
+            let least = middle.map(|k| pressure.value(k, 0.5)).fold(f64::INFINITY, f64::min);
+            least / pressure.peak_of(zone)
+        };
+        let zones = pressure.zones();
+        let counting = zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
+        let Some(smallest) = counting.map(|(zone, _)| smallest(zone)).reduce(f64::min) else { return Ok(true) };
+        Ok(self.pressure_error(solved, at)?.is_some_and(|error| error < smallest.min(MOST_UNKNOWN)))
+    }
+
+    /// Whether λ of a contact grows without bound towards an end of it, as far as this mesh tells.
+    pub(super) fn has_unbounded_peak(&self, solved: &Solved, name: &str) -> bool {
+        contact_called(&solved.problem, name).is_some_and(|at| has_unbounded_peak(solved, at))
+    }
+}
+
+/// Whether λ of a contact grows without bound towards an end of one of its zones.
+fn has_unbounded_peak(Solved { problem, solution, estimate, .. }: &Solved, at: usize) -> bool {
+    let pressure = solution.pressure(&problem.contacts[at]);
+    let grows = |(zone, at_ends): (&Zone, &AtEnds)| {
+        (0..2).any(|end| pressure.grows_towards(zone, end, at_ends.map(|values| values.map(|values| values[end]))))
+    };
+    pressure.zones().iter().zip(&estimate.at_ends(at)).any(grows)
+}
+
+/// The place of a contact among all.
+fn contact_called(problem: &Discretisation, name: &str) -> Option<usize> {
+    problem.contacts.iter().position(|contact| contact.pair.name == name)
+}
+
+/// Error in the energy norm of a solution that was there on the mesh before: what the solve leaves.
+fn rounded(Solved { estimate, solution, .. }: &Solved) -> Option<f64> {
+    let difference = estimate.difference.filter(|difference| *difference <= ROUNDING)?;
+    Some(difference.max(solution.residual))
+}

@@ -1,0 +1,236 @@
+//! The first mesh, begun by the quadratic programme, unless that is dear: where the sides come within reach, what presses, how every
+//! body moves.
+
+use crate::accuracy::share_of_nothing;
+use crate::contact::Known;
+use crate::discretisation::{
+    BoundaryMotion, Contact, Discretisation, Scene, Space, SystemError, bilateral, finest_numbering, not_held,
+    not_held_if_closed, spaces,
+};
+use crate::geometry::Point;
+use crate::mesh::{EdgeNode, Level, Numbering, Partition, lattice};
+use crate::procedure::one_mesh::wide_contact::{FoundByProgramme, narrowed, wide_contacts, with_touch};
+use crate::procedure::sequence::LoadedPlace;
+use crate::procedure::settings::Procedure;
+use crate::programme::{Prediction, Predictor};
+use crate::system::Start;
+use std::rc::Rc;
+
+/// Operations of a programme that are less than a few sets on the same mesh cost: some tenths of a second.
+const MOST_WORK: f64 = 3e8;
+
+/// Gap by the length of a contact that counts as closed: what the programme leaves of none.
+const TOUCHING: f64 = 1e-9;
+
+/// What the programme says of a mesh of which nothing else is known.
+pub(crate) enum Begun {
+    /// The contacts as they will lie, and where to start.
+    Held(Box<Discretisation>, Start),
+    /// No solution to begin with: a first set at most, or contacts as they are drawn, where the programme has no answer or is dear.
+    Unknown(Box<Discretisation>),
+    /// A body that nothing holds, or that the loads drive off all its contacts, in words.
+    Free(Box<Discretisation>, String),
+}
+
+impl Procedure<'_> {
+    /// Begins a mesh of which nothing is known. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] if contacts cannot be placed, supports contradict each other, or a triangle is turned inside out.
+    pub(crate) fn begun(&self, scene: Scene) -> Result<Begun, SystemError> {
+        let spaces = spaces(&scene, self.session.rank())?;
+        let finest = &spaces[spaces.len() - 1].numbering;
+        if !is_assembly(&scene)
+            && let Ok(drawn) = Contact::all(&scene, finest, self.session.rank())
+            && work_of_programme(&scene, finest.level, &drawn) > MOST_WORK
+        {
+            return self.begun_without_programme(scene, spaces, &drawn);
+        }
+        let whole = on_one_rank(&scene);
+        let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
+        let wide = wide_contacts(&whole, &numbering)?;
+        let drawn: Vec<Contact> = wide.iter().map(|wide| wide.contact.clone()).collect();
+        let free = not_held_if_closed(&whole, &numbering, &drawn);
+        if let Some(words) = self.session.agree(free).map_err(SystemError::Case)? {
+            return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+        }
+        let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
+        let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
+        let mut found = match self.shared(predictor.as_ref(), &drawn, numbering.node_count())? {
+            Ok(found) => found,
+            Err(Prediction::Driven { words, .. }) => {
+                return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+            }
+            Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
+        };
+        let pressing = active(&drawn, &found);
+        let largest = wide.iter().map(|wide| wide.force(&found.pressures)).fold(0.0, f64::max);
+        let least = share_of_nothing(self.accuracy) * largest;
+        if wide.iter().any(|wide| wide.presses_elsewhere(&found.pressures, least)) {
+            let drawn: Vec<Known> = wide.iter().map(|wide| wide.as_drawn(&found.pressures, least)).collect();
+            if let Some(words) = self.tips(predictor.as_ref(), &whole, &numbering, &drawn)? {
+                return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+            }
+        }
+        let known: Vec<Known> = wide.iter().map(|wide| narrowed(wide, &pressing, &found, least)).collect();
+        let displacement = |node: EdgeNode| found.displacement[node.number(&whole.mesh, &numbering)];
+        let contacts = Contact::all_again(&whole, &numbering, 0, &known, &displacement)?;
+        match self.shared(predictor.as_ref(), &contacts, numbering.node_count())? {
+            Ok(again) => found = again,
+            Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
+        }
+        drop(predictor);
+        let space = &spaces[spaces.len() - 1];
+        let start = Start {
+            displacement: own_unknowns(&scene, space, &numbering, &found.displacement, self.session.rank()),
+            active: active(&contacts, &found),
+            pressures: found.pressures,
+        };
+        let motion = BoundaryMotion::new(&scene, space, &start.displacement, self.session);
+        let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
+        let contacts = Contact::all_again(&scene, &space.numbering, self.session.rank(), &known, &displacement)?;
+        let mut problem = Discretisation::with(scene, spaces, contacts, motion, self.session)?;
+        if !is_assembly(&problem.scene) {
+            problem.first_set = Some(start.active);
+            return Ok(Begun::Unknown(Box::new(problem)));
+        }
+        Ok(Begun::Held(Box::new(problem), start))
+    }
+
+    /// Begins a mesh with contacts as they are `drawn`, which their forces place later on where sides touch at a point. **Collective**
+    fn begun_without_programme(&self, scene: Scene, spaces: Vec<Space>, drawn: &[Contact]) -> Result<Begun, SystemError> {
+        let numbering = &spaces[spaces.len() - 1].numbering;
+        let known = with_touch(&scene, numbering, drawn);
+        let contacts = Contact::all_again(&scene, numbering, self.session.rank(), &known, &|_| Point::zeros())?;
+        let problem = Discretisation::with(scene, spaces, contacts, BoundaryMotion::default(), self.session)?;
+        let free = not_held(&problem, &vec![true; problem.multiplier_count()], self.session);
+        let problem = Box::new(problem);
+        Ok(match free {
+            Some(words) => Begun::Free(problem, words),
+            None => Begun::Unknown(problem),
+        })
+    }
+
+    /// Where contacts press on the coarsest mesh, and how large their forces are; nothing if the programme has no answer, or would
+    /// be dear.
+    /// **Collective**
+    ///
+    /// # Errors
+    /// As of [`Procedure::begun`].
+    pub(crate) fn loaded_places(&self, scene: &Scene) -> Result<Option<Vec<LoadedPlace>>, SystemError> {
+        let whole = on_one_rank(scene);
+        let numbering = finest_numbering(&whole)?;
+        let wide = wide_contacts(&whole, &numbering)?;
+        let drawn: Vec<Contact> = wide.iter().map(|wide| wide.contact.clone()).collect();
+        if work_of_programme(scene, numbering.level, &drawn) > MOST_WORK {
+            return Ok(None);
+        }
+        let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
+        let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
+        let found = self.shared(predictor.as_ref(), &drawn, numbering.node_count())?.ok();
+        let places =
+            |found: FoundByProgramme| wide.iter().enumerate().map(|(at, wide)| wide.loaded(at, &found.pressures)).collect();
+        Ok(found.map(places))
+    }
+
+    /// Words for a body that has to turn before contacts which lie there hold it; nothing if none has. **Collective**
+    fn tips(
+        &self,
+        predictor: Option<&Predictor>,
+        whole: &Scene,
+        numbering: &Numbering,
+        drawn: &[Known],
+    ) -> Result<Option<String>, SystemError> {
+        // Where a contact cannot lie, nothing is said.
+        let Ok(contacts) = Contact::all_again(whole, numbering, 0, drawn, &|_: EdgeNode| Point::zeros()) else { return Ok(None) };
+        Ok(match self.shared(predictor, &contacts, numbering.node_count())? {
+            Err(Prediction::Driven { words, turns: true }) => Some(words),
+            _ => None,
+        })
+    }
+
+    /// What the programme of rank 0 says, on every rank. **Collective**
+    fn shared(
+        &self,
+        predictor: Option<&Predictor>,
+        contacts: &[Contact],
+        nodes: usize,
+    ) -> Result<Result<FoundByProgramme, Prediction>, SystemError> {
+        let own = predictor.map(|predictor| predictor.predict(contacts)).transpose();
+        let own = self.session.agree(own).map_err(SystemError::Case)?;
+        let is_held = self.session.any(matches!(own, Some(Prediction::Held { .. })));
+        if !is_held {
+            let is_driven = self.session.any(matches!(own, Some(Prediction::Driven { .. })));
+            let turns = self.session.any(matches!(own, Some(Prediction::Driven { turns: true, .. })));
+            let words = || match own {
+                Some(Prediction::Driven { words, .. } | Prediction::Unknown(words)) => Ok::<_, String>(words.into_bytes()),
+                _ => Ok(Vec::new()),
+            };
+            let words = self.session.share(words).map_err(SystemError::Case)?;
+            let words = String::from_utf8_lossy(&words).into_owned();
+            return Ok(Err(if is_driven { Prediction::Driven { words, turns } } else { Prediction::Unknown(words) }));
+        }
+        let count = contacts.last().map_or(0, |contact| contact.range().end);
+        let mut all = vec![0.0; 2 * nodes + 2 * count];
+        if let Some(Prediction::Held { displacement, pressures, gaps }) = own {
+            let values = displacement.iter().flat_map(|u| [u.x, u.y]).chain(pressures).chain(gaps);
+            all.iter_mut().zip(values).for_each(|(to, value)| *to = value);
+        }
+        self.session.sum(&mut all);
+        let (moved, multipliers) = all.split_at(2 * nodes);
+        let displacement = moved.chunks_exact(2).map(|u| Point::new(u[0], u[1])).collect();
+        let (pressures, gaps) = multipliers.split_at(count);
+        Ok(Ok(FoundByProgramme { displacement, pressures: pressures.to_vec(), gaps: gaps.to_vec() }))
+    }
+}
+
+/// Operations of the programme on a mesh, roughly: the factor of each body, and a solve with it for each multiplier that it sees.
+fn work_of_programme(scene: &Scene, level: Level, contacts: &[Contact]) -> f64 {
+    let intervals = level.intervals as f64;
+    let mut bodies = vec![[0.0; 2]; scene.bodies.len()];
+    scene.mesh.triangles.iter().for_each(|triangle| bodies[triangle.body as usize][0] += intervals * intervals);
+    for contact in contacts {
+        contact.bodies.iter().for_each(|&body| bodies[body][1] += contact.multipliers.count() as f64);
+    }
+    bodies.iter().map(|[unknowns, multipliers]| 10.0 * unknowns.powf(1.5) + 60.0 * unknowns * multipliers).sum()
+}
+
+/// Whether bodies are free to roll or slide but for means that are held: there sets say nothing without the motions that go with
+/// them. Where supports hold bodies, the set of the programme is enough to begin with.
+fn is_assembly(scene: &Scene) -> bool {
+    !scene.means.is_empty()
+}
+
+/// The scene with all of its mesh on this rank.
+fn on_one_rank(scene: &Scene) -> Scene {
+    let ranks = vec![0; scene.mesh.triangles.len()];
+    Scene { partition: Rc::new(Partition::new(&scene.mesh, &ranks, 1)), ..scene.clone() }
+}
+
+/// What presses: the pressure is worth more penetration than there is gap.
+fn active(contacts: &[Contact], found: &FoundByProgramme) -> Vec<bool> {
+    let both = bilateral(contacts);
+    let presses = |contact: &Contact, i: usize| {
+        let own = i - contact.first;
+        let worth = found.pressures[i] * contact.multipliers.length(own) / contact.multiplier_moduli[own];
+        both[i] || worth >= found.gaps[i] || found.gaps[i] <= TOUCHING * contact.boundary.length()
+    };
+    contacts.iter().flat_map(|contact| contact.range().map(move |i| (contact, i))).map(|(c, i)| presses(c, i)).collect()
+}
+
+/// This rank's displacements in the nodes' frames, from those of all nodes on one rank.
+fn own_unknowns(scene: &Scene, space: &Space, whole: &Numbering, displacement: &[Point], rank: usize) -> Vec<f64> {
+    let mut values = vec![0.0; space.local_unknowns()];
+    for &triangle in scene.partition.triangles_of(rank) {
+        let [here, there] = [&space.numbering, whole].map(|numbering| numbering.triangle(&scene.mesh, triangle as usize));
+        for (i, j) in lattice::nodes(space.numbering.level.intervals) {
+            let node = here.node(i, j);
+            if space.own.contains(&node) {
+                let u = space.to_frame(node, displacement[there.node(i, j)]);
+                let at = 2 * (node - space.own.start);
+                (values[at], values[at + 1]) = (u.x, u.y);
+            }
+        }
+    }
+    values
+}

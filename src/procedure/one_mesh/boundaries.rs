@@ -1,0 +1,330 @@
+//! One mesh: one contact boundary after the other, until everything stands.
+
+use crate::accuracy::share_of_nothing;
+use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Form, Solution, SystemError, load, nodal_forces, settle};
+use crate::multigrid::{Elastic, Interpolation, interpolations};
+use crate::procedure::boundary::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
+use crate::procedure::ending::{Ending, Failure, Standing};
+use crate::procedure::observer::{Event, Work};
+use crate::procedure::sets::Pass;
+use crate::procedure::sets::{ContactLoop, LoopOutcome, LoopPosition};
+use crate::procedure::settings::Procedure;
+use crate::system::{Preconditioning, SaddlePoint, Start, System, Tolerance};
+use std::rc::Rc;
+
+/// Relative residual of solves on boundaries that are still on their way.
+const ON_THE_WAY: f64 = 1e-5;
+
+/// Share of its length by which a boundary moves when it is nearly there.
+const NEARLY: f64 = 1e-2;
+
+/// How one mesh is solved.
+pub struct OneMesh<'p> {
+    pub procedure: &'p Procedure<'p>,
+    /// How far its last solve goes.
+    pub tolerance: Tolerance,
+    /// Whether it is the mesh of the case: the others are reported when they are solved.
+    pub is_last: bool,
+    /// Whether its active set was hard to find on the coarser mesh.
+    pub is_hard: bool,
+}
+
+/// What was found on one mesh.
+pub struct OnMesh {
+    pub solution: Solution,
+    pub ending: Ending,
+    pub passes: Vec<Pass>,
+    pub boundaries: Vec<BoundaryStep>,
+    /// Whether its active set was found by rising energy only.
+    pub ascended: bool,
+    /// The preconditioner that it needed.
+    pub preconditioning: Preconditioning,
+    /// What solved it, in words.
+    pub solver: String,
+}
+
+/// What no contact boundary changes.
+struct Bodies {
+    /// The bodies without contact; only where boundaries follow the solution, otherwise the system holds them.
+    elastic: Option<Elastic>,
+    interpolations: Rc<[Interpolation]>,
+}
+
+/// What was done on a mesh so far.
+#[derive(Default)]
+struct MeshHistory {
+    passes: Vec<Pass>,
+    boundaries: Vec<BoundaryStep>,
+}
+
+/// What follows from the solves on one boundary.
+enum After {
+    /// Everything is done.
+    Ended(Ending),
+    /// The bodies have moved, and so must the boundary.
+    Moved {
+        contacts: Vec<Contact>,
+        motion: BoundaryMotion,
+        start: Option<Start>,
+        /// Whether it is nearly where it was.
+        is_near: bool,
+    },
+}
+
+/// What was found on one boundary.
+struct OnBoundary {
+    solution: Solution,
+    after: After,
+    ascended: bool,
+    preconditioning: Preconditioning,
+    solver: String,
+}
+
+impl OneMesh<'_> {
+    /// Solves, once or for one contact boundary after the other. A start comes from a coarser mesh, whose boundaries are
+    /// settled. **Collective**
+    pub fn solve(
+        &self,
+        problem: &mut Discretisation,
+        start: Option<Start>,
+        preconditioning: Preconditioning,
+    ) -> Result<OnMesh, SystemError> {
+        let bodies = self.bodies(problem)?;
+        if problem.follows() {
+            return self.follow(problem, &bodies, start, preconditioning);
+        }
+        self.begin(None);
+        let mut system = self.system(problem, &bodies, preconditioning)?;
+        let found =
+            self.sets(&mut system, start, self.tolerance, LoopPosition { boundary: 1, passes: 0, is_hard: self.is_hard })?;
+        let LoopOutcome { solution, ending, passes, ascended } = found;
+        let solution = self.finished(&mut system, solution, &ending, ascended)?;
+        let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
+        drop(system);
+        settle(problem, &solution, self.procedure.session)?;
+        Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), ascended, preconditioning, solver })
+    }
+
+    /// Solves, lets the boundaries follow, and solves again, until everything stands. **Collective**
+    fn follow(
+        &self,
+        problem: &mut Discretisation,
+        bodies: &Bodies,
+        mut start: Option<Start>,
+        mut preconditioning: Preconditioning,
+    ) -> Result<OnMesh, SystemError> {
+        let exact = self.tolerance.residual().min(ON_THE_WAY);
+        let nothing = share_of_nothing(self.procedure.accuracy);
+        let mut following = Following::new(problem, exact, start.is_some(), self.is_last, nothing);
+        self.begin(Some(following.tolerances()));
+        let mut history = MeshHistory::default();
+        let (mut is_last, mut ascended) = (false, false);
+        for number in 1.. {
+            let on_boundary = BoundaryLoop { mesh: self, following: &mut following, history: &mut history, number, exact };
+            let found = on_boundary.solve(self.system(problem, bodies, preconditioning)?, start.take(), is_last)?;
+            preconditioning = found.preconditioning;
+            ascended |= found.ascended;
+            match found.after {
+                After::Ended(ending) => {
+                    problem.contacts.iter_mut().zip(following.found).for_each(|(contact, ends)| contact.found = Some(ends));
+                    settle(problem, &found.solution, self.procedure.session)?;
+                    let MeshHistory { passes, boundaries } = history;
+                    return Ok(OnMesh {
+                        solution: found.solution,
+                        ending,
+                        passes,
+                        boundaries,
+                        ascended,
+                        preconditioning,
+                        solver: found.solver,
+                    });
+                }
+                After::Moved { contacts, motion, start: next, is_near } => {
+                    let _stage = self.procedure.observer.enter(Work::Contact);
+                    problem.replace(contacts, motion, self.procedure.session)?;
+                    (start, is_last) = (next, is_near);
+                }
+            }
+        }
+        unreachable!("boundaries are given up after a while")
+    }
+
+    /// The system of a solution once more, for other right-hand sides. **Collective**
+    pub fn system_again<'a>(
+        &self,
+        problem: &'a Discretisation,
+        active: &[bool],
+        preconditioning: Preconditioning,
+    ) -> Result<System<'a>, SystemError> {
+        let mut system = self.system(problem, &self.bodies(problem)?, preconditioning)?;
+        system.set_active(active)?;
+        Ok(system)
+    }
+
+    fn begin(&self, follows: Option<[f64; 2]>) {
+        if self.is_last {
+            self.procedure.observer.observe(Event::Begin(follows));
+        }
+    }
+
+    /// Assembles and sets up what all contact boundaries share. **Collective**
+    fn bodies(&self, problem: &Discretisation) -> Result<Bodies, SystemError> {
+        let Procedure { choice, session, observer, .. } = self.procedure;
+        let mut bodies = Bodies { elastic: None, interpolations: Rc::new([]) };
+        if problem.follows() {
+            let _stage = observer.enter(Work::Assembly);
+            let load = load(problem, &nodal_forces(problem, session)?);
+            bodies.elastic = Some(Elastic::alone(problem, load, choice.form(), session)?);
+        }
+        if choice.form() == Form::Augmented {
+            let _stage = observer.enter(Work::SetUp);
+            bodies.interpolations = interpolations(problem, session)?.into();
+        }
+        Ok(bodies)
+    }
+
+    /// Assembles and sets up the system of the contact boundaries as they are. **Collective**
+    fn system<'a>(
+        &self,
+        problem: &'a Discretisation,
+        bodies: &Bodies,
+        preconditioning: Preconditioning,
+    ) -> Result<System<'a>, SystemError> {
+        let Procedure { choice, session, observer, .. } = self.procedure;
+        let blocks = {
+            let _stage = observer.enter(Work::Assembly);
+            match &bodies.elastic {
+                Some(elastic) => SaddlePoint::around(problem, elastic, choice.form(), session)?,
+                None => {
+                    let load = load(problem, &nodal_forces(problem, session)?);
+                    SaddlePoint::new(problem, load, choice.form(), session)?
+                }
+            }
+        };
+        let _stage = observer.enter(Work::SetUp);
+        let system = System::new(problem, blocks, &bodies.interpolations, *choice, preconditioning, session)?;
+        // Coarser meshes may have no use for what the mesh of the case asks for.
+        let unused = if self.is_last { system.unused_options()? } else { Vec::new() };
+        if unused.is_empty() { Ok(system) } else { Err(SystemError::UnusedOptions(unused)) }
+    }
+
+    /// Solves for one active set after the other. **Collective**
+    fn sets(
+        &self,
+        system: &mut System,
+        start: Option<Start>,
+        tolerance: Tolerance,
+        position: LoopPosition,
+    ) -> Result<LoopOutcome, SystemError> {
+        let observer = self.procedure.observer;
+        let _stage = observer.enter(Work::Solve);
+        let all = system.active().len();
+        ContactLoop::begin(system, start, tolerance, position)?.solve(|pass| {
+            if self.is_last {
+                observer.observe(Event::Passed(pass, all));
+            }
+        })
+    }
+
+    /// A solution with what else the last system tells, if it is wanted: the inf-sup constants of its contacts. **Collective**
+    fn finished(
+        &self,
+        system: &mut System,
+        mut solution: Solution,
+        ending: &Ending,
+        ascended: bool,
+    ) -> Result<Solution, SystemError> {
+        let _stage = self.procedure.observer.enter(Work::Solve);
+        if self.is_last && self.procedure.wants_inf_sup(system.problem(), ascended || !ending.is_converged()) {
+            solution.inf_sup = system.inf_sup()?;
+        }
+        Ok(solution)
+    }
+}
+
+/// The solves on one boundary of those that follow.
+struct BoundaryLoop<'l, 'p> {
+    mesh: &'l OneMesh<'p>,
+    following: &'l mut Following,
+    history: &'l mut MeshHistory,
+    /// Number of the boundary, from 1.
+    number: usize,
+    /// Residual that the last solve goes to.
+    exact: f64,
+}
+
+impl BoundaryLoop<'_, '_> {
+    /// Solves on the way, unless the solve is the last one, and again as the last one if everything stands. **Collective**
+    fn solve(mut self, mut system: System, start: Option<Start>, is_last: bool) -> Result<OnBoundary, SystemError> {
+        let (mut start, mut is_last) = (start, is_last || self.exact >= ON_THE_WAY);
+        loop {
+            let tolerance = Tolerance::Residual(if is_last { self.exact } else { ON_THE_WAY });
+            let position = LoopPosition { boundary: self.number, passes: self.history.passes.len(), is_hard: self.mesh.is_hard };
+            let LoopOutcome { solution, ending, passes, ascended } =
+                self.mesh.sets(&mut system, start.take(), tolerance, position)?;
+            self.history.passes.extend(passes);
+            let after = match ending {
+                Ending::NotConverged(_) => After::Ended(ending),
+                Ending::Converged(standing) => match self.next(system.problem(), &solution, standing, is_last)? {
+                    Some(after) => after,
+                    None => {
+                        // The boundary is right, but it was found with a solve on the way.
+                        (start, is_last) = (Some(start_from(&solution)), true);
+                        continue;
+                    }
+                },
+            };
+            let solution = match &after {
+                After::Ended(ending) => self.mesh.finished(&mut system, solution, ending, ascended)?,
+                After::Moved { .. } => solution,
+            };
+            return Ok(OnBoundary {
+                solution,
+                after,
+                ascended,
+                preconditioning: system.preconditioning(),
+                solver: system.solver_name().to_string(),
+            });
+        }
+    }
+
+    /// What follows from a solution; nothing if it is to be solved once more, as the last one. **Collective**
+    fn next(
+        &mut self,
+        problem: &Discretisation,
+        solution: &Solution,
+        within: Standing,
+        is_last: bool,
+    ) -> Result<Option<After>, SystemError> {
+        let Procedure { session, observer, .. } = self.mesh.procedure;
+        let followed = {
+            let _stage = observer.enter(Work::Contact);
+            self.following.next(problem, solution, self.number, session)
+        };
+        let (step, next) = match followed {
+            Ok(followed) => followed,
+            Err(SystemError::Case(words)) => {
+                return Ok(Some(After::Ended(Ending::NotConverged(Failure::BoundaryLost(words)))));
+            }
+            Err(error) => return Err(error),
+        };
+        if matches!(next, NextBoundary::Stands(_)) && !is_last {
+            return Ok(None);
+        }
+        if self.mesh.is_last {
+            observer.observe(Event::Placed(&step));
+        }
+        let is_near = step.moved.is_some_and(|way| way < NEARLY);
+        self.history.boundaries.push(step);
+        Ok(Some(match next {
+            NextBoundary::Stands(way) => {
+                After::Ended(Ending::Converged(standing(&problem.contacts, &self.history.boundaries, way, within)))
+            }
+            NextBoundary::GivenUp(failure) => After::Ended(Ending::NotConverged(failure)),
+            NextBoundary::Again(contacts, motion) => {
+                let start = carried(&problem.contacts, &contacts, solution);
+                After::Moved { contacts, motion, start, is_near }
+            }
+        }))
+    }
+}

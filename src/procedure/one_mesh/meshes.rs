@@ -1,0 +1,253 @@
+//! The loop over meshes: coarser ones first, so that active sets, boundaries and errors are known; then that of the case.
+
+use crate::discretisation::{Discretisation, Scene, SystemError};
+use crate::procedure::at_rest::AtRest;
+use crate::procedure::coarse_solution::CoarseSolution;
+use crate::procedure::ending::{Ending, Failure};
+use crate::procedure::estimates::{Difference, Estimate};
+use crate::procedure::observer::{Event, Work};
+use crate::procedure::one_mesh::begun::Begun;
+use crate::procedure::one_mesh::boundaries::{OnMesh, OneMesh};
+use crate::procedure::predecessor::Predecessor;
+use crate::procedure::settings::Procedure;
+use crate::procedure::solved::{CoarseSolve, Solved};
+use crate::system::{Preconditioning, SolverChoice, Start, Tolerance};
+
+/// Refinements that are solved before the case's own.
+const COARSER: usize = 2;
+
+/// Relative residual of the solves on coarser meshes: below any discretisation error there.
+const COARSE: f64 = 1e-6;
+
+/// The same where boundaries follow: their ends are felt in the third digit of it.
+const COARSE_FOR_BOUNDARIES: f64 = 1e-8;
+
+/// The same where an accuracy is asked for: differences between the meshes are what it is told by.
+const COARSE_FOR_ACCURACY: f64 = 1e-8;
+
+/// What is known before the mesh of the case is solved.
+#[derive(Default)]
+struct Coarser<'p> {
+    /// The solution on the adapted mesh before, if there is any.
+    predecessor: Option<&'p Predecessor<'p>>,
+    /// The solution on the last refinement, if there is any.
+    found: Option<CoarseSolution>,
+    differences: Vec<Difference>,
+    solves: Vec<CoarseSolve>,
+}
+
+impl Coarser<'_> {
+    /// What was needed on the mesh `before`, or on the adapted one before.
+    fn preconditioning(&self, before: Option<&CoarseSolution>) -> Preconditioning {
+        let needed = before.map(|before| before.preconditioning).or(self.predecessor.map(|before| before.preconditioning));
+        needed.unwrap_or(Preconditioning::Sweep)
+    }
+
+    /// Whether the active set was hard to find on the mesh `before`, or on the adapted one before.
+    fn is_hard(&self, before: Option<&CoarseSolution>) -> bool {
+        before.map_or_else(|| self.predecessor.is_some_and(|before| before.is_hard), |before| before.is_hard)
+    }
+}
+
+/// The linear solver to begin with.
+struct First {
+    preconditioning: Preconditioning,
+    /// What is to be said of it, before the first solve.
+    words: Option<String>,
+}
+
+impl Procedure<'_> {
+    /// Solves a scene: on the mesh of the case, or on one that is adapted to an accuracy. On the mesh of the case it may begin with
+    /// what was found `before`, in the load step before. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] if the scene cannot be solved at all; everything else is an [`Ending`].
+    pub fn solve(&self, scene: Scene, before: Option<&Solved>) -> Result<Solved, SystemError> {
+        match (self.accuracy, before) {
+            (Some(accuracy), _) => self.adapt(scene, accuracy),
+            (None, Some(before)) => self.solve_after(scene, before),
+            (None, None) => self.solve_on_mesh(scene, None),
+        }
+    }
+
+    /// Solves a scene on its mesh, from the solution on an adapted mesh before, if there is any. A body that nothing holds is
+    /// found before anything is assembled. **Collective**
+    ///
+    /// # Errors
+    /// As [`Procedure::solve`].
+    pub(crate) fn solve_on_mesh(&self, scene: Scene, predecessor: Option<&Predecessor>) -> Result<Solved, SystemError> {
+        let at_rest = {
+            let _stage = self.observer.enter(Work::Contact);
+            Self::look(&scene, self.session.rank())?
+        };
+        self.observer.observe(Event::AtRest { scene: &scene, at_rest: &at_rest });
+        let mut first = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
+        let mut coarser = Coarser { predecessor, ..Coarser::default() };
+        let take_up = |refine: usize| self.observer.observe(Event::Refinement { refine, last: scene.refine });
+        for times in (1..=COARSER.min(scene.refine)).rev() {
+            take_up(scene.refine - times);
+            match self.coarse_mesh(scene.coarser(times), &mut first, &mut coarser) {
+                // The mesh is too coarse for the scene; the case's own may do.
+                Err(SystemError::Case(_)) => coarser.differences.clear(),
+                outcome => outcome?,
+            }
+        }
+        take_up(scene.refine);
+        let (problem, start) = match self.refine(scene, &coarser)? {
+            Begun::Held(problem, start) => (*problem, Some(start)),
+            Begun::Unknown(problem) => (*problem, None),
+            Begun::Free(problem, words) => {
+                return Ok(Solved::nothing(*problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
+            }
+        };
+        self.solve_last(problem, start, first, coarser)
+    }
+
+    /// Looks at a scene: one that is not sound is refused before anything is solved.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] in words.
+    pub fn look(scene: &Scene, rank: usize) -> Result<AtRest, SystemError> {
+        AtRest::new(scene, rank)
+    }
+
+    /// What the choice of the case comes to; what "auto" does is said with its reason.
+    fn first_solver(&self, scene: &Scene, unknowns: usize) -> First {
+        let (levels, ratios) = (scene.refine + 1, &scene.mesh.ratios);
+        if self.choice != SolverChoice::Auto {
+            return First { preconditioning: Preconditioning::of(levels, ratios), words: None };
+        }
+        let (preconditioning, words) = Preconditioning::first(levels, ratios, unknowns);
+        First { preconditioning, words: Some(words) }
+    }
+
+    /// Solves a coarser mesh, if it holds the bodies, and keeps what it tells. **Collective**
+    fn coarse_mesh(&self, scene: Scene, first: &mut First, coarser: &mut Coarser) -> Result<(), SystemError> {
+        let (refine, before) = (scene.refine, coarser.found.take());
+        let begun = {
+            let _stage = self.observer.enter(Work::Contact);
+            self.begun_from(scene, before.as_ref(), coarser.predecessor)?
+        };
+        let (mut problem, start) = match begun {
+            Begun::Held(problem, start) => (*problem, Some(start)),
+            Begun::Unknown(problem) => (*problem, None),
+            // The finest mesh, which begins in the same way, says it.
+            Begun::Free(..) => return Ok(()),
+        };
+        self.say(first);
+        let is_hard = coarser.is_hard(before.as_ref());
+        let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
+        let preconditioning = coarser.preconditioning(before.as_ref()).max(least);
+        let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
+            COARSE_FOR_ACCURACY
+        } else if problem.follows() {
+            COARSE_FOR_BOUNDARIES
+        } else {
+            COARSE
+        }));
+        let found =
+            OneMesh { procedure: self, tolerance, is_last: false, is_hard }.solve(&mut problem, start, preconditioning)?;
+        let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
+        let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
+        coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
+        let (active, passes) = (&found.solution.active, &found.passes);
+        self.observer.observe(Event::Coarse { refine, unknowns, active, passes, converged });
+        if converged {
+            let _stage = self.observer.enter(Work::Recovery);
+            if let Some(before) = &before {
+                coarser.differences.push(Difference::new(&problem, &found.solution, before, self.accuracy, self.session)?);
+            }
+            let mut coarse = CoarseSolution::new(problem, found.solution, found.preconditioning, self.session)?;
+            coarse.is_hard = is_hard || found.ascended;
+            coarser.found = Some(coarse);
+        }
+        Ok(())
+    }
+
+    /// Goes to the mesh of the case. **Collective**
+    fn refine(&self, scene: Scene, coarser: &Coarser) -> Result<Begun, SystemError> {
+        let _stage = self.observer.enter(Work::Contact);
+        self.begun_from(scene, coarser.found.as_ref(), coarser.predecessor)
+    }
+
+    /// A mesh with what is known of it: from the coarser one, from the adapted one before, or else from the programme. **Collective**
+    fn begun_from(
+        &self,
+        scene: Scene,
+        coarse: Option<&CoarseSolution>,
+        predecessor: Option<&Predecessor>,
+    ) -> Result<Begun, SystemError> {
+        let known = match coarse {
+            Some(coarse) => Some(coarse.refined(scene.clone(), self.session)?),
+            None => self.begun_by_predecessor(&scene, predecessor)?,
+        };
+        match known {
+            Some((problem, start)) => Ok(Begun::Held(Box::new(problem), start)),
+            None => self.begun(scene),
+        }
+    }
+
+    /// A mesh with what the adapted mesh before says of it, if that can be had. **Collective**
+    fn begun_by_predecessor(
+        &self,
+        scene: &Scene,
+        predecessor: Option<&Predecessor>,
+    ) -> Result<Option<(Discretisation, Start)>, SystemError> {
+        match predecessor.map(|predecessor| predecessor.start_on(scene.clone(), self.session)) {
+            Some(Ok(found)) => Ok(Some(found)),
+            // Where a boundary lay there, it cannot here.
+            None | Some(Err(SystemError::Case(_))) => Ok(None),
+            Some(Err(error)) => Err(error),
+        }
+    }
+
+    /// Solves the mesh of the case. **Collective**
+    fn solve_last(
+        &self,
+        mut problem: Discretisation,
+        start: Option<Start>,
+        mut first: First,
+        coarser: Coarser,
+    ) -> Result<Solved, SystemError> {
+        self.say(&mut first);
+        let preconditioning = coarser.preconditioning(coarser.found.as_ref()).max(first.preconditioning);
+        let is_hard = coarser.is_hard(coarser.found.as_ref());
+        let Coarser { found: coarse, mut differences, solves, predecessor } = coarser;
+        let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
+        let found = OneMesh { procedure: self, tolerance, is_last: true, is_hard }.solve(&mut problem, start, preconditioning)?;
+        if let Some(coarse) = &coarse {
+            let _stage = self.observer.enter(Work::Recovery);
+            differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
+        }
+        let shares_left = match (predecessor, differences.as_slice()) {
+            (Some(before), [one]) => before.shares_left(&problem, &found.solution, one.of_triangles(), self.session)?,
+            _ => Vec::new(),
+        };
+        let estimate = Estimate::new(&differences, shares_left, problem.scene.order, found.solution.residual, |own| {
+            let mut sum = [own];
+            self.session.sum(&mut sum);
+            sum[0]
+        });
+        let OnMesh { solution, ending, passes, boundaries, preconditioning, solver, ascended } = found;
+        Ok(Solved {
+            problem,
+            solution,
+            ending,
+            passes,
+            boundaries,
+            solver,
+            preconditioning,
+            is_hard: is_hard || ascended,
+            estimate,
+            coarse: solves,
+            before: coarse.filter(|_| self.accuracy.is_some()),
+            adaptation: None,
+        })
+    }
+
+    fn say(&self, first: &mut First) {
+        if let Some(words) = first.words.take() {
+            self.observer.observe(Event::Solver(&words));
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! One mesh: its coarser refinements first, then one contact boundary after the other on each of them.
+
+mod begun;
+mod boundaries;
+mod meshes;
+mod wide_contact;
+
+pub use boundaries::OneMesh;

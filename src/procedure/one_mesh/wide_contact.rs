@@ -1,0 +1,181 @@
+//! Contacts as the programme of the first mesh has them, and where Γ_C lies by what it says of them.
+
+use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, point_contact};
+use crate::discretisation::{Contact, Scene, SystemError, widest};
+use crate::geometry::Point;
+use crate::mesh::{EdgeNode, Numbering};
+use crate::procedure::sequence::LoadedPlace;
+
+/// Segments of the programme where no place is known to touch first.
+const EVEN: usize = 16;
+
+/// The shortest segment of the programme as a share of the contact, on either side of the place that touches first, and how segments
+/// grow from there. Its mean gap is that of s²/2R over a thousandth of R: less than what bodies of E = 1000 p bulge by.
+const SHORTEST: f64 = 2e-3;
+const GROWTH: f64 = 3.0;
+
+/// Segments beside what presses that a contact boundary begins with: an end that lies too far in is seen only if there is pressure
+/// beside it, one too far out costs a multiplier that opens.
+const ROOM: usize = 1;
+
+/// What rank 0 has found, as all ranks know it.
+pub(crate) struct FoundByProgramme {
+    /// Displacements of all nodes (length).
+    pub displacement: Vec<Point>,
+    /// Pressures of all multipliers.
+    pub pressures: Vec<f64>,
+    /// Mean gaps of theirs (length).
+    pub gaps: Vec<f64>,
+}
+
+/// A contact as the programme has it: as far as the sides face each other within reach, with constant pressures on segments that
+/// become short towards the place where the sides touch first.
+pub(crate) struct WideContact {
+    /// What it is placed by.
+    pub known: Known,
+    /// The contact.
+    pub contact: Contact,
+    /// Where smooth sides touch first.
+    touch: Option<PointContact>,
+}
+
+impl WideContact {
+    /// The force of what presses.
+    pub fn force(&self, pressures: &[f64]) -> f64 {
+        let contact = &self.contact;
+        contact.range().map(|i| pressures[i].max(0.0) * contact.multipliers.integral(i - contact.first)).sum()
+    }
+
+    /// Arc of the place where the sides touch first, and how far a force presses to either side of it, if they touch at a point.
+    fn pressed_by(&self, force: f64) -> Option<[f64; 2]> {
+        let Self { contact, touch, .. } = self;
+        let (touch, boundary) = ((*touch)?, &contact.boundary);
+        Some([boundary.arc(boundary.foot(touch.place)), touch.half_width(force, contact.compliance)?])
+    }
+
+    /// Whether a force that counts presses farther from the place where the sides touch first than it is wide there: bodies have to
+    /// move so far before contact holds them that their theory is that of another scene.
+    pub fn presses_elsewhere(&self, pressures: &[f64], least: f64) -> bool {
+        let (contact, force) = (&self.contact, self.force(pressures));
+        let Some([at, half]) = self.pressed_by(force).filter(|_| force > least && contact.has_free_ends()) else { return false };
+        let (boundary, multipliers) = (&contact.boundary, &contact.multipliers);
+        let way = |own: usize| boundary.segment_arcs(multipliers.segment_of(own)).iter().sum::<f64>() * 0.5 - at;
+        let moment = |i: usize| pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i - contact.first);
+        contact.range().map(moment).sum::<f64>().abs() > force * half
+    }
+
+    /// Γ_C about the place where the sides touch first, as wide as its force presses there.
+    pub fn as_drawn(&self, pressures: &[f64], least: f64) -> Known {
+        let Some([at, half]) = self.pressed_by(self.force(pressures).max(least)) else { return self.known.clone() };
+        let boundary = &self.contact.boundary;
+        let ends = [(at - half).max(0.0), (at + half).min(boundary.length())];
+        Known { ends: Some(ends.map(|arc| boundary.parameter_at(arc))), touch: self.touch, ..self.known.clone() }
+    }
+
+    /// Its force, and where it acts if the sides touch at a point.
+    pub fn loaded(&self, at: usize, pressures: &[f64]) -> LoadedPlace {
+        let contact = &self.contact;
+        let force = self.force(pressures);
+        let width = self.touch.and_then(|touch| Some((touch.place, touch.half_width(force, contact.compliance)?)));
+        LoadedPlace { contact: at, force, width }
+    }
+}
+
+/// Contacts of undeformed bodies as the programme has them.
+pub(crate) fn wide_contacts(scene: &Scene, numbering: &Numbering) -> Result<Vec<WideContact>, SystemError> {
+    let (mut all, mut first) = (Vec::new(), 0);
+    for pair in &scene.pairs {
+        let wide = wide_contact(scene, numbering, pair, first)?;
+        first = wide.contact.range().end;
+        all.push(wide);
+    }
+    Ok(all)
+}
+
+fn wide_contact(scene: &Scene, numbering: &Numbering, pair: &Pair, first: usize) -> Result<WideContact, SystemError> {
+    let at_rest = |_: EdgeNode| Point::zeros();
+    let known = widest(scene, numbering, pair);
+    let even = Pair { space: MultiplierSpace::P0, stabilise: Stabilise::Off, ..pair.clone() };
+    let contact = Contact::new(scene, numbering, 0, &even, first, &known, &at_rest)?;
+    if !contact.has_free_ends() {
+        // Where ends stay, so do the segments: what presses is told as the case has it.
+        let contact = Contact::new(scene, numbering, 0, pair, first, &known, &at_rest)?;
+        return Ok(WideContact { known, contact, touch: None });
+    }
+    let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact));
+    let at = touch.map(|touch| boundary.arc(boundary.foot(touch.place)) / boundary.length());
+    let fractions = graded_towards(at.filter(|at| (SHORTEST..=1.0 - SHORTEST).contains(at)));
+    let graded = Pair { segments: SegmentRule::Fractions(fractions), grading: [1.0, 1.0], ..even };
+    let contact = Contact::new(scene, numbering, 0, &graded, first, &known, &at_rest)?;
+    Ok(WideContact { known, contact, touch })
+}
+
+/// Where the smooth sides of a contact of undeformed bodies touch first, if they do so at a point.
+fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact) -> Option<PointContact> {
+    let sides = SmoothSide::of_pair(&scene.mesh, numbering, &contact.pair, &|_| Point::zeros());
+    let boundary = &contact.boundary;
+    let (middle, half) = (boundary.point(boundary.parameter_at(0.5 * boundary.length())), 0.5 * boundary.length());
+    let nearest = |stretches: &'_ [SmoothSide]| {
+        let away = |side: &SmoothSide| (side.nearest_place(middle).0 - middle).norm();
+        (0..stretches.len()).min_by(|&a, &b| away(&stretches[a]).total_cmp(&away(&stretches[b])))
+    };
+    let [one, other] = [nearest(&sides[0])?, nearest(&sides[1])?];
+    point_contact([&sides[0][one], &sides[1][other]], middle, half)
+}
+
+/// What contacts that lie as they are drawn are placed by later on: where they touch first, if they do so at a point.
+pub(crate) fn with_touch(scene: &Scene, numbering: &Numbering, drawn: &[Contact]) -> Vec<Known> {
+    let touch = |contact: &Contact| contact.has_free_ends().then(|| touch(scene, numbering, contact)).flatten();
+    drawn.iter().map(|contact| Known { touch: touch(contact), ..contact.known.clone() }).collect()
+}
+
+/// Segment ends as fractions of the length: growing from one place to both sides, or even without one.
+fn graded_towards(place: Option<f64>) -> Vec<f64> {
+    let Some(place) = place else { return (0..=EVEN).map(|k| k as f64 / EVEN as f64).collect() };
+    let ways: Vec<f64> = std::iter::successors(Some(SHORTEST), |way| Some(GROWTH * way)).take_while(|way| *way < 1.0).collect();
+    // The last way before an end would leave a sliver.
+    let side = |room: f64| ways.iter().copied().filter(move |way| way * 0.5 * (1.0 + GROWTH) < room);
+    let mut all: Vec<f64> = side(place).map(|way| place - way).chain(side(1.0 - place).map(|way| place + way)).collect();
+    all.extend([0.0, 1.0]);
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// Where a contact whose ends are free lies: as far as its force, or the `least` one that counts, presses sides that touch at a point
+/// (Hertz); else what presses, and a segment on either side of it; what does not press lies where the gap is smallest.
+pub(crate) fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme, least: f64) -> Known {
+    let WideContact { known, contact, touch } = wide;
+    if !contact.has_free_ends() {
+        return known.clone();
+    }
+    let (boundary, multipliers) = (&contact.boundary, &contact.multipliers);
+    let segment = |i: usize| multipliers.segment_of(i - contact.first);
+    let mut pressing: Vec<usize> = contact.range().filter(|&i| active[i]).map(segment).collect();
+    if pressing.is_empty() {
+        let nearest = contact.range().min_by(|&a, &b| found.gaps[a].total_cmp(&found.gaps[b]));
+        pressing.extend(nearest.map(segment));
+    }
+    let (Some(first), Some(last)) = (pressing.iter().min(), pressing.iter().max()) else { return known.clone() };
+    let arcs = boundary.arcs();
+    let mut ends = [arcs[first.saturating_sub(ROOM)], arcs[(last + 1 + ROOM).min(boundary.segments())]];
+    let mut narrow = None;
+    let force = wide.force(&found.pressures);
+    if let Some(touch) = touch {
+        let at = boundary.arc(boundary.foot(touch.place));
+        let half = touch.half_width(force.max(least), contact.compliance);
+        let reach = half.unwrap_or(boundary.length());
+        let way = |i: usize| boundary.segment_arcs(segment(i)).iter().sum::<f64>() * 0.5 - at;
+        let moment = |i: usize| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i).powi(2);
+        // What presses farther from the place than the force alone would, or than the edge there bends, has another reason: a corner,
+        // sides that conform.
+        let near = reach.max(contact.edge_length());
+        let is_narrow = force <= least || contact.range().map(moment).sum::<f64>() <= force * near * near;
+        if is_narrow && half.is_some() {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            let middle = if ends[0] <= at && at <= ends[1] { at } else { middle };
+            ends = [(middle - reach).max(0.0), (middle + reach).min(boundary.length())];
+            narrow = Some(*touch);
+        }
+    }
+    Known { ends: Some(ends.map(|arc| boundary.parameter_at(arc))), touch: narrow, ..known.clone() }
+}

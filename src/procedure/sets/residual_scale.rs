@@ -1,0 +1,54 @@
+//! What residuals are measured by, and how far the last solve goes.
+
+use crate::discretisation::{SystemError, rigid_start};
+use crate::system::{System, Tolerance};
+
+/// Relative residual of the solves inside the loop: enough to find the right set.
+pub(crate) const LOOSE: f64 = 1e-4;
+
+/// Share of the right-hand side that the residual is measured by, at least: beyond it lies rounding.
+const LEAST_SHARE: f64 = 1e-8;
+
+/// Residual relative to the whole right-hand side that small forces ask for, at least.
+const LEAST_RESIDUAL: f64 = 1e-13;
+
+/// Share of the residual of a start from a coarser mesh that solves as far as the discretisation does.
+const FROM_START: f64 = 2e-4;
+
+/// Relative residual that is small enough for any discretisation error.
+const SMALL: f64 = 1e-10;
+
+/// Share of the right-hand side that asks for strain. Displacements prescribed to a stiff body are forces of its own
+/// modulus there, however little they strain it: beside them the forces of contact with a soft one are small, and a
+/// residual relative to all of it says nothing of these. So the part that moves the bodies rigidly does not count.
+/// **Collective**
+pub(crate) fn share(system: &System) -> Result<f64, SystemError> {
+    let Some(displacement) = rigid_start(system.problem(), system.session().rank()) else { return Ok(1.0) };
+    let share = system.residual_of_displacement(displacement)?.relative();
+    Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
+}
+
+/// The same where a rigid tool or plate acts, once the forces are known: they are small beside the right-hand side, which would
+/// close all the way that a tool goes by strain within one element. `share` is what it was before, `residual` the relative one
+/// that is wanted. **Collective**
+pub(crate) fn share_of_forces(system: &System, share: f64, residual: f64) -> Result<f64, SystemError> {
+    if system.problem().scene.rigid.is_empty() {
+        return Ok(share);
+    }
+    let ([loads, pressed], whole) = (system.force_norms()?, system.residual()?.whole);
+    // Where displacements are prescribed the load is one that would strain what they move rigidly.
+    let forces = if share < 1.0 { pressed } else { loads + pressed };
+    if forces == 0.0 || whole == 0.0 {
+        return Ok(share);
+    }
+    Ok((forces / whole).max(LEAST_RESIDUAL / residual).min(share))
+}
+
+/// Relative residual that the last solve is to reach. A start from a coarser mesh is off by the discretisation error of
+/// that mesh; this share of its residual leaves less than a tenth of this mesh's, in λ too. **Collective**
+pub(crate) fn last_residual(system: &System, tolerance: Tolerance) -> Result<f64, SystemError> {
+    match tolerance {
+        Tolerance::Residual(residual) => Ok(residual),
+        Tolerance::Discretisation => Ok((FROM_START * system.residual()?.relative()).clamp(SMALL, LOOSE)),
+    }
+}

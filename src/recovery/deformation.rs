@@ -1,0 +1,174 @@
+//! How far the bodies are strained and turned: whether a theory of small strains and rotations holds.
+
+use crate::body::positions;
+use crate::discretisation::agreed;
+use crate::discretisation::{Discretisation, Field, SystemError};
+use crate::element::{Order, PlaneLaw, jacobian};
+use crate::geometry::Point;
+use crate::mesh::{MacroMesh, MacroTriangle, lattice};
+use crate::petsc::Session;
+use nalgebra::Matrix2;
+
+/// Refinements from which on a macro triangle alone is a region of many triangles.
+const MANY: usize = 2;
+
+/// How far a body is deformed and turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deformation {
+    /// Mean, over a macro triangle, of the larger principal strain by magnitude: the largest (no unit).
+    pub strain: f64,
+    /// Middle of that macro triangle.
+    pub place: Point,
+    /// Mean rotation, anticlockwise (radians).
+    pub rotation: f64,
+    /// `∫(ω² - ε²)/2 tr σ` where the rotation ω is larger than the strain ε: the work of the stresses on the growth that a
+    /// linear theory gives to what turns (energy per thickness).
+    pub growth: f64,
+    /// Middle of the body.
+    pub middle: Point,
+    /// Largest distance of a vertex from there (length).
+    pub radius: f64,
+}
+
+/// Integrals over a macro triangle: of the larger principal strain, of 1, of the rotation, of the work on its growth.
+type TriangleIntegrals = [f64; 4];
+
+/// Strain, rotation and growth of each body. Strains are means over a macro triangle; where these are hardly refined, over it
+/// and its neighbours. So a corner where the strain is singular counts by what its surroundings see, on fine meshes as on
+/// coarse ones. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from an inverted triangle.
+pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<Deformation>, SystemError> {
+    let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
+    let mut sums: Vec<TriangleIntegrals> = vec![TriangleIntegrals::default(); mesh.triangles.len()];
+    let own = problem.scene.partition.triangles_of(session.rank());
+    let added = own.iter().try_for_each(|&triangle| {
+        let law = &laws[mesh.triangles[triangle as usize].part as usize];
+        sums[triangle as usize] = match problem.finest().numbering.level.order {
+            Order::P1 => integrals::<3>(problem, u, triangle as usize, law)?,
+            Order::P2 => integrals::<6>(problem, u, triangle as usize, law)?,
+        };
+        Ok(())
+    });
+    agreed(session, added)?;
+    session.sum(sums.as_flattened_mut());
+    let mut found = whole_bodies(mesh, &sums);
+    for _ in problem.scene.refine..MANY {
+        sums = with_neighbours(mesh, &sums);
+    }
+    for (triangle, sum) in mesh.triangles.iter().zip(&sums) {
+        let of_body = &mut found[triangle.body as usize];
+        if sum[0] / sum[1] > of_body.strain {
+            (of_body.strain, of_body.place) = (sum[0] / sum[1], centroid(mesh, triangle));
+        }
+    }
+    Ok(found)
+}
+
+/// What is known of each body as a whole; its strain is left at zero.
+fn whole_bodies(mesh: &MacroMesh, sums: &[TriangleIntegrals]) -> Vec<Deformation> {
+    let mut totals = vec![(TriangleIntegrals::default(), Point::zeros()); mesh.bodies.len()];
+    for (triangle, sum) in mesh.triangles.iter().zip(sums) {
+        let (total, moment) = &mut totals[triangle.body as usize];
+        (0..sum.len()).for_each(|k| total[k] += sum[k]);
+        *moment += centroid(mesh, triangle) * sum[1];
+    }
+    let whole = |&([_, area, rotation, growth], moment): &(TriangleIntegrals, Point)| {
+        let middle = moment / area;
+        Deformation { strain: 0.0, place: middle, rotation: rotation / area, growth, middle, radius: 0.0 }
+    };
+    let mut found: Vec<Deformation> = totals.iter().map(whole).collect();
+    for triangle in &mesh.triangles {
+        let Deformation { middle, radius, .. } = &mut found[triangle.body as usize];
+        let farthest = triangle.vertices.map(|vertex| (mesh.vertices[vertex as usize] - *middle).norm());
+        *radius = farthest.into_iter().fold(*radius, f64::max);
+    }
+    found
+}
+
+fn centroid(mesh: &MacroMesh, triangle: &MacroTriangle) -> Point {
+    triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]).into_iter().sum::<Point>() / 3.0
+}
+
+/// Each sum with those of the macro triangles beside it.
+fn with_neighbours(mesh: &MacroMesh, sums: &[TriangleIntegrals]) -> Vec<TriangleIntegrals> {
+    let mut wider = sums.to_vec();
+    for edge in &mesh.edges {
+        let [Some(a), Some(b)] = edge.triangles.map(|triangle| triangle.map(|triangle| triangle as usize)) else { continue };
+        for k in 0..sums[a].len() {
+            wider[a][k] += sums[b][k];
+            wider[b][k] += sums[a][k];
+        }
+    }
+    wider
+}
+
+/// Gradients of the shape functions in the middle of a triangle, and its Jacobian determinant.
+type Shape<const N: usize> = ([Point; N], f64);
+
+/// The integrals over a macro triangle: one point for each triangle. Where all are alike, the first of each kind stands for them.
+fn integrals<const N: usize>(
+    problem: &Discretisation,
+    u: &Field<2>,
+    triangle: usize,
+    law: &PlaneLaw,
+) -> Result<TriangleIntegrals, SystemError> {
+    const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
+    let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
+    let numbers = problem.finest().numbering.triangle(mesh, triangle);
+    let is_even = mesh.is_even(triangle, level);
+    let mut alike: [Option<Shape<N>>; 2] = [None; 2];
+    let mut sums = TriangleIntegrals::default();
+    for small in lattice::triangles(level.intervals, level.order) {
+        let nodes = small.nodes::<N>();
+        let known = &mut alike[usize::from(small.down)];
+        let (gradients, area) = match *known {
+            Some(shape) if is_even => shape,
+            _ => *known.insert(jacobian(&positions(mesh, triangle, level, &nodes), MIDDLE)?),
+        };
+        let gradient = nodes
+            .iter()
+            .zip(&gradients)
+            .fold(Matrix2::zeros(), |sum, (&(i, j), gradient)| sum + u.point(numbers.node(i, j)) * gradient.transpose());
+        let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
+        let (strain, [xx, yy, ..]) = (principal(&gradient), law.stress(&gradient));
+        let growth = 0.5 * (rotation * rotation - strain * strain).max(0.0);
+        let values = [strain, 1.0, rotation, growth * (xx + yy)];
+        sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
+    }
+    Ok(sums)
+}
+
+/// The larger principal strain of a displacement gradient, by magnitude.
+fn principal(gradient: &Matrix2<f64>) -> f64 {
+    let mean = 0.5 * (gradient[(0, 0)] + gradient[(1, 1)]);
+    let half = 0.5 * (gradient[(0, 0)] - gradient[(1, 1)]);
+    let shear = 0.5 * (gradient[(0, 1)] + gradient[(1, 0)]);
+    mean.abs() + half.hypot(shear)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn principal_strains_do_not_see_rotations() {
+        assert_eq!(principal(&Matrix2::new(0.0, -0.3, 0.3, 0.0)), 0.0);
+        assert!((principal(&Matrix2::new(0.1, 0.0, 0.0, -0.4)) - 0.4).abs() < 1e-15);
+        assert!((principal(&Matrix2::new(0.0, 0.2, 0.0, 0.0)) - 0.1).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_body_turns_by_the_mean_over_its_area() {
+        let mesh = crate::mesh::samples::two_blocks();
+        let body = mesh.bodies.iter().position(|name| name == "lower").expect("a body");
+        let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].body as usize == body).collect();
+        let mut sums = vec![[9.0, 9.0, 9.0, 9.0]; mesh.triangles.len()];
+        (sums[own[0]], sums[own[1]]) = ([0.0, 1.0, 0.02, 0.3], [0.0, 3.0, 0.18, 0.5]);
+        let found = &whole_bodies(&mesh, &sums)[body];
+        assert!((found.rotation - 0.05).abs() < 1e-12 && (found.growth - 0.8).abs() < 1e-12);
+        let [a, b] = [0, 1].map(|k| centroid(&mesh, &mesh.triangles[own[k]]));
+        assert!((found.middle - (0.25 * a + 0.75 * b)).norm() < 1e-12);
+    }
+}

@@ -1,0 +1,122 @@
+//! A solution looked at: what is computed of it once, and what can be asked of it.
+
+use super::balance::{Balance, balance};
+use super::corners::{Corners, corners};
+use super::deformation::{Deformation, deformations};
+use super::error_norm::energy_error;
+use super::motion_error::{MotionError, growth_by_gap, motion_errors};
+use super::overlaps::{missing_force, unresolved_force};
+use super::penetrations::penetrations;
+use super::probe::{Probed, probe};
+use super::stress::{NodalStress, nodal_stress};
+use super::traces::{TracePoint, trace_points};
+use super::zone_ends::{EndSlip, slip_at_ends};
+use crate::contact::Penetration;
+use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError};
+use crate::geometry::{Formula, Point};
+use crate::mesh::Region;
+use crate::petsc::Session;
+
+/// A solution with its displacements at all nodes that this rank sees, its energies and its balances.
+pub struct Evaluation<'a> {
+    /// What was solved.
+    pub problem: &'a Discretisation,
+    /// What was found.
+    pub solution: &'a Solution,
+    /// All ranks.
+    pub session: &'a Session,
+    /// Displacements.
+    pub u: Field<2>,
+    /// Largest displacement of a node (length).
+    pub moved: f64,
+    /// Energies, reactions and balances.
+    pub balance: Balance,
+    /// Strain and rotation of each body.
+    pub deformations: Vec<Deformation>,
+    /// What finite motions spoil, for each contact.
+    pub motions: Vec<Option<MotionError>>,
+    /// How deep the bodies of each contact lie in each other, by their whole sides.
+    pub penetrations: Vec<Penetration>,
+}
+
+impl<'a> Evaluation<'a> {
+    /// Computes what is asked of every solution. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] from PETSc or an inverted triangle.
+    pub fn new(problem: &'a Discretisation, solution: &'a Solution, session: &'a Session) -> Result<Self, SystemError> {
+        let u = Field::displacement(problem, &solution.displacement, session)?;
+        let mut moved = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
+        session.max(&mut moved);
+        let balance = balance(problem, solution, &u, session)?;
+        let deformations = deformations(problem, &u, session)?;
+        let motions = motion_errors(problem, solution, &balance.strain, &deformations, session);
+        let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
+        let penetrations = penetrations(problem, solution, &forces, session);
+        Ok(Self { problem, solution, session, u, moved: moved[0], balance, deformations, motions, penetrations })
+    }
+
+    /// The pressure on one of the contacts.
+    pub fn pressure(&self, contact: usize) -> ContactPressure<'a> {
+        self.solution.pressure(&self.problem.contacts[contact])
+    }
+
+    /// Growth of the bodies of a contact by their turning, relative to the smallest gap at `points`; nothing if it is rounding
+    /// beside their displacements.
+    pub fn growth_by_gap(&self, contact: usize, points: &[TracePoint]) -> Option<f64> {
+        growth_by_gap(self.problem.contacts[contact].bodies.map(|body| &self.deformations[body]), points, self.moved)
+    }
+
+    /// What sliding does at the ends of a contact that `zones` reach.
+    pub fn slip_at_ends(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<EndSlip> {
+        slip_at_ends(&self.problem.contacts[contact], &self.problem.scene.mesh, zones, points)
+    }
+
+    /// Corners of the bodies of a contact within `zones`: the arcs that press.
+    pub fn corners(&self, contact: usize, zones: &[[f64; 2]]) -> Corners {
+        corners(&self.problem.scene, &self.problem.contacts[contact], zones)
+    }
+
+    /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the
+    /// largest overlap relative to the largest relative displacement.
+    pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> (Option<f64>, f64) {
+        missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.moved)
+    }
+
+    /// Force that penetration within single segments of a contact is worth (force per thickness).
+    pub fn unresolved_force(&self, contact: usize, points: &[TracePoint]) -> f64 {
+        unresolved_force(&self.problem.contacts[contact], points, self.moved)
+    }
+
+    /// Both bodies' traces along a contact boundary. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn traces(&self, pressure: &ContactPressure) -> Result<Vec<TracePoint>, SystemError> {
+        trace_points(self.problem, pressure, &self.u, self.session)
+    }
+
+    /// Values at a point of a body or of a part of one; nothing if it does not hold the point. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn probe(&self, region: Region, x: Point) -> Result<Option<Probed>, SystemError> {
+        probe(self.problem, &self.u, region, x, self.session)
+    }
+
+    /// Stress (xx, yy, xy, zz) at the nodes, of each part by itself. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn stress(&self) -> Result<NodalStress, SystemError> {
+        nodal_stress(self.problem, &self.u, self.session)
+    }
+
+    /// Error of the stress in a body or a part of one, and its size, both squared in the energy norm, against formulas. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn energy_error(&self, region: Region, exact: &[Formula; 3]) -> Result<[f64; 2], SystemError> {
+        energy_error(self.problem, &self.u, region, exact, self.session)
+    }
+}

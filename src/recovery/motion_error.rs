@@ -1,0 +1,177 @@
+//! What finite motions do to contact pressures of the linear theory.
+
+use super::deformation::Deformation;
+use super::traces::TracePoint;
+use crate::body::RigidSet;
+use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, finite_motion};
+use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Solution, needed_contacts};
+use crate::mesh::EdgeNode;
+use crate::petsc::Session;
+
+/// A gap smaller than this share of the growth counts as large as that.
+const NO_GAP: f64 = 1e-3;
+
+/// Relative error where a tool may turn on a curved boundary: what holds it there is the force and the curvature, which the linear
+/// theory does not know.
+const UNKNOWN: f64 = 1.0;
+
+/// Growth by less than this share of the displacements is rounding.
+const ROUNDING: f64 = 1e-5;
+
+/// The same share of the largest displacement of all.
+const NO_MOTION: f64 = 1e-12;
+
+/// Sliding and turning of the two bodies in a contact, and what they spoil.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionError {
+    /// Way of the bodies along each other, as a share of the length that presses; of curved fits on undeformed bodies.
+    pub slip: Option<f64>,
+    /// Estimated relative error of force or pressure by sliding and turning together; of such fits too.
+    pub slip_error: Option<f64>,
+    /// The part of it that comes from turning; for all contacts.
+    pub rotation_error: f64,
+}
+
+/// For each contact what motions spoil; nothing where no body is strained. `energy` is the strain energy of each body.
+/// **Collective**
+pub fn motion_errors(
+    problem: &Discretisation,
+    solution: &Solution,
+    energy: &[f64],
+    bodies: &[Deformation],
+    session: &Session,
+) -> Vec<Option<MotionError>> {
+    let follows = |contact: &Contact| contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some();
+    // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
+    let mut needed = needed_contacts(problem, &solution.active, session);
+    for (contact, needed) in problem.contacts.iter().zip(&mut needed) {
+        *needed &= !is_between_tools(problem, contact, &|set| set.free().next().is_some());
+    }
+    let all = || problem.contacts.iter().zip(&needed);
+    if !problem.contacts.iter().any(follows) {
+        return all()
+            .map(|(contact, &needed)| one(problem, solution, (contact, needed), energy, bodies, None, session))
+            .collect();
+    }
+    let (mesh, space) = (&problem.scene.mesh, problem.finest());
+    let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
+    let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+    let with_sides = |(contact, &needed): (&Contact, &bool)| {
+        let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact));
+        let sides = meeting.map(|meeting| {
+            let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+            meeting.begin(&mut sides);
+            sides
+        });
+        let sides = meeting.zip(sides.as_ref()).map(|(meeting, sides)| meeting.sides(sides));
+        one(problem, solution, (contact, needed), energy, bodies, sides, session)
+    };
+    all().map(with_sides).collect()
+}
+
+/// What motions spoil of one contact, which may be `needed` to hold bodies. **Collective**
+fn one(
+    problem: &Discretisation,
+    solution: &Solution,
+    (contact, needed): (&Contact, bool),
+    energy: &[f64],
+    bodies: &[Deformation],
+    sides: Option<[&SmoothSide; 2]>,
+    session: &Session,
+) -> Option<MotionError> {
+    let turns = contact.bodies.map(|body| Turn { angle: bodies[body].rotation, middle: bodies[body].middle });
+    let found = finite_motion(sides, turns, &contact.boundary, &contact.multipliers, &solution.multipliers[contact.range()]);
+    let energy: f64 = contact.bodies.iter().map(|&body| energy[body]).sum();
+    let growth: f64 = contact.bodies.iter().map(|&body| bodies[body].growth).sum();
+    let growth = growth + tool_growth(problem, solution, contact, bodies, session);
+    if found.force <= 0.0 || energy <= 0.0 {
+        return None;
+    }
+    let is_straight = match sides {
+        Some(sides) => sides.iter().all(|side| side.shape().is_line()),
+        None => contact.boundary.is_straight(),
+    };
+    let rolls = !is_straight && is_between_tools(problem, contact, &|set| set.prescribed[2].is_none());
+    let error = |gap: &GapError| {
+        // By how much the energy, and so the force where displacements set it, is off.
+        let force = if needed { 0.0 } else { (growth - gap.work).abs() / (2.0 * energy) };
+        let error = force.max(pressure_error(contact, &found, gap));
+        if rolls { error.max(UNKNOWN) } else { error }
+    };
+    Some(MotionError {
+        slip: sides.map(|_| found.slip / found.length),
+        slip_error: sides.map(|_| error(&found.whole)),
+        rotation_error: error(&found.turning),
+    })
+}
+
+/// Whether a body of the contact is a rigid tool of which this is true.
+fn is_between_tools(problem: &Discretisation, contact: &Contact, is: &dyn Fn(&RigidSet) -> bool) -> bool {
+    let scene = &problem.scene;
+    contact.bodies.iter().filter_map(|&body| scene.tool(body)).any(is)
+}
+
+/// Force times length by which tools seem to grow as they turn about their reference points: `½θ² ∫λ n·(x - x₀) ds`.
+/// **Collective**
+fn tool_growth(
+    problem: &Discretisation,
+    solution: &Solution,
+    contact: &Contact,
+    bodies: &[Deformation],
+    session: &Session,
+) -> f64 {
+    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+    let mut growth = [0.0];
+    for row in problem.coupling.own(contact.range(), session.rank()) {
+        for coupled in &problem.coupling.rows[row] {
+            if let Some(tool) = scene.tool(coupled.body) {
+                let arm = coupled.node.place(&scene.mesh, numbering) - tool.about;
+                growth[0] += 0.5 * bodies[coupled.body].rotation.powi(2) * solution.multipliers[row] * coupled.value.dot(&arm);
+            }
+        }
+    }
+    session.sum(&mut growth);
+    growth[0]
+}
+
+/// Relative error of λ by an uneven gap that is left out. On a half-plane a gap that varies by e over the half length a takes
+/// the pressure E* e/a; E* is about E_c/2.
+fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f64 {
+    let is_whole = contact.boundary.turn().is_some_and(|turn| found.length > turn * (1.0 - 1e-9));
+    let ends_inside = contact.ends_with_a_body() == [false; 2] && !is_whole;
+    let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
+    modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
+}
+
+/// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements in the
+/// contact, or beside the `farthest` displacement of all.
+pub fn growth_by_gap(bodies: [&Deformation; 2], points: &[TracePoint], farthest: f64) -> Option<f64> {
+    let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
+    let moved = points.iter().map(|point| point.displacement[0].abs().max(point.displacement[1].abs())).fold(0.0, f64::max);
+    let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
+    (growth > ROUNDING * moved && growth > NO_MOTION * farthest).then(|| growth / smallest.max(NO_GAP * growth))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+
+    #[test]
+    fn bodies_that_turn_grow_by_half_the_square_of_the_angle() {
+        let turned = |rotation: f64| {
+            let (place, middle) = (Point::zeros(), Point::zeros());
+            Deformation { strain: 0.0, place, rotation, growth: 0.0, middle, radius: 3.0 }
+        };
+        let point = |gap: f64| {
+            let (x, normal) = (Point::zeros(), Point::y());
+            let displacement = [1e-4, -2e-4];
+            TracePoint { arc: 0.0, x, normal, lambda: 0.0, displacement, slip: 0.0, stress: [0.0; 2], distance: [0.0, gap], gap }
+        };
+        let points = [point(0.02), point(0.01), point(f64::NAN)];
+        let found = growth_by_gap([&turned(0.01), &turned(-0.02)], &points, 0.1).expect("growth");
+        assert!((found / (1.5 * (0.01f64.powi(2) + 0.02f64.powi(2)) / 0.01) - 1.0).abs() < 1e-12, "{found}");
+        assert_eq!(growth_by_gap([&turned(1e-6), &turned(0.0)], &points, 0.1), None, "rounding beside the displacements");
+        assert_eq!(growth_by_gap([&turned(0.1), &turned(0.0)], &[], 0.1), None, "no gap");
+    }
+}

@@ -1,0 +1,26 @@
+//! How deep the bodies of each contact lie in each other, by their whole sides.
+
+use crate::contact::{Penetration, SmoothSide, penetration};
+use crate::discretisation::{BoundaryMotion, Discretisation, Solution};
+use crate::geometry::Point;
+use crate::mesh::EdgeNode;
+use crate::petsc::Session;
+
+/// For each contact, with its force (per thickness); ranks take them in turn. Bodies that lie along each other from the beginning
+/// come together by what strains them: a pressure p over a width w moves a boundary by about `2 p w/E`. **Collective**
+pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64], session: &Session) -> Vec<Penetration> {
+    let (mesh, space) = (&problem.scene.mesh, problem.finest());
+    let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
+    let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+    let mut values = vec![0.0; 4 * problem.contacts.len()];
+    for (at, contact) in problem.contacts.iter().enumerate().filter(|(at, _)| at % session.size() == session.rank()) {
+        let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+        let Penetration { depth, place, approach } = penetration(&sides, &contact.pair);
+        let softest = contact.moduli.iter().copied().fold(f64::INFINITY, f64::min);
+        let approach = approach.max(2.0 * forces[at].abs() / softest);
+        values[4 * at..4 * at + 4].copy_from_slice(&[depth, place.x, place.y, approach]);
+    }
+    session.sum(&mut values);
+    let found = |value: &[f64]| Penetration { depth: value[0], place: Point::new(value[1], value[2]), approach: value[3] };
+    values.chunks_exact(4).map(found).collect()
+}

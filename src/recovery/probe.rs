@@ -1,0 +1,238 @@
+//! Displacement and stress at a point of a body.
+
+use crate::body::positions;
+use crate::discretisation::agreed;
+use crate::discretisation::{Discretisation, Field, SystemError};
+use crate::element::{Order, PlaneLaw, SIX_POINTS, shape, stress};
+use crate::geometry::Point;
+use crate::mesh::Region;
+use crate::mesh::lattice::Triangle;
+use crate::petsc::Session;
+
+/// How far outside a macro triangle a point may lie (barycentric): as far as on the mesh of the file first; a point that lies as
+/// little outside of that is farther out by the size of its triangles where these are small.
+const OUTSIDE: [f64; 4] = [1e-8, 1e-6, 1e-4, 1e-2];
+
+/// Barycentric coordinates of the middle of a triangle: a stress of P2 is linear, and has its mean there.
+const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
+
+/// Values at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Probed {
+    /// Displacement.
+    pub displacement: Point,
+    /// Stress (xx, yy, xy, zz).
+    pub stress: [f64; 4],
+}
+
+/// Values at a point of a body or of a part of one, the same on every rank; nothing if it does not hold the point. On an edge
+/// between macro triangles it is the mean over them. **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn probe(
+    problem: &Discretisation,
+    u: &Field<2>,
+    region: Region,
+    x: Point,
+    session: &Session,
+) -> Result<Option<Probed>, SystemError> {
+    for near in OUTSIDE {
+        let found = probe_near(problem, u, region, x, near, session)?;
+        if found.is_some() {
+            return Ok(found);
+        }
+    }
+    Ok(None)
+}
+
+/// The same, where points outside count up to the distance `near` (barycentric). **Collective**
+fn probe_near(
+    problem: &Discretisation,
+    u: &Field<2>,
+    region: Region,
+    x: Point,
+    near: f64,
+    session: &Session,
+) -> Result<Option<Probed>, SystemError> {
+    let laws = problem.scene.laws();
+    let mut sums = [0.0; 7];
+    let added = problem.scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
+        let triangle = triangle as usize;
+        if !region.holds(&problem.scene.mesh.triangles[triangle]) {
+            return Ok(());
+        }
+        let law = law_of(problem, &laws, triangle);
+        let Some(at) = problem.scene.mesh.locate_near(triangle, x, near) else { return Ok(()) };
+        let values = match problem.finest().numbering.level.order {
+            Order::P1 => values_at::<3>(problem, u, triangle, at, law)?,
+            Order::P2 => values_at::<6>(problem, u, triangle, at, law)?,
+        };
+        values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
+        Ok::<(), SystemError>(())
+    });
+    agreed(session, added)?;
+    session.sum(&mut sums);
+    let mean = sums.map(|sum| sum / sums[6]);
+    Ok((sums[6] > 0.0)
+        .then(|| Probed { displacement: Point::new(mean[0], mean[1]), stress: [mean[2], mean[3], mean[4], mean[5]] }))
+}
+
+/// Nodes of the triangle at reference coordinates of a macro triangle, and the values of their shape functions there.
+pub fn shapes_at(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(usize, f64)> {
+    match problem.finest().numbering.level.order {
+        Order::P1 => nodes_with_shapes::<3>(problem, triangle, at),
+        Order::P2 => nodes_with_shapes::<6>(problem, triangle, at),
+    }
+}
+
+fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(usize, f64)> {
+    let (small, l) = small_triangle(problem, triangle, at);
+    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
+    small.nodes::<N>().into_iter().map(|(i, j)| numbers.node(i, j)).zip(shape::<N>(l)).collect()
+}
+
+/// Root mean square of the size of the stress over the triangles of the lattice that hold a point; zero if no body holds it.
+/// **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn stress_around(
+    problem: &Discretisation,
+    u: &Field<2>,
+    region: Region,
+    x: Point,
+    session: &Session,
+) -> Result<f64, SystemError> {
+    let laws = problem.scene.laws();
+    let mut sums = [0.0; 2];
+    let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
+        let law = law_of(problem, &laws, triangle);
+        match problem.finest().numbering.level.order {
+            Order::P1 => add_squares::<3>(problem, u, triangle, at, law, &mut sums),
+            Order::P2 => add_squares::<6>(problem, u, triangle, at, law, &mut sums),
+        }
+    });
+    agreed(session, added)?;
+    session.sum(&mut sums);
+    Ok(if sums[1] > 0.0 { (sums[0] / sums[1]).sqrt() } else { 0.0 })
+}
+
+fn add_squares<const N: usize>(
+    problem: &Discretisation,
+    u: &Field<2>,
+    triangle: usize,
+    at: Point,
+    law: &PlaneLaw,
+    sums: &mut [f64; 2],
+) -> Result<(), SystemError> {
+    let small = small_triangle(problem, triangle, at).0;
+    let x = positions(&problem.scene.mesh, triangle, problem.finest().numbering.level, &small.nodes::<N>());
+    let nodal = u.of_triangle::<N>(problem, triangle, &small);
+    for &(l, weight) in SIX_POINTS {
+        let s = stress(&x, &nodal, l, law)?;
+        sums[0] += weight * (s[0] * s[0] + s[1] * s[1] + 2.0 * s[2] * s[2]);
+        sums[1] += weight;
+    }
+    Ok(())
+}
+
+/// This rank's macro triangles of a body, or of a part of one, that hold a point, and its reference coordinates in them.
+pub fn holding(problem: &Discretisation, region: Region, x: Point, session: &Session) -> Vec<(usize, Point)> {
+    let mesh = &problem.scene.mesh;
+    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
+    let own = own.filter(|&triangle| region.holds(&mesh.triangles[triangle]));
+    own.filter_map(|triangle| Some((triangle, mesh.locate(triangle, x)?))).collect()
+}
+
+/// Nodal forces of the functional `v ↦ s : σ(v)`, mean over the triangles of the lattice that hold a point, where s is the
+/// mean of the stress of `u` on them, of any size: the direction in which it points. All zero if no body holds the point.
+/// **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn stress_forces(
+    problem: &Discretisation,
+    u: &Field<2>,
+    region: Region,
+    x: Point,
+    session: &Session,
+) -> Result<Field<2>, SystemError> {
+    let laws = problem.scene.laws();
+    let mut forces = Field::<2>::zeros(problem, session);
+    let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
+        let law = law_of(problem, &laws, triangle);
+        match problem.finest().numbering.level.order {
+            Order::P1 => add_stress_forces::<3>(problem, u, triangle, at, law, &mut forces),
+            Order::P2 => add_stress_forces::<6>(problem, u, triangle, at, law, &mut forces),
+        }
+    });
+    agreed(session, added)?;
+    forces.sum(session)
+}
+
+fn add_stress_forces<const N: usize>(
+    problem: &Discretisation,
+    u: &Field<2>,
+    triangle: usize,
+    at: Point,
+    law: &PlaneLaw,
+    forces: &mut Field<2>,
+) -> Result<(), SystemError> {
+    let small = small_triangle(problem, triangle, at).0;
+    let level = problem.finest().numbering.level;
+    let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
+    let mean = |u: &[Point; N]| stress(&x, u, MIDDLE, law);
+    let pointing = mean(&u.of_triangle::<N>(problem, triangle, &small))?;
+    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
+    for (k, (i, j)) in small.nodes::<N>().into_iter().enumerate() {
+        let sum = forces.at_mut(numbers.node(i, j));
+        for (c, axis) in [Point::x(), Point::y()].into_iter().enumerate() {
+            let mut moved = [Point::zeros(); N];
+            moved[k] = axis;
+            let found = mean(&moved)?;
+            sum[c] += pointing[0] * found[0] + pointing[1] * found[1] + 2.0 * pointing[2] * found[2];
+        }
+    }
+    Ok(())
+}
+
+/// The law of a macro triangle.
+fn law_of<'a>(problem: &Discretisation, laws: &'a [PlaneLaw], triangle: usize) -> &'a PlaneLaw {
+    &laws[problem.scene.mesh.triangles[triangle].part as usize]
+}
+
+/// Displacement and stress at reference coordinates of a macro triangle.
+fn values_at<const N: usize>(
+    problem: &Discretisation,
+    u: &Field<2>,
+    triangle: usize,
+    at: Point,
+    law: &PlaneLaw,
+) -> Result<[f64; 6], SystemError> {
+    let (small, l) = small_triangle(problem, triangle, at);
+    let level = problem.finest().numbering.level;
+    let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
+    let nodal = u.of_triangle::<N>(problem, triangle, &small);
+    let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
+    let s = stress(&x, &nodal, l, law)?;
+    Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])
+}
+
+/// The triangle of a macro triangle's lattice at reference coordinates, and the barycentric ones in it.
+fn small_triangle(problem: &Discretisation, triangle: usize, at: Point) -> (Triangle, [f64; 3]) {
+    let level = problem.finest().numbering.level;
+    let count = level.triangles_per_edge();
+    let scaled = problem.scene.mesh.lattice_point(triangle, level, at).map(|v| v.max(0.0)) * count as f64;
+    let step = level.order.degree();
+    let [mut i, mut j] = [scaled.x as usize, scaled.y as usize].map(|k| k.min(count - 1));
+    while i + j >= count {
+        if i > j { i -= 1 } else { j -= 1 }
+    }
+    let (xi, eta) = (scaled.x - i as f64, scaled.y - j as f64);
+    if xi + eta > 1.0 && i + j + 2 <= count {
+        (Triangle::at(step * (i + 1), step * (j + 1), level.order, true), [xi + eta - 1.0, 1.0 - xi, 1.0 - eta])
+    } else {
+        (Triangle::at(step * i, step * j, level.order, false), [1.0 - xi - eta, xi, eta])
+    }
+}

@@ -1,0 +1,197 @@
+//! Both bodies' traces along Γ_C.
+
+use crate::body::positions;
+use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
+use crate::discretisation::agreed;
+use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError};
+use crate::element::{Order, PlaneLaw, stress};
+use crate::geometry::{Point, gauss_points};
+use crate::mesh::BoundaryEdge;
+use crate::petsc::Session;
+
+/// Gauss points of each part of Γ_C that results are given at.
+const POINTS: usize = 2;
+
+/// Sums of each body at a point: a count, and the values of [`on_edge`].
+const VALUES: usize = 5;
+
+/// Points whose values are added up over the ranks at once.
+const AT_ONCE: usize = 1 << 14;
+
+/// Values at one point of Γ_C.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TracePoint {
+    /// Arc length from the start.
+    pub arc: f64,
+    /// The point.
+    pub x: Point,
+    /// Normal, from body 1 to body 2.
+    pub normal: Point,
+    /// Contact pressure.
+    pub lambda: f64,
+    /// Normal displacement of body 1 and of body 2; not a number where a body has no corresponding point.
+    pub displacement: [f64; 2],
+    /// Way of body 2 along body 1, to where the arc length grows.
+    pub slip: f64,
+    /// `n·σn` of each body.
+    pub stress: [f64; 2],
+    /// Undeformed distance along the normal from Γ_C to each corresponding point.
+    pub distance: [f64; 2],
+    /// Distance of the deformed bodies, as the contact conditions mean it.
+    pub gap: f64,
+}
+
+impl TracePoint {
+    /// Whether both bodies have a corresponding point here.
+    pub fn is_complete(&self) -> bool {
+        self.displacement.iter().all(|u| u.is_finite())
+    }
+}
+
+/// Values along Γ_C at both ends, at the Gauss points of the union of segment ends and both bodies' projected nodes,
+/// and on both sides of every jump of λ; in order of arc length, the same on every rank. **Collective**
+///
+/// # Errors
+/// [`SystemError`] where a triangle is inverted.
+pub fn trace_points(
+    problem: &Discretisation,
+    pressure: &ContactPressure,
+    u: &Field<2>,
+    session: &Session,
+) -> Result<Vec<TracePoint>, SystemError> {
+    let (contact, laws) = (pressure.contact, problem.scene.laws());
+    let own = [0, 1].map(|body| {
+        let overlaps = edge_overlaps(&contact.boundary, &contact.edges[body]);
+        BodyTrace { problem, laws: &laws, contact, body, overlaps }
+    });
+    let cuts: Vec<f64> = own.iter().flat_map(|trace| &trace.overlaps).flat_map(|overlap| overlap.range).collect();
+    let (parameters, segments) = parameters(contact, &cuts, session);
+    let mut points = Vec::with_capacity(parameters.len());
+    for (parameters, segments) in parameters.chunks(AT_ONCE).zip(segments.chunks(AT_ONCE)) {
+        let mut sums = vec![[0.0; 2 * VALUES]; parameters.len()];
+        let added = own.iter().try_for_each(|trace| trace.add(parameters, u, &mut sums));
+        agreed(session, added)?;
+        session.sum(sums.as_flattened_mut());
+        points.extend((0..parameters.len()).map(|at| point(pressure, parameters[at], segments[at], &sums[at])));
+    }
+    Ok(points)
+}
+
+/// The trace of one body on the edges of this rank.
+struct BodyTrace<'a> {
+    problem: &'a Discretisation,
+    laws: &'a [PlaneLaw],
+    contact: &'a Contact,
+    /// Which body: 1 (0) or 2 (1).
+    body: usize,
+    overlaps: Vec<EdgeOverlap>,
+}
+
+impl BodyTrace<'_> {
+    /// Adds its values to the sums of some points, ascending: a count, displacement, stress, distance, and displacement along Γ_C.
+    fn add(&self, parameters: &[f64], u: &Field<2>, sums: &mut [[f64; 2 * VALUES]]) -> Result<(), SystemError> {
+        let knots = self.contact.boundary.knots();
+        let tolerance = 1e-12 * (knots[knots.len() - 1] - knots[0]);
+        for overlap in &self.overlaps {
+            let [from, to] = overlap.range;
+            let first = parameters.partition_point(|&t| t < from - tolerance);
+            let last = parameters.partition_point(|&t| t <= to + tolerance);
+            for at in first..last {
+                let edge = &self.contact.edges[self.body][overlap.edge];
+                let values = on_edge(self.problem, self.laws, self.contact, self.body, edge, parameters[at], u)?;
+                let sums = &mut sums[at][VALUES * self.body..VALUES * (self.body + 1)];
+                sums.iter_mut().zip(std::iter::once(1.0).chain(values)).for_each(|(sum, value)| *sum += value);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The point at a parameter, from what the ranks have added up.
+fn point(pressure: &ContactPressure, t: f64, segment: usize, sums: &[f64; 2 * VALUES]) -> TracePoint {
+    let (contact, knots) = (pressure.contact, pressure.contact.boundary.knots());
+    let mean = |side: usize, i: usize| sums[VALUES * side + 1 + i] / sums[VALUES * side];
+    let z = ((t - knots[segment]) / (knots[segment + 1] - knots[segment])).clamp(0.0, 1.0);
+    let (x, distance) = (contact.boundary.point(t), [mean(0, 2), mean(1, 2)]);
+    let displacement = [mean(0, 0), mean(1, 0)];
+    TracePoint {
+        arc: contact.boundary.arc(t),
+        x,
+        normal: contact.boundary.normal(t),
+        lambda: pressure.value(segment, z),
+        displacement,
+        slip: mean(1, 3) - mean(0, 3),
+        stress: [mean(0, 1), mean(1, 1)],
+        distance,
+        gap: contact.pair.gap.at_rest(x, distance) + displacement[1] - displacement[0],
+    }
+}
+
+/// Parameters of all points, ascending, and the segment each belongs to.
+fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, Vec<usize>) {
+    let knots = contact.boundary.knots();
+    let mut all = session.gather_all(cuts);
+    all.extend_from_slice(knots);
+    all.sort_by(f64::total_cmp);
+    let least = 1e-10 * (knots[knots.len() - 1] - knots[0]);
+    all.dedup_by(|b, a| *b - *a < least);
+    let (mut parameters, mut segments) = (vec![knots[0]], vec![0]);
+    for ends in all.windows(2) {
+        let segment = contact.boundary.locate(0.5 * (ends[0] + ends[1])).0;
+        if segment != segments[segments.len() - 1] {
+            // Both values of a jump.
+            parameters.extend([knots[segment], knots[segment]]);
+            segments.extend([segment - 1, segment]);
+        }
+        for (z, _) in gauss_points(POINTS) {
+            parameters.push(ends[0] + z * (ends[1] - ends[0]));
+            segments.push(segment);
+        }
+    }
+    parameters.push(knots[knots.len() - 1]);
+    segments.push(contact.boundary.segments() - 1);
+    (parameters, segments)
+}
+
+/// Normal displacement, `n·σn`, distance, and displacement along Γ_C, of the trace on one edge of body 1 (0) or 2 (1).
+fn on_edge(
+    problem: &Discretisation,
+    laws: &[PlaneLaw],
+    contact: &Contact,
+    body: usize,
+    small: &BoundaryEdge,
+    t: f64,
+    u: &Field<2>,
+) -> Result<[f64; VALUES - 1], SystemError> {
+    let here = trace(&contact.boundary, small, t);
+    let normal = contact.boundary.normal(t);
+    let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
+        sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))
+    });
+    let law = &laws[problem.scene.mesh.triangles[small.triangle].part as usize];
+    let s = match problem.finest().numbering.level.order {
+        Order::P1 => stress_beside::<3>(problem, small, here.fraction, u, law)?,
+        Order::P2 => stress_beside::<6>(problem, small, here.fraction, u, law)?,
+    };
+    let pressure = s[0] * normal.x * normal.x + s[1] * normal.y * normal.y + 2.0 * s[2] * normal.x * normal.y;
+    let x = contact.boundary.point(t);
+    let distance = match contact.distance(body) {
+        // Boundaries that are said to touch: how far they do is seen on the mesh.
+        Distance::Declared => (here.place - x).dot(&normal),
+        measured => measured.at(x, normal, here.place).map_err(SystemError::Case)?,
+    };
+    Ok([moved.dot(&normal), pressure, distance, moved.dot(&contact.boundary.tangent(t))])
+}
+
+/// Stress on a boundary edge, in the triangle beside it.
+fn stress_beside<const N: usize>(
+    problem: &Discretisation,
+    small: &BoundaryEdge,
+    fraction: f64,
+    u: &Field<2>,
+    law: &PlaneLaw,
+) -> Result<[f64; 4], SystemError> {
+    let x = positions(&problem.scene.mesh, small.triangle, problem.finest().numbering.level, &small.beside.nodes::<N>());
+    let nodal = u.of_triangle::<N>(problem, small.triangle, &small.beside);
+    Ok(stress(&x, &nodal, small.barycentric(fraction), law)?)
+}

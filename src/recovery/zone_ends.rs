@@ -1,0 +1,265 @@
+//! The ends of a zone that presses, where they are those of Γ_C: pressures without bound, corners of one body.
+
+use super::traces::TracePoint;
+use crate::contact::{MultiplierSpace, Zone};
+use crate::discretisation::{Contact, ContactPressure};
+use crate::mesh::MacroMesh;
+
+/// Growth of the pressure from the last segment but one to the last, and by one refinement, above which it may be singular at
+/// an end.
+const GROWS: f64 = 1.02;
+
+/// Share of the growth by one refinement that the next one adds where λ goes like a power of the distance below zero: one or
+/// more; where it is bounded a half or less.
+const GOES_ON: f64 = 0.75;
+
+/// Two ends are one if they are nearer than this share of the length.
+const SAME: f64 = 1e-6;
+
+impl ContactPressure<'_> {
+    /// Whether λ grows towards an end of Γ_C, ever more quickly, and without bound as meshes are refined, as far as the values
+    /// there on the mesh `before` and on the one before that (`earlier`) tell. Steps grow towards any steep end.
+    pub fn grows_towards(&self, zone: &Zone, end: usize, [before, earlier]: [Option<f64>; 2]) -> bool {
+        let contact = self.contact;
+        if !zone.is_at_end[end] || zone.segments.len() < 3 {
+            return false;
+        }
+        let nth = |i: usize| if end == 0 { zone.segments.start + i } else { zone.segments.end - 1 - i };
+        let [a, b, c] = [0, 1, 2].map(|i| self.value(nth(i), 0.5));
+        let lengths = [0, 1, 2].map(|i| contact.boundary.segment_length(nth(i)));
+        let slopes = [(a - b) / (lengths[0] + lengths[1]), (b - c) / (lengths[1] + lengths[2])];
+        let last = self.value(nth(0), if end == 0 { 0.05 } else { 0.95 });
+        let grown = match (before, earlier) {
+            (Some(before), Some(earlier)) => {
+                last > GROWS * before && before > earlier && last - before > GOES_ON * (before - earlier)
+            }
+            (Some(before), None) => contact.multipliers.space != MultiplierSpace::P0 && last > GROWS * before,
+            _ => true,
+        };
+        a > GROWS * b && slopes[0] > slopes[1] && grown
+    }
+
+    /// Whether a zone reaches an end of Γ_C where one of the bodies has a corner and the other goes on.
+    pub fn ends_at_a_corner(&self, mesh: &MacroMesh, zone: &Zone, end: usize) -> bool {
+        if !zone.is_at_end[end] || self.contact.boundary.period().is_some() {
+            return false;
+        }
+        let beyond = beyond(self.contact, mesh, end);
+        let least = beyond[0].min(beyond[1]);
+        least.abs() < SAME && beyond[0].max(beyond[1]) > SAME
+    }
+}
+
+/// How far the boundary of each body goes on beyond an end of Γ_C, by the length of Γ_C.
+fn beyond(contact: &Contact, mesh: &MacroMesh, end: usize) -> [f64; 2] {
+    let boundary = &contact.boundary;
+    let knots = boundary.knots();
+    let (here, length) = (if end == 0 { knots[0] } else { knots[knots.len() - 1] }, knots[knots.len() - 1] - knots[0]);
+    contact.pair.between.each_ref().map(|name| {
+        let edges = mesh.boundary(name).map(|boundary| boundary.edges.as_slice()).unwrap_or(&[]);
+        let vertices = edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
+        let feet = vertices.map(|vertex| boundary.foot(mesh.vertices[vertex as usize]) - here);
+        feet.map(|foot| if end == 0 { -foot } else { foot }).fold(f64::NEG_INFINITY, f64::max) / length
+    })
+}
+
+/// What sliding does where contact comes near the ends of bodies, in shares of the length that presses.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EndSlip {
+    /// Way of the bodies along each other at an end of Γ_C that they press up to and where one of them ends; the larger of both.
+    pub way: f64,
+    /// Change of the length that they have in common there. Where they press up to one end alone, what goes on behind the other one
+    /// with the body that ends is no change. Where they press up to none, a quarter of the square of the slip by the distance to
+    /// the nearest end of a body (so much does the force of a layer change that slides to the edge of a block).
+    pub lost: f64,
+}
+
+/// An end of Γ_C that the bodies press up to: how far body 2 slides outwards there, and how far each goes on beyond it (lengths).
+struct SlidEnd {
+    outwards: f64,
+    beyond: [f64; 2],
+}
+
+impl SlidEnd {
+    /// By how much farther the bodies have something in common.
+    fn farther(&self) -> f64 {
+        let [first, second] = self.beyond;
+        first.min(second + self.outwards) - first.min(second)
+    }
+
+    /// What the body that ends here reaches over the other one then, or draws in where both end.
+    fn lost_alone(&self) -> f64 {
+        let [out, stays] = if self.outwards > 0.0 { [1, 0] } else { [0, 1] };
+        let margin = self.beyond[stays] - self.beyond[out];
+        if margin < 0.0 { 0.0 } else { (self.outwards.abs() - margin).max(0.0) }
+    }
+}
+
+/// What sliding does at both ends of a contact with these `zones` (arc lengths, in order); nothing where nothing presses.
+pub fn slip_at_ends(contact: &Contact, mesh: &MacroMesh, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<EndSlip> {
+    if contact.boundary.period().is_some() {
+        return None;
+    }
+    let (whole, pressed) = (contact.boundary.length(), zones.iter().map(|[a, b]| b - a).sum::<f64>());
+    let of_end = |end: usize| {
+        let reaches = |zone: &[f64; 2]| if end == 0 { zone[0] <= SAME * whole } else { zone[1] >= (1.0 - SAME) * whole };
+        let beyond = beyond(contact, mesh, end).map(|beyond| beyond * whole);
+        // Where a fit lets both go on, its end is that of the pressure.
+        if beyond[0].min(beyond[1]) > SAME * whole || !zones.iter().any(reaches) {
+            return None;
+        }
+        let mut complete = points.iter().filter(|point| point.is_complete());
+        Some(SlidEnd { outwards: if end == 0 { -complete.next()?.slip } else { complete.next_back()?.slip }, beyond })
+    };
+    let ends: Vec<SlidEnd> = [0, 1].into_iter().filter_map(of_end).collect();
+    let lost = match ends.as_slice() {
+        [] => return slip_near_ends(contact, mesh, zones, points),
+        [one] => one.lost_alone(),
+        both => both.iter().map(SlidEnd::farther).sum::<f64>().abs(),
+    };
+    let way = ends.iter().map(|end| end.outwards.abs()).fold(0.0, f64::max);
+    Some(EndSlip { way: way / pressed, lost: lost / pressed })
+}
+
+/// The same of contact that ends by itself: between its ends and those of the bodies there is room to slide.
+fn slip_near_ends(contact: &Contact, mesh: &MacroMesh, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<EndSlip> {
+    let whole = contact.boundary.length();
+    let ends = [zones.first()?[0], zones.iter().map(|zone| zone[1]).fold(0.0, f64::max)];
+    let of_end = |end: usize| {
+        let room = if end == 0 { ends[0] } else { whole - ends[1] };
+        let least = beyond(contact, mesh, end).into_iter().map(|beyond| room + beyond * whole).fold(f64::INFINITY, f64::min);
+        let complete = points.iter().filter(|point| point.is_complete());
+        let nearest = complete.min_by(|a, b| (a.arc - ends[end]).abs().total_cmp(&(b.arc - ends[end]).abs()))?;
+        Some(0.25 * (nearest.slip / least).powi(2))
+    };
+    let lost = [0, 1].into_iter().filter_map(of_end).fold(0.0, f64::max);
+    Some(EndSlip { way: 0.0, lost })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Known, SegmentRule};
+    use crate::discretisation::samples::{blocks, contact, pair};
+    use crate::geometry::Point;
+
+    /// Whether a pressure, given at the middles of uneven segments by their distance from an end, grows towards that end.
+    fn grows(space: MultiplierSpace, end: usize, pressure: impl Fn(f64) -> f64, before: [Option<f64>; 2]) -> bool {
+        let mut pair = pair(space, 1);
+        let from_first = [0.0, 0.05, 0.2, 0.5, 0.8, 1.0];
+        let fractions = from_first.map(|z| if end == 0 { z } else { 1.0 - z });
+        let mut fractions = fractions.to_vec();
+        fractions.sort_by(f64::total_cmp);
+        pair.segments = SegmentRule::Fractions(fractions);
+        let contact = contact(&blocks(pair, |_| Point::zeros(), Vec::new()), Known::default());
+        let away = |k: usize| {
+            let middle = 0.5 * (contact.boundary.arcs()[k] + contact.boundary.arcs()[k + 1]);
+            if end == 0 { middle } else { 2.0 - middle }
+        };
+        let times = if space == MultiplierSpace::P0 { 1 } else { 2 };
+        let values: Vec<f64> = (0..5).flat_map(|k| vec![pressure(away(k)); times]).collect();
+        let active: Vec<bool> = vec![true; values.len()];
+        let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
+        let zones = pressure.zones();
+        assert_eq!(zones.len(), 1);
+        pressure.grows_towards(&zones[0], end, before)
+    }
+
+    #[test]
+    fn a_pressure_grows_towards_an_end_if_it_does_so_ever_more_quickly() {
+        for end in [0, 1] {
+            let first = |pressure: &dyn Fn(f64) -> f64| grows(MultiplierSpace::P0, end, pressure, [None; 2]);
+            assert!(first(&|r| 1.0 / r.sqrt()) && first(&|r| 4.0 - r + 0.1 * r * r));
+            assert!(!first(&|r| 4.0 - r - 0.1 * r * r), "it grows, but less and less");
+            assert!(!first(&|r| 4.0 - 0.1 * r + 0.01 * r * r), "next to even");
+            assert!(!first(&|r| 1.0 + r * r) && !first(&|_| 1.0));
+        }
+    }
+
+    #[test]
+    fn a_pressure_is_singular_only_if_it_went_on_growing_with_each_mesh() {
+        // In the segment at the end it is 2.
+        let singular = |space, before, earlier| grows(space, 1, |r| 2.0 * (0.05 / r).sqrt(), [before, earlier]);
+        let found = |before, earlier| singular(MultiplierSpace::P0, Some(before), Some(earlier));
+        assert!(found(1.5, 1.0) && found(1.9, 1.8));
+        assert!(!found(1.5, 0.7), "each time by much less");
+        assert!(!found(1.97, 1.96), "next to nothing");
+        assert!(!found(1.5, 1.6), "it fell before");
+        assert!(!found(2.5, 1.0), "it falls");
+        assert!(!singular(MultiplierSpace::P0, Some(1.5), None), "steps say nothing");
+        assert!(singular(MultiplierSpace::P1Discontinuous, Some(1.5), None));
+        assert!(!singular(MultiplierSpace::P1Discontinuous, Some(1.97), None));
+    }
+
+    #[test]
+    fn a_zone_that_ends_inside_or_on_two_segments_is_not_singular() {
+        let contact = contact(&blocks(pair(MultiplierSpace::P0, 10), |_| Point::zeros(), Vec::new()), Known::default());
+        let found = |pressed: std::ops::Range<usize>, end: usize| {
+            let power = |k: usize| 1.0 / (if end == 0 { k - pressed.start + 1 } else { pressed.end - k } as f64);
+            let values: Vec<f64> = (0..10).map(|k| if pressed.contains(&k) { power(k) } else { 0.0 }).collect();
+            let active: Vec<bool> = (0..10).map(|k| pressed.contains(&k)).collect();
+            let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
+            pressure.grows_towards(&pressure.zones()[0], end, [None; 2])
+        };
+        assert!(found(0..5, 0) && found(5..10, 1) && found(0..3, 0) && found(0..10, 1));
+        assert!(!found(1..6, 0) && !found(4..9, 1) && !found(0..2, 0) && !found(8..10, 1));
+    }
+
+    /// Both ends of a zone that reaches them, and of one that does not.
+    fn corners(upper: impl Fn(Point) -> Point, ends: Option<[f64; 2]>) -> [bool; 2] {
+        let scene = blocks(pair(MultiplierSpace::P0, 8), upper, Vec::new());
+        let contact = contact(&scene, Known { ends, ..Known::default() });
+        let zone = |active: &[bool]| Zone::all(&contact.boundary, &contact.multipliers, &[1.0; 8], active).remove(0);
+        let inner: Vec<bool> = (0..8).map(|k| (1..7).contains(&k)).collect();
+        let pressure = ContactPressure { contact: &contact, values: &[1.0; 8], active: &[true; 8] };
+        let of = |zone: &Zone| [0, 1].map(|end| pressure.ends_at_a_corner(&scene.mesh, zone, end));
+        assert_eq!(of(&zone(&inner)), [false; 2]);
+        of(&zone(&[true; 8]))
+    }
+
+    #[test]
+    fn a_corner_is_where_one_body_ends_and_the_other_goes_on() {
+        assert_eq!(corners(|_| Point::zeros(), None), [false; 2], "both end");
+        assert_eq!(corners(|_| Point::new(0.3, 0.0), None), [true; 2]);
+        assert_eq!(corners(|_| Point::new(-0.3, 0.0), None), [true; 2]);
+        assert_eq!(corners(|x| Point::new(-0.5 * x.x, 0.0), None), [false, true]);
+        assert_eq!(corners(|x| Point::new(0.5 * (2.0 - x.x), 0.0), None), [true, false]);
+        assert_eq!(corners(|_| Point::zeros(), Some([0.25, 0.75])), [false; 2], "both go on");
+    }
+
+    /// Two blocks of the width 2, the upper one moved or stretched, that slide along each other: what they lose at their ends.
+    #[test]
+    fn bodies_lose_by_sliding_what_neither_goes_on() {
+        let slid = |upper: &dyn Fn(Point) -> Point, slip: f64| {
+            let scene = blocks(pair(MultiplierSpace::P0, 8), upper, Vec::new());
+            let contact = contact(&scene, Known::default());
+            let length = contact.boundary.length();
+            let at = |arc: f64| TracePoint {
+                arc,
+                x: Point::zeros(),
+                normal: Point::y(),
+                lambda: 1.0,
+                displacement: [0.0; 2],
+                slip,
+                stress: [-1.0; 2],
+                distance: [0.0; 2],
+                gap: 0.0,
+            };
+            let found = slip_at_ends(&contact, &scene.mesh, &[[0.0, length]], &[at(0.0), at(length)]).expect("both ends press");
+            assert!((found.way * length - slip.abs()).abs() < 1e-12);
+            found.lost * length
+        };
+        let near = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-9, "{found} instead of {wanted}");
+        for slip in [0.3, -0.3] {
+            near(slid(&|_| Point::zeros(), slip), 0.3);
+            // The upper block is shorter by a quarter of the width at both ends.
+            let shorter = |x: Point| Point::new(0.5 * (1.0 - x.x), 0.0);
+            near(slid(&shorter, slip), 0.0);
+            near(slid(&shorter, 2.0 * slip), 0.1);
+        }
+        // Shifted by 0.1, it is drawn back first, or goes on.
+        let shifted = |_: Point| Point::new(0.1, 0.0);
+        near(slid(&shifted, 0.3), 0.3);
+        near(slid(&shifted, -0.3), 0.1);
+    }
+}
