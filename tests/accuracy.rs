@@ -1,10 +1,8 @@
 //! Accuracy on request: two bars of eight triangles get the error that is asked for, on the same meshes on any number of ranks.
 
-mod support;
-
+use crate::support::mesh::{Block, GOOD, Mesh, write_scene};
+use crate::support::{Ended, RANKS, Run};
 use std::path::PathBuf;
-use support::mesh::{Block, GOOD, Mesh, write_scene};
-use support::{Ended, RANKS, Run};
 use tempfile::TempDir;
 
 /// Strain energy of the bars below.

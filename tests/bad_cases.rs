@@ -1,9 +1,7 @@
 //! Bad cases are refused with words that name file, key, value and remedy; no result folder is left behind.
 
-mod support;
-
-use support::mesh::{GOOD, Mesh, grid, two_blocks, write_scene};
-use support::{Ended, Run, names_in};
+use crate::support::mesh::{GOOD, Mesh, grid, two_blocks, write_scene};
+use crate::support::{Ended, Run, names_in};
 
 fn blocks() -> Mesh {
     two_blocks([(3, 2, 1), (4, 2, 2)])

@@ -1,8 +1,6 @@
 //! The two bars: known values, balances, and results that do not depend on ranks, on the order of the bodies, or on the solver.
 
-mod support;
-
-use support::{Ended, RANKS, Run, difference};
+use crate::support::{Ended, RANKS, Run, difference};
 
 /// Corners of the bars, each with its body.
 const INCLINED: [(&str, [f64; 2]); 5] =

@@ -1,8 +1,6 @@
 //! Classical contacts whose end, or whose singular pressure, is known: what happens there, not only how large the pressure is.
 
-mod support;
-
-use support::{Ended, RANKS, Run, difference};
+use crate::support::{Ended, RANKS, Run, difference};
 
 /// Runs a case on 1, 2 and 3 ranks: force and energy must be the same, and so must the pressure, or where the boundary
 /// follows it, its length. The run on one rank.

@@ -1,11 +1,9 @@
 //! Contact all around closed curves: whole rings against their quarters and halves, seams anywhere, a pin loose in its hole.
 
-mod support;
-
+use crate::support::mesh::write_scene;
+use crate::support::{Ended, PAIRS, Run, difference};
 use std::f64::consts::TAU;
 use std::path::Path;
-use support::mesh::write_scene;
-use support::{Ended, PAIRS, Run, difference};
 
 /// A file of the cases.
 fn read(name: &str) -> String {

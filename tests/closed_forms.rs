@@ -1,10 +1,8 @@
 //! Contacts whose pressure is known in closed form, beside those of classics.rs: where they end, what they carry, and how the
 //! error falls with the mesh.
 
-mod support;
-
+use crate::support::{Ended, RANKS, Run, TracePoint, difference};
 use std::f64::consts::{FRAC_PI_2, PI};
-use support::{Ended, RANKS, Run, TracePoint, difference};
 
 /// 1/E* of the two half-planes of `steuermann` and `rounded_punch`.
 const COMPLIANCE: f64 = (1.0 - 0.227 * 0.227) / 7000.0 + (1.0 - 0.3 * 0.3) / 3000.0;

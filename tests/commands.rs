@@ -1,11 +1,9 @@
 //! The commands of `mezha`, what they print, and what they leave on the disk.
 
-mod support;
-
+use crate::support::{Run, difference, mezha, mezha_in, names_in};
 use serde_json::Value;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use support::{Run, difference, mezha, mezha_in, names_in};
 
 /// What "ends all ranks" may take.
 const SOON: Duration = Duration::from_secs(20);
@@ -18,7 +16,7 @@ fn words(line: &str) -> Vec<String> {
 fn starts_two_programs() -> bool {
     let mut command = std::process::Command::new("mpirun");
     command.args(["-n", "1", "--oversubscribe", "true", ":", "-n", "1", "true"]);
-    support::process::finish(command).0 == Some(0)
+    crate::support::process::finish(command).0 == Some(0)
 }
 
 /// Two bars on a coarse mesh, with as many segments as it bears.
@@ -171,7 +169,7 @@ fn a_result_without_fields_has_all_the_numbers() {
         let tables = ["contact_first.csv", "contact_second.csv", "contacts.csv"];
         assert_eq!(names_in(&bare.out), [&["case.msh", "case.toml"][..], &tables, &["summary.json"]].concat());
         for table in ["contact_first.csv", "contact_second.csv"] {
-            let read = |ended: &support::Ended| -> Vec<f64> {
+            let read = |ended: &crate::support::Ended| -> Vec<f64> {
                 let text = std::fs::read_to_string(ended.out.join(table)).expect("a table");
                 let rows = text.lines().skip_while(|line| line.starts_with('#')).skip(1);
                 rows.flat_map(|row| row.split(',').map(|number| number.parse().expect("a number")).collect::<Vec<f64>>())
@@ -229,9 +227,9 @@ fn the_resolved_case_reproduces_the_run() {
         let [a, b] = numbers(path);
         assert!((a - b).abs() <= 1e-12 * a.abs(), "{path}: {a} and {b}");
     }
-    let lambda = |run: &support::Ended| run.trace("seam").iter().map(|point| point.lambda).collect::<Vec<_>>();
+    let lambda = |run: &crate::support::Ended| run.trace("seam").iter().map(|point| point.lambda).collect::<Vec<_>>();
     assert!(difference(&lambda(&first), &lambda(&again)) <= 1e-12);
-    let text = |run: &support::Ended| std::fs::read_to_string(run.out.join("case.toml")).expect("a case");
+    let text = |run: &crate::support::Ended| std::fs::read_to_string(run.out.join("case.toml")).expect("a case");
     assert_eq!(text(&first), text(&again));
 }
 
@@ -488,7 +486,7 @@ fn a_mesh_that_memory_is_too_small_for_is_refused_with_the_refinement_that_fits(
         let mpirun = format!("mpirun -n {ranks} --oversubscribe --bind-to none {mezha} {line}");
         let mut command = std::process::Command::new("sh");
         command.args(["-c", &format!("ulimit -v 2500000 && exec {mpirun}")]).current_dir(folder.path());
-        support::process::finish(command)
+        crate::support::process::finish(command)
     };
     for (ranks, order) in [(1, 1), (2, 2)] {
         let (code, _, errors) = limited(ranks, order, 9 + 2 - order);

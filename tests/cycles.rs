@@ -1,8 +1,6 @@
 //! What solves cost, counted: active sets on the finest mesh, and cycles of all meshes.
 
-mod support;
-
-use support::{Ended, Run};
+use crate::support::{Ended, Run};
 
 /// Cycles of one linear problem to 1e-8 (docs/method.md).
 const ONE: f64 = 12.0;

@@ -1,11 +1,9 @@
 //! Estimated errors of λ, its peak and the force against true ones, over cases with a known answer; and scenes whose pressure is
 //! wrong, or right where it seems not.
 
-mod support;
-
+use crate::support::mesh::{Block, Mesh, grid, write_scene};
+use crate::support::{Ended, PAIRS, RANKS, Run, TracePoint};
 use std::fmt::Write;
-use support::mesh::{Block, Mesh, grid, write_scene};
-use support::{Ended, PAIRS, RANKS, Run, TracePoint};
 
 /// A case whose pressure is known along its contact, from a point (x, y).
 struct Known {

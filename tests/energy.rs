@@ -1,8 +1,6 @@
 //! The strain energy from the Lagrangian: the algebraic error enters in the square.
 
-mod support;
-
-use support::Run;
+use crate::support::Run;
 
 /// Relative algebraic errors of `total` and `stationary` at a tolerance.
 fn errors(run: &Run, tolerance: &str) -> [f64; 2] {

@@ -1,9 +1,7 @@
 //! Estimated discretisation errors against true ones, and solves that stop there.
 
-mod support;
-
+use crate::support::{Ended, Run};
 use std::path::Path;
-use support::{Ended, Run};
 
 fn effectivity(ended: &Ended, truth: f64) -> f64 {
     ended.number("/estimate/energy") / truth

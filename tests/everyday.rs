@@ -1,10 +1,8 @@
 //! What everyday scenes need, against exact solutions: bodies that are held, or loaded, at a point, springs, weight, and sides of
 //! contacts that are made of several curves.
 
-mod support;
-
-use support::mesh::{Block, Mesh, grid, two_blocks, write_scene};
-use support::{RANKS, Run, close, mezha, numbers, with_both_orders};
+use crate::support::mesh::{Block, Mesh, grid, two_blocks, write_scene};
+use crate::support::{RANKS, Run, close, mezha, numbers, with_both_orders};
 
 const EXACT: f64 = 1e-9;
 

@@ -1,14 +1,12 @@
 //! What hosts do to runs: starts at the same time, memory and files that are limited, variables that others have set. The long
 //! form is `ci/faults`.
 
-mod support;
-
+use crate::support::names_in;
+use crate::support::process::finish;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
-use support::names_in;
-use support::process::finish;
 
 const MEZHA: &str = env!("CARGO_BIN_EXE_mezha");
 

@@ -1,11 +1,9 @@
 //! `mezha new` and what `mezha check` draws and proposes, from meshes to results.
 
-mod support;
-
+use crate::support::mesh::{two_blocks, write_scene};
+use crate::support::{Run, mezha, mezha_in};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use support::mesh::{two_blocks, write_scene};
-use support::{Run, mezha, mezha_in};
 
 fn mesh(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes").join(format!("{name}.msh"))

@@ -1,9 +1,7 @@
 //! A contact boundary that nobody gives: fitted through the boundary nodes, gaps between splines.
 
-mod support;
-
-use support::mesh::{GOOD, Mesh, grid, write_scene};
-use support::{RANKS, Run, pairs_on_ranks};
+use crate::support::mesh::{GOOD, Mesh, grid, write_scene};
+use crate::support::{RANKS, Run, pairs_on_ranks};
 
 #[test]
 fn patches_hold_on_a_fitted_line() {

@@ -1,9 +1,7 @@
 //! Contact boundaries that follow the bodies: every run of a grid ends, and what does not move is not solved again.
 
-mod support;
-
-use support::mesh::{Mesh, grid, write_scene};
-use support::{Ended, PAIRS, Run};
+use crate::support::mesh::{Mesh, grid, write_scene};
+use crate::support::{Ended, PAIRS, Run};
 
 /// Contact boundaries that were solved for.
 fn fits(ended: &Ended) -> usize {

@@ -1,8 +1,6 @@
 //! Refinement towards points: full orders in spite of corners, few iterations, stable segments, the same on all ranks.
 
-mod support;
-
-use support::{Ended, PAIRS, RANKS, Run, difference};
+use crate::support::{Ended, PAIRS, RANKS, Run, difference};
 
 /// Strain energy of the inclined bars.
 const ENERGY: f64 = 2.63511547e-3;

@@ -1,10 +1,8 @@
 //! Every hard case of cases/hard/study.toml, on coarse meshes, with one pair of spaces, on 1, 2 and 3 ranks: an exit code and
 //! words that are true, the same for every number of ranks.
 
-mod support;
-
-use support::mesh::{GOOD, Mesh, grid, write_scene};
-use support::{Ended, RANKS, Run};
+use crate::support::mesh::{GOOD, Mesh, grid, write_scene};
+use crate::support::{Ended, RANKS, Run};
 use toml::{Table, Value};
 
 /// How a row must end.

@@ -1,11 +1,9 @@
 //! Accuracy on request from meshes that nobody should draw: slivers, bodies with edges of 20 : 1, next to stiff, incompressible and
 //! slender ones. Each gets the error that is asked for, or the verdict says why not.
 
-mod support;
-
+use crate::support::Run;
+use crate::support::mesh::{Block, GOOD, Mesh, grid, write_scene};
 use std::path::{Path, PathBuf};
-use support::Run;
-use support::mesh::{Block, GOOD, Mesh, grid, write_scene};
 use tempfile::TempDir;
 
 /// Two bars that meet on the line from (0, 3) to (6, 2).

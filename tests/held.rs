@@ -1,12 +1,10 @@
 //! Whether bodies are held, hang together, face each other, and are strained a little only: what is refused, in which words,
 //! and right scenes of the same kind that must pass.
 
-mod support;
-
+use crate::support::mesh::{Block, GOOD, Mesh, grid, write_scene};
+use crate::support::{RANKS, Run, mezha};
 use std::f64::consts::PI;
 use std::path::Path;
-use support::mesh::{Block, GOOD, Mesh, grid, write_scene};
-use support::{RANKS, Run, mezha};
 
 /// `mezha check` on a scene: exit code, and standard error.
 fn checked(mesh: &Mesh, case: &str, settings: &[&str]) -> (Option<i32>, String) {

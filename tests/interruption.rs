@@ -1,14 +1,12 @@
 //! Signals that end a run or a study in order, and what they leave.
 
-mod support;
-
+use crate::support::names_in;
+use crate::support::process::ENVIRONMENT;
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use support::names_in;
-use support::process::ENVIRONMENT;
 
 /// A run that was told to end has ended after that.
 const SOON: Duration = Duration::from_secs(10);

@@ -1,8 +1,6 @@
 //! Scenes with smooth exact solutions beside the plain rings: errors fall with the order of the elements.
 
-mod support;
-
-use support::{Run, TracePoint};
+use crate::support::{Run, TracePoint};
 
 /// Largest error among those whose names start so.
 fn largest(errors: &serde_json::Value, start: &str) -> f64 {

@@ -1,11 +1,9 @@
 //! Scenes of many contacts: what is said of them, drawn and written.
 
-mod support;
-
+use crate::support::mesh::{Mesh, grid, write_scene};
+use crate::support::{Ended, Run, mezha_in, names_in};
 use std::fs;
 use std::path::Path;
-use support::mesh::{Mesh, grid, write_scene};
-use support::{Ended, Run, mezha_in, names_in};
 
 /// The rows of `contacts.csv` without its head: cells of each. No name of these cases needs quotes.
 fn rows(folder: &Path) -> Vec<Vec<String>> {

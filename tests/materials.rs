@@ -1,11 +1,9 @@
 //! Bodies of several materials, and plane stress: exact solutions, jumps of stress, iterations, meshes that adapt.
 
-mod support;
-
+use crate::support::{Ended, RANKS, Run, difference};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::path::Path;
-use support::{Ended, RANKS, Run, difference};
 
 const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/cases");
 
@@ -185,7 +183,7 @@ fn mistakes_are_told_with_key_and_remedy() {
         let (file, text) = (folder.path().join("case.toml"), case.replacen(from, to, 1));
         assert_ne!(text, case, "the case has no `{from}`");
         std::fs::write(&file, text).expect("a case");
-        let (code, _, errors) = support::mezha(None, &["check", file.to_str().expect("a path")]);
+        let (code, _, errors) = crate::support::mezha(None, &["check", file.to_str().expect("a path")]);
         assert_eq!(code, Some(2), "{to}: {errors}");
         assert!(words.iter().all(|word| errors.contains(word)), "{words:?} not in:\n{errors}");
     }
@@ -201,7 +199,7 @@ fn parts_that_touch_must_share_nodes() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("case.toml");
     std::fs::write(&file, text).expect("a case");
-    let (code, _, errors) = support::mezha(None, &["check", file.to_str().expect("a path")]);
+    let (code, _, errors) = crate::support::mezha(None, &["check", file.to_str().expect("a path")]);
     assert_eq!(code, Some(2), "{errors}");
     assert!(["\"lower\" and \"upper\"", "share no nodes", "Coherence"].iter().all(|word| errors.contains(word)), "{errors}");
 }

@@ -1,10 +1,8 @@
 //! Bodies whose mean motion is held: the mean is what was asked for, and what holds it carries nothing where the loads balance.
 
-mod support;
-
+use crate::support::mesh::{Block, Mesh, grid, two_blocks, write_scene};
+use crate::support::{Ended, RANKS, Run, close, mezha, numbers, with_both_orders};
 use std::f64::consts::PI;
-use support::mesh::{Block, Mesh, grid, two_blocks, write_scene};
-use support::{Ended, RANKS, Run, close, mezha, numbers, with_both_orders};
 
 const EXACT: f64 = 1e-9;
 

@@ -1,13 +1,11 @@
 //! Meshes as other people write them: any order of blocks, tags, corners and sections gives the same scene.
 
-mod support;
-
+use crate::support::mesh::{GOOD, Mesh, Random, write_scene};
+use crate::support::{Run, difference};
 use mezha::mesh::{Boundary, read_gmsh};
 use std::collections::HashMap;
 use std::path::Path;
 use std::process::Command;
-use support::mesh::{GOOD, Mesh, Random, write_scene};
-use support::{Run, difference};
 
 /// Shuffles a list (Fisher, Yates).
 fn shuffle<T>(list: &mut [T], random: &mut Random) {

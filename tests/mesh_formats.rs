@@ -1,13 +1,11 @@
 //! The same scene in all formats of Gmsh that are read, as Gmsh 4.15 has saved it: `tests/meshes/disc.geo`, a half disc on a block.
 
-mod support;
-
+use crate::support::Run;
+use crate::support::mesh::write_scene;
 use mezha::geometry::{Curve, gauss_points};
 use mezha::mesh::{MacroMesh, parse_gmsh, read_gmsh};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
-use support::Run;
-use support::mesh::write_scene;
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes").join(format!("{name}.msh"))

@@ -1,7 +1,5 @@
 //! The commands of docs/paper.md, on the coarsest meshes: the studies are made, and the script draws what they give.
 
-mod support;
-
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -17,7 +15,7 @@ fn make(file: &str, changes: &[(&str, &str)], folder: &Path, name: &str) {
     let study = folder.join(format!("{name}.toml"));
     fs::write(&study, text).expect("a file can be written");
     let words = ["study", &study.display().to_string(), "--out", &folder.join(name).display().to_string()];
-    let (code, output, errors) = support::mezha(None, &words);
+    let (code, output, errors) = crate::support::mezha(None, &words);
     assert_eq!(code, Some(0), "{output}{errors}");
     assert!(!output.contains("failed") && !output.contains("timeout"), "{output}{errors}");
 }

@@ -1,10 +1,8 @@
 //! Patch tests: a constant stress field is met exactly by every pair of spaces, on any mesh, on any number of ranks.
 
-mod support;
-
+use crate::support::{Ended, PAIRS, RANKS, Run, difference, pairs_on_ranks};
 use mezha::mesh::read_gmsh;
 use std::path::Path;
-use support::{Ended, PAIRS, RANKS, Run, difference, pairs_on_ranks};
 
 const EXACT: f64 = 1e-9;
 

@@ -1,12 +1,10 @@
 //! Patterns of names: a case with them is the case that somebody would have written by hand, to the last digit.
 
-mod support;
-
+use crate::support::mesh::{Block, Mesh, grid, write_scene};
+use crate::support::{Run, mezha};
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
-use support::mesh::{Block, Mesh, grid, write_scene};
-use support::{Run, mezha};
 
 /// A disc, with its rim as first side.
 fn disc(middle: [f64; 2], radius: f64, layers: usize) -> Block {

@@ -1,11 +1,9 @@
 //! A result tells what made it, and its folder alone repeats the run.
 
-mod support;
-
+use crate::support::{mezha_in, names_in};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use support::{mezha_in, names_in};
 use tempfile::TempDir;
 
 /// A folder with copies of the files of a case of the project, in `source/scene`.

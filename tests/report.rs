@@ -1,11 +1,9 @@
 //! The page of a result: whole, well-formed, of every kind of run.
 
-mod support;
-
+use crate::support::{Ended, Run, names_in};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use support::{Ended, Run, names_in};
 
 /// Reads a page with Python's parser of XML, and prints what it holds: its figures, what it loads, and its identifiers.
 const READ: &str = "

@@ -1,9 +1,7 @@
 //! Rigid tools and boundaries that stay rigid, against exact solutions and against bodies a million times stiffer.
 
-mod support;
-
-use support::mesh::{Mesh, grid, write_scene};
-use support::{Ended, PAIRS, RANKS, Run, TracePoint};
+use crate::support::mesh::{Mesh, grid, write_scene};
+use crate::support::{Ended, PAIRS, RANKS, Run, TracePoint};
 
 const EXACT: f64 = 1e-9;
 
@@ -334,7 +332,7 @@ fn mistakes_are_told() {
         let ended = Run::file(&file).ended();
         assert_eq!(ended.code, Some(2), "{words}: {}", ended.said());
         assert!(ended.errors.contains(told) && ended.errors.contains("case.toml"), "{words}: no `{told}` in {}", ended.errors);
-        let (code, _, errors) = support::mezha(None, &["check", &file.to_string_lossy()]);
+        let (code, _, errors) = crate::support::mezha(None, &["check", &file.to_string_lossy()]);
         assert_eq!(code, Some(2), "check, {words}: {errors}");
     }
 }

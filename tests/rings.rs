@@ -1,8 +1,6 @@
 //! Rings pressed into one another, whose exact solution is smooth: errors fall with the order of the elements.
 
-mod support;
-
-use support::{RANKS, Run};
+use crate::support::{RANKS, Run};
 
 /// Energy-norm errors of both bodies (inner, outer) and the L2 error of λ.
 fn errors(order: usize, space: &str, refine: usize, ranks: usize) -> [f64; 3] {

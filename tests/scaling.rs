@@ -1,9 +1,7 @@
 //! What a larger mesh costs, in counts that no machine changes: iterations, work, multipliers, messages, preallocation of
 //! matrices. Times and memory of large meshes: `ci/scaling`.
 
-mod support;
-
-use support::{Ended, Run};
+use crate::support::{Ended, Run};
 
 /// Krylov iterations of all linear solves on the finest mesh.
 const ITERATIONS: u64 = 13;

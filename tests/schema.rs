@@ -52,7 +52,7 @@ fn holds(file: &Path, text: &str) {
         fs::write(file, text).expect("a file can be written");
     }
     let found = fs::read_to_string(file).unwrap_or_default();
-    assert!(found == text, "{} is old; MEZHA_WRITE=1 cargo test --release --test schema writes it anew", file.display());
+    assert!(found == text, "{} is old; MEZHA_WRITE=1 cargo test --release --test whole schema:: writes it anew", file.display());
 }
 
 #[test]

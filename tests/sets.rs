@@ -1,10 +1,8 @@
 //! Active sets that are hard to find, and contact that the multipliers do not see.
 
-mod support;
-
+use crate::support::mesh::{Block, Mesh, grid, write_scene};
+use crate::support::{Ended, RANKS, Run};
 use std::f64::consts::PI;
-use support::mesh::{Block, Mesh, grid, write_scene};
-use support::{Ended, RANKS, Run};
 
 /// A rectangle with its lower left corner at `(x, y)`.
 fn rectangle([x, y]: [f64; 2], [width, height]: [f64; 2], cells: [usize; 2], seed: u64) -> Block {

@@ -1,11 +1,9 @@
 //! Several bodies and contact pairs, under pressure from all sides: σ = -I in every body, λ = 1 on every line, whatever the
 //! materials. Bodies that touch two or four others, lines that share a corner, stacks.
 
-mod support;
-
+use crate::support::mesh::{Block, Mesh, grid, write_scene};
+use crate::support::{RANKS, Run, pairs_on_ranks};
 use std::fmt::Write;
-use support::mesh::{Block, Mesh, grid, write_scene};
-use support::{RANKS, Run, pairs_on_ranks};
 
 const EXACT: f64 = 1e-9;
 

@@ -1,10 +1,8 @@
 //! Krylov iterations of the field split: few with levels, on meshes of any size, for every pair of spaces, whatever the
 //! ratio of the moduli. The law is bilateral, so that one linear solve counts.
 
-mod support;
-
-use support::mesh::{Mesh, write_scene};
-use support::{RANKS, Run, pairs_on_ranks};
+use crate::support::mesh::{Mesh, write_scene};
+use crate::support::{RANKS, Run, pairs_on_ranks};
 
 const LEVELS: u64 = 15;
 const STIFF_ON_SOFT: u64 = 20;

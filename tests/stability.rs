@@ -1,8 +1,6 @@
 //! Multiplier spaces too rich for the displacements: told, and healed by the jump term. Example 1 with even segments.
 
-mod support;
-
-use support::{Ended, Run};
+use crate::support::{Ended, Run};
 
 fn bars(order: usize, space: &str, segments: usize, solver: &str) -> Run {
     let run = Run::case("bars_inclined/even.toml").ranks(2).set("exact.must_hold", false).set("solver.tolerance", "1e-8");
@@ -16,7 +14,7 @@ fn trusted(ended: &Ended) -> bool {
 
 #[test]
 fn good_spaces_are_trusted() {
-    for (order, space) in support::PAIRS {
+    for (order, space) in crate::support::PAIRS {
         let ended = bars(order, space, 24, "direct").converged();
         assert!(trusted(&ended), "P{order} and {space}");
         assert!(ended.number("/contact/seam/oscillation") < 0.02);

@@ -1,10 +1,8 @@
 //! Load steps: each against closed forms, and against the same scene by itself.
 
-mod support;
-
+use crate::support::mesh::{GOOD, Mesh, grid, write_scene};
+use crate::support::{Ended, PAIRS, RANKS, Run, names_in};
 use serde_json::Value;
-use support::mesh::{GOOD, Mesh, grid, write_scene};
-use support::{Ended, PAIRS, RANKS, Run, names_in};
 
 const EXACT: f64 = 1e-9;
 
@@ -207,7 +205,7 @@ fn a_step_that_comes_to_nothing_is_told_and_the_others_are_solved() {
         close(number(&all[2], "/contact/seam/force"), 2.0, 1.0, "the last");
         assert_eq!(ended.value("/status"), "not_converged");
     }
-    let check = support::mezha(None, &["check", &file.display().to_string(), "--set", &format!("steps.p={lifted}")]);
+    let check = crate::support::mezha(None, &["check", &file.display().to_string(), "--set", &format!("steps.p={lifted}")]);
     assert_eq!(check.0, Some(0), "{check:?}");
     assert!(check.1.contains("3 load steps; the last one is step 3 of 3 (p = 1)"), "{}", check.1);
 }

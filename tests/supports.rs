@@ -1,9 +1,7 @@
 //! Inclined supports, prescribed displacements, body forces and tractions against exact solutions.
 
-mod support;
-
-use support::mesh::{Mesh, grid, write_scene};
-use support::{Ended, PAIRS, Run};
+use crate::support::mesh::{Mesh, grid, write_scene};
+use crate::support::{Ended, PAIRS, Run};
 
 const EXACT: f64 = 1e-9;
 const ANGLE: f64 = 37.0 * std::f64::consts::PI / 180.0;

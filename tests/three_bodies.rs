@@ -1,10 +1,8 @@
 //! Bodies between others: three that meet in a point, a wedge, a strip between jaws, a chain of fifty.
 
-mod support;
-
+use crate::support::mesh::{Mesh, grid, write_scene};
+use crate::support::{Ended, PAIRS, RANKS, Run, difference, pairs_on_ranks};
 use serde_json::Value;
-use support::mesh::{Mesh, grid, write_scene};
-use support::{Ended, PAIRS, RANKS, Run, difference, pairs_on_ranks};
 
 const EXACT: f64 = 1e-9;
 

@@ -1,9 +1,7 @@
 //! Bodies that turn: a linear theory makes them larger, and says how far that spoils the contact.
 
-mod support;
-
-use support::mesh::{Block, Mesh, grid, write_scene};
-use support::{Ended, Run};
+use crate::support::mesh::{Block, Mesh, grid, write_scene};
+use crate::support::{Ended, Run};
 
 /// A sector of a ring about the origin between two radii and two angles.
 fn sector(n: usize, seed: u64, radii: [f64; 2], angles: [f64; 2]) -> Block {
