@@ -1,0 +1,179 @@
+//! The field split of the augmented system: GMRES or BiCGStab, preconditioned by a block triangle with a multigrid cycle.
+
+use super::block_triangle::BlockTriangle;
+use super::bordered::Bordered;
+use super::fallback::Preconditioning;
+use super::linear_solver::LinearSolver;
+use super::options::{
+    CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_method_chosen,
+    is_split_changed, lambda_options, preconditioning_options,
+};
+use crate::discretisation::{Form, SystemError};
+use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, Stiffness};
+use crate::petsc::{self, Action, Krylov, Matrix, MultigridCycle, MultigridLevel, Preconditioner, ReplacedAction, Session};
+use crate::system::saddle_point::SaddlePoint;
+use std::rc::Rc;
+
+impl LinearSolver {
+    /// A field split whose displacements are preconditioned by `preconditioning`, by a factor where there is one level only.
+    /// Above `many` unknowns of the displacement the method is BiCGStab, unless the user has chosen one. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] from PETSc.
+    pub(super) fn field_split(
+        system: &SaddlePoint,
+        interpolations: Rc<[Interpolation]>,
+        preconditioning: Preconditioning,
+        many: usize,
+        session: &Session,
+    ) -> Result<Self, SystemError> {
+        let preconditioning = if interpolations.is_empty() { Preconditioning::Factor } else { preconditioning };
+        let unknowns = system.finest_stiffness().operator().size().0;
+        let is_short = preconditioning == Preconditioning::Sweep && unknowns > many && !is_method_chosen(session);
+        set_options(system, &interpolations, preconditioning, is_short, session)?;
+        let krylov = Krylov::new(session, "")?;
+        set_operators(&krylov, system, preconditioning, session)?;
+        let [u, lambda] = system.nest.nest_index_sets()?;
+        let preconditioner = krylov.preconditioner();
+        preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
+        krylov.set_from_options()?;
+        krylov.watch()?;
+        krylov.set_up()?;
+        let (auxiliary, cycle) = match preconditioning {
+            Preconditioning::Factor => (GalerkinLevels::default(), None),
+            _ => levels(&preconditioner, system, &interpolations, preconditioning, session)?,
+        };
+        let block_triangle = match cycle.as_ref().filter(|_| !is_split_changed(session)) {
+            Some(cycle) => {
+                let lower = preconditioner.field_split_solvers()?.pop().expect("two fields");
+                Some(BlockTriangle::new(cycle.clone(), lower, &system.multipliers.transpose, session)?)
+            }
+            None => None,
+        };
+        let (replaced, bordered) = replace_action(&krylov, block_triangle, system, Form::Augmented, session)?;
+        let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
+        let own = kind == "mg" || kind == "shell" || is_factor(kind.as_ref()) && preconditioning == Preconditioning::Factor;
+        let name = if own { field_split_name(preconditioning) } else { format!("fieldsplit ({kind})") };
+        let (session, form) = (session.clone(), Form::Augmented);
+        Ok(Self {
+            krylov,
+            _replaced: replaced,
+            bordered,
+            session,
+            form,
+            converted: None,
+            interpolations,
+            auxiliary,
+            cycle,
+            preconditioning,
+            is_short,
+            name,
+            is_set_up: true,
+        })
+    }
+}
+
+/// Sets the options of the field split, where the user has set none.
+fn set_options(
+    system: &SaddlePoint,
+    interpolations: &[Interpolation],
+    preconditioning: Preconditioning,
+    is_short: bool,
+    session: &Session,
+) -> Result<(), SystemError> {
+    let coarsest = interpolations.first().map_or(0, |interpolation| interpolation.matrix.size().1);
+    let coarse = CoarseSolver::of(coarsest);
+    let lambda = lambda_options(system.multipliers.pattern, session.size());
+    let unknowns = system.finest_stiffness().operator().size().0;
+    let method: Options = if is_short { SHORT_RECURRENCE } else { &[] };
+    let is_redundant = preconditioning == Preconditioning::Factor && session.size() > 1 && unknowns <= MOST_REDUNDANT;
+    let factor: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
+    let smoother = preconditioning_options(preconditioning);
+    for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(method).chain(factor) {
+        petsc::options::set_default(session, name, value)?;
+    }
+    Ok(())
+}
+
+/// Auxiliary levels, and the cycle on all levels as the preconditioner of field `u`: mezha's own where the options allow it,
+/// otherwise PETSc's. **Collective**
+fn levels(
+    preconditioner: &Preconditioner,
+    system: &SaddlePoint,
+    interpolations: &Rc<[Interpolation]>,
+    preconditioning: Preconditioning,
+    session: &Session,
+) -> Result<(GalerkinLevels, Option<Cycle>), SystemError> {
+    let auxiliary = GalerkinLevels::new(system.stiffness[0].operator(), &below(interpolations, system))?;
+    let solvers = preconditioner.field_split_solvers()?;
+    let steps = std::iter::once(None).chain(interpolations.iter().map(|step| Some(&step.matrix)));
+    let operators = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::operator));
+    let levels: Vec<MultigridLevel> =
+        operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
+    petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
+    let mut cycle = None;
+    if preconditioning == Preconditioning::Sweep && !is_changed(session) {
+        cycle = Cycle::new(&system.stiffness, interpolations, &levels, session)?;
+        // PETSc's multigrid below the cycle has set this default; field u has a shell.
+        petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
+    }
+    match &cycle {
+        Some(cycle) => solvers[0].preconditioner().set_action("multigrid F-cycle on strips and stored rows", cycle.action())?,
+        None => solvers[0].preconditioner().multigrid(MultigridCycle::Full, &levels)?,
+    }
+    solvers[0].set_up()?;
+    Ok((auxiliary, cycle))
+}
+
+/// Puts in the place of what the preconditioner does a block triangle, and around it what knows of rigid motions, if there are
+/// such. **Collective**
+pub(super) fn replace_action(
+    krylov: &Krylov,
+    block_triangle: Option<BlockTriangle>,
+    system: &SaddlePoint,
+    form: Form,
+    session: &Session,
+) -> Result<(Option<ReplacedAction>, Option<Rc<Bordered>>), SystemError> {
+    let Some(border) = &system.border else {
+        let replaced = block_triangle.map(|action| ReplacedAction::new(krylov.preconditioner(), |_| Ok(Box::new(action))));
+        return Ok((replaced.transpose()?, None));
+    };
+    let mut bordered = None;
+    let replaced = ReplacedAction::new(krylov.preconditioner(), |of_kind| {
+        let of_blocks = block_triangle.map_or(of_kind, |action| Box::new(action) as Box<dyn Action>);
+        let action = Bordered::new(of_blocks, border.clone(), form, session);
+        bordered = Some(action.clone());
+        Ok(Box::new(action))
+    })?;
+    Ok((Some(replaced), bordered))
+}
+
+/// Whether this is the preconditioner that factorises, by all ranks together or by each for itself.
+fn is_factor(kind: &str) -> bool {
+    kind == "cholesky" || kind == "redundant"
+}
+
+/// The solver with a preconditioning, in words.
+pub(super) fn field_split_name(preconditioning: Preconditioning) -> String {
+    format!("fieldsplit ({})", preconditioning.words("multigrid F-cycle"))
+}
+
+/// The product of the nest and the nest, or for a factor the one with all rows stored. **Collective**
+pub(super) fn set_operators(
+    krylov: &Krylov,
+    system: &SaddlePoint,
+    preconditioning: Preconditioning,
+    session: &Session,
+) -> Result<(), SystemError> {
+    let stored = if preconditioning == Preconditioning::Factor { system.stored_nest(session)? } else { None };
+    match &stored {
+        Some(nest) => krylov.set_operators(if system.border.is_some() { &system.product } else { nest }, nest)?,
+        None => krylov.set_operators(&system.product, &system.nest)?,
+    }
+    Ok(())
+}
+
+/// Those interpolations that lead to auxiliary levels, or up from them.
+pub(super) fn below<'a>(interpolations: &'a [Interpolation], system: &SaddlePoint) -> Vec<&'a Matrix> {
+    interpolations[..interpolations.len() + 1 - system.stiffness.len()].iter().map(|step| &step.matrix).collect()
+}
