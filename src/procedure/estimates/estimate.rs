@@ -6,25 +6,15 @@
 //! its own q: beside corners errors fall slowly, elsewhere quickly, and what is small of the difference may be most of what is
 //! left. Where active sets or contact boundaries change from mesh to mesh the spaces are not nested, and this is heuristic.
 
-use crate::accuracy::{Accuracy, ProbePoint};
+use super::decay::{FORCE_SLOWEST, SHARES, falls, left, value_left};
+use super::difference::Difference;
+use super::energy_norm::share;
+use super::zone_estimate::{ZoneDifference, ZoneEstimate};
 use crate::contact::Zone;
-use crate::discretisation::local_strain_energy;
-use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError};
+use crate::discretisation::ContactPressure;
 use crate::element::Order;
 use crate::mesh::Cells;
-use crate::petsc::Session;
-use crate::procedure::coarse_solution::CoarseSolution;
-use crate::procedure::estimates::end_estimate::{ends_within_segments, way_of_ends};
-use crate::procedure::estimates::energy_norm::{share, whole_energy, without_points};
-use crate::procedure::estimates::zone_estimate::ZoneDifference;
-use crate::procedure::estimates::zone_estimate::ZoneEstimate;
-use crate::recovery::{TracePoint, ZoneErrors, cell_energies, probe, stress_around, zone_errors};
-
-/// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
-const FACTORS: [f64; 2] = [1.0 / 80.0, 0.75];
-
-/// The same on one macro triangle, as far as the next mesh is foreseen: from P2 on a smooth solution to P1 at a corner.
-const LOCAL_FACTORS: [f64; 2] = [1.0 / 16.0, 0.5];
+use crate::recovery::{TracePoint, ZoneErrors, zone_errors};
 
 /// Error in the energy norm by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
 const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
@@ -32,9 +22,6 @@ const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 /// The same on a mesh that is adapted, where what converges quickly is coarse. Between smooth sides .31 to .39 is left, with corners .80
 /// to .90 (`chain_5`): the meshes after the first measure it on each macro triangle.
 const ENERGY_BY_ONE_ADAPTED: f64 = 0.7;
-
-/// The factor q of squares with q/(1 - q) = .7², for a mesh that is adapted by one difference.
-const ONE_FALLS: f64 = 0.33;
 
 /// Share of one difference that the energy of finer meshes is foreseen by, and the factor by which squares fall from there, where no mesh
 /// before has shown them. What they foretell of the second mesh came true to 15 % on discs, rollers and a pyramid; with .5 and .2 errors
@@ -56,12 +43,6 @@ const ENDS_FALL: f64 = 0.5;
 /// P1, which is constant on each triangle.
 const PROBES_FALL: [[Option<f64>; 2]; 2] = [[Some(0.25), Some(0.125)], [None, Some(0.25)]];
 
-/// Largest factor by which errors of a force are taken to fall.
-const FORCE_SLOWEST: f64 = 0.6;
-
-/// Share of the last difference of a value that is left: where it says nothing of how it falls, and at least.
-const SHARES: [f64; 2] = [0.6, 0.0];
-
 /// The same of a force, whose errors have either sign, so that they may seem to fall more quickly than they do.
 const FORCE_SHARES: [f64; 2] = [0.6, 0.3];
 
@@ -70,32 +51,6 @@ const FORCE_SLOW_SHARES: [f64; 2] = [0.3, 0.3];
 
 /// λ at both ends of a zone, on the mesh before and on the one before that (stress).
 pub(crate) type AtEnds = [Option<[f64; 2]>; 2];
-
-/// How a solution differs from that on the mesh before.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
-    /// Square of the relative energy norm.
-    energy: f64,
-    /// Its part on each macro triangle of this rank, in the rank's order.
-    of_triangles: Vec<f64>,
-    /// Where in these triangles; only where an accuracy is asked for.
-    cells: Vec<Cells>,
-    /// Relative difference of `∫λ ds`, for each contact.
-    force: Vec<f64>,
-    /// Relative difference of the largest pressure, recovered from means of λ, for each contact.
-    peak: Vec<f64>,
-    /// How far the largest λ is from that, relative, for each contact.
-    above: Vec<f64>,
-    /// Largest way of an end of contact by the width of its zone, for each contact.
-    ends: Vec<f64>,
-    /// Error of these ends as they lie at ends of segments, by the same width; and whether that is all of it.
-    within_segments: Vec<(f64, bool)>,
-    /// Relative difference of the displacement at each probe that a goal is set for, and of the stress there or, if that is
-    /// larger, in the mean over the triangle.
-    probes: Vec<[f64; 2]>,
-    /// The zones of each contact.
-    zones: Vec<Vec<ZoneDifference>>,
-}
 
 /// Estimated relative errors; nothing where there is not enough to tell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -127,56 +82,6 @@ pub struct Estimate {
     pub probes: Vec<[Option<f64>; 2]>,
     /// For each zone of each contact, the last difference and, if the zone was there, the one before.
     pub zones: Vec<Vec<[Option<ZoneDifference>; 2]>>,
-}
-
-impl Difference {
-    /// Compares a solution with the one before, as far as an accuracy that may be asked for wants it. **Collective**
-    pub fn new(
-        problem: &Discretisation,
-        solution: &Solution,
-        coarse: &CoarseSolution,
-        accuracy: Option<&Accuracy>,
-        session: &Session,
-    ) -> Result<Self, SystemError> {
-        let mut apart = coarse.displacement(&problem.scene, problem.finest(), session.rank());
-        apart.iter_mut().zip(&solution.displacement).for_each(|(before, now)| *before = now - *before);
-        let u = Field::displacement(problem, &solution.displacement, session)?;
-        let whole = whole_energy(problem, &u, session)?;
-        let apart = Field::displacement(problem, &apart, session)?;
-        let probes = accuracy.map_or_else(Vec::new, Accuracy::probes);
-        let probes = probes.iter().map(|point| at_probe(problem, point, &u, &apart, session)).collect::<Result<_, _>>()?;
-        let cells = if accuracy.is_some() { cell_energies(problem, &apart, session)? } else { Vec::new() };
-        let of_triangles = without_points(problem, local_strain_energy(problem, &apart, session)?, session);
-        let left_out = problem.scene.has_point_load(session.rank());
-        let cells = cells.into_iter().zip(&left_out).map(|(cells, &is_out)| if is_out { Cells::default() } else { cells });
-        let mut apart = [of_triangles.iter().sum::<f64>()];
-        session.sum(&mut apart);
-        let (mut force, mut ends, mut within_segments, mut zones) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (mut peak, mut above) = (Vec::new(), Vec::new());
-        for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
-            let pressure = solution.pressure(contact);
-            let now = pressure.force();
-            force.push(share((now - before).abs(), now.abs()));
-            let [now, before] = [pressure.recovered_peak(), coarse.pressure(at).recovered_peak()];
-            let is_open = pressure.zones().is_empty() && coarse.pressure(at).zones().is_empty();
-            let unknown = if is_open { 0.0 } else { f64::NAN };
-            peak.push(now.zip(before).map_or(unknown, |(now, before)| (before / now - 1.0).abs()));
-            above.push(now.map_or(unknown, |now| (pressure.largest() / now - 1.0).abs()));
-            ends.push(way_of_ends(&pressure, &coarse.pressure(at)));
-            within_segments.push(ends_within_segments(&pressure, &coarse.pressure(at)));
-            let before = |x| coarse.pressure(at).at_foot(x);
-            zones.push(pressure.zones().iter().map(|zone| ZoneDifference::new(contact, pressure.values, zone, before)).collect());
-        }
-        let of_triangles = of_triangles.into_iter().map(|part| share(part, whole)).collect();
-        let cells = cells.map(|part| part.scaled(if whole == 0.0 { 0.0 } else { 1.0 / whole })).collect();
-        let energy = if whole.is_nan() { f64::NAN } else { share(apart[0], whole) };
-        Ok(Self { energy, of_triangles, cells, force, peak, above, ends, within_segments, probes, zones })
-    }
-
-    /// Its square in the relative energy norm on each macro triangle of this rank, in the rank's order.
-    pub(crate) fn of_triangles(&self) -> &[f64] {
-        &self.of_triangles
-    }
 }
 
 impl Estimate {
@@ -296,60 +201,6 @@ impl Estimate {
         let zones = self.zones.get(at).map_or(&[][..], Vec::as_slice);
         zones.iter().map(|pair| pair.each_ref().map(|difference| difference.as_ref().map(|found| found.at_ends))).collect()
     }
-}
-
-/// Factor by which the difference has fallen on each macro triangle of this rank; the one that leaves what is left by one difference,
-/// where that is all there is.
-fn falls(last: &Difference, before: Option<&Difference>, shares_left: &[Option<f64>]) -> Vec<f64> {
-    let by_share = |share: f64| (share / (1.0 + share)).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]);
-    let fall = |(at, now): (usize, &f64)| match before.and_then(|before| before.of_triangles.get(at)) {
-        Some(then) if *then > 0.0 => (now / then).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]),
-        Some(_) => LOCAL_FACTORS[1],
-        None => shares_left.get(at).copied().flatten().map_or(ONE_FALLS, by_share),
-    };
-    last.of_triangles.iter().enumerate().map(fall).collect()
-}
-
-/// Relative differences of displacement and stress at a point; not a number where no body holds it. **Collective**
-fn at_probe(
-    problem: &Discretisation,
-    point: &ProbePoint,
-    u: &Field<2>,
-    apart: &Field<2>,
-    session: &Session,
-) -> Result<[f64; 2], SystemError> {
-    let Some(region) = problem.scene.mesh.region(&point.body) else { return Ok([f64::NAN; 2]) };
-    let [whole, part] = [u, apart].map(|field| probe(problem, field, region, point.point, session));
-    let (Some(whole), Some(part)) = (whole?, part?) else { return Ok([f64::NAN; 2]) };
-    // Where a point lies in its triangle decides how good a stress is there: at some places it is by luck.
-    let around = stress_around(problem, apart, region, point.point, session)?;
-    let size = |stress: [f64; 4]| (stress[0].powi(2) + stress[1].powi(2) + 2.0 * stress[2].powi(2)).sqrt();
-    Ok([part.displacement.norm() / whole.displacement.norm(), size(part.stress).max(around) / size(whole.stress)])
-}
-
-/// What is left of an additive error, from two successive differences of it.
-fn left(before: f64, last: f64) -> f64 {
-    if last == 0.0 {
-        return 0.0;
-    }
-    let factor = (last / before).clamp(FACTORS[0], FACTORS[1]);
-    last * factor / (1.0 - factor)
-}
-
-/// What is left of the error of a value, from one difference or two; `fall` is the factor by which it falls on a smooth solution,
-/// `unknown` and `least` the shares of a difference that are left where nothing tells, and at least.
-/// The last difference may be small by luck, where errors of either sign meet: so it counts for no less than the one before
-/// leaves of itself there.
-fn value_left(before: Option<f64>, last: f64, fall: f64, [unknown, least]: [f64; 2]) -> Option<f64> {
-    let left = match before {
-        Some(before) if last < fall * before => fall * before * unknown.max(fall / (1.0 - fall)),
-        Some(before) => {
-            let factor = (last / before).min(FORCE_SLOWEST);
-            last * (factor / (1.0 - factor)).max(least)
-        }
-        None => last * SHARES[0],
-    };
-    left.is_finite().then_some(left)
 }
 
 #[cfg(test)]

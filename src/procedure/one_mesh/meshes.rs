@@ -220,7 +220,7 @@ impl Procedure<'_> {
             differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
         }
         let shares_left = match (predecessor, differences.as_slice()) {
-            (Some(before), [one]) => before.shares_left(&problem, &found.solution, one.of_triangles(), self.session)?,
+            (Some(before), [one]) => before.shares_left(&problem, &found.solution, &one.of_triangles, self.session)?,
             _ => Vec::new(),
         };
         let estimate = Estimate::new(&differences, shares_left, problem.scene.order, found.solution.residual, |own| {

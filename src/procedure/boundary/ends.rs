@@ -1,0 +1,124 @@
+//! Where the ends of a contact boundary go, by the pressure on it or by its force.
+
+use crate::contact::{End, true_end};
+use crate::discretisation::{Contact, ContactPressure};
+
+/// Segments that press, at least, where an end is told by the pressure beside it: of a contact narrower than that the mesh knows the
+/// force alone, and its ends would wander with the bend of the boundary from fit to fit.
+const TELLING: usize = 3;
+
+/// Where the force tells the width 2b, too (Hertz), it does so better as long as the segments that press, times b/R, are fewer: the
+/// pressure of n segments misses the width by about .8/n² (11 - 14 % on three, 3 % on four, 1 - 4 % on nine; `packing/discs_3` and
+/// `roller`), the force by some (b/R)².
+const TELLING_BESIDE_A_FORCE: f64 = 0.9;
+
+/// An end of Γ_C lies at the end of a body if less than this share of an edge is between them.
+const AT_THE_END: f64 = 1e-2;
+
+/// Error of an end by the segment beside it, as a share of that segment's length.
+pub const OF_A_SEGMENT: f64 = 0.025;
+
+/// A position of an end and how far off it was found to be, in the parameter of Γ_C.
+pub type FoundEnd = Option<(f64, f64)>;
+
+/// Ends of a Γ_C that is to be a part of a closed one: half a segment beyond the only zone that presses. Nothing if that goes all
+/// around, or if there are several, which the active set keeps apart.
+pub fn ends_of_a_part(pressure: &ContactPressure) -> Option<[f64; 2]> {
+    let boundary = &pressure.contact.boundary;
+    let zones = pressure.zones();
+    let [zone] = &zones[..] else { return None };
+    let half = |k: usize| 0.5 * boundary.segment_length(k);
+    let ends = [zone.arcs[0] - half(zone.segments.start), zone.arcs[1] + half(zone.segments.end - 1)];
+    (ends[1] - ends[0] < boundary.length()).then(|| ends.map(|arc| boundary.parameter_at(arc)))
+}
+
+/// Where the ends of a contact go: by the pressure next to them, with the secant through the last two findings; not
+/// beyond the bodies' boundaries.
+pub fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least: f64) -> [f64; 2] {
+    let ContactPressure { contact, values: lambda, active } = *pressure;
+    let boundary = &contact.boundary;
+    let knots = boundary.knots();
+    let now = [knots[0], knots[knots.len() - 1]];
+    let mut next = now;
+    let edge = contact.edge_length() / boundary.speed(now[0]);
+    if let Some(ends) = ends_by_force(pressure, least) {
+        return ends;
+    }
+    // What presses up to both ends lies on too short a boundary.
+    if pressing_segments(pressure) < TELLING && active.contains(&false) {
+        return now;
+    }
+    for (k, end) in [End::First, End::Last].into_iter().enumerate() {
+        // At the end of a body contact may end with any pressure: it stays there, wherever the body goes.
+        let last = multipliers_at(contact, end);
+        if (now[k] - contact.limits[k]).abs() < AT_THE_END * edge && last.iter().all(|&i| active[i]) {
+            next[k] = contact.limits[k] + if end == End::First { -edge } else { edge };
+            continue;
+        }
+        let Some(arc) = true_end(boundary, &contact.multipliers, lambda, active, end) else { continue };
+        let off = boundary.parameter_at(arc) - now[k];
+        let step = match history[k] {
+            Some((before, was)) if now[k] != before => {
+                let slope = (off - was) / (now[k] - before);
+                if (-4.0..-0.25).contains(&slope) { -off / slope } else { off }
+            }
+            _ => off,
+        };
+        history[k] = Some((now[k], off));
+        let found = now[k] + step;
+        next[k] = if end == End::First { found.max(contact.limits[0]) } else { found.min(contact.limits[1]) };
+    }
+    // A contact smaller than an edge is none that the mesh can tell.
+    if next[1].min(contact.limits[1]) - next[0].max(contact.limits[0]) > edge { next } else { now }
+}
+
+/// Ends as far from the middle of the pressure as its force presses sides that touch at a point (Hertz), or where they are if it is
+/// smaller than the `least` one that counts; nothing if the sides conform, or the pressure tells the ends better.
+pub fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]> {
+    let Contact { boundary, multipliers, limits, known, .. } = pressure.contact;
+    let touch = known.touch?;
+    let force = pressure.force();
+    if force.abs() <= least {
+        let knots = boundary.knots();
+        return Some([knots[0], knots[knots.len() - 1]]);
+    }
+    let half = touch.half_width(force, pressure.contact.compliance)?;
+    let pressing = pressing_segments(pressure);
+    if pressing as f64 * half * touch.roundest > TELLING_BESIDE_A_FORCE {
+        return None;
+    }
+    let of_segment = |k: usize| {
+        let [start, end] = boundary.segment_arcs(k);
+        let [a, b] = [0.0, 1.0].map(|z| multipliers.value(pressure.values, k, z));
+        (end - start) * (0.5 * (a + b) * start + (end - start) * (a + 2.0 * b) / 6.0)
+    };
+    let knots = boundary.knots();
+    let now = [knots[0], knots[knots.len() - 1]];
+    let segment = boundary.length() / boundary.segments() as f64;
+    let middle = (0..boundary.segments()).map(of_segment).sum::<f64>() / force;
+    let at = |arc: f64| boundary.parameter_at(arc).clamp(limits[0], limits[1]);
+    let place = |middle: f64| [at(middle - half), at(middle + half)];
+    if pressing >= TELLING {
+        return Some(place(middle));
+    }
+    // The place within a segment is not known any better: where few press, the ends would go to and fro.
+    let here = 0.5 * boundary.length();
+    let ends = place(if (middle - here).abs() <= 0.5 * segment { here } else { middle });
+    let stays = ends.iter().zip(now).all(|(end, now)| (end - now).abs() * boundary.speed(now) <= OF_A_SEGMENT * segment);
+    Some(if stays { now } else { ends })
+}
+
+/// Segments from the first that presses to the last.
+fn pressing_segments(pressure: &ContactPressure) -> usize {
+    let ContactPressure { contact, active, .. } = *pressure;
+    let all = (0..active.len()).filter(|&i| active[i]).map(|i| contact.multipliers.segment_of(i));
+    let [first, last] = all.fold([usize::MAX, 0], |[first, last], k| [first.min(k), last.max(k)]);
+    (last + 1).saturating_sub(first)
+}
+
+/// Multipliers of the segment at an end.
+fn multipliers_at(contact: &Contact, end: End) -> Vec<usize> {
+    let segment = if end == End::First { 0 } else { contact.boundary.segments() - 1 };
+    let rows = contact.multipliers.on_segment(segment, 0.0).0;
+    rows[..contact.multipliers.per_segment()].to_vec()
+}
