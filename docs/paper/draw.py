@@ -2,9 +2,11 @@
 
     python3 docs/paper/draw.py out/gls out/paper out/points
 
-writes figure_4.svg, figure_6.svg, errors.svg and tables.md into docs/paper, or into a fourth folder if one is named.
+writes figure_4.svg, figure_6.svg, errors.svg and five tables into docs/paper, or into a fourth folder if one is named; README.md
+there says what the tables hold.
 """
 
+import csv
 import math
 import sys
 from itertools import groupby
@@ -26,13 +28,21 @@ EXACT = {
 }
 LENGTH = {"inclined": 6.0, "parabola": 4.0}
 SPANS = {"middle": (0.2, 0.8), "vertex": (0.4, 0.6), "end": (0.8, 1.0)}      # shares of the length in x
+# What is measured of a run, and its column in the tables.
 QUANTITIES = {
-    "lambda": "λ, middle 60 %",
-    "vertex": "λ, middle 20 %",
-    "end": "λ, last 20 %",
-    "sigma_1": "n·σn of the lower bar, middle 60 %",
-    "sigma_2": "n·σn of the upper bar, middle 60 %",
-    "u": "n·u of both bars, middle 60 %",
+    "lambda": "lambda_middle_60",
+    "vertex": "lambda_middle_20",
+    "end": "lambda_last_20",
+    "sigma_1": "sigma_lower",
+    "sigma_2": "sigma_upper",
+    "u": "u",
+    "energy": "energy",
+    "oscillation": "oscillation",
+}
+DRAWN = {
+    "lambda": "λ",
+    "sigma_2": "n·σn, upper bar",
+    "u": "n·u of both bars",
     "energy": "strain energy",
     "oscillation": "oscillation of λ",
 }
@@ -53,9 +63,11 @@ def measured(row, references):
     return figures
 
 
-def mark(row):
-    """What speaks against a run: †, not converged; !, mezha does not trust the pressure; ?, it has no figure to judge by."""
-    return "†" if row["status"] != "converged" else {True: "", False: "!", None: "?"}[row["contact.seam.trust"]]
+def status(row):
+    """Whether a run has converged, and whether mezha then trusts its pressure; nothing where it has no figure to judge by."""
+    if row["status"] != "converged":
+        return ["no", ""]
+    return ["yes", {True: "yes", False: "no", None: ""}[row["contact.seam.trust"]]]
 
 
 def draw_pressures(rows, figure, title, pressures):
@@ -91,74 +103,73 @@ def draw_errors(sweep):
     y_axis = Axis(1e-6, 2, (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1), log=True)
     columns = [(example, rule) for example in ("example 1", "example 2") for rule in RULES]
     for column, (example, rule) in enumerate(columns):
-        for down, quantity in enumerate(("lambda", "sigma_2", "u", "energy", "oscillation")):
+        for down, quantity in enumerate(DRAWN):
             plot = sheet.plot(column, down, x_axis, y_axis)
             if down == 0:
                 plot.head(f"{example}, {RULES[rule]}")
             if down == 4:
                 plot.foot("N")
             if column == 0:
-                plot.side(QUANTITIES[quantity].split(",")[0].replace("n·σn of the upper bar", "n·σn, upper bar"))
+                plot.side(DRAWN[quantity])
             for (curve, order, space, used), runs in sweep.items():
                 if (curve, used) == (example, rule):
                     counts = [row["contact.seam.segments"] for row, _ in runs]
                     values = [figures[quantity] for _, figures in runs]
                     plot.curve(counts, values, SPACES[space][1], 1.3, "5 3" if order == 1 else "")
-                    plot.dots(counts, values, SPACES[space][1], [bool(mark(row)) for row, _ in runs])
+                    plot.dots(counts, values, SPACES[space][1], [status(row) != ["yes", "yes"] for row, _ in runs])
     return sheet
 
 
-def cell(row, value):
-    """Two digits and the mark."""
-    if value is None or not math.isfinite(value):
-        return f"-{mark(row)}"
-    return ("> 10" if value > 10 else f"{value:.1e}") + mark(row)
+def cells(values):
+    """All quantities of a run, to two digits."""
+    for quantity in QUANTITIES:
+        value = values[quantity]
+        known = value is not None and math.isfinite(value)
+        yield (">10" if value > 10 else f"{value:.1e}") if known else ""
 
 
-def markdown(head, rows):
-    return [f"| {' | '.join(head)} |", "|---" * len(head) + "|", *(f"| {' | '.join(row)} |" for row in rows), ""]
-
-
-def tell_reference(references):
-    for scene, reference in references.items():
-        off = [f"{reference.pressure(x) / value - 1:+.1e} at x = {x:g}" for x, value in EXACT[scene]]
-        yield f"- {scene}: {', '.join(off)}"
+def curve_of(row):
+    """Which curve of the study `gls` it is, its spaces and its number of segments."""
+    if row["curve"] == "graded":
+        return [row["case"].replace("_", " "), "", ""]
+    name, _, rest = row["curve"].partition(": ")
+    return [name, *rest.split(", N = ")]
 
 
 def tables(figures, sweep, points, references):
-    """Every figure of the studies, as lines of Markdown."""
-    yield from ("# Tables of [paper.md](../paper.md)", "")
-    yield "Written by `draw.py`. Errors are relative, in the root mean square along x. `†`: not converged. `!`: mezha does not"
-    yield "trust the pressure. `?`: it has no figure to judge by. `-`: no value."
-    yield from ("", "The graded runs, which the others are compared with, differ in λ from hp elements by", "")
-    yield from (*tell_reference(references), "", "## The curves of figures 4 and 6", "")
-    name = lambda row: row["case"].replace("_", ", ") if row["curve"] == "graded" else row["curve"]
+    """Every figure of the studies: by the name of a table its head and its rows."""
+    spaces = lambda order, space: f"P{order}/{SPACES[space][0]}"
     rule = lambda row: RULES[row["contact.seam.quadrature"]]
-    rows = [[name(row), rule(row), *(cell(row, values[quantity]) for quantity in QUANTITIES)] for row, values in figures]
-    yield from markdown(["", "", *QUANTITIES.values()], rows)
-    yield from ("## λ at the first six segment ends beside the corner (0, 4), mean of both values, relative error", "")
+    judged = ["converged", "trusted", *QUANTITIES.values()]
+    yield "graded", ["example", "x", "lambda"], [
+        [scene, f"{x:g}", f"{reference.pressure(x) / value - 1:.1e}"]
+        for scene, reference in references.items()
+        for x, value in EXACT[scene]
+    ]
+    yield "curves", ["curve", "spaces", "N", "quadrature", *judged], [
+        [*curve_of(row), rule(row), *status(row), *cells(values)] for row, values in figures
+    ]
     beside = [row for row, _ in figures if row["case"] == "parabola"]
     errors_of = lambda row: first_ends(Line(row["folder"]), references["parabola"], 6)
-    rows = [[name(row), rule(row), *(f"{100 * error:+.1f} %" for error in errors_of(row))] for row in beside]
-    yield from markdown(["", "", *"123456"], rows)
-    yield from ("## Uncut, example 1 on the mesh of figure 4, against the points on each segment", "")
-    rows = [
+    yield "corner", ["curve", "spaces", "N", "quadrature", *(f"end_{at}_percent" for at in range(1, 7))], [
+        [*curve_of(row), rule(row), *(f"{100 * error:.1f}" for error in errors_of(row))] for row in beside
+    ]
+    yield "points", ["spaces", "N", "points", *judged], [
         [
-            f"P2/{SPACES[row['contact.seam.multiplier']][0]}, N = {row['contact.seam.segments']}",
-            str(row["contact.seam.points"]),
-            *(cell(row, values[quantity]) for quantity in QUANTITIES),
+            spaces(2, row["contact.seam.multiplier"]),
+            row["contact.seam.segments"],
+            row["contact.seam.points"],
+            *status(row),
+            *cells(values),
         ]
         for row, values in points
     ]
-    yield from markdown(["", "points", *QUANTITIES.values()], rows)
-    for quantity, words in QUANTITIES.items():
-        counts = [row["contact.seam.segments"] for row, _ in next(iter(sweep.values()))]
-        shown = {key: runs for key, runs in sweep.items() if any(row["status"] != "refused" for row, _ in runs)}
-        rows = [
-            [curve, f"P{order}/{SPACES[space][0]}", RULES[used], *(cell(row, values[quantity]) for row, values in runs)]
-            for (curve, order, space, used), runs in shown.items()
-        ]
-        yield from (f"## Against N: {words}", "", *markdown(["", "", "", *(f"N = {count}" for count in counts)], rows))
+    shown = {key: runs for key, runs in sweep.items() if any(row["status"] != "refused" for row, _ in runs)}
+    yield "segments", ["curve", "spaces", "quadrature", "N", *judged], [
+        [curve, spaces(order, space), RULES[used], row["contact.seam.segments"], *status(row), *cells(values)]
+        for (curve, order, space, used), runs in shown.items()
+        for row, values in runs
+    ]
 
 
 def main(curves, sweep, points, out=Path(__file__).parent):
@@ -177,7 +188,9 @@ def main(curves, sweep, points, out=Path(__file__).parent):
     draw_errors(sweep).write(out / "errors.svg")
     figures = [(row, measured(row, references)) for row in rows if row not in graded]
     points = [(row, measured(row, references)) for row in read_study(points)]
-    (out / "tables.md").write_text("\n".join(tables(figures, sweep, points, references)))
+    for name, head, lines in tables(figures, sweep, points, references):
+        with open(out / f"{name}.csv", "w", newline="") as table:
+            csv.writer(table, lineterminator="\n").writerows([head, *lines])
 
 
 if __name__ == "__main__":
