@@ -6,8 +6,16 @@ SMALL = (
     "**A first version, from small meshes run once each on a machine that did other things meanwhile: counts and errors "
     "stand, times mean little.**"
 )
-# Errors whose times are listed.
-TARGETS = {"errors.energy": [1e-3, 1e-4, 1e-6, 1e-8]}
+# Bounds of each error whose times are listed; bounds that no run meets are left out.
+BOUNDS = {
+    "errors.energy": [1e-4, 1e-6, 1e-8],
+    "estimate.energy": [1e-2, 1e-3, 1e-4],
+    "errors.lambda_seam": [1e-2, 1e-3, 1e-4, 1e-5],
+}
+# What tables call the errors.
+SHORT = {"errors.energy": "energy", "estimate.energy": "norm", "errors.lambda_seam": "λ"}
+# Bounds at which groups of runs are compared: the tightest one that both meet.
+RACES = {"errors.energy": [1e-3, 1e-4, 1e-6, 1e-8]}
 DECADES = [10.0**-k for k in range(1, 10)]
 # What the names of curves on graded and on adapted meshes have.
 GRADED, ADAPTED = ", graded", ", adapted"
@@ -20,8 +28,8 @@ def page(studies, small):
     speed, scaling, ranks = studies["speed_against_error"], studies["scaling"], studies["ranks"]
     parts = [
         "# Performance",
-        "Made by `docs/performance/make` from the studies in [cases/studies](../cases/studies/README.md): words and tables "
-        "too, so do not edit them here. What the figures show, and how laws are fitted: [studies.md](studies.md).",
+        "Made by `docs/performance/make` from the studies in [cases/studies](../cases/studies/README.md), words and tables too: do "
+        "not edit them here. Figures and fits are explained in [studies.md](studies.md).",
         SMALL if small else "",
         machine(studies),
         speed_section(speed, small),
@@ -46,40 +54,39 @@ def machine(studies):
 
 
 def speed_section(study, small):
+    errors = study["errors"]
     parts = [
         "## What an error costs",
-        "Three contacts, all pairs of elements and multipliers on uniform meshes, two of them on meshes that are graded towards "
-        "the corners at the ends of the contact line, all of them on meshes that adapt themselves to an accuracy, of the "
-        "displacement in the energy norm or of λ, one rank; the solver stops where its error is small beside that of the "
-        "discretisation (`tolerance = \"discretisation\"`). Times are `" + study["time"] + "`, from start to end, on adapted "
-        "meshes of the whole sequence"
-        + (", medians of the repeats." if repeats(study) > 1 else ".")
-        + " `errors.energy` is the relative error of the strain energy, `estimate.energy` the estimated one of the displacement in "
-        "the energy norm, about its root where loads alone do work. `errors.lambda_seam` is that of the pressure: at points away "
-        "from the corners on both pairs of bars, in the mean square on the rings.",
-        "An error of a single number, as of the energy, may change its sign from one mesh to the next, and be small by accident. "
-        "So a run counts for a bound only if all finer runs of its line stay below it too. "
-        f"The fastest run of all took {seconds(fastest(study))} s.",
+        "Three contacts, with all pairs of elements and multipliers on even meshes, two pairs on meshes graded towards the ends of the "
+        "contact line, and one on meshes that adapt themselves, to the displacement in the energy norm or to λ. One rank, "
+        "`tolerance = \"discretisation\"`. Times are `" + study["time"] + "`, from start to end, on adapted meshes of the whole sequence"
+        + (", medians of the repeats." if repeats(study) > 1 else "."),
+        "- *energy*, `errors.energy`: relative error of the strain energy.\n"
+        "- *norm*, `estimate.energy`: estimated relative error of the displacement in the energy norm, about the root of *energy* where "
+        "loads alone do work.\n"
+        "- *λ*, `errors.lambda_seam`: relative error of the pressure, at points away from the corners on both pairs of bars, in the mean "
+        "square on the rings.",
+        "A run counts for a bound only if all finer runs of its line stay below it too, since an error may be small by accident.",
         "![time against error](figures/speed_against_error.svg)",
-        "The other errors, and time and iterations against unknowns: [all diagrams](figures/speed_against_error_all.svg).",
+        "All errors, time and iterations: [all diagrams](figures/speed_against_error_all.svg).",
+        "Seconds to an error below a bound, for the fastest run of each pair. The fastest pair is bold; a dash: no run meets the bound.",
     ]
-    for case in unique(line["case"] for line in study["lines"]):
-        lines = [line for line in study["lines"] if line["case"] == case]
+    cases = unique(line["case"] for line in study["lines"])
+    of_case = {case: [line for line in study["lines"] if line["case"] == case] for case in cases}
+    for case, lines in of_case.items():
         parts.append(f"### {case}: {lines[0]['title']}")
-        for error in study["errors"]:
-            parts.append(f"Seconds to `{error}` below a bound, for the fastest run of each pair; bold, the fastest of all:")
-            parts.append(bounds_table(lines, error))
-            parts.append("" if small else " ".join(bounds_sentences(lines, error)))
-        parts.append("Orders p, error ~ h^p:")
-        parts.append(orders_table(lines, study["errors"]))
+        parts.append(bounds_table(lines, errors))
         untrusted = sum(not point["trusted"] for line in lines for point in line["points"])
         if untrusted:
-            parts.append(f"Left out of the tables of times: {untrusted} settings whose pressure is not to be trusted (hollow marks).")
+            parts.append(f"Left out: {untrusted} settings whose pressure is not to be trusted (hollow marks).")
+    if not small:
+        parts += [
+            "### Which choice is faster",
+            "The best run of one group against the best of the other, at the tightest bound that both meet:",
+            races_table(of_case, errors),
+        ]
+    parts += ["### Orders", "p in error ~ h^p; a dash: no power law.", orders_table(of_case, errors)]
     return "\n\n".join(part for part in parts if part)
-
-
-def fastest(study):
-    return min(point["time"]["median"] for line in study["lines"] for point in line["points"])
 
 
 def time_to(line, error, bound):
@@ -93,69 +100,66 @@ def time_to(line, error, bound):
     return min(times, default=None)
 
 
-def bounds_table(lines, error):
+def bounds_table(lines, errors):
     """A row for each line, a column for each bound that any of them meets."""
     columns = []
-    for bound in TARGETS.get(error, DECADES):
-        times = [time_to(line, error, bound) for line in lines]
-        known = [time for time in times if time is not None]
-        if not known:
-            break
-        cells = ["–" if time is None else seconds(time) for time in times]
-        columns.append([power(bound)] + [f"**{cell}**" if time == min(known) else cell for cell, time in zip(cells, times)])
-    # Bounds that all pairs meet on their coarsest mesh say nothing.
-    while error not in TARGETS and len(columns) > 1 and columns[0][1:] == columns[1][1:]:
-        columns.pop(0)
+    for error in errors:
+        for bound in BOUNDS.get(error, DECADES):
+            times = [time_to(line, error, bound) for line in lines]
+            known = [time for time in times if time is not None]
+            if not known:
+                break
+            cells = ["–" if time is None else seconds(time) for time in times]
+            bold = [f"**{cell}**" if time == min(known) else cell for cell, time in zip(cells, times)]
+            columns.append([f"{short(error)} {power(bound)}"] + bold)
     rows = [[line["name"]] + [column[at + 1] for column in columns] for at, line in enumerate(lines)]
     return table(["pair"] + [column[0] for column in columns], rows)
 
 
-def bounds_sentences(lines, error):
-    """P2 against P1 on meshes of the user's, graded meshes against even ones, and adapted ones against both: the best of each at
-    the tightest bound that both reach."""
-    adapted = [line for line in lines if ADAPTED in line["name"]]
-    drawn = [line for line in lines if ADAPTED not in line["name"]]
-    orders = [[line for line in drawn if line["name"].startswith(order)] for order in ("P1", "P2")]
-    meshes = [[line for line in drawn if (GRADED in line["name"]) is graded] for graded in (False, True)]
-    sentences = [
-        race(orders, ("runs with P1", "runs with P2"), error),
-        race(meshes, ("runs on even meshes", "runs on graded meshes"), error),
-        race([drawn, adapted], ("runs on meshes that are given", "runs on adapted meshes"), error),
-    ]
-    return [sentence for sentence in sentences if sentence]
+def races_table(of_case, errors):
+    """P2 against P1 on meshes of the user's, graded meshes against even ones, and adapted ones against both."""
+    rows = []
+    for case, lines in of_case.items():
+        adapted = [line for line in lines if ADAPTED in line["name"]]
+        given = [line for line in lines if ADAPTED not in line["name"]]
+        orders = [[line for line in given if line["name"].startswith(order)] for order in ("P1", "P2")]
+        meshes = [[line for line in given if (GRADED in line["name"]) is graded] for graded in (False, True)]
+        for error in errors:
+            rows.append([
+                case, short(error), race(orders, ("P1", "P2"), error), race(meshes, ("even", "graded"), error),
+                race([given, adapted], ("given", "adapted"), error),
+            ])
+    return table(["case", "error", "P1 or P2", "even or graded", "given or adapted"], rows)
 
 
 def race(groups, names, error):
-    """Which group is first at the tightest bound that both meet, and how far one of them goes alone; the first are the fastest."""
-    both, alone = None, None
-    for bound in TARGETS.get(error, DECADES):
-        first = []
-        for group in groups:
-            times = [(time_to(line, error, bound), line["name"]) for line in group]
-            first.append(min((entry for entry in times if entry[0] is not None), default=None))
+    """Which group is first at the tightest bound that both meet; the first are the fastest."""
+    both = None
+    for bound in RACES.get(error, DECADES):
+        times = [[time_to(line, error, bound) for line in group] for group in groups]
+        first = [min((time for time in own if time is not None), default=None) for own in times]
         if all(first):
             both = bound, first
-        elif any(first):
-            alone = bound, next((*entry, name) for entry, name in zip(first, names) if entry)
-    return " ".join(([met(*both, names)] if both else []) + ([met_alone(*alone)] if both and alone else []))
+    return met(*both, names) if both else "–"
 
 
 def met(bound, first, names):
-    where = f"At {power(bound)}, the tightest bound that {names[0]} and {names[1]} both meet,"
-    ((fast, one), winner), ((slow, other), loser) = sorted(zip(first, names))
+    (fast, winner), (slow, _) = sorted(zip(first, names))
     if slow > EQUAL * fast:
-        return f"{where} {winner} are {slow / fast:.1f} times as fast as {loser} ({one} against {other})."
-    return f"{where} the best of both take the same time within {100 * (EQUAL - 1):.0f} %."
+        return f"{winner}, {slow / fast:.1f}× ({power(bound)})"
+    return f"equal within {100 * (EQUAL - 1):.0f} % ({power(bound)})"
 
 
-def met_alone(bound, first):
-    time, line, names = first
-    return f"Only {names} meet {power(bound)}, in {seconds(time)} s ({line})."
-
-
-def orders_table(lines, errors):
-    rows = [[line["name"]] + [law(line["orders"][error]) for error in errors] for line in lines]
-    return table(["pair"] + [f"`{error}`" for error in errors], rows)
+def orders_table(of_case, errors):
+    head = ["pair"] + [(f"{case}: " if error == errors[0] else "") + short(error) for case in of_case for error in errors]
+    rows = []
+    for name in unique(line["name"] for lines in of_case.values() for line in lines):
+        cells = []
+        for lines in of_case.values():
+            own = next((line for line in lines if line["name"] == name), None)
+            cells += [law(own["orders"][error]) if own else "" for error in errors]
+        rows.append([name] + cells)
+    return table(head, rows)
 
 
 # Large meshes
@@ -163,7 +167,7 @@ def orders_table(lines, errors):
 
 def scaling_section(study, small):
     header = ["pair", "unknowns", "Krylov iterations", "seconds", "of which in solves", "microseconds for each unknown", "bytes for each unknown"]
-    rows, sentences = [], []
+    rows, laws = [], []
     for line in study["lines"]:
         for point in line["points"]:
             unknowns, time = point["unknowns"], point["time"]["median"]
@@ -171,58 +175,42 @@ def scaling_section(study, small):
             each = [f"{1e6 * time / unknowns:.2f}", f"{point['memory'] * 2**20 / unknowns:.0f}"]
             cells = [count(unknowns), f"{point['iterations']:.0f}", seconds(time), seconds(row["time_s.solve"])]
             rows.append([line["name"]] + cells + each)
-        sentences.append(scaling_sentence(line, small))
+        cost = line["cost"]
+        if cost is not None:
+            growth = f"grows like N^{cost['exponent']:.2f}" if cost["deviation"] <= 1.5 else "follows no power law"
+            laws.append(f"{growth} with {line['name']}")
     ranks = unique(line["ranks"] for line in study["lines"])
     parts = [
         "## Large meshes",
-        f"Example 1 with even meshes and segments, {' and '.join(map(str, ranks))} ranks, the solver to 10⁻⁸; iterations are "
-        "those of the linear solves on the finest mesh: of GMRES, with one cycle each, and above half a million unknowns of BiCGStab, "
-        "with two.",
+        f"Example 1 with even meshes and segments, {' and '.join(map(str, ranks))} ranks, `tolerance = 1e-8`. Iterations are those on the "
+        "finest mesh: of GMRES, with one cycle each, and above half a million unknowns of BiCGStab, with two. `tests/scaling.rs` holds these "
+        "counts on small meshes, `ci/scaling` on large ones.",
         "![time against unknowns](figures/scaling.svg)",
         table(header, rows),
-        " ".join(sentences),
-        "The counts are held on small meshes by `tests/scaling.rs`, and on large ones by `ci/scaling`.",
+        f"Over the three largest meshes time {', and '.join(laws)}." if laws and not small else "",
     ]
-    return "\n\n".join(parts)
-
-
-def scaling_sentence(line, small):
-    points = line["points"]
-    iterations = [point["iterations"] for point in points]
-    first, last = points[0]["unknowns"], points[-1]["unknowns"]
-    between = f"{min(iterations):.0f}" if min(iterations) == max(iterations) else f"{min(iterations):.0f} to {max(iterations):.0f}"
-    text = f"{line['name']}: {between} iterations from {count(first)} to {count(last)} unknowns"
-    cost = line["cost"]
-    if cost is None or small:
-        return text + "."
-    if cost["deviation"] > 1.5:
-        return text + "; the times follow no power law."
-    return text + f"; over the three largest meshes time ~ N^{cost['exponent']:.2f}."
+    return "\n\n".join(part for part in parts if part)
 
 
 # Solvers
 
 
 def solvers_section(study):
-    header = ["pair", "unknowns", "s, fieldsplit", "s, direct", "ratio", "MiB, fieldsplit", "MiB, direct", "ratio"]
+    header = ["pair", "unknowns", "s, fieldsplit", "s, direct", "ratio", "MiB, fieldsplit", "MiB, direct"]
     lines = {line["name"]: line for line in study["lines"]}
-    rows, told = [], []
+    rows = []
     for name in unique(name.rsplit(", ", 1)[0] for name in lines):
-        pairs = list(zip(*(lines[f"{name}, {solver}"]["points"] for solver in ("fieldsplit", "direct"))))
-        for own, other in pairs:
+        for own, other in zip(*(lines[f"{name}, {solver}"]["points"] for solver in ("fieldsplit", "direct"))):
             times = [point["time"]["median"] for point in (own, other)]
             memory = [point["memory"] for point in (own, other)]
             rows.append([name, count(own["unknowns"])] + [seconds(time) for time in times] + [f"{times[1] / times[0]:.1f}"]
-                        + [f"{each:.0f}" for each in memory] + [f"{memory[0] / memory[1]:.2f}"])
-        told.append(f"with {name} {times[1] / times[0]:.1f} times the time and {memory[1] / memory[0]:.1f} times the memory")
-    largest = count(pairs[-1][0]["unknowns"])
+                        + [f"{each:.0f}" for each in memory])
     parts = [
         "## Multigrid and a factorisation",
-        "The same problems with `solver.name = \"fieldsplit\"` and with `\"direct\"`, MUMPS with the BLAS named above, on 2 ranks, from "
-        "start to end. Both solve two coarser meshes first.",
+        "The same problems with `solver.name = \"fieldsplit\"` and with `\"direct\"` (MUMPS), on 2 ranks, from start to end; both solve "
+        "two coarser meshes first. The ratio is the time of `direct` by that of `fieldsplit`.",
         "![fieldsplit and direct](figures/solvers.svg)",
         table(header, rows),
-        f"At {largest} unknowns the factorisation takes {', and '.join(told)}.",
     ]
     return "\n\n".join(parts)
 
@@ -232,7 +220,7 @@ def solvers_section(study):
 
 def ranks_section(study):
     names = unique(line["name"].rsplit(", ", 1)[0] for line in study["lines"])
-    rows, gains, differences = [], [], []
+    rows, differences, more = [], [], []
     for name in names:
         lines = {line["ranks"]: line for line in study["lines"] if line["name"].rsplit(", ", 1)[0] == name}
         alone = lines[1]
@@ -240,24 +228,18 @@ def ranks_section(study):
             if ranks == 1:
                 continue
             for one, many in zip(alone["points"], line["points"]):
-                gain = one["time"]["median"] / many["time"]["median"]
                 energies = [energy(study, point) for point in (one, many)]
                 differences.append(abs(energies[0] - energies[1]) / abs(energies[0]))
-                times = [seconds(point["time"]["median"]) for point in (one, many)]
-                gains.append((one["unknowns"], *times, name))
-                iterations = [f"{point['iterations']:.0f}" for point in (one, many)]
-                rows.append([name, count(one["unknowns"])] + times + [f"{gain:.2f}"] + iterations + [scientific(differences[-1])])
-    header = ["pair", "unknowns", "s, 1 rank", "s, 2 ranks", "ratio", "iterations, 1 rank", "2 ranks", "relative difference of the energy"]
-    largest = max(entry[0] for entry in gains)
-    told = [f"{name} takes {one} s on one rank and {two} s on two" for unknowns, one, two, name in gains if unknowns == largest]
+                more.append(round(abs(one["iterations"] - many["iterations"])))
+                times = [point["time"]["median"] for point in (one, many)]
+                rows.append([name, count(one["unknowns"])] + [seconds(time) for time in times] + [f"{times[0] / times[1]:.2f}"])
+    iterations = f"differ by {max(more)} at most" if max(more) else "are the same"
     parts = [
         "## One rank and two",
         "![one and two ranks](figures/ranks.svg)",
-        table(header, rows),
-        f"At {count(largest)} unknowns {'; '.join(told)}. The energies differ by {scientific(max(differences))} "
-        "at most, with the solver to 10⁻⁸.",
-        "Both ranks share the memory of one machine, and its bandwidth: more machines are another matter, see "
-        "[slurm.md](slurm.md).",
+        table(["pair", "unknowns", "s, 1 rank", "s, 2 ranks", "ratio"], rows),
+        f"Iterations {iterations}. Energies differ by {scientific(max(differences))} at most. Both ranks share the memory of one machine, "
+        "and its bandwidth; for more machines see [slurm.md](slurm.md).",
     ]
     return "\n\n".join(parts)
 
@@ -267,6 +249,10 @@ def energy(study, point):
 
 
 # Words
+
+
+def short(error):
+    return SHORT.get(error, f"`{error}`")
 
 
 def repeats(study):
@@ -283,9 +269,7 @@ def table(header, rows):
 
 
 def law(law):
-    if law is None:
-        return "too few points"
-    return f"{law['exponent']:.2f}" if law["deviation"] <= 1.5 else "no power law"
+    return f"{law['exponent']:.2f}" if law is not None and law["deviation"] <= 1.5 else "–"
 
 
 def seconds(time):

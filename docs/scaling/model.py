@@ -22,18 +22,18 @@ ASSUMED = {
     "latency": (2e-6, "latency α of a message, and of each step of a collective", "s"),
     "overhead": (0.5e-6, "time o of a processor for a message", "s"),
     "bandwidth": (4e8, "bandwidth β of a rank: 25 GB/s of a node, shared by 64", "B/s"),
-    "socket": (2.0, "slowdown s of a rank on a full socket, whose cores share its memory, against the two ranks here", ""),
+    "socket": (2.0, "slowdown s of a rank on a full socket, against the two ranks here", ""),
 }
 
 # Name, words, unit.
 MEASURED = [
     ("unknown", "time t of an unknown and iteration, two ranks", "s"),
-    ("iterations", "iterations to 1e-8, most ranks, half-way between those to 1e-6 and to 1e-10", ""),
-    ("collectives", "reductions, sums and gatherings c of an iteration", ""),
-    ("waits", "latencies v on the critical path of an iteration, collectives apart", ""),
-    ("messages", "messages of the busiest rank in an iteration, on whatever number of ranks it sends most", ""),
-    ("bytes", "bytes that the busiest rank sends in an iteration, at the N/P below", "B"),
-    ("share", "unknowns N/P of a rank there", ""),
+    ("iterations", "iterations to 1e-8, between those to 1e-6 and 1e-10", ""),
+    ("collectives", "collectives c of an iteration", ""),
+    ("waits", "latencies v of an iteration, collectives apart", ""),
+    ("messages", "messages m of the busiest rank in an iteration", ""),
+    ("bytes", "bytes B that it sends, at the N/P below", "B"),
+    ("share", "unknowns N/P of a rank", ""),
     ("imbalance", "imbalance w of the work, 10 000 ranks", ""),
     ("memory", "memory for each unknown, two ranks", "B"),
 ]
