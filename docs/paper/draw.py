@@ -18,7 +18,7 @@ from sheet import BLUE, GREEN, GREY, INK, VERMILION, Axis, Sheet
 SPACES = {"p0": ("P0", BLUE), "p1-discontinuous": ("P1 disc.", VERMILION), "p1-continuous": ("P1 cont.", GREEN)}
 RULES = {"cut": "cut", "segment": "uncut"}
 
-# λ by hp finite elements, graded to the corners; the same values as in cases/gls/README.md.
+# λ by hp finite elements, graded to the corners; the same values as in the READMEs of cases/bars_inclined and cases/bars_parabola.
 EXACT = {
     "inclined": [
         (0.6, 0.943062), (1.2, 0.925057), (1.8, 0.930748), (2.4, 0.947871), (3, 0.97248), (3.6, 1.00292), (4.2, 1.03826),
