@@ -1,4 +1,12 @@
 //! `[mesh.grade]`
+//!
+//! With κ at the bound `2^(-k/α)`, k the order of the elements and α the exponent of the solution, each layer around the point
+//! has an error of one size, and the order comes late (Băcuță, Nistor, Zikatanov 2005). On example 1 (α = 0.818 and 1.057;
+//! relative errors of U) P1 with `p0` has 6.6e-6 at 231 428 unknowns with the bound of 0.428 and 0.5, and 4.7e-6 with the 0.281
+//! and 0.374 of `"auto"`. Smaller ratios bring nothing more: P1 with 0.25 and 0.35 has 4.6e-6, with 0.184 and 0.269 4.8e-6; P2
+//! with 0.15 and 0.194 has 9.7e-8 at 58 372 unknowns, with those of `"auto"` 8.9e-8. On example 2 (α = 0.418), where the full
+//! order of P2 would take 0.036, the estimated error in the energy norm at 189 956 unknowns is 1.9e-3 with 0.15 and 1.4e-3 with
+//! 0.1.
 
 use toml::Value;
 

@@ -10,6 +10,11 @@
 //!
 //! Sources: Lawson, Hanson, Solving Least Squares Problems (1974), chapter 23; Hungerländer, Rendl, SIAM Journal on
 //! Optimization 25 (2015), 1633-1659.
+//!
+//! Turned down were loading in steps (the set on the way is as hard to find as the last one, and a gap does not scale with the
+//! load), damping (no proof), and an interior-point method (15 to 20 solves, too, with other matrices for each). Tried on 40
+//! seats of a slender leaf, 190 multipliers, flat and wavy, solved densely: the plain rule took 84 sets from all closed (median;
+//! 124 at most), principal pivoting with a safeguard (Kim, Park) up to 623, rising energy 13 (18 at most), from any first set.
 
 /// By what factor fewer multipliers are added if the energy did not rise.
 const FEWER: usize = 4;

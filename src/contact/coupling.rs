@@ -1,4 +1,11 @@
 //! Coupling of one body's boundary to the multipliers of Γ_C, and its share of the initial gap.
+//!
+//! On a closed Γ_C feet of nodes are known but for whole turns, so an edge across the seam is integrated in two parts:
+//! `cases/rings_full` has the same discrete solution as its quarter, to rounding. A gap that is measured is never that of the
+//! polygons: with it a prototype had errors of λ of 8 % to 1000 % on curved meshes that do not match. On two quarter rings of
+//! straight edges that overlap by 1e-3 (P1, `p0`, nothing declared; 16, 32 and 64 edges against 20, 40 and 80) splines through
+//! the nodes leave a relative L2 error of λ of 1.9e-2, 1.3e-2 and 9.6e-3. On the mesh of `cases/rings`, whose edges are bent,
+//! the fitted curve has 1.34e-5 at `refine = 3`, as the declared circle has.
 
 use super::{ContactBoundary, Multipliers, Quadrature, Side, quadrature_points, trace};
 use crate::geometry::{Curve, Formula, Point, gauss_points};

@@ -1,4 +1,14 @@
 //! How Γ_C is cut into segments: by the case's rule, graded, and no finer than the softer body's edges allow.
+//!
+//! Counting edges along Γ_C is safe on meshes that are graded towards points: the inf-sup constants of all six pairs of spaces
+//! on example 1, with ratios from 0.15 to 0.4 and on two levels, are 0.37 to 0.83, as on even meshes. Segments that are measured
+//! by the longest edge that they meet are long at the very point: on `bars_inclined/even.msh`, κ = 0.18 and 0.3, 66 thousand
+//! unknowns, the energy was off by 7.4e-7 instead of 1.5e-7.
+//!
+//! The safe lengths are those of a prototype: at 1.1, 1.0 and 2.5 edges (P1 with `p0`, `p1-continuous`, `p1-discontinuous`) and
+//! at 0.67, 0.5 and 1.1 (P2) the inf-sup constant is 0.3. Ends of contact that are known are worth more than more segments: in a
+//! Hertz problem of the prototype the L2 error of λ was 0.046 with 13 segments, of which the active set chose, and 0.011 with 8
+//! that end where contact ends.
 
 use super::{ContactBoundary, MultiplierSpace, Pair, SegmentRule};
 use crate::element::Order;

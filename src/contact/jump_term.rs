@@ -3,6 +3,18 @@
 //! `C = δ (h / E_c) Σ H [ψ_i] [ψ_j]` in place of the zero block, over the jumps between neighbouring values: at the
 //! inner segment ends, at the seam of a closed boundary and, for discontinuous P1, across each segment. `h` is the length of the softer
 //! body's edges and `H` that of the segments, both means of the segments beside. It vanishes with `h H` for a smooth pressure.
+//!
+//! `h` is local: on `bars_inclined/graded.toml` with 400 even segments the energy is off by 2.4e-9, with the longest edge
+//! everywhere it was 2.5e-7. Measured on example 1, 17 000 unknowns, `direct`: H/h, and the largest error of λ at x = 1.2 to 4.8
+//! without and with the term. The oscillation is between 0.13 and 0.9 where the error is above 0.1, and below 2e-3 elsewhere.
+//! `fieldsplit` agrees, in 11 to 14 iterations with the term.
+//!
+//! | segments | P1/`p0` | P2/`p0` | P2/`p1-discontinuous` |
+//! |---|---|---|---|
+//! | 60 | 1.60: 3.5e-4, 2.5e-4 | 0.80: 5.2e-5, 4.5e-5 | 0.80: 3.0e-4, 2.4e-5 |
+//! | 120 | 0.80: 2.0e-4, 2.1e-4 | 0.40: 1.0e-4, 1.3e-5 | 0.40: 1.9e3, 8.7e-6 |
+//! | 176 | 0.55: 1.3e-1, 5.4e-4 | 0.27: 2.3e-1, 6.0e-4 | 0.27: 3.7e4, 2.8e-4 |
+//! | 352 | 0.27: 1.3e10, 5.1e-4 | 0.14: 6.5e5, 2.8e-4 | 0.14: not solved, 1.3e-4 |
 
 use super::{MultiplierSpace, Multipliers};
 use std::collections::BTreeMap;

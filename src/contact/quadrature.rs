@@ -1,4 +1,11 @@
 //! Where the coupling integrals of a body are evaluated: points of Γ_C, each with the boundary edge that it sees.
+//!
+//! Between fixed points of a segment the shape functions of a body have kinks, so that no rule that does not cut is exact. Both
+//! bodies make the same error, and all balances hold to rounding; the patch test tells. On `cases/patch_flat` with 5 points λ is
+//! off by 1.0e-2, 8.9e-3 and 7.4e-3 (P1 with `p0`, `p1-discontinuous`, `p1-continuous`) and by 9.5e-3, 1.6e-2 and 2.8e-3 (P2),
+//! with cut integrals by less than 1e-11. Refining mesh and segments together does not mend it: P2 with `p1-discontinuous` is
+//! off by 1.6e-2, 1.6e-2, 1.8e-2 and 1.8e-2 at `mesh.refine` 2 to 5. More points do, slowly: P2 with `p0` is off by 2.9e-2 with
+//! 2 points, 9.5e-3 with 5, 1.3e-3 with 12 and 2.1e-4 with 20.
 
 use super::{ContactBoundary, Quadrature, edge_overlaps};
 use crate::geometry::gauss_points;

@@ -1,4 +1,7 @@
 //! Linear elasticity in the plane: plane strain and plane stress.
+//!
+//! Displacements in plane stress are those of plane strain with the modulus `E (1 + 2ν)/(1 + ν)²` and the ratio `ν/(1 + ν)`,
+//! which is at most 1/3: it is this ratio that counts where P1 is said to lock.
 
 use nalgebra::Matrix2;
 

@@ -2,6 +2,17 @@
 //!
 //! Contact takes such a boundary for smooth: its normals and gaps are those of the spline. Chords that are only refined would
 //! keep the corners between them, and the pressure would jump at each of them.
+//!
+//! Measured on two quarter rings (radii 1, 2 and 3; n against n + 1 chords; drawn as touching, `gap = -0.01`; P2 with
+//! `p1-discontinuous`), the largest error of λ in the middle 60 % at `refine` 1, 2 and 3. What is left at n = 8 is the polygon
+//! of bore and rim, which are not in contact. With `gap = "geometry"`, on rings that overlap by 0.01, the gap between the
+//! splines of 8 and 9 chords is itself off: λ by 1.7 % in the mean square, with 12 chords by 0.6 %.
+//!
+//! | n | chords as they are | bent | declared circle |
+//! |---|---|---|---|
+//! | 8 | 9.5 %, 11 %, 14 % | 0.3 %, 0.3 %, 0.2 % | |
+//! | 12 | 7.0 %, 8.8 %, 12 % | 0.2 %, 0.1 %, 0.1 % | 0.2 % (`refine = 1`) |
+//! | 18 | 5.3 %, 6.6 %, 7.9 % | 0.1 %, 0.1 %, 0.1 % | |
 
 use super::edge_shape::EdgeShape;
 use super::{MacroMesh, Stretch};

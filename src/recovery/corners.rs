@@ -1,4 +1,13 @@
 //! Corners of bodies that press within a contact whose normals are those of smooth boundaries.
+//!
+//! The error is `0.5 √(Σ(w θ)²)` over both bodies, θ the sharpest corner (radians) and w the share of the body in the compliance
+//! `(1 - ν²)/E`; with `gap = "closed"` 0.3 of that. Measured in the mean square of the middle 60 % on rings of chords of two
+//! edges each, corners of 3.8 to 18 degrees, `refine` 0 to 2, estimate by error: 0.9 to 1.4 with a declared interference and
+//! equal E, but for one run at `refine = 0`; 0.7 to 0.85 with a stiff inner ring; 2.5 to 4 with one that is 20 times softer,
+//! where λ is right in the middle and off by half at the ends; 0.7 to 2.8 from `refine = 1` on for closed rings under outer
+//! pressure. A single corner of 6, 12 or 19 degrees between two flat faces with an interference spoils λ by 1.2, 4.6 and 11 %
+//! (estimates 3.7, 7.4 and 12 %); with a contact on each face λ is right to rounding. Closed, 19 degrees are worth 0.3 % and are
+//! estimated at 3.5 %.
 
 use crate::contact::GapChoice;
 use crate::discretisation::{Contact, Scene};

@@ -1,4 +1,19 @@
 //! What a solution means on the bodies: energies, reactions, stresses, traces on Γ_C, values at points, errors.
+//!
+//! A solution of a [`crate::discretisation::Discretisation`] comes in; numbers go out, the same on all ranks. Nothing here knows how
+//! it was found.
+//!
+//! `energy.stationary` takes in the square of the algebraic error alone. Example 1, `graded.toml`, 58 372 unknowns, relative to
+//! 1e-11:
+//!
+//! | `solver.tolerance` | 1e-3 | 1e-4 | 1e-5 | 1e-6 |
+//! |---|---|---|---|---|
+//! | `total` | 2.6e-8 | 1.4e-9 | 2.9e-11 | 1e-12 |
+//! | `stationary` | 8.1e-9 | 3.1e-11 | 4e-13 | < 1e-13 |
+//! | iterations on the finest mesh | 2 | 4 | 6 | 8 |
+//!
+//! At 3844 to 231 428 unknowns a tolerance of 1e-4 keeps the errors of U at 1e-11 (8.5e-6 to 7.1e-9) to within 0.3 %, in 4
+//! iterations instead of 16, and λ but for a fifth of its error.
 
 mod balance;
 mod cell_energies;

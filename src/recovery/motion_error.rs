@@ -1,4 +1,21 @@
 //! What finite motions do to contact pressures of the linear theory.
+//!
+//! On undeformed bodies the fit bisects both boundaries, so that the error of the gap is of second order in the slip s:
+//! `s²/(8R)`, evenly, for a cylinder of radius R on a flat block. Measured on a cylinder that a prescribed displacement presses
+//! and shifts by s (half width a of 0.114, equal moduli; strains of 3 %), by the same with `"deformed"` and no slip:
+//!
+//! | s/a | `∫λ ds`, `"reference"` | `slip_error` | largest λ | `"deformed"`: `∫λ ds`, largest λ |
+//! |---|---|---|---|---|
+//! | 0.13 | +0.2 % | 0.2 % | +0.2 % | 0.0 %, 0.0 % |
+//! | 0.26 | +0.7 % | 0.6 % | +0.5 % | 0.0 %, 0.0 % |
+//! | 0.53 | +2.6 % | 2.2 % | +1.6 % | 0.0 %, +0.1 % |
+//! | 1.05 | +10.5 % | 9.0 % | +5.7 % | 0.0 %, +0.3 % |
+//!
+//! A pad in a bore of radius 2 that is turned by 0.02 and pushed by 5e-4 loses 40 % of its force by the growth `θ²/2`, and 15 %
+//! more on deformed bodies. On pads of half a radian, turned by 0.02 to 0.1, `rotation_error` was between 0.55 and 1.5 times the
+//! true error of the force, on undeformed and on deformed bodies. Sliding and turning count together in `slip_error`, since a
+//! round body that turns about its centre does both, and the one undoes the other. Where equilibrium sets the force its error is
+//! zero. Where both ends of contact lie inside the boundaries, a tilt of the gap moves the contact and does not change λ.
 
 use super::deformation::Deformation;
 use super::traces::TracePoint;

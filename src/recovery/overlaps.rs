@@ -1,4 +1,8 @@
 //! Places where the bodies overlap: where nothing presses, and within single segments.
+//!
+//! If contact is narrower than a segment, the mean gap may be open although the bodies penetrate: then too small a force, or
+//! none, solves the discrete problem. In all cases of `cases/` the force that overlaps within segments are worth is below 4 % of
+//! that of the contact, in most 0.1 %; on a leaf that touches on half a segment it is 79 %.
 
 use super::traces::TracePoint;
 use crate::discretisation::Contact;

@@ -1,4 +1,7 @@
 //! The ends of a zone that presses, where they are those of Γ_C: pressures without bound, corners of one body.
+//!
+//! The loss of a contact that ends by itself was measured on a layer that slides on a block: it lost 3, 11 and 45 % of its force
+//! where `lost_at_ends` says 3, 11 and 33 %.
 
 use super::traces::TracePoint;
 use crate::contact::{MultiplierSpace, Zone};

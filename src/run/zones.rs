@@ -1,4 +1,9 @@
 //! What each zone of a contact that presses is, and what is estimated of its pressure.
+//!
+//! The limits of `whole` and `peak` were chosen on the 200 scenes of `ci/scenes`, of which 193 are sure enough: lines and arcs,
+//! gaps with up to three humps, E from 1:1000 to 1000:1, edges from 1:20 to 20:1, all pairs of spaces, `refine` 1 to 3, against
+//! solutions on much finer meshes. Of the 15 good pressures that are not trusted most are so for their `peak` or for `whole`.
+//! `whole` by the true error: of 86 runs 72 are within 0.5 to 3, three below 0.3.
 
 use super::trust::{LEAST_PARTS, PROVES};
 use crate::contact::{Zone, hertz_width};

@@ -1,4 +1,8 @@
 //! What the two sides of a contact are made of.
+//!
+//! E_c is that beside each segment, in the augmentation, in the scale of the multipliers, in the jump term and in what overlaps
+//! are worth. One E_c for a whole contact took 108 iterations instead of fewer than 20 on two columns with E of 1 : 1000
+//! (`cases/patch_columns`).
 
 use crate::contact::ContactBoundary;
 use crate::discretisation::scene::Scene;

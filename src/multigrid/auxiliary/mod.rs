@@ -3,6 +3,24 @@
 //! Xu 1996). Nodes of the mesh take over the values of the functions, those of supports nothing of what they prescribe.
 //!
 //! The macro mesh is on every rank, and so are the trees.
+//!
+//! Linear motions are met exactly, on graded meshes and beside curved boundaries, too, and as all trees are cut from one grid
+//! the traces of two bodies in contact match on coarse levels. Measured on example 1, bilateral, two meshes of Gmsh that do not
+//! match, one rank, to 1e-8: iterations; seconds of set-up and solve; with reading and assembly, processor seconds of the whole
+//! run. The machine did other things meanwhile: compare within a column only. *Factor* is Cholesky of `K + BᵀDB` in the place of
+//! the cycle, *BoomerAMG* likewise (for P2 below a smoothing step).
+//!
+//! | | P1, 98 thousand | P1, 961 thousand | P2, 98 thousand | P2, 966 thousand |
+//! |---|---|---|---|---|
+//! | auxiliary levels | 12; 1.0; 0.9 | 11; 11; 12 | 10; 0.6; 0.6 | 10; 8.0; 6.3 |
+//! | BoomerAMG | 19; 2.7; 1.7 | 29; 54; 25 | 14; 1.0; 0.9 | 19; 21; 11 |
+//! | factor | 11; 2.6; 1.8 | 11; –; 25 | 10; 2.4; 1.5 | 10; 41; 19 |
+//! | `direct` | 1; 1.8; 1.3 | 1; 23; 17 | 1; 1.5; 1.1 | 1; 26; 12 |
+//!
+//! Iterations on other meshes of this kind, P1 and P2: edges 30 times shorter at the corners 12 and 10; turned by 20 degrees on
+//! inclined or clamped supports 11 and 10; moduli 1e6 apart 18 and 17 to rounding (BoomerAMG 90 and 111); ν = 0.45 16 and 14;
+//! 0.49 28 and 29, with two CG steps. Functions that lie outside of their body but for a node or two are kept: without them P1
+//! takes 14 iterations instead of 12, without those that a support cuts 19 to 58.
 
 mod grid;
 mod level;

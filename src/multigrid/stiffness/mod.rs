@@ -66,6 +66,10 @@
 //! factorisation wants one (the last fallback preconditioner, the inf-sup constant), it is made first. Contact changes stored
 //! rows alone: nodes of Γ_C lie on sides of macro triangles.
 //! After the stencils of hierarchical hybrid grids (Bergen, Hülsemann 2004).
+//!
+//! On every level the stiffness is assembled from its own elements, and edges between materials are macro edges, so that
+//! multigrid sees jumps of the modulus as the finest mesh does: on `cases/rings_bonded` a core that is a thousand times softer
+//! or harder than the ring around it changes no solve by more than a few iterations.
 
 mod assembly;
 mod block_lanes;

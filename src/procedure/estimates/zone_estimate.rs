@@ -1,5 +1,15 @@
 //! Estimated errors of λ on one zone that presses, from three signs that are independent of each other: how λ differs from
 //! what it was on the mesh before, how far the bodies' stresses are from it, and how coarse the segments are for it.
+//!
+//! The estimate of a zone is the larger of two figures, times 1.2. One is the smaller of stress and difference: bodies that are
+//! bent have stresses that are off by much more than λ, and a difference may be small by luck. The other is what the segments
+//! are too coarse for. The factor by which differences fall is taken halfway between what was seen and 4 (`p0`) or 16 (others)
+//! in the square. The stresses need no other mesh, so that there is an estimate with `refine = 0`, too.
+//!
+//! Measured on 13 cases with an exact or a very fine solution, six pairs of spaces each, `segments = "auto"`, in the middle of
+//! zones of 4 edges and 4 segments at least, errors below 5e-4 left out: at `refine` 1 to 3 no estimate of 190 is below 0.3 of
+//! the truth, two are below 0.5 and nine above 3. At `refine = 0`, 62 zones, none is below 0.5, and half are above 3.
+//! `tests/effectivity.rs` holds this. On 3 edges and fewer peaks were 6 to 79 % off.
 
 use crate::contact::{MultiplierSpace, Roughness, Zone};
 use crate::discretisation::Contact;

@@ -1,5 +1,11 @@
 //! The first mesh, begun by the quadratic programme, unless that is dear: where the sides come within reach, what presses, how every
 //! body moves.
+//!
+//! Scenes with held means begin with displacements and pressures of the programme, and finer meshes with those of the mesh
+//! before. Solving it again on each mesh takes more time than it saves: the disc in a box takes .7 s without that and 1.1 s with
+//! it, the bearing 4.4 and 5.5 s. In other scenes the set alone is taken. Where the programme would take more than some 3e8
+//! operations, some 20 000 triangles of each body on the coarsest mesh, they begin without it: two bars of 78 thousand triangles
+//! each, P2, took as many sets and iterations either way, and the programme 65 of 79 s.
 
 use crate::accuracy::share_of_nothing;
 use crate::contact::Known;

@@ -1,4 +1,12 @@
 //! One mesh: one contact boundary after the other, until everything stands.
+//!
+//! On finer meshes a boundary stands as soon as it would move by less than the mesh is exact for. On `cases/hertz` with 48, 189
+//! and 753 thousand unknowns the finest mesh then takes one or two boundaries, and 8, 5 and 3 iterations in all, instead of 4 to
+//! 6 boundaries and 14 to 22 iterations. The force is the same to 2e-5, the largest pressure to 7e-6, the half width to 6e-4,
+//! 3e-5 and 7e-5.
+//!
+//! Solves go to 1e-5 until a boundary stands or is nearly there, and then to the tolerance. Going to the tolerance at once took
+//! 88 cycles instead of 47 on `bearing`, 31 instead of 23 on `chain_5`, and 21 instead of 14 on `hertz`.
 
 use crate::accuracy::share_of_nothing;
 use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Form, Solution, SystemError, load, nodal_forces, settle};

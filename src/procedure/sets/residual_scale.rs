@@ -1,4 +1,15 @@
 //! What residuals are measured by, and how far the last solve goes.
+//!
+//! A body 1e5 times stiffer than the other that its support presses down would have a right-hand side of its own modulus, beside
+//! which no force of contact is large. The way of a rigid tool, taken as strain of the edges that it meets, is hundreds of times
+//! larger than the nodal forces. A body that only contact holds is not moved along in this measure: where a prescribed
+//! displacement carries it by 1e4 times what the loads strain (example 1, table lifted by 1), at 1e-8 the energy is off by 4e-7
+//! and ∫λ ds by 1.5e-4.
+//!
+//! `"discretisation"` on `bars_inclined`, `rings` and `beam` (P1 with `p0`, P2 with `p1-discontinuous`) takes 4 to 8 iterations
+//! instead of 9 to 13, and changes the error of λ by less than 5 %; only where λ is good to six digits (`rings` with P2) it
+//! becomes 2.5e-5 instead of 1.4e-5. Solves to 1e-5 are at the accuracy of the discretisation (prototype, 264 thousand unknowns,
+//! 6 iterations).
 
 use crate::discretisation::{SystemError, rigid_start};
 use crate::system::{System, Tolerance};

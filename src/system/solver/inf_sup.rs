@@ -1,4 +1,7 @@
 //! The discrete inf-sup constant of a contact.
+//!
+//! It has no dimension, and is right for floating bodies, too. With an inexact inverse of `K_γ` the figure would be that of the
+//! preconditioner; hence the factor, and hence the limit to few unknowns.
 
 use super::options::MOST_REDUNDANT;
 use crate::discretisation::{Contact, SystemError};
