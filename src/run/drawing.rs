@@ -6,7 +6,7 @@ use crate::case::{Case, read_text};
 use crate::contact::Pair;
 use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, MacroTriangle, Spot};
-use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure};
+use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -166,9 +166,7 @@ fn nearest([first, second]: [&Rows; 2]) -> Option<(BoundaryPoint, f64)> {
     let pairs = around(0, a).flat_map(|a| around(1, b).map(move |b| [a, b]));
     let [a, _] = pairs.min_by(|p, q| distance(p[0], p[1]).total_cmp(&distance(q[0], q[1])))?;
     let size = |points: &[BoundaryPoint]| {
-        let [low, high] = points.iter().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], point| {
-            [[0, 1].map(|k| low[k].min(point.place[k])), [0, 1].map(|k| high[k].max(point.place[k]))]
-        });
+        let [low, high] = bounds(points.iter().map(|point| point.place));
         (high[0] - low[0]).hypot(high[1] - low[1])
     };
     Some((all[0][a], BESIDE * size(&all[0]).min(size(&all[1]))))

@@ -3,16 +3,14 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use plotters::style::RGBColor;
-
 use super::along::DrawnContact;
-use super::deformed::{
-    Colours, Facet, FacetCorner, View, boundary_edges, check_facets, contact_line, draw_colour_bar, fills, moved_contact,
-    moved_point, outlines,
-};
-use super::palette::{BLUE, INK};
-use super::sheet::{PIXEL, line};
+use super::deformed::{contact_line, moved_contact, moved_point, view};
+use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, outlines};
+use super::palette::{BLUE, INK, hex};
+use super::sheet::line;
+use super::stress::{Colours, draw_colour_bar, fills};
 use super::ticks::number_text;
+use super::view::bounds;
 use crate::output::markup::escape;
 use crate::output::{ContactPoint, OutputError};
 
@@ -41,9 +39,7 @@ impl ContactZoom {
         let boundary = boundary_edges(facets);
         let points: Vec<ContactPoint> = pressing(contact.points, interval).copied().collect();
         let moved = moved_contact(&DrawnContact { points: &points, ..*contact }, &boundary, 1.0);
-        let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        let [low, high] =
-            moved.iter().fold(start, |[low, high], &(x, y)| [[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]]);
+        let [low, high] = bounds(moved.iter().map(|&(x, y)| [x, y]));
         let size = (high[0] - low[0]).max(high[1] - low[1]);
         let far = low.iter().chain(&high).fold(0.0, |far: f64, x| far.max(x.abs()));
         let frame = [low.map(|x| x - MARGIN * size), high.map(|x| x + MARGIN * size)];
@@ -79,7 +75,7 @@ fn pressing(points: &[ContactPoint], [from, to]: [f64; 2]) -> impl Iterator<Item
 /// There is no facet, or a number is not finite; the operating system refuses.
 pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facets: &[Facet]) -> Result<(), OutputError> {
     check_facets(path, facets)?;
-    let view = View::of(zoom.frame);
+    let view = view(zoom.frame);
     let colours = Colours::of(facets);
     let boundary = boundary_edges(facets);
     let ([casing, core], pressure) = (contact_line(), line(&BLUE, 1.6));
@@ -98,8 +94,8 @@ pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facet
         let bodies = fills(facets, 1.0, &colours, place) + &outlines(&boundary, 1.0, INK, place);
         let names = names(zoom, contact, &boundary, place);
         let inside = bodies + &lines + &envelope(&profile, place) + &names;
-        let [left, right, top, bottom] = sheet.margins.map(|margin| margin * PIXEL);
-        let (width, height) = (sheet.width * PIXEL - left - right, sheet.height * PIXEL - top - bottom);
+        let [(left, top), (right, bottom)] = sheet.corners();
+        let (width, height) = (right - left, bottom - top);
         // An element of its own cuts off what lies outside, without a name that other figures of a page might have, too.
         Ok(format!(
             "<svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" viewBox=\"{left} {top} {width} {height}\">\n{inside}</svg>\n"
@@ -126,11 +122,10 @@ fn envelope(profile: &[[[f64; 2]; 2]], place: impl Fn([f64; 2]) -> (i32, i32)) -
     let tips = profile.iter().map(|[_, tip]| *tip);
     let around: Vec<(i32, i32)> = tips.clone().chain(profile.iter().rev().map(|[foot, _]| *foot)).map(&place).collect();
     let list = |points: Vec<(i32, i32)>| points.iter().map(|(x, y)| format!("{x},{y} ")).collect::<String>();
-    let RGBColor(red, green, blue) = BLUE;
-    let colour = format!("#{red:02x}{green:02x}{blue:02x}");
     format!(
-        "<polygon fill=\"#fff\" fill-opacity=\"0.6\" stroke=\"none\" points=\"{}\"/>\n<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"16\" points=\"{}\"/>\n",
+        "<polygon fill=\"#fff\" fill-opacity=\"0.6\" stroke=\"none\" points=\"{}\"/>\n<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"16\" points=\"{}\"/>\n",
         list(around),
+        hex(BLUE),
         list(tips.map(&place).collect())
     )
 }
