@@ -77,16 +77,13 @@ pub fn read_bare_mesh(case: &Case, bytes: &[u8]) -> Option<MacroMesh> {
     Some(mesh)
 }
 
-/// What is wrong with a case file, and with the names of what could be read of it against its mesh: all of it at once.
+/// What is wrong with a case file, and with the names of what could be read of it if its mesh can be read: all of it at once.
 pub fn told_with_names(error: &CaseError, draft: Option<Case>) -> String {
-    let names = draft.as_ref().map_or_else(Vec::new, wrong_names);
-    together(&[vec![error.to_string()], names].concat())
-}
-
-/// Words for each name of a case that its mesh does not have; none if the mesh cannot be read.
-fn wrong_names(case: &Case) -> Vec<String> {
-    let mesh = read_mesh_file(case).ok().and_then(|bytes| parse_joined(&bytes, &case.mesh.file, joined(case)).ok());
-    mesh.map_or_else(Vec::new, |mesh| Names { case, mesh: &mesh }.wrong())
+    let wrong = |case: Case| {
+        let mesh = parse_joined(&read_mesh_file(&case).ok()?, &case.mesh.file, joined(&case)).ok()?;
+        Some(Names { case: &case, mesh: &mesh }.wrong())
+    };
+    together(&[vec![error.to_string()], draft.and_then(wrong).unwrap_or_default()].concat())
 }
 
 /// Adds the rigid tools, as fine as what they face.

@@ -41,8 +41,9 @@ const ROOM: PlotRoom = PlotRoom { most: [640.0, 560.0], least: [320.0, 220.0], a
 ///
 /// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title
 /// states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
-/// themselves with the nearest boundary. Forces are lines, as wide as they are large. Areas of one colour are merged over triangles, which keeps the file small. Macro edges,
-/// if there are any, are thin lines on the deformed bodies, those between two materials thicker ones.
+/// themselves with the nearest boundary. Forces are lines, as wide as they are large. Areas of one colour are merged over
+/// triangles, which keeps the file small. Macro edges, if there are any, are thin lines on the deformed bodies, those between two
+/// materials thicker ones.
 ///
 /// # Errors
 /// There is no facet, or a number is not finite; the operating system refuses.
@@ -133,10 +134,16 @@ fn automatic_scale(facets: &[Facet]) -> f64 {
 
 /// A contact boundary moved along with the bodies; of many points so many that none is missed.
 pub(super) fn moved_contact(contact: &DrawnContact, boundary: &[[FacetCorner; 2]], scale: f64) -> Vec<(f64, f64)> {
-    let points = contact.points;
-    let every = points.len().div_ceil(MOST_POINTS).max(1);
-    let shown = (0..points.len()).filter(|k| k % every == 0 || k + 1 == points.len()).map(|k| &points[k]);
-    shown.map(|p| moved_point(contact, p, boundary, scale)).filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
+    some_of(contact.points, MOST_POINTS)
+        .map(|p| moved_point(contact, p, boundary, scale))
+        .filter(|(x, y)| x.is_finite() && y.is_finite())
+        .collect()
+}
+
+/// About so many of the points, spread over all of them, with the first and the last.
+pub(super) fn some_of<T>(points: &[T], most: usize) -> impl Iterator<Item = &T> {
+    let (every, last) = (points.len().div_ceil(most).max(1), points.len().saturating_sub(1));
+    points.iter().enumerate().filter(move |(k, _)| k % every == 0 || *k == last).map(|(_, point)| point)
 }
 
 /// One point of it: normal to the boundary by the mean of both bodies' normal displacements, along it with the nearest boundary.

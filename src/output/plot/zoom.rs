@@ -1,10 +1,9 @@
 //! Where two bodies touch, so large that it can be seen.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use super::along::DrawnContact;
-use super::deformed::{contact_line, moved_contact, moved_point, view};
+use super::deformed::{contact_line, moved_contact, moved_point, some_of, view};
 use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, outlines};
 use super::palette::{BLUE, INK, hex};
 use super::sheet::line;
@@ -29,6 +28,8 @@ const MARGIN: f64 = 0.5;
 const HEIGHT: f64 = 0.28;
 /// Names of bodies stand so far from the contact, by the size of the interval.
 const AWAY: f64 = 0.38;
+/// Points of the pressure that are drawn at most, up to a factor of two.
+const MOST_POINTS: usize = 500;
 /// An interval that is smaller than this beside its coordinates cannot be drawn.
 const LEAST: f64 = 1e-9;
 
@@ -39,7 +40,7 @@ impl ContactZoom {
         let boundary = boundary_edges(facets);
         let points: Vec<ContactPoint> = pressing(contact.points, interval).copied().collect();
         let moved = moved_contact(&DrawnContact { points: &points, ..*contact }, &boundary, 1.0);
-        let [low, high] = bounds(moved.iter().map(|&(x, y)| [x, y]));
+        let [low, high] = bounds(moved.into_iter().map(<[f64; 2]>::from));
         let size = (high[0] - low[0]).max(high[1] - low[1]);
         let far = low.iter().chain(&high).fold(0.0, |far: f64, x| far.max(x.abs()));
         let frame = [low.map(|x| x - MARGIN * size), high.map(|x| x + MARGIN * size)];
@@ -90,7 +91,9 @@ pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facet
         let chart = sheet.draw_axes(area, &view.x, &view.y, false)?;
         draw_colour_bar(sheet, area, &colours)?;
         let place = |x: [f64; 2]| chart.backend_coord(&x.into());
-        let lines = polyline(&whole, "#262626", 30, place) + &polyline(&whole, "#ffffff", 14, place);
+        let lines: String = [("#262626", 30), ("#ffffff", 14)]
+            .map(|(colour, width)| polyline(whole.iter().copied().map(<[f64; 2]>::from), colour, width, place))
+            .concat();
         let bodies = fills(facets, 1.0, &colours, place) + &outlines(&boundary, 1.0, INK, place);
         let names = names(zoom, contact, &boundary, place);
         let inside = bodies + &lines + &envelope(&profile, place) + &names;
@@ -107,36 +110,29 @@ pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facet
 fn profile(zoom: &ContactZoom, contact: &DrawnContact, boundary: &[[FacetCorner; 2]]) -> Vec<[[f64; 2]; 2]> {
     let points: Vec<&ContactPoint> = pressing(contact.points, zoom.interval).collect();
     let largest = points.iter().map(|p| p.lambda).fold(0.0, f64::max);
-    let every = points.len().div_ceil(500).max(1);
-    let shown = (0..points.len()).filter(|k| k % every == 0 || k + 1 == points.len()).map(|k| points[k]);
-    let tip = |p: &ContactPoint| {
+    let tip = |p: &&ContactPoint| {
         let (x, y) = moved_point(contact, p, boundary, 1.0);
         let high = HEIGHT * zoom.size() * p.lambda.max(0.0) / largest;
         [[x, y], [x + high * p.nx, y + high * p.ny]]
     };
-    shown.map(tip).filter(|ends| ends.iter().flatten().all(|x| x.is_finite())).collect()
+    some_of(&points, MOST_POINTS).map(tip).filter(|ends| ends.iter().flatten().all(|x| x.is_finite())).collect()
 }
 
 /// The pressure as an area over the contact boundary.
 fn envelope(profile: &[[[f64; 2]; 2]], place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
     let tips = profile.iter().map(|[_, tip]| *tip);
-    let around: Vec<(i32, i32)> = tips.clone().chain(profile.iter().rev().map(|[foot, _]| *foot)).map(&place).collect();
-    let list = |points: Vec<(i32, i32)>| points.iter().map(|(x, y)| format!("{x},{y} ")).collect::<String>();
-    format!(
-        "<polygon fill=\"#fff\" fill-opacity=\"0.6\" stroke=\"none\" points=\"{}\"/>\n<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"16\" points=\"{}\"/>\n",
-        list(around),
-        hex(BLUE),
-        list(tips.map(&place).collect())
-    )
+    let around = point_list(tips.clone().chain(profile.iter().rev().map(|[foot, _]| *foot)), &place);
+    format!("<polygon fill=\"#fff\" fill-opacity=\"0.6\" stroke=\"none\" points=\"{around}\"/>\n")
+        + &polyline(tips, &hex(BLUE), 16, place)
 }
 
-fn polyline(points: &[(f64, f64)], colour: &str, width: i32, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
-    let mut list = String::new();
-    for &(x, y) in points {
-        let (x, y) = place([x, y]);
-        let _ = write!(list, "{x},{y} ");
-    }
+fn polyline(points: impl Iterator<Item = [f64; 2]>, colour: &str, width: i32, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    let list = point_list(points, place);
     format!("<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" points=\"{list}\"/>\n")
+}
+
+fn point_list(points: impl Iterator<Item = [f64; 2]>, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    points.map(place).map(|(x, y)| format!("{x},{y} ")).collect()
 }
 
 /// The names of both bodies, each on its side of the middle of the interval.

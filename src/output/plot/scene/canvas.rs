@@ -47,21 +47,9 @@ impl<'a> Canvas<'a> {
         pixels(self.place, x)
     }
 
-    /// Adds a path with these attributes, which may stand in a group.
+    /// Adds a path: its attributes, and the `d` that it follows.
     pub fn path(&mut self, attributes: &str, data: &str) {
         let _ = writeln!(self.text, "<path {attributes} d=\"{data}\"/>");
-    }
-
-    /// Draws what ends at the frame of the plot.
-    pub fn clipped(&mut self, sheet: &Sheet, draw: impl FnOnce(&mut Self)) {
-        let [(left, top), (right, bottom)] = sheet.corners();
-        let (width, height) = (right - left, bottom - top);
-        let _ = writeln!(
-            self.text,
-            "<clipPath id=\"plot\"><rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#plot)\">"
-        );
-        draw(self);
-        self.text += "</g>\n";
     }
 
     /// Bodies with their macro edges.

@@ -14,18 +14,6 @@ const LONGEST: f64 = 30.0;
 /// Length of the arrow of a resultant (pixels).
 pub const RESULTANT: f64 = 44.0;
 
-/// An arrow of a load in the figure (pixels).
-struct Arrow {
-    /// The point that it acts at.
-    at: [f64; 2],
-    /// Its direction, and the normal of the boundary.
-    along: [f64; 2],
-    normal: [f64; 2],
-    length: f64,
-    /// Width of its line (tenths of a pixel).
-    width: f64,
-}
-
 impl Canvas<'_> {
     /// Loads: lines along their boundaries, and arrows.
     pub fn loads(&mut self, figure: &SceneFigure) {
@@ -50,7 +38,7 @@ impl Canvas<'_> {
             let normal = load.rows.iter().flatten().next().map_or(direction.map(|part| -part), |point| point.normal);
             let (length, along) = (size * RESULTANT, direction.map(|part| part / strength));
             let at = self.labels.within(self.at(place), length);
-            self.arrow(&Arrow { at, along: flipped(along), normal: flipped(normal), length, width: 18.0 * size });
+            self.arrow(at, flipped(along), flipped(normal), length, 18.0 * size);
         }
     }
 
@@ -63,18 +51,19 @@ impl Canvas<'_> {
             if own > 1e-6 * largest && largest.is_finite() {
                 let (at, along) = (self.at(point.place), flipped(point.traction.map(|part| part / own)));
                 let length = (size * LONGEST * own / largest).max(8.0 * size);
-                self.arrow(&Arrow { at, along, normal: flipped(point.normal), length, width: 10.0 * size });
+                self.arrow(at, along, flipped(point.normal), length, 10.0 * size);
             }
         }
     }
 
-    /// An arrow outside the body: it ends at the point if it pushes, and begins there if it pulls.
-    fn arrow(&mut self, Arrow { at, along, normal, length, width }: &Arrow) {
+    /// An arrow outside the body: it ends at the point if it pushes, and begins there if it pulls. Its line is so wide (tenths of a
+    /// pixel).
+    fn arrow(&mut self, at: [f64; 2], along: [f64; 2], normal: [f64; 2], length: f64, width: f64) {
         let pushes = along[0] * normal[0] + along[1] * normal[1] <= 0.0;
         let shift = |from: [f64; 2], by: f64, aside: f64| {
             [from[0] + by * along[0] - aside * along[1], from[1] + by * along[1] + aside * along[0]]
         };
-        let tip = if pushes { shift(*at, -1.0, 0.0) } else { shift(*at, *length, 0.0) };
+        let tip = if pushes { shift(at, -1.0, 0.0) } else { shift(at, length, 0.0) };
         let head = (5.0 + 0.2 * width).min(0.5 * length);
         let _ = writeln!(
             self.text,

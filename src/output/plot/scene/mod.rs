@@ -63,10 +63,15 @@ impl SceneFigure {
         let chart = axes.draw_axes(&upper, &view.x, &view.y, false)?;
         let place = |x: [f64; 2]| chart.backend_coord(&x.into());
         let mut canvas = Canvas::new(sheet, self, &place);
-        canvas.clipped(sheet, |canvas| {
-            canvas.bodies(self);
-            canvas.contacts(self);
-        });
+        let [(x, y), (end, floor)] = sheet.corners();
+        canvas.text = format!(
+            "<clipPath id=\"plot\"><rect x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"{}\"/></clipPath>\n<g clip-path=\"url(#plot)\">\n",
+            end - x,
+            floor - y
+        );
+        canvas.bodies(self);
+        canvas.contacts(self);
+        canvas.text += "</g>\n";
         canvas.supports(self);
         canvas.loads(self);
         canvas.names(self);

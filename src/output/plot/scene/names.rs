@@ -53,8 +53,7 @@ impl Canvas<'_> {
             Some((boundary.name.clone(), GREY, anchor, Some(towards)))
         };
         self.named(&figure.boundaries, "boundaries", 11.0, of_boundary);
-        let late = std::mem::take(&mut self.late);
-        self.text += &late;
+        self.text += &self.late;
     }
 
     /// Names of one kind, as far as there is room: text, colour, what is named, and where the name would rather stand from there.
