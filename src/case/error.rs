@@ -154,3 +154,6 @@ pub(crate) fn listed(names: impl Iterator<Item = String>) -> String {
         more => format!("{} and {more} more", all[..MOST_NAMES].join(", ")),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -319,8 +319,7 @@ impl Case {
         let (supports, springs, means) = support::split(root.named("support", support::read_support));
         let (loads, mut point_loads, mut plates) = model::split_loads(root.named("load", model::read_load));
         let (contacts, unions) = contact::split_contacts(root.named("contact", |section| contact::read_contact(section, root)));
-        let solver = model::read_solver(root);
-        let output = model::read_output(root);
+        let (solver, output) = (model::read_solver(root), model::read_output(root));
         let probes = root.named("probe", model::read_probe);
         let mut exact = exact::read_exact(root);
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);

@@ -206,26 +206,4 @@ fn times(value: &Value, factor: f64) -> Value {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_formulas_and_lists_are_multiplied() {
-        let table: Table = toml::from_str("a = 3\nb = -0.5\nc = \"x + 1\"\nd = [2, \"y\"]").expect("a table");
-        let [a, b, c, d] = ["a", "b", "c", "d"].map(|key| times(&table[key], 0.25));
-        assert_eq!((a.as_float(), b.as_float(), c.as_str()), (Some(0.75), Some(-0.125), Some("0.25*(x + 1)")));
-        assert_eq!(d.to_string(), "[0.5, \"0.25*(y)\"]");
-    }
-
-    #[test]
-    fn without_weight_no_density_is_left() {
-        let text = "[gravity]\ng = [0, -9.81]\n[body.a]\ndensity = 2\nyoung = 1\n[body.b.part.c]\ndensity = 3";
-        let mut table: Table = toml::from_str(text).expect("a table");
-        scale(&mut table, &GRAVITY.map(String::from), 0.5);
-        assert_eq!(table["gravity"]["g"].to_string(), "[0.0, -4.905]");
-        scale(&mut table, &GRAVITY.map(String::from), 0.0);
-        assert!(
-            !table.to_string().contains("density") && table.get("gravity").is_none() && table["body"]["a"].get("young").is_some()
-        );
-    }
-}
+mod tests;

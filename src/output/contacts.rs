@@ -5,7 +5,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use super::summary::Summary;
-use super::{OutputError, quoted};
+use super::{OutputError, number_cell, quoted};
 
 /// Name of the table in a result folder.
 pub const CONTACTS: &str = "contacts.csv";
@@ -41,10 +41,7 @@ fn write_rows<'a>(
         let numbers = [contact.force, along(0), along(1), place(0), place(1), contact.width(), contact.pressure_max];
         write!(out, "{},{},{}", quoted(name), quoted(&between[0]), quoted(&between[1]))?;
         for number in numbers {
-            match number.filter(|number| number.is_finite()) {
-                Some(number) => write!(out, ",{number:?}")?,
-                None => write!(out, ",")?,
-            }
+            write!(out, ",{}", number_cell(number))?;
         }
         let trust = contact.trust.map_or(String::new(), |trust| trust.to_string());
         writeln!(out, ",{trust},{}", quoted(contact.verdict.as_deref().unwrap_or_default()))?;

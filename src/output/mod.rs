@@ -48,6 +48,11 @@ fn quoted(text: &str) -> String {
     }
 }
 
+/// A number as a cell of a table; nothing stands there if it is not known, or not finite.
+fn number_cell(number: Option<f64>) -> String {
+    number.filter(|number| number.is_finite()).map_or(String::new(), |number| format!("{number:?}"))
+}
+
 /// The signs of a result, as its files state them in their header.
 pub const SIGNS: [&str; 5] = [
     "n: unit normal of the contact boundary, from body 1 to body 2",

@@ -5,7 +5,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use super::summary::{Status, StepSummary};
-use super::{OutputError, quoted};
+use super::{OutputError, number_cell, quoted};
 
 /// A cell of the table with the name of its column; empty where nothing is known.
 type RowValue = (String, Option<f64>);
@@ -34,10 +34,7 @@ fn write_rows(mut out: impl Write, steps: &[StepSummary]) -> std::io::Result<()>
         write!(out, "{},{status},{}", step.step, step.iterations.iter().sum::<usize>())?;
         for (name, _) in columns {
             let value = row.iter().find(|(own, _)| own == name).and_then(|(_, value)| *value);
-            match value.filter(|value| value.is_finite()) {
-                Some(value) => write!(out, ",{value:?}")?,
-                None => write!(out, ",")?,
-            }
+            write!(out, ",{}", number_cell(value))?;
         }
         writeln!(out)?;
     }
@@ -46,44 +43,38 @@ fn write_rows(mut out: impl Write, steps: &[StepSummary]) -> std::io::Result<()>
 
 /// Everything of a step that is a number.
 fn cells(step: &StepSummary) -> Vec<RowValue> {
-    let mut all: Vec<RowValue> = Vec::new();
-    let mut add = |name: String, value: Option<f64>| all.push((name, value));
-    step.factors.iter().for_each(|(name, &value)| add(format!("factors.{name}"), Some(value)));
+    let mut all: Vec<RowValue> = step.factors.iter().map(|(name, &value)| (format!("factors.{name}"), Some(value))).collect();
     for (name, contact) in &step.contact {
-        add(format!("contact.{name}.force"), contact.force);
-        for (k, axis) in ["x", "y"].into_iter().enumerate() {
-            add(format!("contact.{name}.resultant.{axis}"), contact.resultant.map(|force| force[k]));
-        }
-        add(format!("contact.{name}.width"), contact.width);
-        add(format!("contact.{name}.pressure_max"), contact.pressure_max);
+        all.push((format!("contact.{name}.force"), contact.force));
+        all.extend(vector(&format!("contact.{name}.resultant"), ["x", "y"], contact.resultant));
+        all.push((format!("contact.{name}.width"), contact.width));
+        all.push((format!("contact.{name}.pressure_max"), contact.pressure_max));
     }
     for (name, support) in &step.support {
-        for (k, axis) in ["x", "y"].into_iter().enumerate() {
-            add(format!("support.{name}.reaction.{axis}"), support.reaction.map(|force| force[k]));
-        }
+        all.extend(vector(&format!("support.{name}.reaction"), ["x", "y"], support.reaction));
     }
     for (name, rigid) in &step.rigid {
-        for (k, axis) in ["ux", "uy", "angle"].into_iter().enumerate() {
-            add(format!("rigid.{name}.motion.{axis}"), rigid.motion.map(|motion| motion[k]));
-        }
-        for (k, axis) in ["x", "y"].into_iter().enumerate() {
-            add(format!("rigid.{name}.force.{axis}"), rigid.force.map(|force| force[k]));
-        }
-        add(format!("rigid.{name}.moment"), rigid.moment);
+        all.extend(vector(&format!("rigid.{name}.motion"), ["ux", "uy", "angle"], rigid.motion));
+        all.extend(vector(&format!("rigid.{name}.force"), ["x", "y"], rigid.force));
+        all.push((format!("rigid.{name}.moment"), rigid.moment));
     }
     for (name, probe) in &step.probe {
-        for (k, axis) in ["x", "y"].into_iter().enumerate() {
-            add(format!("probe.{name}.u.{axis}"), probe.u.map(|u| u[k]));
-        }
-        for (k, axis) in ["xx", "yy", "xy"].into_iter().enumerate() {
-            add(format!("probe.{name}.stress.{axis}"), probe.stress.map(|stress| stress[k]));
-        }
+        all.extend(vector(&format!("probe.{name}.u"), ["x", "y"], probe.u));
+        all.extend(vector(&format!("probe.{name}.stress"), ["xx", "yy", "xy"], probe.stress));
     }
-    add("displacement_max".into(), step.displacement_max);
-    add("energy".into(), step.energy);
-    add("external_work".into(), step.external_work);
-    add("seconds".into(), step.seconds);
+    let whole = [
+        ("displacement_max", step.displacement_max),
+        ("energy", step.energy),
+        ("external_work", step.external_work),
+        ("seconds", step.seconds),
+    ];
+    all.extend(whole.map(|(name, value)| (name.into(), value)));
     all
+}
+
+/// The components of a vector, each with its own name behind that of the vector.
+fn vector<const N: usize>(name: &str, axes: [&str; N], vector: Option<[f64; N]>) -> [RowValue; N] {
+    std::array::from_fn(|k| (format!("{name}.{}", axes[k]), vector.map(|vector| vector[k])))
 }
 
 #[cfg(test)]

@@ -3,16 +3,21 @@
 //! The names of the fields are the keys of the file. `None` is written as `null`, and so is every number that is not finite:
 //! what does not apply, or was not reached, never shows as a made-up number.
 
-use crate::contact::zone_counts;
 mod accuracy;
+mod contact;
+mod numbers;
 mod passes;
 mod provenance;
+mod solver;
 mod steps;
 mod thickness;
 mod told;
 
 pub use accuracy::{AccuracyStep, ContactGoals, Cycles, GoalSummary, ProbeGoals};
+pub use contact::{ContactEstimate, ContactSummary, ZoneSummary};
+pub use passes::{BoundaryIteration, OuterIteration};
 pub use provenance::Provenance;
+pub use solver::{CoarseSolveSummary, SolverSummary};
 pub use steps::{StepContact, StepSummary};
 pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, listed};
 
@@ -20,9 +25,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::OutputError;
+use numbers::numbers;
 
 /// The summary of a run. Start from [`Summary::new`] and fill in what is known.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -132,183 +138,6 @@ pub struct Unknowns {
     pub multiplier: Option<u64>,
 }
 
-/// A coarser mesh that was solved first.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct CoarseSolveSummary {
-    /// Refinements of the macro mesh.
-    pub refine: usize,
-    /// Displacement unknowns.
-    pub unknowns: usize,
-    /// One number per linear solve.
-    pub iterations: Vec<usize>,
-}
-
-/// One outer iteration.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct OuterIteration {
-    /// Number, from 1.
-    pub iteration: usize,
-    /// Number of the contact boundary it was made on, from 1.
-    pub boundary: usize,
-    /// Active multipliers.
-    pub active: Option<usize>,
-    /// Multipliers that became active.
-    pub added: Option<usize>,
-    /// Multipliers that became inactive.
-    pub released: Option<usize>,
-    /// Krylov iterations of its linear solves.
-    pub krylov_iterations: Option<usize>,
-    /// Relative residual.
-    pub residual: Option<f64>,
-    /// Largest penetration (length).
-    pub max_penetration: Option<f64>,
-    /// Relative change of the displacement.
-    pub du: Option<f64>,
-}
-
-/// One contact boundary of those that followed the solution.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct BoundaryIteration {
-    /// Number, from 1.
-    pub iteration: usize,
-    /// Its length.
-    pub length: Option<f64>,
-    /// Largest way of a segment end to the next boundary, relative to the length; null if the segments are others.
-    pub moved: Option<f64>,
-    /// Relative change of the displacement since the boundary before.
-    pub du: Option<f64>,
-    /// Multipliers that changed state since the boundary before.
-    pub flipped: Option<usize>,
-}
-
-/// One contact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ContactSummary {
-    /// Length of the contact boundary.
-    pub length: Option<f64>,
-    /// Number of its segments.
-    pub segments: Option<usize>,
-    /// Multiplier space, as in the case: `p0`, `p1-discontinuous`, `p1-continuous`.
-    pub multiplier: Option<String>,
-    /// Length of the shortest segment, in edges of the softer body.
-    pub h_ratio: Option<f64>,
-    /// Inf-sup constant.
-    pub inf_sup: Option<f64>,
-    /// The two ends of the contact boundary.
-    pub ends: Option<[[f64; 2]; 2]>,
-    /// Intervals of arc length in contact.
-    pub closed: Option<Vec<[f64; 2]>>,
-    /// Number of edges of the softer body on that interval of `closed` that has most of them.
-    pub closed_edges: Option<f64>,
-    /// The ends of the intervals of `closed` as points in the plane.
-    pub closed_points: Option<Vec<[[f64; 2]; 2]>>,
-    /// ∫ λ ds (force per thickness).
-    pub force: Option<f64>,
-    /// Force that penetration within single segments is worth (force per thickness).
-    pub unresolved_force: Option<f64>,
-    /// Resultant on body 2 (force per thickness).
-    #[serde(deserialize_with = "numbers")]
-    pub resultant: Option<[f64; 2]>,
-    /// Where it acts: the centre of the pressure; where nothing presses, the point with the smallest gap.
-    #[serde(default, deserialize_with = "numbers")]
-    pub place: Option<[f64; 2]>,
-    /// Moment on body 2 about the origin.
-    pub moment: Option<f64>,
-    /// Largest contact pressure.
-    pub pressure_max: Option<f64>,
-    /// Oscillation figure of the contact pressure.
-    pub oscillation: Option<f64>,
-    /// Quadrature points without a corresponding point.
-    pub lost_points: Option<usize>,
-    /// Way of the bodies along each other, by the length that presses; of curved fits on undeformed bodies only.
-    pub slip: Option<f64>,
-    /// The same at an end of the contact boundary where the bodies press and one of them ends, in all contacts of undeformed
-    /// bodies.
-    pub slip_at_ends: Option<f64>,
-    /// What sliding there, or towards an end, takes from the length that the bodies have in common.
-    pub lost_at_ends: Option<f64>,
-    /// Estimated relative error of force or pressure by that way, and by the turning of the bodies.
-    pub slip_error: Option<f64>,
-    /// The same by their turning alone, in all contacts; where nothing presses, the growth of what turns by the smallest gap.
-    pub rotation_error: Option<f64>,
-    /// Sharpest corner of a body within what presses, in degrees; of fitted curves only.
-    pub corner_angle: Option<f64>,
-    /// Estimated relative error of λ by that corner.
-    pub corner_error: Option<f64>,
-    /// Intervals of arc length that press, each with what is estimated of it.
-    pub zones: Vec<ZoneSummary>,
-    /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,
-    /// the largest overlap relative to the largest displacement.
-    pub missing: Option<f64>,
-    /// The same as a force (force per thickness), on undeformed bodies.
-    #[serde(default)]
-    pub missing_force: Option<f64>,
-    /// Deepest place of one body in the other, by their whole sides (length).
-    #[serde(default)]
-    pub depth: Option<f64>,
-    /// Where that is.
-    #[serde(default)]
-    pub deepest: Option<[f64; 2]>,
-    /// How far the sides have come together since they touched first, or have parted that were drawn in each other (length).
-    #[serde(default)]
-    pub approach: Option<f64>,
-    /// Whether the contact pressure can be trusted; null if nothing tells, or if the corner of a body presses on too
-    /// few edges: the reason says which.
-    pub trust: Option<bool>,
-    /// Whether ∫ λ ds can be trusted to one per cent; null if nothing estimates it.
-    pub trust_force: Option<bool>,
-    /// The verdict on it in a few words: `trusted`, why not, or that it only touches.
-    #[serde(default)]
-    pub verdict: Option<String>,
-}
-
-impl ContactSummary {
-    /// Length of all intervals in contact.
-    pub fn width(&self) -> Option<f64> {
-        self.closed.as_ref().map(|intervals| intervals.iter().fold(0.0, |sum, [first, last]| sum + last - first))
-    }
-}
-
-/// An interval of a contact that presses.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ZoneSummary {
-    /// Arc lengths of its ends.
-    pub ends: Option<[f64; 2]>,
-    /// Edges of the softer body on it.
-    pub edges: Option<f64>,
-    /// Segments on it.
-    pub segments: Option<usize>,
-    /// Its share of the force.
-    pub share: Option<f64>,
-    /// Width that its force asks for between smooth convex sides (length); null elsewhere.
-    #[serde(default)]
-    pub hertz_width: Option<f64>,
-    /// Largest contact pressure.
-    pub pressure_max: Option<f64>,
-    /// Estimated relative error of λ in its middle, root mean square.
-    pub lambda: Option<f64>,
-    /// The same all over it, without the tenth beside an end of the contact boundary.
-    pub whole: Option<f64>,
-    /// The largest of all signs of an error of λ; where it is small, so is the error.
-    pub worst: Option<f64>,
-    /// Estimated relative error of its force.
-    pub force: Option<f64>,
-    /// Estimated relative error of its largest pressure; null where that is singular.
-    pub peak: Option<f64>,
-    /// Whether λ grows without bound towards an end of the contact boundary, as far as can be seen.
-    pub singular: Option<bool>,
-    /// Whether it lies at an end of the contact boundary where one body has a corner and the other goes on.
-    pub corner: Option<bool>,
-}
-
-impl ZoneSummary {
-    /// Whether anyone would look at it, among `all` of its contact.
-    pub fn counts(&self, all: &[Self]) -> bool {
-        let highest = all.iter().filter_map(|zone| zone.pressure_max).fold(0.0, f64::max);
-        self.share.is_none_or(|share| zone_counts(share, self.pressure_max.unwrap_or(f64::NAN), highest))
-    }
-}
-
 /// A rigid tool, or a boundary that stays rigid.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RigidSummary {
@@ -362,17 +191,6 @@ pub struct EstimateSummary {
     pub contact: BTreeMap<String, ContactEstimate>,
 }
 
-/// Estimated relative errors of a contact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ContactEstimate {
-    /// Of ∫ λ ds.
-    pub force: Option<f64>,
-    /// Of λ in the middle of its worst zone, root mean square.
-    pub lambda: Option<f64>,
-    /// Of the largest λ; null where that is singular.
-    pub peak: Option<f64>,
-}
-
 /// Relative residuals of the balances.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BalanceSummary {
@@ -398,28 +216,6 @@ pub struct ProbeSummary {
     /// Stress xx, yy, xy.
     #[serde(deserialize_with = "numbers")]
     pub stress: Option<[f64; 3]>,
-}
-
-/// The linear solver.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SolverSummary {
-    /// `fieldsplit` or `direct`.
-    pub name: Option<String>,
-    /// What solved it, in words, such as `fieldsplit (multigrid F-cycle)`.
-    pub krylov: Option<String>,
-    /// One number per linear solve.
-    pub iterations: Vec<usize>,
-    /// Solves on coarser meshes before, the coarsest first.
-    pub coarse: Vec<CoarseSolveSummary>,
-    /// Iterations on all meshes, each by its unknowns, in iterations on the last one.
-    #[serde(default)]
-    pub cycles: Option<f64>,
-    /// Relative residual of the scaled augmented system.
-    pub residual: Option<f64>,
-    /// Relative residual of the system as it stands.
-    pub plain_residual: Option<f64>,
-    /// The BLAS in use.
-    pub blas: Option<String>,
 }
 
 /// Wall time in seconds, slowest rank.
@@ -476,16 +272,6 @@ impl Summary {
             .and_then(|text| serde_json::from_str(&text).map_err(std::io::Error::from))
             .map_err(OutputError::io("read", path))
     }
-}
-
-/// Reads a vector whose numbers may be null.
-fn numbers<'de, D, const N: usize>(source: D) -> Result<Option<[f64; N]>, D::Error>
-where
-    D: Deserializer<'de>,
-    [Option<f64>; N]: Deserialize<'de>,
-{
-    let vector = Option::<[Option<f64>; N]>::deserialize(source)?;
-    Ok(vector.map(|vector| vector.map(|number| number.unwrap_or(f64::NAN))))
 }
 
 #[cfg(test)]

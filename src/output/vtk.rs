@@ -112,10 +112,9 @@ pub fn write_curve(path: &Path, points: &[ContactPoint]) -> Result<(), OutputErr
 /// # Errors
 /// The operating system refuses.
 pub fn write_series<S: AsRef<str>>(path: &Path, files: &[(f64, S)]) -> Result<(), OutputError> {
-    let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
     write_file(path, "Collection", |out| {
         files.iter().try_for_each(|(time, file)| {
-            writeln!(out, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{}\"/>", escaped(file.as_ref()))
+            writeln!(out, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{}\"/>", escape(file.as_ref()))
         })
     })
 }

@@ -5,8 +5,8 @@ use crate::body::{Load, LoadKind, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
 use crate::contact::Pair;
 use crate::geometry::{Formula, Point};
-use crate::mesh::{MacroMesh, MacroTriangle, Spot};
-use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure};
+use crate::mesh::{MacroMesh, MacroTriangle};
+use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -166,9 +166,7 @@ fn nearest([first, second]: [&Rows; 2]) -> Option<(BoundaryPoint, f64)> {
     let pairs = around(0, a).flat_map(|a| around(1, b).map(move |b| [a, b]));
     let [a, _] = pairs.min_by(|p, q| distance(p[0], p[1]).total_cmp(&distance(q[0], q[1])))?;
     let size = |points: &[BoundaryPoint]| {
-        let [low, high] = points.iter().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], point| {
-            [[0, 1].map(|k| low[k].min(point.place[k])), [0, 1].map(|k| high[k].max(point.place[k]))]
-        });
+        let [low, high] = bounds(points.iter().map(|point| point.place));
         (high[0] - low[0]).hypot(high[1] - low[1])
     };
     Some((all[0][a], BESIDE * size(&all[0]).min(size(&all[1]))))
@@ -267,8 +265,8 @@ fn rows(mesh: &MacroMesh, edges: &[u32]) -> Rows {
 }
 
 /// A point as a row of its own.
-fn spot_rows(spot: &Spot) -> Rows {
-    vec![vec![BoundaryPoint { place: spot.place, normal: [0.0, -1.0], traction: [0.0; 2] }]]
+fn lone_point(place: [f64; 2]) -> Rows {
+    vec![vec![BoundaryPoint { place, normal: [0.0, -1.0], traction: [0.0; 2] }]]
 }
 
 /// A name and what is prescribed there.
@@ -278,56 +276,60 @@ fn with_values(name: &str, components: &[(&str, Option<&Formula>)]) -> String {
     format!("{name}: {}", given.collect::<Vec<_>>().join(", "))
 }
 
+/// A support that prescribes displacements.
+fn fixed_support(support: &Support, on: &dyn Fn(&[String]) -> Rows) -> DrawnSupport {
+    let Support { name, ux, uy, normal, at, on: curves } = support;
+    let grip = match (ux, uy, normal) {
+        (_, _, Some(_)) => Grip::Normal,
+        (Some(_), None, _) => Grip::Along([-1.0, 0.0]),
+        (None, Some(_), _) => Grip::Along([0.0, -1.0]),
+        _ => Grip::Both,
+    };
+    let name = with_values(name, &[("ux", ux.as_ref()), ("uy", uy.as_ref()), ("normal", normal.as_ref())]);
+    DrawnSupport { name, rows: at.as_ref().map_or_else(|| on(curves), |spot| lone_point(spot.place)), grip }
+}
+
+/// A support by springs.
+fn elastic_support(springs: &Springs, on: &dyn Fn(&[String]) -> Rows) -> DrawnSupport {
+    let stiffness = match &springs.stiffness {
+        SpringStiffness::Normal(normal) => with_values(&springs.name, &[("springs, normal", Some(normal))]),
+        SpringStiffness::Axes([x, y]) => with_values(&springs.name, &[("springs, x", x.as_ref()), ("springs, y", y.as_ref())]),
+    };
+    DrawnSupport { name: stiffness, rows: on(&springs.on), grip: Grip::Springs }
+}
+
 fn supports(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnSupport> {
-    let fixed = |support: &Support| {
-        let Support { name, ux, uy, normal, at, on: curves } = support;
-        let grip = match (ux, uy, normal) {
-            (_, _, Some(_)) => Grip::Normal,
-            (Some(_), None, _) => Grip::Along([-1.0, 0.0]),
-            (None, Some(_), _) => Grip::Along([0.0, -1.0]),
-            _ => Grip::Both,
-        };
-        let name = with_values(name, &[("ux", ux.as_ref()), ("uy", uy.as_ref()), ("normal", normal.as_ref())]);
-        DrawnSupport { name, rows: at.as_ref().map_or_else(|| on(curves), spot_rows), grip }
-    };
-    let elastic = |springs: &Springs| {
-        let stiffness = match &springs.stiffness {
-            SpringStiffness::Normal(normal) => with_values(&springs.name, &[("springs, normal", Some(normal))]),
-            SpringStiffness::Axes([x, y]) => {
-                with_values(&springs.name, &[("springs, x", x.as_ref()), ("springs, y", y.as_ref())])
-            }
-        };
-        DrawnSupport { name: stiffness, rows: on(&springs.on), grip: Grip::Springs }
-    };
     let of_bodies = if case.means.is_empty() { Vec::new() } else { triangles_of(mesh, mesh.bodies.len(), |k| k.body) };
     let held = case.means.iter().filter_map(|mean| {
         let body = mesh.bodies.iter().position(|name| *name == mean.body)?;
-        let place: [f64; 2] = inside(mesh, &of_bodies[body]).into();
-        let point = BoundaryPoint { place: [place[0], place[1]], normal: [0.0, -1.0], traction: [0.0; 2] };
+        let rows = lone_point(inside(mesh, &of_bodies[body]).into());
         let keys: Vec<&str> = mean.held.iter().map(|(key, ..)| *key).collect();
         let name = format!("{}: mean {}", mean.name, keys.join(", "));
-        Some(DrawnSupport { name, rows: vec![vec![point]], grip: Grip::Both })
+        Some(DrawnSupport { name, rows, grip: Grip::Both })
     });
-    case.supports.iter().map(fixed).chain(case.springs.iter().map(elastic)).chain(held).collect()
+    let fixed = case.supports.iter().map(|support| fixed_support(support, on));
+    fixed.chain(case.springs.iter().map(|springs| elastic_support(springs, on))).chain(held).collect()
+}
+
+/// A pressure or traction along its boundaries.
+fn surface_load(load: &Load, on: &dyn Fn(&[String]) -> Rows) -> DrawnLoad {
+    let mut rows = on(&load.on);
+    for point in rows.iter_mut().flatten() {
+        let value = |formula: &Formula| formula.value(&point.place);
+        point.traction = match &load.kind {
+            LoadKind::Pressure(pressure) => point.normal.map(|part| -part * value(pressure)),
+            LoadKind::Traction(traction) => [value(&traction[0]), value(&traction[1])],
+        };
+        point.traction = point.traction.map(|part| if part.is_finite() { part } else { 0.0 });
+    }
+    let name = match &load.kind {
+        LoadKind::Pressure(pressure) => with_values(&load.name, &[("pressure", Some(pressure))]),
+        LoadKind::Traction([x, y]) => with_values(&load.name, &[("tx", Some(x)), ("ty", Some(y))]),
+    };
+    DrawnLoad { name, rows, resultant: None, is_plate: false }
 }
 
 fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnLoad> {
-    let surface = |load: &Load| {
-        let mut rows = on(&load.on);
-        for point in rows.iter_mut().flatten() {
-            let value = |formula: &Formula| formula.value(&point.place);
-            point.traction = match &load.kind {
-                LoadKind::Pressure(pressure) => point.normal.map(|part| -part * value(pressure)),
-                LoadKind::Traction(traction) => [value(&traction[0]), value(&traction[1])],
-            };
-            point.traction = point.traction.map(|part| if part.is_finite() { part } else { 0.0 });
-        }
-        let name = match &load.kind {
-            LoadKind::Pressure(pressure) => with_values(&load.name, &[("pressure", Some(pressure))]),
-            LoadKind::Traction([x, y]) => with_values(&load.name, &[("tx", Some(x)), ("ty", Some(y))]),
-        };
-        DrawnLoad { name, rows, resultant: None, is_plate: false }
-    };
     let plates = case.plates.iter().map(|plate| {
         let rows = on(&plate.on);
         let [fx, fy, _] = plate.motion.applied;
@@ -338,7 +340,7 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
     });
     let at_points = case.point_loads.iter().map(|load| {
         let resultant = Some((load.at.place, load.force().into()));
-        DrawnLoad { name: load.name.clone(), rows: spot_rows(&load.at), resultant, is_plate: false }
+        DrawnLoad { name: load.name.clone(), rows: lone_point(load.at.place), resultant, is_plate: false }
     });
     let tools = case.tools.iter().filter_map(|tool| {
         let [fx, fy, _] = tool.motion.applied;
@@ -358,5 +360,5 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         let name = format!("force in {}", part.name);
         acts.then(|| DrawnLoad { name, rows: Vec::new(), resultant: Some((place.into(), force)), is_plate: false })
     });
-    case.loads.iter().map(surface).chain(plates).chain(at_points).chain(tools).chain(weights).collect()
+    case.loads.iter().map(|load| surface_load(load, on)).chain(plates).chain(at_points).chain(tools).chain(weights).collect()
 }

@@ -65,6 +65,7 @@ pub mod interruption;
 mod known;
 mod means;
 mod memory;
+mod names;
 mod observe;
 mod origin;
 mod outcome;

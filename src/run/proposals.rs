@@ -2,6 +2,7 @@
 
 use super::scene;
 use crate::case::Case;
+use crate::case::error::dotted;
 use crate::contact::{ClosePair, Extent, Mechanism, close_pairs};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
@@ -23,8 +24,7 @@ pub(super) fn quoted(name: &str) -> String {
 
 /// A name as a TOML key.
 pub(super) fn key(name: &str) -> String {
-    let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
-    if is_bare { name.into() } else { quoted(name) }
+    dotted(&[name.into()])
 }
 
 /// Names of tables, none twice.

@@ -110,9 +110,7 @@ impl Run<'_> {
                 reason = format!("expected values are missed ({})", errors.missed.join("; "));
             }
         }
-        let no_result = trust::no_number(summary)
-            .or_else(|| trust::not_in_balance(summary, self.case))
-            .or_else(|| trust::passed_through(summary));
+        let no_result = trust::no_result(summary, self.case);
         if let (Status::Converged, Some(words)) = (status, no_result) {
             (status, reason) = (Status::NotConverged, words);
         }

@@ -3,20 +3,16 @@
 use super::RunError;
 use super::known::check_exact;
 use super::means::check_means;
+use super::names::{Names, together, unknown_part};
 use crate::body::Body;
-use crate::case::{Case, CaseError, LoadStep, listed};
-use crate::contact::Pair;
+use crate::case::{Case, CaseError, LoadStep};
 use crate::discretisation::{self, Scene};
-use crate::geometry::{Coordinates, Formula, Point, Quote, Rounded};
-use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, surfaces, touching_surfaces};
+use crate::geometry::{Coordinates, Formula, Point, Rounded};
+use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, touching_surfaces};
 use crate::petsc::Session;
 use crate::procedure::Procedure;
 use std::collections::HashMap;
-use std::path::Path;
 use std::rc::Rc;
-
-/// Wrong names that are told one by one.
-const MOST_WRONG: usize = 40;
 
 /// Parts of a macro edge at whose ends a stiffness of springs is looked at.
 const SAMPLES: usize = 8;
@@ -57,20 +53,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     let fitted = fitted.filter(|name| case.tool_of(name).is_none());
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
     add_points(case, &mut mesh)?;
-    for grade in &case.mesh.grades {
-        let [x, y] = grade.point;
-        mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
-            format!(
-                "{}: mesh.grade.points: [{}, {}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
-                case.file.display(),
-                Rounded(x),
-                Rounded(y),
-                mesh.file.display(),
-                nearest.x,
-                nearest.y
-            )
-        })?;
-    }
+    add_grades(case, &mut mesh)?;
     check_means(case, &mesh)?;
     check_springs(case, &mesh)?;
     check_points(case, &mesh)?;
@@ -95,25 +78,13 @@ pub fn read_bare_mesh(case: &Case, bytes: &[u8]) -> Option<MacroMesh> {
     Some(mesh)
 }
 
-/// What is wrong with a case file, and with the names of what could be read of it against its mesh: all of it at once.
+/// What is wrong with a case file, and with the names of what could be read of it if its mesh can be read: all of it at once.
 pub fn told_with_names(error: &CaseError, draft: Option<Case>) -> String {
-    let names = draft.as_ref().map_or_else(Vec::new, wrong_names);
-    together(&[vec![error.to_string()], names].concat())
-}
-
-/// Words for each name of a case that its mesh does not have; none if the mesh cannot be read.
-fn wrong_names(case: &Case) -> Vec<String> {
-    let mesh = read_mesh_file(case).ok().and_then(|bytes| parse_joined(&bytes, &case.mesh.file, joined(case)).ok());
-    mesh.map_or_else(Vec::new, |mesh| Names { case, mesh: &mesh }.wrong())
-}
-
-/// One line for each of them; of many the first.
-fn together(all: &[String]) -> String {
-    let first = all[..all.len().min(MOST_WRONG)].join("\n");
-    match all.len().saturating_sub(MOST_WRONG) {
-        0 => first,
-        more => format!("{first}\n{more} more of them; correct these first"),
-    }
+    let wrong = |case: Case| {
+        let mesh = parse_joined(&read_mesh_file(&case).ok()?, &case.mesh.file, joined(&case)).ok()?;
+        Some(Names { case: &case, mesh: &mesh }.wrong())
+    };
+    together(&[vec![error.to_string()], draft.and_then(wrong).unwrap_or_default()].concat())
 }
 
 /// Adds the rigid tools, as fine as what they face.
@@ -136,36 +107,6 @@ fn add_tools(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
 fn joined(case: &Case) -> HashMap<String, String> {
     let parts = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (&part.name, &body.name)));
     parts.filter(|(part, body)| part != body).map(|(part, body)| (part.clone(), body.clone())).collect()
-}
-
-/// Words for a part that is no physical surface of a mesh: that may be why it cannot be connected.
-fn unknown_part(case: &Case, bytes: &[u8]) -> Option<String> {
-    let surfaces = surfaces(bytes, &case.mesh.file).ok()?;
-    let mut parts = case.bodies.iter().filter(|body| body.has_parts()).flat_map(surfaces_of);
-    let (key, name) = parts.find(|(_, name)| !surfaces.contains(name))?;
-    let instead = instead(&case.mesh.file, name, surfaces.iter());
-    Some(format!("{}: {key}: no physical surface \"{}\": {instead}", case.file.display(), Quote(name)))
-}
-
-/// The physical surfaces of a body: the key of each in the case, and its name.
-fn surfaces_of(body: &Body) -> impl Iterator<Item = (String, &String)> {
-    body.parts.iter().map(move |part| match part.name == body.name {
-        true => (format!("body.{}", body.name), &part.name),
-        false => (format!("body.{}.part.{}", body.name, part.name), &part.name),
-    })
-}
-
-/// What a mesh has instead of a name that it has not.
-fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String>) -> String {
-    let known: Vec<&String> = known.collect();
-    let file = file.display();
-    if known.is_empty() {
-        return format!("{file} has none at all; name them in the .geo file, and mesh it again");
-    }
-    let distance = |other: &String| strsim::damerau_levenshtein(Quote(name).head(), Quote(other).head());
-    let near = known.iter().min_by_key(|other| distance(other)).filter(|other| distance(other) <= 3);
-    let guess = near.map_or(String::new(), |other| format!("; did you mean \"{}\"?", Quote(other)));
-    format!("{file} has no such name{guess}; it has {}", listed(known.iter().map(|other| format!("\"{}\"", Quote(other)))))
 }
 
 /// A scene with its macro triangles spread over the ranks. **Collective**
@@ -213,140 +154,23 @@ pub fn of_step(step: &LoadStep, other: &Scene) -> Scene {
     assemble(&step.case, other.mesh.clone(), other.partition.clone())
 }
 
-/// Names of a case against those of its mesh.
-struct Names<'a> {
-    case: &'a Case,
-    mesh: &'a MacroMesh,
-}
-
-impl Names<'_> {
-    fn error(&self, key: &str, words: &str) -> String {
-        format!("{}: {key}: {words}", self.case.file.display())
+/// Grades the mesh towards the points that the case names.
+fn add_grades(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
+    for grade in &case.mesh.grades {
+        let [x, y] = grade.point;
+        mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
+            format!(
+                "{}: mesh.grade.points: [{}, {}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
+                case.file.display(),
+                Rounded(x),
+                Rounded(y),
+                mesh.file.display(),
+                nearest.x,
+                nearest.y
+            )
+        })?;
     }
-
-    /// Words for each name that the mesh does not have, and for each body that the case does not.
-    fn wrong(&self) -> Vec<String> {
-        let mut wrong: Vec<String> = self.check_bodies().err().into_iter().collect();
-        for (key, boundaries) in self.used() {
-            let on_mesh = boundaries.iter().filter(|name| !key.starts_with("contact.") || !self.case.writes_tool_of(name));
-            wrong.extend(on_mesh.filter_map(|name| self.check_boundary(&key, name).err()));
-        }
-        wrong
-    }
-
-    fn check_bodies(&self) -> Result<(), String> {
-        let known = || self.mesh.parts.iter().map(|part| &part.name);
-        for (key, name) in self.case.bodies.iter().flat_map(surfaces_of) {
-            if !known().any(|other| other == name) {
-                return Err(self.error(
-                    &key,
-                    &format!("no physical surface \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known())),
-                ));
-            }
-        }
-        for name in known() {
-            if !self.case.bodies.iter().flat_map(|body| &body.parts).any(|part| part.name == *name) {
-                let words = format!(
-                    "missing, but {} has the physical surface \"{name}\"; give its young and poisson",
-                    self.mesh.file.display()
-                );
-                return Err(self.error(&format!("body.{name}"), &words));
-            }
-        }
-        Ok(())
-    }
-
-    /// Every key of the case that names physical curves.
-    fn used(&self) -> Vec<(String, Vec<String>)> {
-        let case = self.case;
-        let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
-        let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
-        let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
-        let plates = case.plates.iter().map(|plate| (format!("load.{}.on", plate.name), plate.on.as_slice()));
-        let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
-        let sides = |pair: &Pair| pair.between.iter().flat_map(|name| case.curves_of(name)).collect::<Vec<_>>();
-        let contacts = case.contacts.iter().map(|pair| (format!("contact.{}.between", pair.name), sides(pair)));
-        let named =
-            supports.chain(springs).chain(loads).chain(plates).chain(geometries).map(|(key, names)| (key, names.to_vec()));
-        named.chain(contacts).collect()
-    }
-
-    fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
-        let is_shape = key.starts_with("geometry.");
-        let is_inside = self.mesh.interfaces.iter().any(|curve| curve.name == name);
-        if self.mesh.boundary(name).is_some() || is_shape && is_inside {
-            return Ok(());
-        }
-        if is_inside {
-            let words =
-                format!("\"{name}\" lies between two parts of a body, where nothing can act; only [geometry] may name it");
-            return Err(self.error(key, &words));
-        }
-        let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
-        Err(self.error(key, &format!("no physical curve \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known))))
-    }
-
-    /// A boundary that stays rigid lies on one body, and nothing else touches it.
-    fn check_plates(&self) -> Result<(), String> {
-        for plate in &self.case.plates {
-            let key = format!("load.{}.on", plate.name);
-            let edges = plate.on.iter().filter_map(|name| self.mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
-            let mut pieces: Vec<usize> = edges.map(|&edge| self.mesh.piece_beside(edge)).collect();
-            pieces.sort_unstable();
-            pieces.dedup();
-            if pieces.len() > 1 {
-                let words = format!("lies on {} bodies or pieces of one; give each a load of its own", pieces.len());
-                return Err(self.error(&key, &words));
-            }
-            let pressed = |pair: &&Pair| {
-                pair.between.iter().flat_map(|name| self.case.curves_of(name)).any(|name| plate.on.contains(&name))
-            };
-            if let Some(pair) = self.case.contacts.iter().find(pressed) {
-                let words = format!("contact.{} is there, too; a boundary that stays rigid is no side of a contact", pair.name);
-                return Err(self.error(&key, &words));
-            }
-        }
-        Ok(())
-    }
-
-    /// A name that is made of those of several curves is no physical curve.
-    fn check_unions(&self) -> Result<(), String> {
-        let clash = self.case.unions.iter().find(|union| self.mesh.boundary(&union.name).is_some());
-        clash.map_or(Ok(()), |union| {
-            let words = format!(
-                "the side \"{}\" of several curves has the name of a physical curve of {}; rename that one",
-                union.name,
-                self.mesh.file.display()
-            );
-            Err(self.error("contact", &words))
-        })
-    }
-
-    /// Each side of a contact lies on one body, and they are two.
-    fn check_sides(&self, pair: &str, between: &[String; 2]) -> Result<(), String> {
-        let key = format!("contact.{pair}.between");
-        let mut bodies = Vec::new();
-        for name in between.iter().filter(|name| self.case.tool_of(name).is_none()) {
-            let mut found: Vec<usize> =
-                self.mesh.boundary(name).iter().flat_map(|b| &b.edges).map(|&edge| self.mesh.body_beside(edge)).collect();
-            found.sort_unstable();
-            found.dedup();
-            if let [body] = found[..] {
-                bodies.push(body);
-            } else {
-                let words = format!("\"{name}\" lies on {} bodies; name each body's part by itself in the mesh", found.len());
-                return Err(self.error(&key, &words));
-            }
-        }
-        if bodies.len() == 2 && bodies[0] == bodies[1] {
-            let words = format!(
-                "both sides lie on body \"{}\"; contact of a body with itself is not modelled",
-                self.mesh.bodies[bodies[0]]
-            );
-            return Err(self.error(&key, &words));
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// Makes the points at which bodies are held or loaded vertices of the mesh.

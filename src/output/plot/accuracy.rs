@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use plotters::element::{DashedPathElement, PathElement, Rectangle};
+use plotters::element::{DashedPathElement, PathElement};
 
 use super::diagrams::{Axis, LegendRow, Mark, ROW, TITLE, colour, draw_legend, draw_line};
-use super::palette::GREY;
 use super::sheet::{PIXEL, Sheet, line};
 use super::ticks::number_text;
 use crate::output::OutputError;
@@ -101,12 +100,7 @@ pub fn write_accuracy(path: &Path, title: &str, goals: &[Sequence]) -> Result<()
             let truth: Vec<(f64, f64)> = shown(&goal.errors).collect();
             chart.draw_series([DashedPathElement::new(truth, DASH, GAP, line(&colour(style), 1.2))])?;
         }
-        // The frame again, over the ends of the lines.
-        let [left, right, top, bottom] = sheet.margins.map(|margin| margin * PIXEL);
-        area.draw(&Rectangle::new(
-            [(left, top), (sheet.width * PIXEL - right, sheet.height * PIXEL - bottom)],
-            line(&GREY, 0.8),
-        ))?;
+        sheet.draw_frame(area)?;
         Ok(String::new())
     })
 }

@@ -6,8 +6,8 @@ use plotters::element::PathElement;
 use plotters::style::{Color, ShapeStyle};
 
 use super::palette::{BLUE, GREEN, GREY, VERMILION};
-use super::sheet::{AxisSpec, Chart, DrawResult, Scale, Sheet, line};
-use super::ticks::{Ticks, cut_off, number_text};
+use super::sheet::{AxisSpec, Chart, DrawResult, Sheet, line};
+use super::ticks::{cut_off, number_text};
 use crate::output::{ContactPoint, OutputError};
 
 const SHEET: Sheet = Sheet { width: 820, height: 460, margins: [68, 24, 62, 54] };
@@ -101,14 +101,8 @@ fn write_curves(
     remark: Option<&str>,
 ) -> Result<(), OutputError> {
     let ends = [points[0].s, points[points.len() - 1].s];
-    let x_ticks = Ticks::new(widened(ends, 0.0), 8);
-    let x_name = format!("arc length s along the contact boundary [{}]", x_ticks.unit("length"));
-    let x = AxisSpec { scale: Scale::Linear, range: widened(ends, 0.0), ticks: x_ticks, name: x_name };
-    let y_range = widened(range, 0.05);
-    let y_ticks = Ticks::new(y_range, 6);
-    let y_name = format!("{} [{}]", quantity.name, y_ticks.unit(quantity.unit));
-    let y = AxisSpec { scale: Scale::Linear, range: y_range, ticks: y_ticks, name: y_name };
-
+    let x = AxisSpec::linear(widened(ends, 0.0), 8, "arc length s along the contact boundary", "length");
+    let y = AxisSpec::linear(widened(range, 0.05), 6, quantity.name, quantity.unit);
     SHEET.with_room_for(&y).write(path, |sheet, area| {
         sheet.draw_title(area, title)?;
         let legend: Vec<_> = curves.iter().map(|curve| (curve.name.as_str(), std::slice::from_ref(&curve.style))).collect();
@@ -117,7 +111,7 @@ fn write_curves(
             sheet.draw_remark(area, remark)?;
         }
         let mut chart = sheet.draw_axes(area, &x, &y, true)?;
-        if y_range[0] < 0.0 && y_range[1] > 0.0 {
+        if y.range[0] < 0.0 && y.range[1] > 0.0 {
             let zero = vec![(x.range[0], 0.0), (x.range[1], 0.0)];
             chart.draw_series([PathElement::new(zero, line(&GREY, 0.8))])?;
         }

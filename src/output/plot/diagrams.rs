@@ -1,7 +1,6 @@
 //! Diagrams of many runs: points joined to lines, in blocks with a legend each.
 
 use plotters::element::{Circle, PathElement, Polygon, Text};
-use plotters::prelude::Rectangle;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, RGBColor, ShapeStyle};
 
@@ -163,11 +162,7 @@ fn draw_diagram(whole: &Area, panel: &Area, diagram: &Diagram) -> DrawResult<()>
     for (style, marks) in &diagram.lines {
         draw_line(whole, &mut chart, *style, &diagram.shown(marks))?;
     }
-    // The frame again, over the ends of the lines.
-    let [left, right, top, bottom] = sheet.margins.map(|margin| margin * PIXEL);
-    let corners = [(left, top), (PANEL.width * PIXEL - right, PANEL.height * PIXEL - bottom)];
-    panel.draw(&Rectangle::new(corners, line(&GREY, 0.8)))?;
-    Ok(())
+    sheet.draw_frame(panel)
 }
 
 pub(super) fn draw_line(whole: &Area, chart: &mut Chart, style: usize, marks: &[Mark]) -> DrawResult<()> {

@@ -1,5 +1,6 @@
 //! Names in a figure, none over another.
 
+use super::outline::straight;
 use super::sheet::{PIXEL, text_width};
 use std::fmt::Write;
 
@@ -115,12 +116,9 @@ impl PlacedNames {
         if (near[0] - name.anchor[0]).hypot(near[1] - name.anchor[1]) > LEADER {
             let _ = writeln!(
                 text,
-                "<path fill=\"none\" stroke=\"{}\" stroke-opacity=\"0.6\" stroke-width=\"7\" d=\"M{:.0} {:.0}L{:.0} {:.0}\"/>",
+                "<path fill=\"none\" stroke=\"{}\" stroke-opacity=\"0.6\" stroke-width=\"7\" d=\"{}\"/>",
                 name.colour,
-                p * name.anchor[0],
-                p * name.anchor[1],
-                p * near[0],
-                p * near[1]
+                straight([name.anchor, near])
             );
         }
         // A white one below: not every viewer knows how to paint strokes first.

@@ -1,7 +1,9 @@
-//! From triangles to the loops around them.
+//! From triangles to the loops around them, and paths of SVG.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+
+use super::sheet::PIXEL;
 
 /// The directed edges without a partner in the opposite direction: of triangles that all run the same way round, their boundary.
 pub(super) fn unmatched<K: Ord + Copy>(edges: impl IntoIterator<Item = [K; 2]>) -> Vec<[K; 2]> {
@@ -14,6 +16,11 @@ pub(super) fn unmatched<K: Ord + Copy>(edges: impl IntoIterator<Item = [K; 2]>) 
         std::iter::repeat_n(edge, count.unsigned_abs() as usize)
     });
     surplus.collect()
+}
+
+/// The edges around a polygon.
+pub(super) fn edges_around<K: Copy>(points: &[K]) -> impl Iterator<Item = [K; 2]> {
+    (0..points.len()).map(|k| [points[k], points[(k + 1) % points.len()]])
 }
 
 /// Joins directed edges head to tail into closed loops. As many edges must leave each point as arrive at it, which holds for
@@ -54,14 +61,10 @@ pub(super) fn path_data(loops: &[Vec<(i32, i32)>]) -> String {
             points.pop();
         }
         let corners: Vec<(i32, i32)> = (0..points.len()).filter(|&i| is_corner(&points, i)).map(|i| points[i]).collect();
-        let Some(&(mut x, mut y)) = corners.first() else { continue };
-        let _ = write!(text, "M{x} {y}l");
-        for &(next_x, next_y) in &corners[1..] {
-            let _ = write!(text, "{} {} ", next_x - x, next_y - y);
-            (x, y) = (next_x, next_y);
+        if !corners.is_empty() {
+            text += &steps(&corners);
+            text.push('z');
         }
-        text.truncate(text.trim_end().len());
-        text.push('z');
     }
     text
 }
@@ -71,13 +74,24 @@ pub(super) fn line_data(points: &[(i32, i32)]) -> String {
     let points = distinct(points);
     let inner = |i: &usize| *i == 0 || i + 1 == points.len() || turns([points[i - 1], points[*i], points[i + 1]]);
     let corners: Vec<(i32, i32)> = (0..points.len()).filter(inner).map(|i| points[i]).collect();
-    let Some(&(mut x, mut y)) = corners.first() else { return String::new() };
+    steps(&corners)
+}
+
+/// A line from corner to corner, each by its way from the one before.
+fn steps(corners: &[(i32, i32)]) -> String {
+    let Some((x, y)) = corners.first() else { return String::new() };
     let mut text = format!("M{x} {y}l");
-    for &(next_x, next_y) in &corners[1..] {
-        let _ = write!(text, "{} {} ", next_x - x, next_y - y);
-        (x, y) = (next_x, next_y);
+    for two in corners.windows(2) {
+        let _ = write!(text, "{} {} ", two[1].0 - two[0].0, two[1].1 - two[0].1);
     }
     text.trim_end().to_owned()
+}
+
+/// A line from point to point, each by its place (pixels).
+pub(super) fn straight(points: impl IntoIterator<Item = [f64; 2]>) -> String {
+    let p = f64::from(PIXEL);
+    let to = |(k, [x, y]): (usize, [f64; 2])| format!("{}{:.0} {:.0}", if k == 0 { 'M' } else { 'L' }, p * x, p * y);
+    points.into_iter().enumerate().map(to).collect()
 }
 
 /// The points without repeats: of many that fall on one place of a figure, none would be seen to turn.

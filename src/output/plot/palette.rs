@@ -33,6 +33,11 @@ const VIRIDIS: [[u8; 3]; 9] = [
     [253, 231, 37],
 ];
 
+/// A colour as SVG has it.
+pub(super) fn hex(RGBColor(red, green, blue): RGBColor) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
 /// Viridis at a fraction of its range; fractions outside 0 to 1 take the colour of the nearest end.
 pub(super) fn viridis(fraction: f64) -> RGBColor {
     let place = fraction.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;

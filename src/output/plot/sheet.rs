@@ -6,7 +6,7 @@ use std::path::Path;
 use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::prelude::{Cartesian2d, DrawingArea, IntoDrawingArea, PathElement, SVGBackend, Text, TextStyle};
+use plotters::prelude::{Cartesian2d, DrawingArea, IntoDrawingArea, PathElement, Rectangle, SVGBackend, Text, TextStyle};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle};
 
@@ -95,6 +95,12 @@ impl ValueFormatter<f64> for AxisSpec {
 }
 
 impl AxisSpec {
+    /// A linear axis with about so many ticks, named by a quantity and its unit.
+    pub fn linear(range: [f64; 2], ticks: usize, name: &str, unit: &str) -> Self {
+        let ticks = Ticks::new(range, ticks);
+        Self { scale: Scale::Linear, name: format!("{name} [{}]", ticks.unit(unit)), range, ticks }
+    }
+
     /// Room that a vertical axis takes at the left of a plot (pixels): its name, its widest label, its ticks.
     pub fn room(&self) -> i32 {
         let widths = self.ticks.values.iter().map(|&value| text_width(&self.ticks.label(value), LABEL));
@@ -107,6 +113,18 @@ impl Sheet {
     pub fn with_room_for(&self, y: &AxisSpec) -> Sheet {
         let [left, right, top, bottom] = self.margins;
         Sheet { margins: [left.max(y.room()), right, top, bottom], ..*self }
+    }
+
+    /// Upper left and lower right corner of the plot (tenths of a pixel).
+    pub fn corners(&self) -> [(i32, i32); 2] {
+        let [left, right, top, bottom] = self.margins;
+        [(left, top), (self.width - right, self.height - bottom)].map(|(x, y)| (x * PIXEL, y * PIXEL))
+    }
+
+    /// Draws the frame of the plot, over the ends of lines.
+    pub fn draw_frame(&self, area: &Area) -> DrawResult<()> {
+        area.draw(&Rectangle::new(self.corners(), line(&GREY, 0.8)))?;
+        Ok(())
     }
 
     /// Draws a figure and writes it. `draw` returns SVG elements that go below everything that it has drawn.

@@ -1,18 +1,15 @@
 //! Where two bodies touch, so large that it can be seen.
 
-use std::fmt::Write;
 use std::path::Path;
 
-use plotters::style::RGBColor;
-
 use super::along::DrawnContact;
-use super::deformed::{
-    Colours, Facet, FacetCorner, View, boundary_edges, check_facets, contact_line, draw_colour_bar, fills, moved_contact,
-    moved_point, outlines,
-};
-use super::palette::{BLUE, INK};
-use super::sheet::{PIXEL, line};
+use super::deformed::{contact_line, moved_contact, moved_point, some_of, view};
+use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, outlines};
+use super::palette::{BLUE, INK, hex};
+use super::sheet::line;
+use super::stress::{Colours, draw_colour_bar, fills};
 use super::ticks::number_text;
+use super::view::bounds;
 use crate::output::markup::escape;
 use crate::output::{ContactPoint, OutputError};
 
@@ -31,6 +28,8 @@ const MARGIN: f64 = 0.5;
 const HEIGHT: f64 = 0.28;
 /// Names of bodies stand so far from the contact, by the size of the interval.
 const AWAY: f64 = 0.38;
+/// Points of the pressure that are drawn at most, up to a factor of two.
+const MOST_POINTS: usize = 500;
 /// An interval that is smaller than this beside its coordinates cannot be drawn.
 const LEAST: f64 = 1e-9;
 
@@ -41,9 +40,7 @@ impl ContactZoom {
         let boundary = boundary_edges(facets);
         let points: Vec<ContactPoint> = pressing(contact.points, interval).copied().collect();
         let moved = moved_contact(&DrawnContact { points: &points, ..*contact }, &boundary, 1.0);
-        let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        let [low, high] =
-            moved.iter().fold(start, |[low, high], &(x, y)| [[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]]);
+        let [low, high] = bounds(moved.into_iter().map(<[f64; 2]>::from));
         let size = (high[0] - low[0]).max(high[1] - low[1]);
         let far = low.iter().chain(&high).fold(0.0, |far: f64, x| far.max(x.abs()));
         let frame = [low.map(|x| x - MARGIN * size), high.map(|x| x + MARGIN * size)];
@@ -79,7 +76,7 @@ fn pressing(points: &[ContactPoint], [from, to]: [f64; 2]) -> impl Iterator<Item
 /// There is no facet, or a number is not finite; the operating system refuses.
 pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facets: &[Facet]) -> Result<(), OutputError> {
     check_facets(path, facets)?;
-    let view = View::of(zoom.frame);
+    let view = view(zoom.frame);
     let colours = Colours::of(facets);
     let boundary = boundary_edges(facets);
     let ([casing, core], pressure) = (contact_line(), line(&BLUE, 1.6));
@@ -94,12 +91,14 @@ pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facet
         let chart = sheet.draw_axes(area, &view.x, &view.y, false)?;
         draw_colour_bar(sheet, area, &colours)?;
         let place = |x: [f64; 2]| chart.backend_coord(&x.into());
-        let lines = polyline(&whole, "#262626", 30, place) + &polyline(&whole, "#ffffff", 14, place);
+        let lines: String = [("#262626", 30), ("#ffffff", 14)]
+            .map(|(colour, width)| polyline(whole.iter().copied().map(<[f64; 2]>::from), colour, width, place))
+            .concat();
         let bodies = fills(facets, 1.0, &colours, place) + &outlines(&boundary, 1.0, INK, place);
         let names = names(zoom, contact, &boundary, place);
         let inside = bodies + &lines + &envelope(&profile, place) + &names;
-        let [left, right, top, bottom] = sheet.margins.map(|margin| margin * PIXEL);
-        let (width, height) = (sheet.width * PIXEL - left - right, sheet.height * PIXEL - top - bottom);
+        let [(left, top), (right, bottom)] = sheet.corners();
+        let (width, height) = (right - left, bottom - top);
         // An element of its own cuts off what lies outside, without a name that other figures of a page might have, too.
         Ok(format!(
             "<svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" viewBox=\"{left} {top} {width} {height}\">\n{inside}</svg>\n"
@@ -111,37 +110,29 @@ pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facet
 fn profile(zoom: &ContactZoom, contact: &DrawnContact, boundary: &[[FacetCorner; 2]]) -> Vec<[[f64; 2]; 2]> {
     let points: Vec<&ContactPoint> = pressing(contact.points, zoom.interval).collect();
     let largest = points.iter().map(|p| p.lambda).fold(0.0, f64::max);
-    let every = points.len().div_ceil(500).max(1);
-    let shown = (0..points.len()).filter(|k| k % every == 0 || k + 1 == points.len()).map(|k| points[k]);
-    let tip = |p: &ContactPoint| {
+    let tip = |p: &&ContactPoint| {
         let (x, y) = moved_point(contact, p, boundary, 1.0);
         let high = HEIGHT * zoom.size() * p.lambda.max(0.0) / largest;
         [[x, y], [x + high * p.nx, y + high * p.ny]]
     };
-    shown.map(tip).filter(|ends| ends.iter().flatten().all(|x| x.is_finite())).collect()
+    some_of(&points, MOST_POINTS).map(tip).filter(|ends| ends.iter().flatten().all(|x| x.is_finite())).collect()
 }
 
 /// The pressure as an area over the contact boundary.
 fn envelope(profile: &[[[f64; 2]; 2]], place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
     let tips = profile.iter().map(|[_, tip]| *tip);
-    let around: Vec<(i32, i32)> = tips.clone().chain(profile.iter().rev().map(|[foot, _]| *foot)).map(&place).collect();
-    let list = |points: Vec<(i32, i32)>| points.iter().map(|(x, y)| format!("{x},{y} ")).collect::<String>();
-    let RGBColor(red, green, blue) = BLUE;
-    let colour = format!("#{red:02x}{green:02x}{blue:02x}");
-    format!(
-        "<polygon fill=\"#fff\" fill-opacity=\"0.6\" stroke=\"none\" points=\"{}\"/>\n<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"16\" points=\"{}\"/>\n",
-        list(around),
-        list(tips.map(&place).collect())
-    )
+    let around = point_list(tips.clone().chain(profile.iter().rev().map(|[foot, _]| *foot)), &place);
+    format!("<polygon fill=\"#fff\" fill-opacity=\"0.6\" stroke=\"none\" points=\"{around}\"/>\n")
+        + &polyline(tips, &hex(BLUE), 16, place)
 }
 
-fn polyline(points: &[(f64, f64)], colour: &str, width: i32, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
-    let mut list = String::new();
-    for &(x, y) in points {
-        let (x, y) = place([x, y]);
-        let _ = write!(list, "{x},{y} ");
-    }
+fn polyline(points: impl Iterator<Item = [f64; 2]>, colour: &str, width: i32, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    let list = point_list(points, place);
     format!("<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" points=\"{list}\"/>\n")
+}
+
+fn point_list(points: impl Iterator<Item = [f64; 2]>, place: impl Fn([f64; 2]) -> (i32, i32)) -> String {
+    points.map(place).map(|(x, y)| format!("{x},{y} ")).collect()
 }
 
 /// The names of both bodies, each on its side of the middle of the interval.

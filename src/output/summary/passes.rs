@@ -1,7 +1,45 @@
 //! What the solution procedure keeps of its steps, in the terms of `summary.json`.
 
-use super::{BoundaryIteration, OuterIteration};
 use crate::procedure::{BoundaryStep, Pass};
+use serde::{Deserialize, Serialize};
+
+/// One outer iteration.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct OuterIteration {
+    /// Number, from 1.
+    pub iteration: usize,
+    /// Number of the contact boundary it was made on, from 1.
+    pub boundary: usize,
+    /// Active multipliers.
+    pub active: Option<usize>,
+    /// Multipliers that became active.
+    pub added: Option<usize>,
+    /// Multipliers that became inactive.
+    pub released: Option<usize>,
+    /// Krylov iterations of its linear solves.
+    pub krylov_iterations: Option<usize>,
+    /// Relative residual.
+    pub residual: Option<f64>,
+    /// Largest penetration (length).
+    pub max_penetration: Option<f64>,
+    /// Relative change of the displacement.
+    pub du: Option<f64>,
+}
+
+/// One contact boundary of those that followed the solution.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BoundaryIteration {
+    /// Number, from 1.
+    pub iteration: usize,
+    /// Its length.
+    pub length: Option<f64>,
+    /// Largest way of a segment end to the next boundary, relative to the length; null if the segments are others.
+    pub moved: Option<f64>,
+    /// Relative change of the displacement since the boundary before.
+    pub du: Option<f64>,
+    /// Multipliers that changed state since the boundary before.
+    pub flipped: Option<usize>,
+}
 
 impl From<&Pass> for OuterIteration {
     fn from(pass: &Pass) -> Self {

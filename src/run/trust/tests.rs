@@ -1,8 +1,9 @@
 //! What speaks against pressures.
 
+use super::no_result::*;
 use super::unestimated::*;
 use super::*;
-use crate::output::summary::{BalanceSummary, ContactSummary, EstimateSummary, ZoneSummary};
+use crate::output::summary::{self, BalanceSummary, EstimateSummary};
 
 fn zone() -> ZoneSummary {
     ZoneSummary {
@@ -49,7 +50,12 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
             balance: BalanceSummary { force: Some(force), ..BalanceSummary::default() },
             ..Summary::default()
         };
-        size_doubts(&summary, &case).into_iter().map(|doubt| doubt.figure).collect::<Vec<_>>().join("; ")
+        energy_doubt(&summary)
+            .into_iter()
+            .chain(balance_doubts(&summary, &case))
+            .map(|doubt| doubt.figure)
+            .collect::<Vec<_>>()
+            .join("; ")
     };
     assert_eq!(far(0.02, 1e-15), "");
     assert!(far(0.6, 1e-15).contains("energy norm 0.60"));

@@ -1,0 +1,228 @@
+//! A result appears whole or not at all, whoever else writes there.
+
+use super::*;
+
+fn write_result(out: &Path, force: bool, case: &str) -> Result<(), OutputError> {
+    let folder = ResultFolder::create(out, force)?;
+    write_case(&folder, case);
+    folder.commit()
+}
+
+/// A summary that tells the name of a case.
+fn write_case(folder: &ResultFolder, case: &str) {
+    folder.write_summary(&Summary::new(case, 1)).unwrap();
+}
+
+/// The case of the result in a folder.
+fn case_in(folder: &Path) -> String {
+    Summary::read(&folder.join("summary.json")).unwrap().case
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn result_appears_only_when_committed() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("deep/er/bars");
+    let folder = ResultFolder::create(&out, false).unwrap();
+    fs::write(folder.path("summary.json"), "{}").unwrap();
+    assert!(!out.exists());
+    assert_eq!(folder.path("a"), folder.temporary().join("a"));
+    assert!(folder.temporary().is_absolute() && folder.temporary().parent() == out.parent());
+    folder.commit().unwrap();
+    assert_eq!(names(&out), ["summary.json"]);
+    assert_eq!(names(out.parent().unwrap()), ["bars"]);
+}
+
+#[test]
+fn unfinished_result_leaves_nothing() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = ResultFolder::create(&root.path().join("bars"), false).unwrap();
+    fs::write(folder.path("summary.json"), "{}").unwrap();
+    drop(folder);
+    drop(ResultFolder::create(&root.path().join("deep/er/bars"), false).unwrap());
+    assert!(names(root.path()).is_empty());
+    let [one, other] = ["deep/one", "deep/other"].map(|out| ResultFolder::create(&root.path().join(out), false).unwrap());
+    drop(one);
+    assert!(other.temporary().is_dir(), "what somebody else has come into stays");
+}
+
+#[test]
+fn result_is_replaced_by_force_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("bars");
+    let first = ResultFolder::create(&out, false).unwrap();
+    fs::write(first.path("fields_7.vtu"), "of the first").unwrap();
+    write_case(&first, "first");
+    first.commit().unwrap();
+    let refusal = write_result(&out, false, "second").unwrap_err();
+    assert!(matches!(refusal, OutputError::HoldsResult(_)) && refusal.to_string().contains("--force"));
+    assert_eq!(case_in(&out), "first");
+    write_result(&out, true, "second").unwrap();
+    assert_eq!(case_in(&out), "second");
+    assert_eq!(names(&out), ["summary.json"]);
+    assert_eq!(names(root.path()), ["bars"]);
+}
+
+#[test]
+fn abandoned_replacement_keeps_the_old_result() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("bars");
+    write_result(&out, false, "first").unwrap();
+    drop(ResultFolder::create(&out, true).unwrap());
+    assert_eq!(case_in(&out), "first");
+}
+
+#[test]
+fn foreign_files_survive() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("bars");
+    fs::create_dir(&out).unwrap();
+    write_result(&out, false, "an empty folder may be taken").unwrap();
+    fs::write(out.join("notes.md"), "mine").unwrap();
+    fs::create_dir(out.join("paper")).unwrap();
+    write_result(&out, true, "second").unwrap();
+    assert_eq!(names(&out), ["notes.md", "paper", "summary.json"]);
+    fs::remove_file(out.join("summary.json")).unwrap();
+    for force in [false, true] {
+        assert!(matches!(write_result(&out, force, "third"), Err(OutputError::HoldsOtherFiles(_))));
+    }
+    assert_eq!(fs::read_to_string(out.join("notes.md")).unwrap(), "mine");
+}
+
+#[test]
+fn a_summary_of_another_program_is_no_result() {
+    let root = tempfile::tempdir().unwrap();
+    fs::write(root.path().join("summary.json"), "[1, 2, 3]").unwrap();
+    let refusal = write_result(root.path(), true, "mine").unwrap_err();
+    assert!(matches!(refusal, OutputError::HoldsOtherFiles(_)), "{refusal}");
+}
+
+/// A run that was interrupted before it has read its mesh has no copy of it.
+#[test]
+fn a_file_that_is_needed_stays() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("bars");
+    let write = |kept: &[&str], mesh: bool| {
+        let mut folder = ResultFolder::create(&out, true).unwrap();
+        kept.iter().for_each(|name| folder.keep(&out.join(name)));
+        if mesh {
+            fs::write(folder.path("case.msh"), "mesh").unwrap();
+        }
+        write_case(&folder, "next");
+        folder.commit().unwrap();
+    };
+    write(&[], true);
+    write(&["case.msh"], false);
+    assert_eq!(names(&out), ["case.msh", "summary.json"]);
+}
+
+#[test]
+fn a_target_may_end_with_a_dot() {
+    let root = tempfile::tempdir().unwrap();
+    for out in ["fresh/.", "fresh/./", "deep/./fresh/"] {
+        write_result(&root.path().join(out), true, out).unwrap();
+        assert_eq!(case_in(&root.path().join(out)), out);
+    }
+    assert_eq!(
+        (names(root.path()), names(&root.path().join("deep"))),
+        (vec!["deep".into(), "fresh".into()], vec!["fresh".into()])
+    );
+}
+
+#[test]
+fn files_and_nameless_targets_are_refused() {
+    let root = tempfile::tempdir().unwrap();
+    let file = root.path().join("file");
+    fs::write(&file, "mine").unwrap();
+    assert!(matches!(ResultFolder::create(&file, true), Err(OutputError::NotAFolder(_))));
+    assert!(matches!(ResultFolder::create(Path::new("."), true), Err(OutputError::NoName(_))));
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+}
+
+/// Two results that were begun at the same time: the first that ends stays, whether it replaces one or not.
+#[test]
+fn the_second_is_told() {
+    for force in [false, true] {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("bars");
+        if force {
+            write_result(&out, false, "before").unwrap();
+        }
+        let [first, second] = ["first", "second"].map(|text| {
+            let folder = ResultFolder::create(&out, force).unwrap();
+            write_case(&folder, text);
+            folder
+        });
+        assert_ne!(first.temporary(), second.temporary());
+        first.commit().unwrap();
+        let refusal = second.commit().unwrap_err();
+        assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
+        assert_eq!(case_in(&out), "first");
+        assert_eq!(names(root.path()), ["bars"]);
+    }
+}
+
+#[test]
+fn a_result_that_was_taken_away_is_not_missed() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("bars");
+    write_result(&out, false, "first").unwrap();
+    let folder = ResultFolder::create(&out, true).unwrap();
+    write_case(&folder, "second");
+    fs::remove_dir_all(&out).unwrap();
+    folder.commit().unwrap();
+    assert_eq!((names(&out), names(root.path())), (vec!["summary.json".into()], vec!["bars".into()]));
+}
+
+/// As on file systems that cannot exchange two folders.
+#[test]
+fn two_steps_do_the_same() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("bars");
+    write_result(&out, false, "first").unwrap();
+    let [a, b] = [0, 1].map(|_| ResultFolder::create(&out, true).unwrap());
+    write_case(&a, "second");
+    let old = a.replace_in_two_steps(a.replaced.as_ref().unwrap()).unwrap().unwrap();
+    assert_eq!(case_in(&old), "first");
+    a.retire(&old).unwrap();
+    let refusal = b.replace_in_two_steps(b.replaced.as_ref().unwrap()).unwrap_err();
+    assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
+    drop((a, b));
+    assert_eq!(case_in(&out), "second");
+    assert_eq!(names(root.path()), ["bars"]);
+}
+
+/// Many at once, and one at a time: what stands under the name is always whole, and of one run.
+#[test]
+fn a_race_has_whole_results_only() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("bars");
+    write_result(&out, false, "before").unwrap();
+    let write = |runner: usize| {
+        let mut won = 0;
+        for round in 0..50 {
+            let Ok(folder) = ResultFolder::create(&out, true) else { continue };
+            let text = format!("{runner} {round}");
+            fs::write(folder.path("contact_a.csv"), &text).unwrap();
+            write_case(&folder, &text);
+            match folder.commit() {
+                Ok(()) => won += 1,
+                Err(OutputError::Overtaken(_)) => {}
+                Err(error) => panic!("{error}"),
+            }
+        }
+        won
+    };
+    let won: usize = std::thread::scope(|scope| {
+        let runners: Vec<_> = (0..4).map(|runner| scope.spawn(move || write(runner))).collect();
+        runners.into_iter().map(|runner| runner.join().unwrap()).sum()
+    });
+    assert!(won > 0 && case_in(&out) == fs::read_to_string(out.join("contact_a.csv")).unwrap());
+    assert_eq!((names(&out).len(), names(root.path())), (2, vec!["bars".into()]));
+}

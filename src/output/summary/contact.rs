@@ -1,0 +1,145 @@
+//! What the summary says of a contact, of the zones that press, and of the errors that are estimated of it.
+
+use serde::{Deserialize, Serialize};
+
+use super::numbers::numbers;
+use crate::contact::zone_counts;
+
+/// One contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactSummary {
+    /// Length of the contact boundary.
+    pub length: Option<f64>,
+    /// Number of its segments.
+    pub segments: Option<usize>,
+    /// Multiplier space, as in the case: `p0`, `p1-discontinuous`, `p1-continuous`.
+    pub multiplier: Option<String>,
+    /// Length of the shortest segment, in edges of the softer body.
+    pub h_ratio: Option<f64>,
+    /// Inf-sup constant.
+    pub inf_sup: Option<f64>,
+    /// The two ends of the contact boundary.
+    pub ends: Option<[[f64; 2]; 2]>,
+    /// Intervals of arc length in contact.
+    pub closed: Option<Vec<[f64; 2]>>,
+    /// Number of edges of the softer body on that interval of `closed` that has most of them.
+    pub closed_edges: Option<f64>,
+    /// The ends of the intervals of `closed` as points in the plane.
+    pub closed_points: Option<Vec<[[f64; 2]; 2]>>,
+    /// ∫ λ ds (force per thickness).
+    pub force: Option<f64>,
+    /// Force that penetration within single segments is worth (force per thickness).
+    pub unresolved_force: Option<f64>,
+    /// Resultant on body 2 (force per thickness).
+    #[serde(deserialize_with = "numbers")]
+    pub resultant: Option<[f64; 2]>,
+    /// Where it acts: the centre of the pressure; where nothing presses, the point with the smallest gap.
+    #[serde(default, deserialize_with = "numbers")]
+    pub place: Option<[f64; 2]>,
+    /// Moment on body 2 about the origin.
+    pub moment: Option<f64>,
+    /// Largest contact pressure.
+    pub pressure_max: Option<f64>,
+    /// Oscillation figure of the contact pressure.
+    pub oscillation: Option<f64>,
+    /// Quadrature points without a corresponding point.
+    pub lost_points: Option<usize>,
+    /// Way of the bodies along each other, by the length that presses; of curved fits on undeformed bodies only.
+    pub slip: Option<f64>,
+    /// The same at an end of the contact boundary where the bodies press and one of them ends, in all contacts of undeformed
+    /// bodies.
+    pub slip_at_ends: Option<f64>,
+    /// What sliding there, or towards an end, takes from the length that the bodies have in common.
+    pub lost_at_ends: Option<f64>,
+    /// Estimated relative error of force or pressure by that way, and by the turning of the bodies.
+    pub slip_error: Option<f64>,
+    /// The same by their turning alone, in all contacts; where nothing presses, the growth of what turns by the smallest gap.
+    pub rotation_error: Option<f64>,
+    /// Sharpest corner of a body within what presses, in degrees; of fitted curves only.
+    pub corner_angle: Option<f64>,
+    /// Estimated relative error of λ by that corner.
+    pub corner_error: Option<f64>,
+    /// Intervals of arc length that press, each with what is estimated of it.
+    pub zones: Vec<ZoneSummary>,
+    /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,
+    /// the largest overlap relative to the largest displacement.
+    pub missing: Option<f64>,
+    /// The same as a force (force per thickness), on undeformed bodies.
+    #[serde(default)]
+    pub missing_force: Option<f64>,
+    /// Deepest place of one body in the other, by their whole sides (length).
+    #[serde(default)]
+    pub depth: Option<f64>,
+    /// Where that is.
+    #[serde(default)]
+    pub deepest: Option<[f64; 2]>,
+    /// How far the sides have come together since they touched first, or have parted that were drawn in each other (length).
+    #[serde(default)]
+    pub approach: Option<f64>,
+    /// Whether the contact pressure can be trusted; null if nothing tells, or if the corner of a body presses on too
+    /// few edges: the reason says which.
+    pub trust: Option<bool>,
+    /// Whether ∫ λ ds can be trusted to one per cent; null if nothing estimates it.
+    pub trust_force: Option<bool>,
+    /// The verdict on it in a few words: `trusted`, why not, or that it only touches.
+    #[serde(default)]
+    pub verdict: Option<String>,
+}
+
+impl ContactSummary {
+    /// Length of all intervals in contact.
+    pub fn width(&self) -> Option<f64> {
+        self.closed.as_ref().map(|intervals| intervals.iter().fold(0.0, |sum, [first, last]| sum + last - first))
+    }
+}
+
+/// An interval of a contact that presses.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ZoneSummary {
+    /// Arc lengths of its ends.
+    pub ends: Option<[f64; 2]>,
+    /// Edges of the softer body on it.
+    pub edges: Option<f64>,
+    /// Segments on it.
+    pub segments: Option<usize>,
+    /// Its share of the force.
+    pub share: Option<f64>,
+    /// Width that its force asks for between smooth convex sides (length); null elsewhere.
+    #[serde(default)]
+    pub hertz_width: Option<f64>,
+    /// Largest contact pressure.
+    pub pressure_max: Option<f64>,
+    /// Estimated relative error of λ in its middle, root mean square.
+    pub lambda: Option<f64>,
+    /// The same all over it, without the tenth beside an end of the contact boundary.
+    pub whole: Option<f64>,
+    /// The largest of all signs of an error of λ; where it is small, so is the error.
+    pub worst: Option<f64>,
+    /// Estimated relative error of its force.
+    pub force: Option<f64>,
+    /// Estimated relative error of its largest pressure; null where that is singular.
+    pub peak: Option<f64>,
+    /// Whether λ grows without bound towards an end of the contact boundary, as far as can be seen.
+    pub singular: Option<bool>,
+    /// Whether it lies at an end of the contact boundary where one body has a corner and the other goes on.
+    pub corner: Option<bool>,
+}
+
+impl ZoneSummary {
+    /// Whether anyone would look at it, among `all` of its contact.
+    pub fn counts(&self, all: &[Self]) -> bool {
+        let highest = all.iter().filter_map(|zone| zone.pressure_max).fold(0.0, f64::max);
+        self.share.is_none_or(|share| zone_counts(share, self.pressure_max.unwrap_or(f64::NAN), highest))
+    }
+}
+
+/// Estimated relative errors of a contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactEstimate {
+    /// Of ∫ λ ds.
+    pub force: Option<f64>,
+    /// Of λ in the middle of its worst zone, root mean square.
+    pub lambda: Option<f64>,
+    /// Of the largest λ; null where that is singular.
+    pub peak: Option<f64>,
+}

@@ -1,0 +1,185 @@
+//! Names of a case against those of its mesh.
+
+use crate::body::Body;
+use crate::case::{Case, listed};
+use crate::contact::Pair;
+use crate::geometry::Quote;
+use crate::mesh::{MacroMesh, surfaces};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Wrong names that are told one by one.
+const MOST_WRONG: usize = 40;
+
+/// Names of a case against those of its mesh.
+pub struct Names<'a> {
+    pub case: &'a Case,
+    pub mesh: &'a MacroMesh,
+}
+
+impl Names<'_> {
+    fn error(&self, key: &str, words: &str) -> String {
+        format!("{}: {key}: {words}", self.case.file.display())
+    }
+
+    /// Words for each name that the mesh does not have, and for each body that the case does not.
+    pub fn wrong(&self) -> Vec<String> {
+        let mut wrong: Vec<String> = self.check_bodies().err().into_iter().collect();
+        for (key, boundaries) in self.used() {
+            let on_mesh = boundaries.iter().filter(|name| !key.starts_with("contact.") || !self.case.writes_tool_of(name));
+            wrong.extend(on_mesh.filter_map(|name| self.check_boundary(&key, name).err()));
+        }
+        wrong
+    }
+
+    fn check_bodies(&self) -> Result<(), String> {
+        let known = || self.mesh.parts.iter().map(|part| &part.name);
+        for (key, name) in self.case.bodies.iter().flat_map(surfaces_of) {
+            if !known().any(|other| other == name) {
+                return Err(self.error(
+                    &key,
+                    &format!("no physical surface \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known())),
+                ));
+            }
+        }
+        for name in known() {
+            if !self.case.bodies.iter().flat_map(|body| &body.parts).any(|part| part.name == *name) {
+                let words = format!(
+                    "missing, but {} has the physical surface \"{name}\"; give its young and poisson",
+                    self.mesh.file.display()
+                );
+                return Err(self.error(&format!("body.{name}"), &words));
+            }
+        }
+        Ok(())
+    }
+
+    /// Every key of the case that names physical curves.
+    fn used(&self) -> Vec<(String, Vec<String>)> {
+        let case = self.case;
+        let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
+        let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
+        let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
+        let plates = case.plates.iter().map(|plate| (format!("load.{}.on", plate.name), plate.on.as_slice()));
+        let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
+        let sides = |pair: &Pair| pair.between.iter().flat_map(|name| case.curves_of(name)).collect::<Vec<_>>();
+        let contacts = case.contacts.iter().map(|pair| (format!("contact.{}.between", pair.name), sides(pair)));
+        let named =
+            supports.chain(springs).chain(loads).chain(plates).chain(geometries).map(|(key, names)| (key, names.to_vec()));
+        named.chain(contacts).collect()
+    }
+
+    fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
+        let is_shape = key.starts_with("geometry.");
+        let is_inside = self.mesh.interfaces.iter().any(|curve| curve.name == name);
+        if self.mesh.boundary(name).is_some() || is_shape && is_inside {
+            return Ok(());
+        }
+        if is_inside {
+            let words =
+                format!("\"{name}\" lies between two parts of a body, where nothing can act; only [geometry] may name it");
+            return Err(self.error(key, &words));
+        }
+        let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
+        Err(self.error(key, &format!("no physical curve \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known))))
+    }
+
+    /// A boundary that stays rigid lies on one body, and nothing else touches it.
+    pub fn check_plates(&self) -> Result<(), String> {
+        for plate in &self.case.plates {
+            let key = format!("load.{}.on", plate.name);
+            let edges = plate.on.iter().filter_map(|name| self.mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
+            let pieces: BTreeSet<usize> = edges.map(|&edge| self.mesh.piece_beside(edge)).collect();
+            if pieces.len() > 1 {
+                let words = format!("lies on {} bodies or pieces of one; give each a load of its own", pieces.len());
+                return Err(self.error(&key, &words));
+            }
+            let pressed = |pair: &&Pair| {
+                pair.between.iter().flat_map(|name| self.case.curves_of(name)).any(|name| plate.on.contains(&name))
+            };
+            if let Some(pair) = self.case.contacts.iter().find(pressed) {
+                let words = format!("contact.{} is there, too; a boundary that stays rigid is no side of a contact", pair.name);
+                return Err(self.error(&key, &words));
+            }
+        }
+        Ok(())
+    }
+
+    /// A name that is made of those of several curves is no physical curve.
+    pub fn check_unions(&self) -> Result<(), String> {
+        let clash = self.case.unions.iter().find(|union| self.mesh.boundary(&union.name).is_some());
+        clash.map_or(Ok(()), |union| {
+            let words = format!(
+                "the side \"{}\" of several curves has the name of a physical curve of {}; rename that one",
+                union.name,
+                self.mesh.file.display()
+            );
+            Err(self.error("contact", &words))
+        })
+    }
+
+    /// Each side of a contact lies on one body, and they are two.
+    pub fn check_sides(&self, pair: &str, between: &[String; 2]) -> Result<(), String> {
+        let key = format!("contact.{pair}.between");
+        let mut bodies = Vec::new();
+        for name in between.iter().filter(|name| self.case.tool_of(name).is_none()) {
+            let mut found: Vec<usize> =
+                self.mesh.boundary(name).iter().flat_map(|b| &b.edges).map(|&edge| self.mesh.body_beside(edge)).collect();
+            found.sort_unstable();
+            found.dedup();
+            if let [body] = found[..] {
+                bodies.push(body);
+            } else {
+                let words = format!("\"{name}\" lies on {} bodies; name each body's part by itself in the mesh", found.len());
+                return Err(self.error(&key, &words));
+            }
+        }
+        if bodies.len() == 2 && bodies[0] == bodies[1] {
+            let words = format!(
+                "both sides lie on body \"{}\"; contact of a body with itself is not modelled",
+                self.mesh.bodies[bodies[0]]
+            );
+            return Err(self.error(&key, &words));
+        }
+        Ok(())
+    }
+}
+
+/// One line for each of them; of many the first.
+pub fn together(all: &[String]) -> String {
+    let first = all[..all.len().min(MOST_WRONG)].join("\n");
+    match all.len().saturating_sub(MOST_WRONG) {
+        0 => first,
+        more => format!("{first}\n{more} more of them; correct these first"),
+    }
+}
+
+/// Words for a part that is no physical surface of a mesh: that may be why it cannot be connected.
+pub fn unknown_part(case: &Case, bytes: &[u8]) -> Option<String> {
+    let surfaces = surfaces(bytes, &case.mesh.file).ok()?;
+    let mut parts = case.bodies.iter().filter(|body| body.has_parts()).flat_map(surfaces_of);
+    let (key, name) = parts.find(|(_, name)| !surfaces.contains(name))?;
+    let instead = instead(&case.mesh.file, name, surfaces.iter());
+    Some(format!("{}: {key}: no physical surface \"{}\": {instead}", case.file.display(), Quote(name)))
+}
+
+/// The physical surfaces of a body: the key of each in the case, and its name.
+fn surfaces_of(body: &Body) -> impl Iterator<Item = (String, &String)> {
+    body.parts.iter().map(move |part| match part.name == body.name {
+        true => (format!("body.{}", body.name), &part.name),
+        false => (format!("body.{}.part.{}", body.name, part.name), &part.name),
+    })
+}
+
+/// What a mesh has instead of a name that it has not.
+fn instead<'n>(file: &Path, name: &str, known: impl Iterator<Item = &'n String>) -> String {
+    let known: Vec<&String> = known.collect();
+    let file = file.display();
+    if known.is_empty() {
+        return format!("{file} has none at all; name them in the .geo file, and mesh it again");
+    }
+    let distance = |other: &String| strsim::damerau_levenshtein(Quote(name).head(), Quote(other).head());
+    let near = known.iter().min_by_key(|other| distance(other)).filter(|other| distance(other) <= 3);
+    let guess = near.map_or(String::new(), |other| format!("; did you mean \"{}\"?", Quote(other)));
+    format!("{file} has no such name{guess}; it has {}", listed(known.iter().map(|other| format!("\"{}\"", Quote(other)))))
+}
