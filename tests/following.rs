@@ -1,7 +1,7 @@
 //! Contact boundaries that follow the bodies: every run of a grid ends, and what does not move is not solved again.
 
 use crate::support::mesh::{Mesh, grid, write_scene};
-use crate::support::{Ended, PAIRS, Run};
+use crate::support::{Ended, PAIRS, Run, is_long};
 
 /// Contact boundaries that were solved for.
 fn fits(ended: &Ended) -> usize {
@@ -15,11 +15,11 @@ fn by_hertz(ended: &Ended) -> f64 {
     ended.number("/contact/seam/pressure_max") / peak
 }
 
-/// Mesh sizes, segments, spaces and loads; 60 runs, each in at most 12 fits. Forces of the same load agree, and
-/// pressures that are to be trusted with Hertz.
+/// Mesh sizes, segments, spaces and loads; 60 runs, half of them if not all is asked for, each in at most 12 fits. Forces of the
+/// same load agree, and pressures that are to be trusted with Hertz.
 #[test]
 fn a_cylinder_on_a_block_converges_for_all_meshes_segments_spaces_and_loads() {
-    for load in [0.006, 0.015] {
+    for load in [0.015, 0.006].into_iter().take(if is_long() { 2 } else { 1 }) {
         let (mut forces, mut trusted) = (Vec::new(), 0);
         for (order, space) in PAIRS.into_iter().filter(|pair| *pair != (1, "p1-discontinuous")) {
             for refine in 1..=3 {

@@ -20,14 +20,20 @@ pub const RANKS: [usize; 3] = [1, 2, 3];
 pub const PAIRS: [(usize, &str); 6] =
     [(1, "p0"), (1, "p1-discontinuous"), (1, "p1-continuous"), (2, "p0"), (2, "p1-discontinuous"), (2, "p1-continuous")];
 
-/// All of [`PAIRS`] on two ranks, and in turn on one or on three besides; with `ALL_RANKS` set, as by `ci/test --long`, on all of
-/// [`RANKS`].
+/// Whether everything is run that must hold, as by `ci/test --long`: `ALL_RANKS` is set.
+pub fn is_long() -> bool {
+    std::env::var_os("ALL_RANKS").is_some()
+}
+
+/// Numbers of ranks for run `at` of many that are alike: two, and in turn one or three; all of [`RANKS`] if [`is_long`].
+pub fn ranks_in_turn(at: usize) -> Vec<usize> {
+    RANKS.into_iter().filter(|ranks| is_long() || *ranks == 2 || *ranks == [1, 3][at % 2]).collect()
+}
+
+/// All of [`PAIRS`] on [`ranks_in_turn`].
 pub fn pairs_on_ranks() -> impl Iterator<Item = (usize, &'static str, usize)> {
-    let is_long = std::env::var_os("ALL_RANKS").is_some();
-    PAIRS.into_iter().enumerate().flat_map(move |(at, (order, space))| {
-        let is_run = move |ranks: &usize| is_long || *ranks == 2 || *ranks == [1, 3][at % 2];
-        RANKS.into_iter().filter(is_run).map(move |ranks| (order, space, ranks))
-    })
+    let pairs = PAIRS.into_iter().enumerate();
+    pairs.flat_map(|(at, (order, space))| ranks_in_turn(at).into_iter().map(move |ranks| (order, space, ranks)))
 }
 
 /// A run of `mezha run`, to be started.
