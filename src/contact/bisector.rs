@@ -6,7 +6,7 @@
 
 use super::smooth_side::SmoothSide;
 use super::{ContactBoundary, Pair};
-use crate::geometry::{Curve, Point, Spline, turn_right};
+use crate::geometry::{Curve, FitSample, Point, Spline, turn_right};
 use std::ops::Range;
 
 /// Spans at most.
@@ -48,9 +48,6 @@ const PLACES: usize = 16;
 
 /// Share of the data's length by which the curve may go on to the end of a side, and a foot lie beyond one.
 const BEYOND: f64 = 1e-3;
-
-/// A sample of a fit: parameter, place, weight.
-type FitSample = (f64, Point, f64);
 
 /// The curve half-way between two sides.
 pub struct Bisector {
