@@ -4,7 +4,7 @@
 //! side there, as it will when they touch, and points of its own side correspond to it that are as far shifted. Seen from afar,
 //! the normals of a curved side would spread, or crowd, on the other.
 
-use super::{Configuration, Side, SmoothSide};
+use super::{Configuration, CurveChoice, Pair, Side, SmoothSide};
 use crate::geometry::{Curve, Point};
 
 /// Nodes of the other side that are looked at for the shortest way, at most.
@@ -27,11 +27,29 @@ pub struct OwnCurve<'a> {
 
 impl<'a> OwnCurve<'a> {
     /// The shape of one of two sides, shifted as that is; closed ones are begun at their seams.
-    pub fn new(sides: [&'a SmoothSide; 2], of: Side) -> Self {
+    fn new(sides: [&'a SmoothSide; 2], of: Side) -> Self {
         let own = if of == Side::First { 0 } else { 1 };
         let side = sides[own];
         let middle = side.shape().nearest(side.places[side.places.len() / 2]);
         Self { sides, curve: side.shape().moved(side.shift), middle }
+    }
+
+    /// The curve of the side that Γ_C of a pair lies on, if it lies on one; closed sides are begun at their seams.
+    pub fn of_pair(sides: [&'a SmoothSide; 2], pair: &Pair) -> Option<Self> {
+        match pair.curve {
+            CurveChoice::Own(side) => Some(Self::new(sides, side)),
+            CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => None,
+        }
+    }
+
+    /// How far Γ_C is shifted from the side that it has the shape of, for each side (length).
+    pub fn shifts([first, second]: [&SmoothSide; 2], pair: &Pair) -> [Point; 2] {
+        let way = |side, other| shortest_way(side, other).unwrap_or_default();
+        match pair.curve {
+            CurveChoice::Own(Side::First) => [way(first, second), Point::zeros()],
+            CurveChoice::Own(Side::Second) => [Point::zeros(), way(second, first)],
+            CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => [Point::zeros(); 2],
+        }
     }
 
     /// The curve.
@@ -85,7 +103,7 @@ impl<'a> OwnCurve<'a> {
 }
 
 /// The shortest way from a side to another, both undeformed; nothing where they touch or overlap.
-pub fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
+fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
     let nearest = |side: &SmoothSide, x: Point| side.nearest_place(x);
     let away = |x: &Point| (nearest(side, *x).0 - x).norm();
     let looks = other.places.iter().step_by(other.places.len().div_ceil(LOOKS)).chain(other.places.last());
@@ -102,7 +120,6 @@ pub fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
 mod tests {
     use super::*;
     use crate::contact::samples::seam;
-    use crate::contact::{CurveChoice, Pair};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Numbering, Partition};

@@ -141,6 +141,12 @@ impl SmoothSide {
         self.places.len() - usize::from(self.closed)
     }
 
+    /// Parameter of a node; on a closed side nodes count on beyond one turn, and so does the parameter.
+    pub fn unrolled(&self, node: usize) -> f64 {
+        let count = self.nodes();
+        self.turn().map_or_else(|| self.parameters[node], |turn| self.parameters[node % count] + (node / count) as f64 * turn)
+    }
+
     /// Positions of the nodes in a configuration.
     pub fn positions(&self, configuration: Configuration) -> &[Point] {
         match configuration {
