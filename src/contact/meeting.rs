@@ -135,8 +135,7 @@ impl Meeting {
     /// How deep nodes of body 1 lie in body 2 as they are now (length), more than `margin` (length) beyond the ends of Γ_C.
     pub fn depth_beyond(&self, sides: &[Vec<SmoothSide>; 2], pair: &Pair, boundary: &ContactBoundary, margin: f64) -> f64 {
         let [first, second] = self.sides(sides);
-        let knots = boundary.knots();
-        let ends = [knots[0], knots[knots.len() - 1]];
+        let ends = boundary.ends();
         let own = OwnCurve::of_pair([first, second], pair);
         let margins = if own.is_some() { ends.map(|t| margin / boundary.speed(t)) } else { [margin; 2] };
         let [low, high] = [ends[0] - margins[0], ends[1] + margins[1]];

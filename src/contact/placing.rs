@@ -1,6 +1,6 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
-use super::bisector::stray;
+use super::boundary_check::stray;
 use super::cutting::fractions;
 use super::{
     Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, PointContact, SegmentRule, Side, SmoothSide,
@@ -159,7 +159,7 @@ fn check_stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair)
 
 /// Both boundaries must cover Γ_C without a hole.
 fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &ContactBoundary) -> Result<(), String> {
-    let (first, last) = (boundary.knots()[0], boundary.knots()[1]);
+    let [first, last] = boundary.ends();
     let least = 1e-6 * (last - first);
     for (side, edges) in sides.into_iter().enumerate() {
         let parts_of = |edge: &u32| {
@@ -344,7 +344,7 @@ pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacem
 /// Whether an edge looks at a part of Γ_C, not beside it. On a large body most do not, which few looks tell.
 fn lies_at(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
     let middle = 0.5 * (edge.points[0] + edge.points[1]);
-    let [first, last] = [boundary.knots()[0], boundary.knots()[boundary.segments()]];
+    let [first, last] = boundary.ends();
     let near = boundary.near(middle);
     if edge.outward().dot(&boundary.normal(near)) * side.sign() < LOOKS_AWAY {
         return false;
