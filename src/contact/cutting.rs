@@ -162,13 +162,8 @@ fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
         (Order::P1, MultiplierSpace::P0) => 1.5,
         (Order::P1, MultiplierSpace::P1Continuous) => 1.25,
         (Order::P1, MultiplierSpace::P1Discontinuous) => 3.0,
-        (Order::P2, MultiplierSpace::P1Discontinuous) => {
-            if matching {
-                2.0
-            } else {
-                1.5
-            }
-        }
+        (Order::P2, MultiplierSpace::P1Discontinuous) if matching => 2.0,
+        (Order::P2, MultiplierSpace::P1Discontinuous) => 1.5,
         (Order::P2, _) => 0.75,
     }
 }

@@ -4,7 +4,7 @@
 //! side there, as it will when they touch, and points of its own side correspond to it that are as far shifted. Seen from afar,
 //! the normals of a curved side would spread, or crowd, on the other.
 
-use super::{Configuration, CurveChoice, Pair, Side, SmoothSide};
+use super::{Configuration, Pair, SmoothSide};
 use crate::geometry::{Curve, Point};
 
 /// Nodes of the other side that are looked at for the shortest way, at most.
@@ -26,30 +26,20 @@ pub struct OwnCurve<'a> {
 }
 
 impl<'a> OwnCurve<'a> {
-    /// The shape of one of two sides, shifted as that is; closed ones are begun at their seams.
-    fn new(sides: [&'a SmoothSide; 2], of: Side) -> Self {
-        let own = if of == Side::First { 0 } else { 1 };
-        let side = sides[own];
-        let middle = side.shape().nearest(side.places[side.places.len() / 2]);
-        Self { sides, curve: side.shape().moved(side.shift), middle }
-    }
-
-    /// The curve of the side that Γ_C of a pair lies on, if it lies on one; closed sides are begun at their seams.
+    /// The shape of the side that Γ_C of a pair lies on, shifted as that is, if it lies on one; closed sides are begun at their seams.
     pub fn of_pair(sides: [&'a SmoothSide; 2], pair: &Pair) -> Option<Self> {
-        match pair.curve {
-            CurveChoice::Own(side) => Some(Self::new(sides, side)),
-            CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => None,
-        }
+        let side = sides[pair.curve.own_side()? as usize];
+        let middle = side.shape().nearest(side.places[side.places.len() / 2]);
+        Some(Self { sides, curve: side.shape().moved(side.shift), middle })
     }
 
     /// How far Γ_C is shifted from the side that it has the shape of, for each side (length).
-    pub fn shifts([first, second]: [&SmoothSide; 2], pair: &Pair) -> [Point; 2] {
-        let way = |side, other| shortest_way(side, other).unwrap_or_default();
-        match pair.curve {
-            CurveChoice::Own(Side::First) => [way(first, second), Point::zeros()],
-            CurveChoice::Own(Side::Second) => [Point::zeros(), way(second, first)],
-            CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => [Point::zeros(); 2],
+    pub fn shifts(sides: [&SmoothSide; 2], pair: &Pair) -> [Point; 2] {
+        let mut shifts = [Point::zeros(); 2];
+        if let Some(own) = pair.curve.own_side().map(|side| side as usize) {
+            shifts[own] = shortest_way(sides[own], sides[1 - own]).unwrap_or_default();
         }
+        shifts
     }
 
     /// The curve.
@@ -120,6 +110,7 @@ fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
 mod tests {
     use super::*;
     use crate::contact::samples::seam;
+    use crate::contact::{CurveChoice, Side};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Numbering, Partition};
@@ -145,7 +136,7 @@ mod tests {
             let way = way.unwrap_or_default();
             assert!((way - Point::new(0.0, if shifted { -lift } else { 0.0 })).norm() < 1e-12, "{way}");
             let laid = second.laid(0, way);
-            let own = OwnCurve::new([first, &laid], Side::Second);
+            let own = OwnCurve::of_pair([first, &laid], &pair).expect("on the second");
             let ends = own.limits(0.5).map(|t| own.curve().point(t));
             let y = if shifted { 1.0 } else { 1.0 + lift };
             for (x, end) in [0.0, 2.0].into_iter().zip(if ends[0].x < ends[1].x { ends } else { [ends[1], ends[0]] }) {

@@ -118,6 +118,14 @@ impl CurveChoice {
     pub fn is_found(self) -> bool {
         matches!(self, Self::Fit | Self::Own(_))
     }
+
+    /// The body whose shape it has, if it has that of one.
+    pub fn own_side(self) -> Option<Side> {
+        match self {
+            Self::Own(side) => Some(side),
+            Self::Fit | Self::Line | Self::Geometry => None,
+        }
+    }
 }
 
 /// Gap of the unloaded configuration.

@@ -1,6 +1,6 @@
 //! One side of a contact as a smooth curve through its nodes, undeformed and as it lies now.
 
-use super::{Configuration, CurveChoice, GapChoice, Pair, Side};
+use super::{Configuration, GapChoice, Pair, Side};
 use crate::geometry::{Curve, Point, Spline, chord_lengths, cross, turn_right};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering, Stretch};
 
@@ -63,13 +63,10 @@ pub struct SmoothSide {
 impl SmoothSide {
     /// The stretches of both sides of a pair.
     pub fn of_pair(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacement: Displacement) -> [Vec<Self>; 2] {
-        let bears = |side: Side| match pair.curve {
-            CurveChoice::Own(own) => Some(own == side),
-            CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => None,
-        };
         [Side::First, Side::Second].map(|side| {
             let edges = mesh.boundary(&pair.between[side as usize]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-            let new = |stretch: &Stretch| Self { bears: bears(side), ..Self::new(mesh, numbering, stretch, displacement) };
+            let bears = pair.curve.own_side().map(|own| own == side);
+            let new = |stretch: &Stretch| Self { bears, ..Self::new(mesh, numbering, stretch, displacement) };
             mesh.stretches(edges).iter().map(new).collect()
         })
     }

@@ -3,9 +3,10 @@
 use super::edge_shape::EdgeShape;
 use super::raw_mesh::{RawMesh, RawTriangle};
 use super::{FilePlace, MeshError, NamedPoint};
-use crate::geometry::{Coordinates, Point, Quote, Rounded, cross};
+use crate::geometry::{Coordinates, Curve, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A body, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +53,13 @@ pub struct MacroEdge {
     pub triangles: [Option<u32>; 2],
     /// True shape, where it is not straight.
     pub shape: Option<EdgeShape>,
+}
+
+impl MacroEdge {
+    /// Bends the edge onto a curve, whose parameters at the vertices `ends` are `range`.
+    pub fn bend(&mut self, ends: [u32; 2], curve: Arc<Curve>, [from, to]: [f64; 2]) {
+        self.shape = Some(EdgeShape { curve, range: if self.vertices == ends { [from, to] } else { [to, from] } });
+    }
 }
 
 /// A physical curve: macro edges on the boundary of one body or several.
@@ -163,6 +171,11 @@ impl MacroMesh {
         Ok(mesh)
     }
 
+    /// The mesh as a whole cannot be used, for the reason in these words.
+    pub(super) fn unusable(&self, words: String) -> MeshError {
+        MeshError::unusable(&self.file, words)
+    }
+
     fn syntax(&self, place: FilePlace, message: String) -> MeshError {
         MeshError::Syntax { file: self.file.clone(), place, message }
     }
@@ -177,10 +190,9 @@ impl MacroMesh {
                 }
                 false => "",
             };
-            return Err(self.syntax(
-                place,
-                format!("a triangle must lie in exactly one physical surface (its body); found {}{remedy}", Quote(&found)),
-            ));
+            let words =
+                format!("a triangle must lie in exactly one physical surface (its body); found {}{remedy}", Quote(&found));
+            return Err(self.syntax(place, words));
         };
         if let Some(part) = self.parts.iter().position(|part| part.name == *name) {
             return Ok(part as u32);
@@ -200,16 +212,9 @@ impl MacroMesh {
         let area = 0.5 * cross(b - a, c - a);
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
         if area.abs() <= 1e-10 * longest * longest {
-            return Err(self.syntax(
-                place,
-                format!(
-                    "degenerate triangle with corners {}, {}, {}: its area is {}; mesh the scene again",
-                    Coordinates(a),
-                    Coordinates(b),
-                    Coordinates(c),
-                    Rounded(area)
-                ),
-            ));
+            let ([a, b, c], area) = ([a, b, c].map(Coordinates), Rounded(area));
+            let words = format!("degenerate triangle with corners {a}, {b}, {c}: its area is {area}; mesh the scene again");
+            return Err(self.syntax(place, words));
         }
         let [a, b, c] = corners;
         Ok(if area > 0.0 { [a, b, c] } else { [a, c, b] })
@@ -224,15 +229,12 @@ impl MacroMesh {
                 if *body != triangle.body {
                     let (x, names) = (self.vertices[vertex as usize], [*body, triangle.body].map(|b| &self.bodies[b as usize]));
                     let part = &self.parts[triangle.part as usize].name;
-                    return Err(MeshError::unusable(
-                        &self.file,
-                        format!(
+                    return Err(self.unusable(format!(
                             "bodies \"{}\" and \"{}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
                             names[0],
                             names[1],
                             Coordinates(x)
-                        ),
-                    ));
+                        )));
                 }
             }
         }
@@ -249,13 +251,10 @@ impl MacroMesh {
         placed: &mut HashSet<(usize, u32)>,
     ) -> Result<(), MeshError> {
         let refused = |what: &str| {
-            self.syntax(
-                place,
-                format!(
-                    "a line of the physical curve \"{}\" {what}; physical curves must bound bodies, or parts of them",
-                    Quote(&name)
-                ),
-            )
+            let curve = Quote(&name);
+            let words =
+                format!("a line of the physical curve \"{curve}\" {what}; physical curves must bound bodies, or parts of them");
+            self.syntax(place, words)
         };
         let Some(edge) = edge else { return Err(refused("is not an edge of a triangle")) };
         let parts = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));

@@ -5,7 +5,6 @@
 //! through all of them. So refinement follows the body as it was drawn, and not the parabolas of the elements.
 
 use super::bow::{Bow, FLAT, go_on, is_inflection, on_one_circle};
-use super::edge_shape::EdgeShape;
 use super::{MacroMesh, MeshError};
 use crate::geometry::{Coordinates, Curve, Point, Spline};
 use nalgebra::{Matrix3, Vector3};
@@ -55,13 +54,12 @@ impl MacroMesh {
         let bow = Bow { edge, ends, points: [a, middle, b] };
         let along = (middle - a).dot(&(b - a)) / (b - a).norm_squared();
         if bow.height() > HIGHEST || !bow.is_flat() && (along - 0.5).abs() > MIDDLE {
-            let words = format!(
+            return Err(self.unusable(format!(
                 "the midside node {} is too far from the middle of its side from {} to {}; mesh the curve with more elements, or with `gmsh -2 -order 1` and a [geometry] in the case",
                 Coordinates(middle),
                 Coordinates(a),
                 Coordinates(b)
-            );
-            return Err(MeshError::unusable(&self.file, words));
+            )));
         }
         Ok(bow)
     }
@@ -77,9 +75,7 @@ impl MacroMesh {
                 Some(knots) => [knots[0], knots[2]],
                 None => self.onto(&curve, bow),
             };
-            let straight = bow.ends == self.edges[bow.edge as usize].vertices;
-            let range = if straight { range } else { [range[1], range[0]] };
-            self.edges[bow.edge as usize].shape = Some(EdgeShape { curve: curve.clone(), range });
+            self.edges[bow.edge as usize].bend(bow.ends, curve.clone(), range);
         }
     }
 
