@@ -70,14 +70,15 @@ impl MacroStiffness {
     /// turned inside out it finds those with a node there.
     ///
     /// # Errors
-    /// As [`MacroStiffness::new`].
+    /// [`BadJacobian`] if one of those triangles is turned inside out.
     pub fn of_sides(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneLaw) -> Result<Self, BadJacobian> {
         let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
         let few = shapes.as_ref().is_some_and(Shapes::is_one);
         Self::of_shapes(mesh, triangle, level, law, shapes, !few)
     }
 
-    /// The same from the shapes of its triangles; without them each is integrated by itself.
+    /// Stiffness from the shapes of the small triangles; without shapes each small triangle is integrated by itself. With `sides` it has
+    /// the rows of the nodes on the sides alone.
     fn of_shapes(
         mesh: &MacroMesh,
         triangle: usize,

@@ -166,7 +166,7 @@ pub enum MultiplierSpace {
 pub enum SegmentRule {
     /// By the safe rule: a multiple of the softer body's edge length.
     Auto,
-    /// So many of equal arc length.
+    /// This number of segments of equal arc length.
     Count(usize),
     /// At these fractions of the arc length, from 0 to 1, ascending; along the parameter of a geometry, along a line to
     /// larger x (upwards if it is vertical).

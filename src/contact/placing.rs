@@ -23,11 +23,11 @@ pub struct PlacingError {
 pub struct Known {
     /// Where the two sides meet, for one that is found by that.
     pub meeting: Option<Meeting>,
-    /// Parameters of its ends.
+    /// Parameters of the ends of the contact boundary.
     pub ends: Option<[f64; 2]>,
-    /// Number of its segments.
+    /// Number of segments of the contact boundary.
     pub segments: Option<usize>,
-    /// Its ends as a coarser mesh has found them, if there was one.
+    /// Ends of the contact boundary as a coarser mesh has found them, if there was one.
     pub coarser: Option<[Point; 2]>,
     /// Where undeformed sides touch first, if they are smooth and convex against each other there: what its force presses on is as
     /// wide as Hertz has it.
@@ -68,9 +68,9 @@ pub fn place(
             let mut smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
             let mut meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
             meeting.begin(&mut smooth);
-            let found = meeting.curve(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
+            let curve_and_limits = meeting.curve(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
             fitted = Some((meeting, smooth));
-            found
+            curve_and_limits
         }
         CurveChoice::Line => line_between(mesh, pair, sides).map_err(error)?,
         CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,

@@ -48,7 +48,7 @@ pub struct SmoothSide {
     hand: f64,
     /// Length of an edge, in nodes.
     degree: usize,
-    /// Its smooth shape, undeformed, as it is known: declared, straight, or a spline through the vertices of the mesh file.
+    /// Smooth shape of the undeformed side as it is known: declared, straight, or a spline through the vertices of the mesh file.
     shape: Curve,
     undeformed: Curve,
     deformed: Curve,
@@ -116,7 +116,7 @@ impl SmoothSide {
         Self { places, points, parameters, hand, degree, shape, undeformed, deformed, closed, shift, bears: None }
     }
 
-    /// The same side begun at another of its nodes, if it is closed, and shifted from Γ_C.
+    /// The side begun at node `seam`, if it is closed, and with its shift from Γ_C (length).
     pub fn laid(&self, seam: usize, shift: Point) -> Self {
         let begun = if self.closed && seam > 0 { self.begun_at(seam) } else { self.clone() };
         Self { shift, bears: self.bears, ..begun }
@@ -152,7 +152,7 @@ impl SmoothSide {
         }
     }
 
-    /// Its length, undeformed.
+    /// Length of the undeformed side.
     pub fn length(&self) -> f64 {
         self.parameters[self.parameters.len() - 1]
     }
@@ -183,8 +183,8 @@ impl SmoothSide {
     }
 
     /// Whether places of this side and of another, by their parameters, look at each other.
-    pub fn looks_at(&self, own: f64, other: &Self, foot: f64, configuration: Configuration) -> bool {
-        let [one, two] = [self.curve(configuration).tangent(own), other.curve(configuration).tangent(foot)];
+    pub fn looks_at(&self, parameter: f64, other: &Self, foot: f64, configuration: Configuration) -> bool {
+        let [one, two] = [self.curve(configuration).tangent(parameter), other.curve(configuration).tangent(foot)];
         self.hand * other.hand * one.normalize().dot(&two.normalize()) <= LOOKS_BACK
     }
 
@@ -193,7 +193,7 @@ impl SmoothSide {
         self.hand
     }
 
-    /// Its smooth shape, undeformed, with a parameter of its own.
+    /// Smooth shape of the undeformed side, with a parameter of its own.
     pub fn shape(&self) -> &Curve {
         &self.shape
     }
@@ -237,7 +237,8 @@ impl SmoothSide {
         self.gaps(node, other, pair, reach).filter(|gaps| gaps.facing > FACING)
     }
 
-    /// The same with what it was at rest, and how far the two sides face each other there.
+    /// Gaps between one of the nodes and another side, as [`SmoothSide::gap`] defines them, now and at rest (length), and how far the
+    /// two sides face each other there.
     pub fn gaps(&self, node: usize, other: &Self, pair: &Pair, reach: f64) -> Option<SideGaps> {
         let configuration = pair.configuration;
         let x = self.positions(configuration)[node];
@@ -253,11 +254,12 @@ impl SmoothSide {
             return None;
         }
         // The normal of the contact law is that of the side on which Γ_C lies, or bisects those of both.
-        let own = turn_right(self.undeformed.tangent(self.parameters[node])) * self.hand;
+        let own_outward = turn_right(self.undeformed.tangent(self.parameters[node])) * self.hand;
         let moved = (self.points[node] - self.places[node]) - (other.deformed.point(t) - other.undeformed.point(t));
         let is_inside = self.is_inside(self.parameters[node]) && other.is_inside(t);
-        let normal = self.bears.map_or_else(|| (outward - own).normalize(), |bears| if bears { -own } else { outward });
-        let (opened, facing) = (moved.dot(&normal), -own.dot(&outward));
+        let normal =
+            self.bears.map_or_else(|| (outward - own_outward).normalize(), |bears| if bears { -own_outward } else { outward });
+        let (opened, facing) = (moved.dot(&normal), -own_outward.dot(&outward));
         if configuration == Configuration::Deformed {
             return Some(SideGaps { now: drawn, at_rest: drawn - opened, facing, is_inside });
         }

@@ -59,7 +59,7 @@ impl Bow {
         (self.points[2] - self.points[0]).norm()
     }
 
-    /// Height of the midside node over the chord, as a share of it.
+    /// Height of the midside node over the chord, as a share of its length.
     pub fn height(&self) -> f64 {
         let [a, m, b] = self.points;
         cross(b - a, m - a).abs() / (b - a).norm_squared()

@@ -261,12 +261,12 @@ impl MacroMesh {
         if parts[0] == parts[1] {
             return Err(refused("lies inside a body"));
         }
-        let (own, other) =
+        let (same_kind, other_kind) =
             if parts[1].is_none() { (&self.boundaries, &self.interfaces) } else { (&self.interfaces, &self.boundaries) };
-        if other.iter().any(|curve| curve.name == name) {
+        if other_kind.iter().any(|curve| curve.name == name) {
             return Err(refused("lies between parts of a body while others bound one: name them apart"));
         }
-        let at = own.iter().position(|curve| curve.name == name);
+        let at = same_kind.iter().position(|curve| curve.name == name);
         let curves = if parts[1].is_none() { &mut self.boundaries } else { &mut self.interfaces };
         let at = at.unwrap_or_else(|| {
             curves.push(Boundary { name, edges: Vec::new(), is_union: false });

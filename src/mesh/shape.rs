@@ -99,7 +99,8 @@ impl MacroMesh {
         self.locate_near(triangle, x, NEAR)
     }
 
-    /// The same, where points outside count as inside up to the distance `near` (barycentric).
+    /// Reference coordinates `(xi, eta)` of a point in a macro triangle by Newton's method on its map; points outside count as inside
+    /// up to the distance `near` (barycentric), and nothing is found of those beyond.
     pub fn locate_near(&self, triangle: usize, x: Point, near: f64) -> Option<Point> {
         let [a, b, c] = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
         let size = (b - a).norm().max((c - a).norm()).max((c - b).norm());

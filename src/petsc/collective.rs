@@ -30,19 +30,19 @@ impl Session {
     /// Replaces each value by its sum over the ranks, bit for bit the same on every rank. **Collective**
     pub fn sum(&self, values: &mut [f64]) {
         let root = self.world().process_at_rank(0);
-        let own = values.to_vec();
+        let here = values.to_vec();
         if self.rank() == 0 {
-            root.reduce_into_root(&own[..], values, SystemOperation::sum());
+            root.reduce_into_root(&here[..], values, SystemOperation::sum());
         } else {
-            root.reduce_into(&own[..], SystemOperation::sum());
+            root.reduce_into(&here[..], SystemOperation::sum());
         }
         root.broadcast_into(values);
     }
 
     /// Replaces each value by its maximum over the ranks. **Collective**
     pub fn max(&self, values: &mut [f64]) {
-        let own = values.to_vec();
-        self.world().all_reduce_into(&own[..], values, SystemOperation::max());
+        let here = values.to_vec();
+        self.world().all_reduce_into(&here[..], values, SystemOperation::max());
     }
 
     /// Number of ranks on the machine of this one, which share its memory. **Collective**
