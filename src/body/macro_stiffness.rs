@@ -10,26 +10,10 @@ use crate::mesh::{Level, MacroMesh, Shapes, lattice};
 /// A P2 node couples to 18 others at a triangle corner and to 8 at a midside, by the parity of its `(i, j)`.
 pub fn neighbours(order: Order, i: usize, j: usize) -> &'static [(isize, isize)] {
     const LINEAR: [(isize, isize); 7] = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, -1), (-1, 1)];
+    #[rustfmt::skip]
     const CORNER: [(isize, isize); 19] = [
-        (0, 0),
-        (1, 0),
-        (-1, 0),
-        (0, 1),
-        (0, -1),
-        (1, -1),
-        (-1, 1),
-        (2, 0),
-        (-2, 0),
-        (0, 2),
-        (0, -2),
-        (2, -2),
-        (-2, 2),
-        (1, 1),
-        (-1, -1),
-        (2, -1),
-        (-2, 1),
-        (1, -2),
-        (-1, 2),
+        (0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, -1), (-1, 1),
+        (2, 0), (-2, 0), (0, 2), (0, -2), (2, -2), (-2, 2), (1, 1), (-1, -1), (2, -1), (-2, 1), (1, -2), (-1, 2),
     ];
     const HORIZONTAL: [(isize, isize); 9] = [(0, 0), (1, 0), (-1, 0), (-1, 2), (0, 1), (-1, 1), (1, -2), (0, -1), (1, -1)];
     const VERTICAL: [(isize, isize); 9] = [(0, 0), (0, 1), (0, -1), (2, -1), (1, 0), (1, -1), (-2, 1), (-1, 0), (-1, 1)];

@@ -2,7 +2,7 @@
 //! place.
 
 use super::GapChoice;
-use super::facing::{Across, Facing, Opposite, PLACES, Seen};
+use super::facing::{Across, Facing, Opposite, PLACES, Seen, largest_sagitta};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -68,7 +68,8 @@ impl Facing<'_> {
 
     /// Drawn boundaries that lie behind each other must lie in each other's bodies: an overlap.
     fn check_sides(&self, mesh: &MacroMesh, of_bodies: &[Vec<usize>], facing: &[Opposite]) -> Result<(), String> {
-        let least = POLYGONS * self.largest_sagitta(mesh) + 1e-6 * self.boundary.length();
+        let sagittas = largest_sagitta(mesh, &self.seen[0]) + largest_sagitta(mesh, &self.seen[1]);
+        let least = POLYGONS * sagittas + 1e-6 * self.boundary.length();
         let behind: Vec<&Opposite> = facing.iter().filter(|opposite| opposite.gap < -least).collect();
         let bodies = [0, 1].map(|k| self.seen[k].first().map(|seen| mesh.triangles[seen.edge.triangle].body as usize));
         let holds = |body: Option<usize>, x: Point| {

@@ -106,16 +106,11 @@ impl<'a> Facing<'a> {
         let edges = self.seen.iter().flatten().map(|seen| seen.edge.nodes[0].edge);
         edges.map(|edge| mesh.edge_length(edge)).fold(0.0, f64::max)
     }
-
-    /// How far chords of both boundaries lie from their arcs at most (length): declared ones from the small edges, others from those
-    /// of the mesh file.
-    pub(super) fn largest_sagitta(&self, mesh: &MacroMesh) -> f64 {
-        largest_sagitta(mesh, &self.seen[0]) + largest_sagitta(mesh, &self.seen[1])
-    }
 }
 
-/// How far chords of one boundary lie from their arcs at most (length).
-fn largest_sagitta(mesh: &MacroMesh, seen: &[Seen]) -> f64 {
+/// How far chords of one boundary lie from their arcs at most (length): declared ones from the small edges, others from those of the
+/// mesh file.
+pub fn largest_sagitta(mesh: &MacroMesh, seen: &[Seen]) -> f64 {
     let mut edges: Vec<u32> = seen.iter().map(|seen| seen.edge.nodes[0].edge).collect();
     edges.sort_unstable();
     edges.dedup();

@@ -140,9 +140,8 @@ impl<'a> Holding<'a> {
     fn new(pieces: &'a [Extent], supports: &'a [Condition], contacts: &'a [Touch]) -> Self {
         let supports = Conditions::new(supports);
         let contacts: Vec<[Conditions; 2]> =
-            contacts.iter().map(|touch| touch.each_ref().map(|conditions| Conditions::new(conditions))).collect();
-        let coupled =
-            std::iter::once(&supports).chain(contacts.iter().flatten()).flat_map(|conditions| conditions.gram.keys().copied());
+            contacts.iter().map(|touch| touch.each_ref().map(|all| Conditions::new(all))).collect();
+        let coupled = std::iter::once(&supports).chain(contacts.iter().flatten()).flat_map(|all| all.gram.keys().copied());
         let order = least_degrees(pieces.len(), coupled);
         Self { pieces, supports, contacts, order }
     }

@@ -177,8 +177,7 @@ impl Meeting {
 fn why_apart(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> String {
     let [first, second] = &pair.between;
     let is_undefined = |side: &SmoothSide, node: usize, others: &[SmoothSide]| {
-        let gaps = others.iter().filter_map(|other| side.gap(node, other, pair, other.length()));
-        gaps.map(f64::is_finite).any(|is_finite| !is_finite)
+        others.iter().any(|other| side.gap(node, other, pair, other.length()).is_some_and(|gap| !gap.is_finite()))
     };
     if let GapChoice::Formula(formula) = &pair.gap
         && let Some(x) = find_node(sides, is_undefined)

@@ -227,14 +227,13 @@ impl MacroMesh {
             for &vertex in &triangle.vertices {
                 let body = owner[vertex as usize].get_or_insert(triangle.body);
                 if *body != triangle.body {
-                    let (x, names) = (self.vertices[vertex as usize], [*body, triangle.body].map(|b| &self.bodies[b as usize]));
+                    let (x, [first, second]) =
+                        (self.vertices[vertex as usize], [*body, triangle.body].map(|b| &self.bodies[b as usize]));
                     let part = &self.parts[triangle.part as usize].name;
                     return Err(self.unusable(format!(
-                            "bodies \"{}\" and \"{}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
-                            names[0],
-                            names[1],
-                            Coordinates(x)
-                        )));
+                        "bodies \"{first}\" and \"{second}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
+                        Coordinates(x)
+                    )));
                 }
             }
         }
@@ -331,8 +330,7 @@ impl MacroMesh {
 
     /// Smallest angle of a macro triangle with straight sides (radians).
     pub fn smallest_angle(&self, triangle: usize) -> f64 {
-        let x = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
-        (0..3).map(|k| (x[(k + 1) % 3] - x[k]).angle(&(x[(k + 2) % 3] - x[k]))).fold(f64::INFINITY, f64::min)
+        smallest_angle(self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]))
     }
 
     /// Smallest box around all vertices of each piece: lower left and upper right corner.
@@ -347,4 +345,9 @@ impl MacroMesh {
         }
         bounds
     }
+}
+
+/// Smallest angle of a triangle with these corners (radians).
+pub(super) fn smallest_angle(x: [Point; 3]) -> f64 {
+    (0..3).map(|k| (x[(k + 1) % 3] - x[k]).angle(&(x[(k + 2) % 3] - x[k]))).fold(f64::INFINITY, f64::min)
 }

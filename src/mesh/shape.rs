@@ -51,10 +51,10 @@ impl MacroMesh {
                     _ => format!("lies beyond the range of t, from {} to {}, of", Rounded(first), Rounded(last)),
                 };
                 return Err(self.unusable(format!(
-                        "the node {} {far} [geometry.{geometry}] (nearest at t = {}); correct the formula, its range of t, or the mesh",
-                        Coordinates(here),
-                        Rounded(t)
-                    )));
+                    "the node {} {far} [geometry.{geometry}] (nearest at t = {}); correct the formula, its range of t, or the mesh",
+                    Coordinates(here),
+                    Rounded(t)
+                )));
             }
             if distance > 1e-14 * (here.norm() + length) {
                 self.vertices[vertex as usize] = there;
