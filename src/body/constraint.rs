@@ -29,7 +29,7 @@ pub struct Constraint {
     pub axis: Point,
     /// Which components of the frame are prescribed.
     pub fixed: [bool; 2],
-    /// Their values (length).
+    /// Values of the fixed components (length).
     pub value: [f64; 2],
 }
 

@@ -22,7 +22,7 @@ pub struct Halfway {
     pub parameter: f64,
     /// Parameters of the points of both sides that it lies between.
     pub feet: [f64; 2],
-    /// Its position.
+    /// Position of the point.
     pub place: Point,
     /// Length of boundary that it stands for.
     pub weight: f64,

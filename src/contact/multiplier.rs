@@ -50,7 +50,7 @@ impl DiagonalBlock {
 /// multiplier is its first.
 #[derive(Clone, Debug)]
 pub struct Multipliers {
-    /// Their space.
+    /// Space of the multipliers.
     pub space: MultiplierSpace,
     /// Strength `α` of the augmentation.
     pub alpha: f64,

@@ -51,7 +51,7 @@ impl<'a> NearPart<'a> {
         self.side.unrolled(self.nodes[1]) - self.side.unrolled(self.nodes[0])
     }
 
-    /// Its middle node, which may lie a turn farther; nothing if it goes all around.
+    /// Middle node of the part, which may lie a turn farther; nothing if it goes all around.
     fn middle(&self) -> Option<usize> {
         (!self.is_whole()).then(|| self.nodes.iter().sum::<usize>() / 2)
     }
@@ -69,7 +69,7 @@ impl<'a> NearPart<'a> {
         middle.map_or(0, |middle| (middle + count / 2) % count)
     }
 
-    /// Its nodes as they are counted from a seam of the stretch.
+    /// First and last node of the part as they are counted from a seam of the stretch.
     pub fn counted_from(&self, seam: usize) -> [usize; 2] {
         let ([first, last], count) = (self.nodes, self.side.nodes());
         let from = (first + count - seam) % count;

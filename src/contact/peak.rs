@@ -42,7 +42,7 @@ impl Parabola {
         Self { from, coefficients: [means[1] - b * q[0] - c * q[1], b, c] }
     }
 
-    /// Its largest value on an interval.
+    /// The largest value of the parabola on an interval.
     fn largest(&self, [start, end]: [f64; 2]) -> f64 {
         let [a, b, c] = self.coefficients;
         let crest = if c < 0.0 { (self.from - 0.5 * b / c).clamp(start, end) } else { start };

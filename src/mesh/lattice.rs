@@ -125,7 +125,7 @@ impl Triangle {
         Self { i, j, step: order.degree(), down }
     }
 
-    /// Its `N` nodes: 3 for P1, 6 for P2.
+    /// The `N` nodes of the triangle: 3 for P1, 6 for P2.
     #[inline]
     pub fn nodes<const N: usize>(&self) -> [(usize, usize); N] {
         let half = self.step as isize;

@@ -67,7 +67,7 @@ impl MacroEdge {
 pub struct Boundary {
     /// Name in the mesh file.
     pub name: String,
-    /// Its macro edges.
+    /// Macro edges of the curve.
     pub edges: Vec<u32>,
     /// Whether the case has made it of several physical curves.
     pub is_union: bool,
@@ -87,7 +87,7 @@ pub struct Surface {
 pub struct BodyPiece {
     /// Index of the body.
     pub body: usize,
-    /// Its first triangle.
+    /// First macro triangle of the piece.
     pub first: u32,
 }
 

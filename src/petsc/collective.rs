@@ -77,7 +77,7 @@ impl Session {
     /// What rank 0 has got, on every rank: it alone reads, so that all work on the same bytes. **Collective**
     ///
     /// # Errors
-    /// Those of rank 0, in its words, on every rank.
+    /// The error of rank 0, in its words, on every rank.
     pub fn share<E: ToString>(
         &self,
         on_rank_0: impl FnOnce() -> std::result::Result<Vec<u8>, E>,

@@ -84,7 +84,7 @@ impl Krylov {
         petsc!(KSPSetUp(self.raw))
     }
 
-    /// Its preconditioner.
+    /// The preconditioner of the solver.
     pub fn preconditioner(&self) -> Preconditioner {
         let mut raw = ptr::null_mut();
         let shared = petsc!(KSPGetPC(self.raw, &mut raw)).and_then(|()| Preconditioner::share(&self.session, raw));
