@@ -29,7 +29,7 @@ pub struct Constraint {
     pub axis: Point,
     /// Which components of the frame are prescribed.
     pub fixed: [bool; 2],
-    /// Their values (length).
+    /// Values of the fixed components (length).
     pub value: [f64; 2],
 }
 
@@ -165,8 +165,8 @@ impl Constraints {
 fn first_clash(holds: &AllHolds) -> SupportError {
     let mut all: Vec<&(Point, Vec<Hold>)> = holds.values().collect();
     all.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let found = all.into_iter().find_map(|(x, holds)| combine(*x, holds).err());
-    found.unwrap_or_else(|| SupportError("supports contradict each other".into()))
+    let clash = all.into_iter().find_map(|(x, holds)| combine(*x, holds).err());
+    clash.unwrap_or_else(|| SupportError("supports contradict each other".into()))
 }
 
 /// Holds both components of every node of a rigid set, where its prescribed motion puts it.
@@ -201,10 +201,10 @@ fn hold_rigidly<'a>(
 pub struct Holders(HashMap<usize, Vec<(usize, Point)>>);
 
 impl Holders {
-    /// Those of a level.
+    /// Supports of all nodes of a level.
     ///
     /// # Errors
-    /// As of [`Constraints::new`].
+    /// [`SupportError`] if a formula of a support has no finite value at a node.
     pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
         let number = |by: HeldBy| supports.iter().position(|support| by == HeldBy::Support(&support.name)).unwrap_or_default();
         let of_node = |holds: &[Hold]| holds.iter().map(|hold| (number(hold.by), hold.direction)).collect();
@@ -305,9 +305,9 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
     };
     let u = constraint.to_global(constraint.prescribed());
     for hold in holds {
-        let found = u.dot(&hold.direction);
+        let along = u.dot(&hold.direction);
         // Against the whole displacement: two supports that fix a node leave rounding of it in the direction of a third.
-        if (found - hold.value).abs() > 1e-9 * (u.norm() + hold.value.abs()) {
+        if (along - hold.value).abs() > 1e-9 * (u.norm() + hold.value.abs()) {
             let others: Vec<_> = holds.iter().filter(|h| h.by != hold.by).map(|h| h.by.to_string()).collect();
             return Err(SupportError(format!(
                 "{} asks for displacement {} in direction ({:.6}, {:.6}) at {}, {} for {}; leave one of them out there",
@@ -317,7 +317,7 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
                 hold.direction.y,
                 Coordinates(x),
                 others.join(" and "),
-                Rounded(found)
+                Rounded(along)
             )));
         }
     }

@@ -10,26 +10,10 @@ use crate::mesh::{Level, MacroMesh, Shapes, lattice};
 /// A P2 node couples to 18 others at a triangle corner and to 8 at a midside, by the parity of its `(i, j)`.
 pub fn neighbours(order: Order, i: usize, j: usize) -> &'static [(isize, isize)] {
     const LINEAR: [(isize, isize); 7] = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, -1), (-1, 1)];
+    #[rustfmt::skip]
     const CORNER: [(isize, isize); 19] = [
-        (0, 0),
-        (1, 0),
-        (-1, 0),
-        (0, 1),
-        (0, -1),
-        (1, -1),
-        (-1, 1),
-        (2, 0),
-        (-2, 0),
-        (0, 2),
-        (0, -2),
-        (2, -2),
-        (-2, 2),
-        (1, 1),
-        (-1, -1),
-        (2, -1),
-        (-2, 1),
-        (1, -2),
-        (-1, 2),
+        (0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, -1), (-1, 1),
+        (2, 0), (-2, 0), (0, 2), (0, -2), (2, -2), (-2, 2), (1, 1), (-1, -1), (2, -1), (-2, 1), (1, -2), (-1, 2),
     ];
     const HORIZONTAL: [(isize, isize); 9] = [(0, 0), (1, 0), (-1, 0), (-1, 2), (0, 1), (-1, 1), (1, -2), (0, -1), (1, -1)];
     const VERTICAL: [(isize, isize); 9] = [(0, 0), (0, 1), (0, -1), (2, -1), (1, 0), (1, -1), (-2, 1), (-1, 0), (-1, 1)];
@@ -70,14 +54,15 @@ impl MacroStiffness {
     /// turned inside out it finds those with a node there.
     ///
     /// # Errors
-    /// As [`MacroStiffness::new`].
+    /// [`BadJacobian`] if one of those triangles is turned inside out.
     pub fn of_sides(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneLaw) -> Result<Self, BadJacobian> {
         let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
         let few = shapes.as_ref().is_some_and(Shapes::is_one);
         Self::of_shapes(mesh, triangle, level, law, shapes, !few)
     }
 
-    /// The same from the shapes of its triangles; without them each is integrated by itself.
+    /// Stiffness from the shapes of the small triangles; without shapes each small triangle is integrated by itself. With `sides` it has
+    /// the rows of the nodes on the sides alone.
     fn of_shapes(
         mesh: &MacroMesh,
         triangle: usize,

@@ -33,9 +33,9 @@ pub struct MeanHold {
 /// A rigid mode of a body whose mean is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldMode {
-    /// Its key in the case file, as `ux` or `angle`.
+    /// Key of the mode in the case file, as `ux` or `angle`.
     pub key: &'static str,
-    /// Its shifts along x and y, and its turn about the middle of the body: a shift by one (length), or a turn by one (radian).
+    /// Shifts along x and y, and the turn about the middle of the body: a shift by one (length), or a turn by one (radian).
     pub mode: Motion,
     /// How far the body moves along it in the mean (length, or radians).
     pub value: f64,

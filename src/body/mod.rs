@@ -36,7 +36,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Its law in the plane.
+    /// Law of the material in the plane.
     pub fn law(&self) -> PlaneLaw {
         PlaneLaw::new(self.young, self.poisson, self.plane)
     }
@@ -64,7 +64,7 @@ impl Material {
 pub struct Body {
     /// Name in the case file.
     pub name: String,
-    /// Its parts: one of the same name, unless the case gives parts.
+    /// Parts of the body: one of the same name, unless the case gives parts.
     pub parts: Vec<BodyPart>,
 }
 
@@ -73,7 +73,7 @@ pub struct Body {
 pub struct BodyPart {
     /// Name of the physical surface.
     pub name: String,
-    /// Its material.
+    /// Material of the part.
     pub material: Material,
     /// Force per area, formulas of `x, y`.
     pub force: [Formula; 2],

@@ -19,18 +19,18 @@ pub fn rigid_displacement(about: Point, [along, up, turn]: &Motion, x: Point) ->
 /// Which nodes move together.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RigidNodes {
-    /// Those on all macro edges of a body; what lies within its triangles follows.
+    /// The nodes on all macro edges of a body; what lies within its triangles follows.
     Body(String),
-    /// Those on physical curves.
+    /// The nodes on physical curves.
     Boundaries(Vec<String>),
 }
 
 /// Nodes that move together as a rigid body, and what is known of their motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidSet {
-    /// Its key in the case file, as in `rigid.die`.
+    /// Key of the set in the case file, as in `rigid.die`.
     pub key: String,
-    /// Its nodes.
+    /// Nodes of the set.
     pub nodes: RigidNodes,
     /// Reference point, which it turns about.
     pub about: Point,
@@ -51,7 +51,7 @@ impl RigidSet {
         rigid_displacement(self.about, motion, x)
     }
 
-    /// Its motion where every component that is not prescribed is zero.
+    /// Motion of the set where every component that is not prescribed is zero.
     pub fn prescribed_motion(&self) -> Motion {
         self.prescribed.map(|component| component.unwrap_or(0.0))
     }

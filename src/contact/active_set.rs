@@ -5,7 +5,7 @@ use super::ascent::{Ascent, SetSolution};
 /// What a new active set means for the loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SetChange {
-    /// The same set as before: done.
+    /// The set that was solved for stays: done.
     Settled,
     /// A set not seen before: solve again.
     Changed {
@@ -38,7 +38,7 @@ impl ActiveSet {
         Self { tried: vec![active.clone()], active, bilateral, ascent: None }
     }
 
-    /// The same, beginning with another set; bilateral multipliers are active whatever it says.
+    /// Begins with another set, as if none had been tried; bilateral multipliers are active whatever it says.
     pub fn starting_from(self, active: &[bool]) -> Self {
         let active: Vec<bool> = active.iter().zip(&self.bilateral).map(|(&active, &bilateral)| active || bilateral).collect();
         Self { tried: vec![active.clone()], active, ..self }
@@ -66,15 +66,18 @@ impl ActiveSet {
         if next == self.active {
             return SetChange::Settled;
         }
-        let changed: Vec<usize> = (0..next.len()).filter(|&i| next[i] != self.active[i]).collect();
-        let added = changed.iter().filter(|&&i| next[i]).count();
-        let change = SetChange::Changed { added, released: changed.len() - added };
-        self.active = next;
+        let before = std::mem::replace(&mut self.active, next);
+        self.change_from(&before)
+    }
+
+    /// What the set is after another one; from here on it counts as tried.
+    fn change_from(&mut self, before: &[bool]) -> SetChange {
         if self.tried.contains(&self.active) {
             return SetChange::Repeated;
         }
         self.tried.push(self.active.clone());
-        change
+        let count = |now: bool| self.active.iter().zip(before).filter(|&(&is, &was)| is != was && is == now).count();
+        SetChange::Changed { added: count(true), released: count(false) }
     }
 
     /// Gives up the plain rule: from here on sets follow by [`ActiveSet::ascend`], and those that were tried before count anew.
@@ -93,14 +96,8 @@ impl ActiveSet {
     pub fn ascend(&mut self, found: &SetSolution) -> SetChange {
         let Some(ascent) = &mut self.ascent else { return SetChange::Settled };
         let Some(next) = ascent.next(&self.active, &self.bilateral, found) else { return SetChange::Settled };
-        let added = next.iter().zip(&self.active).filter(|&(&is, &was)| is && !was).count();
-        let released = next.iter().zip(&self.active).filter(|&(&is, &was)| was && !is).count();
-        self.active = next;
-        if self.tried.contains(&self.active) {
-            return SetChange::Repeated;
-        }
-        self.tried.push(self.active.clone());
-        SetChange::Changed { added, released }
+        let before = std::mem::replace(&mut self.active, next);
+        self.change_from(&before)
     }
 
     /// Closes `more` multipliers in the set that was found last, before anything is solved for it, and says what that makes of the
@@ -113,12 +110,7 @@ impl ActiveSet {
         if self.active == solved {
             return SetChange::Settled;
         }
-        if self.tried.contains(&self.active) {
-            return SetChange::Repeated;
-        }
-        self.tried.push(self.active.clone());
-        let count = |now: bool| self.active.iter().zip(solved).filter(|&(&is, &was)| is != was && is == now).count();
-        SetChange::Changed { added: count(true), released: count(false) }
+        self.change_from(solved)
     }
 
     /// Forgets the sets tried so far, because the solves become more exact from here on.

@@ -16,8 +16,8 @@
 //! seats of a slender leaf, 190 multipliers, flat and wavy, solved densely: the plain rule took 84 sets from all closed (median;
 //! 124 at most), principal pivoting with a safeguard (Kim, Park) up to 623, rising energy 13 (18 at most), from any first set.
 
-/// By what factor fewer multipliers are added if the energy did not rise.
-const FEWER: usize = 4;
+/// Factor by which fewer multipliers are added where the energy has not risen.
+const REDUCTION: usize = 4;
 
 /// What was solved for a set, for every multiplier.
 #[derive(Clone, Copy, Debug)]
@@ -55,23 +55,23 @@ impl Ascent {
     }
 
     /// The set to be solved for next; nothing if the energy rises no more.
-    pub fn next(&mut self, active: &[bool], bilateral: &[bool], found: &SetSolution) -> Option<Vec<bool>> {
-        let pulls = |i: &usize| active[*i] && !bilateral[*i] && found.lambda[*i] < 0.0;
+    pub fn next(&mut self, active: &[bool], bilateral: &[bool], solution: &SetSolution) -> Option<Vec<bool>> {
+        let pulls = |i: &usize| active[*i] && !bilateral[*i] && solution.lambda[*i] < 0.0;
         let pulling: Vec<usize> = (0..active.len()).filter(pulls).collect();
         if !pulling.is_empty() {
             let mut next = active.to_vec();
-            self.released(&pulling, found).into_iter().for_each(|i| next[i] = false);
+            self.released(&pulling, solution).into_iter().for_each(|i| next[i] = false);
             return Some(next);
         }
-        let rises = self.highest.as_ref().is_none_or(|highest| highest.gain(active, found) > 0.0);
+        let rises = self.highest.as_ref().is_none_or(|highest| highest.gain(active, solution) > 0.0);
         if rises {
-            let (lambda, penetration) = (found.lambda.to_vec(), found.penetration.to_vec());
+            let (lambda, penetration) = (solution.lambda.to_vec(), solution.penetration.to_vec());
             self.highest = Some(Highest { active: active.to_vec(), lambda, penetration });
             self.added = usize::MAX;
         } else if self.added <= 1 {
             return None;
         } else {
-            self.added = (self.added / FEWER).max(1);
+            self.added = (self.added / REDUCTION).max(1);
         }
         let highest = self.highest.as_ref()?;
         let mut penetrating: Vec<usize> =
@@ -79,7 +79,7 @@ impl Ascent {
         if penetrating.is_empty() {
             return None;
         }
-        let depth = |i: usize| found.penalty[i] * highest.penetration[i];
+        let depth = |i: usize| solution.penalty[i] * highest.penetration[i];
         penetrating.sort_by(|&a, &b| depth(b).total_cmp(&depth(a)));
         penetrating.truncate(self.added);
         self.added = penetrating.len();
@@ -91,12 +91,12 @@ impl Ascent {
 
     /// Which of the pulling multipliers are released: all of them, or on the way from one point to the next those that pass
     /// zero first.
-    fn released(&mut self, pulling: &[usize], found: &SetSolution) -> Vec<usize> {
+    fn released(&mut self, pulling: &[usize], solution: &SetSolution) -> Vec<usize> {
         let Some(way) = &mut self.way else { return pulling.to_vec() };
-        let share = |way: &[f64], i: usize| way[i] / (way[i] - found.lambda[i]);
+        let share = |way: &[f64], i: usize| way[i] / (way[i] - solution.lambda[i]);
         let first = pulling.iter().map(|&i| share(way, i)).fold(1.0, f64::min);
         let released = pulling.iter().copied().filter(|&i| share(way, i) <= first).collect();
-        way.iter_mut().zip(found.lambda).for_each(|(value, goal)| *value = (*value + first * (goal - *value)).max(0.0));
+        way.iter_mut().zip(solution.lambda).for_each(|(value, goal)| *value = (*value + first * (goal - *value)).max(0.0));
         released
     }
 }
@@ -104,10 +104,10 @@ impl Ascent {
 impl Highest {
     /// How much higher the dual energy of another set is (twice, per depth): `(p + p')ᵀ(λ' - λ)`, because the penetration p
     /// is the gradient of the energy; p is zero on its own set.
-    fn gain(&self, active: &[bool], found: &SetSolution) -> f64 {
+    fn gain(&self, active: &[bool], solution: &SetSolution) -> f64 {
         let pairs = (0..active.len()).map(|i| match (self.active[i], active[i]) {
-            (false, true) => self.penetration[i] * found.lambda[i],
-            (true, false) => -found.penetration[i] * self.lambda[i],
+            (false, true) => self.penetration[i] * solution.lambda[i],
+            (true, false) => -solution.penetration[i] * self.lambda[i],
             _ => 0.0,
         });
         pairs.sum()

@@ -4,9 +4,9 @@
 //! through the nodes of both sides would follow one side where the other has no node, and turn its normal there: as bodies
 //! slide, a normal that turns unevenly acts like a curvature that they do not have.
 
-use super::smooth_side::SmoothSide;
-use super::{ContactBoundary, Pair};
-use crate::geometry::{Curve, Point, Spline, turn_right};
+use super::halfway::{BEYOND, Halfway, halfway, parameters_between, sort};
+use super::{Pair, SmoothSide};
+use crate::geometry::{Curve, FitSample, Spline};
 use std::ops::Range;
 
 /// Spans at most.
@@ -15,42 +15,14 @@ const MOST_SPANS: usize = 64;
 /// Spans of a closed curve at least.
 const LEAST_AROUND: usize = 4;
 
-/// Corrections of the points half-way; each leaves a share of the square of the angle between the sides.
+/// Corrections of the points half-way at least; each leaves a share of the square of the angle between the sides.
 const CORRECTIONS: usize = 2;
 
-/// The same at most, where round bodies part from each other by a large angle, until the points move by less than this share of the
-/// curve.
+/// Corrections of the points half-way at most, where round bodies part from each other by a large angle.
 const MOST_CORRECTIONS: usize = 12;
+
+/// Points that move by less than this share of the curve need no further correction.
 const CENTRED: f64 = 1e-3;
-
-/// Share of the curve by which a foot goes along its side in one correction at most: the normal of a curve that is not half-way yet may
-/// meet a round body on its far side.
-const NEAR_BY: f64 = 0.1;
-
-/// A point half-way between two sides.
-#[derive(Clone, Copy, Debug)]
-struct Halfway {
-    /// Parameter of the curve: that of the first side.
-    parameter: f64,
-    /// Parameters of the points of both sides that it lies between.
-    feet: [f64; 2],
-    /// Where it lies.
-    place: Point,
-    /// Length that it stands for.
-    weight: f64,
-    /// Whether the normal of the curve there meets both sides near its feet; the curve is no better than a guess where it does not.
-    is_between: bool,
-}
-
-/// Places along a side between which its points are taken, at least: long edges, of a coarse mesh or beside short ones, leave spans of
-/// the curve without data otherwise.
-const PLACES: usize = 16;
-
-/// Share of the data's length by which the curve may go on to the end of a side, and a foot lie beyond one.
-const BEYOND: f64 = 1e-3;
-
-/// A sample of a fit: parameter, place, weight.
-type FitSample = (f64, Point, f64);
 
 /// The curve half-way between two sides.
 pub struct Bisector {
@@ -74,7 +46,7 @@ impl Bisector {
     /// The closed curve between two closed sides that face each other all around.
     ///
     /// # Errors
-    /// Words, as above, or if the pair wants fewer spans than a closed curve needs.
+    /// Words, if the sides do not face each other, or if the pair wants more spans than they bear, or fewer than a closed curve needs.
     pub fn around(sides: [&SmoothSide; 2], pair: &Pair) -> Result<Self, String> {
         if let Some(spans) = pair.spans.filter(|&spans| spans < LEAST_AROUND) {
             return Err(format!(
@@ -115,7 +87,7 @@ impl Bisector {
             let mut next = points.clone();
             let moved = next.iter_mut().map(|point| point.centre(&curve, curves, whole)).fold(0.0, f64::max);
             // A first guess that is far off says nothing of most points, and no curve goes through less than two places.
-            let (first, last) = parameters_between(&next);
+            let [first, last] = parameters_between(&next);
             if 2 * next.iter().filter(|point| point.is_between).count() < next.len() || first >= last {
                 break;
             }
@@ -126,86 +98,10 @@ impl Bisector {
                 break;
             }
         }
-        let data = <[f64; 2]>::from(parameters_between(&points));
+        let data = parameters_between(&points);
         let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);
         Ok(Self { curve, limits })
     }
-}
-
-impl Halfway {
-    /// Moves it to the middle between the sides, along the normal of a curve that is nearly half-way, with the parameter of the point
-    /// of the first side that this normal meets; by how much is returned. Feet of the nodes of one side and of the other are not alike
-    /// where the sides part: a fit to both would turn at its ends.
-    fn centre(&mut self, curve: &Curve, sides: [&Curve; 2], whole: f64) -> f64 {
-        let before = self.place;
-        let (x, normal) = (curve.point(self.parameter), turn_right(curve.tangent(self.parameter)));
-        let hits = [0, 1].map(|k| sides[k].hit_from(self.feet[k], x, normal));
-        let near = |hit: f64, foot: f64| (hit - foot).abs() <= NEAR_BY * whole;
-        self.is_between = hits.iter().zip(&self.feet).all(|(hit, foot)| hit.is_some_and(|hit| near(hit, *foot)));
-        if let ([Some(first), Some(second)], true) = (hits, self.is_between) {
-            self.feet = [first, second];
-            self.parameter = first;
-            let away = [0, 1].map(|k| (sides[k].point(self.feet[k]) - x).dot(&normal));
-            self.place = x + 0.5 * (away[0] + away[1]) * normal;
-        }
-        (self.place - before).norm()
-    }
-}
-
-/// The smallest and the largest parameter of the points that lie between the sides.
-fn parameters_between(points: &[Halfway]) -> (f64, f64) {
-    let between = points.iter().filter(|point| point.is_between).map(|point| point.parameter);
-    between.fold((f64::INFINITY, f64::NEG_INFINITY), |(first, last), t| (first.min(t), last.max(t)))
-}
-
-/// By their parameters.
-fn sort(points: &mut [Halfway]) {
-    points.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
-}
-
-/// Points half-way between the nodes of each side, and places between few of them, and their feet on the other side, where there is
-/// one that looks back.
-fn halfway(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair) -> Vec<Halfway> {
-    let configuration = pair.configuration;
-    let mut points = Vec::new();
-    for (k, nodes) in nodes.iter().enumerate() {
-        let (side, other) = (sides[k], sides[1 - k]);
-        let (own_curve, other_curve) = (side.curve(configuration), other.curve(configuration));
-        if nodes.is_empty() {
-            continue;
-        }
-        let last = side.parameters.len() - 1;
-        let whole = side.parameters[(nodes.end - 1).min(last)] - side.parameters[nodes.start];
-        // Between two bodies that end at one line of symmetry, the normal at the end of one may just miss the other.
-        let (longest, least) = (whole / PLACES as f64, (1e-9 * other.length()).max(BEYOND * whole));
-        let parts = |node: usize| match nodes.contains(&(node + 1)) {
-            true => ((side.parameters[node + 1] - side.parameters[node]) / longest).ceil().max(1.0) as usize,
-            false => 1,
-        };
-        for (node, step, between) in nodes.clone().flat_map(|node| (0..parts(node)).map(move |step| (node, step, parts(node)))) {
-            let next = (node + 1).min(last);
-            let share = step as f64 / between as f64;
-            let own = side.parameters[node] + share * (side.parameters[next] - side.parameters[node]);
-            let x = if step == 0 { side.positions(configuration)[node] } else { own_curve.point(own) };
-            let foot = other.nearest(x, configuration);
-            if other.turn().is_none() && (foot < -least || foot > other.length() + least) {
-                continue;
-            }
-            if !side.looks_at(own, other, foot, configuration) {
-                continue;
-            }
-            let feet = if k == 0 { [own, foot] } else { [foot, own] };
-            let place = 0.5 * (x + other_curve.point(foot));
-            points.push(Halfway {
-                parameter: feet[0],
-                feet,
-                place,
-                weight: side.weight(node) / between as f64,
-                is_between: true,
-            });
-        }
-    }
-    points
 }
 
 /// The part of the curve that both sides see: the data, but up to the feet of the ends of a side and no farther. Least squares
@@ -228,39 +124,6 @@ fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve
         }
     }
     limits
-}
-
-/// Largest distance from a side of those points of Γ_C that are farther from one of the two sides than the sides are from
-/// each other and an edge; nothing if there are none.
-pub fn stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -> Option<f64> {
-    let knots = boundary.knots();
-    let places = knots.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]).chain([knots[knots.len() - 1]]);
-    let longest = sides.iter().map(|side| side.edge_length(0, side.points.len() - 1)).fold(0.0, f64::max);
-    let mut worst: f64 = 0.0;
-    for x in places.map(|t| boundary.point(t)) {
-        let feet = sides.map(|side| side.nearest(x, pair.configuration).clamp(0.0, side.length()));
-        let [a, b] = [0, 1].map(|k| sides[k].curve(pair.configuration).point(feet[k]));
-        let away = (x - a).norm().max((x - b).norm());
-        if away > (a - b).norm() + longest {
-            worst = worst.max(away);
-        }
-    }
-    (worst > 0.0).then_some(worst)
-}
-
-/// How much longer than the longer of two sides Γ_C may be between its ends: half-way it is shorter.
-const LONGER: f64 = 0.1;
-
-/// Whether Γ_C is longer than both sides are between its ends: a fit that swings where long edges leave it few data.
-pub fn swings(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair) -> bool {
-    let knots = boundary.knots();
-    let ends = [knots[0], knots[knots.len() - 1]].map(|t| boundary.point(t));
-    let stretch = |side: &SmoothSide| {
-        let [a, b] = ends.map(|end| side.nearest(end, pair.configuration));
-        let way = (b - a).abs();
-        side.turn().map_or(way, |turn| way.min(turn - way))
-    };
-    !boundary.is_closed() && boundary.length() > (1.0 + LONGER) * stretch(sides[0]).max(stretch(sides[1]))
 }
 
 /// Even spans that samples, ascending, fill with two each at least: one without any would be anything.
@@ -298,6 +161,13 @@ fn fit_by_the_data(samples: &[FitSample], wish: Option<usize>, turn: Option<f64>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::samples::seam;
+    use crate::contact::{Configuration, CurveChoice, EndRule};
+    use crate::element::Order;
+    use crate::geometry::{Point, turn_right};
+    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{EdgeNode, Level, Numbering, Partition};
+    use std::rc::Rc;
 
     fn on_arc(radius: f64, count: usize) -> Vec<FitSample> {
         let sample = |k: usize| {
@@ -325,13 +195,6 @@ mod tests {
         assert!(spans(&spline) <= 8, "{} spans are empty", spans(&spline));
         assert!(all.iter().all(|(t, x, _)| (spline.point(*t) - x).norm() < 1e-4));
     }
-
-    use crate::contact::samples::seam;
-    use crate::contact::{Configuration, CurveChoice, EndRule};
-    use crate::element::Order;
-    use crate::mesh::samples::two_blocks;
-    use crate::mesh::{EdgeNode, Level, Numbering, Partition};
-    use std::rc::Rc;
 
     fn pair(between: [&str; 2]) -> Pair {
         Pair {
@@ -409,23 +272,6 @@ mod tests {
                 assert!((slope.y / slope.x).abs() < 0.2, "turned by {turned}: it turns at {x}: {slope}");
                 assert!((0.7..1.1).contains(&slope.x), "turned by {turned}: it runs unevenly at {x}: {slope}");
             }
-        }
-    }
-
-    /// A boundary between two flat sides is where it should be; one that leaves them is told with its distance.
-    #[test]
-    fn a_boundary_that_leaves_both_sides_is_told_with_its_distance() {
-        let mesh = two_blocks();
-        let partition = Rc::new(Partition::new(&mesh, &[0; 6], 1));
-        let numbering = Numbering::new(Level { intervals: 16, order: Order::P2 }, &partition);
-        let pair = pair(["lower.seam", "upper.seam"]);
-        let sides = SmoothSide::of_pair(&mesh, &numbering, &pair, &|_| Point::zeros());
-        let sides = [&sides[0][0], &sides[1][0]];
-        for (end, distance) in [([2.0, 1.0], None), ([2.0, 1.8], Some(0.8)), ([2.6, 1.0], Some(0.6))] {
-            let boundary = ContactBoundary::new(Curve::Line([[0.0, 1.0], end]), [0.0, 1.0], Point::new(0.0, 1.0));
-            let found = stray(sides, &boundary, &pair);
-            assert_eq!(found.is_some(), distance.is_some(), "{end:?}: {found:?}");
-            assert!((found.unwrap_or(0.0) - distance.unwrap_or(0.0)).abs() < 1e-9, "{end:?}: {found:?}");
         }
     }
 }

@@ -68,8 +68,8 @@ impl BlockFactor {
             let column: Vec<(usize, Matrix3<f64>)> =
                 below.iter().map(|(&row, block)| (row, factor.solve(&block.transpose()).transpose())).collect();
             for (k, (&other, block)) in below.iter().enumerate() {
-                for (row, own) in &column[k..] {
-                    *rest[other].entry(*row).or_default() -= own * block.transpose();
+                for (row, factor_block) in &column[k..] {
+                    *rest[other].entry(*row).or_default() -= factor_block * block.transpose();
                 }
             }
             columns.push(column);
@@ -88,8 +88,8 @@ impl BlockFactor {
         let mut values = vec![Vector3::zeros(); self.place.len()];
         self.place.iter().enumerate().for_each(|(row, &at)| values[at] = b.fixed_rows::<3>(3 * row).into_owned());
         for (at, column) in self.columns.iter().enumerate() {
-            let own = values[at];
-            column.iter().for_each(|(below, block)| values[*below] -= block * own);
+            let value = values[at];
+            column.iter().for_each(|(below, block)| values[*below] -= block * value);
         }
         values.iter_mut().zip(&self.pivots).for_each(|(value, (_, factor))| *value = factor.solve(value));
         self.backwards(values)
@@ -108,8 +108,8 @@ impl BlockFactor {
     /// and of what was eliminated before.
     pub fn softest(&self) -> DVector<f64> {
         let eigen: Vec<_> = self.pivots.iter().map(|(pivot, _)| SymmetricEigen::new(*pivot)).collect();
-        let least = eigen.iter().map(|own| own.eigenvalues.min()).fold(f64::INFINITY, f64::min);
-        let at = eigen.iter().position(|own| own.eigenvalues.min() <= 2.0 * least).unwrap_or(0);
+        let least = eigen.iter().map(|block| block.eigenvalues.min()).fold(f64::INFINITY, f64::min);
+        let at = eigen.iter().position(|block| block.eigenvalues.min() <= 2.0 * least).unwrap_or(0);
         let mut values = vec![Vector3::zeros(); self.place.len()];
         values[at] = eigen[at].eigenvectors.column(eigen[at].eigenvalues.imin()).into_owned();
         let mut softest = self.backwards(values).normalize();
@@ -132,10 +132,10 @@ impl BlockFactor {
         for (i, left) in halves.iter().enumerate() {
             for (j, right) in halves[..=i].iter().enumerate() {
                 let mut sum = Matrix3::zeros();
-                let mut own = left.iter().peekable();
+                let mut column = left.iter().peekable();
                 for (at, block) in right {
-                    while own.next_if(|(other, _)| other < at).is_some() {}
-                    if let Some((_, other)) = own.next_if(|(other, _)| other == at) {
+                    while column.next_if(|(other, _)| other < at).is_some() {}
+                    if let Some((_, other)) = column.next_if(|(other, _)| other == at) {
                         sum += other.tr_mul(block);
                     }
                 }
@@ -152,9 +152,9 @@ impl BlockFactor {
         values[self.place[row]] = Matrix3::identity();
         let mut next = Some(self.place[row]);
         while let Some(at) = next {
-            let own = values[at];
-            self.columns[at].iter().for_each(|(below, block)| values[*below] -= block * own);
-            half.push((at, self.pivots[at].1.l_dirty().solve_lower_triangular_unchecked(&own)));
+            let value = values[at];
+            self.columns[at].iter().for_each(|(below, block)| values[*below] -= block * value);
+            half.push((at, self.pivots[at].1.l_dirty().solve_lower_triangular_unchecked(&value)));
             next = self.columns[at].first().map(|(below, _)| *below);
         }
         half

@@ -32,7 +32,7 @@ pub struct ClosePair {
     pub bodies: [usize; 2],
     /// Least distance at which they face each other (length); negative where they overlap.
     pub distance: f64,
-    /// The same as a share of the smaller body.
+    /// Size of that distance as a share of the smaller body.
     pub share: f64,
 }
 
@@ -48,9 +48,9 @@ struct Sight {
 
 /// What may be one side of a contact: boundaries of one body, or the surface of a rigid tool.
 pub struct CloseSide {
-    /// Its body; nothing of a tool.
+    /// Index of the body; nothing of a tool.
     body: Option<usize>,
-    /// Its macro edges, in ascending order.
+    /// Macro edges of the boundaries, in ascending order.
     edges: Vec<u32>,
     length: f64,
     sights: Vec<Sight>,
@@ -89,12 +89,12 @@ impl CloseSide {
             let [from, to] = part.range;
             let at = |k: usize| from + (to - from) * k as f64 / PLACES_OF_TOOL as f64;
             let points: Vec<Point> = (0..=PLACES_OF_TOOL).map(|k| part.curve.point(at(k))).collect();
-            let own: f64 = points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
-            length += own;
+            let part_length: f64 = points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+            length += part_length;
             for (k, &place) in points.iter().enumerate() {
                 let normal = turn_right(part.curve.tangent(at(k)));
                 let is_end = k == 0 || k == PLACES_OF_TOOL;
-                let sight = |normal| Sight { place, normal, spacing: own / PLACES_OF_TOOL as f64, is_end };
+                let sight = |normal| Sight { place, normal, spacing: part_length / PLACES_OF_TOOL as f64, is_end };
                 sights.extend([sight(normal), sight(-normal)]);
             }
         }
@@ -109,7 +109,7 @@ impl CloseSide {
         Self { body, edges, length, sights, around, spacing }
     }
 
-    /// Places of it that are within a distance of the box around another side.
+    /// Places of the side that are within a distance of the box around another side.
     fn near(&self, other: &Self, distance: f64) -> Vec<&Sight> {
         let [low, high] = [other.around[0].add_scalar(-distance), other.around[1].add_scalar(distance)];
         self.sights.iter().filter(|sight| sight.place >= low && sight.place <= high).collect()
@@ -136,7 +136,7 @@ impl CloseSide {
         least.filter(|_| is_faced)
     }
 
-    /// Whether another side has an edge of it.
+    /// Whether this side and another have an edge in common.
     fn shares_edges(&self, other: &Self) -> bool {
         let (few, many) = if self.edges.len() < other.edges.len() { (self, other) } else { (other, self) };
         few.edges.iter().any(|edge| many.edges.binary_search(edge).is_ok())
@@ -148,7 +148,7 @@ struct FacingSides {
     sides: [usize; 2],
     /// Least distance (length); negative where they overlap.
     distance: f64,
-    /// The same as a share of the smaller body.
+    /// Size of that distance as a share of the smaller body.
     share: f64,
     length: f64,
 }
@@ -167,15 +167,15 @@ fn facing_sides(mesh: &MacroMesh, sides: &[CloseSide], most: f64, is_asked: impl
         Disc { middle: 0.5 * (low + high), radius }
     };
     let discs: Vec<Disc> = sides.iter().map(disc).collect();
-    let mut found = Vec::new();
+    let mut candidates = Vec::new();
     overlapping_discs(&discs, &discs, |a, b| {
         let bodies = [sides[a].body, sides[b].body];
         if a < b && bodies[0] != bodies[1] && is_asked(a, b) {
             let is_turned = bodies[1].is_some_and(|second| bodies[0].is_none_or(|first| second < first));
-            found.push(if is_turned { [b, a] } else { [a, b] });
+            candidates.push(if is_turned { [b, a] } else { [a, b] });
         }
     });
-    found.sort_unstable();
+    candidates.sort_unstable();
     let facing = |[a, b]: [usize; 2]| {
         let [first, second] = [&sides[a], &sides[b]];
         let size = size(first).min(size(second));
@@ -183,7 +183,7 @@ fn facing_sides(mesh: &MacroMesh, sides: &[CloseSide], most: f64, is_asked: impl
         let distance = if distance.abs() < 1e-9 * size { 0.0 } else { distance };
         Some(FacingSides { sides: [a, b], distance, share: distance.abs() / size, length: first.length + second.length })
     };
-    let mut pairs: Vec<FacingSides> = found.into_iter().filter_map(facing).collect();
+    let mut pairs: Vec<FacingSides> = candidates.into_iter().filter_map(facing).collect();
     let order = |pair: &FacingSides| ((1e3 * pair.share).round(), pair.length);
     pairs.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
     pairs

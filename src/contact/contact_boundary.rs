@@ -48,7 +48,7 @@ impl ContactBoundary {
 
     /// Cuts it at these fractions of its arc length (from 0 to 1, ascending).
     pub fn cut(&mut self, fractions: &[f64]) {
-        let (length, ends) = (self.length(), [self.knots[0], self.knots[self.knots.len() - 1]]);
+        let (length, ends) = (self.length(), self.ends());
         let last = fractions.len() - 1;
         let knot = |(k, &fraction): (usize, &f64)| match k {
             0 => ends[0],
@@ -75,6 +75,11 @@ impl ContactBoundary {
         &self.knots
     }
 
+    /// Parameters of its first and last point.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.knots[0], self.knots[self.segments()]]
+    }
+
     /// Arc lengths of the segment ends from the start.
     pub fn arcs(&self) -> &[f64] {
         &self.arcs
@@ -82,10 +87,11 @@ impl ContactBoundary {
 
     /// Whether it goes all around a closed curve, so that its end is its start.
     pub fn is_closed(&self) -> bool {
-        self.period.is_some_and(|period| self.knots[self.knots.len() - 1] - self.knots[0] > (1.0 - WHOLE) * period)
+        let [first, last] = self.ends();
+        self.period.is_some_and(|period| last - first > (1.0 - WHOLE) * period)
     }
 
-    /// Its length if it is closed.
+    /// Arc length of one turn, if it is closed.
     pub fn turn(&self) -> Option<f64> {
         self.is_closed().then(|| self.length())
     }
@@ -102,7 +108,8 @@ impl ContactBoundary {
         [k, k + 1].map(|k| self.arcs[k] + turns as f64 * self.length())
     }
 
-    /// Parameter at the fraction `z` (in the parameter) of segment `k`, numbered likewise.
+    /// Parameter at the fraction `z` (in the parameter) of segment `k`; beyond the last segment of a closed boundary its first ones
+    /// follow.
     pub fn parameter_on(&self, k: usize, z: f64) -> f64 {
         let k = k % self.segments();
         self.knots[k] + z * (self.knots[k + 1] - self.knots[k])
@@ -142,7 +149,8 @@ impl ContactBoundary {
     /// Parameter of the foot of `p`: the normal line there passes through `p`. May lie beyond the ends.
     pub fn foot(&self, p: Point) -> f64 {
         let t = self.curve.nearest(p);
-        let middle = 0.5 * (self.knots[0] + self.knots[self.knots.len() - 1]);
+        let [first, last] = self.ends();
+        let middle = 0.5 * (first + last);
         self.period.map_or(t, |period| middle + nearest_turn(t - middle, period))
     }
 
@@ -157,7 +165,7 @@ impl ContactBoundary {
         [a, self.period.map_or(b, |period| a + nearest_turn(b - a, period))]
     }
 
-    /// The same, lower first.
+    /// Feet of the two ends of an edge, lower first; on a closed curve the edge is followed, not the long way round.
     pub fn feet(&self, ends: [Point; 2]) -> [f64; 2] {
         let [a, b] = self.directed_feet(ends);
         [a.min(b), a.max(b)]
@@ -167,7 +175,7 @@ impl ContactBoundary {
     /// across both ends of a long arc, lies at two.
     pub fn parts(&self, ends: [Point; 2]) -> impl Iterator<Item = [f64; 2]> {
         let [from, to] = self.feet(ends);
-        let (first, last) = (self.knots[0], self.knots[self.knots.len() - 1]);
+        let [first, last] = self.ends();
         let turns = self.period.map_or([0.0; 3], |period| [-period, 0.0, period]);
         let count = if self.period.is_some() { 3 } else { 1 };
         turns
@@ -190,7 +198,7 @@ impl ContactBoundary {
 
     /// Parameter at arc length `s` from the start, by Newton's method on one of its pieces.
     pub fn parameter_at(&self, s: f64) -> f64 {
-        let (first, last) = (self.knots[0], self.knots[self.knots.len() - 1]);
+        let [first, last] = self.ends();
         if is_even(&self.curve) {
             return first + s / self.speed(first);
         }

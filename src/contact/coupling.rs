@@ -28,7 +28,8 @@ pub enum Distance<'a> {
     Declared,
     /// The body's smooth boundary, in pieces: where the normal meets it.
     Curves(&'a [Curve]),
-    /// The same, for a normal that meets the body deformed or shifted: where the corresponding point was before.
+    /// The body's smooth boundary, in pieces, for a normal that meets the body deformed or shifted: where the corresponding point lies
+    /// undeformed.
     Places(&'a [Curve]),
 }
 

@@ -80,8 +80,7 @@ fn softer_edges<'a>(
 ) -> impl Iterator<Item = ([f64; 2], f64)> + 'a {
     let counts = [young[0] <= 3.0 * young[1], young[1] <= 3.0 * young[0]];
     let ruling = edges.iter().zip(counts).filter(|(_, counts)| *counts).flat_map(|(edges, _)| edges);
-    let knots = boundary.knots();
-    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let [first, last] = boundary.ends();
     let least = 1e-9 * (last - first);
     ruling.flat_map(move |edge| {
         let parts = boundary.parts([edge.points[0], edge.points[1]]).map(move |part| [part[0].max(first), part[1].min(last)]);
@@ -173,13 +172,8 @@ fn safe_ratio(order: Order, space: MultiplierSpace, matching: bool) -> f64 {
         (Order::P1, MultiplierSpace::P0) => 1.5,
         (Order::P1, MultiplierSpace::P1Continuous) => 1.25,
         (Order::P1, MultiplierSpace::P1Discontinuous) => 3.0,
-        (Order::P2, MultiplierSpace::P1Discontinuous) => {
-            if matching {
-                2.0
-            } else {
-                1.5
-            }
-        }
+        (Order::P2, MultiplierSpace::P1Discontinuous) if matching => 2.0,
+        (Order::P2, MultiplierSpace::P1Discontinuous) => 1.5,
         (Order::P2, _) => 0.75,
     }
 }

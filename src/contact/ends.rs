@@ -15,7 +15,7 @@ pub enum End {
     Last,
 }
 
-/// Arc length at which contact ends, by the pressures of the last two segments that carry any: at most one segment
+/// Arc length (length) at which contact ends, by the pressures of the last two segments that carry any: at most one segment
 /// from where the last of them ends, half a segment into one that carries nothing. Where only one carries pressure it
 /// is its end. Nothing if that is the only segment, or none does.
 pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool], end: End) -> Option<f64> {
@@ -23,17 +23,16 @@ pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &
         let rows = multipliers.on_segment(*k, 0.0).0;
         rows.iter().take(multipliers.per_segment()).any(|&i| active[i])
     };
-    let inner = |k: usize| match end {
-        End::First => Some(k + 1).filter(|&k| k < boundary.segments()),
-        End::Last => k.checked_sub(1),
+    let before = |k: usize| k.checked_sub(1);
+    let behind = |k: usize| Some(k + 1).filter(|&k| k < boundary.segments());
+    let inner = |k: usize| if end == End::First { behind(k) } else { before(k) };
+    let (outer, outwards) = match end {
+        End::First => ((0..boundary.segments()).find(carries)?, -1.0),
+        End::Last => ((0..boundary.segments()).rev().find(carries)?, 1.0),
     };
-    let outer = match end {
-        End::First => (0..boundary.segments()).find(carries)?,
-        End::Last => (0..boundary.segments()).rev().find(carries)?,
-    };
-    let beyond = match end {
-        End::First => outer.checked_sub(1),
-        End::Last => Some(outer + 1).filter(|&k| k < boundary.segments()),
+    let (beyond, edge) = match end {
+        End::First => (before(outer), boundary.arcs()[outer]),
+        End::Last => (behind(outer), boundary.arcs()[outer + 1]),
     };
     let mean = |k: usize| multipliers.value(lambda, k, 0.5);
     let excess = match inner(outer).filter(carries) {
@@ -41,10 +40,7 @@ pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &
             let lengths = [outer, next].map(|k| boundary.segment_length(k));
             let third = inner(next).filter(carries).map(|k| (mean(k), boundary.segment_length(k)));
             if third.is_some_and(|(third, length)| fades([mean(outer), mean(next), third], [lengths[0], lengths[1], length])) {
-                return Some(match end {
-                    End::First => boundary.arcs()[outer],
-                    End::Last => boundary.arcs()[outer + 1],
-                });
+                return Some(edge);
             }
             let most = beyond.map_or(lengths[0], |k| 0.5 * boundary.segment_length(k));
             too_early(lengths, [outer, next].map(mean)).clamp(-lengths[0], most)
@@ -52,10 +48,7 @@ pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &
         None if beyond.is_some() => 0.0,
         None => return None,
     };
-    Some(match end {
-        End::First => boundary.arcs()[outer] - excess,
-        End::Last => boundary.arcs()[outer + 1] + excess,
-    })
+    Some(edge + outwards * excess)
 }
 
 /// Whether a pressure fades out like a power above one: mean pressures that fall to the end, and ever more slowly. Then

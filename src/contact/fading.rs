@@ -5,7 +5,7 @@ use super::{ContactBoundary, Multipliers, Zone};
 /// Powers of the distance that pressures fade out with: smooth contact of smooth bodies, a wedge, a gap that opens slowly.
 const POWERS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
 
-/// Largest share by which the pressure farthest from the end may be off such a law.
+/// Largest share by which the pressure farthest from the end may be off a power law.
 const MOST_OFF: f64 = 0.1;
 
 /// Arc length at which the pressure of a zone comes to nothing, by the means of λ on three segments near its first end (0) or its

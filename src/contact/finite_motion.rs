@@ -12,9 +12,9 @@ const POINTS: usize = 2;
 /// A body that turns.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Turn {
-    /// Its rotation (radians).
+    /// Rotation of the body (radians).
     pub angle: f64,
-    /// Its middle, about which the linear theory makes it larger by half the square of the angle.
+    /// Middle of the body, about which the linear theory makes it larger by half the square of the angle.
     pub middle: Point,
 }
 
@@ -25,7 +25,8 @@ pub struct GapError {
     pub work: f64,
     /// Standard deviation of e from its mean, weighted with λ (length).
     pub deviation: f64,
-    /// The same from a straight line along Γ_C: the tilt that moves a contact with two free ends is left out (length).
+    /// Standard deviation of e from a straight line along Γ_C, weighted with λ (length): without the tilt that moves a contact with
+    /// two free ends.
     pub bend: f64,
 }
 

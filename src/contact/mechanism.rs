@@ -20,11 +20,11 @@ const NOTHING: f64 = 1e-9;
 /// of the least hold.
 const LEAST_SHARE: f64 = 1e-12;
 
-/// Remaining of the resistance to each motion that must be left where some of it is taken away, or else the motions are looked at: a
-/// tenth of its size. What is loose is resisted by a ten-thousandth.
+/// Share of the resistance (a square) to each motion that must be left where some of it is taken away, or else the motions are looked
+/// at: a tenth of its size. What is loose is resisted by a ten-thousandth.
 const FIRM: f64 = 1e-2;
 
-/// The same where the motion that loses most has been looked at.
+/// Share of the resistance (a square) to each motion that must be left where the motion that loses most is known to be held.
 const LEAST_LEFT: f64 = 1e-5;
 
 /// Contacts on curved boundaries up to which all choices of the normals are tried.
@@ -100,9 +100,9 @@ pub struct Extent {
 pub struct Mechanism {
     /// Index of the piece that moves most.
     pub piece: usize,
-    /// Its motion in words.
+    /// Motion of the piece in words.
     pub motion: String,
-    /// Its displacement at the middle, and its turn (radians).
+    /// Displacement of the middle of the piece, and its turn (radians).
     pub moves: (Point, f64),
 }
 
@@ -140,8 +140,8 @@ impl<'a> Holding<'a> {
     fn new(pieces: &'a [Extent], supports: &'a [Condition], contacts: &'a [Touch]) -> Self {
         let supports = Conditions::new(supports);
         let contacts: Vec<[Conditions; 2]> =
-            contacts.iter().map(|touch| touch.each_ref().map(|own| Conditions::new(own))).collect();
-        let coupled = std::iter::once(&supports).chain(contacts.iter().flatten()).flat_map(|own| own.gram.keys().copied());
+            contacts.iter().map(|touch| touch.each_ref().map(|all| Conditions::new(all))).collect();
+        let coupled = std::iter::once(&supports).chain(contacts.iter().flatten()).flat_map(|all| all.gram.keys().copied());
         let order = least_degrees(pieces.len(), coupled);
         Self { pieces, supports, contacts, order }
     }
@@ -150,17 +150,17 @@ impl<'a> Holding<'a> {
     fn mechanism(&self, without: Option<usize>) -> Option<Mechanism> {
         let curved = self.curved();
         let bases = self.bases(&curved);
-        let found = bases.iter().find_map(|choice| self.softest(choice, without));
-        if found.is_some() || curved.len() <= MOST_CHOICES {
-            return found;
+        let loose = bases.iter().find_map(|choice| self.softest(choice, without));
+        if loose.is_some() || curved.len() <= MOST_CHOICES {
+            return loose;
         }
         // One piece slides along its own boundary, or along those of all its neighbours.
         let factors: Vec<Option<BlockFactor>> = bases.iter().map(|base| self.factor(base, without)).collect();
         (0..self.pieces.len()).flat_map(|piece| [(piece, 1), (piece, 0)]).find_map(|(piece, base)| {
             let is_own = |[first, _]: &[Conditions; 2]| first.all.iter().any(|condition| condition.piece == piece);
-            let own: Vec<usize> = (0..self.contacts.len()).filter(|&at| is_own(&self.contacts[at])).collect();
+            let slides: Vec<usize> = (0..self.contacts.len()).filter(|&at| is_own(&self.contacts[at])).collect();
             let mut change = Blocks::new();
-            for &at in own.iter().filter(|&&at| Some(at) != without) {
+            for &at in slides.iter().filter(|&&at| Some(at) != without) {
                 add(&mut change, &self.contacts[at][1 - base].gram, 1.0);
                 add(&mut change, &self.contacts[at][base].gram, -1.0);
             }
@@ -168,7 +168,7 @@ impl<'a> Holding<'a> {
                 .as_ref()
                 .is_some_and(|factor| Remaining::left(factor, &change).is_some_and(|share| share.is_firm()));
             let mut choice = vec![base; self.contacts.len()];
-            own.iter().for_each(|&at| choice[at] = 1 - base);
+            slides.iter().for_each(|&at| choice[at] = 1 - base);
             if is_firm { None } else { self.softest(&choice, without) }
         })
     }
@@ -238,7 +238,7 @@ impl<'a> Holding<'a> {
         gram
     }
 
-    /// Its factor, beside as little as rounding allows.
+    /// Factor of the sum of the squares of all conditions, beside as little as rounding allows.
     fn factor(&self, choice: &NormalChoice, without: Option<usize>) -> Option<BlockFactor> {
         let gram = self.gram(choice, without);
         let largest = gram.values().fold(f64::MIN_POSITIVE, |most, block| most.max(block.amax()));
@@ -365,9 +365,9 @@ fn describe(piece: usize, pieces: &[Extent], motion: &DVector<f64>) -> Mechanism
 /// A motion of a piece in words: its shift, and its turn by the radius of the piece.
 pub fn describe_motion(piece: usize, pieces: &[Extent], moves: [f64; 3]) -> Mechanism {
     let largest = moves.iter().fold(0.0f64, |largest, v| largest.max(v.abs()));
-    let own = moves.map(|v| v / largest);
-    let (u, turn) = (Point::new(own[0], own[1]), own[2] / pieces[piece].radius);
-    let words = if own[2].abs() < LEAST_HOLD {
+    let unit = moves.map(|v| v / largest);
+    let (u, turn) = (Point::new(unit[0], unit[1]), unit[2] / pieces[piece].radius);
+    let words = if unit[2].abs() < LEAST_HOLD {
         let u = u * u[u.iamax()].signum();
         format!("move by ({}, {})", tidy(u.x, 1.0), tidy(u.y, 1.0))
     } else {

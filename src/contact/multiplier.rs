@@ -7,7 +7,7 @@ use std::ops::Range;
 /// Strength of the augmentation, `γ = α E_c / H`: a flat optimum, for every pair of spaces and up to three ranks.
 const ALPHA: f64 = 3.0;
 
-/// The same beside a jump term.
+/// Strength of the augmentation beside a jump term.
 const ALPHA_STABILISED: f64 = 2.0;
 
 /// A diagonal block over one multiplier, or over the two of a discontinuous segment.
@@ -50,7 +50,7 @@ impl DiagonalBlock {
 /// multiplier is its first.
 #[derive(Clone, Debug)]
 pub struct Multipliers {
-    /// Their space.
+    /// Space of the multipliers.
     pub space: MultiplierSpace,
     /// Strength `α` of the augmentation.
     pub alpha: f64,
@@ -78,12 +78,12 @@ impl Multipliers {
         multipliers
     }
 
-    /// The same multipliers beside a jump term, with its weaker augmentation.
+    /// These multipliers with the weaker augmentation that they have beside a jump term.
     pub fn stabilised(self) -> Self {
         Self { alpha: ALPHA_STABILISED, ..self }
     }
 
-    /// How many there are.
+    /// Number of multipliers.
     pub fn count(&self) -> usize {
         let segments = self.lengths.len();
         match self.space {

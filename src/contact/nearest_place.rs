@@ -4,10 +4,13 @@ use super::hertz::{MOST_ROUND, half_width};
 use super::{Configuration, SmoothSide};
 use crate::geometry::{Point, cross};
 
-/// Places that are looked at in the first window, and in the others, each as wide as two steps of the one before: the last has steps
-/// of a millionth of the first one's.
+/// Places that are looked at in the first window.
 const PLACES: usize = 64;
-const FEWER: usize = 16;
+
+/// Places that are looked at in each window after the first, which is as wide as two steps of the window before.
+const PLACES_IN_A_SMALLER_WINDOW: usize = 16;
+
+/// Number of windows: the last has steps of a millionth of the first one's.
 const WINDOWS: usize = 6;
 
 /// Share of a side over which its curvature is taken.
@@ -43,7 +46,7 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
     };
     let (mut middle, mut half) = (first.nearest(around, Configuration::Reference), reach);
     for window in 0..WINDOWS {
-        let places = if window == 0 { PLACES } else { FEWER };
+        let places = if window == 0 { PLACES } else { PLACES_IN_A_SMALLER_WINDOW };
         let at = |k: usize| middle + half * (2.0 * k as f64 / places as f64 - 1.0);
         let is_there = |k: &usize| first.turn().is_some() || (0.0..=first.length()).contains(&at(*k));
         let gaps = (0..=places).filter(is_there).map(|k| (k, gap(at(k))));

@@ -4,7 +4,7 @@
 //! side there, as it will when they touch, and points of its own side correspond to it that are as far shifted. Seen from afar,
 //! the normals of a curved side would spread, or crowd, on the other.
 
-use super::{Configuration, Side, SmoothSide};
+use super::{Configuration, Pair, SmoothSide};
 use crate::geometry::{Curve, Point};
 
 /// Nodes of the other side that are looked at for the shortest way, at most.
@@ -26,12 +26,20 @@ pub struct OwnCurve<'a> {
 }
 
 impl<'a> OwnCurve<'a> {
-    /// The shape of one of two sides, shifted as that is; closed ones are begun at their seams.
-    pub fn new(sides: [&'a SmoothSide; 2], of: Side) -> Self {
-        let own = if of == Side::First { 0 } else { 1 };
-        let side = sides[own];
+    /// The shape of the side that Γ_C of a pair lies on, shifted as that is, if it lies on one; closed sides are begun at their seams.
+    pub fn of_pair(sides: [&'a SmoothSide; 2], pair: &Pair) -> Option<Self> {
+        let side = sides[pair.curve.own_side()? as usize];
         let middle = side.shape().nearest(side.places[side.places.len() / 2]);
-        Self { sides, curve: side.shape().moved(side.shift), middle }
+        Some(Self { sides, curve: side.shape().moved(side.shift), middle })
+    }
+
+    /// How far Γ_C is shifted from the side that it has the shape of, for each side (length).
+    pub fn shifts(sides: [&SmoothSide; 2], pair: &Pair) -> [Point; 2] {
+        let mut shifts = [Point::zeros(); 2];
+        if let Some(own) = pair.curve.own_side().map(|side| side as usize) {
+            shifts[own] = shortest_way(sides[own], sides[1 - own]).unwrap_or_default();
+        }
+        shifts
     }
 
     /// The curve.
@@ -85,7 +93,7 @@ impl<'a> OwnCurve<'a> {
 }
 
 /// The shortest way from a side to another, both undeformed; nothing where they touch or overlap.
-pub fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
+fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
     let nearest = |side: &SmoothSide, x: Point| side.nearest_place(x);
     let away = |x: &Point| (nearest(side, *x).0 - x).norm();
     let looks = other.places.iter().step_by(other.places.len().div_ceil(LOOKS)).chain(other.places.last());
@@ -102,7 +110,7 @@ pub fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
 mod tests {
     use super::*;
     use crate::contact::samples::seam;
-    use crate::contact::{CurveChoice, Pair};
+    use crate::contact::{CurveChoice, Side};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Numbering, Partition};
@@ -128,7 +136,7 @@ mod tests {
             let way = way.unwrap_or_default();
             assert!((way - Point::new(0.0, if shifted { -lift } else { 0.0 })).norm() < 1e-12, "{way}");
             let laid = second.laid(0, way);
-            let own = OwnCurve::new([first, &laid], Side::Second);
+            let own = OwnCurve::of_pair([first, &laid], &pair).expect("on the second");
             let ends = own.limits(0.5).map(|t| own.curve().point(t));
             let y = if shifted { 1.0 } else { 1.0 + lift };
             for (x, end) in [0.0, 2.0].into_iter().zip(if ends[0].x < ends[1].x { ends } else { [ends[1], ends[0]] }) {

@@ -118,6 +118,14 @@ impl CurveChoice {
     pub fn is_found(self) -> bool {
         matches!(self, Self::Fit | Self::Own(_))
     }
+
+    /// The body whose shape it has, if it has that of one.
+    pub fn own_side(self) -> Option<Side> {
+        match self {
+            Self::Own(side) => Some(side),
+            Self::Fit | Self::Line | Self::Geometry => None,
+        }
+    }
 }
 
 /// Gap of the unloaded configuration.
@@ -158,7 +166,7 @@ pub enum MultiplierSpace {
 pub enum SegmentRule {
     /// By the safe rule: a multiple of the softer body's edge length.
     Auto,
-    /// So many of equal arc length.
+    /// This number of segments of equal arc length.
     Count(usize),
     /// At these fractions of the arc length, from 0 to 1, ascending; along the parameter of a geometry, along a line to
     /// larger x (upwards if it is vertical).

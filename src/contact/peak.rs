@@ -27,7 +27,7 @@ struct Parabola {
 }
 
 impl Parabola {
-    /// With given means over three intervals.
+    /// The parabola with given means over three intervals.
     fn of_means(intervals: [[f64; 2]; 3], means: [f64; 3]) -> Self {
         let from = 0.5 * (intervals[1][0] + intervals[1][1]);
         // Means of s and s².
@@ -42,7 +42,7 @@ impl Parabola {
         Self { from, coefficients: [means[1] - b * q[0] - c * q[1], b, c] }
     }
 
-    /// On an interval.
+    /// The largest value of the parabola on an interval.
     fn largest(&self, [start, end]: [f64; 2]) -> f64 {
         let [a, b, c] = self.coefficients;
         let crest = if c < 0.0 { (self.from - 0.5 * b / c).clamp(start, end) } else { start };

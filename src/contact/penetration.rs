@@ -20,26 +20,26 @@ pub struct Penetration {
 
 /// Of the two sides of a unilateral contact, by the nodes of both.
 pub fn penetration(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Penetration {
-    let mut found = Penetration::default();
+    let mut penetration = Penetration::default();
     if pair.law != Law::Unilateral {
-        return found;
+        return penetration;
     }
     let (mut closed, mut nearest) = (0.0_f64, f64::INFINITY);
-    for (own, others) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])] {
-        for (side, other) in own.iter().flat_map(|side| others.iter().map(move |other| (side, other))) {
+    for (stretches, others) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])] {
+        for (side, other) in stretches.iter().flat_map(|side| others.iter().map(move |other| (side, other))) {
             for node in 0..side.nodes() {
                 let gaps = side.facing_gaps(node, other, pair, REACH * other.length());
                 let Some(gaps) = gaps.filter(|gaps| gaps.now.is_finite()) else { continue };
                 closed = closed.max(gaps.at_rest - gaps.now);
                 nearest = nearest.min(gaps.at_rest);
-                if gaps.is_inside && -gaps.now > found.depth {
-                    (found.depth, found.place) = (-gaps.now, side.points[node]);
+                if gaps.is_inside && -gaps.now > penetration.depth {
+                    (penetration.depth, penetration.place) = (-gaps.now, side.points[node]);
                 }
             }
         }
     }
-    found.approach = if nearest.is_finite() { (closed - nearest.max(0.0)).max(-nearest).max(0.0) } else { 0.0 };
-    found
+    penetration.approach = if nearest.is_finite() { (closed - nearest.max(0.0)).max(-nearest).max(0.0) } else { 0.0 };
+    penetration
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
-use super::bisector::stray;
+use super::boundary_check::stray;
 use super::cutting::fractions;
 use super::{
     Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, PointContact, SegmentRule, Side, SmoothSide,
@@ -23,11 +23,11 @@ pub struct PlacingError {
 pub struct Known {
     /// Where the two sides meet, for one that is found by that.
     pub meeting: Option<Meeting>,
-    /// Parameters of its ends.
+    /// Parameters of the ends of the contact boundary.
     pub ends: Option<[f64; 2]>,
-    /// Number of its segments.
+    /// Number of segments of the contact boundary.
     pub segments: Option<usize>,
-    /// Its ends as a coarser mesh has found them, if there was one.
+    /// Ends of the contact boundary as a coarser mesh has found them, if there was one.
     pub coarser: Option<[Point; 2]>,
     /// Where undeformed sides touch first, if they are smooth and convex against each other there: what its force presses on is as
     /// wide as Hertz has it.
@@ -68,9 +68,9 @@ pub fn place(
             let mut smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
             let mut meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
             meeting.begin(&mut smooth);
-            let found = meeting.curve(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
+            let curve_and_limits = meeting.curve(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
             fitted = Some((meeting, smooth));
-            found
+            curve_and_limits
         }
         CurveChoice::Line => line_between(mesh, pair, sides).map_err(error)?,
         CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,
@@ -159,7 +159,7 @@ fn check_stray(sides: [&SmoothSide; 2], boundary: &ContactBoundary, pair: &Pair)
 
 /// Both boundaries must cover Γ_C without a hole.
 fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &ContactBoundary) -> Result<(), String> {
-    let (first, last) = (boundary.knots()[0], boundary.knots()[1]);
+    let [first, last] = boundary.ends();
     let least = 1e-6 * (last - first);
     for (side, edges) in sides.into_iter().enumerate() {
         let parts_of = |edge: &u32| {
@@ -344,7 +344,7 @@ pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacem
 /// Whether an edge looks at a part of Γ_C, not beside it. On a large body most do not, which few looks tell.
 fn lies_at(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
     let middle = 0.5 * (edge.points[0] + edge.points[1]);
-    let [first, last] = [boundary.knots()[0], boundary.knots()[boundary.segments()]];
+    let [first, last] = boundary.ends();
     let near = boundary.near(middle);
     if edge.outward().dot(&boundary.normal(near)) * side.sign() < LOOKS_AWAY {
         return false;

@@ -51,7 +51,7 @@ pub enum ProgrammeOutcome {
 }
 
 impl Programme {
-    /// Solves it.
+    /// Solves the programme: the forces, gaps and motions, or the motion that no contact resists.
     pub fn solve(&self) -> ProgrammeOutcome {
         let count = self.penetration.len();
         if count == 0 && self.driven.is_empty() {
@@ -76,8 +76,8 @@ impl Programme {
         right.resize(equations + pushing.len(), 0.0);
         let solution = interior_point((&quadratic, &linear), (&constraints, &right), [equations, pushing.len()]);
         match solution {
-            Ok(found) if is_solved(found.status) => self.found(&found, &pushing, &scales),
-            Ok(found) => self.escape(motion).unwrap_or_else(|| ProgrammeOutcome::Unsolved(format!("{:?}", found.status))),
+            Ok(solution) if is_solved(solution.status) => self.found(&solution, &pushing, &scales),
+            Ok(solution) => self.escape(motion).unwrap_or_else(|| ProgrammeOutcome::Unsolved(format!("{:?}", solution.status))),
             Err(words) => ProgrammeOutcome::Unsolved(words),
         }
     }
@@ -90,13 +90,13 @@ impl Programme {
     }
 
     /// Multipliers, gaps and motions from those that are scaled.
-    fn found(&self, found: &DefaultSolution<f64>, pushing: &[usize], scales: &Scales) -> ProgrammeOutcome {
+    fn found(&self, solution: &DefaultSolution<f64>, pushing: &[usize], scales: &Scales) -> ProgrammeOutcome {
         let Scales { multiplier, motion, force } = scales;
-        let multipliers = found.x.iter().zip(multiplier).map(|(value, scale)| value * scale * force).collect();
-        let motions = motion.iter().enumerate().map(|(k, scale)| -found.z[k] * scale * force).collect();
+        let multipliers = solution.x.iter().zip(multiplier).map(|(value, scale)| value * scale * force).collect();
+        let motions = motion.iter().enumerate().map(|(k, scale)| -solution.z[k] * scale * force).collect();
         let mut gaps = vec![0.0; multiplier.len()];
         for (at, &i) in pushing.iter().enumerate() {
-            gaps[i] = found.z[self.driven.len() + at] * force / multiplier[i];
+            gaps[i] = solution.z[self.driven.len() + at] * force / multiplier[i];
         }
         ProgrammeOutcome::Found { multipliers, gaps, motions }
     }
@@ -124,10 +124,10 @@ impl Programme {
         let mut right = vec![0.0; 1 + multipliers];
         right[0] = 1.0;
         let constraints = sparse(1 + multipliers, count, rows);
-        let found =
+        let solution =
             interior_point((&quadratic, &vec![0.0; count]), (&constraints, &right), [equations, 1 + multipliers - equations]);
-        let found = found.ok().filter(|found| is_solved(found.status))?;
-        Some(ProgrammeOutcome::Driven(found.x.iter().zip(scale).map(|(value, scale)| value * scale / largest).collect()))
+        let solution = solution.ok().filter(|solution| is_solved(solution.status))?;
+        Some(ProgrammeOutcome::Driven(solution.x.iter().zip(scale).map(|(value, scale)| value * scale / largest).collect()))
     }
 
     /// What makes entries and unknowns about one: a unit diagonal of `S`, unit rows of `G`, and forces by the largest load.

@@ -47,7 +47,7 @@ fn points_of_overlaps(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec
     points
 }
 
-/// The same Gauss points of each segment for both bodies. Each belongs to one edge, whichever rank owns it: that whose
+/// Gauss points of each segment, which are those of both bodies. Each belongs to one edge, whichever rank owns it: that whose
 /// feet are at or before the point and behind it. A point that no edge sees is lost.
 fn points_of_segments(boundary: &ContactBoundary, edges: &[BoundaryEdge], count: usize) -> Vec<QuadraturePoint> {
     let knots = boundary.knots();

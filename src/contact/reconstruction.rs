@@ -12,11 +12,11 @@ const NEIGHBOURS: usize = 4;
 /// Differences between λ on a zone and its reconstruction, relative to λ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roughness {
-    /// Root mean square, in the middle of the zone.
+    /// Root mean square of the difference in the middle of the zone.
     pub middle: f64,
-    /// The same all over it, but for its ends at those of the boundary.
+    /// Root mean square of the difference on the zone, but for its ends at those of the boundary.
     pub inside: f64,
-    /// Of the largest value.
+    /// Difference of the largest values.
     pub peak: f64,
 }
 
@@ -48,9 +48,9 @@ pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: 
             }
         }
     }
-    let found = zone.peak(multipliers, lambda);
+    let highest = zone.peak(multipliers, lambda);
     let [middle, inside] = [middle, inside].map(|sums| (sums[0] / sums[1]).sqrt());
-    Some(Roughness { middle, inside, peak: (peak / found - 1.0).abs() })
+    Some(Roughness { middle, inside, peak: (peak / highest - 1.0).abs() })
 }
 
 /// Samples all around a closed boundary, with some of the last before the first and some of the first behind the last.

@@ -1,6 +1,6 @@
 //! One side of a contact as a smooth curve through its nodes, undeformed and as it lies now.
 
-use super::{Configuration, CurveChoice, GapChoice, Pair, Side};
+use super::{Configuration, GapChoice, Pair, Side};
 use crate::geometry::{Curve, Point, Spline, chord_lengths, cross, turn_right};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering, Stretch};
 
@@ -48,7 +48,7 @@ pub struct SmoothSide {
     hand: f64,
     /// Length of an edge, in nodes.
     degree: usize,
-    /// Its smooth shape, undeformed, as it is known: declared, straight, or a spline through the vertices of the mesh file.
+    /// Smooth shape of the undeformed side as it is known: declared, straight, or a spline through the vertices of the mesh file.
     shape: Curve,
     undeformed: Curve,
     deformed: Curve,
@@ -63,13 +63,10 @@ pub struct SmoothSide {
 impl SmoothSide {
     /// The stretches of both sides of a pair.
     pub fn of_pair(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacement: Displacement) -> [Vec<Self>; 2] {
-        let bears = |side: Side| match pair.curve {
-            CurveChoice::Own(own) => Some(own == side),
-            CurveChoice::Fit | CurveChoice::Line | CurveChoice::Geometry => None,
-        };
         [Side::First, Side::Second].map(|side| {
             let edges = mesh.boundary(&pair.between[side as usize]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
-            let new = |stretch: &Stretch| Self { bears: bears(side), ..Self::new(mesh, numbering, stretch, displacement) };
+            let bears = pair.curve.own_side().map(|own| own == side);
+            let new = |stretch: &Stretch| Self { bears, ..Self::new(mesh, numbering, stretch, displacement) };
             mesh.stretches(edges).iter().map(new).collect()
         })
     }
@@ -119,7 +116,7 @@ impl SmoothSide {
         Self { places, points, parameters, hand, degree, shape, undeformed, deformed, closed, shift, bears: None }
     }
 
-    /// The same side begun at another of its nodes, if it is closed, and shifted from Γ_C.
+    /// The side begun at node `seam`, if it is closed, and with its shift from Γ_C (length).
     pub fn laid(&self, seam: usize, shift: Point) -> Self {
         let begun = if self.closed && seam > 0 { self.begun_at(seam) } else { self.clone() };
         Self { shift, bears: self.bears, ..begun }
@@ -141,6 +138,12 @@ impl SmoothSide {
         self.places.len() - usize::from(self.closed)
     }
 
+    /// Parameter of a node; on a closed side nodes count on beyond one turn, and so does the parameter.
+    pub fn unrolled(&self, node: usize) -> f64 {
+        let count = self.nodes();
+        self.turn().map_or_else(|| self.parameters[node], |turn| self.parameters[node % count] + (node / count) as f64 * turn)
+    }
+
     /// Positions of the nodes in a configuration.
     pub fn positions(&self, configuration: Configuration) -> &[Point] {
         match configuration {
@@ -149,7 +152,7 @@ impl SmoothSide {
         }
     }
 
-    /// Its length, undeformed.
+    /// Length of the undeformed side.
     pub fn length(&self) -> f64 {
         self.parameters[self.parameters.len() - 1]
     }
@@ -180,8 +183,8 @@ impl SmoothSide {
     }
 
     /// Whether places of this side and of another, by their parameters, look at each other.
-    pub fn looks_at(&self, own: f64, other: &Self, foot: f64, configuration: Configuration) -> bool {
-        let [one, two] = [self.curve(configuration).tangent(own), other.curve(configuration).tangent(foot)];
+    pub fn looks_at(&self, parameter: f64, other: &Self, foot: f64, configuration: Configuration) -> bool {
+        let [one, two] = [self.curve(configuration).tangent(parameter), other.curve(configuration).tangent(foot)];
         self.hand * other.hand * one.normalize().dot(&two.normalize()) <= LOOKS_BACK
     }
 
@@ -190,7 +193,7 @@ impl SmoothSide {
         self.hand
     }
 
-    /// Its smooth shape, undeformed, with a parameter of its own.
+    /// Smooth shape of the undeformed side, with a parameter of its own.
     pub fn shape(&self) -> &Curve {
         &self.shape
     }
@@ -234,7 +237,8 @@ impl SmoothSide {
         self.gaps(node, other, pair, reach).filter(|gaps| gaps.facing > FACING)
     }
 
-    /// The same with what it was at rest, and how far the two sides face each other there.
+    /// Gaps between one of the nodes and another side, as [`SmoothSide::gap`] defines them, now and at rest (length), and how far the
+    /// two sides face each other there.
     pub fn gaps(&self, node: usize, other: &Self, pair: &Pair, reach: f64) -> Option<SideGaps> {
         let configuration = pair.configuration;
         let x = self.positions(configuration)[node];
@@ -250,11 +254,12 @@ impl SmoothSide {
             return None;
         }
         // The normal of the contact law is that of the side on which Γ_C lies, or bisects those of both.
-        let own = turn_right(self.undeformed.tangent(self.parameters[node])) * self.hand;
+        let own_outward = turn_right(self.undeformed.tangent(self.parameters[node])) * self.hand;
         let moved = (self.points[node] - self.places[node]) - (other.deformed.point(t) - other.undeformed.point(t));
         let is_inside = self.is_inside(self.parameters[node]) && other.is_inside(t);
-        let normal = self.bears.map_or_else(|| (outward - own).normalize(), |bears| if bears { -own } else { outward });
-        let (opened, facing) = (moved.dot(&normal), -own.dot(&outward));
+        let normal =
+            self.bears.map_or_else(|| (outward - own_outward).normalize(), |bears| if bears { -own_outward } else { outward });
+        let (opened, facing) = (moved.dot(&normal), -own_outward.dot(&outward));
         if configuration == Configuration::Deformed {
             return Some(SideGaps { now: drawn, at_rest: drawn - opened, facing, is_inside });
         }

@@ -31,8 +31,7 @@ pub struct Trace {
 
 /// Cuts Γ_C at the feet of the edges' ends and at the segment ends; edges that see no part of it give none.
 pub fn edge_overlaps(boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<EdgeOverlap> {
-    let knots = boundary.knots();
-    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let (knots, [first, last]) = (boundary.knots(), boundary.ends());
     let least = 1e-13 * (last - first);
     let mut overlaps = Vec::new();
     let parts = |(edge, small): (usize, &BoundaryEdge)| {

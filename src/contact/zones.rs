@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Share of the length of a zone that counts as its middle: at its ends λ falls like a root, or is singular.
 const MIDDLE: f64 = 0.6;
 
-/// Share of it beside an end of the boundary that is left out of the rest.
+/// Share of the length of a zone that is left out beside an end of the boundary.
 const BESIDE: f64 = 0.1;
 
 /// Share of the force from which a zone counts.
@@ -24,7 +24,7 @@ pub fn zone_counts(share: f64, peak: f64, highest: f64) -> bool {
 /// seam: its segments and arc lengths then go on beyond those of the boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zone {
-    /// Its segments.
+    /// Segments of the zone.
     pub segments: Range<usize>,
     /// Arc lengths of its ends.
     pub arcs: [f64; 2],
@@ -77,7 +77,7 @@ impl Zone {
         ranges.iter().enumerate().map(zone).collect()
     }
 
-    /// Arc length of it.
+    /// Length of the zone (arc length).
     pub fn length(&self) -> f64 {
         self.arcs[1] - self.arcs[0]
     }
@@ -93,25 +93,25 @@ impl Zone {
         self.turn.map_or(arc, |turn| middle + (arc - middle + 0.5 * turn).rem_euclid(turn) - 0.5 * turn)
     }
 
-    /// Whether an arc length lies in its middle; all of a zone without ends is.
+    /// Whether an arc length lies in the middle of the zone; all of a zone without ends is.
     pub fn has_in_its_middle(&self, arc: f64) -> bool {
         self.goes_round() || ((self.as_counted(arc) - self.arcs[0]) / self.length() - 0.5).abs() <= 0.5 * MIDDLE
     }
 
-    /// Whether an arc length lies in it, and not beside an end of the boundary, where λ may be singular.
+    /// Whether an arc length lies in the zone, and not beside an end of the boundary, where λ may be singular.
     pub fn has_inside(&self, arc: f64) -> bool {
         let beside = |end: usize| if self.is_at_end[end] { BESIDE * self.length() } else { 0.0 };
         let arc = self.as_counted(arc);
         self.goes_round() || (arc >= self.arcs[0] + beside(0) && arc <= self.arcs[1] - beside(1))
     }
 
-    /// Whether an arc length lies in its reach.
+    /// Whether an arc length lies in the reach of the zone.
     pub fn reaches(&self, arc: f64) -> bool {
         let arc = self.as_counted(arc);
         self.goes_round() || (arc > self.reach[0] && arc < self.reach[1])
     }
 
-    /// Its intervals of arc length on the boundary: two, if it goes on across the seam.
+    /// Intervals of arc length of the zone on the boundary: two, if it goes on across the seam.
     pub fn intervals(&self) -> Vec<[f64; 2]> {
         let [from, to] = self.arcs;
         match self.turn {

@@ -27,7 +27,7 @@ pub enum Curve {
 const LEAST_SHRUNK: f64 = 0.1;
 
 impl Curve {
-    /// The same curve at another place.
+    /// The curve shifted by a vector (length).
     pub fn moved(&self, by: Point) -> Self {
         let place = |[x, y]: [f64; 2]| [x + by.x, y + by.y];
         match self {

@@ -98,7 +98,7 @@ impl Formula {
         Self { text: format!("({}) * {factor:?}", self.text), program: self.program.iter().copied().chain(multiplied).collect() }
     }
 
-    /// Its value, if no variable occurs in it.
+    /// Value of the formula, if no variable occurs in it.
     pub fn as_constant(&self) -> Option<f64> {
         match self.program[..] {
             [Instruction::Number(value)] => Some(value),
@@ -125,12 +125,12 @@ impl Formula {
     /// Exact partial derivative by variable number `variable`.
     ///
     /// # Panics
-    /// As [`Formula::value`].
+    /// If `at` is shorter than the variables that the formula uses.
     pub fn derivative(&self, variable: usize, at: &[f64]) -> f64 {
         self.evaluate(|index| Dual { value: at[index], slope: f64::from(u8::from(index == variable)) }).slope
     }
 
-    /// Its value at a point, as a formula of x, y.
+    /// Value at a point, as a formula of x, y.
     ///
     /// # Errors
     /// Words on the formula and the point, if it has no finite value there.
@@ -142,7 +142,7 @@ impl Formula {
         Err(format!("\"{}\" has no finite value at {}; correct the formula", Quote(&self.text), Coordinates(x)))
     }
 
-    /// As it was written.
+    /// The formula as it was written.
     pub fn text(&self) -> &str {
         &self.text
     }

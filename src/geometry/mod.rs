@@ -14,7 +14,7 @@ pub use gauss::gauss_points;
 pub use nearness::{Disc, overlapping_discs};
 pub use parametric_curve::ParametricCurve;
 pub use place::{Coordinates, Quote, Rounded};
-pub use spline::{Spline, chord_lengths};
+pub use spline::{FitSample, Spline, chord_lengths};
 
 /// A point, or a vector, of the plane (length).
 pub type Point = nalgebra::Vector2<f64>;

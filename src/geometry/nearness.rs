@@ -9,9 +9,9 @@ const DIRECTION: Point = Point::new(0.540_302_305_868_139_8, 0.841_470_984_807_8
 /// A disc: what may be near lies within its radius.
 #[derive(Clone, Copy, Debug)]
 pub struct Disc {
-    /// Its middle.
+    /// Middle of the disc.
     pub middle: Point,
-    /// Its radius (length).
+    /// Radius of the disc (length).
     pub radius: f64,
 }
 

@@ -30,7 +30,7 @@ impl ParametricCurve {
         curve
     }
 
-    /// The same formulas, moved.
+    /// The curve shifted by a vector (length).
     pub fn moved(&self, by: Point) -> Self {
         Self::new(self.x.plus(by.x), self.y.plus(by.y), self.range)
     }
@@ -50,7 +50,7 @@ impl ParametricCurve {
         self.at(self.within(t))
     }
 
-    /// Its derivative by the parameter.
+    /// Derivative of the point by the parameter.
     pub fn derivative(&self, t: f64) -> Point {
         self.slope_at(self.within(t))
     }

@@ -45,7 +45,7 @@ impl BisectedMesh {
         Self { mesh, sides, origins }
     }
 
-    /// The same mesh as one to begin with.
+    /// This mesh as one that refinement begins with: each triangle is its own origin, and is halved next where it would be anyway.
     pub fn as_first(&self) -> Self {
         let origins = (0..self.mesh.triangles.len()).map(Origin::whole).collect();
         Self { mesh: self.mesh.clone(), sides: self.sides.clone(), origins }

@@ -10,9 +10,9 @@ const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// A part of a boundary without corners and gaps.
 #[derive(Clone, Debug)]
 pub struct Stretch {
-    /// Its edges in the order and direction of the boundary, with the body on the left.
+    /// Edges of the stretch in the order and direction of the boundary, with the body on the left.
     pub edges: Vec<u32>,
-    /// Its smooth shape: the declared geometry where the edges have one, a straight line where they lie on one,
+    /// Smooth shape of the stretch: the declared geometry where the edges have one, a straight line where they lie on one,
     /// otherwise the spline through their vertices. Never the polygon: its error would enter the gap.
     pub curve: Curve,
 }

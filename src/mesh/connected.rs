@@ -1,7 +1,7 @@
 //! Meshes made of the triangles of others: edges are found again, with their shapes and their boundaries.
 
 use super::edge_shape::EdgeShape;
-use super::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle};
+use super::{BodyPiece, Boundary, MacroMesh, MacroTriangle};
 use crate::geometry::Point;
 
 /// A mesh that is being connected.
@@ -49,7 +49,7 @@ impl Connected {
         let find = |mesh: &MacroMesh, ends| edges.between(&mesh.triangles, ends).expect("parts of edges are edges");
         let mut bend = |ends: [u32; 2], shape: EdgeShape| {
             let edge = find(&mesh, ends);
-            bend(&mut mesh.edges[edge as usize], ends, shape);
+            mesh.edges[edge as usize].bend(ends, shape.curve, shape.range);
         };
         for (edge, known) in before.edges.iter().enumerate() {
             let Some(shape) = &known.shape else { continue };
@@ -79,11 +79,4 @@ impl Connected {
         (mesh.boundaries, mesh.interfaces) = (boundaries, interfaces);
         mesh
     }
-}
-
-/// Gives an edge between two vertices a shape that runs from the first to the second.
-fn bend(edge: &mut MacroEdge, ends: [u32; 2], shape: EdgeShape) {
-    let [from, to] = shape.range;
-    let range = if edge.vertices == ends { [from, to] } else { [to, from] };
-    edge.shape = Some(EdgeShape { range, ..shape });
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 pub struct EdgeShape {
     /// The curve.
     pub curve: Arc<Curve>,
-    /// Its parameter at the edge's first and second vertex.
+    /// Parameters of the curve at the edge's first and second vertex.
     pub range: [f64; 2],
 }
 

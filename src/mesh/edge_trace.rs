@@ -29,12 +29,12 @@ impl EdgeNode {
         std::array::from_fn(|k| (Self { position: positions[k], ..self }, weights[k]))
     }
 
-    /// Its number.
+    /// Number of the node.
     pub fn number(self, mesh: &MacroMesh, numbering: &Numbering) -> usize {
         numbering.edge_node(mesh, self.edge, self.position as usize)
     }
 
-    /// Its position in the plane.
+    /// Undeformed position of the node (length).
     pub fn place(self, mesh: &MacroMesh, numbering: &Numbering) -> Point {
         mesh.edge_position(self.edge, self.fraction(mesh, numbering))
     }
@@ -48,11 +48,11 @@ impl EdgeNode {
 /// One element edge on the boundary of a body, directed so that the body lies on its left.
 #[derive(Clone, Debug)]
 pub struct BoundaryEdge {
-    /// Its nodes: both ends, and for P2 the node between them.
+    /// Nodes of the edge: both ends, and for P2 the node between them.
     pub nodes: Vec<EdgeNode>,
-    /// Their positions in the configuration that contact is modelled in.
+    /// Positions of the nodes in the configuration that contact is modelled in.
     pub points: Vec<Point>,
-    /// Their undeformed positions.
+    /// Undeformed positions of the nodes.
     pub places: Vec<Point>,
     /// Whether it is straight.
     pub straight: bool,

@@ -7,7 +7,7 @@ use std::fmt::{Display, Formatter, Result};
 pub enum FilePlace {
     /// A line of a text, from 1.
     Line(usize),
-    /// So many bytes from the beginning of a binary file.
+    /// This number of bytes from the beginning of a binary file.
     Byte(usize),
 }
 

@@ -30,7 +30,7 @@ pub(super) fn fraction(ratios: [Option<f64>; 2]) -> f64 {
 /// A triangle of the hierarchy over one macro triangle, in the reference triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HierarchyTriangle {
-    /// Its corners.
+    /// Corners of the triangle.
     pub(super) corners: [Point; 3],
     /// κ of the graded corners.
     ratios: [Option<f64>; 3],

@@ -8,6 +8,7 @@
 use super::bisection::BisectedMesh;
 use super::connected::Connected;
 use super::located::Located;
+use super::macro_mesh::smallest_angle;
 use super::{MacroMesh, MacroTriangle, NamedPoint, Spot};
 use crate::geometry::{Point, cross};
 use std::collections::HashSet;
@@ -147,9 +148,7 @@ impl MacroMesh {
         if height <= SAGITTAS * sagitta {
             return 0.0;
         }
-        (0..3)
-            .map(|k| (corners[(k + 1) % 3] - corners[k]).angle(&(corners[(k + 2) % 3] - corners[k])))
-            .fold(f64::INFINITY, f64::min)
+        smallest_angle(corners)
     }
 }
 

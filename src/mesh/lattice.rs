@@ -86,13 +86,15 @@ pub fn side_node(n: usize, side: usize, position: usize) -> (usize, usize) {
 pub fn triangles(n: usize, order: Order) -> impl Iterator<Item = Triangle> {
     let step = order.degree();
     let count = n / step;
-    (0..count).flat_map(move |j| {
-        (0..count - j).flat_map(move |i| {
-            let up = Triangle { i: step * i, j: step * j, step, down: false };
-            let down = Triangle { i: step * (i + 1), j: step * (j + 1), step, down: true };
-            [Some(up), (i + j + 2 <= count).then_some(down)].into_iter().flatten()
-        })
-    })
+    (0..count).flat_map(move |j| (0..count - j).flat_map(move |i| pair(i, j, step, count)))
+}
+
+/// The triangle at place `i` of row `j` that points up, and the one behind it that points down, if there is one.
+#[inline]
+fn pair(i: usize, j: usize, step: usize, count: usize) -> impl Iterator<Item = Triangle> {
+    let up = Triangle { i: step * i, j: step * j, step, down: false };
+    let down = Triangle { i: step * (i + 1), j: step * (j + 1), step, down: true };
+    [Some(up), (i + j + 2 <= count).then_some(down)].into_iter().flatten()
 }
 
 /// Those triangles of the lattice that have a node on one of its sides, in the order of [`triangles`].
@@ -103,11 +105,7 @@ pub fn side_triangles(n: usize, order: Order) -> impl Iterator<Item = Triangle> 
         // The first of a row, and the last two: the hypotenuses of the others lie inside.
         let last = (count - j).saturating_sub(2).max(1);
         let middle = if j == 0 { 1..last } else { last..last };
-        (0..1).chain(middle).chain(last..count - j).flat_map(move |i| {
-            let up = Triangle { i: step * i, j: step * j, step, down: false };
-            let down = Triangle { i: step * (i + 1), j: step * (j + 1), step, down: true };
-            [Some(up), (i + j + 2 <= count).then_some(down)].into_iter().flatten()
-        })
+        (0..1).chain(middle).chain(last..count - j).flat_map(move |i| pair(i, j, step, count))
     })
 }
 
@@ -127,7 +125,7 @@ impl Triangle {
         Self { i, j, step: order.degree(), down }
     }
 
-    /// Its `N` nodes: 3 for P1, 6 for P2.
+    /// The `N` nodes of the triangle: 3 for P1, 6 for P2.
     #[inline]
     pub fn nodes<const N: usize>(&self) -> [(usize, usize); N] {
         let half = self.step as isize;

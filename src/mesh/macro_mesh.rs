@@ -3,9 +3,10 @@
 use super::edge_shape::EdgeShape;
 use super::raw_mesh::{RawMesh, RawTriangle};
 use super::{FilePlace, MeshError, NamedPoint};
-use crate::geometry::{Coordinates, Point, Quote, Rounded, cross};
+use crate::geometry::{Coordinates, Curve, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A body, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,12 +55,19 @@ pub struct MacroEdge {
     pub shape: Option<EdgeShape>,
 }
 
+impl MacroEdge {
+    /// Bends the edge onto a curve, whose parameters at the vertices `ends` are `range`.
+    pub fn bend(&mut self, ends: [u32; 2], curve: Arc<Curve>, [from, to]: [f64; 2]) {
+        self.shape = Some(EdgeShape { curve, range: if self.vertices == ends { [from, to] } else { [to, from] } });
+    }
+}
+
 /// A physical curve: macro edges on the boundary of one body or several.
 #[derive(Clone, Debug)]
 pub struct Boundary {
     /// Name in the mesh file.
     pub name: String,
-    /// Its macro edges.
+    /// Macro edges of the curve.
     pub edges: Vec<u32>,
     /// Whether the case has made it of several physical curves.
     pub is_union: bool,
@@ -79,7 +87,7 @@ pub struct Surface {
 pub struct BodyPiece {
     /// Index of the body.
     pub body: usize,
-    /// Its first triangle.
+    /// First macro triangle of the piece.
     pub first: u32,
 }
 
@@ -163,6 +171,11 @@ impl MacroMesh {
         Ok(mesh)
     }
 
+    /// The mesh as a whole cannot be used, for the reason in these words.
+    pub(super) fn unusable(&self, words: String) -> MeshError {
+        MeshError::unusable(&self.file, words)
+    }
+
     fn syntax(&self, place: FilePlace, message: String) -> MeshError {
         MeshError::Syntax { file: self.file.clone(), place, message }
     }
@@ -177,10 +190,9 @@ impl MacroMesh {
                 }
                 false => "",
             };
-            return Err(self.syntax(
-                place,
-                format!("a triangle must lie in exactly one physical surface (its body); found {}{remedy}", Quote(&found)),
-            ));
+            let words =
+                format!("a triangle must lie in exactly one physical surface (its body); found {}{remedy}", Quote(&found));
+            return Err(self.syntax(place, words));
         };
         if let Some(part) = self.parts.iter().position(|part| part.name == *name) {
             return Ok(part as u32);
@@ -200,16 +212,9 @@ impl MacroMesh {
         let area = 0.5 * cross(b - a, c - a);
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
         if area.abs() <= 1e-10 * longest * longest {
-            return Err(self.syntax(
-                place,
-                format!(
-                    "degenerate triangle with corners {}, {}, {}: its area is {}; mesh the scene again",
-                    Coordinates(a),
-                    Coordinates(b),
-                    Coordinates(c),
-                    Rounded(area)
-                ),
-            ));
+            let ([a, b, c], area) = ([a, b, c].map(Coordinates), Rounded(area));
+            let words = format!("degenerate triangle with corners {a}, {b}, {c}: its area is {area}; mesh the scene again");
+            return Err(self.syntax(place, words));
         }
         let [a, b, c] = corners;
         Ok(if area > 0.0 { [a, b, c] } else { [a, c, b] })
@@ -222,17 +227,13 @@ impl MacroMesh {
             for &vertex in &triangle.vertices {
                 let body = owner[vertex as usize].get_or_insert(triangle.body);
                 if *body != triangle.body {
-                    let (x, names) = (self.vertices[vertex as usize], [*body, triangle.body].map(|b| &self.bodies[b as usize]));
+                    let (x, [first, second]) =
+                        (self.vertices[vertex as usize], [*body, triangle.body].map(|b| &self.bodies[b as usize]));
                     let part = &self.parts[triangle.part as usize].name;
-                    return Err(MeshError::unusable(
-                        &self.file,
-                        format!(
-                            "bodies \"{}\" and \"{}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
-                            names[0],
-                            names[1],
-                            Coordinates(x)
-                        ),
-                    ));
+                    return Err(self.unusable(format!(
+                        "bodies \"{first}\" and \"{second}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
+                        Coordinates(x)
+                    )));
                 }
             }
         }
@@ -249,25 +250,22 @@ impl MacroMesh {
         placed: &mut HashSet<(usize, u32)>,
     ) -> Result<(), MeshError> {
         let refused = |what: &str| {
-            self.syntax(
-                place,
-                format!(
-                    "a line of the physical curve \"{}\" {what}; physical curves must bound bodies, or parts of them",
-                    Quote(&name)
-                ),
-            )
+            let curve = Quote(&name);
+            let words =
+                format!("a line of the physical curve \"{curve}\" {what}; physical curves must bound bodies, or parts of them");
+            self.syntax(place, words)
         };
         let Some(edge) = edge else { return Err(refused("is not an edge of a triangle")) };
         let parts = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));
         if parts[0] == parts[1] {
             return Err(refused("lies inside a body"));
         }
-        let (own, other) =
+        let (same_kind, other_kind) =
             if parts[1].is_none() { (&self.boundaries, &self.interfaces) } else { (&self.interfaces, &self.boundaries) };
-        if other.iter().any(|curve| curve.name == name) {
+        if other_kind.iter().any(|curve| curve.name == name) {
             return Err(refused("lies between parts of a body while others bound one: name them apart"));
         }
-        let at = own.iter().position(|curve| curve.name == name);
+        let at = same_kind.iter().position(|curve| curve.name == name);
         let curves = if parts[1].is_none() { &mut self.boundaries } else { &mut self.interfaces };
         let at = at.unwrap_or_else(|| {
             curves.push(Boundary { name, edges: Vec::new(), is_union: false });
@@ -332,8 +330,7 @@ impl MacroMesh {
 
     /// Smallest angle of a macro triangle with straight sides (radians).
     pub fn smallest_angle(&self, triangle: usize) -> f64 {
-        let x = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
-        (0..3).map(|k| (x[(k + 1) % 3] - x[k]).angle(&(x[(k + 2) % 3] - x[k]))).fold(f64::INFINITY, f64::min)
+        smallest_angle(self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]))
     }
 
     /// Smallest box around all vertices of each piece: lower left and upper right corner.
@@ -348,4 +345,9 @@ impl MacroMesh {
         }
         bounds
     }
+}
+
+/// Smallest angle of a triangle with these corners (radians).
+pub(super) fn smallest_angle(x: [Point; 3]) -> f64 {
+    (0..3).map(|k| (x[(k + 1) % 3] - x[k]).angle(&(x[(k + 2) % 3] - x[k]))).fold(f64::INFINITY, f64::min)
 }

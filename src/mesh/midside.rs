@@ -4,89 +4,19 @@
 //! Neighbours that go on smoothly are one curve: the circle through their nodes where they lie on one, otherwise the spline
 //! through all of them. So refinement follows the body as it was drawn, and not the parabolas of the elements.
 
-use super::edge_shape::EdgeShape;
+use super::bow::{Bow, FLAT, go_on, is_inflection, on_one_circle};
 use super::{MacroMesh, MeshError};
-use crate::geometry::{Coordinates, Curve, Point, Spline, cross};
+use crate::geometry::{Coordinates, Curve, Point, Spline};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// A midside node within this share of its side from the chord lies on it: files have six digits or more.
-const FLAT: f64 = 1e-6;
 
 /// Highest arc over a side as a share of the chord; a half circle has 0.5.
 const HIGHEST: f64 = 0.45;
 
 /// A midside node stands over this part of its side, on either side of the middle: nodes at a quarter are for tips of cracks.
 const MIDDLE: f64 = 0.24;
-
-/// Neighbours whose tangents differ by more (radians, 20 degrees) have a corner between them.
-const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
-
-/// Curvatures of neighbours on one smooth curve differ by this share of their sum at most.
-const JUMP: f64 = 0.5;
-
-/// From one side of a smooth curve to the next the curvature changes by this multiple at most of what it changes by, in the same
-/// sense, one side before or after; so it does where it goes through zero.
-const STEEPER: f64 = 2.5;
-
-/// Tangents of such neighbours differ by less (radians, one degree).
-const SMOOTH: f64 = std::f64::consts::PI / 180.0;
-
-/// Curvatures of neighbours on one circle differ by this share of their sum at most.
-const EQUAL: f64 = 1e-3;
-
-/// Tangents of neighbours on one circle differ by this angle (radians) at most: two arcs that differ by more have a corner
-/// between them, however blunt, since circles tell their tangents to all digits.
-const KINK: f64 = 1e-3;
-
-/// A side with its midside node, curved or straight: first end, midside node, second end.
-#[derive(Clone, Copy)]
-struct Bow {
-    edge: u32,
-    ends: [u32; 2],
-    points: [Point; 3],
-}
-
-impl Bow {
-    fn reversed(self) -> Self {
-        let ([a, b], [x, y, z]) = (self.ends, self.points);
-        Self { ends: [b, a], points: [z, y, x], ..self }
-    }
-
-    /// Direction at the first end of the circle through the three nodes: by the inversion about this end that circle is the
-    /// straight line through the two other nodes.
-    fn tangent(&self) -> Point {
-        let [a, m, b] = self.points;
-        ((m - a) / (m - a).norm_squared() - (b - a) / (b - a).norm_squared()).normalize()
-    }
-
-    /// Signed curvature of the circle through the three nodes, positive to the left.
-    fn curvature(&self) -> f64 {
-        let [a, m, b] = self.points;
-        2.0 * cross(m - a, b - m) / ((m - a).norm() * (b - m).norm() * (b - a).norm())
-    }
-
-    fn chord(&self) -> f64 {
-        (self.points[2] - self.points[0]).norm()
-    }
-
-    /// Height of the midside node over the chord, as a share of it.
-    fn height(&self) -> f64 {
-        let [a, m, b] = self.points;
-        cross(b - a, m - a).abs() / (b - a).norm_squared()
-    }
-
-    fn is_flat(&self) -> bool {
-        self.height() <= FLAT
-    }
-
-    /// By how much the curvature of the next side is larger, by the way there.
-    fn steepness(&self, next: &Self) -> f64 {
-        2.0 * (next.curvature() - self.curvature()) / (self.chord() + next.chord())
-    }
-}
 
 impl MacroMesh {
     /// Bends sides with a midside node off the chord onto curves through the nodes; `midsides` come with the vertices at the ends
@@ -124,13 +54,12 @@ impl MacroMesh {
         let bow = Bow { edge, ends, points: [a, middle, b] };
         let along = (middle - a).dot(&(b - a)) / (b - a).norm_squared();
         if bow.height() > HIGHEST || !bow.is_flat() && (along - 0.5).abs() > MIDDLE {
-            let words = format!(
+            return Err(self.unusable(format!(
                 "the midside node {} is too far from the middle of its side from {} to {}; mesh the curve with more elements, or with `gmsh -2 -order 1` and a [geometry] in the case",
                 Coordinates(middle),
                 Coordinates(a),
                 Coordinates(b)
-            );
-            return Err(MeshError::unusable(&self.file, words));
+            )));
         }
         Ok(bow)
     }
@@ -146,9 +75,7 @@ impl MacroMesh {
                 Some(knots) => [knots[0], knots[2]],
                 None => self.onto(&curve, bow),
             };
-            let straight = bow.ends == self.edges[bow.edge as usize].vertices;
-            let range = if straight { range } else { [range[1], range[0]] };
-            self.edges[bow.edge as usize].shape = Some(EdgeShape { curve: curve.clone(), range });
+            self.edges[bow.edge as usize].bend(bow.ends, curve.clone(), range);
         }
     }
 
@@ -166,89 +93,76 @@ impl MacroMesh {
     }
 }
 
+/// Sides by the vertices at their ends.
+struct Neighbours<'a> {
+    bows: &'a [Bow],
+    at: BTreeMap<u32, Vec<usize>>,
+}
+
+impl<'a> Neighbours<'a> {
+    fn new(bows: &'a [Bow]) -> Self {
+        let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (k, bow) in bows.iter().enumerate() {
+            bow.ends.iter().for_each(|&end| at.entry(end).or_default().push(k));
+        }
+        Self { bows, at }
+    }
+
+    /// The side behind the second end of one, with its index: of several, the curved one.
+    fn behind(&self, bow: &Bow) -> Option<(usize, Bow)> {
+        let here = &self.at[&bow.ends[1]];
+        let curved: Vec<usize> = here.iter().copied().filter(|&k| !self.bows[k].is_flat()).collect();
+        let here = if curved.len() == 2 && !bow.is_flat() { &curved } else { here };
+        let &[first, second] = here.as_slice() else { return None };
+        let other = if self.bows[first].edge == bow.edge { second } else { first };
+        let follows = self.bows[other].ends[0] == bow.ends[1];
+        Some((other, if follows { self.bows[other] } else { self.bows[other].reversed() }))
+    }
+
+    fn after(&self, bow: Option<Bow>) -> Option<Bow> {
+        self.behind(&bow?).map(|(_, after)| after)
+    }
+
+    fn before(&self, bow: Option<Bow>) -> Option<Bow> {
+        self.after(bow.map(Bow::reversed)).map(Bow::reversed)
+    }
+
+    fn inflects(&self, flat: Option<Bow>) -> bool {
+        let (before, after) = (self.before(flat), self.after(flat));
+        is_inflection([self.before(before), before, flat, after, self.after(after)])
+    }
+
+    /// The side, with its index, that goes on smoothly behind the second end of one.
+    fn next(&self, bow: &Bow) -> Option<(usize, Bow)> {
+        let (number, other) = self.behind(bow)?;
+        let (this, that) = (Some(*bow), Some(other));
+        let goes_on = go_on([self.before(this), this, that, self.after(that)]) || self.inflects(this) || self.inflects(that);
+        goes_on.then_some((number, other))
+    }
+}
+
 /// Sides in rows that go on smoothly, those rows that are not straight.
 fn chains(bows: &[Bow]) -> Vec<Vec<Bow>> {
-    let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (k, bow) in bows.iter().enumerate() {
-        bow.ends.iter().for_each(|&end| at.entry(end).or_default().push(k));
-    }
-    // The side behind the second end of one: of several, the curved one.
-    let behind = |bow: &Bow| {
-        let curved: Vec<usize> = at[&bow.ends[1]].iter().copied().filter(|&k| !bows[k].is_flat()).collect();
-        let here = if curved.len() == 2 && !bow.is_flat() { &curved } else { &at[&bow.ends[1]] };
-        let &[first, second] = here.as_slice() else { return None };
-        let other = if bows[first].edge == bow.edge { second } else { first };
-        Some((other, if bows[other].ends[0] == bow.ends[1] { bows[other] } else { bows[other].reversed() }))
-    };
-    let after = |bow: Option<Bow>| bow.and_then(|bow| behind(&bow)).map(|(_, after)| after);
-    let before = |bow: Option<Bow>| after(bow.map(Bow::reversed)).map(Bow::reversed);
-    let inflects = |flat: Option<Bow>| is_inflection([before(before(flat)), before(flat), flat, after(flat), after(after(flat))]);
-    // The side that goes on there.
-    let next = |bow: &Bow| {
-        let (number, other) = behind(bow)?;
-        let (this, that) = (Some(*bow), Some(other));
-        (go_on([before(this), this, that, after(that)]) || inflects(this) || inflects(that)).then_some((number, other))
-    };
+    let neighbours = Neighbours::new(bows);
     let mut is_left = vec![true; bows.len()];
-    let mut found = Vec::new();
+    let mut chains = Vec::new();
     for start in 0..bows.len() {
-        if !is_left[start] {
+        if !std::mem::take(&mut is_left[start]) {
             continue;
         }
-        is_left[start] = false;
         let mut chain = vec![bows[start]];
         // Backwards first, so that an open chain begins at its end.
         for _ in 0..2 {
             chain = chain.into_iter().rev().map(Bow::reversed).collect();
-            while let Some((k, bow)) = next(&chain[chain.len() - 1]).filter(|(k, _)| is_left[*k]) {
+            while let Some((k, bow)) = neighbours.next(&chain[chain.len() - 1]).filter(|(k, _)| is_left[*k]) {
                 is_left[k] = false;
                 chain.push(bow);
             }
         }
-        found.push(chain);
+        chains.push(chain);
     }
-    found.retain(|chain| !chain.iter().all(Bow::is_flat));
-    found
-}
-
-/// Whether the sides in the middle of four in a row are on one smooth curve: their curvatures are alike, or change as they do on
-/// the side before or after. A straight side is on one only where the curvature changes its sign there.
-fn go_on([before, bow, other, after]: [Option<Bow>; 4]) -> bool {
-    let (Some(bow), Some(other)) = (bow, other) else { return false };
-    if bow.is_flat() || other.is_flat() {
-        return false;
-    }
-    if turns_by_less(CORNER, &bow, &other) && differ_by(&bow, &other) <= JUMP {
-        return true;
-    }
-    turns_by_less(SMOOTH, &bow, &other)
-        && (before.is_some_and(|before| changes_alike([before, bow, other]))
-            || after.is_some_and(|after| changes_alike([bow, other, after])))
-}
-
-/// Whether a straight side in the middle of five in a row is an inflection of the smooth curve of the others.
-fn is_inflection(five: [Option<Bow>; 5]) -> bool {
-    let [Some(first), Some(before), Some(flat), Some(after), Some(last)] = five else { return false };
-    let turns = before.curvature() * after.curvature() < 0.0 && flat.is_flat();
-    turns && [[first, before, flat], [before, flat, after], [flat, after, last]].into_iter().all(changes_alike)
-}
-
-/// Whether the curvature of three smooth neighbours goes on changing in one sense, and by no more than [`STEEPER`] either way.
-fn changes_alike([a, b, c]: [Bow; 3]) -> bool {
-    let steepness = [a.steepness(&b), b.steepness(&c)];
-    let [least, most] = [steepness[0].abs().min(steepness[1].abs()), steepness[0].abs().max(steepness[1].abs())];
-    turns_by_less(SMOOTH, &a, &b) && turns_by_less(SMOOTH, &b, &c) && steepness[0] * steepness[1] > 0.0 && most <= STEEPER * least
-}
-
-/// Whether the tangents of a side and of the one that begins at its end differ by less than an angle (radians).
-fn turns_by_less(angle: f64, bow: &Bow, other: &Bow) -> bool {
-    (-bow.reversed().tangent()).dot(&other.tangent()) > angle.cos()
-}
-
-/// Difference of the curvatures as a share of their sum.
-fn differ_by(bow: &Bow, other: &Bow) -> f64 {
-    let (a, b) = (bow.curvature(), other.curvature());
-    (a - b).abs() / (a.abs() + b.abs())
+    chains.retain(|chain| !chain.iter().all(Bow::is_flat));
+    chains
 }
 
 /// The curves of a chain, each with its sides: one circle, several, or a spline.
@@ -256,7 +170,7 @@ fn curves(chain: &[Bow]) -> Vec<(Curve, &[Bow])> {
     if let Some(circle) = circle_through(chain) {
         return vec![(circle, chain)];
     }
-    let arcs = chain.chunk_by(|a, b| differ_by(a, b) <= EQUAL && turns_by_less(KINK, a, b));
+    let arcs = chain.chunk_by(on_one_circle);
     let circles: Option<Vec<(Curve, &[Bow])>> =
         arcs.map(|arc| Some((circle_through(arc).filter(|_| arc.len() > 1)?, arc))).collect();
     circles.unwrap_or_else(|| vec![(spline_through(chain), chain)])

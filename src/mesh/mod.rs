@@ -52,6 +52,7 @@
 //! read, distribute and refine to 1 million triangles, and gave NaN coordinates for second-order Gmsh files.
 
 mod bisection;
+mod bow;
 mod cells;
 mod chain;
 mod connected;

@@ -5,7 +5,7 @@
 pub struct Origin {
     /// The triangle that it is a part of.
     pub triangle: u32,
-    /// Its corners in the barycentric coordinates of that triangle.
+    /// Corners of the part in the barycentric coordinates of that triangle.
     pub corners: [[f64; 3]; 3],
 }
 
@@ -26,7 +26,7 @@ impl Origin {
         std::array::from_fn(|k| (0..3).map(|corner| l[corner] * self.corners[corner][k]).sum())
     }
 
-    /// Its area, as a share of the triangle's.
+    /// Area of the part, as a share of the triangle's.
     pub fn area(&self) -> f64 {
         let [a, b, c] = self.corners;
         let [u, v] = [b, c].map(|x| [x[1] - a[1], x[2] - a[2]]);

@@ -25,13 +25,10 @@ impl MacroMesh {
             if grids.near(&corners).filter(alike).any(|other| overlap(corners, self.corners(other))) {
                 let [a, b, c] = corners;
                 let x = (a + b + c) / 3.0;
-                return Err(MeshError::unusable(
-                    &self.file,
-                    format!(
-                        "triangles of body \"{}\" overlap near ({}, {}): the same place would count twice; mesh the scene again",
-                        self.bodies[self.triangles[triangle].body as usize], x.x, x.y
-                    ),
-                ));
+                return Err(self.unusable(format!(
+                    "triangles of body \"{}\" overlap near ({}, {}): the same place would count twice; mesh the scene again",
+                    self.bodies[self.triangles[triangle].body as usize], x.x, x.y
+                )));
             }
         }
         Ok(())

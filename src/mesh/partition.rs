@@ -87,7 +87,7 @@ pub struct Partition {
     pub(super) counts: Vec<[u32; 3]>,
     /// Macro triangles of each rank, in its order.
     orders: Vec<Vec<u32>>,
-    /// Those of them that have edges or vertices of other ranks.
+    /// Macro triangles of each rank that have edges or vertices of other ranks.
     borders: Vec<Vec<u32>>,
     /// Macro triangles of other ranks that have edges or vertices of each rank.
     guests: Vec<Vec<u32>>,

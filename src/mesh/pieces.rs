@@ -47,13 +47,10 @@ impl MacroMesh {
                 let piece = owner[vertex as usize].get_or_insert(triangle.piece);
                 if *piece != triangle.piece {
                     let x = self.vertices[vertex as usize];
-                    return Err(MeshError::unusable(
-                        &self.file,
-                        format!(
-                            "two pieces of body \"{}\" hang together by nothing but the node at ({}, {}); a single node transmits no force in the plane: join them along an edge, or make them bodies with points of their own",
-                            self.bodies[triangle.body as usize], x.x, x.y
-                        ),
-                    ));
+                    return Err(self.unusable(format!(
+                        "two pieces of body \"{}\" hang together by nothing but the node at ({}, {}); a single node transmits no force in the plane: join them along an edge, or make them bodies with points of their own",
+                        self.bodies[triangle.body as usize], x.x, x.y
+                    )));
                 }
             }
         }
@@ -65,12 +62,9 @@ impl MacroMesh {
         self.pieces.iter().for_each(|piece| counts[piece.body] += 1);
         for (name, count) in self.bodies.iter().zip(counts) {
             if count > MOST_PIECES {
-                return Err(MeshError::unusable(
-                    &self.file,
-                    format!(
-                        "body \"{name}\" falls into {count} pieces that share no edges; if its nodes are doubled, merge them (`Coherence Mesh;` in Gmsh)"
-                    ),
-                ));
+                return Err(self.unusable(format!(
+                    "body \"{name}\" falls into {count} pieces that share no edges; if its nodes are doubled, merge them (`Coherence Mesh;` in Gmsh)"
+                )));
             }
         }
         Ok(())
@@ -97,13 +91,10 @@ impl MacroMesh {
             });
             if let Some((first, second, x)) = touching {
                 let names = [first, second].map(|part| &self.parts[part as usize].name);
-                return Err(MeshError::unusable(
-                    &self.file,
-                    format!(
-                        "parts \"{}\" and \"{}\" of body \"{}\" touch near ({}, {}) and share no nodes there, so nothing joins them; give them the same lines (`Coherence;` in Gmsh), or make them bodies with a contact between",
-                        names[0], names[1], self.bodies[body], x.x, x.y
-                    ),
-                ));
+                return Err(self.unusable(format!(
+                    "parts \"{}\" and \"{}\" of body \"{}\" touch near ({}, {}) and share no nodes there, so nothing joins them; give them the same lines (`Coherence;` in Gmsh), or make them bodies with a contact between",
+                    names[0], names[1], self.bodies[body], x.x, x.y
+                )));
             }
         }
         Ok(())

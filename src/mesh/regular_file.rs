@@ -20,7 +20,7 @@ pub fn read_regular(file: &Path, most: u64) -> Result<Vec<u8>> {
 /// The first bytes of a regular file, `count` of them at most.
 ///
 /// # Errors
-/// As of [`read_regular`].
+/// What the operating system says, or words, if it is no regular file.
 pub fn read_start(file: &Path, count: usize) -> Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(count);
     open_regular(file)?.take(count as u64).read_to_end(&mut bytes)?;

@@ -21,10 +21,9 @@ impl MacroMesh {
             let Some(boundary) = curves().find(|curve| curve.name == *name) else {
                 let known = self.physical_curves().into_iter().chain(&self.interfaces);
                 let known = known.map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
-                return Err(MeshError::unusable(
-                    &self.file,
-                    format!("has no physical curve \"{name}\", which [geometry.{geometry}] names; it has {known}"),
-                ));
+                return Err(
+                    self.unusable(format!("has no physical curve \"{name}\", which [geometry.{geometry}] names; it has {known}"))
+                );
             };
             for edge in boundary.edges.clone() {
                 self.bend_edge(geometry, edge, &curve)?;
@@ -51,14 +50,11 @@ impl MacroMesh {
                     (_, true) => format!("lies {distance:.3e} from"),
                     _ => format!("lies beyond the range of t, from {} to {}, of", Rounded(first), Rounded(last)),
                 };
-                return Err(MeshError::unusable(
-                    &self.file,
-                    format!(
-                        "the node {} {far} [geometry.{geometry}] (nearest at t = {}); correct the formula, its range of t, or the mesh",
-                        Coordinates(here),
-                        Rounded(t)
-                    ),
-                ));
+                return Err(self.unusable(format!(
+                    "the node {} {far} [geometry.{geometry}] (nearest at t = {}); correct the formula, its range of t, or the mesh",
+                    Coordinates(here),
+                    Rounded(t)
+                )));
             }
             if distance > 1e-14 * (here.norm() + length) {
                 self.vertices[vertex as usize] = there;
@@ -103,7 +99,8 @@ impl MacroMesh {
         self.locate_near(triangle, x, NEAR)
     }
 
-    /// The same, where points outside count as inside up to the distance `near` (barycentric).
+    /// Reference coordinates `(xi, eta)` of a point in a macro triangle by Newton's method on its map; points outside count as inside
+    /// up to the distance `near` (barycentric), and nothing is found of those beyond.
     pub fn locate_near(&self, triangle: usize, x: Point, near: f64) -> Option<Point> {
         let [a, b, c] = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
         let size = (b - a).norm().max((c - a).norm()).max((c - b).norm());

@@ -52,9 +52,8 @@ impl MacroMesh {
             }
             let curve = Arc::new(stretch.curve.clone());
             for (&edge, ends) in stretch.edges.iter().zip(spline.knots().windows(2)) {
-                let straight = self.directed(edge) == self.edges[edge as usize].vertices;
-                let range = if straight { [ends[0], ends[1]] } else { [ends[1], ends[0]] };
-                self.edges[edge as usize].shape = Some(EdgeShape { curve: curve.clone(), range });
+                let directed = self.directed(edge);
+                self.edges[edge as usize].bend(directed, curve.clone(), [ends[0], ends[1]]);
             }
         }
     }

@@ -3,7 +3,6 @@
 //! A tool does not strain, so what lies behind its surface does not matter. The layer gives it nodes, edges with their true shape,
 //! and a boundary like those of any body.
 
-use super::edge_shape::EdgeShape;
 use super::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle, Surface};
 use crate::geometry::{Curve, Point, cross, turn_right};
 use std::f64::consts::TAU;
@@ -191,13 +190,9 @@ impl MacroMesh {
         let mut surface = Vec::new();
         let arcs: Vec<Arc<Curve>> = parts.iter().map(|part| Arc::new(part.curve.clone())).collect();
         for (k, side) in sides.iter().enumerate() {
-            let [a, b] = ends(k);
-            let edge = edges.between(&self.triangles, [a, b]).expect("a side of the first triangle there");
-            let forward = self.edges[edge as usize].vertices[0] == a;
-            let [from, to] = side.range;
+            let edge = edges.between(&self.triangles, ends(k)).expect("a side of the first triangle there");
             if !arcs[side.part].is_line() {
-                let range = if forward { [from, to] } else { [to, from] };
-                self.edges[edge as usize].shape = Some(EdgeShape { curve: arcs[side.part].clone(), range });
+                self.edges[edge as usize].bend(ends(k), arcs[side.part].clone(), side.range);
             }
             surface.push((side.part, edge));
         }

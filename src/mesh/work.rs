@@ -7,14 +7,14 @@ use std::collections::BTreeMap;
 /// Bytes that a smoother moves for each node of a strip: right-hand side, unknowns read, unknowns written.
 const NODE: f64 = 48.0;
 
-/// The same for each coupling of a node in a strip. Its block stays in the processor; its four products cost as much time as so
+/// Bytes that stand for each coupling of a node in a strip. Its block stays in the processor; its four products cost as much time as so
 /// many bytes.
 const STRIP_COUPLING: f64 = 4.0;
 
-/// The same for each coupling of a stored row: a block and the number of its column.
+/// Bytes that a smoother moves for each coupling of a stored row: a block and the number of its column.
 const STORED_COUPLING: f64 = 36.0;
 
-/// The same for the inverse of the diagonal block of a stored row.
+/// Bytes that a smoother moves for the inverse of the diagonal block of a stored row.
 const INVERSE: f64 = 32.0;
 
 /// Weights are no finer than this share of the smallest one; enough for a balance of 1 %.

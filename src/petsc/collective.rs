@@ -13,20 +13,9 @@ impl<T: Equivalence + Copy + Default> Datum for T {}
 impl Session {
     /// The values of all ranks, in the order of the ranks. **Collective**
     pub fn gather_all<T: Datum>(&self, local: &[T]) -> Vec<T> {
-        let counts: Vec<i32> = self
-            .gather_counts(local.len())
-            .into_iter()
-            .map(|count| i32::try_from(count).expect("MPI counts in 32 bits"))
-            .collect();
-        let mut end = 0;
-        let starts: Vec<i32> = counts
-            .iter()
-            .map(|count| {
-                end += count;
-                end - count
-            })
-            .collect();
-        let mut all = vec![T::default(); end as usize];
+        let counts = self.gather_counts(local.len());
+        let mut all = vec![T::default(); counts.iter().sum()];
+        let [counts, starts] = layout(&counts, 1);
         self.world().all_gather_varcount_into(local, &mut PartitionMut::new(&mut all[..], counts, starts));
         all
     }
@@ -41,19 +30,19 @@ impl Session {
     /// Replaces each value by its sum over the ranks, bit for bit the same on every rank. **Collective**
     pub fn sum(&self, values: &mut [f64]) {
         let root = self.world().process_at_rank(0);
-        let own = values.to_vec();
+        let here = values.to_vec();
         if self.rank() == 0 {
-            root.reduce_into_root(&own[..], values, SystemOperation::sum());
+            root.reduce_into_root(&here[..], values, SystemOperation::sum());
         } else {
-            root.reduce_into(&own[..], SystemOperation::sum());
+            root.reduce_into(&here[..], SystemOperation::sum());
         }
         root.broadcast_into(values);
     }
 
     /// Replaces each value by its maximum over the ranks. **Collective**
     pub fn max(&self, values: &mut [f64]) {
-        let own = values.to_vec();
-        self.world().all_reduce_into(&own[..], values, SystemOperation::max());
+        let here = values.to_vec();
+        self.world().all_reduce_into(&here[..], values, SystemOperation::max());
     }
 
     /// Number of ranks on the machine of this one, which share its memory. **Collective**
@@ -88,7 +77,7 @@ impl Session {
     /// What rank 0 has got, on every rank: it alone reads, so that all work on the same bytes. **Collective**
     ///
     /// # Errors
-    /// Those of rank 0, in its words, on every rank.
+    /// The error of rank 0, in its words, on every rank.
     pub fn share<E: ToString>(
         &self,
         on_rank_0: impl FnOnce() -> std::result::Result<Vec<u8>, E>,
@@ -98,4 +87,16 @@ impl Session {
         let bytes = broadcast(self.world(), 0, own.unwrap_or_else(String::into_bytes));
         if failed { Err(String::from_utf8_lossy(&bytes).into_owned()) } else { Ok(bytes) }
     }
+}
+
+/// Counts and starts of consecutive parts, as MPI takes them.
+pub(super) fn layout(counts: &[usize], width: usize) -> [Vec<i32>; 2] {
+    let mut end = 0;
+    let starts = counts.iter().map(|count| {
+        end += count * width;
+        end - count * width
+    });
+    let in_32_bits = |n: usize| i32::try_from(n).expect("MPI counts in 32 bits");
+    let starts = starts.map(in_32_bits).collect();
+    [counts.iter().map(|count| in_32_bits(count * width)).collect(), starts]
 }

@@ -44,7 +44,7 @@ pub enum Error {
     UnequalWords {
         /// The lowest such rank.
         rank: usize,
-        /// Its words.
+        /// Words that this rank was started with.
         words: String,
     },
     /// MPI runs once in the life of a process.

@@ -1,6 +1,6 @@
 //! What each rank has for each other.
 
-use super::collective::Datum;
+use super::collective::{Datum, layout};
 use super::session::Session;
 use mpi::datatype::{Partition, PartitionMut};
 use mpi::traits::CommunicatorCollectives;
@@ -33,16 +33,4 @@ impl Session {
             .all_to_all_varcount_into(&Partition::new(all, sent, from), &mut PartitionMut::new(&mut arrived[..], received, to));
         arrived
     }
-}
-
-/// Counts and starts of consecutive parts, as MPI takes them.
-fn layout(counts: &[usize], width: usize) -> [Vec<i32>; 2] {
-    let mut end = 0;
-    let starts = counts.iter().map(|count| {
-        end += count * width;
-        end - count * width
-    });
-    let in_32_bits = |n: usize| i32::try_from(n).expect("MPI counts in 32 bits");
-    let starts = starts.map(in_32_bits).collect();
-    [counts.iter().map(|count| in_32_bits(count * width)).collect(), starts]
 }

@@ -43,8 +43,8 @@ impl Gather {
         Ok(self.read(vector)?.to_vec())
     }
 
-    /// The same, to read until the next one, which writes to the same place: so this gather is borrowed for as long.
-    /// **Collective**
+    /// The chosen entries of `vector`, in the order of the indices, without a copy: the next gather writes to the same place, so this
+    /// one is borrowed for as long. **Collective**
     pub fn read(&mut self, vector: &Vector) -> Result<impl Deref<Target = [f64]> + '_> {
         let (insert, forward) = (ffi::InsertMode::INSERT_VALUES, ffi::ScatterMode::SCATTER_FORWARD);
         petsc!(VecScatterBegin(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;

@@ -48,7 +48,8 @@ impl Halo {
         self.bring(&self.sent(x), far, meanwhile);
     }
 
-    /// The same where `meanwhile` changes the values here: other ranks get those of before. **Collective**
+    /// Brings the values of the far nodes, in their order, and does `meanwhile`, which changes the values here: other ranks get the
+    /// unchanged ones. **Collective**
     pub fn fetch_before<T: Datum>(&self, x: &mut [[T; 2]], far: &mut [[T; 2]], meanwhile: impl FnOnce(&mut [[T; 2]])) {
         let sent = self.sent(x);
         self.bring(&sent, far, || meanwhile(x));
@@ -84,7 +85,7 @@ fn parts(counts: &[(i32, usize)]) -> impl Iterator<Item = (i32, Range<usize>)> {
     })
 }
 
-/// The same parts of the two values of each node.
+/// Parts of a list of nodes as parts of the list of their values, two for each node.
 fn twice(parts: &[(i32, Range<usize>)]) -> Vec<(i32, Range<usize>)> {
     parts.iter().map(|(rank, range)| (*rank, 2 * range.start..2 * range.end)).collect()
 }

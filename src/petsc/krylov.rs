@@ -84,7 +84,7 @@ impl Krylov {
         petsc!(KSPSetUp(self.raw))
     }
 
-    /// Its preconditioner.
+    /// The preconditioner of the solver.
     pub fn preconditioner(&self) -> Preconditioner {
         let mut raw = ptr::null_mut();
         let shared = petsc!(KSPGetPC(self.raw, &mut raw)).and_then(|()| Preconditioner::share(&self.session, raw));
@@ -104,7 +104,7 @@ impl Krylov {
         Err(Error::NotConverged { reason, iterations, residual })
     }
 
-    /// As [`Krylov::solve`], but a method that gives up is no error: `converged` tells, `x` holds the last iterate.
+    /// Solves `A x = b`; a method that gives up is no error: `converged` tells, `x` holds the last iterate.
     /// **Collective**
     pub fn solve_allowing(&self, b: &Vector, x: &mut Vector) -> Result<KrylovEnding> {
         petsc!(KSPSolve(self.raw, b.raw(), x.raw()))?;

@@ -88,7 +88,11 @@ impl Matrix {
         self.set_values(rows, columns, values, ffi::InsertMode::ADD_VALUES)
     }
 
-    /// As [`Matrix::add`], but the values take the place of the old ones. Between two assemblies either add or insert.
+    /// Writes `values`, row after row, in place of the entries at `rows` × `columns` (global; negative ones are skipped). Holds after
+    /// [`Matrix::assemble`]; between two assemblies either add or insert.
+    ///
+    /// # Panics
+    /// If `values` has another length than the product of the two.
     #[inline]
     pub fn insert(&mut self, rows: &[Index], columns: &[Index], values: &[f64]) -> Result<()> {
         self.set_values(rows, columns, values, ffi::InsertMode::INSERT_VALUES)
@@ -246,8 +250,7 @@ impl Matrix {
         Ok(Self::from_raw(&self.session, raw))
     }
 
-    /// As [`Matrix::galerkin`], into the product of the same interpolation with a matrix of the same pattern.
-    /// **Collective**
+    /// The Galerkin product `Pᵀ A P`, into the product of the same interpolation with a matrix of the same pattern. **Collective**
     pub fn galerkin_into(&self, interpolation: &Self, product: &mut Self) -> Result<()> {
         petsc!(MatPtAP(self.raw, interpolation.raw, ffi::MatReuse::MAT_REUSE_MATRIX, ffi::mezha_default_real, &mut product.raw))
     }

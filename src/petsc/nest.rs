@@ -57,7 +57,7 @@ impl Matrix {
         Matrix::product(session, upper + lower, Box::new(NestProduct { blocks, upper, parts: RefCell::new(parts) }))
     }
 
-    /// Another reference.
+    /// Another reference to the matrix: both have the same entries.
     pub fn share(&self) -> Result<Self> {
         petsc!(PetscObjectReference(self.raw().cast()))?;
         Ok(Self::from_raw(self.session(), self.raw()))

@@ -73,7 +73,7 @@ pub fn partition(
     Ok(session.gather_all(&own))
 }
 
-/// The same by Scotch on rank 0 alone. Debian's PETSc of 64-bit indices has a Scotch of 32-bit numbers, and would have it read
+/// The partition of a graph by Scotch on rank 0 alone. Debian's PETSc of 64-bit indices has a Scotch of 32-bit numbers, and would have it read
 /// each index as two of them. **Collective**
 fn by_scotch_itself(session: &Session, parts: usize, graph: [&[i32]; 4]) -> Result<Vec<i32>> {
     let [offsets, neighbours, edge_weights, vertex_weights] = graph;

@@ -33,7 +33,7 @@ impl Preconditioner {
         petsc!(PCSetType(self.raw, kind.as_ptr()))
     }
 
-    /// Its kind by PETSc's name; empty before one has been chosen.
+    /// Kind of the preconditioner by PETSc's name; empty before one has been chosen.
     pub fn kind(&self) -> String {
         let mut kind = ptr::null();
         petsc!(PCGetType(self.raw, &mut kind)).expect("a preconditioner knows its kind");

@@ -18,7 +18,7 @@ pub struct SolveAtWork {
     pub iterations: usize,
     /// Relative residual that it began with; NaN before the first one is known.
     pub first: f64,
-    /// The same now.
+    /// Relative residual now.
     pub residual: f64,
     /// The one at which it ends.
     pub tolerance: f64,

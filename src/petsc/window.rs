@@ -22,7 +22,7 @@ impl Window {
         Ok(Self(Vector::from_raw(session, raw)?))
     }
 
-    /// Onto these values, to read. **Collective** as `with` is.
+    /// Shows `values` as a vector that `with` may read. **Collective** as `with` is.
     ///
     /// # Panics
     /// If there are not as many as the window has.
@@ -34,10 +34,10 @@ impl Window {
         outcome
     }
 
-    /// The same to write to.
+    /// Shows `values` as a vector that `with` may write to. **Collective** as `with` is.
     ///
     /// # Panics
-    /// As [`Window::read`].
+    /// If there are not as many as the window has.
     pub fn write<T>(&mut self, values: &mut [f64], with: impl FnOnce(&mut Vector) -> Result<T>) -> Result<T> {
         assert_eq!(values.len(), self.0.local_len(), "as many values as the window has");
         petsc!(VecPlaceArray(self.0.raw(), values.as_mut_ptr()))?;

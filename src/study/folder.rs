@@ -40,9 +40,9 @@ pub struct ResultPlace {
 /// A run that is asked for.
 #[derive(Clone, Debug)]
 pub struct Wanted {
-    /// What it is made of.
+    /// Fingerprints of what the run is made of.
     pub identity: Identity,
-    /// The same in words.
+    /// The run in words: its case file and what is set in it.
     pub what: String,
     /// What of it the run has to find again.
     pub inputs: Inputs,

@@ -16,7 +16,7 @@ use super::repeats::Spread;
 pub struct Line {
     /// Name of the case.
     pub case: String,
-    /// Its title.
+    /// Title of the case.
     pub title: String,
     /// What tells it from the other lines of the case.
     pub name: String,

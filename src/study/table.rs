@@ -40,7 +40,7 @@ pub struct Table {
 /// A column of the table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its name: a word, a key of the case, or a place in `summary.json`.
+    /// Name of the column: a word, a key of the case, or a place in `summary.json`.
     pub name: String,
     /// What it is for a reader.
     pub kind: ColumnKind,

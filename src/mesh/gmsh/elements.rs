@@ -64,7 +64,7 @@ pub(super) struct Elements {
 }
 
 impl Elements {
-    /// Everything, for the mesh to be made of it.
+    /// All that has been read, from which the mesh is made.
     pub fn into_mesh(self) -> RawMesh {
         self.mesh
     }
@@ -106,7 +106,7 @@ impl Elements {
         self.mesh.number_of(names)
     }
 
-    /// The same of one group, or none. Elements of a group follow each other.
+    /// The number of the name of one physical group, or of none, for [`Elements::add`]. Elements of a group follow each other.
     pub fn names_of_group(&mut self, groups: &Groups, group: Option<Entity>) -> u32 {
         if let Some((_, number)) = self.last.filter(|(last, _)| *last == group) {
             return number;

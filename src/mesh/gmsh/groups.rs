@@ -82,7 +82,7 @@ fn in_line(cursor: &mut Cursor, dimension: usize) -> Result<(i64, Vec<i64>), Mes
     Ok((entity, tags.iter().map(|&tag| whole(cursor, tag)).collect::<Result<_, _>>()?))
 }
 
-/// The same in a binary file.
+/// Tag and physical tags of an entity in a binary file.
 fn in_bytes(cursor: &mut Cursor, dimension: usize) -> Result<(i64, Vec<i64>), MeshError> {
     const SECTION: &str = "Entities";
     let [entity] = cursor.whole(SECTION)?;

@@ -60,7 +60,8 @@ pub fn parse_gmsh(bytes: &[u8], file: &Path) -> Result<MacroMesh, MeshError> {
     parse_joined(bytes, file, HashMap::new())
 }
 
-/// The same, where physical surfaces are joined: `joined` has the name of the body of each surface that is a part of one.
+/// The mesh of a Gmsh file that has been read, with physical surfaces joined to bodies; `file` is its name in errors, `joined` has the
+/// name of the body of each surface that is a part of one.
 ///
 /// # Errors
 /// [`MeshError`] as of [`read_gmsh`].

@@ -33,7 +33,7 @@ pub struct PlannedCase {
     pub file: PathBuf,
     /// A name that no other has.
     pub label: String,
-    /// Its title.
+    /// Title of the case.
     pub title: String,
 }
 

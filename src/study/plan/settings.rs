@@ -22,7 +22,7 @@ pub type GridAxis = Setting<Vec<Value>>;
 
 /// `[[curve]]`
 pub struct StudyCurve {
-    /// Its name.
+    /// Name of the curve.
     pub name: String,
     /// Keys that move together.
     pub set: Vec<Setting<Value>>,

@@ -1,0 +1,157 @@
+//! The part of a stretch of boundary that is near the other body: from the first to the last node that touches or penetrates it,
+//! but for a tolerance.
+
+use super::{Configuration, Pair, SmoothSide};
+use crate::geometry::Point;
+
+/// A contact that goes all around but for so many edges has no ends beside them.
+const BRIDGED_EDGES: f64 = 4.0;
+
+/// Pieces that meet at a smaller angle (radians) are not split by a corner there.
+const JOINT: f64 = 0.3;
+
+/// A stretch, and which of its nodes are near the other body.
+#[derive(Clone, Copy)]
+pub struct NearPart<'a> {
+    pub side: &'a SmoothSide,
+    /// First and last node. On a closed stretch the last may lie a turn farther, and it does so if all nodes but few are near.
+    pub nodes: [usize; 2],
+}
+
+impl<'a> NearPart<'a> {
+    /// The part that is near some stretch of the other body, within a share of the length; nothing if it has one node only.
+    fn new(side: &'a SmoothSide, others: &[SmoothSide], pair: &Pair, share: f64) -> Option<Self> {
+        let near = |&node: &usize| is_near(side, node, others, pair, share);
+        let count = side.nodes();
+        let nodes = match side.turn() {
+            Some(_) => beside_the_widest_gap(side, &(0..count).filter(near).collect::<Vec<_>>())?,
+            None => [(0..count).find(near)?, (0..count).rev().find(near)?],
+        };
+        (nodes[1] > nodes[0]).then_some(Self { side, nodes })
+    }
+
+    /// From the node before the one nearest to the first of two places to the node behind the one nearest to the other; on a closed
+    /// stretch by the shorter way.
+    pub fn beside(side: &'a SmoothSide, places: [Point; 2]) -> Self {
+        let ([a, b], count) = (places.map(|x| side.nearest_node(x)), side.nodes());
+        if side.turn().is_none() {
+            return Self { side, nodes: [a.min(b).saturating_sub(1), (a.max(b) + 1).min(count - 1)] };
+        }
+        let [there, back] = [(b + count - a) % count, (a + count - b) % count];
+        let before = (if back < there { b } else { a } + count - 1) % count;
+        Self { side, nodes: [before, before + there.min(back) + 2] }
+    }
+
+    /// Whether it goes all around a closed stretch.
+    pub fn is_whole(&self) -> bool {
+        self.side.turn().is_some() && self.nodes[1] - self.nodes[0] >= self.side.nodes()
+    }
+
+    fn length(&self) -> f64 {
+        self.side.unrolled(self.nodes[1]) - self.side.unrolled(self.nodes[0])
+    }
+
+    /// Middle node of the part, which may lie a turn farther; nothing if it goes all around.
+    fn middle(&self) -> Option<usize> {
+        (!self.is_whole()).then(|| self.nodes.iter().sum::<usize>() / 2)
+    }
+
+    /// Node at which the stretch is begun: opposite to the middle of this part, or of the other body's if this one goes all around.
+    /// Zero on an open stretch.
+    pub fn seam(&self, other: &Self, configuration: Configuration) -> usize {
+        let (side, count) = (self.side, self.side.nodes());
+        let across = || {
+            let x = other.side.positions(configuration)[other.middle()? % other.side.nodes()];
+            let away = |node: &usize| (side.positions(configuration)[*node] - x).norm();
+            (0..count).min_by(|a, b| away(a).total_cmp(&away(b)))
+        };
+        let middle = side.turn().and_then(|_| self.middle().or_else(across));
+        middle.map_or(0, |middle| (middle + count / 2) % count)
+    }
+
+    /// First and last node of the part as they are counted from a seam of the stretch.
+    pub fn counted_from(&self, seam: usize) -> [usize; 2] {
+        let ([first, last], count) = (self.nodes, self.side.nodes());
+        let from = (first + count - seam) % count;
+        match self.side.turn() {
+            None => self.nodes,
+            Some(_) if self.is_whole() => [0, count],
+            Some(_) => [from, from + last - first],
+        }
+    }
+}
+
+/// Whether a node touches or penetrates the other body, but for a share of the length.
+pub fn is_near(side: &SmoothSide, node: usize, others: &[SmoothSide], pair: &Pair, share: f64) -> bool {
+    others.iter().any(|other| {
+        let tolerance = share * side.length().max(other.length());
+        side.gap(node, other, pair, tolerance).is_some_and(|gap| gap < tolerance)
+    })
+}
+
+/// First and last of those nodes of a closed side that are near the other body (`near`, ascending), beside the widest part of the
+/// side without such nodes.
+fn beside_the_widest_gap(side: &SmoothSide, near: &[usize]) -> Option<[usize; 2]> {
+    let count = side.nodes();
+    let next = |i: usize| near.get(i + 1).copied().unwrap_or(near[0] + count);
+    let gap = |i: usize| side.unrolled(next(i)) - side.unrolled(near[i]);
+    let widest = (0..near.len()).max_by(|&a, &b| gap(a).total_cmp(&gap(b)))?;
+    if gap(widest) <= BRIDGED_EDGES * side.edge_length(0, count) {
+        return Some([0, count]);
+    }
+    let (first, last) = (next(widest) % count, near[widest]);
+    Some([first, if last < first { last + count } else { last }])
+}
+
+/// The stretch of body `k`'s boundary that is near the other body, and its part that is so; others may be at a corner only.
+/// Nothing if none is.
+///
+/// # Errors
+/// Words, if there are several.
+pub fn only_near_part<'a>(
+    sides: &'a [Vec<SmoothSide>; 2],
+    k: usize,
+    pair: &Pair,
+    share: f64,
+) -> Result<Option<(usize, NearPart<'a>)>, String> {
+    let parts: Vec<_> = sides[k].iter().map(|side| NearPart::new(side, &sides[1 - k], pair, share)).collect();
+    let length = |part: &Option<NearPart>| part.map_or(0.0, |part| part.length());
+    let longest = parts.iter().enumerate().max_by(|a, b| length(a.1).total_cmp(&length(b.1)));
+    let Some((stretch, Some(part))) = longest else { return Ok(None) };
+    let touching: Vec<usize> = (0..parts.len()).filter(|&other| length(&parts[other]) > 0.05 * part.length()).collect();
+    if touching.len() == 1 {
+        return Ok(Some((stretch, *part)));
+    }
+    Err(format!(
+        "\"{}\" {} touch \"{}\"; give each a name and a contact of its own, or tell the curve of all by a [geometry]",
+        pair.between[k],
+        what_splits(&sides[k], &touching),
+        pair.between[1 - k]
+    ))
+}
+
+/// Why the stretches of a boundary that touch are several, in words between its name and "touch".
+fn what_splits(sides: &[SmoothSide], touching: &[usize]) -> String {
+    let others = |k: usize| (0..sides.len()).filter(move |&other| other != k).map(move |other| (k, other));
+    let turns = touching.iter().flat_map(|&k| others(k)).filter_map(|(k, other)| corner(&sides[k], &sides[other]));
+    let count = touching.len();
+    match turns.reduce(f64::max) {
+        None => format!("is of pieces that do not hang together, {count} of which"),
+        Some(turn) if turn < JOINT => format!("is of pieces with different shapes, {count} of which"),
+        Some(_) => format!("has corners of more than 20 degrees, and {count} of its smooth stretches"),
+    }
+}
+
+/// The largest angle (radians) between two stretches where an end of one is an end of the other.
+fn corner(side: &SmoothSide, other: &SmoothSide) -> Option<f64> {
+    let least = 1e-9 * side.length();
+    let pairs = ends(side).into_iter().flat_map(|a| ends(other).map(|b| (a, b)));
+    pairs.filter(|(a, b)| (a.0 - b.0).norm() <= least).map(|(a, b)| a.1.angle(&-b.1)).reduce(f64::max)
+}
+
+/// Both ends of a stretch, each with the direction in which it goes on there.
+fn ends(side: &SmoothSide) -> [(Point, Point); 2] {
+    let curve = side.curve(Configuration::Reference);
+    let [first, last] = [0.0, side.length()];
+    [(curve.point(first), -curve.tangent(first)), (curve.point(last), curve.tangent(last))]
+}
