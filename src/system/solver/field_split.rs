@@ -4,13 +4,14 @@ use super::block_triangle::BlockTriangle;
 use super::bordered::Bordered;
 use super::fallback::Preconditioning;
 use super::linear_solver::LinearSolver;
+use super::operators::{below, set_operators};
 use super::options::{
     CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_method_chosen,
     is_split_changed, lambda_options, preconditioning_options,
 };
 use crate::discretisation::{Form, SystemError};
 use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, Stiffness};
-use crate::petsc::{self, Action, Krylov, Matrix, MultigridCycle, MultigridLevel, Preconditioner, ReplacedAction, Session};
+use crate::petsc::{self, Action, Krylov, MultigridCycle, MultigridLevel, Preconditioner, ReplacedAction, Session};
 use crate::system::saddle_point::SaddlePoint;
 use std::rc::Rc;
 
@@ -156,24 +157,4 @@ fn is_factor(kind: &str) -> bool {
 /// The solver with a preconditioning, in words.
 pub(super) fn field_split_name(preconditioning: Preconditioning) -> String {
     format!("fieldsplit ({})", preconditioning.words("multigrid F-cycle"))
-}
-
-/// The product of the nest and the nest, or for a factor the one with all rows stored. **Collective**
-pub(super) fn set_operators(
-    krylov: &Krylov,
-    system: &SaddlePoint,
-    preconditioning: Preconditioning,
-    session: &Session,
-) -> Result<(), SystemError> {
-    let stored = if preconditioning == Preconditioning::Factor { system.stored_nest(session)? } else { None };
-    match &stored {
-        Some(nest) => krylov.set_operators(if system.border.is_some() { &system.product } else { nest }, nest)?,
-        None => krylov.set_operators(&system.product, &system.nest)?,
-    }
-    Ok(())
-}
-
-/// Those interpolations that lead to auxiliary levels, or up from them.
-pub(super) fn below<'a>(interpolations: &'a [Interpolation], system: &SaddlePoint) -> Vec<&'a Matrix> {
-    interpolations[..interpolations.len() + 1 - system.stiffness.len()].iter().map(|step| &step.matrix).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::bordered::Bordered;
 use super::fallback::Preconditioning;
-use super::field_split::{below, set_operators};
+use super::operators::{below, set_operators};
 use crate::discretisation::{Form, SystemError};
 use crate::multigrid::{Cycle, GalerkinLevels, Interpolation};
 use crate::petsc::{self, Krylov, Matrix, ReplacedAction, Session};

@@ -60,6 +60,7 @@ mod field_split;
 mod inf_sup;
 mod linear_solve;
 mod linear_solver;
+mod operators;
 mod options;
 mod solving;
 
