@@ -1,6 +1,10 @@
 //! Nodal forces of loads and body forces.
 
-use super::{BodyPart, Load, LoadKind, NodePositions, PointLoad};
+use super::BodyPart;
+use super::Load;
+use super::LoadKind;
+use super::PointLoad;
+use super::node_positions::NodePositions;
 use crate::element::{BadJacobian, Order, edge_load, triangle_load};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};

@@ -10,7 +10,9 @@
 //! levels too; `Field` turns back. Supports that hold two directions at a node fix it; contradictions are errors that name
 //! both.
 
-use super::{Anchor, MOTIONS, MeanHold, Motion, RigidSet, Support};
+use super::Support;
+use super::mean_hold::{Anchor, MeanHold};
+use super::rigid::{MOTIONS, Motion, RigidSet};
 use crate::geometry::{Coordinates, Formula, Point, Rounded, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use nalgebra::{Matrix2, SMatrix};

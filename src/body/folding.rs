@@ -1,6 +1,6 @@
 //! Triangles that a bent boundary turns inside out.
 
-use super::NodePositions;
+use super::node_positions::NodePositions;
 use crate::element::{BadJacobian, Order, check_map};
 use crate::mesh::{Level, MacroMesh, lattice};
 

@@ -1,6 +1,9 @@
 //! Formulas of loads and forces where they are integrated: the first that has no finite value there, in words.
 
-use super::{BodyPart, Load, LoadKind, NodePositions};
+use super::BodyPart;
+use super::Load;
+use super::LoadKind;
+use super::node_positions::NodePositions;
 use crate::element::{BadJacobian, Order, edge_load, triangle_load};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{BoundaryEdge, Level, MacroMesh, Numbering, lattice};

@@ -1,6 +1,6 @@
 //! Stiffness of one macro triangle at one level, row by row of its lattice.
 
-use super::{NodePositions, positions};
+use super::node_positions::{NodePositions, positions};
 use crate::element::{BadJacobian, Block, Order, PlaneLaw, stiffness};
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Shapes, lattice};

@@ -4,7 +4,7 @@
 //! turn, is prescribed. Vertices hold it while the system is solved, its *anchors*; the whole body is moved rigidly to where its
 //! mean is as it was asked for, and a force that is spread all over it balances what drives it, so that the anchors carry nothing.
 
-use super::{Motion, rigid_displacement};
+use super::rigid::{Motion, rigid_displacement};
 use crate::geometry::{Point, cross};
 use crate::mesh::MacroMesh;
 use nalgebra::DMatrix;

@@ -5,7 +5,8 @@
 //! slide, a normal that turns unevenly acts like a curvature that they do not have.
 
 use super::halfway::{BEYOND, Halfway, halfway, parameters_between, sort};
-use super::{Pair, SmoothSide};
+use super::pair::Pair;
+use super::smooth_side::SmoothSide;
 use crate::geometry::{Curve, FitSample, Spline};
 use std::ops::Range;
 
@@ -160,9 +161,9 @@ fn fit_by_the_data(samples: &[FitSample], wish: Option<usize>, turn: Option<f64>
 
 #[cfg(test)]
 mod tests {
+    use super::super::pair::{Configuration, CurveChoice, EndRule};
     use super::*;
     use crate::contact::samples::seam;
-    use crate::contact::{Configuration, CurveChoice, EndRule};
     use crate::element::Order;
     use crate::geometry::{Point, turn_right};
     use crate::mesh::samples::two_blocks;

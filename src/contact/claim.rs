@@ -52,8 +52,9 @@ impl Facing<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::facing::Facing;
+    use super::super::pair::Pair;
     use crate::contact::samples::{SEAM, line, moved_blocks, seam};
-    use crate::contact::{Facing, Pair};
     use crate::geometry::Point;
 
     /// Words of two contacts of the two blocks, on parts of the line; edges have lengths of up to 0.125.

@@ -7,7 +7,12 @@
 //! the nodes leave a relative L2 error of λ of 1.9e-2, 1.3e-2 and 9.6e-3. On the mesh of `cases/rings`, whose edges are bent,
 //! the fitted curve has 1.34e-5 at `refine = 3`, as the declared circle has.
 
-use super::{ContactBoundary, Multipliers, Quadrature, Side, quadrature_points, trace};
+use super::contact_boundary::ContactBoundary;
+use super::multiplier::Multipliers;
+use super::pair::Quadrature;
+use super::quadrature::quadrature_points;
+use super::side::Side;
+use super::trace::trace;
 use crate::geometry::{Curve, Formula, Point, gauss_points};
 use crate::mesh::{BoundaryEdge, EdgeNode};
 
@@ -151,8 +156,8 @@ fn check_ends(boundary: &ContactBoundary, formula: &Formula) -> Result<(), Strin
 
 #[cfg(test)]
 mod tests {
+    use super::super::pair::MultiplierSpace;
     use super::*;
-    use crate::contact::MultiplierSpace;
     use crate::element::Order;
     use crate::geometry::ParametricCurve;
     use crate::mesh::samples::two_blocks;

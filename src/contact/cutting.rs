@@ -10,7 +10,8 @@
 //! Hertz problem of the prototype the L2 error of λ was 0.046 with 13 segments, of which the active set chose, and 0.011 with 8
 //! that end where contact ends.
 
-use super::{ContactBoundary, MultiplierSpace, Pair, SegmentRule};
+use super::contact_boundary::ContactBoundary;
+use super::pair::{MultiplierSpace, Pair, SegmentRule};
 use crate::element::Order;
 use crate::geometry::{Disc, Point, overlapping_discs};
 use crate::mesh::BoundaryEdge;

@@ -1,6 +1,9 @@
 //! The two boundaries of a contact as they are drawn, seen along the normals of Γ_C.
 
-use super::{ContactBoundary, Pair, Side, all_edges, faces};
+use super::contact_boundary::ContactBoundary;
+use super::pair::Pair;
+use super::placing::{all_edges, faces};
+use super::side::Side;
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, EdgeNode, MacroMesh, Numbering, SmoothNormals};
 

@@ -1,8 +1,10 @@
 //! What a linear contact model leaves out where bodies move far: its normals and corresponding points stay, while curved
 //! bodies that slide along each other, or turn, face each other with other parts of their boundaries; and bodies that turn grow.
 
+use super::contact_boundary::ContactBoundary;
+use super::multiplier::Multipliers;
+use super::pair::Configuration;
 use super::smooth_side::SmoothSide;
-use super::{Configuration, ContactBoundary, Multipliers};
 use crate::geometry::{Point, gauss_points, turn_right};
 use nalgebra::Rotation2;
 
@@ -177,8 +179,9 @@ fn left_out(sides: [&SmoothSide; 2], tilts: [f64; 2], x: Point, normal: Point) -
 
 #[cfg(test)]
 mod tests {
+    use super::super::pair::MultiplierSpace;
     use super::*;
-    use crate::contact::{MultiplierSpace, samples};
+    use crate::contact::samples;
     use crate::element::Order;
     use crate::geometry::Curve;
     use crate::mesh::samples::two_blocks;

@@ -16,7 +16,8 @@
 //! | 176 | 0.55: 1.3e-1, 5.4e-4 | 0.27: 2.3e-1, 6.0e-4 | 0.27: 3.7e4, 2.8e-4 |
 //! | 352 | 0.27: 1.3e10, 5.1e-4 | 0.14: 6.5e5, 2.8e-4 | 0.14: not solved, 1.3e-4 |
 
-use super::{MultiplierSpace, Multipliers};
+use super::multiplier::Multipliers;
+use super::pair::MultiplierSpace;
 use std::collections::BTreeMap;
 
 /// `δ`: the results change little between 0.1 and 1.
@@ -69,8 +70,8 @@ pub fn jump_matrix<'a>(jumps: impl Iterator<Item = &'a Jump>, count: usize) -> S
 
 #[cfg(test)]
 mod tests {
+    use super::super::contact_boundary::ContactBoundary;
     use super::*;
-    use crate::contact::ContactBoundary;
     use crate::geometry::{Curve, Point};
 
     fn matrix(space: MultiplierSpace) -> SparseRows {

@@ -1,11 +1,12 @@
 //! Where two bodies touch or penetrate each other: the ends of Γ_C, and the nodes whose points half-way it is fitted to.
 
 use super::bisector::Bisector;
+use super::contact_boundary::ContactBoundary;
 use super::near_part::{NearPart, is_near, only_near_part};
 use super::node_window::NodeWindow;
 use super::own_curve::OwnCurve;
+use super::pair::{GapChoice, Pair};
 use super::smooth_side::SmoothSide;
-use super::{ContactBoundary, GapChoice, Pair};
 use crate::geometry::{Curve, Point};
 use std::ops::Range;
 
@@ -214,9 +215,9 @@ fn find_node(sides: &[Vec<SmoothSide>; 2], holds: impl Fn(&SmoothSide, usize, &[
 
 #[cfg(test)]
 mod tests {
+    use super::super::pair::{Configuration, CurveChoice};
     use super::*;
     use crate::contact::samples::seam;
-    use crate::contact::{Configuration, CurveChoice};
     use crate::element::Order;
     use crate::geometry::{Formula, ParametricCurve};
     use crate::mesh::samples::two_blocks;

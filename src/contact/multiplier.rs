@@ -1,6 +1,7 @@
 //! Multiplier spaces on the segments of a contact boundary.
 
-use super::{ContactBoundary, MultiplierSpace};
+use super::contact_boundary::ContactBoundary;
+use super::pair::MultiplierSpace;
 use crate::geometry::gauss_points;
 use std::ops::Range;
 

@@ -4,7 +4,8 @@
 //! side there, as it will when they touch, and points of its own side correspond to it that are as far shifted. Seen from afar,
 //! the normals of a curved side would spread, or crowd, on the other.
 
-use super::{Configuration, Pair, SmoothSide};
+use super::pair::{Configuration, Pair};
+use super::smooth_side::SmoothSide;
 use crate::geometry::{Curve, Point};
 
 /// Nodes of the other side that are looked at for the shortest way, at most.
@@ -108,9 +109,10 @@ fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pair::CurveChoice;
+    use super::super::side::Side;
     use super::*;
     use crate::contact::samples::seam;
-    use crate::contact::{CurveChoice, Side};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Numbering, Partition};

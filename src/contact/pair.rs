@@ -1,6 +1,6 @@
 //! A contact pair as the case asks for it.
 
-use super::Side;
+use super::side::Side;
 use crate::geometry::{Formula, Point};
 
 /// Two boundaries that may touch, and how their contact is modelled.

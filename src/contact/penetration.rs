@@ -1,6 +1,7 @@
 //! How deep two bodies lie in each other, by their whole sides: a contact boundary may see less than that.
 
-use super::{Law, Pair, SmoothSide};
+use super::pair::{Law, Pair};
+use super::smooth_side::SmoothSide;
 use crate::geometry::Point;
 
 /// Reach beyond the ends of a side, as a share of its length.
@@ -44,9 +45,9 @@ pub fn penetration(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> Penetration {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pair::{Configuration, CurveChoice};
     use super::*;
     use crate::contact::samples::seam;
-    use crate::contact::{Configuration, CurveChoice};
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{EdgeNode, Level, Numbering, Partition};

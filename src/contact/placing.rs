@@ -1,10 +1,13 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
 use super::boundary_check::stray;
+use super::contact_boundary::ContactBoundary;
 use super::cutting::fractions;
-use super::{
-    Configuration, ContactBoundary, CurveChoice, Displacement, Meeting, Pair, PointContact, SegmentRule, Side, SmoothSide,
-};
+use super::meeting::Meeting;
+use super::nearest_place::PointContact;
+use super::pair::{Configuration, CurveChoice, Pair, SegmentRule};
+use super::side::Side;
+use super::smooth_side::{Displacement, SmoothSide};
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 

@@ -7,7 +7,9 @@
 //! off by 1.6e-2, 1.6e-2, 1.8e-2 and 1.8e-2 at `mesh.refine` 2 to 5. More points do, slowly: P2 with `p0` is off by 2.9e-2 with
 //! 2 points, 9.5e-3 with 5, 1.3e-3 with 12 and 2.1e-4 with 20.
 
-use super::{ContactBoundary, Quadrature, edge_overlaps};
+use super::contact_boundary::ContactBoundary;
+use super::pair::Quadrature;
+use super::trace::edge_overlaps;
 use crate::geometry::gauss_points;
 use crate::mesh::BoundaryEdge;
 

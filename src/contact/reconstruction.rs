@@ -1,6 +1,9 @@
 //! λ made smoother than its space: what the segments are too coarse for shows in the difference.
 
-use super::{ContactBoundary, MultiplierSpace, Multipliers, Zone};
+use super::contact_boundary::ContactBoundary;
+use super::multiplier::Multipliers;
+use super::pair::MultiplierSpace;
+use super::zones::Zone;
 use crate::geometry::gauss_points;
 
 /// A sample nearer to the one before than this share of its distance to the next says the same.

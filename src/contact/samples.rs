@@ -1,8 +1,8 @@
 //! Contact pairs for unit tests.
 
-use super::{
-    Configuration, ContactBoundary, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule,
-    Stabilise,
+use super::contact_boundary::ContactBoundary;
+use super::pair::{
+    Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise,
 };
 use crate::element::Order;
 use crate::geometry::{Curve, Point};

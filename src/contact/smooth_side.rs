@@ -1,6 +1,7 @@
 //! One side of a contact as a smooth curve through its nodes, undeformed and as it lies now.
 
-use super::{Configuration, GapChoice, Pair, Side};
+use super::pair::{Configuration, GapChoice, Pair};
+use super::side::Side;
 use crate::geometry::{Curve, Point, Spline, chord_lengths, cross, turn_right};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering, Stretch};
 

@@ -2,7 +2,7 @@
 //!
 //! A body couples to Γ_C alone, so each rank works on the boundary edges it owns and on nothing else.
 
-use super::ContactBoundary;
+use super::contact_boundary::ContactBoundary;
 use crate::element::{edge_shape, edge_slope};
 use crate::geometry::Point;
 use crate::mesh::BoundaryEdge;

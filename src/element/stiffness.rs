@@ -1,6 +1,6 @@
 //! Stiffness and stress of one triangle, straight or isoparametric.
 
-use super::PlaneLaw;
+use super::plane_law::PlaneLaw;
 use super::shape::{shape, slopes};
 use crate::geometry::{Coordinates, Point};
 use nalgebra::Matrix2;

@@ -1,7 +1,9 @@
 //! Plane curves with a parameter.
 
+use super::Point;
+use super::cross;
 use super::parametric_curve::{self, ParametricCurve};
-use super::{Point, Spline, cross};
+use super::spline::Spline;
 use std::f64::consts::TAU;
 
 /// A plane curve `t -> (x, y)` over a range of its parameter.
@@ -185,7 +187,7 @@ impl Curve {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Formula;
+    use super::super::formula::Formula;
     use super::*;
 
     fn parabola() -> Curve {
@@ -229,7 +231,7 @@ mod tests {
     #[test]
     fn a_curve_that_is_moved_has_its_points_moved() {
         let points: Vec<Point> = (0..9).map(|k| Point::new(f64::from(k).cos(), f64::from(k))).collect();
-        let spline = Curve::Spline(super::super::Spline::through(&points));
+        let spline = Curve::Spline(super::super::spline::Spline::through(&points));
         let circle = Curve::Circle { centre: [1.0, -1.0], radius: 2.0 };
         let by = Point::new(0.3, -4.0);
         for curve in [Curve::Line([[0.0, 3.0], [6.0, 4.0]]), circle, parabola(), spline] {

@@ -15,7 +15,8 @@ mod dual;
 mod parser;
 mod spelling;
 
-use super::{Coordinates, Point, Quote};
+use super::Point;
+use super::place::{Coordinates, Quote};
 use arithmetic::{Arithmetic, PointValues};
 use dual::Dual;
 

@@ -1,6 +1,7 @@
 //! Curves by formulas of their parameter.
 
-use super::{Formula, Point};
+use super::Point;
+use super::formula::Formula;
 
 /// Ends of a curve nearer than this share of its speed times its range are one point, where its tangents are one, too.
 const MEETS_ITSELF: f64 = 1e-9;

@@ -7,8 +7,8 @@
 //! lie on its curve.
 
 use super::connected::Connected;
+use super::macro_mesh::{MacroMesh, MacroTriangle};
 use super::origin::Origin;
-use super::{MacroMesh, MacroTriangle};
 use crate::geometry::Point;
 
 /// A side that is so many times shorter than the longest one of its triangle is halved after that one only.

@@ -1,6 +1,6 @@
 //! Boundaries as chains of vertices, split at corners.
 
-use super::MacroMesh;
+use super::macro_mesh::MacroMesh;
 use crate::geometry::{Curve, Point, Spline, cross};
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Meshes made of the triangles of others: edges are found again, with their shapes and their boundaries.
 
 use super::edge_shape::EdgeShape;
-use super::{BodyPiece, Boundary, MacroMesh, MacroTriangle};
+use super::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle};
 use crate::geometry::Point;
 
 /// A mesh that is being connected.

@@ -1,6 +1,8 @@
 //! The small edges of a boundary at one level.
 
-use super::{Level, MacroMesh, Numbering, lattice};
+use super::lattice;
+use super::macro_mesh::MacroMesh;
+use super::numbering::{Level, Numbering};
 use crate::element::Order;
 use crate::geometry::{Point, turn_right};
 

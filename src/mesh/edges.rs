@@ -1,6 +1,6 @@
 //! Edges of triangles, found by sorting their sides.
 
-use super::{MacroEdge, MacroMesh, MacroTriangle};
+use super::macro_mesh::{MacroEdge, MacroMesh, MacroTriangle};
 
 /// The sides of all triangles, sorted by their ends.
 pub(super) struct Edges {

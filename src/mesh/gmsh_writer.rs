@@ -155,9 +155,9 @@ fn line(text: &mut String, words: std::fmt::Arguments) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::gmsh::{parse_gmsh, read_gmsh};
     use super::*;
     use crate::geometry::Curve;
-    use crate::mesh::{parse_gmsh, read_gmsh};
     use std::path::Path;
 
     fn case_mesh(file: &str) -> MacroMesh {
@@ -249,7 +249,7 @@ mod tests {
                 assert!(off < 1e-14, "edge {edge}: {off}");
             }
             let all = 0..mesh.triangles.len() as u32;
-            mesh = super::super::BisectedMesh::new(mesh).refined(all).mesh;
+            mesh = super::super::bisection::BisectedMesh::new(mesh).refined(all).mesh;
         }
     }
 }

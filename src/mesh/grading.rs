@@ -8,7 +8,8 @@
 
 use super::hierarchy::{HierarchyTriangle, Shapes, barycentric, fraction};
 use super::lattice::{self, Place};
-use super::{Level, MacroMesh};
+use super::macro_mesh::MacroMesh;
+use super::numbering::Level;
 use crate::geometry::Point;
 
 /// Points closer to a macro vertex than this share of the mesh's size name it.

@@ -9,7 +9,8 @@ use super::bisection::BisectedMesh;
 use super::connected::Connected;
 use super::located::Located;
 use super::macro_mesh::smallest_angle;
-use super::{MacroMesh, MacroTriangle, NamedPoint, Spot};
+use super::macro_mesh::{MacroMesh, MacroTriangle};
+use super::spot::{NamedPoint, Spot};
 use crate::geometry::{Point, cross};
 use std::collections::HashSet;
 

@@ -1,6 +1,7 @@
 //! Where points that the case names lie in a mesh.
 
-use super::{MacroMesh, Spot};
+use super::macro_mesh::MacroMesh;
+use super::spot::Spot;
 use crate::geometry::Point;
 
 /// Points so close to a vertex, or to an edge on the boundary, by the length of the edges there, are moved onto it.

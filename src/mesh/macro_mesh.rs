@@ -1,8 +1,10 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
+use super::MeshError;
 use super::edge_shape::EdgeShape;
+use super::file_place::FilePlace;
 use super::raw_mesh::{RawMesh, RawTriangle};
-use super::{FilePlace, MeshError, NamedPoint};
+use super::spot::NamedPoint;
 use crate::geometry::{Coordinates, Curve, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};

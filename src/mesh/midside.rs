@@ -4,8 +4,9 @@
 //! Neighbours that go on smoothly are one curve: the circle through their nodes where they lie on one, otherwise the spline
 //! through all of them. So refinement follows the body as it was drawn, and not the parabolas of the elements.
 
+use super::MeshError;
 use super::bow::{Bow, FLAT, go_on, is_inflection, on_one_circle};
-use super::{MacroMesh, MeshError};
+use super::macro_mesh::MacroMesh;
 use crate::geometry::{Coordinates, Curve, Point, Spline};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::{BTreeMap, HashMap, HashSet};

@@ -72,8 +72,8 @@ impl RawMesh {
 
 #[cfg(test)]
 mod tests {
+    use super::super::macro_mesh::MacroMesh;
     use super::*;
-    use crate::mesh::MacroMesh;
     use std::path::Path;
 
     #[test]

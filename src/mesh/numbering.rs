@@ -1,8 +1,9 @@
 //! (level, node) -> number, in closed form.
 
 use super::lattice::{self, Place};
+use super::macro_mesh::MacroMesh;
 use super::partition::Home;
-use super::{MacroMesh, Partition};
+use super::partition::Partition;
 use crate::element::Order;
 use std::ops::Range;
 use std::rc::Rc;
@@ -142,9 +143,10 @@ impl TriangleNumbers {
 
 #[cfg(test)]
 mod tests {
+    use super::super::edge_trace::EdgeNode;
+    use super::super::gmsh::read_gmsh;
     use super::*;
     use crate::geometry::Point;
-    use crate::mesh::{EdgeNode, read_gmsh};
     use std::collections::{HashMap, HashSet};
     use std::path::Path;
 

@@ -1,6 +1,7 @@
 //! Triangles that overlap their own body.
 
-use super::{MacroMesh, MeshError};
+use super::MeshError;
+use super::macro_mesh::MacroMesh;
 use crate::geometry::{Point, cross};
 use std::collections::BTreeSet;
 

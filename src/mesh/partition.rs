@@ -1,6 +1,6 @@
 //! Which rank owns what: data made of the macro mesh, the same on every rank.
 
-use super::MacroMesh;
+use super::macro_mesh::MacroMesh;
 use super::morton::MortonCurve;
 use crate::geometry::{Disc, overlapping_discs};
 
@@ -198,7 +198,7 @@ pub fn middle_of_group(rank: usize, group: usize, ranks: usize) -> usize {
 /// Position of each macro triangle along Morton's space-filling curve, body by body.
 fn morton_keys(mesh: &MacroMesh) -> Vec<u64> {
     let curve = MortonCurve::around(&mesh.vertices);
-    let place = |triangle: &super::MacroTriangle| curve.place(&mesh.vertices, triangle.vertices);
+    let place = |triangle: &super::macro_mesh::MacroTriangle| curve.place(&mesh.vertices, triangle.vertices);
     mesh.triangles.iter().map(|triangle| u64::from(triangle.body) << 44 | place(triangle)).collect()
 }
 

@@ -1,6 +1,7 @@
 //! Pieces of a body: triangles that hang together by edges.
 
-use super::{BodyPiece, MacroMesh, MeshError};
+use super::MeshError;
+use super::macro_mesh::{BodyPiece, MacroMesh};
 use crate::geometry::{Disc, Point, overlapping_discs};
 
 /// A body in more pieces than this is a mesh whose triangles share no nodes.

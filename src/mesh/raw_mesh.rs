@@ -1,6 +1,6 @@
 //! What a mesh file says, before it is checked and connected.
 
-use super::FilePlace;
+use super::file_place::FilePlace;
 use crate::geometry::Point;
 use std::collections::HashMap;
 

@@ -1,7 +1,8 @@
 //! True shapes of macro edges, and the smooth map of a macro triangle that follows them.
 
+use super::MeshError;
 use super::edge_shape::EdgeShape;
-use super::{MacroMesh, MeshError};
+use super::macro_mesh::MacroMesh;
 use crate::geometry::{Coordinates, Curve, Point, Rounded};
 use nalgebra::Matrix2;
 use std::sync::Arc;

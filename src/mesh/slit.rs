@@ -1,6 +1,6 @@
 //! Slits: edges of one body that lie on each other without being one.
 
-use super::MacroMesh;
+use super::macro_mesh::MacroMesh;
 use crate::geometry::{Disc, Point, overlapping_discs};
 
 /// Ends that are nearer to each other than this share of their edge lie at one place.

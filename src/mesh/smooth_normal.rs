@@ -3,8 +3,8 @@
 //! The spline through the nodes of a circle is no circle: it would resist, a little, a disc that turns about its centre.
 //! So the normal of a polygon comes from the circles through three nodes in a row, which lie on the circle if the nodes do.
 
-use super::MacroMesh;
 use super::edge_shape::EdgeShape;
+use super::macro_mesh::MacroMesh;
 use crate::geometry::{Point, cross, turn_right};
 use std::collections::HashMap;
 

@@ -14,8 +14,9 @@
 //! | 12 | 7.0 %, 8.8 %, 12 % | 0.2 %, 0.1 %, 0.1 % | 0.2 % (`refine = 1`) |
 //! | 18 | 5.3 %, 6.6 %, 7.9 % | 0.1 %, 0.1 %, 0.1 % | |
 
+use super::chain::Stretch;
 use super::edge_shape::EdgeShape;
-use super::{MacroMesh, Stretch};
+use super::macro_mesh::MacroMesh;
 use crate::geometry::{Curve, Point};
 use std::sync::Arc;
 

@@ -1,7 +1,8 @@
 //! Strips: parts of lattice rows in which all nodes look alike.
 
 use super::lattice;
-use super::{Level, MacroMesh};
+use super::macro_mesh::MacroMesh;
+use super::numbering::Level;
 use crate::element::Order;
 use std::ops::Range;
 

@@ -73,8 +73,8 @@ impl MacroMesh {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tool::SurfacePart;
     use crate::geometry::Curve;
-    use crate::mesh::SurfacePart;
     use crate::mesh::samples::two_blocks;
 
     #[test]

@@ -1,6 +1,8 @@
 //! How much work each macro triangle is for a solver: what ranks are dealt equal shares of.
 
-use super::{Level, MacroMesh, lattice, levels};
+use super::lattice;
+use super::macro_mesh::MacroMesh;
+use super::numbering::{Level, levels};
 use crate::element::Order;
 use std::collections::BTreeMap;
 

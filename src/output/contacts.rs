@@ -4,8 +4,10 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use super::error::OutputError;
+use super::number_cell;
+use super::quoted;
 use super::summary::Summary;
-use super::{OutputError, number_cell, quoted};
 
 /// Name of the table in a result folder.
 pub const CONTACTS: &str = "contacts.csv";

@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use super::{OutputError, SIGNS};
+use super::SIGNS;
+use super::error::OutputError;
 
 /// The solution at one point of the contact boundary; signs as in [`SIGNS`].
 ///

@@ -9,9 +9,10 @@ use std::time::Duration;
 
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 
+use super::error::OutputError;
 use super::leftover::{make_hidden, recover, remove_empty, retire};
 use super::own_files::{OwnFiles, SUMMARY, names_within};
-use super::{OutputError, Summary};
+use super::summary::Summary;
 
 /// How often, and after which time, it is tried to remove a folder that other ranks still write to.
 const MOST_TRIES: usize = 5;

@@ -10,7 +10,7 @@ use rustix::io::Errno;
 use rustix::process::{Pid, test_kill_process};
 use rustix::system::uname;
 
-use super::OutputError;
+use super::error::OutputError;
 use super::own_files::OwnFiles;
 
 /// Ending of a result under construction, or of one that it has just replaced.

@@ -4,8 +4,10 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use super::error::OutputError;
+use super::number_cell;
+use super::quoted;
 use super::summary::{Status, StepSummary};
-use super::{OutputError, number_cell, quoted};
 
 /// A cell of the table with the name of its column; empty where nothing is known.
 type RowValue = (String, Option<f64>);

@@ -27,7 +27,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::OutputError;
+use super::error::OutputError;
 use numbers::numbers;
 
 /// The summary of a run. Start from [`Summary::new`] and fill in what is known.

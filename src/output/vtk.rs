@@ -10,7 +10,9 @@ use std::path::Path;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::{ContactPoint, OutputError, SIGNS};
+use super::SIGNS;
+use super::csv::ContactPoint;
+use super::error::OutputError;
 use crate::element::Order;
 
 const STRESS_COMPONENTS: [&str; 4] = ["XX", "YY", "XY", "ZZ"];

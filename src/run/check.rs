@@ -1,11 +1,15 @@
 //! `mezha check`.
 
+use super::accuracy;
 use super::known::check_pressures;
+use super::memory;
+use super::origin;
+use super::outcome::RunError;
 use super::proposals::{proposed_contacts, proposed_supports};
 use super::report::contact_lines;
+use super::scene;
 use super::slits::slits;
 use super::turns::far_turns;
-use super::{RunError, accuracy, memory, origin, scene};
 use crate::body::{Body, Material};
 use crate::case::{Case, Matched, read_text};
 use crate::discretisation::Scene;

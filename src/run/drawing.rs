@@ -1,6 +1,7 @@
 //! The figure of `mezha check`: what of a case can be read, with all names.
 
-use super::{RunError, scene};
+use super::outcome::RunError;
+use super::scene;
 use crate::body::{Load, LoadKind, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
 use crate::contact::Pair;

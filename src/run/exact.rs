@@ -1,7 +1,7 @@
 //! A solution against the exact or reference values of its case.
 
-use super::RunError;
 use super::known::has_values;
+use super::outcome::RunError;
 use super::outcome::outside;
 use crate::case::{Case, LambdaExact};
 use crate::geometry::Point;

@@ -1,6 +1,6 @@
 //! Fields of the bodies in files: one piece per rank, and the facets of the figure.
 
-use super::RunError;
+use super::outcome::RunError;
 use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::{ContactZoom, DrawnEdge, Facet};

@@ -1,6 +1,9 @@
 //! Figures of a solution.
 
-use super::{Run, RunError, accuracy, fields};
+use super::Run;
+use super::accuracy;
+use super::fields;
+use super::outcome::RunError;
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, Pair};

@@ -8,8 +8,9 @@ mod guesses;
 mod named_curve;
 mod node_circle;
 
+use super::check::check;
+use super::outcome::RunError;
 use super::proposals::{TableNames, proposed_supports, quoted};
-use super::{RunError, check};
 use crate::case::{Case, CaseError};
 use crate::mesh::{parse_joined, read_bytes, touching_surfaces};
 use draft::Draft;

@@ -1,6 +1,7 @@
 //! What a run is made of: rank 0 alone reads the files, and all ranks work on its bytes.
 
-use super::{RunError, scene};
+use super::outcome::RunError;
+use super::scene;
 use crate::case::{Case, Inputs, fingerprint, read_text};
 use crate::mesh::{MacroMesh, read_bytes};
 use crate::petsc::Session;

@@ -4,7 +4,11 @@
 //! kills them a second later. That of rank 0 writes what was reached until then; those of the others wait for this, and make sure
 //! that all ends. What is known is kept as the run goes on, in `Unfinished`.
 
-use super::{ResultOrigin, RunOptions, accuracy, progress, summarise};
+use super::accuracy;
+use super::origin::ResultOrigin;
+use super::progress;
+use super::run_options::RunOptions;
+use super::summarise;
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::output::report::{ReportPage, write_report};

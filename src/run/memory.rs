@@ -1,8 +1,8 @@
 //! How much memory a run may take: what its machines have left, and what control groups and `ulimit` leave of that; and whether
 //! it will do with that.
 
-use super::RunError;
 use super::forecast::{self, size};
+use super::outcome::RunError;
 use crate::petsc::Session;
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,14 @@
 //! What a run does with the events of the solution procedure: it prints them, and times the work.
 
+use super::Run;
+use super::accuracy;
+use super::interruption;
 use super::known::check_pressures;
+use super::memory;
+use super::outcome::RunError;
+use super::progress;
+use super::stages::Stages;
 use super::true_errors::true_errors;
-use super::{Run, RunError, Stages, accuracy, interruption, memory, progress};
 use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
 use crate::discretisation::Scene;

@@ -1,6 +1,12 @@
 //! What a run prints on rank 0 while it lives.
 
-use super::{Outcome, RunOptions, Stages, accuracy, interruption, origin, progress};
+use super::accuracy;
+use super::interruption;
+use super::origin;
+use super::outcome::Outcome;
+use super::progress;
+use super::run_options::RunOptions;
+use super::stages::Stages;
 use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::body::BodyPart;
 use crate::case::{Case, LoadStep};

@@ -1,13 +1,22 @@
 //! A solution made into a result folder.
 
+use super::Run;
+use super::accuracy;
 use super::exact::{Errors, compare};
+use super::expected;
+use super::fields;
+use super::figures;
+use super::interruption;
 use super::outcome::outside;
+use super::outcome::{Outcome, RunError};
+use super::points;
+use super::progress;
 use super::report::{memory, short};
 use super::slivers::slivers;
-use super::{
-    Outcome, Run, RunError, accuracy, expected, fields, figures, interruption, points, progress, summarise, trust, unresolved,
-    zones,
-};
+use super::summarise;
+use super::trust;
+use super::unresolved;
+use super::zones;
 use crate::accuracy::Adaptation;
 use crate::contact::{Configuration, GapChoice};
 use crate::discretisation::Contact;

@@ -1,9 +1,9 @@
 //! Case and mesh brought together: names resolved, geometries applied, macro triangles spread over ranks.
 
-use super::RunError;
 use super::known::check_exact;
 use super::means::check_means;
 use super::names::{Names, together, unknown_part};
+use super::outcome::RunError;
 use crate::body::Body;
 use crate::case::{Case, CaseError, LoadStep};
 use crate::discretisation::{self, Scene};

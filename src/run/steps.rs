@@ -1,8 +1,11 @@
 //! The loop over load steps: each begins with the one before (at rest, where boundaries follow the bodies), is judged by itself,
 //! and kept as a row.
 
+use super::Run;
+use super::interruption;
 use super::known::check_pressures;
-use super::{Run, RunError, interruption, scene};
+use super::outcome::RunError;
+use super::scene;
 use crate::case::LoadStep;
 use crate::discretisation::Scene;
 use crate::output::summary::{Status, StepSummary, Summary};

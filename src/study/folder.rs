@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::StudyError;
 use super::ended::Ended;
+use super::error::StudyError;
 use super::record::{Identity, Record};
 use crate::case::Inputs;
 use crate::output::OutputError;

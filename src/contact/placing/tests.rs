@@ -1,7 +1,7 @@
 //! Where contact boundaries are placed, and which are refused.
 
 use super::*;
-use crate::contact::GapChoice;
+use crate::contact::pair::GapChoice;
 use crate::contact::samples::seam;
 use crate::element::Order;
 use crate::mesh::samples::two_blocks;

@@ -2,7 +2,7 @@
 
 use super::arithmetic::PointValues;
 use super::{DEPTH, FormulaError, Function, Instruction};
-use crate::geometry::Quote;
+use crate::geometry::place::Quote;
 
 /// What a formula may call.
 const FUNCTIONS: [(&str, Function); 4] =

@@ -1,7 +1,8 @@
 //! A cursor over the lines and the binary numbers of a mesh file.
 
-use super::super::{FilePlace, MeshError};
+use super::super::MeshError;
 use crate::geometry::Quote;
+use crate::mesh::file_place::FilePlace;
 use std::borrow::Cow;
 use std::path::Path;
 use std::str::FromStr;

@@ -7,7 +7,7 @@ use plotters::element::{DashedPathElement, PathElement};
 use super::diagrams::{Axis, LegendRow, Mark, ROW, TITLE, colour, draw_legend, draw_line};
 use super::sheet::{PIXEL, Sheet, line};
 use super::ticks::number_text;
-use crate::output::OutputError;
+use crate::output::error::OutputError;
 
 /// The estimated error of one goal on every mesh where it is known.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,8 @@ use plotters::style::{Color, ShapeStyle};
 use super::palette::{BLUE, GREEN, GREY, VERMILION};
 use super::sheet::{AxisSpec, Chart, DrawResult, Sheet, line};
 use super::ticks::{cut_off, number_text};
-use crate::output::{ContactPoint, OutputError};
+use crate::output::csv::ContactPoint;
+use crate::output::error::OutputError;
 
 const SHEET: Sheet = Sheet { width: 820, height: 460, margins: [68, 24, 62, 54] };
 

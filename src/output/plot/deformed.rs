@@ -13,7 +13,8 @@ use super::sheet::line;
 use super::stress::{BAR_ROOM, Colours, draw_colour_bar, fills};
 use super::ticks::{number_text, round_number};
 use super::view::{PlotRoom, View, bounds};
-use crate::output::{ContactPoint, OutputError};
+use crate::output::csv::ContactPoint;
+use crate::output::error::OutputError;
 
 /// The force of a contact as the figure shows it: a line along it, to both sides of the place where it acts.
 #[derive(Clone, Copy, Debug)]

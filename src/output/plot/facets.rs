@@ -7,7 +7,7 @@ use plotters::style::RGBColor;
 use super::outline::{loops, path_data, unmatched};
 use super::palette::hex;
 use super::view::bounds;
-use crate::output::OutputError;
+use crate::output::error::OutputError;
 
 /// A triangle of a body as the figure shows it: corners alone, stress linear between them.
 #[derive(Clone, Copy, Debug)]

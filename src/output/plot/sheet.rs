@@ -12,7 +12,7 @@ use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeSty
 
 use super::palette::{GREY, GRID, INK};
 use super::ticks::Ticks;
-use crate::output::OutputError;
+use crate::output::error::OutputError;
 
 /// Plotters' backend takes whole coordinates and line widths; a pixel of the figure has ten of them.
 pub(super) const PIXEL: i32 = 10;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::diagrams::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};
-use crate::output::OutputError;
+use crate::output::error::OutputError;
 use crate::output::summary::{Status, StepContact, StepSummary};
 
 /// What is drawn of a contact.

@@ -10,8 +10,9 @@ use super::sheet::line;
 use super::stress::{Colours, draw_colour_bar, fills};
 use super::ticks::number_text;
 use super::view::bounds;
+use crate::output::csv::ContactPoint;
+use crate::output::error::OutputError;
 use crate::output::markup::escape;
-use crate::output::{ContactPoint, OutputError};
 
 /// An interval of a contact boundary that presses, and the part of the plane around it.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::page::ReportPage;
 use super::{drawings, history, numbers, trust, verdict};
-use crate::output::OutputError;
+use crate::output::error::OutputError;
 use crate::output::markup::{document, escape, section, verbatim};
 
 /// Writes `report.html` into the folder of a result, with the figures that are there.

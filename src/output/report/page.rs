@@ -1,7 +1,7 @@
 //! What a page is made of.
 
-use crate::output::Summary;
 use crate::output::markup::{paragraph, table};
+use crate::output::summary::Summary;
 use std::collections::BTreeSet;
 
 /// What a report tells of, beside the figures in the folder of the result.

@@ -1,9 +1,9 @@
 //! What everybody wants to know first.
 
 use super::page::{ExpectedValue, ReportPage};
-use crate::output::Summary;
 use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, paragraph, subsection, table};
 use crate::output::plot::number_text;
+use crate::output::summary::Summary;
 use crate::output::summary::{GoalSummary, MOST_TOLD, Status, WORST, listed};
 
 /// The verdict in a word or two.

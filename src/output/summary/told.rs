@@ -1,6 +1,7 @@
 //! Which contacts of many are told one by one, and how the others are summed up.
 
-use super::{ContactSummary, Summary};
+use super::Summary;
+use super::contact::ContactSummary;
 use std::cmp::Ordering;
 
 /// Contacts that are told one by one, at most: with a line or two for each they fill half of a screen of 24 lines.

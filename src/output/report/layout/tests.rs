@@ -2,7 +2,7 @@
 
 use super::super::page::ExpectedValue;
 use super::*;
-use crate::output::Summary;
+use crate::output::summary::Summary;
 use crate::output::summary::{
     AccuracyStep, BoundaryIteration, ContactEstimate, ContactSummary, GoalSummary, OuterIteration, ProbeSummary, RigidSummary,
     Status, StepContact, StepSummary, SupportSummary, ZoneSummary,
