@@ -1,8 +1,6 @@
 //! What an iteration sends and reduces, counted by a layer of MPI's profiling interface: docs/scaling/counting.c.
 
-#[path = "support/process.rs"]
-mod process;
-
+use crate::support::process;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;

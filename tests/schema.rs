@@ -209,7 +209,7 @@ fn bad_keys() -> impl Iterator<Item = (&'static str, Value)> {
 
 /// A scene in which nothing is wrong with one key of it set to something bad.
 fn bad_cases() -> Vec<String> {
-    let good: Table = toml::from_str(mesh::GOOD).expect("a good case");
+    let good: Table = toml::from_str(crate::support::mesh::GOOD).expect("a good case");
     let set = |(key, value): (&str, Value)| {
         let path: Table = toml::from_str(&format!("{key} = 0")).expect("a key");
         let mut table = good.clone();
@@ -232,10 +232,6 @@ fn put(table: &mut Table, path: &Table, value: &Value) {
         _ => drop(table.insert(name.clone(), value.clone())),
     }
 }
-
-#[path = "support/mesh.rs"]
-#[allow(dead_code)] // Other programs use the rest.
-mod mesh;
 
 /// Neither refuses what the other takes, as far as the form goes: the files of the project, the table of bad inputs, and changed files
 /// of both kinds, changed letter by letter and key by key.
