@@ -5,7 +5,7 @@
 //!
 //! # The fitted curve, and what was measured
 //!
-//! Where nobody declares Γ_C, `fitting.rs` finds where the sides meet and `bisector.rs` puts a spline half-way between them. Its
+//! Where nobody declares Γ_C, `fit/meeting.rs` finds where the sides meet and `fit/bisector.rs` puts a spline half-way between them. Its
 //! points come from the nodes of either side that look at the other (normals at least 120 degrees apart), and from places
 //! between nodes that are far apart. Points whose normal misses a body, or meets it far from where it is nearest, are left out:
 //! between round bodies with long edges they would bend the ends of the curve.
@@ -20,72 +20,44 @@
 //! boundaries, most after 7. The free end of `cases/bars_parabola` comes to x = 3.9025 with 69 segments, .067 long, and to
 //! 3.91003 with 140; contact ends at 3.91006.
 
-mod active_set;
-mod ascent;
-mod bisector;
-mod block_factor;
-mod boundary_check;
-mod claim;
-mod closeness;
 mod contact_boundary;
 mod coupling;
 mod cutting;
-mod drawing_check;
-mod ends;
-mod facing;
-mod fading;
+mod drawn;
 mod finite_motion;
-mod halfway;
-mod hertz;
+mod fit;
+mod holding;
 mod jump_term;
-mod mechanism;
-mod meeting;
 mod multiplier;
-mod near_part;
-mod nearest_place;
-mod node_window;
-mod oscillation;
-mod own_curve;
 mod pair;
-mod peak;
 mod penetration;
 mod placing;
-mod programme;
+mod pressure;
 mod quadrature;
-mod reconstruction;
 #[cfg(test)]
 pub(crate) mod samples;
+mod sets;
 mod side;
 mod smooth_side;
 mod trace;
-mod zones;
 
-pub use active_set::{ActiveSet, SetChange};
-pub use ascent::{Ascent, SetSolution};
-pub use boundary_check::swings;
-pub use closeness::{ClosePair, CloseSide, close_pairs, close_sides};
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, declared_gap, integrate};
 pub use cutting::{safe_ratio_of, segment_edge_lengths, segment_ratio};
-pub use ends::{End, true_end};
-pub use facing::Facing;
-pub use fading::faded_end;
+pub use drawn::{ClosePair, CloseSide, Facing, close_pairs, close_sides};
 pub use finite_motion::{FiniteMotion, GapError, Turn, finite_motion};
-pub use hertz::hertz_width;
+pub use fit::{Meeting, PointContact, hertz_width, point_contact, swings};
+pub use holding::{
+    Condition, Extent, Mechanism, Programme, ProgrammeOutcome, Touch, describe_motion, find_mechanism, needed_contacts, tidy,
+};
 pub use jump_term::{Jump, SparseRows, jump_matrix, jumps};
-pub use mechanism::{Condition, Extent, Mechanism, Touch, describe_motion, find_mechanism, needed_contacts, tidy};
-pub use meeting::Meeting;
 pub use multiplier::{DiagonalBlock, Multipliers};
-pub use nearest_place::{PointContact, point_contact};
-pub use oscillation::oscillation;
 pub use pair::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise};
-pub use peak::recovered_peak;
 pub use penetration::{Penetration, penetration};
 pub use placing::{Known, Placed, PlacingError, all_edges, faces, place};
-pub use programme::{Programme, ProgrammeOutcome};
+pub use pressure::{End, Roughness, Zone, faded_end, oscillation, recovered_peak, roughness, true_end, zone_counts};
 pub use quadrature::{QuadraturePoint, quadrature_points};
-pub use reconstruction::{Roughness, roughness};
+pub use sets::{ActiveSet, Ascent, SetChange, SetSolution};
 pub use side::Side;
 pub use smooth_side::{Displacement, SmoothSide};
 pub use trace::{EdgeOverlap, Trace, edge_overlaps, trace};
-pub use zones::{Zone, zone_counts};

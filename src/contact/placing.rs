@@ -1,13 +1,13 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
-use super::boundary_check::stray;
 use super::contact_boundary::ContactBoundary;
 use super::cutting::fractions;
-use super::meeting::Meeting;
-use super::nearest_place::PointContact;
 use super::pair::{Configuration, CurveChoice, Pair, SegmentRule};
 use super::side::Side;
 use super::smooth_side::{Displacement, SmoothSide};
+use crate::contact::fit::Meeting;
+use crate::contact::fit::PointContact;
+use crate::contact::fit::stray;
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 

@@ -1,12 +1,12 @@
 //! Where two bodies touch or penetrate each other: the ends of Γ_C, and the nodes whose points half-way it is fitted to.
 
-use super::bisector::Bisector;
-use super::contact_boundary::ContactBoundary;
-use super::near_part::{NearPart, is_near, only_near_part};
-use super::node_window::NodeWindow;
-use super::own_curve::OwnCurve;
-use super::pair::{GapChoice, Pair};
-use super::smooth_side::SmoothSide;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::fit::bisector::Bisector;
+use crate::contact::fit::near_part::{NearPart, is_near, only_near_part};
+use crate::contact::fit::node_window::NodeWindow;
+use crate::contact::fit::own_curve::OwnCurve;
+use crate::contact::pair::{GapChoice, Pair};
+use crate::contact::smooth_side::SmoothSide;
 use crate::geometry::{Curve, Point};
 use std::ops::Range;
 
@@ -215,8 +215,8 @@ fn find_node(sides: &[Vec<SmoothSide>; 2], holds: impl Fn(&SmoothSide, usize, &[
 
 #[cfg(test)]
 mod tests {
-    use super::super::pair::{Configuration, CurveChoice};
     use super::*;
+    use crate::contact::pair::{Configuration, CurveChoice};
     use crate::contact::samples::seam;
     use crate::element::Order;
     use crate::geometry::{Formula, ParametricCurve};

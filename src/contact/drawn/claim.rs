@@ -1,6 +1,6 @@
 //! Whether two contacts claim the same place of a boundary, which bears the pressure of one contact only.
 
-use super::facing::{Facing, Seen};
+use crate::contact::drawn::facing::{Facing, Seen};
 use std::collections::HashMap;
 
 /// Share of the shorter of two contacts that another may claim too, if its second body is another.
@@ -11,7 +11,7 @@ const SHARED_EDGES: f64 = 1.5;
 
 impl Facing<'_> {
     /// Words, if this contact and another claim the same place of a boundary.
-    pub(super) fn clash(&self, other: &Self) -> Option<String> {
+    pub(crate) fn clash(&self, other: &Self) -> Option<String> {
         let shared = [0, 1].map(|k| [0, 1].map(|l| self.shared(k, other, l)));
         let longest = |of: &Self| of.seen.iter().flatten().map(|seen| seen.edge.length()).fold(0.0, f64::max);
         let edge = longest(self).max(longest(other));
@@ -52,8 +52,8 @@ impl Facing<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::facing::Facing;
-    use super::super::pair::Pair;
+    use crate::contact::drawn::facing::Facing;
+    use crate::contact::pair::Pair;
     use crate::contact::samples::{SEAM, line, moved_blocks, seam};
     use crate::geometry::Point;
 

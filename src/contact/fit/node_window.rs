@@ -1,7 +1,7 @@
 //! Which nodes of two sides lie between two ends of Γ_C, and some edges beyond: the curve half-way is fitted to those.
 
-use super::pair::Configuration;
-use super::smooth_side::SmoothSide;
+use crate::contact::pair::Configuration;
+use crate::contact::smooth_side::SmoothSide;
 use std::ops::Range;
 
 /// The part of two sides between two ends of Γ_C, and some edges beyond.

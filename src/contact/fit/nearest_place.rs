@@ -1,8 +1,8 @@
 //! The place at which two smooth sides come nearest to each other, and how round they are there.
 
-use super::hertz::{MOST_ROUND, half_width};
-use super::pair::Configuration;
-use super::smooth_side::SmoothSide;
+use crate::contact::fit::hertz::{MOST_ROUND, half_width};
+use crate::contact::pair::Configuration;
+use crate::contact::smooth_side::SmoothSide;
 use crate::geometry::{Point, cross};
 
 /// Places that are looked at in the first window.

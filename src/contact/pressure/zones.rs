@@ -1,7 +1,7 @@
 //! Intervals of a contact boundary that press.
 
-use super::contact_boundary::ContactBoundary;
-use super::multiplier::Multipliers;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::multiplier::Multipliers;
 use std::ops::Range;
 
 /// Share of the length of a zone that counts as its middle: at its ends λ falls like a root, or is singular.
@@ -147,8 +147,8 @@ fn join_across_the_seam(ranges: &mut Vec<Range<usize>>, segments: usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pair::MultiplierSpace;
     use super::*;
+    use crate::contact::pair::MultiplierSpace;
     use crate::geometry::{Curve, Point};
 
     /// A boundary cut into ten segments, with the pressures 1, 2, ... on some of its multipliers.

@@ -1,6 +1,6 @@
 //! The primal-dual active set: which multipliers carry pressure.
 
-use super::ascent::{Ascent, SetSolution};
+use crate::contact::sets::ascent::{Ascent, SetSolution};
 
 /// What a new active set means for the loop.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@
 //! far as the true normals say, those of either body: the normals of a fitted Γ_C tilt a little between the two, and would
 //! hold a disc that rolls.
 
-use super::block_factor::{BlockFactor, Blocks, add, least_degrees};
+use crate::contact::holding::block_factor::{BlockFactor, Blocks, add, least_degrees};
 use crate::geometry::Point;
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen, Vector3};
 

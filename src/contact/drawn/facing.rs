@@ -1,9 +1,9 @@
 //! The two boundaries of a contact as they are drawn, seen along the normals of Γ_C.
 
-use super::contact_boundary::ContactBoundary;
-use super::pair::Pair;
-use super::placing::{all_edges, faces};
-use super::side::Side;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::pair::Pair;
+use crate::contact::placing::{all_edges, faces};
+use crate::contact::side::Side;
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, EdgeNode, MacroMesh, Numbering, SmoothNormals};
 
@@ -12,25 +12,25 @@ pub const PLACES: usize = 64;
 
 /// The boundaries of one contact as they are drawn, seen along the normals of Γ_C.
 pub struct Facing<'a> {
-    pub(super) pair: &'a Pair,
-    pub(super) boundary: &'a ContactBoundary,
+    pub(crate) pair: &'a Pair,
+    pub(crate) boundary: &'a ContactBoundary,
     /// For each body its edges that see Γ_C.
-    pub(super) seen: [Vec<Seen>; 2],
+    pub(crate) seen: [Vec<Seen>; 2],
 }
 
 /// An edge that sees a part of Γ_C.
 pub struct Seen {
-    pub(super) edge: BoundaryEdge,
+    pub(crate) edge: BoundaryEdge,
     /// Parameters of Γ_C at its ends, lower first, and its ends in that order.
-    pub(super) feet: [f64; 2],
+    pub(crate) feet: [f64; 2],
     ends: [Point; 2],
     /// Whether its outward normal points at the other body.
-    pub(super) faces: bool,
+    pub(crate) faces: bool,
 }
 
 impl Seen {
     /// What other contacts know the edge by.
-    pub(super) fn key(&self) -> [EdgeNode; 2] {
+    pub(crate) fn key(&self) -> [EdgeNode; 2] {
         [self.edge.nodes[0], self.edge.nodes[1]]
     }
 }
@@ -78,13 +78,13 @@ impl<'a> Facing<'a> {
     }
 
     /// Parameters between the ends of Γ_C, evenly.
-    pub(super) fn places(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn places(&self) -> impl Iterator<Item = f64> {
         let [first, last] = self.boundary.ends();
         (0..PLACES).map(move |k| first + (last - first) * (k as f64 + 0.5) / PLACES as f64)
     }
 
     /// What stands across Γ_C at parameter `t`: of each body the point nearest to it.
-    pub(super) fn across(&self, t: f64) -> Across {
+    pub(crate) fn across(&self, t: f64) -> Across {
         let x = self.boundary.point(t);
         let mut points = [x; 2];
         for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
@@ -105,7 +105,7 @@ impl<'a> Facing<'a> {
     }
 
     /// Length of the longest macro edge of both boundaries.
-    pub(super) fn longest_edge(&self, mesh: &MacroMesh) -> f64 {
+    pub(crate) fn longest_edge(&self, mesh: &MacroMesh) -> f64 {
         let edges = self.seen.iter().flatten().map(|seen| seen.edge.nodes[0].edge);
         edges.map(|edge| mesh.edge_length(edge)).fold(0.0, f64::max)
     }

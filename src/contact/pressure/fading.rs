@@ -1,8 +1,8 @@
 //! Where a pressure that fades out comes to nothing, between the ends of segments.
 
-use super::contact_boundary::ContactBoundary;
-use super::multiplier::Multipliers;
-use super::zones::Zone;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::multiplier::Multipliers;
+use crate::contact::pressure::zones::Zone;
 
 /// Powers of the distance that pressures fade out with: smooth contact of smooth bodies, a wedge, a gap that opens slowly.
 const POWERS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
@@ -39,8 +39,8 @@ pub fn faded_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: 
 
 #[cfg(test)]
 mod tests {
-    use super::super::pair::MultiplierSpace;
     use super::*;
+    use crate::contact::pair::MultiplierSpace;
     use crate::geometry::{Curve, Point};
 
     /// Of a pressure `(end - s)^power` on ten even segments of a line of length one, and of the same seen from the other side.

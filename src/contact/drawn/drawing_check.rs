@@ -1,8 +1,8 @@
 //! Whether the two boundaries of a contact, as they are drawn, face each other along Γ_C, and no other contact claims the same
 //! place.
 
-use super::facing::{Across, Facing, Opposite, PLACES, Seen, largest_sagitta};
-use super::pair::GapChoice;
+use crate::contact::drawn::facing::{Across, Facing, Opposite, PLACES, Seen, largest_sagitta};
+use crate::contact::pair::GapChoice;
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -113,8 +113,8 @@ impl Facing<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pair::Pair;
     use super::*;
+    use crate::contact::pair::Pair;
     use crate::contact::samples::{SEAM, line, moved_blocks, seam};
     use crate::geometry::Formula;
 

@@ -1,8 +1,8 @@
 //! The part of a stretch of boundary that is near the other body: from the first to the last node that touches or penetrates it,
 //! but for a tolerance.
 
-use super::pair::{Configuration, Pair};
-use super::smooth_side::SmoothSide;
+use crate::contact::pair::{Configuration, Pair};
+use crate::contact::smooth_side::SmoothSide;
 use crate::geometry::Point;
 
 /// A contact that goes all around but for so many edges has no ends beside them.

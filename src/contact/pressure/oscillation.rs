@@ -1,8 +1,8 @@
 //! How much of a contact pressure is checkerboard.
 
-use super::contact_boundary::ContactBoundary;
-use super::multiplier::Multipliers;
-use super::pair::MultiplierSpace;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::multiplier::Multipliers;
+use crate::contact::pair::MultiplierSpace;
 
 /// Share of the contact length at each of its ends that is left out: where contact ends inside the boundary, and where the
 /// boundary does, because there the pressure may have a singularity, around which it swings.

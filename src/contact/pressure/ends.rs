@@ -4,8 +4,8 @@
 //! `λ ≈ K/√r + c √r` with the distance r from the end of Γ_C, and `√(r + η) ≈ √r + η/(2√r)` says how much too early:
 //! `η = 2 K/c`. Two mean pressures give K and c.
 
-use super::contact_boundary::ContactBoundary;
-use super::multiplier::Multipliers;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::multiplier::Multipliers;
 
 /// Which end of Γ_C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,8 +72,8 @@ fn too_early([h, next]: [f64; 2], [outer, inner]: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pair::MultiplierSpace;
     use super::*;
+    use crate::contact::pair::MultiplierSpace;
     use crate::geometry::{Curve, Point};
 
     #[test]

@@ -1,8 +1,8 @@
 //! The largest pressure on a zone, from mean values of λ, which are more exact than λ itself.
 
-use super::contact_boundary::ContactBoundary;
-use super::multiplier::Multipliers;
-use super::zones::Zone;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::multiplier::Multipliers;
+use crate::contact::pressure::zones::Zone;
 
 /// The largest value of a smooth pressure on a zone: of the parabola that has the means of λ over the segment where λ is largest
 /// and the two next to it, on that segment. λ itself leans on the segment at an end of a boundary, and misses the curvature on
@@ -55,8 +55,8 @@ impl Parabola {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pair::MultiplierSpace;
     use super::*;
+    use crate::contact::pair::MultiplierSpace;
     use crate::geometry::{Curve, Point};
 
     /// Of means of a pressure on uneven segments of a line of length 4.

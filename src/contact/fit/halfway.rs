@@ -1,7 +1,7 @@
 //! Points half-way between two sides, from which the curve between them is made.
 
-use super::pair::Pair;
-use super::smooth_side::SmoothSide;
+use crate::contact::pair::Pair;
+use crate::contact::smooth_side::SmoothSide;
 use crate::geometry::{Curve, Point, turn_right};
 use std::ops::Range;
 

@@ -1,9 +1,9 @@
 //! λ made smoother than its space: what the segments are too coarse for shows in the difference.
 
-use super::contact_boundary::ContactBoundary;
-use super::multiplier::Multipliers;
-use super::pair::MultiplierSpace;
-use super::zones::Zone;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::multiplier::Multipliers;
+use crate::contact::pair::MultiplierSpace;
+use crate::contact::pressure::zones::Zone;
 use crate::geometry::gauss_points;
 
 /// A sample nearer to the one before than this share of its distance to the next says the same.

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// Half width, as a share of the radius, up to which bodies around a contact are half-planes.
-pub(super) const MOST_ROUND: f64 = 0.2;
+pub(crate) const MOST_ROUND: f64 = 0.2;
 
 /// Width `2 b = 4 √(P R / π E*)` of the contact that presses with a force P (per thickness) within `zone`, an interval of arc
 /// lengths, between smooth sides with a gap at rest of `s²/2R` there (Hertz; the `compliance` 1/E* is that of both surfaces
@@ -25,7 +25,7 @@ pub fn hertz_width(gaps: impl Iterator<Item = [f64; 2]>, zone: [f64; 2], force: 
 /// Half width `b = √(4 P R / π E*)` of the contact that presses with a force P (per thickness) between smooth sides of the relative
 /// `curvature` 1/R (Hertz; `compliance` is 1/E* = 1/E'₁ + 1/E'₂ by the plane moduli E', E/(1 - ν²) in plane strain); nothing if
 /// nothing presses, the sides are not convex against each other, or conform.
-pub(super) fn half_width(curvature: f64, force: f64, compliance: f64) -> Option<f64> {
+pub(crate) fn half_width(curvature: f64, force: f64, compliance: f64) -> Option<f64> {
     let half = 2.0 * (force * compliance / (curvature * PI)).sqrt();
     (curvature > 0.0 && force > 0.0 && half * curvature <= MOST_ROUND).then_some(half)
 }

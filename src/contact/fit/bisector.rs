@@ -4,9 +4,9 @@
 //! through the nodes of both sides would follow one side where the other has no node, and turn its normal there: as bodies
 //! slide, a normal that turns unevenly acts like a curvature that they do not have.
 
-use super::halfway::{BEYOND, Halfway, halfway, parameters_between, sort};
-use super::pair::Pair;
-use super::smooth_side::SmoothSide;
+use crate::contact::fit::halfway::{BEYOND, Halfway, halfway, parameters_between, sort};
+use crate::contact::pair::Pair;
+use crate::contact::smooth_side::SmoothSide;
 use crate::geometry::{Curve, FitSample, Spline};
 use std::ops::Range;
 
@@ -161,8 +161,8 @@ fn fit_by_the_data(samples: &[FitSample], wish: Option<usize>, turn: Option<f64>
 
 #[cfg(test)]
 mod tests {
-    use super::super::pair::{Configuration, CurveChoice, EndRule};
     use super::*;
+    use crate::contact::pair::{Configuration, CurveChoice, EndRule};
     use crate::contact::samples::seam;
     use crate::element::Order;
     use crate::geometry::{Point, turn_right};

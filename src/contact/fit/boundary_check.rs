@@ -1,8 +1,8 @@
 //! Whether a fitted Γ_C is what it should be: between the two sides, and no longer than they are.
 
-use super::contact_boundary::ContactBoundary;
-use super::pair::Pair;
-use super::smooth_side::SmoothSide;
+use crate::contact::contact_boundary::ContactBoundary;
+use crate::contact::pair::Pair;
+use crate::contact::smooth_side::SmoothSide;
 
 /// Share of the longer of two sides by which Γ_C may be longer than that between its ends: half-way it is shorter.
 const LONGER: f64 = 0.1;

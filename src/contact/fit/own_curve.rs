@@ -4,8 +4,8 @@
 //! side there, as it will when they touch, and points of its own side correspond to it that are as far shifted. Seen from afar,
 //! the normals of a curved side would spread, or crowd, on the other.
 
-use super::pair::{Configuration, Pair};
-use super::smooth_side::SmoothSide;
+use crate::contact::pair::{Configuration, Pair};
+use crate::contact::smooth_side::SmoothSide;
 use crate::geometry::{Curve, Point};
 
 /// Nodes of the other side that are looked at for the shortest way, at most.
@@ -109,10 +109,10 @@ fn shortest_way(side: &SmoothSide, other: &SmoothSide) -> Option<Point> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pair::CurveChoice;
-    use super::super::side::Side;
     use super::*;
+    use crate::contact::pair::CurveChoice;
     use crate::contact::samples::seam;
+    use crate::contact::side::Side;
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{Level, Numbering, Partition};

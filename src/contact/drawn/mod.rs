@@ -1,0 +1,9 @@
+//! Boundaries of contacts as they are drawn: whether they face each other, claim one place twice, or lie close without a contact.
+
+mod claim;
+mod closeness;
+mod drawing_check;
+mod facing;
+
+pub use closeness::{ClosePair, CloseSide, close_pairs, close_sides};
+pub use facing::Facing;
