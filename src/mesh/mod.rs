@@ -51,63 +51,38 @@
 //! What it costs: every rank holds the macro mesh. PETSc's DMPlex does not need that, but took 14.5 s where this takes 1.4 s to
 //! read, distribute and refine to 1 million triangles, and gave NaN coordinates for second-order Gmsh files.
 
-mod bisection;
-mod bow;
-mod cells;
 mod chain;
-mod connected;
+mod curved;
 mod edge_shape;
-mod edge_trace;
 mod edges;
+mod faults;
+mod file;
 mod file_place;
-mod gmsh;
-mod gmsh_writer;
-mod grading;
-mod hierarchy;
-mod insertion;
 pub mod lattice;
+mod levels;
 mod located;
 mod macro_mesh;
-mod midside;
 mod morton;
-mod numbering;
-mod origin;
-mod overlap;
 mod partition;
-mod pieces;
 mod raw_mesh;
-mod regular_file;
+mod refined;
 #[cfg(test)]
 pub(crate) mod samples;
-mod shape;
-mod slit;
-mod smooth_normal;
-mod spline_shape;
 mod spot;
-mod strip;
-mod tool;
-mod without_tools;
-mod work;
+mod tools;
 
-pub use bisection::BisectedMesh;
-pub use cells::Cells;
 pub use chain::Stretch;
+pub use curved::{Corner, SmoothNormals, SmoothPoint};
 pub use edge_shape::EdgeShape;
-pub use edge_trace::{BoundaryEdge, EdgeNode};
+pub use faults::Slit;
+pub use file::{parse_gmsh, parse_joined, read_bytes, read_gmsh, read_regular, surfaces, touching_surfaces};
 pub use file_place::FilePlace;
-pub use gmsh::{parse_gmsh, parse_joined, read_bytes, read_gmsh, surfaces, touching_surfaces};
-pub use hierarchy::Shapes;
+pub use levels::{BoundaryEdge, EdgeNode, Level, Numbering, Shapes, Strip, TriangleNumbers, levels};
 pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, Region, Surface};
-pub use numbering::{Level, Numbering, TriangleNumbers, levels};
-pub use origin::Origin;
 pub use partition::{Graph, Partition, middle_of_group};
-pub use regular_file::read_regular;
-pub use slit::Slit;
-pub use smooth_normal::{SmoothNormals, SmoothPoint};
-pub use spline_shape::Corner;
+pub use refined::{BisectedMesh, Cells, Origin};
 pub use spot::{NamedPoint, Spot};
-pub use strip::Strip;
-pub use tool::SurfacePart;
+pub use tools::SurfacePart;
 
 use std::path::{Path, PathBuf};
 

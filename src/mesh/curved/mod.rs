@@ -1,0 +1,10 @@
+//! Curved boundaries: true shapes of edges, and the smooth map of a macro triangle that follows them.
+
+mod bow;
+mod midside;
+mod shape;
+mod smooth_normal;
+mod spline_shape;
+
+pub use smooth_normal::{SmoothNormals, SmoothPoint};
+pub use spline_shape::Corner;

@@ -1,0 +1,144 @@
+//! Triangles that overlap their own body.
+
+use crate::geometry::{Point, cross};
+use crate::mesh::MeshError;
+use crate::mesh::macro_mesh::MacroMesh;
+use std::collections::BTreeSet;
+
+/// Triangles overlap if they lie in each other by more than this share of their size.
+const DEPTH: f64 = 1e-6;
+
+impl MacroMesh {
+    /// No two triangles of a body may cover the same place. Where two regions overlap, the boundary of one runs inside the
+    /// other: so it is enough to look at the triangles on boundaries.
+    ///
+    /// # Errors
+    /// Words with the place.
+    pub(crate) fn check_overlap(&self) -> Result<(), MeshError> {
+        let on_boundary = |triangle: usize| {
+            let edges = self.triangles[triangle].edges;
+            edges.iter().any(|&edge| self.edges[edge as usize].triangles[1].is_none())
+        };
+        let grids = BoundaryGrids::new(self, on_boundary);
+        for triangle in 0..self.triangles.len() {
+            let alike = |other: &usize| *other != triangle && self.triangles[*other].body == self.triangles[triangle].body;
+            let corners = self.corners(triangle);
+            if grids.near(&corners).filter(alike).any(|other| overlap(corners, self.corners(other))) {
+                let [a, b, c] = corners;
+                let x = (a + b + c) / 3.0;
+                return Err(self.unusable(format!(
+                    "triangles of body \"{}\" overlap near ({}, {}): the same place would count twice; mesh the scene again",
+                    self.bodies[self.triangles[triangle].body as usize], x.x, x.y
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn corners(&self, triangle: usize) -> [Point; 3] {
+        self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize])
+    }
+}
+
+/// Whether two triangles, both counter-clockwise, have an area in common: no side of either parts them.
+fn overlap(a: [Point; 3], b: [Point; 3]) -> bool {
+    let size = |t: &[Point; 3]| (t[1] - t[0]).norm().max((t[2] - t[1]).norm()).max((t[0] - t[2]).norm());
+    let least = DEPTH * size(&a).min(size(&b));
+    let parts = |own: &[Point; 3], other: &[Point; 3]| {
+        (0..3).any(|k| {
+            let along = (own[(k + 1) % 3] - own[k]).normalize();
+            other.iter().all(|x| cross(along, x - own[k]) <= least)
+        })
+    };
+    !parts(&a, &b) && !parts(&b, &a)
+}
+
+/// A square of a grid: the level of its size 2^level, and its place.
+type GridSquare = (i32, i64, i64);
+
+/// Grids of squares of many sizes, with the triangles on boundaries.
+struct BoundaryGrids {
+    low: Point,
+    /// Levels of all triangles, ascending.
+    levels: Vec<i32>,
+    /// Each triangle in those squares of about its own size that its box meets, sorted by them.
+    own: Vec<(GridSquare, u32)>,
+    /// Each triangle in those squares of all larger sizes, and of its own.
+    larger: Vec<(GridSquare, u32)>,
+}
+
+impl BoundaryGrids {
+    fn new(mesh: &MacroMesh, on_boundary: impl Fn(usize) -> bool) -> Self {
+        let low = mesh.vertices.iter().fold(Point::repeat(f64::INFINITY), |low, x| low.inf(x));
+        let levels: BTreeSet<i32> = (0..mesh.triangles.len()).map(|triangle| level(&mesh.corners(triangle))).collect();
+        let mut grids = Self { low, levels: levels.into_iter().collect(), own: Vec::new(), larger: Vec::new() };
+        for triangle in (0..mesh.triangles.len()).filter(|&triangle| on_boundary(triangle)) {
+            let corners = mesh.corners(triangle);
+            let own = level(&corners);
+            for &level in &grids.levels[grids.levels.partition_point(|&level| level < own)..] {
+                grids.larger.extend(under(low, &corners, level).map(|square| (square, triangle as u32)));
+            }
+            grids.own.extend(under(low, &corners, own).map(|square| (square, triangle as u32)));
+        }
+        grids.own.sort_unstable();
+        grids.larger.sort_unstable();
+        grids
+    }
+
+    /// Triangles on boundaries that may overlap one; some come more than once.
+    fn near<'a>(&'a self, corners: &'a [Point; 3]) -> impl Iterator<Item = usize> + 'a {
+        let own = level(corners);
+        let above = &self.levels[self.levels.partition_point(|&level| level <= own)..];
+        let larger =
+            above.iter().flat_map(move |&level| under(self.low, corners, level).flat_map(|square| of_square(&self.own, square)));
+        let smaller = under(self.low, corners, own).flat_map(|square| of_square(&self.larger, square));
+        smaller.chain(larger)
+    }
+}
+
+/// The squares of a level under the box of a triangle, in grids that begin at `low`.
+fn under(low: Point, corners: &[Point; 3], level: i32) -> impl Iterator<Item = GridSquare> + use<> {
+    let [a, b, c] = corners.map(|x| (x - low) / 2f64.powi(level));
+    let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+    let [i0, j0, i1, j1] = [low.x, low.y, high.x, high.y].map(|v| v.floor() as i64);
+    (i0..=i1).flat_map(move |i| (j0..=j1).map(move |j| (level, i, j)))
+}
+
+/// Triangles in a square.
+fn of_square(sorted: &[(GridSquare, u32)], square: GridSquare) -> impl Iterator<Item = usize> {
+    let first = sorted.partition_point(|(other, _)| *other < square);
+    sorted[first..].iter().take_while(move |(other, _)| *other == square).map(|&(_, triangle)| triangle as usize)
+}
+
+/// Squares of size 2^level are as large as the box of a triangle, or up to twice.
+fn level(corners: &[Point; 3]) -> i32 {
+    let [a, b, c] = corners;
+    (a.sup(b).sup(c) - a.inf(b).inf(c)).amax().log2().ceil() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_overlap_if_they_have_an_area_in_common() {
+        let at = |x: f64, y: f64| [Point::new(x, y), Point::new(x + 1.0, y), Point::new(x, y + 1.0)];
+        assert!(overlap(at(0.0, 0.0), at(0.3, 0.3)));
+        assert!(overlap(at(0.0, 0.0), at(0.0, 0.0)));
+        assert!(!overlap(at(0.0, 0.0), at(1.0, 0.0)), "a corner in common");
+        assert!(!overlap(at(0.0, 0.0), at(0.6, 0.6)));
+        let mirrored = [Point::new(1.0, 0.0), Point::new(1.0, 1.0), Point::new(0.0, 1.0)];
+        assert!(!overlap(at(0.0, 0.0), mirrored), "an edge in common");
+    }
+
+    #[test]
+    fn pairs_that_are_looked_at_grow_as_the_number_of_triangles() {
+        let looks = |count: usize| {
+            let mesh = crate::mesh::samples::columns(count, 1.0);
+            let grids = BoundaryGrids::new(&mesh, |_| true);
+            (0..mesh.triangles.len()).map(|triangle| grids.near(&mesh.corners(triangle)).count()).sum::<usize>()
+        };
+        let [few, many] = [looks(500), looks(2000)];
+        assert!(many <= 4 * few + 100 && many < 20 * 4000, "{few} and {many} looks");
+    }
+}

@@ -1,0 +1,176 @@
+//! A cursor over the lines and the binary numbers of a mesh file.
+
+use crate::geometry::Quote;
+use crate::mesh::MeshError;
+use crate::mesh::file_place::FilePlace;
+use std::borrow::Cow;
+use std::path::Path;
+use std::str::FromStr;
+
+/// How numbers are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    /// As text, in lines.
+    Text,
+    /// As bytes, the lowest first.
+    LittleEndian,
+    /// As bytes, the highest first.
+    BigEndian,
+}
+
+/// What has been read of a file, and what comes next.
+pub(super) struct Cursor<'a> {
+    pub file: &'a Path,
+    /// How the sections store their numbers.
+    pub encoding: Encoding,
+    bytes: &'a [u8],
+    /// Where the next byte is.
+    at: usize,
+    line: usize,
+}
+
+impl<'a> Cursor<'a> {
+    pub fn new(file: &'a Path, bytes: &'a [u8]) -> Self {
+        Self { file, encoding: Encoding::Text, bytes, at: 0, line: 0 }
+    }
+
+    pub fn is_text(&self) -> bool {
+        self.encoding == Encoding::Text
+    }
+
+    /// Where the last line or number was found.
+    pub fn place(&self) -> FilePlace {
+        if self.is_text() { FilePlace::Line(self.line) } else { FilePlace::Byte(self.at) }
+    }
+
+    pub fn error(&self, message: impl Into<String>) -> MeshError {
+        MeshError::Syntax { file: self.file.to_path_buf(), place: self.place(), message: message.into() }
+    }
+
+    /// Next line that is not blank, or nothing at the end of the file.
+    pub fn next_line(&mut self) -> Option<Cow<'a, str>> {
+        self.next_bytes().map(String::from_utf8_lossy)
+    }
+
+    fn next_bytes(&mut self) -> Option<&'a [u8]> {
+        while self.at < self.bytes.len() {
+            let rest = &self.bytes[self.at..];
+            let length = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+            self.at += (length + 1).min(rest.len());
+            self.line += 1;
+            let line = rest[..length].trim_ascii();
+            if !line.is_empty() {
+                return Some(line);
+            }
+        }
+        None
+    }
+
+    pub fn line_in(&mut self, section: &str) -> Result<Cow<'a, str>, MeshError> {
+        self.next_line().ok_or_else(|| self.cut_off(section))
+    }
+
+    fn cut_off(&self, section: &str) -> MeshError {
+        self.error(format!("the file ends inside ${section}; it is cut off, save it again"))
+    }
+
+    /// The next line as numbers, at least `least` of them.
+    pub fn line_of<T: FromStr>(&mut self, section: &str, least: usize) -> Result<Vec<T>, MeshError> {
+        let line = self.line_in(section)?;
+        let found: Result<Vec<T>, _> = line.split_whitespace().map(str::parse).collect();
+        match found {
+            Ok(values) if values.len() >= least => Ok(values),
+            _ => Err(self.numbers_missing(section, least, line.as_bytes())),
+        }
+    }
+
+    /// The numbers at the beginning of the next line.
+    pub fn line_into<T: FromStr>(&mut self, section: &str, values: &mut [T]) -> Result<(), MeshError> {
+        let line = self.next_bytes().ok_or_else(|| self.cut_off(section))?;
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        for value in values.iter_mut() {
+            *value = match words.next().and_then(|word| std::str::from_utf8(word).ok()?.parse().ok()) {
+                Some(number) => number,
+                None => return Err(self.numbers_missing(section, values.len(), line)),
+            };
+        }
+        Ok(())
+    }
+
+    fn numbers_missing(&self, section: &str, least: usize, line: &[u8]) -> MeshError {
+        let line = String::from_utf8_lossy(line);
+        self.error(format!("in ${section}, expected {least} numbers, found `{}`", Quote(&line)))
+    }
+
+    /// The next `N` bytes.
+    pub fn bytes<const N: usize>(&mut self, section: &str) -> Result<[u8; N], MeshError> {
+        match self.bytes[self.at..].first_chunk::<N>() {
+            Some(chunk) => {
+                self.at += N;
+                Ok(*chunk)
+            }
+            None => Err(self.cut_off(section)),
+        }
+    }
+
+    /// The next binary whole numbers of four bytes.
+    pub fn whole<const N: usize>(&mut self, section: &str) -> Result<[i64; N], MeshError> {
+        let mut values = [0; N];
+        for value in &mut values {
+            let bytes = self.bytes(section)?;
+            let number = if self.encoding == Encoding::BigEndian { i32::from_be_bytes(bytes) } else { i32::from_le_bytes(bytes) };
+            *value = i64::from(number);
+        }
+        Ok(values)
+    }
+
+    /// The next binary number of eight bytes that is at least 0: a count, or a tag.
+    pub fn size(&mut self, section: &str) -> Result<i64, MeshError> {
+        let bytes = self.bytes(section)?;
+        let number = if self.encoding == Encoding::BigEndian { u64::from_be_bytes(bytes) } else { u64::from_le_bytes(bytes) };
+        i64::try_from(number).map_err(|_| self.error(format!("in ${section}, found {number} where a count or a tag stands")))
+    }
+
+    /// The next binary floating-point numbers.
+    pub fn floats<const N: usize>(&mut self, section: &str) -> Result<[f64; N], MeshError> {
+        let mut values = [0.0; N];
+        for value in &mut values {
+            let bytes = self.bytes(section)?;
+            *value = if self.encoding == Encoding::BigEndian { f64::from_be_bytes(bytes) } else { f64::from_le_bytes(bytes) };
+        }
+        Ok(values)
+    }
+
+    /// Passes over so many binary numbers of `width` bytes.
+    pub fn pass(&mut self, section: &str, count: i64, width: usize) -> Result<(), MeshError> {
+        let length = usize::try_from(count).ok().and_then(|count| count.checked_mul(width));
+        match length.filter(|&length| length <= self.bytes.len() - self.at) {
+            Some(length) => {
+                self.at += length;
+                Ok(())
+            }
+            None => Err(self.cut_off(section)),
+        }
+    }
+
+    /// The line that ends a section.
+    pub fn end(&mut self, section: &str) -> Result<(), MeshError> {
+        let line = self.line_in(section)?;
+        if line.strip_prefix("$End") == Some(section) {
+            return Ok(());
+        }
+        Err(self.error(format!("expected $End{section}, found `{}`", Quote(&line))))
+    }
+
+    /// Passes over the rest of a section, whatever it holds.
+    pub fn skip(&mut self, section: &str) -> Result<(), MeshError> {
+        let end = format!("$End{section}");
+        loop {
+            let line = self.line_in(section)?;
+            // Behind binary numbers the end may stand on the same line.
+            if line == end || !self.is_text() && line.ends_with(&end) {
+                return Ok(());
+            }
+        }
+    }
+}

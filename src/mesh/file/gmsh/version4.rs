@@ -1,0 +1,88 @@
+//! Nodes and elements of format 4.1: in blocks, one or more for each entity.
+
+use super::cursor::Cursor;
+use super::elements::{ElementKind, Elements, MOST_NODES};
+use super::groups::Groups;
+use crate::mesh::MeshError;
+
+/// The line before a block: dimension, entity, kind, and how many there are.
+fn block(cursor: &mut Cursor, section: &str) -> Result<[i64; 4], MeshError> {
+    let [dimension, entity, kind, count] = match cursor.is_text() {
+        true => {
+            let values: Vec<i64> = cursor.line_of(section, 4)?;
+            [values[0], values[1], values[2], values[3]]
+        }
+        false => {
+            let [dimension, entity, kind] = cursor.whole(section)?;
+            [dimension, entity, kind, cursor.size(section)?]
+        }
+    };
+    if count < 0 {
+        return Err(cursor.error(format!("in ${section}, expected a count of at least 0, found {count}")));
+    }
+    Ok([dimension, entity, kind, count])
+}
+
+/// How many blocks a section has.
+fn blocks(cursor: &mut Cursor, section: &str) -> Result<i64, MeshError> {
+    if cursor.is_text() {
+        return Ok(cursor.line_of::<u64>(section, 4)?[0].try_into().unwrap_or(i64::MAX));
+    }
+    let count = cursor.size(section)?;
+    cursor.pass(section, 3, 8)?;
+    Ok(count)
+}
+
+/// Reads `$Nodes`.
+pub(super) fn read_nodes(cursor: &mut Cursor, elements: &mut Elements) -> Result<(), MeshError> {
+    const SECTION: &str = "Nodes";
+    for _ in 0..blocks(cursor, SECTION)? {
+        let [dimension, _, parametric, count] = block(cursor, SECTION)?;
+        let mut tags = Vec::new();
+        for _ in 0..count {
+            let mut tag = [0];
+            match cursor.is_text() {
+                true => cursor.line_into(SECTION, &mut tag)?,
+                false => tag[0] = cursor.size(SECTION)?,
+            }
+            tags.extend(tag);
+        }
+        for tag in tags {
+            let x = if cursor.is_text() {
+                let mut x = [0.0; 3];
+                cursor.line_into(SECTION, &mut x)?;
+                x
+            } else {
+                let x = cursor.floats(SECTION)?;
+                cursor.pass(SECTION, if parametric == 0 { 0 } else { dimension }, 8)?;
+                x
+            };
+            elements.add_node(cursor, tag, x)?;
+        }
+    }
+    elements.end_nodes();
+    Ok(())
+}
+
+/// Reads `$Elements`.
+pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut Elements) -> Result<(), MeshError> {
+    const SECTION: &str = "Elements";
+    for _ in 0..blocks(cursor, SECTION)? {
+        let [dimension, entity, number, count] = block(cursor, SECTION)?;
+        let kind = ElementKind::of(number).map_err(|words| cursor.error(words))?;
+        let names = elements.names(groups.names_of((usize::try_from(dimension).unwrap_or(usize::MAX), entity)));
+        let mut words = [0; MOST_NODES + 1];
+        let words = &mut words[..=kind.nodes];
+        for _ in 0..count {
+            if cursor.is_text() {
+                cursor.line_into(SECTION, words)?;
+            } else {
+                for word in words.iter_mut() {
+                    *word = cursor.size(SECTION)?;
+                }
+            }
+            elements.add(cursor, kind, &words[1..], names)?;
+        }
+    }
+    Ok(())
+}

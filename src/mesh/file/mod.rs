@@ -1,0 +1,8 @@
+//! Gmsh files, read and written.
+
+mod gmsh;
+mod gmsh_writer;
+mod regular_file;
+
+pub use gmsh::{parse_gmsh, parse_joined, read_bytes, read_gmsh, surfaces, touching_surfaces};
+pub use regular_file::read_regular;

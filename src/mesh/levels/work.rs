@@ -1,0 +1,135 @@
+//! How much work each macro triangle is for a solver: what ranks are dealt equal shares of.
+
+use crate::element::Order;
+use crate::mesh::lattice;
+use crate::mesh::levels::numbering::{Level, levels};
+use crate::mesh::macro_mesh::MacroMesh;
+use std::collections::BTreeMap;
+
+/// Bytes that a smoother moves for each node of a strip: right-hand side, unknowns read, unknowns written.
+const NODE: f64 = 48.0;
+
+/// Bytes that stand for each coupling of a node in a strip. Its block stays in the processor; its four products cost as much time as so
+/// many bytes.
+const STRIP_COUPLING: f64 = 4.0;
+
+/// Bytes that a smoother moves for each coupling of a stored row: a block and the number of its column.
+const STORED_COUPLING: f64 = 36.0;
+
+/// Bytes that a smoother moves for the inverse of the diagonal block of a stored row.
+const INVERSE: f64 = 32.0;
+
+/// Weights are no finer than this share of the smallest one; enough for a balance of 1 %.
+const FINEST: f64 = 64.0;
+
+/// Sum of all weights at most: partitioners count with 32 bits.
+const MOST: f64 = (1 << 30) as f64;
+
+/// What decides how much work a macro triangle is: whether it is bent, and which of its corners are graded.
+type Kind = (bool, [bool; 3]);
+
+impl MacroMesh {
+    /// Work of each macro triangle in one cycle of multigrid, as weights for a partitioner: whole numbers without a common
+    /// divisor, all 1 if all macro triangles are alike.
+    ///
+    /// Counted are the bytes that a sweep moves, on each level as often as an F-cycle comes there (`k + 1` times on the `k`-th
+    /// level below the finest). A node of a strip, or inside of an even macro triangle that is worked on as a whole, costs its
+    /// values alone; of a stored row all couplings are read, 7 for P1, 11.5 for P2 in the mean. So a bent macro triangle, which
+    /// stores all of its rows, is several times the work of an even straight one, and a graded one lies between them.
+    pub fn work(&self, order: Order, refine: usize) -> Vec<i32> {
+        let levels = levels(order, refine);
+        let mut known: BTreeMap<Kind, f64> = BTreeMap::new();
+        let works: Vec<f64> = (0..self.triangles.len())
+            .map(|triangle| {
+                let graded = self.triangles[triangle].vertices.map(|vertex| self.ratios[vertex as usize].is_some());
+                let kind = if self.is_curved(triangle) { (true, [false; 3]) } else { (false, graded) };
+                *known.entry(kind).or_insert_with(|| self.cycle_work(triangle, &levels))
+            })
+            .collect();
+        whole_numbers(&works)
+    }
+
+    fn cycle_work(&self, triangle: usize, levels: &[Level]) -> f64 {
+        let visits = levels.iter().rev().zip(1..);
+        visits.map(|(level, visits)| f64::from(visits) * self.sweep_work(triangle, *level)).sum()
+    }
+
+    /// Bytes of a sweep over the nodes of one macro triangle, each of its sides being shared with another.
+    fn sweep_work(&self, triangle: usize, level: Level) -> f64 {
+        let nodes = 0.5 * (level.intervals * level.intervals) as f64;
+        let in_strips: usize = match level.is_whole() && self.is_even(triangle, level) {
+            true => lattice::inner_count(level.intervals),
+            false => self.strips(triangle, level).iter().map(|strip| strip.i.len()).sum(),
+        };
+        let (in_strips, couplings) = (in_strips as f64, if level.order == Order::P1 { 7.0 } else { 11.5 });
+        let stored = (nodes - in_strips).max(0.0);
+        NODE * nodes + STRIP_COUPLING * couplings * in_strips + (INVERSE + STORED_COUPLING * couplings) * stored
+    }
+}
+
+fn whole_numbers(works: &[f64]) -> Vec<i32> {
+    let least = works.iter().copied().fold(f64::INFINITY, f64::min);
+    let whole: f64 = works.iter().map(|work| work / least).sum();
+    let unit = FINEST.min(MOST / whole).max(1.0);
+    let weights: Vec<i32> = works.iter().map(|work| (unit * work / least).round() as i32).collect();
+    let divisor = weights.iter().copied().fold(0, greatest_common_divisor).max(1);
+    weights.into_iter().map(|weight| weight / divisor).collect()
+}
+
+fn greatest_common_divisor(a: i32, b: i32) -> i32 {
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Curve;
+    use crate::mesh::samples::two_blocks;
+
+    #[test]
+    fn macro_triangles_that_are_alike_are_equal_work() {
+        let mesh = two_blocks();
+        for (order, refine) in [(Order::P1, 0), (Order::P1, 6), (Order::P2, 5)] {
+            assert_eq!(mesh.work(order, refine), vec![1; mesh.triangles.len()]);
+        }
+    }
+
+    #[test]
+    fn bent_ones_are_the_most_work_and_graded_ones_more_than_even_ones() {
+        let mut mesh = two_blocks();
+        let circle = Curve::Circle { centre: [1.0, -2.0], radius: 10f64.sqrt() };
+        mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
+        mesh.grade([2.0, 2.0].into(), 0.2).expect("a vertex");
+        for (order, refine) in [(Order::P1, 6), (Order::P2, 6)] {
+            let work = mesh.work(order, refine);
+            let of = |kind: fn(&MacroMesh, usize) -> bool| {
+                let own = (0..work.len()).filter(|&triangle| kind(&mesh, triangle)).map(|triangle| f64::from(work[triangle]));
+                own.collect::<Vec<_>>()
+            };
+            let (bent, graded) = (of(|mesh, t| mesh.is_curved(t)), of(|mesh, t| mesh.is_graded(t)));
+            let even = of(|mesh, t| !mesh.is_graded(t) && !mesh.is_curved(t));
+            assert!(even.iter().all(|work| *work == even[0]) && bent.len() == 1);
+            assert!(bent[0] > 2.0 * even[0], "{order:?}: {bent:?} {even:?}");
+            assert!(
+                !graded.is_empty() && graded.iter().all(|work| (1.05 * even[0]..bent[0]).contains(work)),
+                "{graded:?} {even:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_mesh_without_refinement_has_no_strips_and_equal_work() {
+        let mut mesh = two_blocks();
+        let circle = Curve::Circle { centre: [1.0, -2.0], radius: 10f64.sqrt() };
+        mesh.bend("arc", &["lower.seam".into()], &circle).expect("the ends lie on it");
+        assert_eq!(mesh.work(Order::P2, 0), vec![1; mesh.triangles.len()]);
+    }
+
+    #[test]
+    fn weights_stay_below_what_32_bits_count() {
+        let many = [vec![1.0; 3_000_000], vec![1000.0; 1_000_000]].concat();
+        let weights = whole_numbers(&many);
+        assert!(weights.iter().map(|&weight| i64::from(weight)).sum::<i64>() <= i64::from(i32::MAX));
+        assert!(weights.iter().all(|&weight| weight >= 1));
+    }
+}

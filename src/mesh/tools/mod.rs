@@ -1,0 +1,6 @@
+//! Rigid tools as layers of triangles, and the mesh without them.
+
+mod tool;
+mod without_tools;
+
+pub use tool::SurfacePart;
