@@ -51,49 +51,33 @@
 //!   were.
 
 mod accuracy;
-mod check;
-mod drawing;
-mod exact;
-mod expected;
+mod checking;
 mod fields;
 mod figures;
-mod first_case;
 mod forecast;
 mod info;
-mod input;
 pub mod interruption;
-mod known;
-mod means;
 mod memory;
-mod names;
 mod observe;
 mod origin;
 mod outcome;
-mod points;
 mod progress;
-mod proposals;
+mod reading;
 mod report;
 mod results;
 mod run_options;
-mod scene;
-mod slits;
-mod slivers;
 mod stages;
 mod steps;
 mod summarise;
-mod true_errors;
-mod trust;
-mod turns;
-mod unresolved;
-mod zones;
+mod verdict;
 
-pub use check::{Checked, check, check_file};
-pub use drawing::draw_case;
-pub use first_case::{FirstCase, first_case, path_from};
+pub use checking::draw_case;
+pub use checking::{Checked, check, check_file};
+pub use checking::{FirstCase, first_case, path_from};
 pub use forecast::remedy as out_of_memory_remedy;
 pub use info::{info, version};
-pub use input::read_case;
 pub use outcome::{Outcome, RunError};
+pub use reading::read_case;
 pub use run_options::RunOptions;
 
 use crate::case::Case;
@@ -130,7 +114,7 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let report = Report::new(case, options, session);
     let stages = Rc::new(Stages::new(session)?);
     report.start(case);
-    turns::far_turns(case).iter().for_each(|words| report.warn(words));
+    verdict::turns::far_turns(case).iter().for_each(|words| report.warn(words));
     let (scene, origin) = read_scene(case, options, origin, &stages, &report, session)?;
     let run = Run { case, options, session, stages, report, files, origin, draws: true, true_errors: RefCell::default() };
     if !case.steps.is_empty() {
@@ -216,7 +200,7 @@ fn read_scene(
     session: &Session,
 ) -> Result<(Scene, Arc<ResultOrigin>), RunError> {
     let _stage = stages.mesh.enter();
-    let bytes = input::share_mesh(case, options.inputs.as_ref(), session)?;
+    let bytes = reading::input::share_mesh(case, options.inputs.as_ref(), session)?;
     let origin = if session.rank() == 0 { origin.with_mesh(case, bytes.clone(), &options.out) } else { origin };
     let before = if session.rank() == 0 { origin::result_before(case, &bytes) } else { Ok(None) };
     let before = session.agree(before).map_err(RunError::Input)?;
@@ -225,7 +209,7 @@ fn read_scene(
     }
     let origin = Arc::new(origin);
     interruption::keep_origin(origin.clone());
-    let mesh = input::parse_mesh(case, &bytes, session)?;
-    slits::slits(&mesh).iter().for_each(|words| report.warn(words));
-    Ok((scene::spread(case, mesh, session)?, origin))
+    let mesh = reading::input::parse_mesh(case, &bytes, session)?;
+    checking::slits::slits(&mesh).iter().for_each(|words| report.warn(words));
+    Ok((reading::scene::spread(case, mesh, session)?, origin))
 }

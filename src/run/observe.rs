@@ -3,17 +3,17 @@
 use super::Run;
 use super::accuracy;
 use super::interruption;
-use super::known::check_pressures;
 use super::memory;
 use super::outcome::RunError;
 use super::progress;
 use super::stages::Stages;
-use super::true_errors::true_errors;
 use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
 use crate::discretisation::Scene;
 use crate::petsc::StageGuard;
 use crate::procedure::{Event, Observer, Procedure, Solved, Work};
+use crate::run::reading::check_pressures;
+use crate::run::verdict::true_errors;
 
 impl Run<'_> {
     /// Solves a scene as the case wants it, from the solution of the load step before, if there is any. **Collective**

@@ -2,21 +2,14 @@
 
 use super::Run;
 use super::accuracy;
-use super::exact::{Errors, compare};
-use super::expected;
 use super::fields;
 use super::figures;
 use super::interruption;
 use super::outcome::outside;
 use super::outcome::{Outcome, RunError};
-use super::points;
 use super::progress;
 use super::report::{memory, short};
-use super::slivers::slivers;
 use super::summarise;
-use super::trust;
-use super::unresolved;
-use super::zones;
 use crate::accuracy::Adaptation;
 use crate::contact::{Configuration, GapChoice};
 use crate::discretisation::Contact;
@@ -27,6 +20,13 @@ use crate::output::summary::{self, Status, Summary};
 use crate::output::{CONTACTS, ContactPoint, OutputError, ResultFolder, vtk, write_contact, write_contacts};
 use crate::procedure::{Solved, Work};
 use crate::recovery::{Evaluation, TracePoint};
+use crate::run::verdict::expected;
+use crate::run::verdict::points;
+use crate::run::verdict::slivers;
+use crate::run::verdict::trust;
+use crate::run::verdict::unresolved;
+use crate::run::verdict::zones;
+use crate::run::verdict::{Errors, compare};
 use std::collections::BTreeSet;
 use std::path::Path;
 

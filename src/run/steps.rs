@@ -3,14 +3,14 @@
 
 use super::Run;
 use super::interruption;
-use super::known::check_pressures;
 use super::outcome::RunError;
-use super::scene;
 use crate::case::LoadStep;
 use crate::discretisation::Scene;
 use crate::output::summary::{Status, StepSummary, Summary};
 use crate::output::{CONTACTS, OutputError, plot, vtk, write_steps};
 use crate::procedure::{Procedure, Solved};
+use crate::run::reading::check_pressures;
+use crate::run::reading::scene;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

@@ -27,7 +27,7 @@ const MOST_GROWTH: f64 = 0.5;
 const MOST_STRAIN: f64 = 0.2;
 
 /// Largest mean rotation of a body (radians): forces and lengths are off by half its square.
-pub(in crate::run) const MOST_ROTATION: f64 = 0.2;
+pub(crate) const MOST_ROTATION: f64 = 0.2;
 
 /// Largest ν of P1 triangles whose pressure may be believed.
 const MOST_POISSON: f64 = 0.495;
@@ -57,7 +57,7 @@ pub fn unestimated_doubts(
 }
 
 /// What tells that curved bodies have slid along each other too far for normals of the undeformed ones.
-pub(super) fn slip_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
+pub(crate) fn slip_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
     let (slip, error) = (contact.slip?, contact.slip_error?);
     let by_turning = contact.rotation_error.is_some_and(|turning| turning > MOST_SLIP_ERROR && turning > 0.5 * error);
     (slip > LITTLE_SLIP && error > MOST_SLIP_ERROR && !by_turning).then(|| Doubt {
@@ -72,7 +72,7 @@ pub(super) fn slip_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
 }
 
 /// What tells that bodies have slid along each other so far that they have another length in common, or lie elsewhere.
-pub(super) fn end_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
+pub(crate) fn end_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
     let lost = contact.lost_at_ends.filter(|lost| *lost > MOST_LOST_AT_ENDS).map(|lost| {
         format!(
             "sliding takes {} of the length in contact from what the bodies have in common, at most {MOST_LOST_AT_ENDS} wanted: force or pressure wrong by about as much",
@@ -95,7 +95,7 @@ pub(super) fn end_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
 }
 
 /// What tells that bodies have turned too far for a theory that makes larger what turns.
-pub(super) fn turning_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
+pub(crate) fn turning_doubt(contact: &summary::ContactSummary) -> Option<Doubt> {
     let error = contact.rotation_error?;
     let (cause, remedy) = ("the bodies turn too far", TURN_LESS);
     if contact.zones.is_empty() {
@@ -112,7 +112,7 @@ pub(super) fn turning_doubt(contact: &summary::ContactSummary) -> Option<Doubt> 
 }
 
 /// What tells that bodies are strained beyond a theory of small strain.
-pub(super) fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
+pub(crate) fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
     let large =
         summary.strain_max.iter().filter_map(|(body, strain)| Some((body, strain.filter(|strain| *strain > MOST_STRAIN)?)));
     let words = |(body, strain): (&String, f64)| {
@@ -123,14 +123,14 @@ pub(super) fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
 }
 
 /// What tells that bodies turn farther than any theory of small rotations goes.
-pub(super) fn rotation_doubts(summary: &Summary) -> Vec<Doubt> {
+pub(crate) fn rotation_doubts(summary: &Summary) -> Vec<Doubt> {
     let far = summary.rotation.iter().filter_map(|(body, angle)| Some((body, angle.filter(|a| a.abs() > MOST_ROTATION)?)));
     let words = |(body, angle): (&String, f64)| format!("body {body} turns by {angle:.2}, at most {MOST_ROTATION} wanted");
     far.map(|found| Doubt { cause: "a body turns too far", figure: words(found), remedy: TURN_LESS }).collect()
 }
 
 /// What tells that P1 triangles have locked: meshes that all lock alike have differences that say too little.
-pub(super) fn locking_doubt(case: &Case) -> Option<Doubt> {
+pub(crate) fn locking_doubt(case: &Case) -> Option<Doubt> {
     let locks = |part: &&BodyPart| case.mesh.order == Order::P1 && part.material.poisson_in_plane() > MOST_POISSON;
     let part = case.bodies.iter().flat_map(|body| &body.parts).find(locks)?;
     let figure = format!("body {} has ν = {} with P1 triangles, at most {MOST_POISSON} wanted", part.name, part.material.poisson);
@@ -138,7 +138,7 @@ pub(super) fn locking_doubt(case: &Case) -> Option<Doubt> {
 }
 
 /// What tells that the linear solve has stopped too early for its forces.
-pub(super) fn residual_doubt(summary: &Summary, case: &Case) -> Option<Doubt> {
+pub(crate) fn residual_doubt(summary: &Summary, case: &Case) -> Option<Doubt> {
     let residual = summary.solver.residual.filter(|residual| *residual > MOST_RESIDUAL)?;
     (!case.solver.goes_by_estimate()).then(|| Doubt {
         cause: "the linear solve has stopped early",
@@ -148,7 +148,7 @@ pub(super) fn residual_doubt(summary: &Summary, case: &Case) -> Option<Doubt> {
 }
 
 /// What tells of contact that is narrower than a segment.
-pub(super) fn unresolved_doubt(contact: &summary::ContactSummary, shorter: &'static str) -> Option<Doubt> {
+pub(crate) fn unresolved_doubt(contact: &summary::ContactSummary, shorter: &'static str) -> Option<Doubt> {
     let force = contact.force.unwrap_or(0.0).abs();
     let off = contact.unresolved_force.filter(|off| *off > MOST_UNRESOLVED * force)?;
     let worth = if force > 0.0 { format!(", which is worth {} of its force", short(off / force)) } else { String::new() };

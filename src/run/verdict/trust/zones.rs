@@ -7,10 +7,10 @@ use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::report::short;
 
 /// On fewer edges, or fewer segments, the pressure of a zone is off by tens of per cent, unless the estimate proves it good.
-pub(in crate::run) const LEAST_PARTS: f64 = 4.0;
+pub(crate) const LEAST_PARTS: f64 = 4.0;
 
 /// The largest sign of an error that proves a pressure good.
-pub(in crate::run) const PROVES: f64 = 0.05;
+pub(crate) const PROVES: f64 = 0.05;
 
 /// Signs of error that prove a pressure on one or two segments, too.
 const NEXT_TO_NOTHING: f64 = 1e-3;

@@ -1,7 +1,7 @@
 //! Words for macro meshes whose triangles are too flat.
 
-use super::report::short;
 use crate::mesh::MacroMesh;
+use crate::run::report::short;
 
 /// Angles that are smaller make a sliver (degrees).
 const SMALL: f64 = 10.0;

@@ -1,10 +1,10 @@
 //! What a run is made of: rank 0 alone reads the files, and all ranks work on its bytes.
 
-use super::outcome::RunError;
-use super::scene;
 use crate::case::{Case, Inputs, fingerprint, read_text};
 use crate::mesh::{MacroMesh, read_bytes};
 use crate::petsc::Session;
+use crate::run::outcome::RunError;
+use crate::run::reading::scene;
 use std::path::Path;
 
 /// Reads and checks a case file, after the overrides `KEY=VALUE`; it must be the one that is `wanted`, if any is. **Collective**
@@ -33,7 +33,7 @@ pub fn read_case(file: &Path, overrides: &[String], wanted: Option<&Inputs>, ses
 ///
 /// # Errors
 /// As of [`read_case`].
-pub(super) fn share_mesh(case: &Case, wanted: Option<&Inputs>, session: &Session) -> Result<Vec<u8>, RunError> {
+pub(crate) fn share_mesh(case: &Case, wanted: Option<&Inputs>, session: &Session) -> Result<Vec<u8>, RunError> {
     let bytes = session.share(|| scene::read_mesh_file(case));
     refuse_change(&case.mesh.file, &bytes, wanted.map(|inputs| &inputs.mesh))?;
     bytes.map_err(RunError::Input)
@@ -43,7 +43,7 @@ pub(super) fn share_mesh(case: &Case, wanted: Option<&Inputs>, session: &Session
 ///
 /// # Errors
 /// As of [`read_case`].
-pub(super) fn parse_mesh(case: &Case, bytes: &[u8], session: &Session) -> Result<MacroMesh, RunError> {
+pub(crate) fn parse_mesh(case: &Case, bytes: &[u8], session: &Session) -> Result<MacroMesh, RunError> {
     session.agree(scene::read_mesh(case, bytes)).map_err(RunError::Input)
 }
 

@@ -9,16 +9,16 @@ mod told;
 mod unestimated;
 mod zones;
 
-pub(super) use no_result::{NO_NUMBERS, no_result};
-pub(super) use unestimated::MOST_ROTATION;
-pub(super) use zones::{LEAST_PARTS, PROVES};
+pub(crate) use no_result::{NO_NUMBERS, no_result};
+pub(crate) use unestimated::MOST_ROTATION;
+pub(crate) use zones::{LEAST_PARTS, PROVES};
 
-use super::report::short;
 use crate::accuracy::share_of_nothing;
 use crate::case::Case;
 use crate::contact::{Pair, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
+use crate::run::report::short;
 use balance::{balance_doubts, is_in_balance, is_strained};
 use doubt::Doubt;
 use remedies::{FINER, more_segments, on_order};

@@ -1,9 +1,9 @@
 //! The text of a first case.
 
-use super::super::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
 use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
 use super::named_curve::{HELD, LOADED, MIRRORED, NamedCurve};
 use super::node_circle::NodeCircle;
+use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
 use std::fmt::Write;
 use std::path::Path;
 

@@ -8,11 +8,11 @@ mod guesses;
 mod named_curve;
 mod node_circle;
 
-use super::check::check;
-use super::outcome::RunError;
-use super::proposals::{TableNames, proposed_supports, quoted};
 use crate::case::{Case, CaseError};
 use crate::mesh::{parse_joined, read_bytes, touching_surfaces};
+use crate::run::checking::check::check;
+use crate::run::checking::proposals::{TableNames, proposed_supports, quoted};
+use crate::run::outcome::RunError;
 use draft::Draft;
 use guesses::{Guesses, Press};
 use std::collections::HashMap;

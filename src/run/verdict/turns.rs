@@ -1,8 +1,8 @@
 //! Whether the angles that a case gives are small.
 
-use super::trust::MOST_ROTATION;
 use crate::body::RigidSet;
 use crate::case::Case;
+use crate::run::verdict::trust::MOST_ROTATION;
 
 /// Words for each rigid tool and each plate whose given angle no theory of small rotations is good for; of load steps the
 /// largest angle counts.

@@ -1,9 +1,5 @@
 //! Case and mesh brought together: names resolved, geometries applied, macro triangles spread over ranks.
 
-use super::known::check_exact;
-use super::means::check_means;
-use super::names::{Names, together, unknown_part};
-use super::outcome::RunError;
 use crate::body::Body;
 use crate::case::{Case, CaseError, LoadStep};
 use crate::discretisation::{self, Scene};
@@ -11,6 +7,10 @@ use crate::geometry::{Coordinates, Formula, Point, Rounded};
 use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, touching_surfaces};
 use crate::petsc::Session;
 use crate::procedure::Procedure;
+use crate::run::outcome::RunError;
+use crate::run::reading::known::check_exact;
+use crate::run::reading::means::check_means;
+use crate::run::reading::names::{Names, together, unknown_part};
 use std::collections::HashMap;
 use std::rc::Rc;
 

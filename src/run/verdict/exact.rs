@@ -1,12 +1,12 @@
 //! A solution against the exact or reference values of its case.
 
-use super::known::has_values;
-use super::outcome::RunError;
-use super::outcome::outside;
 use crate::case::{Case, LambdaExact};
 use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::recovery::Evaluation;
+use crate::run::outcome::RunError;
+use crate::run::outcome::outside;
+use crate::run::reading::has_values;
 use std::collections::BTreeMap;
 
 /// Relative errors by name, and words for each that misses its tolerance.

@@ -1,13 +1,13 @@
 //! The figure of `mezha check`: what of a case can be read, with all names.
 
-use super::outcome::RunError;
-use super::scene;
 use crate::body::{Load, LoadKind, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
 use crate::contact::Pair;
 use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, MacroTriangle};
 use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds};
+use crate::run::outcome::RunError;
+use crate::run::reading::scene;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -272,7 +272,7 @@ fn lone_point(place: [f64; 2]) -> Rows {
 
 /// A name and what is prescribed there.
 fn with_values(name: &str, components: &[(&str, Option<&Formula>)]) -> String {
-    let value = |formula: &Formula| formula.as_constant().map_or_else(|| "…".into(), super::proposals::short);
+    let value = |formula: &Formula| formula.as_constant().map_or_else(|| "…".into(), crate::run::checking::proposals::short);
     let given = components.iter().filter_map(|(key, formula)| Some(format!("{key} = {}", value((*formula)?))));
     format!("{name}: {}", given.collect::<Vec<_>>().join(", "))
 }

@@ -2,13 +2,13 @@
 //!
 //! In all cases of the project no depth is above 3 % of the approach.
 
-use super::report::short;
-use super::trust::LEAST_PARTS;
 use crate::accuracy::share_of_nothing;
 use crate::case::Case;
 use crate::contact::{Law, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
+use crate::run::report::short;
+use crate::run::verdict::trust::LEAST_PARTS;
 
 /// Way of the ends of a contact boundary, as a share of its length, beyond which it moves.
 const MOST_MOVED: f64 = 1e-2;

@@ -1,9 +1,9 @@
 //! What is said of points that carry forces: the displacement there has no limit in the plane.
 
-use super::report::short;
 use crate::body::{MeanHold, PointLoad, Support};
 use crate::geometry::Point;
 use crate::recovery::Evaluation;
+use crate::run::report::short;
 
 /// A support at a point that carries more than this share of all forces changes displacements by what shows.
 const LITTLE: f64 = 1e-4;

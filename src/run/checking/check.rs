@@ -1,15 +1,5 @@
 //! `mezha check`.
 
-use super::accuracy;
-use super::known::check_pressures;
-use super::memory;
-use super::origin;
-use super::outcome::RunError;
-use super::proposals::{proposed_contacts, proposed_supports};
-use super::report::contact_lines;
-use super::scene;
-use super::slits::slits;
-use super::turns::far_turns;
 use crate::body::{Body, Material};
 use crate::case::{Case, Matched, read_text};
 use crate::discretisation::Scene;
@@ -17,6 +7,16 @@ use crate::element::{Order, Plane};
 use crate::mesh::MacroMesh;
 use crate::output::summary::{MOST_TOLD, listed};
 use crate::procedure::Procedure;
+use crate::run::accuracy;
+use crate::run::checking::proposals::{proposed_contacts, proposed_supports};
+use crate::run::checking::slits::slits;
+use crate::run::memory;
+use crate::run::origin;
+use crate::run::outcome::RunError;
+use crate::run::reading::check_pressures;
+use crate::run::reading::scene;
+use crate::run::report::contact_lines;
+use crate::run::verdict::far_turns;
 use std::collections::HashMap;
 use std::path::Path;
 

@@ -5,11 +5,11 @@
 //! solutions on much finer meshes. Of the 15 good pressures that are not trusted most are so for their `peak` or for `whole`.
 //! `whole` by the true error: of 86 runs 72 are within 0.5 to 3, three below 0.3.
 
-use super::trust::{LEAST_PARTS, PROVES};
 use crate::contact::{Zone, hertz_width};
 use crate::output::summary;
 use crate::procedure::Solved;
 use crate::recovery::TracePoint;
+use crate::run::verdict::trust::{LEAST_PARTS, PROVES};
 
 /// Fewer segments say nothing of each other.
 const LEAST_SEGMENTS: usize = 3;

@@ -1,12 +1,12 @@
 //! What a case may lack, as TOML to paste: contacts of boundaries that lie close, and supports of what can move.
 
-use super::scene;
 use crate::case::Case;
 use crate::case::error::dotted;
 use crate::contact::{ClosePair, Extent, Mechanism, close_pairs};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use crate::procedure::Procedure;
+use crate::run::reading::scene;
 use std::collections::HashSet;
 use std::path::Path;
 use toml::Value;
@@ -18,18 +18,18 @@ const MOST_SUPPORTS: usize = 100;
 const FAINT: f64 = 1e-3;
 
 /// A name as a TOML string.
-pub(super) fn quoted(name: &str) -> String {
+pub(crate) fn quoted(name: &str) -> String {
     Value::String(name.into()).to_string()
 }
 
 /// A name as a TOML key.
-pub(super) fn key(name: &str) -> String {
+pub(crate) fn key(name: &str) -> String {
     dotted(&[name.into()])
 }
 
 /// Names of tables, none twice.
 #[derive(Default)]
-pub(super) struct TableNames(Vec<String>);
+pub(crate) struct TableNames(Vec<String>);
 
 impl TableNames {
     pub fn of(names: impl Iterator<Item = String>) -> Self {
@@ -50,14 +50,14 @@ impl TableNames {
 }
 
 /// What two boundaries are called together: what their names end with, `seam` of `lower.seam` and `upper.seam`, or both names.
-pub(super) fn common_name([first, second]: &[String; 2]) -> String {
+pub(crate) fn common_name([first, second]: &[String; 2]) -> String {
     let last = |name: &str| name.rsplit(['.', '_', ' ', '-']).next().unwrap_or_default().to_owned();
     let (a, b) = (last(first), last(second));
     if a == b && !a.is_empty() && a.len() < first.len() { a } else { format!("{first}-{second}") }
 }
 
 /// `[contact.NAME]` of a pair.
-pub(super) fn contact_table(pair: &ClosePair, names: &mut TableNames) -> String {
+pub(crate) fn contact_table(pair: &ClosePair, names: &mut TableNames) -> String {
     let [a, b] = pair.between.each_ref().map(|name| quoted(name));
     format!("[contact.{}]\nbetween = [{a}, {b}]{}\n", names.fresh(&common_name(&pair.between)), distance_words(pair))
 }
@@ -72,12 +72,12 @@ fn distance_words(pair: &ClosePair) -> String {
 }
 
 /// A length with three digits.
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
 }
 
 /// Contacts that a case may have forgotten: boundaries that lie close, of bodies between which it has none.
-pub(super) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
+pub(crate) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
     let body_of = |side: &String| mesh.boundary(side).and_then(|found| found.edges.first()).map(|&edge| mesh.body_beside(edge));
     let bodies = case.contacts.iter().map(|contact| {
         let mut bodies = contact.between.each_ref().map(body_of);
@@ -92,7 +92,7 @@ pub(super) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
 
 /// Supports that would hold what can move though contact is closed everywhere, one after the other; none if all is held, or
 /// if that cannot be told.
-pub(super) fn proposed_supports(case: &Case) -> Vec<String> {
+pub(crate) fn proposed_supports(case: &Case) -> Vec<String> {
     let known = case.supports.iter().map(|support| support.name.clone());
     let known = known.chain(case.means.iter().map(|mean| mean.name.clone()));
     let mut names = TableNames::of(known.chain(case.springs.iter().map(|springs| springs.name.clone())));
@@ -120,7 +120,7 @@ pub(super) fn proposed_supports(case: &Case) -> Vec<String> {
 }
 
 /// A support of the mean motion of a body: which of its two shifts and its turn.
-pub(super) struct MeanProposal {
+pub(crate) struct MeanProposal {
     pub name: String,
     pub body: String,
     pub moves: [bool; 3],
