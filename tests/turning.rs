@@ -32,6 +32,10 @@ output.fields = false
 
 /// The hub turned about the origin by an angle, and pushed outwards by a share of its radius.
 fn turned(folder: &std::path::Path, angle: f64, push: f64, configuration: &str, ranks: usize) -> Ended {
+    run(folder, angle, push, configuration, ranks).converged()
+}
+
+fn run(folder: &std::path::Path, angle: f64, push: f64, configuration: &str, ranks: usize) -> Run {
     let file = write_scene(folder, &pad_in_bore().text(), PAD);
     let (s, c) = angle.sin_cos();
     let (c, s) = ((1.0 + push) * c - 1.0, (1.0 + push) * s);
@@ -40,7 +44,6 @@ fn turned(folder: &std::path::Path, angle: f64, push: f64, configuration: &str, 
         .set("support.hub.ux", format!("{c:?}*x - ({s:?})*y"))
         .set("support.hub.uy", format!("({s:?})*x + {c:?}*y"))
         .set("contact.seam.configuration", configuration)
-        .converged()
 }
 
 /// A pad presses on its bore with one force wherever it has been turned to. The program is off, and says by how much.
@@ -65,6 +68,17 @@ fn a_pad_that_turns_in_its_bore_presses_as_before_or_tells() {
             assert!(ended.errors.contains("the bodies turn"), "{}", ended.errors);
             assert!(!ended.errors.contains("deformed"), "{}", ended.errors);
         }
+    }
+}
+
+/// Turned so far that most of its force is that of a pad which has grown, it is no result.
+#[test]
+fn a_pad_that_is_turned_too_far_is_not_resolved() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for ranks in [1, 2] {
+        let ended = run(folder.path(), 0.055, 2e-3, "reference", ranks).ended();
+        assert_eq!((ended.code, ended.value("/status").as_str()), (Some(3), Some("unresolved")), "{}", ended.said());
+        assert!(ended.value("/reason").to_string().contains("turn or slide so far"), "{}", ended.said());
     }
 }
 
