@@ -5,7 +5,7 @@ use crate::multigrid::stiffness::LatticeOperator;
 use crate::petsc::{Error, Factor, Krylov, Matrix, MultigridCycle, MultigridLevel, Result, Session, Vector};
 
 /// Prefix of the options of the smoothers and of the coarsest solver: that of PETSc's own multigrid, so that the defaults of
-/// [`super::super::solver`] hold here, too.
+/// `system/solver` hold here, too.
 const PREFIX: &str = "fieldsplit_u_";
 
 /// The solver of the coarsest level of the mesh.

@@ -4,7 +4,7 @@
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
 //! nothing is sent, unless there are auxiliary levels, and the other ranks wait. Where options of the user's ask for another
 //! smoother, cycle or coarse solver, and where solves fall back on stronger smoothers, PETSc's own multigrid stands in its place
-//! ([`super::solver`]).
+//! (`system/solver`).
 
 mod coarsest;
 mod level;

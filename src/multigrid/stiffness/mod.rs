@@ -48,9 +48,9 @@
 //! The cycle (`multigrid/cycle`) works on these rows directly. It is PETSc's preconditioner of field `u` as a shell, so that the
 //! MatNest, fieldsplit and the Krylov method around it are PETSc's. Fieldsplit copies the parts of its vectors some ten times;
 //! where no option of the user's begins with `-pc_` or `-fieldsplit_`, its function is replaced by one that does the same
-//! without copies (`solver/block_triangle.rs`, `petsc::ReplacedAction`; it needs PETSc's `private/pcimpl.h`, which PETSc
+//! without copies (`system/solver/block_triangle.rs`, `petsc::ReplacedAction`; it needs PETSc's `private/pcimpl.h`, which PETSc
 //! installs), while its kind, parts and set-up stay. Levels of up to 3000 unknowns are on one rank, larger ones on one of every
-//! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`level_ranks.rs`); the finest stays on all.
+//! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`discretisation/level_ranks.rs`); the finest stays on all.
 //! From the first level on one rank downwards nothing is sent, and that rank solves the coarsest with a factor. Where the macro
 //! mesh is larger, a cycle of PETSc's multigrid on it and the auxiliary levels stands in the place of the factor
 //! (`cycle/coarsest.rs`). All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a

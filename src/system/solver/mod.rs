@@ -2,7 +2,7 @@
 //!
 //! `fieldsplit`: GMRES (BiCGStab on many unknowns), preconditioned from the right by the block upper triangle of
 //! `K + BᵀDB` and `S = -D⁻¹`; one multigrid F-cycle stands for the inverse of the first, on the levels of the mesh and
-//! auxiliary ones below ([`super::auxiliary`]). Where that is too weak, solves fall back on stronger ones, in the end on a
+//! auxiliary ones below (`multigrid/auxiliary`). Where that is too weak, solves fall back on stronger ones, in the end on a
 //! Cholesky factor ([`Preconditioning`]). `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's
 //! own override; only the tolerance is the case's.
 //!
