@@ -4,4 +4,4 @@ mod active_set;
 mod ascent;
 
 pub use active_set::{ActiveSet, SetChange};
-pub use ascent::{Ascent, SetSolution};
+pub use ascent::SetSolution;

@@ -11,16 +11,18 @@ use crate::procedure::ending::Failure;
 use crate::procedure::sets::relative_change;
 use crate::system::Start;
 
-/// Boundaries placed at most on meshes before the last one, which tell the next where its boundaries lie: their ends are aligned with the pressure twice.
+/// Boundaries placed at most on meshes before the last one, which tell the next where its boundaries lie: their ends are aligned
+/// with the pressure twice.
 const MOST_ON_THE_WAY: usize = 3;
 
-/// From this one on, a boundary keeps the nodes it is fitted to and its segments, and its ends follow the pressure.
+/// Number of the boundary from which on it keeps the nodes it is fitted to and its segments, and only its ends follow the pressure.
 const FROZEN: usize = 3;
 
 /// Change of the displacement, relative to its norm, at which it stands, by the relative residual of the last solve.
 const STILL_DISPLACEMENT: f64 = 1e2;
 
-/// Change of the boundary, relative to its length, at which it stands, by the relative residual of the last solve: less is lost in what the residual leaves of the pressure.
+/// Change of the boundary, relative to its length, at which it stands, by the relative residual of the last solve: less is lost in
+/// what the residual leaves of the pressure.
 const STILL_BOUNDARY: f64 = 1e3;
 
 /// Relative residual of the last solve below which boundaries stand by it alone, whatever the mesh is exact for.

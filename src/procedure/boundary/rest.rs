@@ -8,7 +8,7 @@ use crate::procedure::ending::{Failure, HeldEnds, Standing};
 /// Boundaries placed at most.
 pub const MOST_BOUNDARIES: usize = 30;
 
-/// From this one on the ends are held where they are, should they still move.
+/// Number of the boundary from which on ends are held where they are, should they still move.
 pub const HELD: usize = 10;
 
 /// Ends that moved by more than this share of the length just before are held where they have reached farthest, others

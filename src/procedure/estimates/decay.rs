@@ -5,7 +5,8 @@ use super::difference::Difference;
 /// Factors by which squares of errors fall, at least and at most: outside of these the meshes are too coarse to tell.
 const FACTORS: [f64; 2] = [1.0 / 80.0, 0.75];
 
-/// Factors by which squares of errors fall on one macro triangle, as far as the next mesh is foreseen: from P2 on a smooth solution to P1 at a corner.
+/// Factors by which squares of errors fall on one macro triangle, as far as the next mesh is foreseen: from P2 on a smooth solution
+/// to P1 at a corner.
 const LOCAL_FACTORS: [f64; 2] = [1.0 / 16.0, 0.5];
 
 /// The factor q of squares with q/(1 - q) = .7², for a mesh that is adapted by one difference.

@@ -11,7 +11,7 @@ const WITHIN_A_SEGMENT: [f64; 2] = [0.5, 0.03];
 /// Error of the place where a pressure fades out, by the segment there.
 const FADED: f64 = 0.1;
 
-/// The same by how far that place has moved since the mesh before.
+/// Error of the place where a pressure fades out, by how far it has moved since the mesh before.
 const FADED_MOVES: f64 = 0.5;
 
 /// Largest way of an end of a zone that presses from where it was on the mesh before, by the width of the zone; one where there

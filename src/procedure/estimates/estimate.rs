@@ -19,7 +19,7 @@ use crate::recovery::{TracePoint, ZoneErrors, zone_errors};
 /// Error in the energy norm by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
 const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 
-/// The same on a mesh that is adapted, where what converges quickly is coarse. Between smooth sides .31 to .39 is left, with corners .80
+/// Error in the energy norm by one difference alone on a mesh that is adapted, where what converges quickly is coarse. Between smooth sides .31 to .39 is left, with corners .80
 /// to .90 (`chain_5`): the meshes after the first measure it on each macro triangle.
 const ENERGY_BY_ONE_ADAPTED: f64 = 0.7;
 
@@ -43,10 +43,12 @@ const ENDS_FALL: f64 = 0.5;
 /// P1, which is constant on each triangle.
 const PROBES_FALL: [[Option<f64>; 2]; 2] = [[Some(0.25), Some(0.125)], [None, Some(0.25)]];
 
-/// The same of a force, whose errors have either sign, so that they may seem to fall more quickly than they do.
+/// Share of the last difference of a force that is left, where it says nothing of how it falls, and at least: its errors have either
+/// sign, so that they may seem to fall more quickly than they do.
 const FORCE_SHARES: [f64; 2] = [0.6, 0.3];
 
-/// The same where the energy norm tells that it falls more slowly than on a smooth solution.
+/// Shares of the last difference of a force that are left where the energy norm tells that it falls more slowly than on a smooth
+/// solution.
 const FORCE_SLOW_SHARES: [f64; 2] = [0.3, 0.3];
 
 /// λ at both ends of a zone, on the mesh before and on the one before that (stress).

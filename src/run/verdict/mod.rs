@@ -1,4 +1,5 @@
-//! What a result is worth: whether its pressures can be trusted, whether its mesh can hold what the case says, and how far it is from what is known.
+//! What a result is worth: whether its pressures can be trusted, whether its mesh can hold what the case says, and how far it is
+//! from what is known.
 
 pub(crate) mod exact;
 pub(crate) mod expected;
