@@ -5,7 +5,7 @@ use super::Load;
 use super::LoadKind;
 use super::PointLoad;
 use super::node_positions::NodePositions;
-use crate::element::{BadJacobian, Order, edge_load, triangle_load};
+use crate::element::{BadJacobian, Heat, Order, PlaneLaw, edge_load, heat_load, triangle_load};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
 
@@ -36,7 +36,7 @@ pub fn applied_forces(
         let edges = load.on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
         for &edge in edges.filter(|&&edge| partition.owner(mesh.beside(edge).0) == rank) {
             for small in BoundaryEdge::all_of(mesh, edge, numbering) {
-                let forces = edge_load(&small.points, |x, normal| load.kind.traction(x, normal));
+                let forces = edge_load(&small.points, |x, normal| load.kind.traction(x, normal) * mesh.plane.width(x));
                 small.nodes.iter().zip(forces).for_each(|(node, force)| add(node.number(mesh, numbering), force));
             }
         }
@@ -49,6 +49,7 @@ pub fn applied_forces(
     }
     for &triangle in partition.triangles_of(rank) {
         let part = parts[mesh.triangles[triangle as usize].part as usize];
+        heat_forces(mesh, triangle as usize, numbering, part, &mut add)?;
         if part.force.iter().all(|formula| formula.as_constant() == Some(0.0)) {
             continue;
         }
@@ -61,7 +62,43 @@ pub fn applied_forces(
     Ok(())
 }
 
-/// Nodal forces of a force per area on one macro triangle, as of [`applied_forces`]; `density` takes some points.
+/// Nodal forces by which a heated macro triangle pushes, as of [`applied_forces`].
+///
+/// # Errors
+/// [`BadJacobian`] if a triangle is turned inside out.
+pub fn heat_forces(
+    mesh: &MacroMesh,
+    triangle: usize,
+    numbering: &Numbering,
+    part: &BodyPart,
+    add: &mut impl FnMut(usize, Point),
+) -> Result<(), BadJacobian> {
+    let Some(heat) = &part.heat else { return Ok(()) };
+    match numbering.level.order {
+        Order::P1 => small_heat_forces::<3>(mesh, triangle, numbering, &part.material.law(), heat, add),
+        Order::P2 => small_heat_forces::<6>(mesh, triangle, numbering, &part.material.law(), heat, add),
+    }
+}
+
+fn small_heat_forces<const N: usize>(
+    mesh: &MacroMesh,
+    triangle: usize,
+    numbering: &Numbering,
+    law: &PlaneLaw,
+    heat: &Heat,
+    add: &mut impl FnMut(usize, Point),
+) -> Result<(), BadJacobian> {
+    let (numbers, all) = (numbering.triangle(mesh, triangle), NodePositions::new(mesh, triangle, numbering.level));
+    for small in lattice::triangles(numbering.level.intervals, numbering.level.order) {
+        let nodes = small.nodes::<N>();
+        let forces = heat_load::<N>(&all.of(&nodes), law, heat)?;
+        nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
+    }
+    Ok(())
+}
+
+/// Nodal forces of a force per area of the mesh (per volume in a body of revolution) on one macro triangle, as of
+/// [`applied_forces`]; `density` takes some points.
 ///
 /// # Errors
 /// [`BadJacobian`] if a triangle is turned inside out.
@@ -86,9 +123,13 @@ fn small_forces<const N: usize>(
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
     let (numbers, all) = (numbering.triangle(mesh, triangle), NodePositions::new(mesh, triangle, numbering.level));
+    let whole = |points: &[Point; 6]| {
+        let densities = density(points);
+        std::array::from_fn(|k| densities[k] * mesh.plane.width(points[k]))
+    };
     for small in lattice::triangles(numbering.level.intervals, numbering.level.order) {
         let nodes = small.nodes::<N>();
-        let forces = triangle_load::<N>(&all.of(&nodes), &density)?;
+        let forces = triangle_load::<N>(&all.of(&nodes), whole)?;
         nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
     }
     Ok(())

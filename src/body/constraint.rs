@@ -13,6 +13,7 @@
 use super::Support;
 use super::mean_hold::{Anchor, MeanHold};
 use super::rigid::{MOTIONS, Motion, RigidSet};
+use crate::element::Plane;
 use crate::geometry::{Coordinates, Formula, Point, Rounded, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use nalgebra::{Matrix2, SMatrix};
@@ -72,6 +73,8 @@ pub struct SupportError(pub String);
 enum HeldBy<'a> {
     Support(&'a str),
     Rigid(&'a str),
+    /// The axis of revolution.
+    Axis,
 }
 
 impl std::fmt::Display for HeldBy<'_> {
@@ -79,6 +82,7 @@ impl std::fmt::Display for HeldBy<'_> {
         match self {
             Self::Support(name) => write!(f, "support.{name}"),
             Self::Rigid(key) => f.write_str(key),
+            Self::Axis => f.write_str("the axis of revolution"),
         }
     }
 }
@@ -102,7 +106,7 @@ pub struct Constraints {
 }
 
 impl Constraints {
-    /// Collects what all supports, anchors of mean motions and rigid sets say at the nodes of a level. Anchors are at rest, and rigid
+    /// Collects what all supports, anchors of mean motions, rigid sets and the axis of revolution say at the nodes of a level. Anchors are at rest, and rigid
     /// sets where the components of their motion that are prescribed put them; see [`Constraints::move_anchor`] and
     /// [`Constraints::move_rigidly`] for the others.
     ///
@@ -125,6 +129,9 @@ impl Constraints {
         }
         for set in rigid {
             hold_rigidly(mesh, numbering, set, &mut holds)?;
+        }
+        if mesh.plane == Plane::Revolution {
+            hold_on_axis(mesh, numbering, &mut holds)?;
         }
         let nodes = holds.iter().map(|(&node, (x, holds))| Ok((node, combine(*x, holds)?)));
         let nodes = nodes.collect::<Result<HashMap<usize, Constraint>, SupportError>>().map_err(|_| first_clash(&holds))?;
@@ -194,6 +201,20 @@ fn hold_rigidly<'a>(
         for (direction, value) in [(Point::new(1.0, 0.0), u.x), (Point::new(0.0, 1.0), u.y)] {
             add(known, HeldBy::Rigid(&set.key), direction, value, x)?;
         }
+    }
+    Ok(())
+}
+
+/// Holds the nodes on the axis of revolution there: a ring without a radius has none to gain.
+fn hold_on_axis(mesh: &MacroMesh, numbering: &Numbering, holds: &mut AllHolds) -> Result<(), SupportError> {
+    let is_on_axis = |vertex: u32| mesh.vertices[vertex as usize].x == 0.0;
+    let along = (0..mesh.edges.len() as u32).filter(|&edge| mesh.edges[edge as usize].vertices.into_iter().all(is_on_axis));
+    let inner = along.flat_map(|edge| (0..=numbering.level.intervals as u32).map(move |position| EdgeNode { edge, position }));
+    let ends = (0..mesh.vertices.len() as u32).filter(|&vertex| is_on_axis(vertex));
+    let of_ends = ends.map(|vertex| (numbering.vertex(vertex), mesh.vertices[vertex as usize]));
+    for (node, x) in inner.map(|node| (node.number(mesh, numbering), node.place(mesh, numbering))).chain(of_ends) {
+        let (_, known) = holds.entry(node).or_insert((x, Vec::new()));
+        add(known, HeldBy::Axis, Point::new(1.0, 0.0), 0.0, x)?;
     }
     Ok(())
 }

@@ -42,23 +42,24 @@ pub fn check_body_forces(
 ) -> Result<(), String> {
     for triangle in triangles {
         let number = mesh.triangles[triangle].part as usize;
-        if !varies(parts[number]) {
-            continue;
+        let temperature = parts[number].heat.as_ref().map(|heat| std::slice::from_ref(&heat.temperature));
+        for (key, formulas) in [("body_force", Some(parts[number].force.as_slice())), ("temperature", temperature)] {
+            let Some(formulas) = formulas.filter(|formulas| formulas.iter().any(varies)) else { continue };
+            let looked_at = Looked::at(formulas);
+            // Where a triangle is turned inside out that is what is told.
+            let _ = match level.order {
+                Order::P1 => look::<3>(mesh, triangle, level, &looked_at),
+                Order::P2 => look::<6>(mesh, triangle, level, &looked_at),
+            };
+            looked_at.all_finite().map_err(|words| format!("{}.{key}: {words}", key_of(mesh, number)))?;
         }
-        let looked_at = Looked::at(&parts[number].force);
-        // Where a triangle is turned inside out that is what is told.
-        let _ = match level.order {
-            Order::P1 => look::<3>(mesh, triangle, level, &looked_at),
-            Order::P2 => look::<6>(mesh, triangle, level, &looked_at),
-        };
-        looked_at.all_finite().map_err(|words| format!("{}.body_force: {words}", key_of(mesh, number)))?;
     }
     Ok(())
 }
 
-/// Whether a force on a part is another from point to point.
-pub fn varies(part: &BodyPart) -> bool {
-    part.force.iter().any(|formula| formula.as_constant().is_none_or(|constant| !constant.is_finite()))
+/// Whether a formula is another from point to point, or nowhere a finite number.
+pub fn varies(formula: &Formula) -> bool {
+    formula.as_constant().is_none_or(|constant| !constant.is_finite())
 }
 
 fn look<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level, looked_at: &Looked) -> Result<(), BadJacobian> {

@@ -46,7 +46,7 @@ impl MacroStiffness {
     /// # Errors
     /// [`BadJacobian`] if one of its triangles is turned inside out.
     pub fn new(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneLaw) -> Result<Self, BadJacobian> {
-        let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
+        let shapes = mesh.repeats(triangle).then(|| mesh.shapes(triangle, level));
         Self::of_shapes(mesh, triangle, level, law, shapes, false)
     }
 
@@ -56,7 +56,7 @@ impl MacroStiffness {
     /// # Errors
     /// [`BadJacobian`] if one of those triangles is turned inside out.
     pub fn of_sides(mesh: &MacroMesh, triangle: usize, level: Level, law: &PlaneLaw) -> Result<Self, BadJacobian> {
-        let shapes = (!mesh.is_curved(triangle)).then(|| mesh.shapes(triangle, level));
+        let shapes = mesh.repeats(triangle).then(|| mesh.shapes(triangle, level));
         let few = shapes.as_ref().is_some_and(Shapes::is_one);
         Self::of_shapes(mesh, triangle, level, law, shapes, !few)
     }
@@ -231,10 +231,11 @@ fn with_midsides<const N: usize>(corners: [Point; 3]) -> [Point; N] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::element::Plane;
     use crate::geometry::Curve;
     use crate::mesh::samples::two_blocks;
 
-    const LAW: PlaneLaw = PlaneLaw { lambda: 3.0, mu: 2.0, across: 3.0 };
+    const LAW: PlaneLaw = PlaneLaw { lambda: 3.0, mu: 2.0, across: 3.0, plane: Plane::Strain };
 
     /// Rows of a macro triangle, once as they are made and once with every triangle integrated by itself.
     fn both(mesh: &MacroMesh, triangle: usize, level: Level) -> [MacroStiffness; 2] {

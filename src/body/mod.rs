@@ -10,7 +10,7 @@ mod node_positions;
 mod rigid;
 mod springs;
 
-pub use applied_force::{Applied, applied_forces, body_forces};
+pub use applied_force::{Applied, applied_forces, body_forces, heat_forces};
 pub use constraint::{Constraint, Constraints, Holders, SupportError};
 pub use folding::check_folding;
 pub use formula_check::{check_body_forces, check_loads, varies};
@@ -20,7 +20,7 @@ pub use node_positions::{NodePositions, positions};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
 pub use springs::{SpringStiffness, Springs};
 
-use crate::element::{Plane, PlaneLaw};
+use crate::element::{Heat, Plane, PlaneLaw};
 use crate::geometry::{Formula, Point};
 use crate::mesh::Spot;
 
@@ -31,7 +31,7 @@ pub struct Material {
     pub young: f64,
     /// Poisson's ratio ν, -1 < ν < 0.5; 0.5 too in plane stress.
     pub poisson: f64,
-    /// Plane strain or plane stress.
+    /// Plane strain, plane stress, or a body of revolution.
     pub plane: Plane,
 }
 
@@ -45,15 +45,16 @@ impl Material {
     /// stress.
     pub fn poisson_in_plane(&self) -> f64 {
         match self.plane {
-            Plane::Strain => self.poisson,
+            Plane::Strain | Plane::Revolution => self.poisson,
             Plane::Stress => self.poisson / (1.0 + self.poisson),
         }
     }
 
-    /// Stress by strain of a half-plane, `E / (1 - ν²)` in plane strain and `E` in plane stress.
+    /// Stress by strain of a half-plane, `E` in plane stress and `E / (1 - ν²)` elsewhere: beside a contact that is small against
+    /// its radius a body of revolution is as in plane strain.
     pub fn plane_modulus(&self) -> f64 {
         match self.plane {
-            Plane::Strain => self.young / (1.0 - self.poisson * self.poisson),
+            Plane::Strain | Plane::Revolution => self.young / (1.0 - self.poisson * self.poisson),
             Plane::Stress => self.young,
         }
     }
@@ -77,12 +78,21 @@ pub struct BodyPart {
     pub material: Material,
     /// Force per area, formulas of `x, y`.
     pub force: [Formula; 2],
+    /// What it is heated by.
+    pub heat: Option<Heat>,
+}
+
+impl BodyPart {
+    /// The formulas that are integrated over it.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        self.force.iter().chain(self.heat.as_ref().map(|heat| &heat.temperature))
+    }
 }
 
 impl Body {
     /// A body of one material.
     pub fn whole(name: String, material: Material, force: [Formula; 2]) -> Self {
-        Self { name: name.clone(), parts: vec![BodyPart { name, material, force }] }
+        Self { name: name.clone(), parts: vec![BodyPart { name, material, force, heat: None }] }
     }
 
     /// Whether the case gives parts of it.
@@ -126,7 +136,7 @@ pub struct PointLoad {
     pub name: String,
     /// Where it acts.
     pub at: Spot,
-    /// Force per thickness, formulas of `x, y`.
+    /// Force per thickness, or of the whole ring in a body of revolution, formulas of `x, y`.
     pub force: [Formula; 2],
 }
 

@@ -41,6 +41,12 @@ pub struct RigidSet {
 }
 
 impl RigidSet {
+    /// The set where it can move along the axis of revolution alone.
+    pub fn along_axis(self) -> Self {
+        let [_, along, _] = self.prescribed;
+        Self { prescribed: [Some(0.0), along, Some(0.0)], ..self }
+    }
+
     /// Displacement at a point when component `k` of the motion is one.
     pub fn mode(&self, k: usize, x: Point) -> Point {
         rigid_displacement(self.about, &UNIT_MOTIONS[k], x)

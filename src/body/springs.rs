@@ -64,12 +64,13 @@ impl Springs {
             let mut blocks = [[[[0.0; 2]; 2]; 3]; 3];
             for &(t, weight) in gauss_points(POINTS) {
                 let at = from + t * (to - from);
-                let length = weight * (mesh.edge_slope(edge, at) * (to - from)).norm();
+                let x = mesh.edge_position(edge, at);
+                let area = weight * (mesh.edge_slope(edge, at) * (to - from)).norm() * mesh.plane.width(x);
                 let shape = edge_shape(count, t);
-                let all = self.stiffness.at(mesh.edge_position(edge, at), mesh.edge_normal(edge, at));
+                let all = self.stiffness.at(x, mesh.edge_normal(edge, at));
                 for (a, b) in (0..count).flat_map(|a| (0..count).map(move |b| (a, b))) {
                     for (direction, k) in &all {
-                        let stiffness = direction * direction.transpose() * (k * length * shape[a] * shape[b]);
+                        let stiffness = direction * direction.transpose() * (k * area * shape[a] * shape[b]);
                         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                             blocks[a][b][i][j] += stiffness[(i, j)];
                         }

@@ -4,6 +4,7 @@ use super::error::suggest;
 use super::model::region_names;
 use super::section::Section;
 use super::values::{self, PLANE};
+use crate::element::Plane;
 use crate::geometry::Formula;
 
 /// Errors are relative.
@@ -72,8 +73,8 @@ pub struct BodyExact {
     pub displacement: Option<ExpectedDisplacement>,
     /// Displacement field, formulas of `x, y`.
     pub u: Option<[Formula; 2]>,
-    /// Stress field xx, yy, xy, formulas of `x, y`; its error is the energy norm.
-    pub stress: Option<[Formula; 3]>,
+    /// Stress field xx, yy, xy, zz, formulas of `x, y`; its error is the energy norm, to which zz counts in bodies of revolution alone.
+    pub stress: Option<[Formula; 4]>,
 }
 
 /// Displacements that are expected at points.
@@ -88,12 +89,12 @@ pub struct ExpectedDisplacement {
 }
 
 /// `[exact]`
-pub fn read_exact(root: &Section) -> Exact {
+pub fn read_exact(root: &Section, plane: Plane) -> Exact {
     let section = root.table("exact");
     let must_hold = section.or("must_hold", values::boolean);
     let energy = read_expected(&section, "energy");
     let contacts = section.named("contact", read_contact);
-    let bodies = section.named("body", read_body);
+    let bodies = section.named("body", |section| read_body(section, plane));
     Exact { must_hold: must_hold.unwrap_or(false), energy, contacts, bodies }
 }
 
@@ -131,14 +132,20 @@ fn read_lambda(section: &Section) -> Option<LambdaExact> {
     Some(LambdaExact::Formula { formula: formula?, tolerance: tolerance? })
 }
 
-fn read_body(section: &Section) -> Option<BodyExact> {
+fn read_body(section: &Section, plane: Plane) -> Option<BodyExact> {
     let displacement = section.optional_table("displacement").and_then(|displacement| {
         let tolerance = read_tolerance(&displacement);
         let (at, value) = read_points(&displacement, values::points)?;
         Some(ExpectedDisplacement { at, value, tolerance: tolerance? })
     });
     let u = section.optional("u", values::formulas);
-    let stress = section.optional("stress", values::formulas::<3>);
+    let stress = section.optional("stress", |value| match value.as_array().map(Vec::len) {
+        Some(4) => values::formulas::<4>(value),
+        Some(3) if plane == Plane::Revolution => {
+            Err("lacks the hoop stress of a body of revolution; give [\"xx\", \"yy\", \"xy\", \"zz\"]".into())
+        }
+        _ => values::formulas::<3>(value).map(|[xx, yy, xy]| [xx, yy, xy, Formula::constant(0.0)]),
+    });
     for (key, formulas) in [("u", u.as_ref().map(|u: &[Formula; 2]| &u[..])), ("stress", stress.as_ref().map(|all| &all[..]))] {
         if formulas.is_some_and(|all| all.iter().all(|formula| formula.as_constant() == Some(0.0))) {
             section.problem(&[key], ALL_ZERO.into());

@@ -14,6 +14,7 @@ mod gravity;
 mod model;
 pub(crate) mod overrides;
 mod patterns;
+mod revolution;
 mod rigid;
 pub mod schema;
 pub(crate) mod section;
@@ -31,7 +32,7 @@ use toml::{Table, Value};
 use crate::accuracy::Accuracy;
 use crate::body::{Body, Load, PointLoad, Springs, Support};
 use crate::contact::Pair;
-use crate::element::Order;
+use crate::element::{Order, Plane};
 use crate::geometry::Curve;
 use crate::mesh::read_bytes;
 use crate::system::{SolverChoice, Tolerance};
@@ -69,6 +70,8 @@ pub struct Case {
     /// Thickness that forces, moments and energies of the file and of the results are those of (length); those of this case are of
     /// a thickness of one.
     pub thickness: f64,
+    /// What the plane stands for in bodies that say nothing else.
+    pub plane: Plane,
     /// True shapes of boundaries.
     pub geometries: Vec<Geometry>,
     /// Prescribed displacements.
@@ -321,7 +324,7 @@ impl Case {
         let (contacts, unions) = contact::split_contacts(root.named("contact", |section| contact::read_contact(section, root)));
         let (solver, output) = (model::read_solver(root), model::read_output(root));
         let probes = root.named("probe", model::read_probe);
-        let mut exact = exact::read_exact(root);
+        let mut exact = exact::read_exact(root, plane);
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
         let factors = root.named("steps", steps::read_factor);
         model::check_bodies(root);
@@ -337,9 +340,11 @@ impl Case {
         rigid::check_tools(&tools, &contacts, root);
         exact::check_exact(&exact, root);
         steps::check_steps(&factors, root);
+        revolution::check(plane, &bodies, gravity, root);
         let thickness = thickness::read_thickness(root);
         thickness::per_thickness(thickness, &mut point_loads, &mut plates, &mut tools, &mut exact);
         Some(Self {
+            plane,
             thickness,
             name: name_of(file, "case.toml"),
             file: file.into(),

@@ -13,15 +13,15 @@ use super::spot::read_where;
 use super::values::{self, Choice, PLANE};
 use super::{MeshChoice, Output, Probe, Solver};
 use crate::body::{Body, BodyPart, Load, LoadKind, Material, PointLoad};
-use crate::element::{Order, Plane};
+use crate::element::{Heat, Order, Plane};
 use crate::geometry::Formula;
 use crate::system::{SolverChoice, Tolerance};
 
-/// What may be zero across the plane.
-const PLANES: [Choice<Plane>; 2] = [("strain", Plane::Strain), ("stress", Plane::Stress)];
+/// What the plane may stand for.
+const PLANES: [Choice<Plane>; 3] = [("strain", Plane::Strain), ("stress", Plane::Stress), ("axisymmetric", Plane::Revolution)];
 
 /// What a body, or each of its parts, is given.
-const CONSTANTS: [&str; 4] = ["young", "poisson", "body_force", "density"];
+const CONSTANTS: [&str; 6] = ["young", "poisson", "body_force", "density", "expansion", "temperature"];
 
 /// `[mesh]`
 pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
@@ -65,17 +65,40 @@ pub fn read_body(section: &Section, plane: Plane, gravity: Gravity) -> Option<Bo
 fn read_part(section: &Section, plane: Plane, gravity: Gravity) -> Option<BodyPart> {
     let young = section.required(CONSTANTS[0], values::number);
     let poisson = section.required(CONSTANTS[1], |value| match (values::number(value)?, plane) {
-        (0.5, Plane::Strain) => {
+        (0.5, Plane::Strain | Plane::Revolution) => {
             Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into())
         }
         (ratio, _) => Ok(ratio),
     });
     let force = section.or(CONSTANTS[2], values::formulas);
     let weight = read_weight(section, gravity);
+    let heat = read_heat(section);
     // What is bad is in the log; a body of this name is there.
     let material = Material { young: young.unwrap_or(1.0), poisson: poisson.unwrap_or(0.0), plane };
     let force = force.unwrap_or_else(|| [0.0; 2].map(Formula::constant));
-    Some(BodyPart { name: section.name().into(), material, force: with_weight(force, weight.unwrap_or_default()) })
+    Some(BodyPart { name: section.name().into(), material, force: with_weight(force, weight.unwrap_or_default()), heat })
+}
+
+/// `expansion` and `temperature`: each of them alone does nothing.
+fn read_heat(section: &Section) -> Option<Heat> {
+    let expansion = section.optional("expansion", values::number);
+    let temperature = section.optional("temperature", values::formula(&PLANE));
+    match (section.has("expansion"), section.has("temperature")) {
+        (false, true) => {
+            section.problem(
+                &["temperature"],
+                "strains nothing without an expansion; give expansion, the strain by degree, too".into(),
+            );
+        }
+        (true, false) => {
+            section.problem(
+                &["expansion"],
+                "does nothing without a temperature; give temperature, the difference to that without stress, too".into(),
+            );
+        }
+        _ => {}
+    }
+    Some(Heat { expansion: expansion?, temperature: temperature? })
 }
 
 /// A physical surface belongs to one body.

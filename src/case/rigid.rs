@@ -9,6 +9,7 @@ use super::section::Section;
 use super::values;
 use crate::body::{RigidNodes, RigidSet};
 use crate::contact::{Configuration, CurveChoice, Pair, Side};
+use crate::element::Plane;
 use crate::geometry::{Curve, Point, cross};
 use crate::mesh::{MacroMesh, SurfacePart};
 
@@ -259,7 +260,8 @@ impl Case {
             true => plate.motion.clone(),
             false => RigidSet { about: middle_of(mesh, &plate.on), ..plate.motion.clone() },
         };
-        self.tools.iter().map(|tool| tool.motion.clone()).chain(self.plates.iter().map(plate)).collect()
+        let sets = self.tools.iter().map(|tool| tool.motion.clone()).chain(self.plates.iter().map(plate));
+        sets.map(|set| if self.plane == Plane::Revolution { set.along_axis() } else { set }).collect()
     }
 
     /// Whether a boundary is named after a table `[rigid.NAME]` of the file, whether or not that could be read.

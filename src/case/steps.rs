@@ -15,7 +15,7 @@ const SCALED: [(&str, &[&str]); 5] = [
     ("support", &["ux", "uy", "normal", "angle", "along", "tangential"]),
     ("rigid", &["ux", "uy", "angle", "force", "moment"]),
     ("contact", &["gap"]),
-    ("body", &["body_force"]),
+    ("body", &["body_force", "temperature"]),
 ];
 
 /// The table that weights follow from, and its key.

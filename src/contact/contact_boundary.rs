@@ -1,5 +1,6 @@
 //! Γ_C: a curve of its own, its normal, and its segments.
 
+use crate::element::Plane;
 use crate::geometry::{Curve, Point, gauss_points, turn_right};
 
 /// What is left of a turn by less than this share is rounding: the boundary is closed.
@@ -29,6 +30,8 @@ pub struct ContactBoundary {
     pieces: Vec<f64>,
     /// Length of one turn in the parameter, if the curve closes in itself.
     period: Option<f64>,
+    /// What the plane that it lies in stands for.
+    plane: Plane,
 }
 
 impl ContactBoundary {
@@ -43,7 +46,22 @@ impl ContactBoundary {
         let side = turn_right(curve.tangent(0.5 * (range[0] + range[1]))).dot(&towards).signum();
         let pieces = pieces(&curve, range);
         let arcs = vec![0.0, pieces[pieces.len() - 1]];
-        Self { curve, side, knots: range.to_vec(), arcs, pieces, period }
+        Self { curve, side, knots: range.to_vec(), arcs, pieces, period, plane: Plane::default() }
+    }
+
+    /// The boundary in another plane.
+    pub fn in_plane(self, plane: Plane) -> Self {
+        Self { plane, ..self }
+    }
+
+    /// Whether it is turned about an axis of revolution.
+    pub fn is_round(&self) -> bool {
+        self.plane == Plane::Revolution
+    }
+
+    /// How far it extends across the plane at parameter `t` ([`Plane::width`]).
+    pub fn width(&self, t: f64) -> f64 {
+        self.plane.width(self.point(t))
     }
 
     /// Cuts it at these fractions of its arc length (from 0 to 1, ascending).

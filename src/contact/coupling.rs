@@ -16,7 +16,8 @@ use super::trace::trace;
 use crate::geometry::{Curve, Formula, Point, gauss_points};
 use crate::mesh::{BoundaryEdge, EdgeNode};
 
-/// One entry of the coupling: multiplier `i`, node `j`, and `± ∫ψ_i N_j n ds` (length), + for body 1, - for body 2.
+/// One entry of the coupling: multiplier `i`, node `j`, and `± ∫ψ_i N_j n ds` (length), + for body 1, - for body 2. In bodies of
+/// revolution each integral here has the factor `2πx`.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// Multiplier, counted along its own boundary.
@@ -133,7 +134,7 @@ pub fn declared_gap(boundary: &ContactBoundary, multipliers: &Multipliers, formu
             let (rows, values) = multipliers.on_segment(k, *z);
             let declared = formula.finite_value(x)?;
             for a in 0..multipliers.per_segment() {
-                gap[rows[a]] += weight * (ends[1] - ends[0]) * boundary.speed(t) * values[a] * declared;
+                gap[rows[a]] += weight * (ends[1] - ends[0]) * boundary.speed(t) * boundary.width(t) * values[a] * declared;
             }
         }
     }

@@ -77,7 +77,7 @@ pub fn finite_motion(
             let pressure = multipliers.value(lambda, k, *z);
             let t = ends[0] + z * (ends[1] - ends[0]);
             if pressure > 0.0 {
-                points.push([t, pressure * weight * boundary.segment_length(k), boundary.arc(t)]);
+                points.push([t, pressure * weight * boundary.segment_length(k) * boundary.width(t), boundary.arc(t)]);
             }
         }
         length += if points.len() > before { boundary.segment_length(k) } else { 0.0 };

@@ -49,9 +49,9 @@ pub fn jumps(multipliers: &Multipliers, edges: &[f64], moduli: &[f64]) -> Vec<Ju
     };
     let jump = |rows: [usize; 2]| {
         let mean = |of: &dyn Fn(usize) -> f64| 0.5 * (of(rows[0]) + of(rows[1]));
-        let length = mean(&|i| multipliers.length(i));
+        let area = mean(&|i| multipliers.length(i) * multipliers.width(i));
         let edge = mean(&|i| edges[multipliers.segment_of(i)]);
-        Jump { rows, weight: DELTA * edge * length / moduli[rows[0]].max(moduli[rows[1]]) }
+        Jump { rows, weight: DELTA * edge * area / moduli[rows[0]].max(moduli[rows[1]]) }
     };
     neighbours.into_iter().map(jump).collect()
 }

@@ -57,8 +57,10 @@ pub struct Multipliers {
     pub alpha: f64,
     /// Segment lengths.
     lengths: Vec<f64>,
-    /// `∫ψ_i ds`.
+    /// `∫ψ_i w ds` with the width `w` of the boundary across the plane.
     integrals: Vec<f64>,
+    /// Mean widths across the plane, `∫ψ_i w ds / ∫ψ_i ds`.
+    widths: Vec<f64>,
     /// Whether the last segment is followed by the first.
     closed: bool,
 }
@@ -67,15 +69,22 @@ impl Multipliers {
     /// The multipliers of a space on a boundary's segments.
     pub fn new(space: MultiplierSpace, boundary: &ContactBoundary) -> Self {
         let lengths = (0..boundary.segments()).map(|k| boundary.segment_length(k)).collect();
-        let mut multipliers = Self { space, alpha: ALPHA, lengths, integrals: Vec::new(), closed: boundary.is_closed() };
-        multipliers.integrals = vec![0.0; multipliers.count()];
+        let mut multipliers =
+            Self { space, alpha: ALPHA, lengths, integrals: Vec::new(), widths: Vec::new(), closed: boundary.is_closed() };
+        let mut plain = vec![0.0; multipliers.count()];
+        multipliers.integrals = plain.clone();
         for (k, ends) in boundary.knots().windows(2).enumerate() {
             for (z, weight) in gauss_points(10) {
-                let ds = weight * (ends[1] - ends[0]) * boundary.speed(ends[0] + z * (ends[1] - ends[0]));
+                let t = ends[0] + z * (ends[1] - ends[0]);
+                let (ds, width) = (weight * (ends[1] - ends[0]) * boundary.speed(t), boundary.width(t));
                 let (rows, values) = multipliers.on_segment(k, *z);
-                (0..2).for_each(|a| multipliers.integrals[rows[a]] += ds * values[a]);
+                for a in 0..2 {
+                    plain[rows[a]] += ds * values[a];
+                    multipliers.integrals[rows[a]] += ds * width * values[a];
+                }
             }
         }
+        multipliers.widths = multipliers.integrals.iter().zip(plain).map(|(whole, plain)| whole / plain).collect();
         multipliers
     }
 
@@ -159,7 +168,13 @@ impl Multipliers {
         beside.len() as f64 / beside.iter().map(|&k| 1.0 / of_segments[k]).sum::<f64>()
     }
 
-    /// `∫ψ_i ds` (length).
+    /// Mean width across the plane where a multiplier counts: one (no unit) in the plane, a circumference (length) in a body of
+    /// revolution.
+    pub fn width(&self, multiplier: usize) -> f64 {
+        self.widths[multiplier]
+    }
+
+    /// `∫ψ_i ds` (length); the area of the ring, `∫ψ_i 2πx ds`, in a body of revolution.
     pub fn integral(&self, multiplier: usize) -> f64 {
         self.integrals[multiplier]
     }
@@ -176,7 +191,7 @@ impl Multipliers {
             MultiplierSpace::P1Discontinuous => self.length(multiplier) / 3.0,
             _ => self.length(multiplier),
         };
-        self.alpha * modulus / (self.length(multiplier) * mass)
+        self.alpha * modulus / (self.length(multiplier) * mass * self.width(multiplier))
     }
 
     /// Group of a multiplier: those of a group are coupled by `W`. A group is one multiplier, or the two of a discontinuous
@@ -203,7 +218,10 @@ impl Multipliers {
             (false, false) => None,
             (true, true) => {
                 let unit = self.alpha * modulus / h * 2.0 / h;
-                Some(DiagonalBlock { rows: i..i + 2, values: [[2.0 * unit, -unit], [-unit, 2.0 * unit]] })
+                // `W` of a ring is the plane one between the roots of the widths: as strong, and no integral of its own.
+                let [a, b] = [i, i + 1].map(|i| self.width(i).sqrt().recip());
+                let across = -unit * a * b;
+                Some(DiagonalBlock { rows: i..i + 2, values: [[2.0 * unit * a * a, across], [across, 2.0 * unit * b * b]] })
             }
             (first, _) => Some(one(if first { i } else { i + 1 })),
         }

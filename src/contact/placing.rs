@@ -98,7 +98,7 @@ pub fn place(
         away(a).total_cmp(&away(b))
     });
     let Some(nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
-    let mut boundary = ContactBoundary::new(curve, range, nearest.outward());
+    let mut boundary = ContactBoundary::new(curve, range, nearest.outward()).in_plane(mesh.plane);
     check_grading(pair, &boundary).map_err(error)?;
     if pair.curve.is_found() {
         let [of_first, of_second] = &mut edges;

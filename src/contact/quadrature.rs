@@ -78,7 +78,8 @@ fn gauss_points_between(
     gauss_points(count).iter().map(move |(z, weight)| {
         let parameter = from + z * (to - from);
         let fraction = (parameter - start) / (end - start);
-        QuadraturePoint { edge, segment, fraction, parameter, weight: weight * (to - from) * boundary.speed(parameter) }
+        let weight = weight * (to - from) * boundary.speed(parameter) * boundary.width(parameter);
+        QuadraturePoint { edge, segment, fraction, parameter, weight }
     })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::body::{Body, BodyPart, Load, MeanHold, PointLoad, RigidNodes, RigidSet, Springs, Support};
 use crate::contact::{Extent, Pair};
-use crate::element::{Order, PlaneLaw};
+use crate::element::{Heat, Order, PlaneLaw};
 use crate::geometry::Point;
 use crate::mesh::{BodyPiece, Graph, MacroMesh, Partition, Surface};
 use crate::petsc::{self, Session, partition};
@@ -92,6 +92,18 @@ impl Scene {
             parts.find(|part| part.name == surface.name).expect("every physical surface has its constants")
         };
         self.mesh.parts.iter().map(of).collect()
+    }
+
+    /// What a part of the mesh is heated by.
+    pub fn heat(&self, part: usize) -> Option<&Heat> {
+        let surface = &self.mesh.parts[part];
+        let mut parts = self.bodies[surface.body as usize].parts.iter();
+        parts.find(|part| part.name == surface.name)?.heat.as_ref()
+    }
+
+    /// Whether any part is heated.
+    pub fn is_heated(&self) -> bool {
+        self.bodies.iter().flat_map(|body| &body.parts).any(|part| part.heat.is_some())
     }
 
     /// The law of each part, in the order of the mesh.

@@ -1,8 +1,10 @@
 //! Consistent nodal forces.
 
+use super::plane_law::{Heat, Plane, PlaneLaw};
 use super::shape::{edge_shape, edge_slope, shape};
 use super::stiffness::{BadJacobian, SIX_POINTS, jacobian, six_points};
 use crate::geometry::{Point, gauss_points, turn_right};
+use std::f64::consts::TAU;
 
 /// Nodal forces of a traction on an element edge, `∫ N_a t ds` per unit thickness.
 ///
@@ -41,6 +43,27 @@ pub fn triangle_load<const N: usize>(
         let density = density * (0.5 * weight * determinant);
         for (sum, value) in forces.iter_mut().zip(shape::<N>(l)) {
             *sum += value * density;
+        }
+    }
+    Ok(forces)
+}
+
+/// Nodal forces by which a heated triangle pushes, `∫ p (∇N_a + h_a e_x) w dA` with the pressure `p` that keeps it from growing,
+/// the width `w` across the plane and, of a ring, the hoop strain `h_a = N_a / x`.
+///
+/// # Errors
+/// [`BadJacobian`] where the map folds over.
+pub fn heat_load<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, heat: &Heat) -> Result<[Point; N], BadJacobian> {
+    let mut forces = [Point::zeros(); N];
+    for (&(l, weight), x) in SIX_POINTS.iter().zip(six_points(nodes)) {
+        let (gradients, determinant) = jacobian(nodes, l)?;
+        let (width, around) = match law.plane {
+            Plane::Revolution => (law.plane.width(x), TAU),
+            Plane::Strain | Plane::Stress => (1.0, 0.0),
+        };
+        let pressed = 0.5 * weight * determinant * law.pressure_by_growth() * heat.growth(x);
+        for ((sum, gradient), value) in forces.iter_mut().zip(gradients).zip(shape::<N>(l)) {
+            *sum += pressed * (width * gradient + Point::new(around * value, 0.0));
         }
     }
     Ok(forces)

@@ -2,13 +2,17 @@
 
 mod load;
 mod plane_law;
+mod revolution;
 mod shape;
 mod stiffness;
 
-pub use load::{edge_load, triangle_load};
-pub use plane_law::{Plane, PlaneLaw, von_mises};
+pub use load::{edge_load, heat_load, triangle_load};
+pub use plane_law::{Heat, Plane, PlaneLaw, Strain, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
-pub use stiffness::{BadJacobian, Block, Rule, SIX_POINTS, check_map, energies, jacobian, six_points, stiffness, stress};
+pub use stiffness::{
+    BadJacobian, Block, Rule, SIX_POINTS, check_map, energies, heated_stress, jacobian, place_of, six_points, stiffness, strain,
+    stress,
+};
 
 /// Polynomial degree of the displacement on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

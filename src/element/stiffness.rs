@@ -1,6 +1,7 @@
 //! Stiffness and stress of one triangle, straight or isoparametric.
 
-use super::plane_law::PlaneLaw;
+use super::plane_law::{Heat, Plane, PlaneLaw, Strain};
+use super::revolution;
 use super::shape::{shape, slopes};
 use crate::geometry::{Coordinates, Point};
 use nalgebra::Matrix2;
@@ -47,8 +48,12 @@ pub const SIX_POINTS: &[([f64; 3], f64); 6] = &[
 
 /// Where these points lie in a triangle.
 pub fn six_points<const N: usize>(nodes: &[Point; N]) -> [Point; 6] {
-    let position = |l: [f64; 3]| nodes.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (node, value)| sum + value * node);
-    SIX_POINTS.map(|(l, _)| position(l))
+    SIX_POINTS.map(|(l, _)| place_of(nodes, l))
+}
+
+/// The place of barycentric coordinates in a triangle.
+pub fn place_of<const N: usize>(nodes: &[Point; N], l: [f64; 3]) -> Point {
+    nodes.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (node, value)| sum + value * node)
 }
 
 /// Rule for stiffness integrals of an `N`-node triangle: exact where it is straight, as P1 triangles always are, of degree 4
@@ -96,22 +101,26 @@ fn check_corners<const N: usize>(nodes: &[Point; N]) -> Result<(), BadJacobian> 
     corners.iter().try_for_each(|&corner| jacobian(nodes, corner).map(|_| ()))
 }
 
-/// Stiffness of a triangle of unit thickness, `K_ab = ∫ λ g_a ⊗ g_b + μ (g_b ⊗ g_a + g_a·g_b I)` with `g_a = ∇N_a`.
+/// Stiffness of a triangle of unit thickness, `K_ab = ∫ λ g_a ⊗ g_b + μ (g_b ⊗ g_a + g_a·g_b I)` with `g_a = ∇N_a`; that of a
+/// body of revolution is told in `revolution.rs`.
 ///
 /// | argument | shape | unit |
 /// |---|---|---|
 /// | `nodes` | corners counter-clockwise, then midsides | length |
-/// | returns | `N x N` blocks of 2 x 2 | stress (force per length and thickness) |
+/// | returns | `N x N` blocks of 2 x 2 | stress (force per length and thickness); force per length for a ring |
 ///
 /// # Errors
 /// [`BadJacobian`] if the map folds over at a quadrature point or, for P2, at a corner.
 /// # Source
 /// Zienkiewicz and Taylor, The Finite Element Method, vol. 1, plane elasticity.
 pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, straight: bool) -> Result<[[Block; N]; N], BadJacobian> {
-    let mut k = [[[[0.0; 2]; 2]; N]; N];
     if !straight {
         check_corners(nodes)?;
     }
+    if law.plane == Plane::Revolution {
+        return revolution::stiffness(nodes, law);
+    }
+    let mut k = [[[[0.0; 2]; 2]; N]; N];
     for &(l, weight) in stiffness_rule::<N>(straight) {
         let (gradients, determinant) = jacobian(nodes, l)?;
         let (lambda, mu) = (0.5 * weight * determinant * law.lambda, 0.5 * weight * determinant * law.mu);
@@ -128,31 +137,57 @@ pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, straight: b
     Ok(k)
 }
 
-/// Strain energy of the nodal displacements `u` (energy per thickness), and where in the triangle it lies: at three points,
-/// one near each corner, given by their barycentric coordinates.
+/// Strain of the nodal displacements `u` at barycentric coordinates `l`, and the Jacobian determinant there.
+///
+/// # Errors
+/// [`BadJacobian`] where the map folds over.
+pub fn strain<const N: usize>(
+    nodes: &[Point; N],
+    u: &[Point; N],
+    l: [f64; 3],
+    law: &PlaneLaw,
+) -> Result<(Strain, f64), BadJacobian> {
+    let (gradients, determinant) = jacobian(nodes, l)?;
+    let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
+    let hoop = if law.plane == Plane::Revolution { revolution::hoop_strain(nodes, u, l, &gradient) } else { 0.0 };
+    Ok((Strain { gradient, hoop }, determinant))
+}
+
+/// Strain energy of the nodal displacements `u` (energy per thickness; of the whole ring in a body of revolution), and where in
+/// the triangle it lies: at three points, one near each corner, given by their barycentric coordinates.
 ///
 /// # Errors
 /// [`BadJacobian`] where the map folds over.
 pub fn energies<const N: usize>(nodes: &[Point; N], u: &[Point; N], law: &PlaneLaw) -> Result<[([f64; 3], f64); 3], BadJacobian> {
     let mut found = [([0.0; 3], 0.0); 3];
     for (place, &(l, weight)) in found.iter_mut().zip(THREE) {
-        let (gradients, determinant) = jacobian(nodes, l)?;
-        let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
-        let [xx, yy, xy, _] = law.stress(&gradient);
-        let density = xx * gradient[(0, 0)] + yy * gradient[(1, 1)] + xy * (gradient[(0, 1)] + gradient[(1, 0)]);
-        *place = (l, 0.25 * weight * determinant * density);
+        let (strain, determinant) = strain(nodes, u, l, law)?;
+        let width = law.plane.width(place_of(nodes, l));
+        *place = (l, 0.25 * weight * determinant * width * strain.work(law.stress(&strain)));
     }
     Ok(found)
 }
 
-/// Stress (xx, yy, xy, zz) of the nodal displacements `u` at barycentric coordinates `l`.
+/// Stress (xx, yy, xy, zz) of the nodal displacements `u` at barycentric coordinates `l`, without that of heat.
 ///
 /// # Errors
 /// [`BadJacobian`] where the map folds over.
 pub fn stress<const N: usize>(nodes: &[Point; N], u: &[Point; N], l: [f64; 3], law: &PlaneLaw) -> Result<[f64; 4], BadJacobian> {
-    let (gradients, _) = jacobian(nodes, l)?;
-    let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
-    Ok(law.stress(&gradient))
+    Ok(law.stress(&strain(nodes, u, l, law)?.0))
+}
+
+/// Stress (xx, yy, xy, zz) of the nodal displacements `u` and of heat at barycentric coordinates `l`.
+///
+/// # Errors
+/// [`BadJacobian`] where the map folds over.
+pub fn heated_stress<const N: usize>(
+    nodes: &[Point; N],
+    u: &[Point; N],
+    l: [f64; 3],
+    law: &PlaneLaw,
+    heat: Option<&Heat>,
+) -> Result<[f64; 4], BadJacobian> {
+    Ok(law.heated(stress(nodes, u, l, law)?, heat, place_of(nodes, l)))
 }
 
 #[cfg(test)]
@@ -160,7 +195,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const LAW: PlaneLaw = PlaneLaw { lambda: 2.0, mu: 1.5, across: 2.0 };
+    const LAW: PlaneLaw = PlaneLaw { lambda: 2.0, mu: 1.5, across: 2.0, plane: Plane::Strain };
 
     /// A P2 triangle with all midsides moved a little.
     fn curved() -> [Point; 6] {
@@ -195,7 +230,7 @@ mod tests {
     fn a_linear_field_has_its_exact_stress_everywhere() {
         let nodes = curved();
         let u = nodes.map(|x| Point::new(0.3 * x.x - 0.1 * x.y, 0.2 * x.x + 0.5 * x.y));
-        let exact = LAW.stress(&Matrix2::new(0.3, -0.1, 0.2, 0.5));
+        let exact = LAW.stress(&Strain { gradient: Matrix2::new(0.3, -0.1, 0.2, 0.5), hoop: 0.0 });
         for &(l, _) in SIX_POINTS {
             let found = stress(&nodes, &u, l, &LAW).expect("a good triangle");
             assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-13));

@@ -5,6 +5,7 @@ use super::edge_shape::EdgeShape;
 use super::file_place::FilePlace;
 use super::raw_mesh::{RawMesh, RawTriangle};
 use super::spot::NamedPoint;
+use crate::element::Plane;
 use crate::geometry::{Coordinates, Curve, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -120,6 +121,8 @@ pub struct MacroMesh {
     pub points: Vec<NamedPoint>,
     /// Whether midside nodes of the file have bent edges.
     pub has_midsides: bool,
+    /// What the plane of the mesh stands for.
+    pub plane: Plane,
 }
 
 impl MacroMesh {
@@ -140,6 +143,7 @@ impl MacroMesh {
             interfaces: Vec::new(),
             points: Vec::new(),
             has_midsides: false,
+            plane: Plane::default(),
         };
         let mut parts = vec![None; raw.names.len()];
         for &RawTriangle { corners, names, place } in &raw.triangles {

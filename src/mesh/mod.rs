@@ -66,6 +66,7 @@ mod morton;
 mod partition;
 mod raw_mesh;
 mod refined;
+mod revolution;
 #[cfg(test)]
 pub(crate) mod samples;
 mod spot;

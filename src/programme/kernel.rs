@@ -4,6 +4,7 @@ use super::freedoms::Freedoms;
 use crate::body::{UNIT_MOTIONS, rigid_displacement};
 use crate::contact::Extent;
 use crate::discretisation::Scene;
+use crate::element::Plane;
 use crate::geometry::Point;
 use crate::mesh::Numbering;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -44,6 +45,11 @@ pub fn kernels(scene: &Scene, numbering: &Numbering, freedoms: &Freedoms) -> Vec
     let mut grams: Vec<DMatrix<f64>> = modes.iter().map(|modes| DMatrix::zeros(modes.len(), modes.len())).collect();
     let mut motions: Vec<DMatrix<f64>> =
         modes.iter().zip(&freedoms.sizes).map(|(modes, &size)| DMatrix::zeros(size, modes.len())).collect();
+    if scene.mesh.plane == Plane::Revolution {
+        // Rings resist shifts across the axis, and turns.
+        let firsts = first_of_piece.iter().zip(&freedoms.block_of_piece).filter_map(|(first, &block)| Some((block, (*first)?)));
+        firsts.for_each(|(block, first)| [0, 2].iter().for_each(|k| add_square(&mut grams[block], &[(first + k, 1.0)])));
+    }
     for (block, own) in freedoms.own_unknowns() {
         let Some(first) = first_of_piece[own.piece] else { continue };
         let seen = [0, 1, 2].map(|k| own.direction.dot(&moved(own.piece, k, own.place)));

@@ -203,10 +203,11 @@ impl<'s> Predictor<'s> {
             Ok(work)
         };
         let nothing = || [0, 1].map(|_| Formula::constant(0.0));
-        let unloaded: Vec<BodyPart> = parts.iter().map(|part| BodyPart { force: nothing(), ..(*part).clone() }).collect();
+        let unloaded: Vec<BodyPart> =
+            parts.iter().map(|part| BodyPart { force: nothing(), heat: None, ..(*part).clone() }).collect();
         let unloaded: Vec<&BodyPart> = unloaded.iter().collect();
         let mut all =
-            vec![("body_force or gravity".to_string(), work(&Applied { parts: &parts, loads: &[], point_loads: &[] })?)];
+            vec![("body_force, gravity or heat".to_string(), work(&Applied { parts: &parts, loads: &[], point_loads: &[] })?)];
         for load in loads {
             let applied = Applied { parts: &unloaded, loads: std::slice::from_ref(load), point_loads: &[] };
             all.push((format!("load.{}", load.name), work(&applied)?));

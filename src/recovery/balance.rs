@@ -5,9 +5,11 @@ use crate::contact::{Configuration, Side};
 use crate::discretisation::SpringForces;
 use crate::discretisation::internal_forces;
 use crate::discretisation::{Contact, Discretisation, Field, Solution, SystemError, nodal_forces, rigid_motions};
+use crate::element::Plane;
 use crate::geometry::{Point, cross};
 use crate::mesh::{EdgeNode, lattice};
 use crate::petsc::Session;
+use crate::recovery::heat::heat_energies;
 use std::collections::HashMap;
 use std::collections::HashSet;
 
@@ -56,7 +58,7 @@ pub struct Balance {
     pub forces: f64,
     /// Largest `|F₁ + F₂| / |F₂|`; of a closed contact, where `F₂` may vanish, by `∫λ ds`.
     pub force: Option<f64>,
-    /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C.
+    /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C; nothing in bodies of revolution, which cannot turn.
     pub moment: Option<f64>,
     /// `|2U + 2S - (f·u + r·u_D - λᵀc - λᵀCλ)|`, `S` being the energy in springs, over the largest of the terms.
     pub energy: Option<f64>,
@@ -72,6 +74,10 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let Discretisation { contacts, coupling, .. } = problem;
     let (mut strain_of_parts, internal) = internal_forces(problem, u, session)?;
     session.sum(&mut strain_of_parts);
+    let heat = heat_energies(problem, u, session)?;
+    strain_of_parts.iter_mut().zip(&heat).for_each(|(strain, heat)| *strain += heat.kept - heat.work);
+    // By how much the work of loads and supports exceeds that of stresses on elastic strains.
+    let grown: f64 = heat.iter().map(|heat| heat.work - 2.0 * heat.kept).sum();
     let mut strain = vec![0.0; problem.scene.bodies.len()];
     let of_parts = problem.scene.mesh.parts.iter().zip(&strain_of_parts);
     of_parts.for_each(|(part, energy)| strain[part.body as usize] += energy);
@@ -88,9 +94,11 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         .jumps()
         .map(|jump| jump.weight * (solution.multipliers[jump.rows[0]] - solution.multipliers[jump.rows[1]]).powi(2))
         .sum();
-    let (total, external) = (strain.iter().sum::<f64>(), work.loads + work.supports);
+    let pushed: f64 = heat.iter().map(|heat| heat.work).sum();
+    let (total, external) = (strain.iter().sum::<f64>(), work.loads + work.supports - pushed);
     let largest =
         [2.0 * (total + springs.energy), work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
+    let plane = problem.scene.mesh.plane;
     let worst = |ratio: &dyn Fn(&Contact, &ContactForce) -> f64| {
         contacts.iter().zip(&forces).map(|(contact, force)| ratio(contact, force)).filter(|v| v.is_finite()).reduce(f64::max)
     };
@@ -98,18 +106,22 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         external_work: external,
         force: worst(&|contact, force| (force.resultants[0] + force.resultants[1]).norm() / force.size(contact)),
         moment: worst(&|contact, force| {
+            if plane == Plane::Revolution {
+                return f64::NAN;
+            }
             let middle = contact.boundary.point(contact.boundary.parameter_at(0.5 * contact.boundary.length()));
             let sum = force.moments[0] + force.moments[1] - cross(middle, force.resultants[0] + force.resultants[1]);
             sum.abs() / (force.size(contact) * contact.boundary.length())
         }),
-        energy: (largest > 0.0).then(|| (2.0 * (total + springs.energy) - (external - lambda_gap - jumped)).abs() / largest),
+        energy: (largest > 0.0)
+            .then(|| (2.0 * (total + springs.energy) - (external - lambda_gap - jumped - grown)).abs() / largest),
         springs: has_springs.then_some(springs.energy),
-        stationary: if has_springs || jumped > ROUNDING * largest {
+        stationary: if has_springs || problem.scene.is_heated() || jumped > ROUNDING * largest {
             None
         } else {
             work.stationary(total, lambda_gap, gaps > ROUNDING * largest)
         },
-        bodies: body_balance(contacts, &forces, &bodies),
+        bodies: body_balance(plane, contacts, &forces, &bodies),
         strain,
         strain_of_parts,
         reactions,
@@ -122,10 +134,10 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
 }
 
 impl ContactForce {
-    /// What the forces of a contact are measured by: all around a ring they may cancel.
+    /// What the forces of a contact are measured by: all around a ring, or an axis of revolution, they may cancel.
     fn size(&self, contact: &Contact) -> f64 {
         let resultant = self.resultants[1].norm();
-        if contact.boundary.is_closed() { resultant.max(self.force.abs()) } else { resultant }
+        if contact.boundary.is_closed() || contact.boundary.is_round() { resultant.max(self.force.abs()) } else { resultant }
     }
 }
 
@@ -288,8 +300,9 @@ fn magnitudes(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum])
     pressed + outer.iter().map(|sum| sum.magnitudes).sum::<f64>()
 }
 
-/// Largest sum of loads, reactions and contact forces on a body, over the sum of their magnitudes.
-fn body_balance(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum]) -> Option<f64> {
+/// Largest sum of loads, reactions and contact forces on a body, along the axis alone in a body of revolution, over the sum of
+/// their magnitudes.
+fn body_balance(plane: Plane, contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum]) -> Option<f64> {
     let sum = |(body, &outer): (usize, &ForceSum)| {
         let mut all = outer;
         for (contact, force) in contacts.iter().zip(forces) {
@@ -298,7 +311,7 @@ fn body_balance(contacts: &[Contact], forces: &[ContactForce], outer: &[ForceSum
                 all.magnitudes += force.size(contact) - force.resultants[1].norm();
             }
         }
-        (all.force.norm(), all.magnitudes)
+        (plane.resultant(all.force).norm(), all.magnitudes)
     };
     let all: Vec<(f64, f64)> = outer.iter().enumerate().map(sum).collect();
     let largest = all.iter().map(|(_, magnitudes)| *magnitudes).fold(0.0, f64::max);
@@ -351,7 +364,7 @@ fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solutio
         for coupled in &problem.coupling.rows[i] {
             let k = if coupled.side == Side::First { 0 } else { 1 };
             let force = -lambda * coupled.value;
-            sum.resultants[k] += force;
+            sum.resultants[k] += mesh.plane.resultant(force);
             sum.moments[k] += cross(place(coupled.node) + shifts[k], force);
         }
     }

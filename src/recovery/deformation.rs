@@ -3,7 +3,7 @@
 use crate::body::positions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{Order, PlaneLaw, jacobian};
+use crate::element::{Heat, Order, Plane, PlaneLaw, Strain, jacobian, place_of, strain};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, MacroTriangle, lattice};
 use crate::petsc::Session;
@@ -44,10 +44,11 @@ pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -
     let mut sums: Vec<TriangleIntegrals> = vec![TriangleIntegrals::default(); mesh.triangles.len()];
     let own = problem.scene.partition.triangles_of(session.rank());
     let added = own.iter().try_for_each(|&triangle| {
-        let law = &laws[mesh.triangles[triangle as usize].part as usize];
+        let part = mesh.triangles[triangle as usize].part as usize;
+        let material = (&laws[part], problem.scene.heat(part));
         sums[triangle as usize] = match problem.finest().numbering.level.order {
-            Order::P1 => integrals::<3>(problem, u, triangle as usize, law)?,
-            Order::P2 => integrals::<6>(problem, u, triangle as usize, law)?,
+            Order::P1 => integrals::<3>(problem, u, triangle as usize, material)?,
+            Order::P2 => integrals::<6>(problem, u, triangle as usize, material)?,
         };
         Ok(())
     });
@@ -112,7 +113,7 @@ fn integrals<const N: usize>(
     problem: &Discretisation,
     u: &Field<2>,
     triangle: usize,
-    law: &PlaneLaw,
+    (law, heat): (&PlaneLaw, Option<&Heat>),
 ) -> Result<TriangleIntegrals, SystemError> {
     const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
     let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
@@ -127,12 +128,15 @@ fn integrals<const N: usize>(
             Some(shape) if is_even => shape,
             _ => *known.insert(jacobian(&positions(mesh, triangle, level, &nodes), MIDDLE)?),
         };
-        let gradient = nodes
-            .iter()
-            .zip(&gradients)
-            .fold(Matrix2::zeros(), |sum, (&(i, j), gradient)| sum + u.point(numbers.node(i, j)) * gradient.transpose());
+        let moved = nodes.map(|(i, j)| u.point(numbers.node(i, j)));
+        let gradient = moved.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, gradient)| sum + u * gradient.transpose());
+        // Where it matters where a triangle lies, not its shape alone.
+        let place = (law.plane == Plane::Revolution || heat.is_some()).then(|| positions(mesh, triangle, level, &nodes));
+        let hoop = place.as_ref().map_or(Ok(0.0), |x| strain(x, &moved, MIDDLE, law).map(|(strain, _)| strain.hoop))?;
         let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
-        let (strain, [xx, yy, ..]) = (principal(&gradient), law.stress(&gradient));
+        let middle = place.map_or(Point::zeros(), |x| place_of(&x, MIDDLE));
+        let [xx, yy, ..] = law.heated(law.stress(&Strain { gradient, hoop }), heat, middle);
+        let strain = principal(&gradient).max(hoop.abs());
         let growth = 0.5 * (rotation * rotation - strain * strain).max(0.0);
         let values = [strain, 1.0, rotation, growth * (xx + yy)];
         sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);

@@ -7,7 +7,7 @@ use super::error_norm::energy_error;
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::{missing_force, unresolved_force};
 use super::penetrations::penetrations;
-use super::probe::{Probed, probe};
+use super::probe::{Probed, Probing, probe};
 use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
 use super::zone_ends::{EndSlip, slip_at_ends};
@@ -101,7 +101,7 @@ impl<'a> Evaluation<'a> {
     /// # Errors
     /// As [`Evaluation::new`].
     pub fn probe(&self, region: Region, x: Point) -> Result<Option<Probed>, SystemError> {
-        probe(self.problem, &self.u, region, x, self.session)
+        probe(self.problem, (&self.u, Probing::Displacement), region, x, self.session)
     }
 
     /// Stress (xx, yy, xy, zz) at the nodes, of each part by itself. **Collective**
@@ -116,7 +116,7 @@ impl<'a> Evaluation<'a> {
     ///
     /// # Errors
     /// As [`Evaluation::new`].
-    pub fn energy_error(&self, region: Region, exact: &[Formula; 3]) -> Result<[f64; 2], SystemError> {
+    pub fn energy_error(&self, region: Region, exact: &[Formula; 4]) -> Result<[f64; 2], SystemError> {
         energy_error(self.problem, &self.u, region, exact, self.session)
     }
 }

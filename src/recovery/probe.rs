@@ -3,7 +3,7 @@
 use crate::body::positions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{Order, PlaneLaw, SIX_POINTS, shape, stress};
+use crate::element::{Heat, Order, PlaneLaw, SIX_POINTS, heated_stress, shape, stress};
 use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::mesh::lattice::Triangle;
@@ -25,6 +25,15 @@ pub struct Probed {
     pub stress: [f64; 4],
 }
 
+/// What the stress at a point is that of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Probing {
+    /// A displacement of bodies that may be heated.
+    Displacement,
+    /// The difference of two displacements, on which heat has no part.
+    Difference,
+}
+
 /// Values at a point of a body or of a part of one, the same on every rank; nothing if it does not hold the point. On an edge
 /// between macro triangles it is the mean over them. **Collective**
 ///
@@ -32,13 +41,13 @@ pub struct Probed {
 /// [`SystemError`] where a triangle is inverted.
 pub fn probe(
     problem: &Discretisation,
-    u: &Field<2>,
+    (u, probing): (&Field<2>, Probing),
     region: Region,
     x: Point,
     session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
     for near in OUTSIDE {
-        let found = probe_near(problem, u, region, x, near, session)?;
+        let found = probe_near(problem, (u, probing), region, x, near, session)?;
         if found.is_some() {
             return Ok(found);
         }
@@ -46,10 +55,10 @@ pub fn probe(
     Ok(None)
 }
 
-/// The same, where points outside count up to the distance `near` (barycentric). **Collective**
+/// Values at a point as [`probe`] finds them, where points outside count up to the distance `near` (barycentric). **Collective**
 fn probe_near(
     problem: &Discretisation,
-    u: &Field<2>,
+    (u, probing): (&Field<2>, Probing),
     region: Region,
     x: Point,
     near: f64,
@@ -62,11 +71,12 @@ fn probe_near(
         if !region.holds(&problem.scene.mesh.triangles[triangle]) {
             return Ok(());
         }
-        let law = law_of(problem, &laws, triangle);
+        let heat = problem.scene.heat(problem.scene.mesh.triangles[triangle].part as usize);
+        let material = (law_of(problem, &laws, triangle), heat.filter(|_| probing == Probing::Displacement));
         let Some(at) = problem.scene.mesh.locate_near(triangle, x, near) else { return Ok(()) };
         let values = match problem.finest().numbering.level.order {
-            Order::P1 => values_at::<3>(problem, u, triangle, at, law)?,
-            Order::P2 => values_at::<6>(problem, u, triangle, at, law)?,
+            Order::P1 => values_at::<3>(problem, u, triangle, at, material)?,
+            Order::P2 => values_at::<6>(problem, u, triangle, at, material)?,
         };
         values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
         Ok::<(), SystemError>(())
@@ -208,14 +218,14 @@ fn values_at<const N: usize>(
     u: &Field<2>,
     triangle: usize,
     at: Point,
-    law: &PlaneLaw,
+    (law, heat): (&PlaneLaw, Option<&Heat>),
 ) -> Result<[f64; 6], SystemError> {
     let (small, l) = small_triangle(problem, triangle, at);
     let level = problem.finest().numbering.level;
     let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
     let nodal = u.of_triangle::<N>(problem, triangle, &small);
     let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
-    let s = stress(&x, &nodal, l, law)?;
+    let s = heated_stress(&x, &nodal, l, law, heat)?;
     Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])
 }
 

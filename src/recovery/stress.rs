@@ -3,7 +3,7 @@
 use crate::body::NodePositions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{Order, PlaneLaw, jacobian, stress};
+use crate::element::{Heat, Order, PlaneLaw, heated_stress, jacobian};
 use crate::mesh::{MacroMesh, lattice};
 use crate::petsc::Session;
 
@@ -54,10 +54,11 @@ fn stress_of_parts(
     let mut own = problem.scene.partition.triangles_of(session.rank()).iter();
     let added = own.try_for_each(|&triangle| {
         let part = mesh.triangles[triangle as usize].part;
+        let material = (&laws[part as usize], problem.scene.heat(part as usize));
         match problem.finest().numbering.level.order {
             _ if !is_in(part) => Ok(()),
-            Order::P1 => add::<3>(problem, u, triangle as usize, &laws[part as usize], &mut sums),
-            Order::P2 => add::<6>(problem, u, triangle as usize, &laws[part as usize], &mut sums),
+            Order::P1 => add::<3>(problem, u, triangle as usize, material, &mut sums),
+            Order::P2 => add::<6>(problem, u, triangle as usize, material, &mut sums),
         }
     });
     agreed(session, added)?;
@@ -68,7 +69,7 @@ fn add<const N: usize>(
     problem: &Discretisation,
     u: &Field<2>,
     triangle: usize,
-    law: &PlaneLaw,
+    (law, heat): (&PlaneLaw, Option<&Heat>),
     sums: &mut Field<5>,
 ) -> Result<(), SystemError> {
     const NODES: [[f64; 3]; 6] = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [0.5, 0.5, 0.], [0., 0.5, 0.5], [0.5, 0., 0.5]];
@@ -81,7 +82,7 @@ fn add<const N: usize>(
         let u = u.of_triangle::<N>(problem, triangle, &small);
         for (&(i, j), l) in nodes.iter().zip(NODES) {
             let (_, area) = jacobian(&x, l)?;
-            let s = stress(&x, &u, l, law)?;
+            let s = heated_stress(&x, &u, l, law, heat)?;
             let sum = sums.at_mut(numbers.node(i, j));
             for k in 0..4 {
                 sum[k] += area * s[k];

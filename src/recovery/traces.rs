@@ -4,7 +4,7 @@ use crate::body::positions;
 use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
 use crate::discretisation::agreed;
 use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError};
-use crate::element::{Order, PlaneLaw, stress};
+use crate::element::{Heat, Order, PlaneLaw, heated_stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
@@ -168,10 +168,11 @@ fn on_edge(
     let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
         sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))
     });
-    let law = &laws[problem.scene.mesh.triangles[small.triangle].part as usize];
+    let part = problem.scene.mesh.triangles[small.triangle].part as usize;
+    let material = (&laws[part], problem.scene.heat(part));
     let s = match problem.finest().numbering.level.order {
-        Order::P1 => stress_beside::<3>(problem, small, here.fraction, u, law)?,
-        Order::P2 => stress_beside::<6>(problem, small, here.fraction, u, law)?,
+        Order::P1 => stress_beside::<3>(problem, small, here.fraction, u, material)?,
+        Order::P2 => stress_beside::<6>(problem, small, here.fraction, u, material)?,
     };
     let pressure = s[0] * normal.x * normal.x + s[1] * normal.y * normal.y + 2.0 * s[2] * normal.x * normal.y;
     let x = contact.boundary.point(t);
@@ -189,9 +190,9 @@ fn stress_beside<const N: usize>(
     small: &BoundaryEdge,
     fraction: f64,
     u: &Field<2>,
-    law: &PlaneLaw,
+    (law, heat): (&PlaneLaw, Option<&Heat>),
 ) -> Result<[f64; 4], SystemError> {
     let x = positions(&problem.scene.mesh, small.triangle, problem.finest().numbering.level, &small.beside.nodes::<N>());
     let nodal = u.of_triangle::<N>(problem, small.triangle, &small.beside);
-    Ok(stress(&x, &nodal, small.barycentric(fraction), law)?)
+    Ok(heated_stress(&x, &nodal, small.barycentric(fraction), law, heat)?)
 }

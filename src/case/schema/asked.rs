@@ -248,8 +248,8 @@ static EXACT_BODY: TableForm = TableForm {
         ),
         key(
             "stress",
-            ValueForm::List(&ListForm { count: [3, 3], ..list(IN_PLANE, "a list of 3 numbers or formulas of x, y") }),
-            "`[\"xx\", \"yy\", \"xy\"]`, formulas: errors in the energy norm, reported only. What is 0 all over, or has no value at a vertex, is an error.",
+            ValueForm::List(&ListForm { count: [3, 4], ..list(IN_PLANE, "a list of 3 or 4 numbers or formulas of x, y") }),
+            "`[\"xx\", \"yy\", \"xy\"]`, and `\"zz\"`, the hoop stress, of bodies of revolution; formulas: errors in the energy norm, reported only. What is 0 all over, or has no value at a vertex, is an error.",
         ),
     ]],
     rules: &[],

@@ -4,13 +4,13 @@ use super::acting::{LOAD, RIGID, SUPPORT};
 use super::asked::{ACCURACY, EXACT, OUTPUT, PROBE, SOLVER, STEPS, TOLERANCE};
 use super::contact::CONTACT;
 use super::form::{
-    ABOVE_ZERO, ANY, EitherForm, KeyForm, ListForm, NamedForm, NumberRange, POINT, TableForm, TableRule, VECTOR, ValueForm, key,
-    list, named, set,
+    ABOVE_ZERO, ANY, EitherForm, IN_PLANE, KeyForm, ListForm, NamedForm, NumberRange, POINT, TableForm, TableRule, VECTOR,
+    ValueForm, key, list, named, set,
 };
 use super::surface::SURFACE;
 
-/// What may be zero across the plane.
-const PLANE: ValueForm = ValueForm::Word(&["strain", "stress"]);
+/// What the plane may stand for.
+const PLANE: ValueForm = ValueForm::Word(&["strain", "stress", "axisymmetric"]);
 
 /// A case file.
 pub static CASE: TableForm = TableForm {
@@ -18,7 +18,7 @@ pub static CASE: TableForm = TableForm {
     sentence: "",
     keys: &[&[
         key("title", ValueForm::Text, "Shown in output and figures.").or("\"\""),
-        key("plane", PLANE, "Strain or stress that is zero across the plane, in all bodies that say nothing else; see [materials and the plane](#materials-and-the-plane).").or("\"strain\""),
+        key("plane", PLANE, "Strain or stress that is zero across the plane, in all bodies that say nothing else; or \"axisymmetric\", bodies of revolution about x = 0; see [materials and the plane](#materials-and-the-plane).").or("\"strain\""),
         key("thickness", ABOVE_ZERO, "What forces, moments and energies are those of, in the case and in `summary.json`; pressures, tractions, stiffnesses and body forces are per area or volume in any case; see [materials and the plane](#materials-and-the-plane).")
             .or_else("1")
             .unit("length"),
@@ -114,7 +114,7 @@ static BODY: TableForm = TableForm {
     ],
     rules: &[
         TableRule::OneOf(&[&["part"], &["young", "poisson"]]),
-        TableRule::Alone("part", &["young", "poisson", "body_force", "density"]),
+        TableRule::Alone("part", &["young", "poisson", "body_force", "density", "expansion", "temperature"]),
     ],
     inline: false,
 };
@@ -160,6 +160,16 @@ const CONSTANTS: &[KeyForm] = &[
     )
     .or_else("no weight")
     .unit("mass per volume"),
+    key("expansion", ValueForm::Number(ANY), "Coefficient of linear expansion α, beside `temperature`; see [heat](#heat).")
+        .like("1.2e-5")
+        .unit("1/temperature"),
+    key(
+        "temperature",
+        IN_PLANE,
+        "Difference ϑ to the temperature without stress, beside `expansion`: strains `α ϑ` in all directions.",
+    )
+    .like("\"100.0 - 2.0*x\"")
+    .unit("temperature"),
 ];
 
 static GRAVITY: TableForm = TableForm {

@@ -3,6 +3,7 @@
 use crate::contact::fit::hertz::{MOST_ROUND, half_width};
 use crate::contact::pair::Configuration;
 use crate::contact::smooth_side::SmoothSide;
+use crate::element::Plane;
 use crate::geometry::{Point, cross};
 
 /// Places that are looked at in the first window.
@@ -26,13 +27,20 @@ pub struct PointContact {
     pub curvature: f64,
     /// Curvature of the rounder one of both (1/length).
     pub roundest: f64,
+    /// How far the bodies extend across the plane there ([`Plane::width`]).
+    pub width: f64,
 }
 
 impl PointContact {
-    /// Half width of what presses there with a force (per thickness), by the compliance of both surfaces together (1/stress; Hertz);
+    /// The contact between bodies in another plane.
+    pub fn in_plane(self, plane: Plane) -> Self {
+        Self { width: plane.width(self.place), ..self }
+    }
+
+    /// Half width of what presses there with a force (per thickness; of the whole ring in bodies of revolution), by the compliance of both surfaces together (1/stress; Hertz);
     /// nothing if the sides conform.
     pub fn half_width(&self, force: f64, compliance: f64) -> Option<f64> {
-        half_width(self.curvature, force, compliance).filter(|half| half * self.roundest <= MOST_ROUND)
+        half_width(self.curvature, force / self.width, compliance).filter(|half| half * self.roundest <= MOST_ROUND)
     }
 }
 
@@ -59,7 +67,7 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
     }
     let place = curve.point(middle);
     let [one, other] = [bulge(first, place), bulge(second, place)];
-    Some(PointContact { place, curvature: one + other, roundest: one.abs().max(other.abs()) })
+    Some(PointContact { place, curvature: one + other, roundest: one.abs().max(other.abs()), width: 1.0 })
 }
 
 /// Curvature of a side at the place nearest to a point (1/length), positive where the body bulges: by the shape as it is known, since

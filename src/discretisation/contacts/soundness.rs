@@ -20,7 +20,8 @@ pub fn check_soundness(scene: &Scene, numbering: &Numbering, contacts: &[Contact
     let curved = (0..mesh.triangles.len()).filter(|&triangle| mesh.is_curved(triangle)).count();
     check_folding(mesh, looked_at(scene, curved))?;
     check_loads(mesh, numbering, &scene.loads).map_err(SystemError::Case)?;
-    let forced = (0..mesh.triangles.len()).filter(|&triangle| varies(parts[mesh.triangles[triangle].part as usize]));
+    let forced =
+        (0..mesh.triangles.len()).filter(|&triangle| parts[mesh.triangles[triangle].part as usize].formulas().any(varies));
     let level = looked_at(scene, forced.clone().count());
     check_body_forces(mesh, forced, level, &parts).map_err(SystemError::Case)?;
     for contact in contacts {

@@ -5,14 +5,14 @@
 //! its seat is held by 1e-2. A body whose loads do no work on its free motion, as a disc that is squeezed from above and below,
 //! is in balance, but its turn is not determined: it is not held either.
 
-use crate::body::{Constraints, RigidSet};
+use crate::body::{Constraints, RigidSet, UNIT_MOTIONS};
 use crate::contact::{self, Condition, Extent, Mechanism, Side, Touch, find_mechanism};
 use crate::discretisation::contacts::{Contact, Coupled, coupled_here};
 use crate::discretisation::error::SystemError;
 use crate::discretisation::levels::Discretisation;
 use crate::discretisation::motions::free_motion::FreeMotion;
 use crate::discretisation::scene::Scene;
-use crate::element::Order;
+use crate::element::{Order, Plane};
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals};
 use crate::petsc::Session;
@@ -214,8 +214,15 @@ fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
         Condition::new(extents, held.piece, None, &[(held.place, direction)], 0.0)
     };
     let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
-    let rigid = free.flat_map(|set| rigid_conditions(scene, set, extents));
+    let rigid = free.flat_map(|set| rigid_conditions(scene, set, extents)).chain(revolution_conditions(scene));
     supported(scene, &numbering).into_iter().filter_map(condition).chain(rigid).chain(spring_conditions(scene, extents)).collect()
+}
+
+/// The motions that no body of revolution has: shifts across the axis, and turns.
+fn revolution_conditions(scene: &Scene) -> impl Iterator<Item = Condition> {
+    let pieces = if scene.mesh.plane == Plane::Revolution { scene.mesh.pieces.len() } else { 0 };
+    let held = |piece: usize, k: usize| Condition { piece, against: None, sees: [UNIT_MOTIONS[k], [0.0; 3]], doubt: 0.0 };
+    (0..pieces).flat_map(move |piece| [held(piece, 0), held(piece, 2)])
 }
 
 /// What is prescribed of the motion of a rigid set that is free otherwise: the shift of its reference point, and its turn.

@@ -1,5 +1,6 @@
 //! True shapes of macro edges, and the smooth map of a macro triangle that follows them.
 
+use crate::element::Plane;
 use crate::geometry::{Coordinates, Curve, Point, Rounded};
 use crate::mesh::MeshError;
 use crate::mesh::edge_shape::EdgeShape;
@@ -68,6 +69,12 @@ impl MacroMesh {
     /// Whether an edge of the macro triangle is bent, so that its triangles differ from one another.
     pub fn is_curved(&self, triangle: usize) -> bool {
         self.triangles[triangle].edges.iter().any(|&edge| self.edges[edge as usize].shape.is_some())
+    }
+
+    /// Whether the small triangles of a macro triangle have few stiffnesses, which repeat: it is straight, and no body of
+    /// revolution, whose rings differ by their radius.
+    pub fn repeats(&self, triangle: usize) -> bool {
+        self.plane != Plane::Revolution && !self.is_curved(triangle)
     }
 
     /// Position of the point with barycentric coordinates `(1 - xi - eta, xi, eta)` of a macro triangle.

@@ -22,14 +22,15 @@ pub struct Strip {
 }
 
 impl MacroMesh {
-    /// Whether all triangles of a macro triangle at a level are translations and point reflections of one another.
+    /// Whether all triangles of a macro triangle at a level have one stiffness: they are translations and point reflections of one
+    /// another, in the plane.
     pub fn is_even(&self, triangle: usize, level: Level) -> bool {
-        !self.is_curved(triangle) && self.shapes(triangle, level).is_one()
+        self.repeats(triangle) && self.shapes(triangle, level).is_one()
     }
 
-    /// The strips of a macro triangle at a level, row by row; a bent one has none.
+    /// The strips of a macro triangle at a level, row by row; one without repeated stiffnesses has none.
     pub fn strips(&self, triangle: usize, level: Level) -> Vec<Strip> {
-        if self.is_curved(triangle) {
+        if !self.repeats(triangle) {
             return Vec::new();
         }
         let shapes = self.shapes(triangle, level);
@@ -86,7 +87,7 @@ impl Level {
 impl MacroMesh {
     /// Nodes in the strips of a macro triangle at a level, of which an even one has `even`; roughly for a graded one.
     pub fn nodes_in_strips(&self, triangle: usize, level: Level, even: usize) -> usize {
-        if self.is_curved(triangle) {
+        if !self.repeats(triangle) {
             return 0;
         }
         if !self.is_graded(triangle) {

@@ -29,6 +29,7 @@ impl Connected {
             interfaces: Vec::new(),
             points: before.points.clone(),
             has_midsides: before.has_midsides,
+            plane: before.plane,
         };
         Self { mesh }
     }

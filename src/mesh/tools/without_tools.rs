@@ -53,6 +53,7 @@ impl MacroMesh {
             pieces: self.pieces.iter().filter(|piece| !is_tool(&self.bodies[piece.body])).cloned().collect(),
             points: Vec::new(),
             has_midsides: self.has_midsides,
+            plane: self.plane,
             file: self.file.clone(),
         };
         let kept = "a triangle that is kept keeps its corners and sides";

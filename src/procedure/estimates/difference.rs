@@ -8,7 +8,7 @@ use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::estimates::end_estimate::{ends_within_segments, way_of_ends};
 use crate::procedure::estimates::energy_norm::{share, whole_energy, without_points};
 use crate::procedure::estimates::zone_estimate::ZoneDifference;
-use crate::recovery::{cell_energies, probe, stress_around};
+use crate::recovery::{Probing, cell_energies, probe, stress_around};
 
 /// How a solution differs from that on the mesh before.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +90,8 @@ fn at_probe(
     session: &Session,
 ) -> Result<[f64; 2], SystemError> {
     let Some(region) = problem.scene.mesh.region(&point.body) else { return Ok([f64::NAN; 2]) };
-    let [whole, part] = [u, apart].map(|field| probe(problem, field, region, point.point, session));
+    let both = [(u, Probing::Displacement), (apart, Probing::Difference)];
+    let [whole, part] = both.map(|field| probe(problem, field, region, point.point, session));
     let (Some(whole), Some(part)) = (whole?, part?) else { return Ok([f64::NAN; 2]) };
     // Where a point lies in its triangle decides how good a stress is there: at some places it is by luck.
     let around = stress_around(problem, apart, region, point.point, session)?;

@@ -10,6 +10,7 @@
 use crate::discretisation::local_strain_energy;
 use crate::discretisation::{Discretisation, Field, Solution, SystemError};
 use crate::petsc::Session;
+use crate::recovery::heat_energies;
 
 /// Squares of the share of a difference that may be left, at least and at most: q/(1 - q), where squares fall by the q of a smooth
 /// solution of P2, 1/16, and by 3/4.
@@ -18,6 +19,9 @@ const SHARES_LEFT: [f64; 2] = [1.0 / 15.0, 3.0];
 /// Share of the square of the difference on the mesh before that must have gone, for what went with it to tell of the rest: one
 /// that is halved once loses 1 - √½ where a refinement halves it, as at a sharp corner, one that is not refined only what its neighbours change.
 const LEAST_GONE: f64 = 0.3;
+
+/// Share of the energy of heated bodies that are kept from growing below which a strain energy is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Share of the energy that must be left without the triangles at forces on points, for the rest to tell anything.
 const LEAST_LEFT: f64 = 0.05;
@@ -41,12 +45,20 @@ pub(crate) fn without_points(problem: &Discretisation, parts: Vec<f64>, session:
     parts.into_iter().zip(left_out).map(|(part, is_out)| if is_out { 0.0 } else { part }).collect()
 }
 
-/// Strain energy without that at forces on points; not a number if too little is left to tell anything. **Collective**
+/// Strain energy without that at forces on points; not a number if too little is left to tell anything. Where heat strains nothing,
+/// that of what it moves. **Collective**
 pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<f64, SystemError> {
     let parts = local_strain_energy(problem, u, session)?;
     let mut sums = [parts.iter().sum::<f64>(), 0.0];
     sums[1] = without_points(problem, parts, session).iter().sum();
     session.sum(&mut sums);
+    let heat = heat_energies(problem, u, session)?;
+    let [work, kept] = heat.iter().fold([0.0; 2], |[work, kept], heat| [work + heat.work, kept + heat.kept]);
+    let elastic = sums[1] - work + kept;
+    // Bodies that grow freely have an energy that is rounding of these three.
+    if elastic > ROUNDING * kept {
+        sums[1] = elastic;
+    }
     Ok(if sums[1] > LEAST_LEFT * sums[0] || sums[0] == 0.0 { sums[1] } else { f64::NAN })
 }
 

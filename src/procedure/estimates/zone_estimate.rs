@@ -77,9 +77,10 @@ impl ZoneDifference {
             let (length, ends) = (arcs[k + 1] - arcs[k], [knots[k], knots[k + 1]]);
             for (z, weight) in gauss_points(3) {
                 let arc = arcs[k] + z * length;
-                let there = before(contact.boundary.point(ends[0] + z * (ends[1] - ends[0])));
+                let t = ends[0] + z * (ends[1] - ends[0]);
+                let there = before(contact.boundary.point(t));
                 if zone.reaches(arc) {
-                    force += weight * length * there;
+                    force += weight * length * contact.boundary.width(t) * there;
                     peak = there.max(peak);
                 }
                 let here = contact.multipliers.value(lambda, k, *z);

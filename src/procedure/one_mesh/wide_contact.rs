@@ -120,7 +120,7 @@ fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact) -> Option<Poin
         (0..stretches.len()).min_by(|&a, &b| away(&stretches[a]).total_cmp(&away(&stretches[b])))
     };
     let [one, other] = [nearest(&sides[0])?, nearest(&sides[1])?];
-    point_contact([&sides[0][one], &sides[1][other]], middle, half)
+    Some(point_contact([&sides[0][one], &sides[1][other]], middle, half)?.in_plane(scene.mesh.plane))
 }
 
 /// What contacts that lie as they are drawn are placed by later on: where they touch first, if they do so at a point.

@@ -113,7 +113,11 @@ fn body_lines(bodies: &[Body]) -> Vec<String> {
     let mut places = HashMap::new();
     for (body, part) in bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part))) {
         let Material { young, poisson, plane } = part.material;
-        let plane = if plane == Plane::Stress { ", plane stress" } else { "" };
+        let plane = match plane {
+            Plane::Strain => "",
+            Plane::Stress => ", plane stress",
+            Plane::Revolution => ", of revolution",
+        };
         let words = format!("E = {young}, ν = {poisson}{plane}");
         let place = *places.entry(words.clone()).or_insert(of_materials.len());
         if place == of_materials.len() {

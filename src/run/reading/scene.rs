@@ -33,6 +33,7 @@ pub fn read_mesh_file(case: &Case) -> Result<Vec<u8>, String> {
 pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     let mesh = parse_joined(bytes, &case.mesh.file, joined(case));
     let mut mesh = mesh.map_err(|error| unknown_part(case, bytes).unwrap_or_else(|| error.to_string()))?;
+    mesh.set_plane(case.plane).map_err(|error| error.to_string())?;
     let names = Names { case, mesh: &mesh };
     let wrong = names.wrong();
     if !wrong.is_empty() {

@@ -24,6 +24,7 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
     let whole: f64 = forces.iter().map(|force| force.abs()).sum();
     let estimates = estimate.of_zones(at, &pressure, &zones, points);
     let gaps_at_rest = || points.iter().map(|point| [point.arc, contact.pair.gap.at_rest(point.x, point.distance)]);
+    let width = |zone: &Zone| contact.boundary.width(contact.boundary.parameter_at(0.5 * (zone.arcs[0] + zone.arcs[1])));
     let describe = |(k, zone): (usize, &Zone)| {
         let (found, at_ends) = &estimates[k];
         let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
@@ -37,7 +38,7 @@ pub fn zones(solved: &Solved, at: usize, points: &[TracePoint]) -> Vec<summary::
             edges: Some(edges),
             segments: Some(zone.segments.len()),
             share: Some(forces[k] / whole),
-            hertz_width: hertz_width(gaps_at_rest(), zone.arcs, forces[k], contact.compliance)
+            hertz_width: hertz_width(gaps_at_rest(), zone.arcs, forces[k] / width(zone), contact.compliance)
                 .filter(|width| *width <= contact.boundary.length()),
             pressure_max: Some(pressure.peak_of(zone)),
             lambda: found.pressure.filter(tells),

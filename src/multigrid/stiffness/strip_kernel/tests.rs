@@ -3,13 +3,13 @@
 use super::*;
 use crate::body::MacroStiffness;
 use crate::discretisation::samples::vector;
-use crate::element::{Order, PlaneLaw};
+use crate::element::{Order, Plane, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
 use crate::multigrid::stiffness::lanes::PlainLanes;
 use crate::multigrid::stiffness::strips::inverse;
 
-const LAW: PlaneLaw = PlaneLaw { lambda: 3.0, mu: 2.0, across: 3.0 };
+const LAW: PlaneLaw = PlaneLaw { lambda: 3.0, mu: 2.0, across: 3.0, plane: Plane::Strain };
 
 /// Strips of one macro triangle, its inner nodes being all nodes of a rank: couplings, and the strips that have them.
 fn strips(order: Order, intervals: usize) -> (usize, Vec<(Couplings, StripNodes)>) {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::body::MacroStiffness;
 use crate::discretisation::samples::vector;
-use crate::element::{Order, PlaneLaw};
+use crate::element::{Order, Plane, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
 use crate::multigrid::stiffness::lanes::PlainLanes;
@@ -54,7 +54,7 @@ fn check<L: Lanes>(lanes: L, tolerance: f64) {
     for ((order, n), count) in sizes.flat_map(|size| [(size, L::COUNT), (size, L::COUNT - 1)]) {
         let apart = lattice::inner_count(n) + 3;
         let sample = |k: usize| {
-            let law = PlaneLaw { lambda: 3.0 + k as f64, mu: 2.0, across: 3.0 };
+            let law = PlaneLaw { lambda: 3.0 + k as f64, mu: 2.0, across: 3.0, plane: Plane::Strain };
             let level = Level { intervals: n, order };
             let stiffness = MacroStiffness::new(&two_blocks(), 1, level, &law).expect("a good triangle");
             let lattice = vector(lattice::node_count(n), 31 * k);

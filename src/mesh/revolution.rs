@@ -1,0 +1,31 @@
+//! Meshes of bodies of revolution: halves of their sections, at the right of the axis x = 0.
+
+use super::MeshError;
+use super::macro_mesh::MacroMesh;
+use crate::element::Plane;
+use crate::geometry::Coordinates;
+
+/// Share of the largest radius within which a vertex lies on the axis: files have six digits or more.
+const ON_AXIS: f64 = 1e-7;
+
+impl MacroMesh {
+    /// Says what the plane stands for. In a body of revolution vertices beside the axis by rounding come to lie on it.
+    ///
+    /// # Errors
+    /// [`MeshError::Unusable`] with the vertex of a body of revolution that lies at the left of the axis.
+    pub fn set_plane(&mut self, plane: Plane) -> Result<(), MeshError> {
+        self.plane = plane;
+        if plane != Plane::Revolution {
+            return Ok(());
+        }
+        let nearly = ON_AXIS * self.vertices.iter().map(|x| x.x.abs()).fold(0.0, f64::max);
+        self.vertices.iter_mut().filter(|x| x.x.abs() <= nearly).for_each(|x| x.x = 0.0);
+        match self.vertices.iter().find(|x| x.x < 0.0) {
+            None => Ok(()),
+            Some(x) => Err(self.unusable(format!(
+                "the vertex at {} lies at the left of the axis of revolution, x = 0; mesh the half of the section at its right",
+                Coordinates(*x)
+            ))),
+        }
+    }
+}

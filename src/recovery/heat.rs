@@ -1,0 +1,67 @@
+//! Energies of bodies that are heated.
+//!
+//! The strain energy is that of the elastic part of the strain, `½∫(ε - αϑI):C:(ε - αϑI) = ½ uᵀKu - f_ϑ·u + ½∫ d p α ϑ`, with the nodal
+//! forces `f_ϑ` of the pressure `p` that keeps a part from growing and the number `d` of directions in which it would.
+
+use crate::body::{NodePositions, heat_forces};
+use crate::discretisation::{Discretisation, Field, SystemError, agreed};
+use crate::element::{BadJacobian, Heat, Order, PlaneLaw, SIX_POINTS, jacobian, six_points};
+use crate::mesh::lattice;
+use crate::petsc::Session;
+
+/// What heat does in a part of a body (energies per thickness, or of the whole body of revolution).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HeatEnergy {
+    /// `f_ϑ·u`.
+    pub work: f64,
+    /// Strain energy of the part if it is kept from growing at all.
+    pub kept: f64,
+}
+
+/// What heat does in each part of the mesh, in its order. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from an inverted triangle.
+pub fn heat_energies(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<HeatEnergy>, SystemError> {
+    let scene = &problem.scene;
+    let mut sums = vec![[0.0; 2]; scene.mesh.parts.len()];
+    if !scene.is_heated() {
+        return Ok(sums.into_iter().map(|_| HeatEnergy::default()).collect());
+    }
+    let (parts, numbering) = (scene.parts(), &problem.finest().numbering);
+    let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
+        let at = scene.mesh.triangles[triangle as usize].part as usize;
+        let Some(heat) = &parts[at].heat else { return Ok(()) };
+        let [work, kept] = &mut sums[at];
+        heat_forces(&scene.mesh, triangle as usize, numbering, parts[at], &mut |node, force| *work += force.dot(&u.point(node)))?;
+        let law = parts[at].material.law();
+        *kept += match numbering.level.order {
+            Order::P1 => kept_energy::<3>(problem, triangle as usize, &law, heat)?,
+            Order::P2 => kept_energy::<6>(problem, triangle as usize, &law, heat)?,
+        };
+        Ok::<(), SystemError>(())
+    });
+    agreed(session, added)?;
+    session.sum(sums.as_flattened_mut());
+    Ok(sums.into_iter().map(|[work, kept]| HeatEnergy { work, kept }).collect())
+}
+
+/// `½∫ d p α ϑ` of a macro triangle.
+fn kept_energy<const N: usize>(
+    problem: &Discretisation,
+    triangle: usize,
+    law: &PlaneLaw,
+    heat: &Heat,
+) -> Result<f64, BadJacobian> {
+    let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
+    let all = NodePositions::new(mesh, triangle, level);
+    let mut sum = 0.0;
+    for small in lattice::triangles(level.intervals, level.order) {
+        let nodes = all.of(&small.nodes::<N>());
+        for (&(l, weight), x) in SIX_POINTS.iter().zip(six_points(&nodes)) {
+            let volume = 0.5 * weight * jacobian(&nodes, l)?.1 * law.plane.width(x);
+            sum += 0.5 * volume * law.growing() * law.pressure_by_growth() * heat.growth(x).powi(2);
+        }
+    }
+    Ok(sum)
+}
