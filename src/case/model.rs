@@ -46,7 +46,7 @@ pub fn read_body(section: &Section, plane: Plane, gravity: Gravity) -> Option<Bo
     let name = section.name().to_owned();
     if !section.has("part") {
         let part = read_part(section, plane, gravity)?;
-        return Some(Body::whole(name, part.material, part.force));
+        return Some(Body { name, parts: vec![part] });
     }
     for key in CONSTANTS.into_iter().filter(|key| section.has(key)) {
         section.problem(&[key], "stands beside parts of this body; give it in each of their tables".into());

@@ -57,10 +57,11 @@ enum Function {
     Sin,
     Cos,
     Exp,
+    Log,
 }
 
 impl Formula {
-    /// Reads a formula of the named variables: `+ - * / ^ ( )`, `sqrt`, `sin`, `cos`, `exp`, `pi`, numbers.
+    /// Reads a formula of the named variables: `+ - * / ^ ( )`, `sqrt`, `sin`, `cos`, `exp`, `log`, `pi`, numbers.
     ///
     /// # Errors
     /// [`FormulaError`] with the column (from 1) of the first character that cannot stand there.
@@ -190,6 +191,7 @@ impl Instruction {
                 Function::Sin => a.sin(),
                 Function::Cos => a.cos(),
                 Function::Exp => a.exp(),
+                Function::Log => a.log(),
             },
             (Instruction::Add, [a, b]) => *a + *b,
             (Instruction::Subtract, [a, b]) => *a - *b,

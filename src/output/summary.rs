@@ -49,6 +49,10 @@ pub struct Summary {
     /// Names of all files of the result, relative to its folder, sorted: a run that replaces it removes these and no others.
     #[serde(default)]
     pub files: Vec<String>,
+    /// `axisymmetric` if bodies are of revolution: forces, energies and resultants are then those of whole bodies, not per
+    /// thickness. The key is missing in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plane: Option<String>,
     /// The mesh after refinement.
     pub mesh: Mesh,
     /// Sizes of the linear system.
@@ -216,6 +220,9 @@ pub struct ProbeSummary {
     /// Stress xx, yy, xy.
     #[serde(deserialize_with = "numbers")]
     pub stress: Option<[f64; 3]>,
+    /// Hoop stress; the key is missing in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hoop: Option<f64>,
 }
 
 /// Wall time in seconds, slowest rank.

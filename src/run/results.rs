@@ -13,6 +13,7 @@ use super::summarise;
 use crate::accuracy::Adaptation;
 use crate::contact::{Configuration, GapChoice};
 use crate::discretisation::Contact;
+use crate::element::Plane;
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use crate::output::report::{ReportPage, write_report};
@@ -193,12 +194,18 @@ impl Run<'_> {
             traces.push(if self.session.rank() == 0 { points.iter().map(contact_point).collect() } else { Vec::new() });
         }
         self.report.warn_all(&apart);
+        let is_round = self.case.plane == Plane::Revolution;
+        summary.plane = is_round.then(|| "axisymmetric".into());
         for point in &self.case.probes {
             let region = solved.problem.scene.mesh.region(&point.body).expect("checked names");
             let probed = found.probe(region, Point::new(point.point[0], point.point[1]))?.ok_or_else(|| outside(point.point))?;
-            let [xx, yy, xy, _] = probed.stress;
-            let values =
-                summary::ProbeSummary { x: Some(point.point), u: Some(probed.displacement.into()), stress: Some([xx, yy, xy]) };
+            let [xx, yy, xy, zz] = probed.stress;
+            let values = summary::ProbeSummary {
+                x: Some(point.point),
+                u: Some(probed.displacement.into()),
+                stress: Some([xx, yy, xy]),
+                hoop: is_round.then_some(zz),
+            };
             summary.probe.insert(point.name.clone(), values);
         }
         let errors = compare(self.case, &found)?;

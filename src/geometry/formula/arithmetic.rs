@@ -17,6 +17,9 @@ pub trait Arithmetic:
 
     fn exp(self) -> Self;
 
+    /// The natural logarithm.
+    fn log(self) -> Self;
+
     /// `self ^ exponent`; a negative base wants a whole, constant exponent, else the result is NaN.
     fn power(self, exponent: Self) -> Self;
 }
@@ -50,6 +53,10 @@ impl<const N: usize> Arithmetic for PointValues<N> {
 
     fn exp(self) -> Self {
         Self(self.0.map(f64::exp))
+    }
+
+    fn log(self) -> Self {
+        Self(self.0.map(f64::ln))
     }
 
     fn power(self, exponent: Self) -> Self {

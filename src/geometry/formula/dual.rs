@@ -43,6 +43,10 @@ impl Arithmetic for Dual {
         self.chain(value, || value)
     }
 
+    fn log(self) -> Self {
+        self.chain(self.value.ln(), || 1.0 / self.value)
+    }
+
     fn power(self, exponent: Self) -> Self {
         let (base, n) = (self.value, exponent.value);
         let value = power(base, n);

@@ -5,8 +5,8 @@ use super::{DEPTH, FormulaError, Function, Instruction};
 use crate::geometry::place::Quote;
 
 /// What a formula may call.
-const FUNCTIONS: [(&str, Function); 4] =
-    [("sqrt", Function::Sqrt), ("sin", Function::Sin), ("cos", Function::Cos), ("exp", Function::Exp)];
+const FUNCTIONS: [(&str, Function); 5] =
+    [("sqrt", Function::Sqrt), ("sin", Function::Sin), ("cos", Function::Cos), ("exp", Function::Exp), ("log", Function::Log)];
 
 /// Names of what a formula may call.
 pub fn function_names() -> impl Iterator<Item = &'static str> + Clone {

@@ -36,7 +36,7 @@ fn precedence_is_the_usual_one() {
 #[test]
 fn errors_name_column_found_and_allowed() {
     let table = [
-        ("", "column 1: found `the end`; allowed here: a number, x, y, pi, sqrt, sin, cos, exp, - or ("),
+        ("", "column 1: found `the end`; allowed here: a number, x, y, pi, sqrt, sin, cos, exp, log, - or ("),
         ("tan(x)", "column 1: found `tan`; allowed here: a number, x, y, pi, sqrt"),
         ("x + t", "column 5: found `t`; allowed here"),
         ("2x", "column 2: found `x`; allowed here: + - * / ^ or the end"),
@@ -102,6 +102,7 @@ impl Tree {
             Tree::Call("sqrt", a) => a.value(x, y).sqrt(),
             Tree::Call("sin", a) => a.value(x, y).sin(),
             Tree::Call("cos", a) => a.value(x, y).cos(),
+            Tree::Call("log", a) => a.value(x, y).ln(),
             Tree::Call(_, a) => a.value(x, y).exp(),
             Tree::Binary(operator, a, b) => {
                 let (a, b) = (a.value(x, y), b.value(x, y));
@@ -147,7 +148,7 @@ fn trees() -> impl Strategy<Value = Tree> {
     let leaf = prop_oneof![(0.1..3.0).prop_map(Tree::Number), Just(Tree::X), Just(Tree::Y)];
     leaf.prop_recursive(4, 24, 2, |inner| {
         let operator = prop::sample::select(vec!['+', '-', '*', '/', '^']);
-        let function = prop::sample::select(vec!["sqrt", "sin", "cos", "exp"]);
+        let function = prop::sample::select(vec!["sqrt", "sin", "cos", "exp", "log"]);
         prop_oneof![
             3 => (operator, inner.clone(), inner.clone()).prop_map(|(o, a, b)| Tree::Binary(o, a.into(), b.into())),
             1 => (function, inner.clone()).prop_map(|(name, a)| Tree::Call(name, a.into())),

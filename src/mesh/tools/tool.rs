@@ -3,6 +3,7 @@
 //! A tool does not strain, so what lies behind its surface does not matter. The layer gives it nodes, edges with their true shape,
 //! and a boundary like those of any body.
 
+use crate::element::Plane;
 use crate::geometry::{Curve, Point, cross, turn_right};
 use crate::mesh::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle, Surface};
 use std::f64::consts::TAU;
@@ -148,6 +149,14 @@ impl MacroMesh {
         }
     }
 
+    /// The direction of the layer behind a vertex: on an axis of revolution along that.
+    fn away(&self, place: &SurfacePoint) -> Point {
+        match self.plane == Plane::Revolution && place.x.x == 0.0 {
+            true => Point::new(0.0, place.right.y.signum()),
+            false => place.right,
+        }
+    }
+
     /// Triangles between the surface and a row of vertices behind it.
     fn add_layer(
         &mut self,
@@ -160,7 +169,13 @@ impl MacroMesh {
         let first = self.vertices.len() as u32;
         for place in places {
             self.vertices.push(place.x);
-            self.vertices.push(place.x + behind * place.depth * place.right);
+            self.vertices.push(place.x + behind * place.depth * self.away(place));
+            if self.plane == Plane::Revolution && place.x.x < 0.0 {
+                return Err(format!(
+                    "its surface lies at the left of the axis of revolution near ({:.6}, {:.6}); give its part with x >= 0",
+                    place.x.x, place.x.y
+                ));
+            }
         }
         self.ratios.resize(self.vertices.len(), None);
         let (body, piece, start) = (self.bodies.len() as u32, self.pieces.len() as u32, self.triangles.len() as u32);
