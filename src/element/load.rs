@@ -72,6 +72,7 @@ pub fn heat_load<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, heat: &Heat
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Formula;
 
     #[test]
     fn pressure_on_a_closed_quarter_arc_acts_on_its_chord() {
@@ -79,6 +80,23 @@ mod tests {
         let points = [Point::new(1.0, 0.0), Point::new(0.0, 1.0), Point::new(0.75, 0.75)];
         let total: Point = edge_load(&points, |_, normal| -normal).iter().sum();
         assert!((total - Point::new(-1.0, -1.0)).norm() < 1e-14);
+    }
+
+    #[test]
+    fn what_is_heated_pushes_as_much_to_all_sides_in_the_plane_and_outwards_in_a_ring() {
+        let heat = Heat { expansion: 2e-5, temperature: Formula::constant(50.0) };
+        let corners = [Point::new(1.0, 0.0), Point::new(3.0, 0.0), Point::new(1.0, 1.0)];
+        for plane in [Plane::Strain, Plane::Stress, Plane::Revolution] {
+            let law = PlaneLaw::new(7000.0, 0.3, plane);
+            let forces = heat_load(&corners, &law, &heat).expect("a good triangle");
+            let (sum, pressed) = (forces.iter().sum::<Point>(), law.pressure_by_growth() * 1e-3);
+            // Along the axis nothing is left; around it the ring of the area 1 pushes by 2π p for each unit of it.
+            let outwards = if plane == Plane::Revolution { TAU * pressed } else { 0.0 };
+            assert!((sum - Point::new(outwards, 0.0)).norm() < 1e-11, "{plane:?}: {sum}");
+            let work: f64 = forces.iter().zip(corners).map(|(force, x)| force.dot(&x)).sum();
+            let volume = if plane == Plane::Revolution { 3.0 * TAU * 5.0 / 3.0 } else { 2.0 };
+            assert!((work - pressed * volume).abs() < 1e-10, "{plane:?}: virtual work of an even growth: {work}");
+        }
     }
 
     #[test]

@@ -36,6 +36,14 @@ impl Plane {
             Self::Revolution => Point::new(0.0, force.y),
         }
     }
+
+    /// What is left of a force and a moment on a whole body: moments in the plane of a section balance each other, too.
+    pub fn resultant_with_moment(self, [x, y, moment]: [f64; 3]) -> [f64; 3] {
+        match self {
+            Self::Strain | Self::Stress => [x, y, moment],
+            Self::Revolution => [0.0, y, 0.0],
+        }
+    }
 }
 
 /// The strain at a point.

@@ -84,3 +84,88 @@ fn rule<const N: usize>(nodes: &[Point; N]) -> (usize, usize) {
     let points = 0.5 * (f64::from(degree) + more.min(100.0));
     (first, (points.ceil() as usize).clamp(3, MOST_POINTS))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::plane_law::Plane;
+    use super::*;
+
+    /// A P2 triangle of these corners with straight sides.
+    fn with_midsides([a, b, c]: [Point; 3]) -> [Point; 6] {
+        [a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)]
+    }
+
+    /// Triangles far from the axis, near it, with a corner on it, and with a side on it, each with the nodes that lie off it.
+    fn triangles() -> [([Point; 6], Vec<usize>); 4] {
+        let of = |corners: [[f64; 2]; 3]| {
+            let nodes = with_midsides(corners.map(Point::from));
+            (nodes, (0..6).filter(|&a| nodes[a].x > 0.0).collect())
+        };
+        [
+            of([[5.0, 0.0], [6.0, 0.2], [5.3, 0.9]]),
+            of([[0.2, 0.0], [1.2, 0.2], [0.5, 0.9]]),
+            of([[1.0, 0.0], [0.6, 0.8], [0.0, 0.1]]),
+            of([[0.0, 0.0], [1.0, 0.3], [0.0, 0.9]]),
+        ]
+    }
+
+    /// The stiffness by a rule that is far finer than any that is used.
+    fn fine(nodes: &[Point; 6], law: &PlaneLaw) -> [[Block; 6]; 6] {
+        let mut k = [[[[0.0; 2]; 2]; 6]; 6];
+        let first = rule(nodes).0;
+        for (&(s, ws), &(t, wt)) in gauss_points(20).iter().flat_map(|s| gauss_points(20).iter().map(move |t| (s, t))) {
+            let mut l = [0.0; 3];
+            (l[first], l[(first + 1) % 3], l[(first + 2) % 3]) = (1.0 - s, s * (1.0 - t), s * t);
+            let (gradients, determinant) = jacobian(nodes, l).expect("a good triangle");
+            let radius = place_of(nodes, l).x;
+            let weight = TAU * radius * ws * wt * s * determinant;
+            let hoops = shape::<6>(l).map(|value| value / radius);
+            add_point(&mut k, &gradients, &hoops, weight * law.lambda, weight * law.mu);
+        }
+        k
+    }
+
+    #[test]
+    fn integrals_are_exact_to_rounding_wherever_the_radius_varies() {
+        let law = PlaneLaw::new(3.0, 0.3, Plane::Revolution);
+        for (nodes, off_axis) in triangles() {
+            let (found, wanted) = (stiffness(&nodes, &law).expect("a good triangle"), fine(&nodes, &law));
+            let size = off_axis.iter().map(|&a| wanted[a][a][0][0].abs()).fold(0.0, f64::max);
+            for (a, b) in off_axis.iter().flat_map(|&a| off_axis.iter().map(move |&b| (a, b))) {
+                for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let apart = (found[a][b][i][j] - wanted[a][b][i][j]).abs();
+                    assert!(apart < 1e-12 * size, "{nodes:?}: nodes {a}, {b}: {apart:e} of {size}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_shift_along_the_axis_has_no_force_and_a_radial_growth_its_hoop_stress() {
+        let law = PlaneLaw::new(3.0, 0.3, Plane::Revolution);
+        for (nodes, off_axis) in triangles() {
+            let k = stiffness(&nodes, &law).expect("a good triangle");
+            // Radial growth by 1 with `ε_yy = -2 ν/(1 - ν)` has no stress along the axis.
+            let u = nodes.map(|x| Point::new(x.x, -2.0 * 0.3 / 0.7 * x.y));
+            for &a in &off_axis {
+                let along: Point = (0..6).map(|b| Point::new(k[a][b][0][1], k[a][b][1][1])).sum();
+                assert!(along.norm() < 1e-12 * k[a][a][0][0].abs());
+                let axial: f64 = (0..6).map(|b| k[a][b][1][0] * u[b].x + k[a][b][1][1] * u[b].y).sum();
+                assert!(axial.abs() < 1e-11, "no stress along the axis: {axial:e}");
+            }
+            let strain = super::super::stiffness::strain(&nodes, &u, [0.2, 0.3, 0.5], &law).expect("a good triangle").0;
+            assert!((strain.hoop - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_hoop_strain_has_its_limit_on_the_axis() {
+        let (nodes, _) = &triangles()[3];
+        let law = PlaneLaw::new(3.0, 0.3, Plane::Revolution);
+        let u = nodes.map(|x| Point::new(0.7 * x.x + 0.2 * x.x * x.y, 0.0));
+        for (l, y) in [([1.0, 0.0, 0.0], 0.0), ([0.5, 0.0, 0.5], 0.45)] {
+            let strain = super::super::stiffness::strain(nodes, &u, l, &law).expect("a good triangle").0;
+            assert!((strain.hoop - 0.7 - 0.2 * y).abs() < 1e-12, "{}", strain.hoop);
+        }
+    }
+}

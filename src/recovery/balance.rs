@@ -86,6 +86,9 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         sum_over_nodes(problem, solution, u, &internal, &springs.nodes, session)?;
     reactions.extend(springs.reactions);
     reactions.extend(problem.mean_forces.iter().map(|&[x, y, _]| Point::new(x, y)));
+    let plane = problem.scene.mesh.plane;
+    let reactions = reactions.into_iter().map(|force| plane.resultant(force)).collect();
+    let rigid = rigid.into_iter().map(|force| plane.resultant_with_moment(force)).collect();
     let has_springs = !problem.scene.springs.is_empty();
     let forces = contact_forces_of_all(problem, solution, session);
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
@@ -98,7 +101,6 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let (total, external) = (strain.iter().sum::<f64>(), work.loads + work.supports - pushed);
     let largest =
         [2.0 * (total + springs.energy), work.loads, work.supports, lambda_gap].into_iter().map(f64::abs).fold(0.0, f64::max);
-    let plane = problem.scene.mesh.plane;
     let worst = |ratio: &dyn Fn(&Contact, &ContactForce) -> f64| {
         contacts.iter().zip(&forces).map(|(contact, force)| ratio(contact, force)).filter(|v| v.is_finite()).reduce(f64::max)
     };

@@ -1,0 +1,130 @@
+//! Bodies that are heated: free growth, growth that is kept, exact solutions, estimates, what is told.
+
+use crate::support::mesh::{Mesh, grid, two_blocks, write_scene};
+use crate::support::{Run, pairs_on_ranks};
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+fn scene(mesh: &Mesh, case: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    (folder, file)
+}
+
+/// One block, 1 to 2 along x and half as high.
+fn block() -> Mesh {
+    let block = grid(4, 2, 1, |u, v| [1.0 + u, 0.5 * v]);
+    Mesh { bodies: vec![("block", block, ["low", "right", "high", "left"])] }
+}
+
+/// The stress that keeps the block of these scenes from growing is some 1.
+const FREE: &str = r#"
+mesh.file = "mesh.msh"
+mesh.order = 2
+mesh.refine = 1
+solver.tolerance = 1e-13
+body.block = { young = 7000.0, poisson = 0.3, expansion = 1e-5 }
+probe.inside = { point = [1.4, 0.3], body = "block" }
+"#;
+
+#[test]
+fn a_free_body_in_a_linear_temperature_has_no_stress() {
+    let in_plane = "support = { a = { at = [1, 0], ux = 0, uy = 0 }, b = { at = [2, 0], uy = 0 } }";
+    let around = "support = { a = { at = [1, 0], uy = 0 } }";
+    for (plane, temperature, supports) in
+        [("strain", "20 + 7*x - 9*y", in_plane), ("stress", "20 + 7*x - 9*y", in_plane), ("axisymmetric", "20 - 9*y", around)]
+    {
+        let case = format!("plane = \"{plane}\"\n{supports}\n{FREE}body.block.temperature = \"{temperature}\"\n");
+        let (_folder, file) = scene(&block(), &case);
+        for ranks in [1, 2] {
+            let ended = Run::file(&file).ranks(ranks).converged();
+            let stress: Vec<f64> = (0..3).map(|k| ended.number(&format!("/probe/inside/stress/{k}"))).collect();
+            assert!(stress.iter().all(|s| s.abs() < 1e-10), "{plane}: {stress:?}");
+            assert!(ended.number("/balance/energy") < 1e-9, "{plane}");
+        }
+    }
+}
+
+/// Two blocks between walls, which keep them from growing at all: an even pressure `E α ϑ / (1 - 2 ν)`.
+#[test]
+fn blocks_between_walls_press_by_what_they_cannot_grow() {
+    let case = r#"
+mesh.file = "mesh.msh"
+mesh.refine = 1
+solver.tolerance = 1e-11
+body.lower = { young = 7000.0, poisson = 0.3, expansion = 1e-5, temperature = 40.0 }
+body.upper = { young = 7000.0, poisson = 0.3, expansion = 2e-5, temperature = 20.0 }
+support.walls = { on = ["left", "right"], ux = 0.0 }
+support.ends = { on = ["bottom", "top"], uy = 0.0 }
+contact.seam = { between = ["lower.seam", "upper.seam"] }
+exact.contact.seam.lambda = { formula = 7.0, tolerance = 1e-8 }
+exact.body.lower.stress = [-7, -7, 0]
+"#;
+    let (_folder, file) = scene(&two_blocks([(4, 3, 1), (5, 2, 2)]), case);
+    for (order, space, ranks) in pairs_on_ranks() {
+        let run = Run::file(&file).ranks(ranks).set("mesh.order", order).set("contact.seam.multiplier", space);
+        let ended = run.set("exact.must_hold", true).converged();
+        let words = format!("P{order}, {space}, {ranks} ranks");
+        assert!(ended.number("/errors/energy_norm_lower") < 1e-8, "{words}");
+        // ½ · 3 p α ϑ of an area of 2 for each block, with p = 7000 · 4e-4 / 0.4.
+        let energy = ended.number("/energy/total");
+        assert!((energy - 2.0 * 3.0 * 7.0 * 4e-4).abs() < 1e-9, "{words}: {energy}");
+        assert!(ended.number("/balance/energy") < 1e-8, "{words}");
+    }
+}
+
+/// A thick cylinder with held ends and the temperature 40 x: closed form (Timoshenko and Goodier, Theory of Elasticity, 1951, §135).
+#[test]
+fn a_hot_cylinder_has_its_stresses_with_their_order_and_an_estimate_of_their_error() {
+    let (k, whole) = (0.1, 40.0 / 3.0 * 7.0);
+    let radial = format!("{k}/x^2*((x^2 - 1)/3*{whole} - 40/3*(x^3 - 1))");
+    let hoop = format!("{k}/x^2*((x^2 + 1)/3*{whole} + 40/3*(x^3 - 1) - 40*x^3)");
+    let axial = format!("0.3*({k}*(2/3*{whole} - 40*x)) - 2.8*x");
+    let case = format!(
+        "plane = \"axisymmetric\"\n{FREE}body.block.temperature = \"40*x\"\n\
+         support.ends = {{ on = [\"low\", \"high\"], uy = 0.0 }}\n\
+         exact.body.block.stress = [\"{radial}\", \"{axial}\", 0, \"{hoop}\"]\n"
+    );
+    let (_folder, file) = scene(&block(), &case);
+    for (order, least) in [(1, 0.95), (2, 1.9)] {
+        let run = |refine: usize| Run::file(&file).ranks(2).set("mesh.order", order).set("mesh.refine", refine).converged();
+        let [coarse, fine] = [1, 3].map(run);
+        let [before, now] = [&coarse, &fine].map(|ended| ended.number("/errors/energy_norm_block"));
+        assert!((before / now).log2() / 2.0 > least, "P{order}: {before:e}, {now:e}");
+        let estimate = fine.number("/estimate/energy");
+        assert!((0.8..2.0).contains(&(estimate / now)), "P{order}: estimated {estimate:e}, true {now:e}");
+    }
+    let adapted = Run::file(&file).ranks(2).set("mesh.refine", 0).set("accuracy", 1e-3).converged();
+    assert!(adapted.number("/errors/energy_norm_block") < 1e-3);
+}
+
+/// Steps scale a temperature: half of it is half of the stress.
+#[test]
+fn steps_scale_a_temperature() {
+    let case = format!(
+        "{FREE}body.block.temperature = 40.0\n\
+         support.walls = {{ on = [\"low\", \"high\", \"left\", \"right\"], ux = 0.0, uy = 0.0 }}\n"
+    );
+    let (_folder, file) = scene(&block(), &case);
+    let steps = "{ heat = { factors = [0.5, 1.0], scales = [\"body.block.temperature\"] } }";
+    let [whole, stepped] = [None, Some(steps)].map(|steps| {
+        let run = Run::file(&file).ranks(2);
+        steps.map_or(run.clone(), |steps| run.set("steps", steps)).converged().number("/probe/inside/stress/1")
+    });
+    assert!((whole + 7.0).abs() < 1e-9 && (stepped - whole).abs() < 1e-9, "{whole}, {stepped}");
+}
+
+#[test]
+fn heat_that_does_nothing_or_has_no_value_is_told() {
+    let (_folder, file) = scene(&block(), &format!("{FREE}support.low = {{ on = \"low\", ux = 0, uy = 0 }}\n"));
+    let told = |key: &str, value: &str, words: &str| {
+        let ended = Run::file(&file).ranks(2).set(key, value).ended();
+        assert_eq!(ended.code, Some(2), "{}", ended.said());
+        assert!(ended.said().contains(words), "{}", ended.said());
+    };
+    told("title", "\"\"", "body.block.expansion = 1e-05: does nothing without a temperature");
+    told("body.block", "{ young = 1.0, poisson = 0.3, temperature = 5 }", "strains nothing without an expansion");
+    told("body.block.temperature", "\"1/(x - x)\"", "body.block.temperature: ");
+    let strained = Run::file(&file).ranks(2).set("body.block.temperature", 2e4).ended();
+    assert!(strained.said().contains("body block is strained by"), "{}", strained.said());
+}

@@ -1,0 +1,148 @@
+//! Bodies of revolution: patch tests, exact solutions and orders, the axis, what is refused.
+
+use crate::support::mesh::{Mesh, grid, two_blocks, write_scene};
+use crate::support::{Ended, Run, pairs_on_ranks};
+use std::f64::consts::PI;
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+/// Two round bars of radius 2 from the axis on, one on the other, that a pressure of 3 squeezes.
+const BARS: &str = r#"
+plane = "axisymmetric"
+mesh.file = "mesh.msh"
+mesh.refine = 1
+solver.tolerance = 1e-11
+body.lower = { young = 7000.0, poisson = 0.3 }
+body.upper = { young = 3000.0, poisson = 0.2 }
+support.table = { on = "bottom", uy = 0.0 }
+load.top = { on = "top", pressure = 3.0 }
+contact.seam = { between = ["lower.seam", "upper.seam"] }
+exact.contact.seam.lambda = { formula = 3.0, tolerance = 1e-8 }
+exact.contact.seam.force = { value = 37.69911184307752, tolerance = 1e-9 }
+exact.body.lower.stress = [0, -3, 0, 0]
+exact.body.upper.stress = [0, -3, 0, 0]
+"#;
+
+/// A slice of two rings with held ends, the inner one too large by 1e-3: constant pressure, Lamé.
+const RINGS: &str = r#"
+plane = "axisymmetric"
+mesh.file = "mesh.msh"
+body.inner = { young = 7000.0, poisson = 0.227 }
+body.outer = { young = 7000.0, poisson = 0.227 }
+support.low = { on = "low", uy = 0.0 }
+support.high = { on = "high", uy = 0.0 }
+contact.seam = { between = ["inner.seam", "outer.seam"], gap = -1e-3 }
+exact.contact.seam.lambda = { formula = 0.86487884184123709, tolerance = 1e-2 }
+exact.body.inner.stress = [
+    "-1.15317178912165*(1 - 1/x^2)", "-2*0.227*1.15317178912165", 0, "-1.15317178912165*(1 + 1/x^2)"
+]
+"#;
+
+fn scene(mesh: &Mesh, case: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    (folder, file)
+}
+
+fn rings() -> Mesh {
+    let inner = grid(4, 2, 1, |u, v| [1.0 + u, 0.5 * v]);
+    let outer = grid(3, 3, 2, |u, v| [2.0 + u, 0.5 * v]);
+    Mesh {
+        bodies: vec![("inner", inner, ["low", "inner.seam", "high", ""]), ("outer", outer, ["low", "", "high", "outer.seam"])],
+    }
+}
+
+#[test]
+fn a_uniform_pressure_crosses_meshes_that_do_not_match() {
+    let (_folder, file) = scene(&two_blocks([(4, 3, 1), (5, 2, 2)]), BARS);
+    for (order, space, ranks) in pairs_on_ranks() {
+        let run = Run::file(&file).ranks(ranks).set("mesh.order", order).set("contact.seam.multiplier", space);
+        let ended = run.set("exact.must_hold", true).converged();
+        let words = format!("P{order}, {space}, {ranks} ranks");
+        assert!(ended.number("/errors/lambda_seam") < 1e-8, "{words}");
+        assert!(ended.number("/errors/energy_norm_lower") < 1e-8, "{words}");
+        assert!(ended.number("/balance/bodies") < 1e-9, "{words}");
+        let table = ended.number("/support/table/reaction/1");
+        assert!((table - 12.0 * PI).abs() < 1e-7, "{words}: the whole body presses on the table by {table}");
+        assert_eq!(ended.number("/support/table/reaction/0"), 0.0, "{words}: nothing is left across the axis");
+    }
+}
+
+#[test]
+fn everything_is_the_same_upside_down_and_with_the_bodies_exchanged() {
+    let energy = |mesh: Mesh, between: &str| {
+        let (_folder, file) = scene(&mesh, BARS);
+        Run::file(&file).set("contact.seam.between", between).ranks(2).converged().number("/energy/total")
+    };
+    let mesh = || two_blocks([(4, 3, 1), (5, 2, 2)]);
+    let straight = energy(mesh(), "[\"lower.seam\", \"upper.seam\"]");
+    let exchanged = energy(mesh(), "[\"upper.seam\", \"lower.seam\"]");
+    let turned = energy(mesh().map(|[x, y]| [x, -y]), "[\"lower.seam\", \"upper.seam\"]");
+    assert!((exchanged / straight - 1.0).abs() < 1e-9 && (turned / straight - 1.0).abs() < 1e-9);
+}
+
+/// Errors in the energy norm of the inner ring, and of λ.
+fn errors(order: usize, refine: usize) -> [f64; 2] {
+    let (_folder, file) = scene(&rings(), RINGS);
+    let ended = Run::file(&file).ranks(2).set("mesh.order", order).set("mesh.refine", refine).converged();
+    ["energy_norm_inner", "lambda_seam"].map(|name| ended.number(&format!("/errors/{name}")))
+}
+
+#[test]
+fn rings_pressed_into_each_other_have_the_order_of_their_elements() {
+    for (order, least) in [(1, 0.95), (2, 1.9)] {
+        let [coarse, fine] = [1, 3].map(|refine| errors(order, refine));
+        let found = (coarse[0] / fine[0]).log2() / 2.0;
+        assert!(found > least, "P{order}: order {found}");
+        assert!(fine[1] < [3e-3, 1e-6][order - 1], "P{order}: error of the pressure {:e}", fine[1]);
+    }
+}
+
+#[test]
+fn estimates_are_of_the_size_of_the_errors() {
+    let case = RINGS
+        .replace("exact.body.inner", "exact.body.outer")
+        .replace("-1.15317178912165*(1 - 1/x^2)", "0.6919030734729897*(1 - 9/x^2)");
+    let case = case.replace("-2*0.227*1.15317178912165", "2*0.227*0.6919030734729897");
+    let case = case.replace("-1.15317178912165*(1 + 1/x^2)", "0.6919030734729897*(1 + 9/x^2)");
+    let (_folder, file) = scene(&rings(), &case);
+    let outer = Run::file(&file).set("mesh.refine", 2).ranks(2).converged();
+    let (_folder, file) = scene(&rings(), RINGS);
+    let inner = Run::file(&file).set("mesh.refine", 2).ranks(2).converged();
+    let energy = |name: &str| inner.number(&format!("/energy/strain/{name}"));
+    let squares = inner.number("/errors/energy_norm_inner").powi(2) * energy("inner")
+        + outer.number("/errors/energy_norm_outer").powi(2) * energy("outer");
+    let (error, estimate) = ((squares / inner.number("/energy/total")).sqrt(), inner.number("/estimate/energy"));
+    assert!((0.8..2.0).contains(&(estimate / error)), "estimated {estimate:e}, true {error:e}");
+}
+
+#[test]
+fn a_body_that_nothing_holds_along_the_axis_is_told() {
+    let case = BARS.replace("support.table = { on = \"bottom\", uy = 0.0 }", "load.bottom = { on = \"bottom\", pressure = 3.0 }");
+    let (_folder, file) = scene(&two_blocks([(4, 3, 1), (5, 2, 2)]), &case);
+    let ended = Run::file(&file).ranks(2).ended();
+    assert_eq!(ended.code, Some(3), "{}", ended.said());
+    let reason = ended.value("/reason").to_string();
+    assert!(reason.contains("can move by (0, 1)"), "{reason}");
+    let held = Run::file(&file).ranks(2).set("support.held", "{ body = \"lower\", uy = 0.0 }").converged();
+    assert!(held.number("/errors/lambda_seam") < 1e-7 && held.number("/balance/bodies") < 1e-8);
+}
+
+#[test]
+fn what_only_bodies_in_the_plane_have_is_refused() {
+    let told = |mesh: Mesh, changes: &[(&str, &str)], words: &str| {
+        let (_folder, file) = scene(&mesh, BARS);
+        let run = changes.iter().fold(Run::file(&file).ranks(2), |run, (key, value)| run.set(key, value));
+        let ended: Ended = run.ended();
+        assert_eq!(ended.code, Some(2), "{}", ended.said());
+        assert!(ended.said().contains(words), "{} instead of {words}", ended.said());
+    };
+    let mesh = || two_blocks([(4, 3, 1), (5, 2, 2)]);
+    told(mesh().map(|[x, y]| [x - 0.5, y]), &[], "the vertex at (-0.5, ");
+    told(mesh(), &[("thickness", "2.0")], "a body of revolution has none");
+    told(mesh(), &[("body.lower.plane", "\"stress\"")], "all bodies are of revolution, or none is");
+    told(mesh(), &[("gravity.g", "[1.0, -9.81]"), ("body.lower.density", "1.0")], "its x component must be 0");
+    told(mesh(), &[("support.held", "{ body = \"upper\", ux = 0.0 }")], "moves along its axis alone");
+    told(mesh(), &[("exact.body.lower.stress", "[0, -3, 0]")], "lacks the hoop stress");
+    told(mesh(), &[("support.table.ux", "1e-3")], "the axis of revolution");
+}
