@@ -4,8 +4,9 @@
 //!
 //! # Model
 //!
-//! Bodies 1, 2, ... in plane strain or plane stress, each of one material or several: `ε = sym ∇u`, `σ = C ε`, `div σ + b = 0`; small strain, no friction. A contact
-//! pair names body 1 and body 2.
+//! Bodies 1, 2, ... in plane strain or plane stress, or of revolution, each of one material or several: `ε = sym ∇u`,
+//! `σ = C (ε - α ϑ I)`, `div σ + b = 0`; small strain, no friction. A contact pair names body 1 and body 2. Integrals are over the plane; in
+//! bodies of revolution about x = 0 each has the factor `2πx`, and `ε` the hoop strain `u_x / x`.
 //!
 //! - `Γ_C` is a curve between the two with unit normal `n` **from body 1 to body 2**. The *corresponding points*
 //!   `x⁽¹⁾`, `x⁽²⁾` of `x` on `Γ_C` are where the line through `x` along `n` meets the undeformed boundaries of the bodies.

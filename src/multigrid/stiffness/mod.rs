@@ -27,7 +27,7 @@
 //! lattice, and never stored. Only the nodes of macro edges and vertices have stored rows: at 128 intervals 2 % of all.
 //!
 //! Finer macro triangles, and the affine pieces of graded ones, have *strips* (`mesh::Strip`): parts of lattice rows whose
-//! neighbours all lie inside; the ring of nodes next to the sides is stored there, too. Bent ones have none. Interpolation is
+//! neighbours all lie inside; the ring of nodes next to the sides is stored there, too. Bent ones have none, nor have those of bodies of revolution, whose rings differ. Interpolation is
 //! treated alike: whole macro triangles from lattice to lattice (`interpolation/whole.rs`), of others a fine inner row from two
 //! coarse ones (`HalvedRow`), the other nodes one by one.
 //!

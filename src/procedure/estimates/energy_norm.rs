@@ -56,10 +56,8 @@ pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Ses
     let [work, kept] = heat.iter().fold([0.0; 2], |[work, kept], heat| [work + heat.work, kept + heat.kept]);
     let elastic = sums[1] - work + kept;
     // Bodies that grow freely have an energy that is rounding of these three.
-    if elastic > ROUNDING * kept {
-        sums[1] = elastic;
-    }
-    Ok(if sums[1] > LEAST_LEFT * sums[0] || sums[0] == 0.0 { sums[1] } else { f64::NAN })
+    let whole = if elastic > ROUNDING * kept { elastic } else { sums[1] };
+    Ok(if sums[1] > LEAST_LEFT * sums[0] || sums[0] == 0.0 { whole } else { f64::NAN })
 }
 
 /// Square of the difference of a solution from another displacement in the relative energy norm, on each macro triangle of this rank, in
