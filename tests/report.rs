@@ -47,9 +47,9 @@ fn check_figures(ended: &Ended, page: &str) {
 
 /// Coordinates of the frame of a zoom, by the labels of its axes: the least and the largest of each.
 fn labels(svg: &str, anchor: &str) -> [f64; 2] {
-    let lines: Vec<&str> = svg.lines().collect();
-    let is_label = |pair: &&[&str]| pair[0].starts_with("<text") && pair[0].contains(&format!("text-anchor=\"{anchor}\""));
-    let values = lines.windows(2).filter(is_label).filter_map(|pair| pair[1].replace('−', "-").parse::<f64>().ok());
+    let is_label = |line: &&str| line.starts_with("<text") && line.contains(&format!("text-anchor=\"{anchor}\""));
+    let words = |line: &str| Some(line.split_once('>')?.1.strip_suffix("</text>")?.replace('−', "-"));
+    let values = svg.lines().filter(is_label).filter_map(|line| words(line)?.parse::<f64>().ok());
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 

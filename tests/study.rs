@@ -334,7 +334,8 @@ fn figure_and_page_are_well_formed() {
     let (first, all) = (study.read("study.svg"), study.read("study_all.svg"));
     assert!(page.contains(&content(&first)) && page.contains(&content(&all)) && all.matches("<polygon").count() > 8, "{all}");
     assert!(page.find("<figure>") < page.find("<table>"), "the figure stands first");
-    assert_eq!(first.matches("a &lt; b &amp; &quot;c&quot;").count(), 1, "each line bears its name: {first}");
+    let names = first.lines().filter(|line| line.contains("a &lt; b &amp; &quot;c&quot;") && !line.contains("stroke="));
+    assert_eq!(names.count(), 1, "each line bears its name: {first}");
     let program = "import sys, xml.etree.ElementTree as tree\nfor file in sys.argv[1:]: tree.parse(file)";
     let files = ["study.svg", "study_all.svg", "report.html"].map(|name| study.out().join(name));
     match Command::new("python3").arg("-c").arg(program).args(files).output() {

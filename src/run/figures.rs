@@ -64,10 +64,7 @@ impl Run<'_> {
             return Ok(());
         }
         for at in (0..contacts.len()).filter(|&at| has_figures(at)) {
-            let path = |figure: &str| folder.join(format!("{figure}_{}.svg", contacts[at].pair.name));
-            plot::write_pressure(&path("pressure"), &drawn[at])?;
-            plot::write_gap(&path("gap"), &drawn[at])?;
-            plot::write_displacement(&path("displacement"), &drawn[at])?;
+            plot::write_along(folder, &contacts[at].pair.name, &drawn[at])?;
         }
         if shown.len() < contacts.len() {
             self.report.say(&format!(
@@ -156,7 +153,7 @@ pub fn title(case: &Case) -> &str {
     if case.title.is_empty() { &case.name } else { &case.title }
 }
 
-/// The same of a contact, which is named where there are others.
+/// What stands above the figures of a contact, which is named where there are others.
 fn title_of(case: &Case, contact: &str) -> String {
     if case.contacts.len() == 1 { title(case).into() } else { format!("{}, contact {contact}", title(case)) }
 }

@@ -5,22 +5,19 @@ use super::lines::{Line, LinePoint};
 use super::plan::Plan;
 use super::repeats::Spread;
 use super::summary_path::SummaryPath;
-use crate::output::plot::{Axis, Diagram, DiagramBlock, LegendRow, Mark, NamedDiagram, NamedLine, diagrams, named_diagrams};
+use crate::output::plot::{Axis, Diagram, DiagramBlock, DiagramLine, LegendCell, Mark, diagrams, named_diagrams};
+
+/// What a diagram shows of the size of a run.
+const UNKNOWNS: &str = "unknowns N";
 
 /// The text of `study.svg`: for each case, time against the first error, or against unknowns without any; None if no line has
 /// two points.
-///
-/// # Errors
-/// It cannot be drawn, in words.
-pub fn first_figure(plan: &Plan, lines: &[Line]) -> Result<Option<String>, String> {
+pub fn first_figure(plan: &Plan, lines: &[Line]) -> Option<String> {
     named_diagrams(&by_case(lines).iter().map(|case| case.race(plan)).collect::<Vec<_>>())
 }
 
 /// The text of `study_all.svg`: all diagrams of all cases; None if no line has two points.
-///
-/// # Errors
-/// It cannot be drawn, in words.
-pub fn all_figures(plan: &Plan, lines: &[Line]) -> Result<Option<String>, String> {
+pub fn all_figures(plan: &Plan, lines: &[Line]) -> Option<String> {
     let block = |case: &CaseLines| {
         let legend = case.lines.iter().map(|(style, line)| entry(plan, *style, line)).collect();
         DiagramBlock { title: case.title.clone(), legend, diagrams: case.diagrams(plan) }
@@ -55,10 +52,10 @@ fn by_case(lines: &[Line]) -> Vec<CaseLines<'_>> {
 }
 
 /// A line's row in the legend: its name, its orders, its cost.
-fn entry(plan: &Plan, style: usize, line: &Line) -> LegendRow {
+fn entry(plan: &Plan, style: usize, line: &Line) -> Vec<LegendCell> {
     let order = |error: &SummaryPath| law(&format!("{} ~ h", error.text), line.orders.get(&error.text).copied().flatten());
-    let cells = [line.name.clone()].into_iter().chain(plan.errors.iter().map(order)).chain([law("time ~ N", line.cost)]);
-    LegendRow { style, cells: cells.collect() }
+    let laws = plan.errors.iter().map(order).chain([law("time ~ N", line.cost)]).map(LegendCell::words);
+    [LegendCell::marked(line.name.as_str(), style)].into_iter().chain(laws).collect()
 }
 
 /// A power law in words.
@@ -80,56 +77,48 @@ struct CaseLines<'a> {
 impl CaseLines<'_> {
     /// A diagram with logarithmic axes, of the points that have a place in it.
     fn diagram(&self, title: &str, [x, y]: [&str; 2], place: &dyn Fn(&LinePoint) -> Option<Mark>) -> Diagram {
-        let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
-        let marks = |line: &Line| line.points.iter().filter_map(place).collect();
-        Diagram {
-            title: title.into(),
-            x: axis(x),
-            y: axis(y),
-            behind: Vec::new(),
-            lines: self.lines.iter().map(|(style, line)| (*style, marks(line))).collect(),
-        }
+        let drawn = |(style, line): &(usize, &Line)| DiagramLine {
+            name: line.name.clone(),
+            style: *style,
+            marks: line.points.iter().filter_map(place).collect(),
+            ..DiagramLine::default()
+        };
+        let lines = self.lines.iter().map(drawn).collect();
+        Diagram { title: title.into(), x: Axis::logarithmic(x), y: Axis::logarithmic(y), behind: Vec::new(), lines }
+    }
+
+    /// Time against an error.
+    fn time_against(&self, title: &str, error: &str, [x, y]: [&str; 2]) -> Diagram {
+        let race = self.diagram(title, [x, y], &|point| Some(timed(*point.errors.get(error)?, point.time?, point)));
+        Diagram { behind: front(&self.lines, error), ..race }
     }
 
     /// What an error costs, or a size where no error is asked for.
-    fn race(&self, plan: &Plan) -> NamedDiagram {
-        let error = plan.errors.first().map(|error| error.text.as_str());
-        let place = |point: &LinePoint| match error {
-            Some(error) => Some(timed(*point.errors.get(error)?, point.time?, point)),
-            None => Some(timed(point.unknowns, point.time?, point)),
+    fn race(&self, plan: &Plan) -> Diagram {
+        let time = format!("{} [s]", plan.time.text);
+        let Some(SummaryPath { text: error, .. }) = plan.errors.first() else {
+            return self.diagram(&self.title, [UNKNOWNS, &time], &|point| Some(timed(point.unknowns, point.time?, point)));
         };
-        let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
-        let line = |(style, line): &(usize, &Line)| {
-            let mut marks: Vec<Mark> = line.points.iter().filter_map(place).collect();
-            // Names stand where a line has come farthest.
-            if error.is_some() && marks.first().zip(marks.last()).is_some_and(|(first, last)| first.x < last.x) {
-                marks.reverse();
+        let mut race = self.time_against(&self.title, error, [&format!("{error}, better to the right"), &time]);
+        race.x.falling = true;
+        // Names stand where a line has come farthest.
+        for line in &mut race.lines {
+            if line.marks.first().zip(line.marks.last()).is_some_and(|(first, last)| first.x < last.x) {
+                line.marks.reverse();
             }
-            NamedLine { name: line.name.clone(), style: *style, marks }
-        };
-        NamedDiagram {
-            title: self.title.clone(),
-            x: axis(&error.map_or("unknowns N".to_owned(), |error| format!("{error}, better to the right"))),
-            falling: error.is_some(),
-            y: axis(&format!("{} [s]", plan.time.text)),
-            behind: error.map_or(Vec::new(), |error| front(&self.lines, error)),
-            lines: self.lines.iter().map(line).collect(),
         }
+        race
     }
 
     /// For each error, time against error and error against unknowns; then time and iterations against unknowns, and without
     /// errors memory too.
     fn diagrams(&self, plan: &Plan) -> Vec<Diagram> {
-        let (unknowns, time) = ("unknowns N", &format!("{} [s]", plan.time.text));
+        let (unknowns, time) = (UNKNOWNS, &format!("{} [s]", plan.time.text));
         let mut all = Vec::new();
         for SummaryPath { text: error, .. } in &plan.errors {
-            let mut race = self.diagram("time against error (grey: the Pareto front)", [error, time], &|point| {
-                Some(timed(*point.errors.get(error)?, point.time?, point))
-            });
-            race.behind = front(&self.lines, error);
-            all.push(race);
+            all.push(self.time_against("time against error (grey: the Pareto front)", error, [error, time]));
             all.push(self.diagram("error against unknowns", [unknowns, error], &|point| {
-                Some(mark(point.unknowns, *point.errors.get(error)?, point))
+                Some(Mark::at(point.unknowns, *point.errors.get(error)?, !point.trusted))
             }));
         }
         all.push(
@@ -137,34 +126,30 @@ impl CaseLines<'_> {
         );
         let mut iterations =
             self.diagram("Krylov iterations against unknowns", [unknowns, "iterations of all solves"], &|point| {
-                Some(mark(point.unknowns, point.iterations?, point))
+                Some(Mark::at(point.unknowns, point.iterations?, !point.trusted))
             });
         iterations.y.logarithmic = false;
         all.push(iterations);
         if plan.errors.is_empty() {
             all.push(self.diagram("memory against unknowns", [unknowns, "memory of all ranks [MiB]"], &|point| {
-                Some(mark(point.unknowns, point.memory?, point))
+                Some(Mark::at(point.unknowns, point.memory?, !point.trusted))
             }));
         }
         all
     }
 }
 
-fn mark(x: f64, y: f64, point: &LinePoint) -> Mark {
-    Mark { x, y, reach: [y, y], hollow: !point.trusted }
-}
-
 fn timed(x: f64, time: Spread, point: &LinePoint) -> Mark {
-    Mark { reach: [time.least, time.most], ..mark(x, time.median, point) }
+    Mark { reach: [time.least, time.most], ..Mark::at(x, time.median, !point.trusted) }
 }
 
 /// Errors and times of the points that no other beats, from the least accurate on, in steps: between two of them the time of the
 /// more accurate one is the least.
-fn front(lines: &[(usize, &Line)], error: &str) -> Vec<(f64, f64)> {
+fn front(lines: &[(usize, &Line)], error: &str) -> Vec<[f64; 2]> {
     let points = lines.iter().flat_map(|(_, line)| &line.points).filter(|point| point.front.contains(error));
-    let mut best: Vec<(f64, f64)> = points.filter_map(|point| point.race(error).map(|(time, error)| (error, time))).collect();
-    best.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let steps = best.windows(2).flat_map(|pair| [pair[0], (pair[0].0, pair[1].1)]);
+    let mut best: Vec<[f64; 2]> = points.filter_map(|point| point.race(error).map(|(time, error)| [error, time])).collect();
+    best.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    let steps = best.windows(2).flat_map(|pair| [pair[0], [pair[0][0], pair[1][1]]]);
     steps.chain(best.last().copied()).collect()
 }
 
@@ -199,7 +184,7 @@ mod tests {
     #[test]
     fn the_front_goes_down_in_steps() {
         let line = line(&[0.1, 0.5, 0.25]);
-        assert_eq!(front(&[(0, &line)], "e"), [(0.5, 2.0), (0.5, 4.0), (0.25, 4.0), (0.25, 10.0), (0.1, 10.0)]);
+        assert_eq!(front(&[(0, &line)], "e"), [[0.5, 2.0], [0.5, 4.0], [0.25, 4.0], [0.25, 10.0], [0.1, 10.0]]);
         assert!(front(&[], "e").is_empty());
     }
 }

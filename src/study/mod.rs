@@ -51,11 +51,7 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     let results = make(&plan, &program, &folder, &wanted, places, &progress)?;
     let table = with_spreads(Table::new(&plan, &results), &plan);
     let lines = lines::lines(&plan, &results);
-    let draw = |name: &str, drawn: Result<Option<String>, String>| {
-        drawn.map_err(|words| StudyError::Failed(format!("cannot draw {name}: {words}")))
-    };
-    let first = draw("study.svg", figure::first_figure(&plan, &lines))?;
-    let all = draw("study_all.svg", figure::all_figures(&plan, &lines))?;
+    let [first, all] = [figure::first_figure(&plan, &lines), figure::all_figures(&plan, &lines)];
     let mut texts = vec![
         ("study.csv", format::csv(&table)),
         ("study.json", format::json(&table, &lines)),

@@ -1,35 +1,17 @@
-//! Figures, as SVG: the contact boundary in diagrams, the deformed bodies, whole and where they touch, and diagrams of many runs.
+//! Figures, as SVG: the contact boundary in diagrams, the deformed bodies, whole and where they touch, the scene of a case, and
+//! diagrams of many runs. All of them are drawn on one layer, `drawing`.
 //!
-//! Units are the user's own, so axes name the quantity: *unit of length*, *unit of stress*. Text is left to the fonts of the
-//! viewer; plotters is built without its font libraries, and nothing of the layout hangs on the exact width of a text.
+//! Units are the user's own, so axes name the quantity: *unit of length*, *unit of stress*.
 
-mod accuracy;
-mod along;
-mod deformed;
+mod bodies;
 mod diagrams;
-mod facets;
-mod labels;
-mod macro_edges;
-mod named;
-mod outline;
-mod palette;
+mod drawing;
 mod scene;
-mod sheet;
-mod steps;
-mod stress;
-mod ticks;
-mod view;
-mod zoom;
 
-pub use accuracy::{Sequence, write_accuracy};
-pub use along::{DrawnContact, write_displacement, write_gap, write_pressure};
-pub use deformed::{DrawnForce, write_deformed};
-pub use diagrams::{Axis, Diagram, DiagramBlock, LegendRow, Mark, diagrams};
-pub use facets::Facet;
-pub use macro_edges::DrawnEdge;
-pub use named::{NamedDiagram, NamedLine, named_diagrams};
+pub use bodies::{ContactZoom, DrawnEdge, DrawnForce, Facet, write_deformed, write_zoom};
+pub use diagrams::{
+    Diagram, DiagramBlock, DiagramLine, DrawnContact, Mark, Sequence, diagrams, named_diagrams, write_accuracy, write_along,
+    write_step_figure,
+};
+pub use drawing::{Axis, LegendCell, bounds, number_text, number_to};
 pub use scene::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure};
-pub use steps::write_step_figure;
-pub use ticks::{number_text, number_to};
-pub use view::bounds;
-pub use zoom::{ContactZoom, write_zoom};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use super::page::{ReportPage, long_table};
-use crate::output::contacts::CONTACTS;
+use crate::output::data::CONTACTS;
 use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, subsection, table};
 use crate::output::plot::{number_text, number_to};
 use crate::output::summary::Summary;

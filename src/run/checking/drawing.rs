@@ -47,7 +47,7 @@ pub fn draw_case(
     if let Some(error) = error {
         content.remarks = remarks(&error.to_string(), file);
     }
-    let Ok(svg) = content.svg() else { return Ok(None) };
+    let Some(svg) = content.svg() else { return Ok(None) };
     let path = figure(&case.name);
     write_figure(&path, &svg)?;
     Ok(Some(path))

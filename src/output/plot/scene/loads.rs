@@ -1,11 +1,8 @@
 //! Arrows of loads.
 
-use std::fmt::Write;
-
-use super::canvas::{Canvas, flipped, size_of_marks};
 use super::drawn::{BoundaryPoint, DrawnLoad, SceneFigure};
-use crate::output::plot::outline::straight;
-use crate::output::plot::palette::{VERMILION, hex};
+use super::scene_plot::{ScenePlot, flipped, size_of_marks};
+use crate::output::plot::drawing::{Paint, VERMILION};
 
 /// Distance of two arrows of a load (pixels).
 const APART: f64 = 22.0;
@@ -14,15 +11,15 @@ const LONGEST: f64 = 30.0;
 /// Length of the arrow of a resultant (pixels).
 pub const RESULTANT: f64 = 44.0;
 
-impl Canvas<'_> {
+impl ScenePlot {
     /// Loads: lines along their boundaries, and arrows.
     pub fn loads(&mut self, figure: &SceneFigure) {
         let size = size_of_marks(figure.loads.len());
         for load in &figure.loads {
             if load.is_plate {
-                self.along(&load.rows, &hex(VERMILION), 4.5, 0.9);
-            } else if !load.rows.is_empty() {
-                self.along(&load.rows, &hex(VERMILION), 2.0, 1.0);
+                self.along(&load.rows, Paint::line(VERMILION, 4.5).faint(0.9));
+            } else {
+                self.along(&load.rows, Paint::line(VERMILION, 2.0));
             }
             match load.resultant {
                 Some(resultant) => self.resultant(load, resultant, size),
@@ -38,7 +35,7 @@ impl Canvas<'_> {
             let normal = load.rows.iter().flatten().next().map_or(direction.map(|part| -part), |point| point.normal);
             let (length, along) = (size * RESULTANT, direction.map(|part| part / strength));
             let at = self.labels.within(self.at(place), length);
-            self.arrow(at, flipped(along), flipped(normal), length, 18.0 * size);
+            self.arrow(at, flipped(along), flipped(normal), length, 1.8 * size);
         }
     }
 
@@ -51,27 +48,23 @@ impl Canvas<'_> {
             if own > 1e-6 * largest && largest.is_finite() {
                 let (at, along) = (self.at(point.place), flipped(point.traction.map(|part| part / own)));
                 let length = (size * LONGEST * own / largest).max(8.0 * size);
-                self.arrow(at, along, flipped(point.normal), length, 10.0 * size);
+                self.arrow(at, along, flipped(point.normal), length, size);
             }
         }
     }
 
-    /// An arrow outside the body: it ends at the point if it pushes, and begins there if it pulls. Its line is so wide (tenths of a
-    /// pixel).
+    /// An arrow outside the body: it ends at the point if it pushes, and begins there if it pulls. Its line is so wide
+    /// (pixels).
     fn arrow(&mut self, at: [f64; 2], along: [f64; 2], normal: [f64; 2], length: f64, width: f64) {
         let pushes = along[0] * normal[0] + along[1] * normal[1] <= 0.0;
         let shift = |from: [f64; 2], by: f64, aside: f64| {
             [from[0] + by * along[0] - aside * along[1], from[1] + by * along[1] + aside * along[0]]
         };
         let tip = if pushes { shift(at, -1.0, 0.0) } else { shift(at, length, 0.0) };
-        let head = (5.0 + 0.2 * width).min(0.5 * length);
-        let _ = writeln!(
-            self.text,
-            "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width:.0}\" d=\"{}\"/><path fill=\"{colour}\" d=\"{}z\"/>",
-            straight([shift(tip, -length, 0.0), shift(tip, -head, 0.0)]),
-            straight([tip, shift(tip, -head, 0.42 * head), shift(tip, -head, -0.42 * head)]),
-            colour = hex(VERMILION),
-        );
+        let head = (5.0 + 2.0 * width).min(0.5 * length);
+        let [neck, left, right] = [0.0, 0.42, -0.42].map(|aside| shift(tip, -head, aside * head));
+        self.canvas.line(Paint::line(VERMILION, width), [shift(tip, -length, 0.0), neck]);
+        self.canvas.polygon(Paint::fill(VERMILION), [tip, left, right]);
         for share in [0.2, 0.5, 0.8] {
             self.labels.take(shift(tip, -share * length, 0.0), 9.0);
         }

@@ -1,88 +1,65 @@
 //! Names of what a scene shows.
 
-use std::fmt::Write;
-
-use plotters::style::RGBColor;
-
-use super::canvas::{Canvas, MOST_NAMES, contact_colour, flipped, size_of_marks};
-use super::drawn::{DrawnLoad, DrawnPart, DrawnSupport, NamedRows, SceneFigure};
+use super::drawn::{DrawnLoad, DrawnPart, NamedRows, Rows, SceneFigure};
 use super::loads::RESULTANT;
-use crate::output::plot::labels::Name;
-use crate::output::plot::palette::{GREEN, GREY, INK, VERMILION, hex};
-use crate::output::plot::sheet::{PIXEL, Sheet};
+use super::scene_plot::{MOST_NAMES, ScenePlot, contact_colour, flipped, size_of_marks};
+use crate::output::plot::drawing::{Colour, GREEN, GREY, INK, Letters, Name, Paint, TextAnchor, VERMILION, Wish};
 
 /// Of more things than can be named about so many are.
 const FEW_NAMES: usize = 6;
 
-/// A name, its colour, what it names, and where it would rather stand from there (pixels).
-type WantedName = (String, RGBColor, [f64; 2], Option<[f64; 2]>);
+/// A name, its colour, what it names, and where it would rather stand.
+type WantedName = (String, Colour, [f64; 2], Wish);
 
-impl Canvas<'_> {
-    /// Names: of bodies first, then of what was asked for, then of all boundaries.
+impl ScenePlot {
+    /// Names: of bodies first, then of what was asked for, then of all boundaries, whose ends are marked.
     pub fn names(&mut self, figure: &SceneFigure) {
-        let of_part = |part: &DrawnPart, own: &Self| Some((part.name.clone(), INK, own.at(part.inside), None));
-        self.named(&figure.parts, "bodies", 14.0, of_part);
-        let numbers: Vec<usize> = (0..figure.contacts.len()).collect();
-        let of_contact = |&number: &usize, own: &Self| {
-            let contact = &figure.contacts[number];
-            let place = contact.place.map(|point| (own.at(point.place), flipped(point.normal)));
-            let (anchor, [x, y]) = place.or_else(|| own.middle(&contact.rows, 0.5))?;
-            Some((format!("contact {}", contact.name), contact_colour(number), anchor, Some([-x, -y])))
-        };
-        self.named(&numbers, "contacts", 12.0, of_contact);
-        let of_support = |support: &DrawnSupport, own: &Self| {
-            let (anchor, towards) = own.middle(&support.rows, 0.5)?;
-            Some((support.name.clone(), GREEN, anchor, Some(towards)))
-        };
-        self.named(&figure.supports, "supports", 11.0, of_support);
-        let of_load = |load: &DrawnLoad, own: &Self| {
-            let resultant = || load.resultant.map(|(place, _)| (own.labels.within(own.at(place), RESULTANT), [1.0, 0.0]));
-            let (anchor, towards) = own.middle(&load.rows, 0.5).or_else(resultant)?;
-            Some((load.name.clone(), VERMILION, anchor, Some(towards)))
-        };
-        self.named(&figure.loads, "loads", 11.0, of_load);
-        let size = 18.0 * size_of_marks(figure.boundaries.len());
+        let radius = 1.8 * size_of_marks(figure.boundaries.len());
         for row in figure.boundaries.iter().flat_map(|boundary| &boundary.rows) {
             for end in [row.first(), row.last()].into_iter().flatten() {
-                let [x, y] = self.at(end.place).map(|x| f64::from(PIXEL) * x);
-                let _ = writeln!(self.text, "<circle cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"{size:.0}\" fill=\"{}\"/>", hex(INK));
+                self.canvas.circle(Paint::fill(INK), self.chart.place(end.place), radius);
             }
         }
-        let of_boundary = |boundary: &NamedRows, own: &Self| {
-            let (anchor, towards) = own.middle(&boundary.rows, 0.3)?;
-            Some((boundary.name.clone(), GREY, anchor, Some(towards)))
+        let beside = |name: &str, colour: Colour, rows: &Rows, share: f64| {
+            let (anchor, towards) = self.middle(rows, share)?;
+            Some((name.to_owned(), colour, anchor, Wish::Towards(towards)))
         };
-        self.named(&figure.boundaries, "boundaries", 11.0, of_boundary);
-        self.text += &self.late;
+        let of_part = |part: &DrawnPart| Some((part.name.clone(), INK, self.chart.place(part.inside), Wish::There));
+        let of_contact = |(number, contact): (usize, &NamedRows)| {
+            let place = contact.place.map(|point| (self.chart.place(point.place), flipped(point.normal)));
+            let (anchor, [x, y]) = place.or_else(|| self.middle(&contact.rows, 0.5))?;
+            Some((format!("contact {}", contact.name), contact_colour(number), anchor, Wish::Towards([-x, -y])))
+        };
+        let of_load = |load: &DrawnLoad| {
+            let at = |place: [f64; 2]| self.labels.within(self.chart.place(place), RESULTANT);
+            let resultant = || Some((load.name.clone(), VERMILION, at(load.resultant?.0), Wish::Towards([1.0, 0.0])));
+            beside(&load.name, VERMILION, &load.rows, 0.5).or_else(resultant)
+        };
+        let wanted: [(&str, f64, Vec<Option<WantedName>>); 5] = [
+            ("bodies", 14.0, figure.parts.iter().map(of_part).collect()),
+            ("contacts", 12.0, figure.contacts.iter().enumerate().map(of_contact).collect()),
+            ("supports", 11.0, figure.supports.iter().map(|one| beside(&one.name, GREEN, &one.rows, 0.5)).collect()),
+            ("loads", 11.0, figure.loads.iter().map(of_load).collect()),
+            ("boundaries", 11.0, figure.boundaries.iter().map(|one| beside(&one.name, GREY, &one.rows, 0.3)).collect()),
+        ];
+        let counts = wanted.into_iter().filter_map(|(kind, size, names)| self.named(&names, kind, size));
+        let counts: Vec<String> = counts.collect();
+        if !counts.is_empty() {
+            let [_, top, right, _] = self.chart.frame.0;
+            let letters = Letters::new(10.0, GREY).at(TextAnchor::End);
+            self.canvas.text(letters, [right, top - 8.0], &format!("named: {}", counts.join(", ")));
+        }
     }
 
-    /// Names of one kind, as far as there is room: text, colour, what is named, and where the name would rather stand from there.
-    fn named<T>(&mut self, all: &[T], kind: &str, size: f64, of: impl Fn(&T, &Self) -> Option<WantedName>) {
+    /// Names of one kind, as far as there is room; tells of how many some are named only.
+    fn named(&mut self, all: &[Option<WantedName>], kind: &str, size: f64) -> Option<String> {
         let every = if all.len() > MOST_NAMES { all.len().div_ceil(FEW_NAMES) } else { 1 };
-        let weight = if size > 11.0 { "bold" } else { "normal" };
         let mut count = 0;
-        for one in all.iter().step_by(every) {
-            let Some((text, colour, anchor, towards)) = of(one, self) else { continue };
+        for (text, colour, anchor, wish) in all.iter().step_by(every).flatten().cloned() {
             let text: String = if text.chars().count() > 40 { text.chars().take(39).chain(['…']).collect() } else { text };
-            let put = self.labels.put(&Name { text: &text, size, colour: &hex(colour), weight, anchor, towards });
-            count += usize::from(put.is_some());
-            self.late += &put.unwrap_or_default();
+            let letters = Letters { is_bold: size > 11.0, ..Letters::new(size, colour) };
+            count += usize::from(self.labels.put(&mut self.canvas, &Name { text: &text, letters, anchor, wish }));
         }
-        if count < all.len() {
-            self.counts.push(format!("{count} of {} {kind}", all.len()));
-        }
-    }
-
-    /// Of how many things some are named only, between legend and plot.
-    pub fn counts(&mut self, sheet: &Sheet) {
-        if !self.counts.is_empty() {
-            let [x, y] = [sheet.width - 12, 57].map(|pixels| pixels * PIXEL);
-            let words = self.counts.join(", ");
-            let _ = writeln!(
-                self.text,
-                "<text x=\"{x}\" y=\"{y}\" text-anchor=\"end\" font-family=\"sans-serif\" font-size=\"100\" fill=\"{}\">named: {words}</text>",
-                hex(GREY)
-            );
-        }
+        (count < all.len()).then(|| format!("{count} of {} {kind}", all.len()))
     }
 }

@@ -1,0 +1,356 @@
+//! Files for ParaView: displacement and stress of the bodies, and the contact boundary.
+//!
+//! VTK's XML format with base64 data in place, which the `vtk` and `meshio` packages of Python read too.
+//! Coordinates are those of the undeformed bodies; *Warp By Vector* shows them deformed. Vectors have a third component, zero.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::SIGNS;
+use super::csv::ContactPoint;
+use crate::element::Order;
+use crate::output::error::OutputError;
+
+const STRESS_COMPONENTS: [&str; 4] = ["XX", "YY", "XY", "ZZ"];
+const VTK_LINE: u8 = 3;
+const VTK_TRIANGLE: u8 = 5;
+const VTK_QUADRATIC_TRIANGLE: u8 = 22;
+
+/// The triangles of one rank with the solution at their nodes; nodes are numbered within the piece.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<'a> {
+    /// Undeformed nodes.
+    pub points: &'a [[f64; 2]],
+    /// Nodes of the triangles, 3 each (P1) or 6 (P2: corners, then the midsides of edges 01, 12, 20).
+    pub cells: &'a [u32],
+    /// P1 or P2.
+    pub order: Order,
+    /// Displacement of each node.
+    pub displacement: &'a [[f64; 2]],
+    /// Stress xx, yy, xy, zz at each node.
+    pub stress: &'a [[f64; 4]],
+    /// Von Mises stress at each node.
+    pub von_mises: &'a [f64],
+    /// Number of the body of each triangle.
+    pub body: &'a [i32],
+    /// Number of the part, the physical surface, of each triangle.
+    pub part: &'a [i32],
+    /// The rank, shown as a field of the triangles.
+    pub rank: i32,
+}
+
+/// Writes the triangles of one rank: `fields.vtu`, or a piece of `fields.pvtu`.
+///
+/// # Errors
+/// Arrays of unequal length; the operating system refuses.
+pub fn write_piece(path: &Path, piece: &Piece) -> Result<(), OutputError> {
+    piece.check_lengths(path)?;
+    write_file(path, "UnstructuredGrid", |out| piece.write(out))
+}
+
+/// Writes `fields.pvtu`, which joins the pieces of all ranks; their names are relative to its folder.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S]) -> Result<(), OutputError> {
+    write_file(path, "PUnstructuredGrid", |out| {
+        writeln!(out, "<PPoints>\n{}\n</PPoints>", declaration("PDataArray", "Float64", "Points", 3, &[]) + "/>")?;
+        writeln!(out, "<PPointData>")?;
+        for (name, components, labels) in [("displacement", 3, &[][..]), ("stress", 4, &STRESS_COMPONENTS), ("von_mises", 1, &[])]
+        {
+            writeln!(out, "{}/>", declaration("PDataArray", "Float64", name, components, labels))?;
+        }
+        writeln!(out, "</PPointData>\n<PCellData>")?;
+        for name in ["body", "part", "rank"] {
+            writeln!(out, "{}/>", declaration("PDataArray", "Int32", name, 1, &[]))?;
+        }
+        writeln!(out, "</PCellData>")?;
+        piece_file_names.iter().try_for_each(|name| writeln!(out, "<Piece Source=\"{}\"/>", escape(name.as_ref())))
+    })
+}
+
+/// Writes `contact_NAME.vtu`: the contact boundary as lines, with the columns of `contact_NAME.csv` at its points.
+///
+/// Two points at the same place, where λ jumps, are not joined.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn write_curve(path: &Path, points: &[ContactPoint]) -> Result<(), OutputError> {
+    let joined = |&i: &usize| points[i].s < points[i + 1].s;
+    let starts: Vec<usize> = (0..points.len().saturating_sub(1)).filter(joined).collect();
+    type NamedScalar = (&'static str, fn(&ContactPoint) -> f64);
+    let scalars: [NamedScalar; 7] = [
+        ("s", |p| p.s),
+        ("lambda", |p| p.lambda),
+        ("gap", |p| p.gap),
+        ("un_1", |p| p.un_1),
+        ("un_2", |p| p.un_2),
+        ("sigma_1", |p| p.sigma_1),
+        ("sigma_2", |p| p.sigma_2),
+    ];
+    write_file(path, "UnstructuredGrid", |out| {
+        write_mesh(
+            out,
+            points.iter().map(|p| [p.x, p.y]),
+            starts.iter().flat_map(|&start| [start as i32, start as i32 + 1]),
+            &CellShape { count: starts.len(), nodes: 2, kind: VTK_LINE },
+        )?;
+        writeln!(out, "<PointData Scalars=\"lambda\" Normals=\"normal\">")?;
+        for (name, value) in scalars {
+            write_array(out, name, 1, &[], points.len(), points.iter().map(value))?;
+        }
+        let normals = points.iter().flat_map(|p| [p.nx, p.ny, 0.0]);
+        write_array(out, "normal", 3, &[], 3 * points.len(), normals)?;
+        writeln!(out, "</PointData>\n</Piece>")
+    })
+}
+
+/// Writes a `.pvd` file, which ParaView opens as a series: times, and the file of each, by its path from the folder of the series.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn write_series<S: AsRef<str>>(path: &Path, files: &[(f64, S)]) -> Result<(), OutputError> {
+    write_file(path, "Collection", |out| {
+        files.iter().try_for_each(|(time, file)| {
+            writeln!(out, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{}\"/>", escape(file.as_ref()))
+        })
+    })
+}
+
+impl Piece<'_> {
+    fn nodes_per_cell(&self) -> usize {
+        match self.order {
+            Order::P1 => 3,
+            Order::P2 => 6,
+        }
+    }
+
+    fn check_lengths(&self, path: &Path) -> Result<(), OutputError> {
+        let nodes = self.points.len();
+        let lengths = [
+            ("the displacement", self.displacement.len(), nodes),
+            ("the stress", self.stress.len(), nodes),
+            ("the von Mises stress", self.von_mises.len(), nodes),
+            ("the list of parts", self.part.len(), self.body.len()),
+            ("the list of nodes of the triangles", self.cells.len(), self.body.len() * self.nodes_per_cell()),
+        ];
+        match lengths.into_iter().find(|(_, found, expected)| found != expected) {
+            Some((what, found, expected)) => Err(OutputError::Length { path: path.to_path_buf(), what, found, expected }),
+            None => Ok(()),
+        }
+    }
+
+    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let (points, cells) = (self.points.len(), self.body.len());
+        let kind = if self.order == Order::P1 { VTK_TRIANGLE } else { VTK_QUADRATIC_TRIANGLE };
+        let shape = CellShape { count: cells, nodes: self.nodes_per_cell(), kind };
+        write_mesh(out, self.points.iter().copied(), self.cells.iter().map(|&node| node as i32), &shape)?;
+
+        writeln!(out, "<PointData Vectors=\"displacement\" Scalars=\"von_mises\">")?;
+        let displacement = self.displacement.iter().flat_map(|u| [u[0], u[1], 0.0]);
+        write_array(out, "displacement", 3, &[], 3 * points, displacement)?;
+        write_array(out, "stress", 4, &STRESS_COMPONENTS, 4 * points, self.stress.iter().flatten().copied())?;
+        write_array(out, "von_mises", 1, &[], points, self.von_mises.iter().copied())?;
+        writeln!(out, "</PointData>\n<CellData>")?;
+        write_array(out, "body", 1, &[], cells, self.body.iter().copied())?;
+        write_array(out, "part", 1, &[], cells, self.part.iter().copied())?;
+        write_array(out, "rank", 1, &[], cells, std::iter::repeat_n(self.rank, cells))?;
+        writeln!(out, "</CellData>\n</Piece>")
+    }
+}
+
+/// Cells of one kind.
+struct CellShape {
+    count: usize,
+    nodes: usize,
+    kind: u8,
+}
+
+/// Opens a piece and writes its points and cells.
+fn write_mesh(
+    out: &mut impl Write,
+    points: impl ExactSizeIterator<Item = [f64; 2]>,
+    connectivity: impl Iterator<Item = i32>,
+    cells: &CellShape,
+) -> io::Result<()> {
+    let (count, nodes) = (cells.count, cells.nodes);
+    writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{count}\">\n<Points>", points.len())?;
+    write_array(out, "Points", 3, &[], 3 * points.len(), points.flat_map(|x| [x[0], x[1], 0.0]))?;
+    writeln!(out, "</Points>\n<Cells>")?;
+    write_array(out, "connectivity", 1, &[], count * nodes, connectivity)?;
+    write_array(out, "offsets", 1, &[], count, (1..=count).map(|cell| (cell * nodes) as i32))?;
+    write_array(out, "types", 1, &[], count, std::iter::repeat_n(cells.kind, count))?;
+    writeln!(out, "</Cells>")
+}
+
+/// Writes a file of VTK's XML format around a data set of the given kind.
+fn write_file(path: &Path, kind: &str, body: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), OutputError> {
+    let write = || {
+        let mut out = BufWriter::with_capacity(1 << 20, File::create(path)?);
+        writeln!(out, "<?xml version=\"1.0\"?>\n<!--\n{}\n-->", SIGNS.join("\n"))?;
+        writeln!(out, "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">")?;
+        writeln!(out, "<{kind}{}>", if kind.starts_with('P') { " GhostLevel=\"0\"" } else { "" })?;
+        body(&mut out)?;
+        writeln!(out, "</{kind}>\n</VTKFile>")?;
+        out.flush()
+    };
+    write().map_err(OutputError::io("write", path))
+}
+
+/// The opening tag of an array, up to its last attribute. One component goes unsaid: meshio would make columns of scalars.
+fn declaration(tag: &str, kind: &str, name: &str, components: usize, labels: &[&str]) -> String {
+    let mut text = format!("<{tag} type=\"{kind}\" Name=\"{name}\"");
+    if components > 1 {
+        text += &format!(" NumberOfComponents=\"{components}\"");
+    }
+    for (number, label) in labels.iter().enumerate() {
+        text += &format!(" ComponentName{number}=\"{label}\"");
+    }
+    text
+}
+
+/// Writes `count` numbers as base64, preceded by their size in bytes, in chunks that stay in the cache.
+fn write_array<T: Number>(
+    out: &mut impl Write,
+    name: &str,
+    components: usize,
+    labels: &[&str],
+    count: usize,
+    values: impl Iterator<Item = T>,
+) -> io::Result<()> {
+    const CHUNK: usize = 3 << 13; // bytes; a multiple of 3 becomes base64 without padding
+    let mut bytes = Vec::with_capacity(CHUNK + 8);
+    let mut text = vec![0; (CHUNK + 8) / 3 * 4 + 4];
+    let mut encode = |bytes: &[u8], out: &mut dyn Write| {
+        let length = STANDARD.encode_slice(bytes, &mut text).map_err(io::Error::other)?;
+        out.write_all(&text[..length])
+    };
+
+    writeln!(out, "{} format=\"binary\">", declaration("DataArray", T::KIND, name, components, labels))?;
+    bytes.extend_from_slice(&((count * size_of::<T>()) as u64).to_le_bytes());
+    for value in values {
+        value.append_to(&mut bytes);
+        if bytes.len() >= CHUNK {
+            encode(&bytes[..CHUNK], out)?;
+            bytes.drain(..CHUNK);
+        }
+    }
+    encode(&bytes, out)?;
+    writeln!(out, "\n</DataArray>")
+}
+
+/// A number as VTK stores it.
+trait Number: Copy {
+    /// VTK's name of the type.
+    const KIND: &'static str;
+    /// Appends the number, low byte first.
+    fn append_to(self, bytes: &mut Vec<u8>);
+}
+
+macro_rules! number {
+    ($kind:ty, $name:literal) => {
+        impl Number for $kind {
+            const KIND: &'static str = $name;
+            fn append_to(self, bytes: &mut Vec<u8>) {
+                bytes.extend_from_slice(&self.to_le_bytes());
+            }
+        }
+    };
+}
+number!(f64, "Float64");
+number!(i32, "Int32");
+number!(u8, "UInt8");
+
+/// Text as an XML attribute.
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The bytes of the numbers of an array, without the count before them, which is checked.
+    fn decoded(text: &str, name: &str) -> Vec<u8> {
+        let (_, after) = text.split_once(&format!("Name=\"{name}\"")).unwrap();
+        let bytes = STANDARD.decode(after.lines().nth(1).unwrap()).unwrap();
+        let (count, numbers) = bytes.split_at(8);
+        assert_eq!(u64::from_le_bytes(count.try_into().unwrap()), numbers.len() as u64, "{name}");
+        numbers.to_vec()
+    }
+
+    fn doubles(bytes: &[u8]) -> Vec<f64> {
+        bytes.chunks_exact(8).map(|number| f64::from_le_bytes(number.try_into().unwrap())).collect()
+    }
+
+    #[test]
+    fn arrays_survive_every_chunk_boundary() {
+        for count in [0, 1, 2, 3_070, 3_071, 3_072, 10_000] {
+            let mut text = Vec::new();
+            write_array(&mut text, "a", 1, &[], count, (0..count).map(|i| i as f64 / 3.0)).unwrap();
+            let text = String::from_utf8(text).unwrap();
+            let values = doubles(&decoded(&text, "a"));
+            assert!(values.len() == count && values.iter().enumerate().all(|(i, &value)| value == i as f64 / 3.0), "{count}");
+        }
+    }
+
+    #[test]
+    fn piece_holds_what_was_given() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fields.vtu");
+        let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let piece = Piece {
+            points: &points,
+            cells: &[0, 1, 2],
+            order: Order::P1,
+            displacement: &points,
+            stress: &[[1.0, 2.0, 3.0, 4.0]; 3],
+            von_mises: &[5.0, 6.0, 7.0],
+            body: &[9],
+            part: &[7],
+            rank: 4,
+        };
+        write_piece(&path, &piece).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(doubles(&decoded(&text, "displacement")), [0., 0., 0., 1., 0., 0., 0., 1., 0.]);
+        assert_eq!(doubles(&decoded(&text, "stress")), [1.0, 2.0, 3.0, 4.0].repeat(3));
+        assert_eq!(decoded(&text, "connectivity"), [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
+        assert_eq!(decoded(&text, "offsets"), [3, 0, 0, 0]);
+        assert_eq!(decoded(&text, "types"), [VTK_TRIANGLE]);
+        assert_eq!(["body", "part", "rank"].map(|name| decoded(&text, name)), [9, 7, 4].map(|number| vec![number, 0, 0, 0]));
+        assert!(text.contains("ComponentName3=\"ZZ\"") && SIGNS.iter().all(|sign| text.contains(sign)));
+    }
+
+    #[test]
+    fn arrays_of_unequal_length_are_refused() {
+        let piece = Piece {
+            points: &[[0.0; 2]; 3],
+            cells: &[0, 1, 2],
+            order: Order::P2,
+            displacement: &[[0.0; 2]; 3],
+            stress: &[[0.0; 4]; 3],
+            von_mises: &[0.0; 3],
+            body: &[0],
+            part: &[0],
+            rank: 0,
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let refusal = write_piece(&folder.path().join("fields.vtu"), &piece).unwrap_err();
+        assert!(matches!(refusal, OutputError::Length { found: 3, expected: 6, .. }), "{refusal}");
+        let short = Piece { order: Order::P1, von_mises: &[0.0; 2], ..piece };
+        assert!(write_piece(&folder.path().join("fields.vtu"), &short).unwrap_err().to_string().contains("von Mises"));
+        assert!(!folder.path().join("fields.vtu").exists());
+    }
+
+    #[test]
+    fn curve_of_no_points_is_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        write_curve(&folder.path().join("contact_a.vtu"), &[]).unwrap();
+        write_parallel(&folder.path().join("fields.pvtu"), &["a&b.vtu"]).unwrap();
+        assert!(std::fs::read_to_string(folder.path().join("fields.pvtu")).unwrap().contains("Source=\"a&amp;b.vtu\""));
+    }
+}

@@ -1,0 +1,227 @@
+//! The deformed bodies.
+
+use std::path::Path;
+
+use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, displacement_near, draw_outlines, facet_bounds};
+use super::moved::{CONTACT, moved_contact};
+use super::stress::{BAR_ROOM, Colours, draw_colour_bar, draw_stress};
+use crate::output::error::OutputError;
+use crate::output::plot::diagrams::DrawnContact;
+use crate::output::plot::drawing::{
+    Canvas, Chart, GREY, HEAD, INK, LegendCell, Paint, PlotRoom, VERMILION, WHITE, bounds, number_text, round_number,
+};
+
+/// An edge of the macro mesh as the figure shows it: undeformed points from end to end, and their displacements.
+#[derive(Clone, Debug)]
+pub struct DrawnEdge(pub Vec<([f64; 2], [f64; 2])>);
+
+/// The force of a contact as the figure shows it: a line along it, to both sides of the place where it acts.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnForce {
+    /// Where it acts.
+    pub place: [f64; 2],
+    /// The force on one of the bodies.
+    pub force: [f64; 2],
+    /// How far the line goes to either side (length).
+    pub reach: f64,
+    /// Whether the place lies on the deformed bodies.
+    pub is_deformed: bool,
+}
+
+/// Width of the line of the largest force, and of the smallest that is drawn (pixels).
+const FORCE_WIDTHS: [f64; 2] = [9.0, 0.2];
+/// The largest displacement is drawn as about this fraction of the size of the bodies.
+const SHOWN_DISPLACEMENT: f64 = 0.05;
+/// The macro mesh, and edges between two materials.
+const THIN: Paint = Paint::line(WHITE, 0.4).faint(0.75);
+const BETWEEN: Paint = Paint::line(WHITE, 1.2);
+/// Room for the plot.
+const ROOM: PlotRoom = PlotRoom { most: [640.0, 560.0], least: [320.0, 220.0], around: 0.0 };
+
+/// Draws `deformed.svg`: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact boundaries.
+///
+/// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title
+/// states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
+/// themselves with the nearest boundary. Forces are lines, as wide as they are large. Areas of one colour are merged over
+/// triangles, which keeps the file small. Macro edges, if there are any, are thin lines on the deformed bodies, those between two
+/// materials thicker ones.
+///
+/// # Errors
+/// There is no facet, or a number is not finite; the operating system refuses.
+pub fn write_deformed(
+    path: &Path,
+    title: &str,
+    facets: &[Facet],
+    [macro_edges, interfaces]: [&[DrawnEdge]; 2],
+    contacts: &[DrawnContact],
+    forces: &[DrawnForce],
+) -> Result<(), OutputError> {
+    check_facets(path, facets)?;
+    let (scale, colours, boundary) = (automatic_scale(facets), Colours::of(facets), boundary_edges(facets));
+    let (mut canvas, chart) = plane(around(facets, scale));
+    let largest = forces.iter().map(DrawnForce::size).fold(0.0, f64::max);
+    let [widest, least] = FORCE_WIDTHS;
+    let forces: Vec<&DrawnForce> = forces.iter().filter(|force| force.size() * widest > least * largest).collect();
+    let mut legend = vec![LegendCell::lines("undeformed", &[Paint::line(GREY, 0.7)])];
+    if !contacts.is_empty() {
+        legend.push(LegendCell::lines("contact boundary", &CONTACT));
+    }
+    if !forces.is_empty() {
+        let words = format!("contact force, up to {}", number_text(largest));
+        legend.push(LegendCell::lines(words, &[Paint::line(VERMILION, 0.5 * widest)]));
+    }
+    legend.extend(colours.remark());
+    chart.draw_head(&mut canvas, &format!("{title}, displacements × {}", number_text(scale)), &[legend]);
+    draw_outlines(&mut canvas, &chart, &boundary, 0.0, GREY);
+    draw_stress(&mut canvas, &chart, facets, scale, &colours);
+    for (edges, paint) in [(macro_edges, THIN), (interfaces, BETWEEN)] {
+        canvas.lines(paint, edges.iter().map(|edge| edge.moved(scale).map(|x| chart.place(x))));
+    }
+    draw_outlines(&mut canvas, &chart, &boundary, scale, INK);
+    for contact in contacts {
+        let moved = moved_contact(contact, &boundary, scale);
+        CONTACT.iter().for_each(|paint| canvas.line(*paint, moved.iter().map(|x| chart.place(*x))));
+    }
+    for force in forces {
+        let paint = Paint::line(VERMILION, widest * force.size() / largest).faint(0.8);
+        canvas.line(paint, force.line(&boundary, scale).map(|x| chart.place(x)));
+    }
+    chart.draw_axes(&mut canvas, false);
+    draw_colour_bar(&mut canvas, &chart, &colours);
+    canvas.write(path)
+}
+
+impl DrawnEdge {
+    fn moved(&self, scale: f64) -> impl Iterator<Item = [f64; 2]> {
+        self.0.iter().map(move |(x, u)| [0, 1].map(|axis| x[axis] + scale * u[axis]))
+    }
+}
+
+impl DrawnForce {
+    fn size(&self) -> f64 {
+        Some(self.force[0].hypot(self.force[1])).filter(|size| size.is_finite()).unwrap_or(0.0)
+    }
+
+    /// Its line, moved along with the nearest boundary.
+    fn line(&self, boundary: &[[FacetCorner; 2]], scale: f64) -> [[f64; 2]; 2] {
+        let there = if self.is_deformed { 1.0 } else { 0.0 };
+        let u = displacement_near(self.place, boundary, there);
+        let [x, y] = [0, 1].map(|axis| self.place[axis] + (scale - there) * u[axis]);
+        let [dx, dy] = self.force.map(|part| self.reach * part / self.size());
+        [[x - dx, y - dy], [x + dx, y + dy]]
+    }
+}
+
+/// The box around the bodies with and without their displacements, and some room.
+fn around(facets: &[Facet], scale: f64) -> [[f64; 2]; 2] {
+    let [low, high] = bounds([0.0, scale].into_iter().flat_map(|scale| facet_bounds(facets, scale)));
+    let room = 0.03 * (high[0] - low[0]).max(high[1] - low[1]);
+    [low.map(|x| x - room), high.map(|x| x + room)]
+}
+
+/// A canvas for a box of the plane, with room for the bar of colours.
+pub fn plane(shown: [[f64; 2]; 2]) -> (Canvas, Chart) {
+    let chart = Chart::of_plane(shown, &ROOM, [HEAD, BAR_ROOM]);
+    (Canvas::new(chart.panel.extent()), chart)
+}
+
+/// The round number that makes the largest displacement about 5 % of the size of the bodies; 1 if nothing moves.
+fn automatic_scale(facets: &[Facet]) -> f64 {
+    let [low, high] = facet_bounds(facets, 0.0);
+    let size = (high[0] - low[0]).max(high[1] - low[1]);
+    let largest = facets.iter().flat_map(|facet| facet.displacement).map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);
+    if largest > 1e-300 * size { round_number(SHOWN_DISPLACEMENT * size / largest) } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::data::ContactPoint;
+    use crate::output::plot::bodies::samples::block;
+
+    fn drawn(points: &[ContactPoint]) -> DrawnContact<'_> {
+        DrawnContact { title: "blocks", bodies: ["left", "right"], points, is_deformed: false }
+    }
+
+    fn draw(facets: &[Facet]) -> Result<String, OutputError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deformed.svg");
+        let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
+        write_deformed(&path, "blocks", facets, [&[], &[]], &[drawn(&contact)], &[])
+            .map(|()| std::fs::read_to_string(path).unwrap())
+    }
+
+    #[test]
+    fn scale_is_round_and_stated() {
+        let facets = block(0.0, 4, |x, _| [3e-5 * x, 0.0], |x, _| x);
+        assert_eq!(automatic_scale(&facets), 2000.0);
+        assert!(draw(&facets).unwrap().contains("blocks, displacements × 2000"));
+        assert_eq!(automatic_scale(&block(0.0, 1, |_, _| [0.0, 0.0], |_, _| 0.0)), 1.0);
+    }
+
+    #[test]
+    fn twenty_thousand_facets_make_a_small_file() {
+        let facets = block(0.0, 100, |x, y| [1e-4 * y, 2e-4 * x * y], |x, y| 1.0 + (7.0 * x).sin() * (9.0 * y).cos());
+        let figure = draw(&facets).unwrap();
+        assert!(figure.len() < 300_000, "{} bytes", figure.len());
+    }
+
+    #[test]
+    fn contact_moves_with_the_bodies() {
+        let facets = block(0.0, 3, |_, y| [0.0, 0.1 * y], |_, _| 1.0);
+        let point = ContactPoint { x: 1.0, y: 0.5, nx: 1.0, un_1: 0.2, un_2: 0.4, ..ContactPoint::default() };
+        let edges = boundary_edges(&facets);
+        let moved = moved_contact(&drawn(&[point]), &edges, 10.0);
+        assert!((moved[0][0] - 4.0).abs() < 1e-6 && (moved[0][1] - 1.0).abs() < 1e-6, "{moved:?}");
+        // Where contact is modelled on the deformed bodies it lies there already.
+        let there = ContactPoint { y: 0.55, x: 1.3, ..point };
+        let moved = moved_contact(&DrawnContact { is_deformed: true, ..drawn(&[there]) }, &edges, 1.0);
+        assert_eq!(moved, [[1.3, 0.55]]);
+    }
+
+    #[test]
+    fn forces_are_lines_as_wide_as_they_are_large() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deformed.svg");
+        let facets = block(0.0, 4, |_, _| [0.0, 1e-3], |_, _| 1.0);
+        let force = |x: f64, size: f64| DrawnForce { place: [x, 0.5], force: [0.0, size], reach: 0.25, is_deformed: false };
+        let forces = [force(0.2, 8.0), force(0.5, -4.0), force(0.8, 0.0), force(0.9, f64::NAN), force(0.9, 1e-3)];
+        write_deformed(&path, "blocks", &facets, [&[], &[]], &[], &forces).unwrap();
+        let figure = std::fs::read_to_string(path).unwrap();
+        let widths = [90, 45].map(|width| figure.matches(&format!("stroke-width=\"{width}\"")).count());
+        // The line of the legend is half as wide as that of the largest force.
+        assert_eq!(widths, [1, 2]);
+        assert!(figure.contains("contact force, up to 8") && !figure.contains("NaN"));
+        let moved = force(0.0, 2.0).line(&boundary_edges(&facets), 100.0);
+        assert!((moved[0][1] - 0.35).abs() < 1e-9 && (moved[1][1] - 0.85).abs() < 1e-9, "{moved:?}");
+    }
+
+    #[test]
+    fn macro_edges_are_thin_lines_that_move_with_the_bodies() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deformed.svg");
+        let facets = block(0.0, 4, |_, y| [0.0, 1e-3 * y], |_, _| 1.0);
+        let edge = |x: f64| DrawnEdge([0.0, 0.5, 1.0].map(|y| ([x, y], [0.0, 1e-3 * y])).into());
+        let mut edges = vec![edge(0.0), edge(0.25), edge(0.5)];
+        edges[2].0[1].1 = [f64::NAN, 0.0];
+        write_deformed(&path, "blocks", &facets, [&edges, &[]], &[], &[]).unwrap();
+        let figure = std::fs::read_to_string(path).unwrap();
+        let is_mesh = |line: &&str| line.contains("opacity=\"0.75\"");
+        let lines: Vec<&str> = figure.lines().filter(is_mesh).collect();
+        let [line] = lines[..] else { panic!("{lines:?}") };
+        assert!(line.matches('M').count() == 2 && !line.contains("z\"") && !figure.contains("NaN"), "{line}");
+        let moved: Vec<[f64; 2]> = edges[1].moved(100.0).collect();
+        assert!(moved[0] == [0.25, 0.0] && (moved[2][1] - 1.1).abs() < 1e-12, "{moved:?}");
+        assert!(!draw(&facets).unwrap().lines().any(|line| is_mesh(&line)), "no mesh unless there are macro edges");
+    }
+
+    #[test]
+    fn peaks_of_stress_take_the_last_colour() {
+        let mut facets = block(0.0, 20, |_, _| [0.0, 0.0], |_, _| 2.0);
+        facets[0].von_mises = [100.0; 3];
+        assert!(draw(&facets).unwrap().contains("stress up to 100"));
+        facets[0].von_mises[1] = f64::NAN;
+        assert!(matches!(draw(&facets), Err(OutputError::Figure { .. })));
+        assert!(matches!(draw(&[]), Err(OutputError::Figure { .. })));
+    }
+}

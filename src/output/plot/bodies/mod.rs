@@ -1,0 +1,13 @@
+//! The deformed bodies, whole and where they touch.
+
+mod deformed;
+mod facets;
+mod moved;
+#[cfg(test)]
+mod samples;
+mod stress;
+mod zoom;
+
+pub use deformed::{DrawnEdge, DrawnForce, write_deformed};
+pub use facets::Facet;
+pub use zoom::{ContactZoom, write_zoom};

@@ -1,0 +1,106 @@
+//! Axes, and how values are spread along them.
+
+use super::letters::text_width;
+use super::ticks::Ticks;
+
+/// Size of the labels of ticks (pixels).
+pub const LABEL: f64 = 11.0;
+/// Left of a plot, beside the labels of its ticks: the edge of the figure, the name of the axis, the ticks and what lies between
+/// them; and all of that at least (pixels).
+const BESIDE: f64 = 40.0;
+const LEAST_BESIDE: f64 = 66.0;
+
+/// An axis that will fit what is drawn; a linear one begins at zero.
+#[derive(Clone, Debug, Default)]
+pub struct Axis {
+    /// What it shows, with its unit.
+    pub name: String,
+    /// Whether it is logarithmic; what is not positive is not drawn then.
+    pub logarithmic: bool,
+    /// Whether it runs from large values to small ones: errors become better to the right.
+    pub falling: bool,
+}
+
+impl Axis {
+    /// A logarithmic axis.
+    pub fn logarithmic(name: impl Into<String>) -> Self {
+        Self { name: name.into(), logarithmic: true, falling: false }
+    }
+
+    /// Whether it can show a value.
+    pub fn shows(&self, value: f64) -> bool {
+        value.is_finite() && (!self.logarithmic || value > 0.0)
+    }
+
+    /// The axis with room around these values.
+    pub fn around(&self, values: impl Iterator<Item = f64>) -> Scale {
+        let shown = values.filter(|value| self.shows(*value));
+        let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+        let (mut range, ticks) = if self.logarithmic {
+            let room = (high / low).powf(0.06).max(1.25);
+            let range = [low / room, high * room];
+            (range, Ticks::decades(range, 7))
+        } else {
+            let range = [0.0, if high > 0.0 { 1.12 * high } else { 1.0 }];
+            (range, Ticks::new(range, 6))
+        };
+        if self.falling {
+            range.reverse();
+        }
+        Scale { is_logarithmic: self.logarithmic, range, ticks, name: self.name.clone() }
+    }
+}
+
+/// An axis with its range.
+pub struct Scale {
+    /// First and last value.
+    pub range: [f64; 2],
+    /// What is shown, with its unit.
+    pub name: String,
+    /// Whether equal ratios of values are equal distances, instead of equal differences; all are positive then.
+    is_logarithmic: bool,
+    ticks: Ticks,
+}
+
+impl Scale {
+    /// A linear axis with about so many ticks, named by a quantity and its unit.
+    pub fn linear(range: [f64; 2], ticks: usize, name: &str, unit: &str) -> Self {
+        let ticks = Ticks::new(range, ticks);
+        Self { is_logarithmic: false, name: format!("{name} [{}]", ticks.unit(unit)), range, ticks }
+    }
+
+    /// Where a value is, as a share of the way from the first to the last one.
+    pub fn share(&self, value: f64) -> f64 {
+        let [first, last] = self.range;
+        if self.is_logarithmic { (value / first).ln() / (last / first).ln() } else { (value - first) / (last - first) }
+    }
+
+    /// The ticks: where they are, as shares, and their labels.
+    pub fn ticks(&self) -> Vec<(f64, &str)> {
+        self.ticks.labels.iter().map(|(value, label)| (self.share(*value), label.as_str())).collect()
+    }
+
+    /// Room that it takes at the left of a plot if it is vertical (pixels): its name, its widest label, its ticks.
+    pub fn room(&self) -> f64 {
+        let widths = self.ticks().into_iter().map(|(_, label)| text_width(label, LABEL));
+        (BESIDE + widths.fold(0.0, f64::max)).ceil().max(LEAST_BESIDE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_ratios_are_equal_distances() {
+        let axis = Axis::logarithmic("").around([1.0, 100.0].into_iter());
+        let place = |value: f64| axis.share(value);
+        assert!((place(100.0) - 2.0 * place(10.0) + place(1.0)).abs() < 1e-12 && place(1.0) > 0.0 && place(100.0) < 1.0);
+    }
+
+    #[test]
+    fn smaller_errors_are_at_the_right() {
+        let x = Axis { falling: true, ..Axis::logarithmic("error") }.around([0.1, 1e-3, 1e-6].into_iter());
+        assert!(x.share(1e-6) > 0.8 && x.share(0.1) < 0.2 && x.ticks().len() > 2);
+    }
+}
