@@ -29,8 +29,8 @@ const ERASE: &str = "\r\x1b[K";
 /// Where a run is.
 #[derive(Clone, Debug, Default)]
 struct RunPlace {
-    /// What is done, and since when.
-    doing: Option<(Doing, Instant)>,
+    /// What is done, a part of the procedure or (none) the writing of files, and since when.
+    doing: Option<(Option<Work>, Instant)>,
     /// Load step, and how many there are.
     step: Option<(usize, usize)>,
     /// Number of the mesh that is adapted.
@@ -39,15 +39,6 @@ struct RunPlace {
     refine: Option<(usize, usize)>,
     boundary: Option<usize>,
     set: Option<usize>,
-}
-
-/// What a run does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Doing {
-    /// A part of the solution procedure.
-    Working(Work),
-    /// Files are written.
-    Writing,
 }
 
 /// A line that is shown while this is there.
@@ -141,34 +132,30 @@ pub fn end_at_once() {
     }
 }
 
+fn note(change: impl FnOnce(&mut RunPlace)) {
+    if let Some(line) = &mut *lock() {
+        change(&mut line.place);
+    }
+}
+
 /// Notes what is worked on.
 pub fn enter(work: Work) {
-    begin_to(Doing::Working(work));
+    note(|place| place.doing = Some((Some(work), Instant::now())));
 }
 
 /// Notes that files are written.
 pub fn write_files() {
-    begin_to(Doing::Writing);
-}
-
-fn begin_to(doing: Doing) {
-    if let Some(line) = &mut *lock() {
-        line.place.doing = Some((doing, Instant::now()));
-    }
+    note(|place| place.doing = Some((None, Instant::now())));
 }
 
 /// Notes the load step.
 pub fn step(number: usize, count: usize) {
-    if let Some(line) = &mut *lock() {
-        line.place = RunPlace { step: Some((number, count)), ..RunPlace::default() };
-    }
+    note(|place| *place = RunPlace { step: Some((number, count)), ..RunPlace::default() });
 }
 
 /// Notes what has happened.
 pub fn observe(event: &Event) {
-    if let Some(line) = &mut *lock() {
-        line.place.observe(event);
-    }
+    note(|place| place.observe(event));
 }
 
 impl ProgressLine {
@@ -207,21 +194,14 @@ fn words(place: &RunPlace, solve: Option<SolveAtWork>, elapsed: Duration) -> Str
     words.extend(place.mesh.map(|number| format!("mesh {number}")));
     words.extend(place.refine.filter(|(_, last)| *last > 0).map(|(now, last)| format!("refine {now} of {last}")));
     // What is looked at is over, and the numbers are those of the next.
-    if !matches!(place.doing, Some((Doing::Working(Work::Recovery) | Doing::Writing, _))) {
+    if !matches!(place.doing, Some((None | Some(Work::Recovery), _))) {
         words.extend(place.boundary.map(|number| format!("boundary {number}")));
         words.extend(place.set.map(|number| format!("set {number}")));
     }
     match (place.doing, solve) {
-        (Some((Doing::Working(Work::Solve), _)), Some(solve)) if solve.iterations > 0 => words.push(solving(&solve)),
+        (Some((Some(Work::Solve), _)), Some(solve)) if solve.iterations > 0 => words.push(solving(&solve)),
         (Some((doing, since)), _) => {
-            let doing = match doing {
-                Doing::Working(Work::Contact) => "placing contacts",
-                Doing::Working(Work::Assembly) => "assembling",
-                Doing::Working(Work::SetUp) => "setting up the solver",
-                Doing::Working(Work::Solve) => "solving",
-                Doing::Working(Work::Recovery) => "looking at the solution",
-                Doing::Writing => "writing results",
-            };
+            let doing = doing.map_or("writing results", crate::run::words::doing);
             words.push(format!("{doing} ({} s)", since.elapsed().as_secs()));
         }
         (None, _) => words.push("reading".into()),
@@ -267,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_line_tells_the_place_and_fits() {
-        let doing = Some((Doing::Working(Work::Solve), Instant::now()));
+        let doing = Some((Some(Work::Solve), Instant::now()));
         let place = RunPlace { doing, refine: Some((7, 8)), set: Some(2), ..RunPlace::default() };
         let line = words(&place, Some(solve(12, 1.0, 3.1e-5)), Duration::from_secs(62));
         assert_eq!(line, "1:02, refine 7 of 8, set 2, iteration 12: residual 3.1e-5 to 1e-8, 0:00 left");
@@ -275,10 +255,9 @@ mod tests {
         let line = words(&place, Some(solve(13, 1.0, 3.1e-9)), Duration::from_secs(63));
         assert_eq!(line, "1:03, refine 7 of 8, set 2, iteration 13: residual 3.1e-9, below 1e-8");
         assert_eq!(words(&RunPlace::default(), None, Duration::ZERO), "0:00, reading");
-        let step =
-            RunPlace { step: Some((2, 6)), doing: Some((Doing::Working(Work::Assembly), Instant::now())), ..RunPlace::default() };
+        let step = RunPlace { step: Some((2, 6)), doing: Some((Some(Work::Assembly), Instant::now())), ..RunPlace::default() };
         assert_eq!(words(&step, None, Duration::from_secs(3600)), "1:00:00, step 2 of 6, assembling (0 s)");
-        let written = RunPlace { doing: Some((Doing::Writing, Instant::now())), ..place };
+        let written = RunPlace { doing: Some((None, Instant::now())), ..place };
         assert_eq!(words(&written, None, Duration::from_secs(64)), "1:04, refine 7 of 8, writing results (0 s)");
     }
 

@@ -1,14 +1,8 @@
 //! What a run prints on rank 0 while it lives.
 
-use super::accuracy;
-use super::interruption;
-use super::origin;
-use super::outcome::Outcome;
-use super::progress;
-use super::run_options::RunOptions;
 use super::stages::Stages;
+use super::{interruption, progress};
 use crate::accuracy::{Accuracy, AdaptedMesh};
-use crate::body::BodyPart;
 use crate::case::{Case, LoadStep};
 use crate::discretisation::{Contact, Scene};
 use crate::element::Order;
@@ -17,17 +11,17 @@ use crate::output::Summary;
 use crate::output::summary::{MOST_TOLD, Memory, Provenance, Time, WORST, listed};
 use crate::petsc::Session;
 use crate::procedure::Event;
-use crate::recovery::Evaluation;
+use crate::run::accuracy;
+use crate::run::outcome::Outcome;
+use crate::run::reading::origin;
+use crate::run::run_options::RunOptions;
+use crate::run::verdict::warnings::parts::locking;
+use crate::run::verdict::warnings::segments::short_segments;
+use crate::run::words::{length, title};
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
-
-/// Poisson's ratio from which P1 triangles are too stiff.
-pub const LOCKING: f64 = 0.45;
-
-/// Above this strain a theory of small strain is off by more than pressures are computed to.
-const SMALL_STRAIN: f64 = 0.05;
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
 #[derive(Clone)]
@@ -46,15 +40,8 @@ impl Report {
     /// A report of a run of a case.
     pub fn new(case: &Case, options: &RunOptions, session: &Session) -> Self {
         let first = session.rank() == 0;
-        let adapts = case.accuracy.is_some();
-        Self {
-            speaks: first && !options.quiet,
-            first,
-            ranks: session.size(),
-            started: options.started,
-            adapts,
-            of_step: String::new(),
-        }
+        let (speaks, ranks, adapts) = (first && !options.quiet, session.size(), case.accuracy.is_some());
+        Self { speaks, first, ranks, started: options.started, adapts, of_step: String::new() }
     }
 
     /// The report of a load step, which it announces.
@@ -75,11 +62,7 @@ impl Report {
     /// Title of the case.
     pub fn start(&self, case: &Case) {
         let ranks = if self.ranks == 1 { "1 rank".into() } else { format!("{} ranks", self.ranks) };
-        self.say(&format!(
-            "mezha {}: {} on {ranks}",
-            env!("CARGO_PKG_VERSION"),
-            if case.title.is_empty() { &case.name } else { &case.title }
-        ));
+        self.say(&format!("mezha {}: {} on {ranks}", env!("CARGO_PKG_VERSION"), title(case)));
     }
 
     /// Whether a run of the case beside a result repeats it, and if not, what differs.
@@ -95,9 +78,9 @@ impl Report {
             Event::AtRest { scene, at_rest } => {
                 self.sizes(scene, &at_rest.contacts, &at_rest.numbering);
                 if !self.adapts {
-                    self.short_segments(&at_rest.contacts);
+                    self.warn_all(&short_segments(&at_rest.contacts));
                 }
-                self.locking(scene);
+                self.warn_all(&locking(scene));
             }
             Event::Solver(words) => self.say(&format!("solver: {words}")),
             Event::Coarse { refine, unknowns, active, passes, converged } => {
@@ -227,50 +210,6 @@ impl Report {
         }
     }
 
-    /// Bodies that P1 triangles are too stiff for.
-    fn locking(&self, scene: &Scene) {
-        let locks = |part: &&BodyPart| scene.order == Order::P1 && part.material.poisson_in_plane() > LOCKING;
-        let words = |part: &BodyPart| {
-            format!("body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2", part.name, part.material.poisson)
-        };
-        self.warn_all(&scene.parts().into_iter().filter(locks).map(words).collect::<Vec<_>>());
-    }
-
-    /// Bodies that are strained farther than a theory of small strain goes.
-    pub fn large_strains(&self, found: &Evaluation) {
-        let bodies = found.problem.scene.bodies.iter().zip(&found.deformations);
-        let mut strained: Vec<_> = bodies.filter(|(_, largest)| largest.strain > SMALL_STRAIN).collect();
-        if strained.len() > MOST_TOLD {
-            strained.sort_by(|a, b| b.1.strain.total_cmp(&a.1.strain));
-        }
-        let words = strained.iter().map(|(body, largest)| {
-            format!(
-                "body {} is strained by {:.0} % near ({}, {}): the model is that of small strain, and may be off by more than that",
-                body.name,
-                100.0 * largest.strain,
-                short(largest.place.x),
-                short(largest.place.y)
-            )
-        });
-        self.warn_all(&words.collect::<Vec<_>>());
-    }
-
-    /// Segments shorter than the safe rule, and what is done about them.
-    fn short_segments(&self, contacts: &[Contact]) {
-        let words = |contact: &Contact| {
-            let remedy =
-                if contact.jumps.is_empty() { "watch inf_sup and oscillation" } else { "the jump term is added (stabilise)" };
-            format!(
-                "contact {}: segments of {} edges of the softer body, {} or more are safe: {remedy}",
-                contact.pair.name,
-                short(contact.segment_ratio),
-                contact.safe_ratio
-            )
-        };
-        let is_short = |contact: &&Contact| contact.has_short_segments();
-        self.warn_all(&contacts.iter().filter(is_short).map(words).collect::<Vec<_>>());
-    }
-
     /// The last words: the verdict, and where the results are. A bad one is printed even if the run is quiet.
     pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
         match outcome {
@@ -289,36 +228,23 @@ impl Report {
 
     /// Times of the stages on the slowest rank. **Collective**
     pub fn times(&self, stages: &Stages, session: &Session) -> Time {
-        let mut seconds = [&stages.mesh, &stages.assemble, &stages.contact, &stages.setup, &stages.solve, &stages.output]
-            .map(|stage| stage.seconds())
-            .to_vec();
-        seconds.push(self.started.elapsed().as_secs_f64());
+        let Stages { mesh, assemble, contact, setup, solve, output } = stages;
+        let [mesh, assemble, contact, setup, solve, output] =
+            [mesh, assemble, contact, setup, solve, output].map(|stage| stage.seconds());
+        let mut seconds = [mesh, assemble, contact, setup, solve, output, self.started.elapsed().as_secs_f64()];
         session.max(&mut seconds);
-        Time {
-            mesh: Some(seconds[0]),
-            assemble: Some(seconds[1]),
-            contact: Some(seconds[2]),
-            setup: Some(seconds[3]),
-            solve: Some(seconds[4]),
-            output: Some(seconds[5]),
-            total: Some(seconds[6]),
-        }
+        let [mesh, assemble, contact, setup, solve, output, total] = seconds.map(Some);
+        Time { mesh, assemble, contact, setup, solve, output, total }
     }
 
     /// The table of stages.
     pub fn table(&self, summary: &Summary) {
-        let time = &summary.time_s;
-        let cell = |name: &str, seconds: Option<f64>| format!("{name} {:.3}", seconds.unwrap_or(0.0));
-        let cells = [
-            cell("mesh", time.mesh),
-            cell("contact", time.contact),
-            cell("assemble", time.assemble),
-            cell("setup", time.setup),
-            cell("solve", time.solve),
-            cell("output", time.output),
-            cell("total", time.total),
-        ];
-        self.say(&format!("seconds: {}", cells.join("  ")));
+        let Time { mesh, contact, assemble, setup, solve, output, total } = summary.time_s;
+        let [mesh, contact, assemble, setup, solve, output, total] =
+            [mesh, contact, assemble, setup, solve, output, total].map(|seconds| seconds.unwrap_or(0.0));
+        self.say(&format!(
+            "seconds: mesh {mesh:.3}  contact {contact:.3}  assemble {assemble:.3}  setup {setup:.3}  solve {solve:.3}  output {output:.3}  total {total:.3}"
+        ));
         let memory = &summary.memory_mib;
         self.say(&format!(
             "memory: {:.0} MiB on the largest rank, {:.0} MiB in all",
@@ -354,16 +280,6 @@ pub fn contact_lines(contacts: &[Contact]) -> Vec<String> {
     contacts.iter().map(words).collect()
 }
 
-/// A length to six decimals, in any unit.
-pub fn length(v: f64) -> String {
-    if (1e-2..1e6).contains(&v) { format!("{v:.6}") } else { format!("{v:.6e}") }
-}
-
-/// A number to two digits, however small it is.
-pub fn short(v: f64) -> String {
-    if v.abs() < 0.01 { format!("{v:.1e}") } else { format!("{v:.2}") }
-}
-
 /// Largest resident memory so far, as the system knows it. **Collective**
 pub fn memory(session: &Session) -> Memory {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -373,15 +289,4 @@ pub fn memory(session: &Session) -> Memory {
     session.max(&mut largest);
     session.sum(&mut sum);
     Memory { max_rank: Some(largest[0]), sum: Some(sum[0]) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn small_units_keep_their_digits() {
-        assert_eq!([4.0, 6.082e-9, 6.082e9].map(length), ["4.000000", "6.082000e-9", "6.082000e9"]);
-        assert_eq!([1.5, 0.25, 6.3e-4].map(short), ["1.50", "0.25", "6.3e-4"]);
-    }
 }

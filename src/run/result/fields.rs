@@ -1,11 +1,11 @@
 //! Fields of the bodies in files: one piece per rank, and the facets of the figure.
 
-use super::outcome::RunError;
 use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::{ContactZoom, DrawnEdge, Facet};
 use crate::output::vtk::{Piece, write_parallel, write_piece};
 use crate::recovery::Evaluation;
+use crate::run::outcome::RunError;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -112,7 +112,8 @@ pub fn facets_of_zoom(found: &Evaluation, stress: impl Fn(usize, usize) -> [f64;
     let mut step = problem.finest().numbering.level.intervals;
     let mut drawn: Vec<u32> = own.iter().copied().filter(|&triangle| may_show(found, zoom, triangle)).collect();
     loop {
-        let counts: Vec<usize> = drawn.iter().map(|&triangle| count_shown(found, zoom, triangle, step)).collect();
+        let is_shown = |corners: &[DrawnNode; 3]| zoom.shows(&corners.each_ref().map(DrawnNode::moved));
+        let counts: Vec<usize> = drawn.iter().map(|&triangle| corners(found, triangle, step).filter(is_shown).count()).collect();
         let mut count = [counts.iter().sum::<usize>() as f64];
         session.sum(&mut count);
         if step == 1 || 4.0 * count[0] > MOST_FACETS as f64 {
@@ -125,59 +126,61 @@ pub fn facets_of_zoom(found: &Evaluation, stress: impl Fn(usize, usize) -> [f64;
     }
 }
 
-/// Whether a zoom may show a macro triangle: with the room around it for edges that are bent.
-fn may_show(Evaluation { problem, u, .. }: &Evaluation, zoom: &ContactZoom, triangle: u32) -> bool {
-    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
-    let n = numbering.level.intervals;
-    let numbers = numbering.triangle(mesh, triangle as usize);
-    let corners = [(0, 0), (n, 0), (0, n)].map(|(i, j)| {
-        let (x, u) = (mesh.node_position(triangle as usize, numbering.level, (i, j)), u.at(numbers.node(i, j)));
-        [x.x + u[0], x.y + u[1]]
-    });
-    let middle = [0, 1].map(|axis| corners.iter().map(|x| x[axis]).sum::<f64>() / 3.0);
-    zoom.shows(&corners.map(|x| [0, 1].map(|axis| middle[axis] + 3.0 * (x[axis] - middle[axis]))))
+/// A node of a macro triangle as figures show it.
+struct DrawnNode {
+    number: usize,
+    place: [f64; 2],
+    displacement: [f64; 2],
 }
 
-/// How many facets of a macro triangle a zoom shows, of a lattice of every `step`-th node.
-fn count_shown(Evaluation { problem, u, .. }: &Evaluation, zoom: &ContactZoom, triangle: u32, step: usize) -> usize {
-    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+impl DrawnNode {
+    fn moved(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.place[axis] + self.displacement[axis])
+    }
+}
+
+/// The nodes of a macro triangle, by their places in its lattice.
+fn nodes<'a>(found: &'a Evaluation, triangle: u32) -> impl Fn((usize, usize)) -> DrawnNode + 'a {
+    let (mesh, numbering) = (&found.problem.scene.mesh, &found.problem.finest().numbering);
     let numbers = numbering.triangle(mesh, triangle as usize);
-    let place = |(i, j): (usize, usize)| {
-        let node = (step * i, step * j);
-        let (x, u) = (mesh.node_position(triangle as usize, numbering.level, node), u.at(numbers.node(node.0, node.1)));
-        [x.x + u[0], x.y + u[1]]
-    };
-    let facets = lattice::triangles(numbering.level.intervals / step, Order::P1);
-    facets.filter(|small| zoom.shows(&Triangle::nodes::<3>(small).map(place))).count()
+    move |(i, j)| {
+        let (number, x) = (numbers.node(i, j), mesh.node_position(triangle as usize, numbering.level, (i, j)));
+        DrawnNode { number, place: [x.x, x.y], displacement: found.u.at(number) }
+    }
+}
+
+/// Corners of the facets of a macro triangle on a lattice of every `step`-th node.
+fn corners(found: &Evaluation, triangle: u32, step: usize) -> impl Iterator<Item = [DrawnNode; 3]> {
+    let node = nodes(found, triangle);
+    let facets = lattice::triangles(found.problem.finest().numbering.level.intervals / step, Order::P1);
+    facets.map(move |small| Triangle::nodes::<3>(&small).map(|(i, j)| node((step * i, step * j))))
+}
+
+/// Whether a zoom may show a macro triangle: with the room around it for edges that are bent.
+fn may_show(found: &Evaluation, zoom: &ContactZoom, triangle: u32) -> bool {
+    let (n, node) = (found.problem.finest().numbering.level.intervals, nodes(found, triangle));
+    let corners = [(0, 0), (n, 0), (0, n)].map(|place| node(place).moved());
+    let middle = [0, 1].map(|axis| corners.iter().map(|x| x[axis]).sum::<f64>() / 3.0);
+    zoom.shows(&corners.map(|x| [0, 1].map(|axis| middle[axis] + 3.0 * (x[axis] - middle[axis]))))
 }
 
 /// Those facets of macro triangles of this rank that are wanted by their deformed corners, of lattices of every `step`-th node,
 /// from all ranks. **Collective**
 fn gather_facets(
-    Evaluation { problem, session, u, .. }: &Evaluation,
+    found: &Evaluation,
     stress: impl Fn(usize, usize) -> [f64; 4],
     triangles: &[u32],
     step: usize,
     wanted: impl Fn(&[[f64; 2]; 3]) -> bool,
 ) -> Vec<Facet> {
-    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let mut values: Vec<f64> = Vec::new();
     for &triangle in triangles {
-        let numbers = numbering.triangle(mesh, triangle as usize);
-        for small in lattice::triangles(numbering.level.intervals / step, Order::P1) {
-            let corners = Triangle::nodes::<3>(&small).map(|(i, j)| (step * i, step * j));
-            let places = corners.map(|(i, j)| {
-                let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
-                (numbers.node(i, j), [x.x, x.y])
-            });
-            if !wanted(&places.map(|(node, x)| [0, 1].map(|axis| x[axis] + u.at(node)[axis]))) {
-                continue;
-            }
-            for (node, x) in places {
-                values.extend(x);
-                values.extend(u.at(node));
-                values.push(von_mises(stress(mesh.triangles[triangle as usize].part as usize, node)));
-            }
+        let part = found.problem.scene.mesh.triangles[triangle as usize].part as usize;
+        let shown = corners(found, triangle, step).filter(|corners| wanted(&corners.each_ref().map(DrawnNode::moved)));
+        for DrawnNode { number, place, displacement } in shown.flatten() {
+            values.extend(place);
+            values.extend(displacement);
+            values.push(von_mises(stress(part, number)));
         }
     }
     let facet = |v: &[f64]| Facet {
@@ -185,28 +188,26 @@ fn gather_facets(
         displacement: [[v[2], v[3]], [v[7], v[8]], [v[12], v[13]]],
         von_mises: [v[4], v[9], v[14]],
     };
-    session.gather_all(&values).chunks_exact(15).map(facet).collect()
+    found.session.gather_all(&values).chunks_exact(15).map(facet).collect()
 }
 
 /// Those macro edges that are wanted for the figure of the deformed bodies, from all ranks; none of a mesh that it shows in part.
 /// **Collective**
 pub fn macro_edges(found: &Evaluation, wanted: impl Fn(u32) -> bool) -> Vec<DrawnEdge> {
-    let Evaluation { problem, session, u, .. } = found;
+    let Evaluation { problem, session, .. } = found;
     let mesh = &problem.scene.mesh;
-    let numbering = &problem.finest().numbering;
-    let n = numbering.level.intervals;
+    let n = problem.finest().numbering.level.intervals;
     let (shown, skip) = shown(mesh.triangles.len(), n);
     let mut values: Vec<f64> = Vec::new();
     for &triangle in problem.scene.partition.triangles_of(session.rank()).iter().filter(|_| skip == 1) {
-        let numbers = numbering.triangle(mesh, triangle as usize);
+        let node = nodes(found, triangle);
         let edges = mesh.triangles[triangle as usize].edges;
         let is_own = |side: usize| mesh.edges[edges[side] as usize].triangles[0] == Some(triangle);
         for side in (0..3).filter(|&side| is_own(side) && wanted(edges[side])) {
-            for k in (0..=n).step_by(n / shown) {
-                let (i, j) = lattice::side_node(n, side, k);
-                let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
-                values.extend([x.x, x.y]);
-                values.extend(u.at(numbers.node(i, j)));
+            for DrawnNode { place, displacement, .. } in (0..=n).step_by(n / shown).map(|k| node(lattice::side_node(n, side, k)))
+            {
+                values.extend(place);
+                values.extend(displacement);
             }
         }
     }

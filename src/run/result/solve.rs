@@ -1,23 +1,22 @@
 //! What a run does with the events of the solution procedure: it prints them, and times the work.
 
-use super::Run;
-use super::accuracy;
-use super::interruption;
-use super::memory;
-use super::outcome::RunError;
-use super::progress;
-use super::stages::Stages;
 use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
 use crate::discretisation::Scene;
 use crate::petsc::StageGuard;
 use crate::procedure::{Event, Observer, Procedure, Solved, Work};
-use crate::run::reading::check_pressures;
-use crate::run::verdict::true_errors;
+use crate::run::Run;
+use crate::run::accuracy;
+use crate::run::memory;
+use crate::run::outcome::RunError;
+use crate::run::reading::known::check_pressures;
+use crate::run::telling::stages::Stages;
+use crate::run::telling::{interruption, progress};
+use crate::run::verdict::true_errors::true_errors;
 
 impl Run<'_> {
     /// Solves a scene as the case wants it, from the solution of the load step before, if there is any. **Collective**
-    pub(super) fn solve(&self, scene: Scene, before: Option<&Solved>) -> Result<Solved, RunError> {
+    pub(in crate::run) fn solve(&self, scene: Scene, before: Option<&Solved>) -> Result<Solved, RunError> {
         let solver = &self.case.solver;
         let (choice, tolerance, inf_sup) = (solver.choice, solver.tolerance, solver.inf_sup);
         let accuracy = self.case.accuracy.as_ref().map(|accuracy| accuracy::limited(accuracy, self.session));

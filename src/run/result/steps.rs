@@ -1,16 +1,17 @@
 //! The loop over load steps: each begins with the one before (at rest, where boundaries follow the bodies), is judged by itself,
 //! and kept as a row.
 
-use super::Run;
-use super::interruption;
-use super::outcome::RunError;
 use crate::case::LoadStep;
 use crate::discretisation::Scene;
 use crate::output::summary::{Status, StepSummary, Summary};
 use crate::output::{CONTACTS, OutputError, plot, vtk, write_steps};
 use crate::procedure::{Procedure, Solved};
-use crate::run::reading::check_pressures;
+use crate::run::Run;
+use crate::run::outcome::RunError;
+use crate::run::reading::known::check_pressures;
 use crate::run::reading::scene;
+use crate::run::telling::interruption;
+use crate::run::words::title;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -23,7 +24,7 @@ impl Run<'_> {
     ///
     /// # Errors
     /// [`RunError`] if there is no result of a step at all.
-    pub(super) fn solve_steps(&self, scene: &Scene) -> Result<Summary, RunError> {
+    pub(in crate::run) fn solve_steps(&self, scene: &Scene) -> Result<Summary, RunError> {
         // What cannot be used is told before anything is solved.
         for step in &self.case.steps {
             let looked = Procedure::look(&scene::of_step(step, scene), self.session.rank());
@@ -54,12 +55,9 @@ impl Run<'_> {
             before = if solved.ending.is_converged() { Some(solved) } else { before };
             last = Some(summary);
         }
-        let mut summary = last.expect("a case with steps has a last one");
-        (summary.status, summary.reason) = self.verdict(&rows);
-        let written = if self.session.rank() == 0 { self.write_series(&rows) } else { Ok(()) };
-        self.session.agree(written.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
-        summary.steps = Some(rows);
-        Ok(summary)
+        let (status, reason) = self.verdict(&rows);
+        self.on_first(|| self.write_series(&rows))?;
+        Ok(Summary { status, reason: Some(reason), steps: Some(rows), ..last.expect("a case with steps has a last one") })
     }
 
     /// The run of one step: its files lie in a folder of their own, those of the last one where they always do. **Collective**
@@ -67,8 +65,7 @@ impl Run<'_> {
         let own = self.files.join(folder(step.number));
         let text = self.origin.case_inside(&step.case, 2);
         let make = || make_folder(&self.files, &own).and_then(|()| std::fs::write(own.join("case.toml"), text));
-        let made = if self.session.rank() == 0 { make().map_err(OutputError::io("write to", &own)) } else { Ok(()) };
-        self.session.agree(made.map_err(|error| error.to_string())).map_err(RunError::Failed)?;
+        self.on_first(|| make().map_err(OutputError::io("write to", &own)))?;
         let is_last = step.number == step.count;
         Ok(Run {
             case: &self.case.steps[step.number - 1].case,
@@ -84,21 +81,21 @@ impl Run<'_> {
     }
 
     /// The verdict on all steps: that of the first one that has not converged, if there is one, else that of the last.
-    fn verdict(&self, rows: &[StepSummary]) -> (Status, Option<String>) {
+    fn verdict(&self, rows: &[StepSummary]) -> (Status, String) {
         let failed: Vec<usize> = (0..rows.len()).filter(|&at| rows[at].status != Status::Converged).collect();
         let reason = |at: usize| rows[at].reason.as_deref().unwrap_or_default();
         match failed[..] {
-            [] => (
-                Status::Converged,
-                Some(format!("all {} steps have converged; of the last one: {}", rows.len(), reason(rows.len() - 1))),
-            ),
+            [] => {
+                let count = rows.len();
+                (Status::Converged, format!("all {count} steps have converged; of the last one: {}", reason(count - 1)))
+            }
             [first, ..] => {
                 let others = match failed.len() - 1 {
                     0 => String::new(),
                     1 => "; another step has not converged, too".into(),
                     more => format!("; {more} other steps have not converged, too"),
                 };
-                (rows[first].status, Some(format!("{}: {}{others}", self.case.steps[first].words(), reason(first))))
+                (rows[first].status, format!("{}: {}{others}", self.case.steps[first].words(), reason(first)))
             }
         }
     }
@@ -118,8 +115,7 @@ impl Run<'_> {
             return Ok(());
         }
         if rows.iter().any(|row| !row.contact.is_empty()) {
-            let title = if self.case.title.is_empty() { &self.case.name } else { &self.case.title };
-            plot::write_step_figure(&files.join("steps.svg"), title, rows)?;
+            plot::write_step_figure(&files.join("steps.svg"), title(self.case), rows)?;
         }
         let fields = if self.session.size() == 1 { "fields.vtu" } else { "fields.pvtu" };
         write_all(files, "fields.pvd", fields, count)?;

@@ -1,22 +1,17 @@
 //! Words for macro meshes whose triangles are too flat.
 
 use crate::mesh::MacroMesh;
-use crate::run::report::short;
-
-/// Angles that are smaller make a sliver (degrees).
-const SMALL: f64 = 10.0;
-
-/// Share of slivers among all triangles from which they are told.
-const MANY: f64 = 0.1;
+use crate::run::verdict::limits::{MANY_SLIVERS, SLIVER};
+use crate::run::words::short;
 
 /// What is said of an adapted mesh that is too large for its accuracy, if slivers of the file are left in many places.
 pub fn slivers(mesh: &MacroMesh) -> Option<String> {
     let angles = (0..mesh.triangles.len()).map(|triangle| mesh.smallest_angle(triangle).to_degrees());
-    let flat: Vec<f64> = angles.filter(|angle| *angle < SMALL).collect();
+    let flat: Vec<f64> = angles.filter(|angle| *angle < SLIVER).collect();
     let smallest = flat.iter().copied().fold(f64::INFINITY, f64::min);
-    (flat.len() as f64 >= MANY * mesh.triangles.len() as f64).then(|| {
+    (flat.len() as f64 >= MANY_SLIVERS * mesh.triangles.len() as f64).then(|| {
         format!(
-            "{} of {} macro triangles have angles below {SMALL} degrees, down to {}: such slivers need many more unknowns; draw the mesh file without them",
+            "{} of {} macro triangles have angles below {SLIVER} degrees, down to {}: such slivers need many more unknowns; draw the mesh file without them",
             flat.len(),
             mesh.triangles.len(),
             short(smallest)

@@ -1,7 +1,7 @@
 //! Words for bodies that are cut open though they are drawn closed.
 
 use crate::mesh::{MacroMesh, Slit};
-use crate::run::report::short;
+use crate::run::words::short;
 
 /// A sentence for each body of whose boundary edges some lie on each other.
 pub fn slits(mesh: &MacroMesh) -> Vec<String> {

@@ -4,17 +4,18 @@
 //! kills them a second later. That of rank 0 writes what was reached until then; those of the others wait for this, and make sure
 //! that all ends. What is known is kept as the run goes on, in `Unfinished`.
 
-use super::accuracy;
-use super::origin::ResultOrigin;
 use super::progress;
-use super::run_options::RunOptions;
-use super::summarise;
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::output::report::{ReportPage, write_report};
-use crate::output::summary::{CoarseSolveSummary, Mesh, Status, StepSummary, Summary, Unknowns};
+use crate::output::summary::{CoarseSolveSummary, Mesh, Status, StepSummary, Summary, Time, Unknowns};
 use crate::output::{OutputError, ResultFolder, recover};
 use crate::procedure::{Event, Work};
+use crate::run::accuracy;
+use crate::run::reading::origin::ResultOrigin;
+use crate::run::run_options::RunOptions;
+use crate::run::summary::described::described;
+use crate::run::words::doing;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::{exit, signal_name};
@@ -160,48 +161,42 @@ pub fn keep_place(out: &Path, files: &Path) {
     let _ = PLACE.set((out.to_path_buf(), files.to_path_buf()));
 }
 
+fn keep(change: impl FnOnce(&mut Unfinished)) {
+    if let Some(unfinished) = &mut *lock() {
+        change(unfinished);
+    }
+}
+
 /// Keeps what the result is made of.
 pub fn keep_origin(origin: Arc<ResultOrigin>) {
-    if let Some(unfinished) = &mut *lock() {
-        unfinished.origin = origin;
-    }
+    keep(|unfinished| unfinished.origin = origin);
 }
 
 /// Keeps what an event tells.
 pub fn observe(event: &Event, case: &Case) {
-    if let Some(unfinished) = &mut *lock() {
-        unfinished.observe(event, case);
-    }
+    keep(|unfinished| unfinished.observe(event, case));
 }
 
 /// Keeps the load steps that are solved.
 pub fn keep_steps(rows: &[StepSummary]) {
-    if let Some(unfinished) = &mut *lock() {
+    keep(|unfinished| {
         unfinished.forget_passes();
         unfinished.summary.steps = Some(rows.to_vec());
-    }
+    });
 }
 
 /// Keeps a warning, each once.
 pub fn keep_warning(words: &str) {
-    if let Some(unfinished) = &mut *lock()
-        && !unfinished.warnings.iter().any(|other| other == words)
-    {
-        unfinished.warnings.push(words.into());
-    }
+    keep(|Unfinished { warnings, .. }| {
+        if !warnings.iter().any(|other| other == words) {
+            warnings.push(words.into());
+        }
+    });
 }
 
 /// Keeps what is worked on.
 pub fn enter(work: Work) {
-    if let Some(unfinished) = &mut *lock() {
-        unfinished.doing = match work {
-            Work::Contact => "placing contacts",
-            Work::Assembly => "assembling",
-            Work::SetUp => "setting up a solver",
-            Work::Solve => "solving",
-            Work::Recovery => "looking at the solution",
-        };
-    }
+    keep(|unfinished| unfinished.doing = doing(work));
 }
 
 /// Puts a whole result in its place with `write`, on rank 0; on other ranks there is nothing to do. A signal comes before or
@@ -257,7 +252,7 @@ impl Unfinished {
             }
             Event::Placed(step) => summary.boundaries.push((*step).into()),
             Event::Adapted { accuracy, mesh, solved } => {
-                summarise::describe(summary, case, solved);
+                *summary = described(std::mem::take(summary), case, solved);
                 let one = Adaptation { meshes: vec![(*mesh).clone()], ..Adaptation::new((*accuracy).clone()) };
                 summary.accuracy.get_or_insert_default().extend(accuracy::summarise(&one));
             }
@@ -276,7 +271,7 @@ impl Unfinished {
 
     /// Makes what was reached the result, and gives the last words. If a rank has failed, there is none.
     fn interrupt(self, signal: &str) -> String {
-        let Self { mut folder, origin, mut summary, doing, started, out, warnings, title } = self;
+        let Self { mut folder, origin, summary, doing, started, out, warnings, title } = self;
         if folder.path(FAILED).exists() {
             return format!("ended by {signal}, since another rank has failed");
         }
@@ -287,10 +282,8 @@ impl Unfinished {
         let seconds = started.elapsed().as_secs_f64();
         let reached = reached(&summary);
         let reason = format!("interrupted by {signal} after {seconds:.1} s, while {doing}: {reached}");
-        summary.status = Status::Interrupted;
-        summary.reason = Some(reason.clone());
-        summary.time_s.total = Some(seconds);
-        summary.provenance = Some(origin.provenance.clone());
+        let (time_s, provenance) = (Time { total: Some(seconds), ..summary.time_s }, Some(origin.provenance.clone()));
+        let summary = Summary { status: Status::Interrupted, reason: Some(reason.clone()), time_s, provenance, ..summary };
         let report = |title: &String| {
             let case = origin.case();
             let page = ReportPage { title, summary: &summary, expected: &[], contacts: &[], warnings: &warnings, case };

@@ -2,7 +2,7 @@
 
 use crate::body::RigidSet;
 use crate::case::Case;
-use crate::run::verdict::trust::MOST_ROTATION;
+use crate::run::verdict::limits::ROTATION;
 
 /// Words for each rigid tool and each plate whose given angle no theory of small rotations is good for; of load steps the
 /// largest angle counts.
@@ -12,12 +12,12 @@ pub fn far_turns(case: &Case) -> Vec<String> {
         let same = steps.chain(motions(case)).filter(|motion| motion.key == key);
         same.filter_map(|motion| motion.prescribed[2]).max_by(|a, b| a.abs().total_cmp(&b.abs()))
     };
-    let far = |key: &str| largest(key).filter(|angle| angle.abs() > MOST_ROTATION);
+    let far = |key: &str| largest(key).filter(|angle| angle.abs() > ROTATION.value);
     let words = |motion: &RigidSet| {
-        let key = &motion.key;
+        let (key, most) = (&motion.key, ROTATION.value);
         let angle = far(key)?;
         Some(format!(
-            "{key}.angle = {angle}: radians, of which {MOST_ROTATION} can be trusted at most: the theory is that of small rotations; draw it as it lies after turning, and turn it by less"
+            "{key}.angle = {angle}: radians, of which {most} can be trusted at most: the theory is that of small rotations; draw it as it lies after turning, and turn it by less"
         ))
     };
     motions(case).filter_map(words).collect()

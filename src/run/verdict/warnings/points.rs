@@ -3,16 +3,14 @@
 use crate::body::{MeanHold, PointLoad, Support};
 use crate::geometry::Point;
 use crate::recovery::Evaluation;
-use crate::run::report::short;
-
-/// A support at a point that carries more than this share of all forces changes displacements by what shows.
-const LITTLE: f64 = 1e-4;
+use crate::run::verdict::limits::LITTLE_FORCE;
+use crate::run::words::short;
 
 /// A warning for each point that carries a force.
 pub fn loaded_points(Evaluation { problem, balance, .. }: &Evaluation) -> Vec<String> {
     let words = |(support, reaction): (&Support, &Point)| {
         let [x, y] = support.at.as_ref()?.place;
-        (reaction.norm() > LITTLE * balance.forces).then(|| {
+        (reaction.norm() > LITTLE_FORCE * balance.forces).then(|| {
             format!(
                 "support {}: the point at ({x}, {y}) carries a force of ({}, {}): the displacement there depends on the mesh, and grows with every refinement like the logarithm of the edge length; where loads are to be carried, support a boundary",
                 support.name,
@@ -31,7 +29,7 @@ pub fn loaded_points(Evaluation { problem, balance, .. }: &Evaluation) -> Vec<St
     let first = problem.scene.supports.len() + problem.scene.springs.len();
     let driven = |(hold, (reaction, moment)): (&MeanHold, (&Point, &f64))| {
         let reach = hold.reach(&problem.scene.mesh);
-        (reaction.norm() + moment.abs() / reach > LITTLE * balance.forces).then(|| {
+        (reaction.norm() + moment.abs() / reach > LITTLE_FORCE * balance.forces).then(|| {
             format!(
                 "support {}: the mean motion that it holds is driven by a force of ({}, {}) and a moment of {}, which act on \"{}\" here like a weight, all over it; where loads are to be carried, support a boundary",
                 hold.name,

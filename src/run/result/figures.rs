@@ -1,9 +1,6 @@
 //! Figures of a solution.
 
-use super::Run;
-use super::accuracy;
 use super::fields;
-use super::outcome::RunError;
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, Pair};
@@ -13,6 +10,10 @@ use crate::output::plot::{self, ContactZoom, DrawnContact, DrawnForce, Facet};
 use crate::output::summary::MOST_WITH_FIGURES;
 use crate::output::{ContactPoint, Summary};
 use crate::recovery::Evaluation;
+use crate::run::Run;
+use crate::run::accuracy;
+use crate::run::outcome::RunError;
+use crate::run::words::title;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -46,16 +47,13 @@ impl Run<'_> {
         let interfaces = fields::macro_edges(found, |edge| found.problem.scene.mesh.is_interface(edge));
         let titles: Vec<String> = contacts.iter().map(|contact| title_of(self.case, &contact.pair.name)).collect();
         let bodies: Vec<[String; 2]> = contacts.iter().map(|contact| sides(&found.problem.scene.mesh, &contact.pair)).collect();
-        let drawn: Vec<DrawnContact> = contacts
-            .iter()
-            .enumerate()
-            .map(|(at, contact)| DrawnContact {
-                title: &titles[at],
-                bodies: bodies[at].each_ref().map(String::as_str),
-                points: &traces[at],
-                is_deformed: contact.pair.configuration == Configuration::Deformed,
-            })
-            .collect();
+        let drawn = |(at, contact): (usize, &Contact)| DrawnContact {
+            title: &titles[at],
+            bodies: bodies[at].each_ref().map(String::as_str),
+            points: &traces[at],
+            is_deformed: contact.pair.configuration == Configuration::Deformed,
+        };
+        let drawn: Vec<DrawnContact> = contacts.iter().enumerate().map(drawn).collect();
         let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
         let has_figures = |at: usize| shown.contains(contacts[at].pair.name.as_str());
         let zooms = self.zooms(summary, contacts, &drawn, &facets, has_figures)?;
@@ -110,18 +108,16 @@ impl Run<'_> {
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         all.truncate(MOST_ZOOMS);
         all.sort_by_key(|(_, drawing)| (drawing.contact, drawing.number));
-        let numbers = |drawing: &Drawing| {
-            let [[x0, y0], [x1, y1]] = drawing.zoom.frame;
-            let [from, to] = drawing.zoom.interval;
-            [drawing.contact as f64, drawing.number as f64, from, to, x0, y0, x1, y1]
+        let numbers = |(_, Drawing { contact, number, zoom }): &(f64, Drawing)| {
+            let [from, to] = zoom.frame;
+            [[*contact as f64, *number as f64], zoom.interval, from, to].concat()
         };
-        let own =
-            if self.session.rank() == 0 { all.iter().flat_map(|(_, drawing)| numbers(drawing)).collect() } else { Vec::new() };
-        let read = |v: &[f64]| {
-            let zoom = ContactZoom { interval: [v[2], v[3]], frame: [[v[4], v[5]], [v[6], v[7]]] };
-            Drawing { contact: v[0] as usize, number: v[1] as usize, zoom }
+        let own = if self.session.rank() == 0 { all.iter().flat_map(numbers).collect() } else { Vec::new() };
+        let read = |v: &[[f64; 2]]| {
+            let ([contact, number], zoom) = (v[0].map(|v| v as usize), ContactZoom { interval: v[1], frame: [v[2], v[3]] });
+            Drawing { contact, number, zoom }
         };
-        Ok(self.session.gather_all(&own).chunks_exact(8).map(read).collect())
+        Ok(self.session.gather_all(&own).as_chunks().0.chunks_exact(4).map(read).collect())
     }
 }
 
@@ -151,12 +147,7 @@ fn force_on(points: &[ContactPoint], [from, to]: [f64; 2]) -> f64 {
     inside.map(|pair| 0.5 * (pair[0].lambda + pair[1].lambda) * (pair[1].s - pair[0].s)).sum()
 }
 
-/// What stands above the figures of a case.
-pub fn title(case: &Case) -> &str {
-    if case.title.is_empty() { &case.name } else { &case.title }
-}
-
-/// The same of a contact, which is named where there are others.
+/// What stands above the figures of a contact, which is named where there are others.
 fn title_of(case: &Case, contact: &str) -> String {
     if case.contacts.len() == 1 { title(case).into() } else { format!("{}, contact {contact}", title(case)) }
 }
