@@ -18,6 +18,7 @@
 mod clock;
 mod contacts;
 mod csv;
+mod entries;
 mod error;
 mod folder;
 mod leftover;
@@ -33,6 +34,7 @@ pub mod vtk;
 pub use clock::clock;
 pub use contacts::{CONTACTS, write_contacts};
 pub use csv::{ContactPoint, write_contact};
+pub use entries::{entries, remove_if_there};
 pub use error::OutputError;
 pub use folder::ResultFolder;
 pub use leftover::recover;
@@ -41,11 +43,8 @@ pub use steps::write_steps;
 pub use summary::Summary;
 
 /// A text as a cell of a table: in quotes where it holds what parts cells.
-fn quoted(text: &str) -> String {
-    match text.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.into(),
-    }
+pub fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into() }
 }
 
 /// A number as a cell of a table; nothing stands there if it is not known, or not finite.

@@ -6,8 +6,9 @@ use std::time::Instant;
 
 use super::ended::{Ended, RunStatus};
 use super::folder::ResultPlace;
-use super::plan::{Plan, PlannedRun};
 use crate::output::clock;
+use crate::study::plan::Plan;
+use crate::study::plan::planned::PlannedRun;
 
 /// Prints to standard output; a reader that has gone away is no reason to stop.
 pub struct Progress {

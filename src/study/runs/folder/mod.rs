@@ -1,17 +1,17 @@
 //! The folder of a study: its tables and figures, and under `runs` the result of each run beside a record of it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, DirEntry, File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::Value;
 
-use super::ended::Ended;
-use super::error::StudyError;
-use super::record::{Identity, Record};
 use crate::case::Inputs;
-use crate::output::OutputError;
+use crate::output::{OutputError, entries, remove_if_there};
+use crate::study::error::StudyError;
+use crate::study::runs::ended::Ended;
+use crate::study::runs::record::{Identity, Record};
 
 /// What a whole study leaves, but for the runs; the last one is of older versions, which called the page so.
 const TABLES: [&str; 7] = ["study.csv", "study.json", "study.md", "study.svg", "study_all.svg", "report.html", "study.html"];
@@ -145,13 +145,12 @@ impl Folder {
     /// The operating system refuses.
     pub fn clear(&self, number: usize) -> Result<(), OutputError> {
         let result = self.result(number);
-        [result.with_extension("json"), result.with_extension("stderr"), result]
-            .iter()
-            .try_for_each(|path| remove_if_there(path))?;
+        let all = [result.with_extension("json"), result.with_extension("stderr"), result];
+        all.iter().try_for_each(|path| remove_if_there(path))?;
         // All that live in the folder have locked it: what is half done is of nobody.
         let hidden = |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        let left = numbered(&self.out.join(RUNS))?.into_iter().filter(|(other, path)| *other == number && hidden(path));
-        left.map(|(_, path)| path).try_for_each(|path| remove_if_there(&path))
+        let mut left = numbered(&self.out.join(RUNS))?.into_iter().filter(|(other, path)| *other == number && hidden(path));
+        left.try_for_each(|(_, path)| remove_if_there(&path))
     }
 
     /// Removes the tables and figures: what they say is about to change.
@@ -200,14 +199,11 @@ fn lock(out: &Path) -> Result<File, StudyError> {
 
 /// What the folder of the runs holds under numbers, also half done.
 fn numbered(runs: &Path) -> Result<Vec<(usize, PathBuf)>, OutputError> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(runs).map_err(OutputError::io("read the folder", runs))? {
-        let path = entry.map_err(OutputError::io("read the folder", runs))?.path();
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let number = name.trim_start_matches('.').split('.').next().and_then(|number| number.parse().ok());
-        found.extend(number.map(|number| (number, path)));
-    }
-    Ok(found)
+    let number = |entry: DirEntry| {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        Some((name.trim_start_matches('.').split('.').next()?.parse().ok()?, entry.path()))
+    };
+    Ok(entries(runs)?.into_iter().filter_map(number).collect())
 }
 
 /// The records of all runs. One that cannot be read is none: its run is made again.
@@ -223,15 +219,6 @@ fn write_whole(path: &Path, text: &str) -> Result<(), OutputError> {
     let temporary = path.with_file_name(format!(".{name}.partial"));
     fs::write(&temporary, text).map_err(OutputError::io("write", &temporary))?;
     fs::rename(&temporary, path).map_err(OutputError::io("make", path))
-}
-
-fn remove_if_there(path: &Path) -> Result<(), OutputError> {
-    let removed = match (path.exists(), path.is_dir()) {
-        (false, _) => Ok(()),
-        (true, true) => fs::remove_dir_all(path),
-        (true, false) => fs::remove_file(path),
-    };
-    removed.map_err(OutputError::io("remove", path))
 }
 
 #[cfg(test)]

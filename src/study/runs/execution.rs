@@ -20,10 +20,10 @@ use signal_hook::low_level::signal_name;
 
 use super::ended::{Ended, RunStatus};
 use super::folder::{Folder, read_summary, result_name};
-use super::plan::PlannedRun;
 use super::record::Program;
 use crate::case::Inputs;
 use crate::output::{OutputError, machine};
+use crate::study::plan::planned::PlannedRun;
 
 /// How often it is asked whether a run has ended.
 const PULSE: Duration = Duration::from_millis(20);

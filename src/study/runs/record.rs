@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::ended::{Ended, RunStatus};
-use super::plan::PlannedRun;
 use crate::case::{Case, Inputs, fingerprint};
 use crate::output::OutputError;
+use crate::study::plan::planned::PlannedRun;
 
 /// Everything that a run depends on: two runs with the same identity are the same run.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]

@@ -1,10 +1,9 @@
 //! The study file: TOML text to a checked list of runs.
 
 mod moves;
-mod planned;
+pub(super) mod planned;
 mod settings;
-
-pub use planned::PlannedRun;
+pub(super) mod summary_path;
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -13,7 +12,6 @@ use std::time::Duration;
 
 use toml::Value;
 
-use super::summary_path::SummaryPath;
 use crate::case::error::{CaseError, dotted};
 use crate::case::overrides::{overridden, read_key};
 use crate::case::schema::STUDY;
@@ -21,8 +19,9 @@ use crate::case::section::{Section, read_text};
 use crate::case::{Case, name_of, values};
 
 use moves::Moves;
-use planned::PlannedCase;
+use planned::{PlannedCase, PlannedRun};
 use settings::{StudyCurve, read_curve, read_grid, read_set};
+use summary_path::SummaryPath;
 
 /// A checked study: what is run, and what is asked of each result.
 #[derive(Clone, Debug)]
@@ -81,15 +80,9 @@ impl Plan {
         let ranks = root.or("ranks", values::each(values::whole));
         let repeat = root.or("repeat", values::whole);
         let timeout = root.or("timeout", |value| values::number(value).map(Duration::from_secs_f64));
-        let errors = root.optional("error", |value| match value {
-            Value::Array(_) => values::each(SummaryPath::read)(value),
-            single => Ok(vec![SummaryPath::read(single)?]),
-        });
+        let errors = root.optional("error", one_or_more(SummaryPath::read));
         let time = root.or("time", SummaryPath::read);
-        let along = root.optional("along", |value| match value {
-            Value::Array(_) => values::each(read_along)(value),
-            single => Ok(vec![read_along(single)?]),
-        });
+        let along = root.optional("along", one_or_more(read_along));
         let columns = root.optional("columns", values::each(SummaryPath::read));
         let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
         let cases = cases?;
@@ -114,6 +107,14 @@ impl Plan {
             timeout,
             runs,
         })
+    }
+}
+
+/// Reads one value, or a list of them.
+fn one_or_more<T>(read: impl Fn(&Value) -> Result<T, String> + Copy) -> impl Fn(&Value) -> Result<Vec<T>, String> {
+    move |value| match value {
+        Value::Array(_) => values::each(read)(value),
+        single => Ok(vec![read(single)?]),
     }
 }
 

@@ -1,11 +1,11 @@
 //! `report.html` of a study: figures and tables in one file, which needs nothing else.
 
 use super::figure::law;
-use super::fit::{FARTHEST, FITTED};
 use super::format::{Readable, about};
-use super::lines::{Line, LinePoint};
-use super::table::Table;
 use crate::output::markup::{document, escape, figure, list, paragraph, section, table as rows};
+use crate::study::table::fit::{FARTHEST, FITTED};
+use crate::study::table::lines::{Line, LinePoint};
+use crate::study::table::rows::Table;
 
 /// The page, with the first figure and that of all diagrams, if there are any. It is well-formed XML too.
 pub fn html(table: &Table, lines: &[Line], [first, all]: [Option<&str>; 2]) -> String {
@@ -78,9 +78,9 @@ fn front(table: &Table, lines: &[Line], error: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::fit::PowerLaw;
-    use crate::study::repeats::Spread;
-    use crate::study::table::{Column, ColumnKind};
+    use crate::study::table::fit::PowerLaw;
+    use crate::study::table::repeats::Spread;
+    use crate::study::table::rows::{Column, ColumnKind};
 
     #[test]
     fn the_page_holds_figure_laws_front_and_escaped_words() {

@@ -5,9 +5,9 @@ use std::ops::Range;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::ended::RunStatus;
-use super::plan::Plan;
-use super::table::{Column, ColumnKind, Table};
+use super::rows::{Column, ColumnKind, Table};
+use crate::study::plan::Plan;
+use crate::study::runs::ended::RunStatus;
 
 /// What repeats say of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -6,10 +6,12 @@ use std::ops::Range;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::ended::{Ended, RunStatus};
 use super::fit::{PowerLaw, front};
-use super::plan::{Plan, PlannedRun};
 use super::repeats::Spread;
+use super::rows::once;
+use crate::study::plan::Plan;
+use crate::study::plan::planned::PlannedRun;
+use crate::study::runs::ended::{Ended, RunStatus};
 
 /// Points that differ in some keys alone, in `mesh.refine` unless the study says otherwise.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -135,8 +137,7 @@ fn point(plan: &Plan, repeats: &[Ended]) -> Option<LinePoint> {
 
 /// Marks the points of each case that no other point of the case beats in this error.
 fn mark_fronts(lines: &mut [Line], error: &str) {
-    let cases: Vec<String> = lines.iter().map(|line| line.case.clone()).collect();
-    for case in cases {
+    for case in once(lines.iter().map(|line| line.case.as_str())) {
         let of_case = lines.iter_mut().filter(|line| line.case == case).flat_map(|line| &mut line.points);
         let mut racing: Vec<(&mut LinePoint, (f64, f64))> =
             of_case.filter_map(|point| point.race(error).map(|race| (point, race))).collect();
@@ -152,8 +153,8 @@ fn mark_fronts(lines: &mut [Line], error: &str) {
 mod tests {
     use std::time::Duration;
 
-    use super::super::summary_path::SummaryPath;
     use super::*;
+    use crate::study::plan::summary_path::SummaryPath;
     use serde_json::json;
 
     /// Three refinements of two elements on one case, each made twice.

@@ -1,11 +1,11 @@
 //! The figures of a study: what an error costs, and lines as diagrams, one block for each case.
 
-use super::fit::PowerLaw;
-use super::lines::{Line, LinePoint};
-use super::plan::Plan;
-use super::repeats::Spread;
-use super::summary_path::SummaryPath;
 use crate::output::plot::{Axis, Diagram, DiagramBlock, LegendRow, Mark, NamedDiagram, NamedLine, diagrams, named_diagrams};
+use crate::study::plan::Plan;
+use crate::study::plan::summary_path::SummaryPath;
+use crate::study::table::fit::PowerLaw;
+use crate::study::table::lines::{Line, LinePoint};
+use crate::study::table::rows::once;
 
 /// The text of `study.svg`: for each case, time against the first error, or against unknowns without any; None if no line has
 /// two points.
@@ -33,22 +33,13 @@ fn by_case(lines: &[Line]) -> Vec<CaseLines<'_>> {
     if lines.iter().all(|line| line.points.len() < 2) {
         return Vec::new();
     }
-    let mut cases: Vec<&str> = Vec::new();
-    let mut names: Vec<&str> = Vec::new();
-    for line in lines {
-        if !cases.contains(&line.case.as_str()) {
-            cases.push(&line.case);
-        }
-        if !names.contains(&line.name.as_str()) {
-            names.push(&line.name);
-        }
-    }
+    let (cases, names) = (once(lines.iter().map(|line| line.case.as_str())), once(lines.iter().map(|line| line.name.as_str())));
     let style = |line: &Line| names.iter().position(|name| *name == line.name).unwrap_or_default();
-    let of_case = |case: &&str| {
-        let own: Vec<(usize, &Line)> =
-            lines.iter().filter(|line| line.case == **case && !line.points.is_empty()).map(|line| (style(line), line)).collect();
+    let of_case = |case: &String| {
+        let own = lines.iter().filter(|line| line.case == *case && !line.points.is_empty());
+        let own: Vec<(usize, &Line)> = own.map(|line| (style(line), line)).collect();
         let title = own.first().map(|(_, line)| line.title.as_str()).filter(|title| !title.is_empty());
-        let title = title.map_or((*case).to_owned(), |title| format!("{case}: {title}"));
+        let title = title.map_or(case.clone(), |title| format!("{case}: {title}"));
         CaseLines { title, lines: own }
     };
     cases.iter().map(of_case).collect()
@@ -79,26 +70,18 @@ struct CaseLines<'a> {
 
 impl CaseLines<'_> {
     /// A diagram with logarithmic axes, of the points that have a place in it.
-    fn diagram(&self, title: &str, [x, y]: [&str; 2], place: &dyn Fn(&LinePoint) -> Option<Mark>) -> Diagram {
-        let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
+    fn diagram(&self, title: &str, axes: [&str; 2], place: &dyn Fn(&LinePoint) -> Option<Mark>) -> Diagram {
+        let [x, y] = axes.map(axis);
         let marks = |line: &Line| line.points.iter().filter_map(place).collect();
-        Diagram {
-            title: title.into(),
-            x: axis(x),
-            y: axis(y),
-            behind: Vec::new(),
-            lines: self.lines.iter().map(|(style, line)| (*style, marks(line))).collect(),
-        }
+        let lines = self.lines.iter().map(|(style, line)| (*style, marks(line))).collect();
+        Diagram { title: title.into(), x, y, behind: Vec::new(), lines }
     }
 
     /// What an error costs, or a size where no error is asked for.
     fn race(&self, plan: &Plan) -> NamedDiagram {
         let error = plan.errors.first().map(|error| error.text.as_str());
-        let place = |point: &LinePoint| match error {
-            Some(error) => Some(timed(*point.errors.get(error)?, point.time?, point)),
-            None => Some(timed(point.unknowns, point.time?, point)),
-        };
-        let axis = |name: &str| Axis { name: name.into(), logarithmic: true };
+        let place =
+            |point: &LinePoint| timed(error.map_or(Some(point.unknowns), |error| point.errors.get(error).copied())?, point);
         let line = |(style, line): &(usize, &Line)| {
             let mut marks: Vec<Mark> = line.points.iter().filter_map(place).collect();
             // Names stand where a line has come farthest.
@@ -109,9 +92,9 @@ impl CaseLines<'_> {
         };
         NamedDiagram {
             title: self.title.clone(),
-            x: axis(&error.map_or("unknowns N".to_owned(), |error| format!("{error}, better to the right"))),
+            x: axis(&error.map_or(UNKNOWNS.to_owned(), |error| format!("{error}, better to the right"))),
             falling: error.is_some(),
-            y: axis(&format!("{} [s]", plan.time.text)),
+            y: axis(&time_axis(plan)),
             behind: error.map_or(Vec::new(), |error| front(&self.lines, error)),
             lines: self.lines.iter().map(line).collect(),
         }
@@ -120,42 +103,48 @@ impl CaseLines<'_> {
     /// For each error, time against error and error against unknowns; then time and iterations against unknowns, and without
     /// errors memory too.
     fn diagrams(&self, plan: &Plan) -> Vec<Diagram> {
-        let (unknowns, time) = ("unknowns N", &format!("{} [s]", plan.time.text));
+        let time = &time_axis(plan);
         let mut all = Vec::new();
         for SummaryPath { text: error, .. } in &plan.errors {
-            let mut race = self.diagram("time against error (grey: the Pareto front)", [error, time], &|point| {
-                Some(timed(*point.errors.get(error)?, point.time?, point))
-            });
-            race.behind = front(&self.lines, error);
-            all.push(race);
-            all.push(self.diagram("error against unknowns", [unknowns, error], &|point| {
-                Some(mark(point.unknowns, *point.errors.get(error)?, point))
-            }));
+            let title = "time against error (grey: the Pareto front)";
+            let race = self.diagram(title, [error, time], &|point| timed(*point.errors.get(error)?, point));
+            let accuracy = |point: &LinePoint| Some(mark(point.unknowns, *point.errors.get(error)?, point));
+            all.push(Diagram { behind: front(&self.lines, error), ..race });
+            all.push(self.diagram("error against unknowns", [UNKNOWNS, error], &accuracy));
         }
-        all.push(
-            self.diagram("time against unknowns", [unknowns, time], &|point| Some(timed(point.unknowns, point.time?, point))),
-        );
-        let mut iterations =
-            self.diagram("Krylov iterations against unknowns", [unknowns, "iterations of all solves"], &|point| {
-                Some(mark(point.unknowns, point.iterations?, point))
-            });
+        all.push(self.diagram("time against unknowns", [UNKNOWNS, time], &|point| timed(point.unknowns, point)));
+        let iterations = |point: &LinePoint| Some(mark(point.unknowns, point.iterations?, point));
+        let words = "Krylov iterations against unknowns";
+        let mut iterations = self.diagram(words, [UNKNOWNS, "iterations of all solves"], &iterations);
         iterations.y.logarithmic = false;
         all.push(iterations);
         if plan.errors.is_empty() {
-            all.push(self.diagram("memory against unknowns", [unknowns, "memory of all ranks [MiB]"], &|point| {
-                Some(mark(point.unknowns, point.memory?, point))
-            }));
+            let memory = |point: &LinePoint| Some(mark(point.unknowns, point.memory?, point));
+            all.push(self.diagram("memory against unknowns", [UNKNOWNS, "memory of all ranks [MiB]"], &memory));
         }
         all
     }
+}
+
+/// Name of the axis of sizes.
+const UNKNOWNS: &str = "unknowns N";
+
+fn time_axis(plan: &Plan) -> String {
+    format!("{} [s]", plan.time.text)
+}
+
+fn axis(name: &str) -> Axis {
+    Axis { name: name.into(), logarithmic: true }
 }
 
 fn mark(x: f64, y: f64, point: &LinePoint) -> Mark {
     Mark { x, y, reach: [y, y], hollow: !point.trusted }
 }
 
-fn timed(x: f64, time: Spread, point: &LinePoint) -> Mark {
-    Mark { reach: [time.least, time.most], ..mark(x, time.median, point) }
+/// The time of a point over something, if it is known.
+fn timed(x: f64, point: &LinePoint) -> Option<Mark> {
+    let time = point.time?;
+    Some(Mark { reach: [time.least, time.most], ..mark(x, time.median, point) })
 }
 
 /// Errors and times of the points that no other beats, from the least accurate on, in steps: between two of them the time of the
@@ -171,6 +160,7 @@ fn front(lines: &[(usize, &Line)], error: &str) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::table::repeats::Spread;
 
     #[test]
     fn laws_are_told_only_where_they_hold() {
