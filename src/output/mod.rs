@@ -25,7 +25,7 @@ pub mod report;
 pub mod summary;
 
 pub use clock::clock;
-pub use data::{CONTACTS, ContactPoint, SIGNS, vtk, write_contact, write_contacts, write_steps};
+pub use data::{CONTACTS, ContactPoint, SIGNS, quoted, vtk, write_contact, write_contacts, write_steps};
 pub use error::OutputError;
-pub use folder::{ResultFolder, recover};
+pub use folder::{ResultFolder, entries, recover, remove_if_there};
 pub use summary::{Summary, machine, whole_machine};

@@ -1,8 +1,7 @@
 //! How much memory a run may take: what its machines have left, and what control groups and `ulimit` leave of that; and whether
 //! it will do with that.
 
-use super::forecast::{self, size};
-use super::outcome::RunError;
+use super::outcome::{RunError, keep_forecast, size};
 use crate::petsc::Session;
 use std::path::{Path, PathBuf};
 
@@ -37,7 +36,7 @@ pub fn refuse_too_large<E: Into<RunError>>(
     let left = Left::now(session);
     let taken = |refine: usize| need(refine).map(|(unknowns, bytes)| (unknowns, left.taken(bytes, session)));
     let (unknowns, whole) = taken(refine).map_err(E::into)?;
-    forecast::keep(whole.need);
+    keep_forecast(whole.need);
     if whole.share <= 1.0 {
         return Ok(());
     }

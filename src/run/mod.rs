@@ -1,5 +1,11 @@
 //! From a case to its result.
 //!
+//! In comes a checked case, out comes a folder with its result, and an [`Outcome`] that becomes the exit code. `reading` makes a scene
+//! of the files, `result` has it solved and writes the folder, with what `summary` and `verdict` say of the solution; `telling` is
+//! what is printed on the way, and what a signal leaves. `checking` has the commands that solve nothing, `accuracy` what is said of
+//! an accuracy, `memory` whether there is enough of it. How the program solves is none of its business: it names twelve items of
+//! the floors that do.
+//!
 //! # Errors, and the end of ranks
 //!
 //! - Rank 0 alone reads files; `Session::share` sends their bytes to all (or its error), and each rank works on the same ones.
@@ -26,12 +32,12 @@
 //!   -pc_type redundant -redundant_pc_type cholesky -redundant_pc_factor_mat_solver_type mumps`); it takes 1.7 times the time to
 //!   set up and 1.7 times the memory of each rank at 264 thousand unknowns on 2 ranks, and more on more of them. Up to 10 000
 //!   unknowns it is taken.
-//! - A result holds what made it (`run/origin.rs`): `provenance` in its summary, the resolved case, and the bytes of the mesh
+//! - A result holds what made it (`run/reading/origin.rs`): `provenance` in its summary, the resolved case, and the bytes of the mesh
 //!   that rank 0 has read, up to 4 MiB. A case that lies beside a summary with its own hash is a repeat: another mesh is refused,
 //!   and what else differs is said. What is told of host, date and command stands in `provenance` alone, so that summaries
 //!   compare without it. The hash is SHA-256 because people have `sha256sum`; the 64 bits of `fingerprint` go on telling a study
 //!   its own runs.
-//! - The line that says where a run is (`run/progress.rs`) is written by a thread of rank 0, which reads what the run notes:
+//! - The line that says where a run is (`run/telling/progress.rs`) is written by a thread of rank 0, which reads what the run notes:
 //!   the work that begins, events of the procedure, and by a monitor of PETSc's the residual of each iteration. So it lives on in
 //!   the longest assembly, asks nothing of other ranks, and changes no digit. Whatever else is printed takes the line away first,
 //!   under one lock. Under mpirun standard error is a pipe: the terminal is looked for where mpirun's own leads to, in /proc.
@@ -52,46 +58,39 @@
 
 mod accuracy;
 mod checking;
-mod fields;
-mod figures;
-mod forecast;
-mod info;
-pub mod interruption;
 mod memory;
-mod observe;
-mod origin;
 mod outcome;
-mod progress;
 mod reading;
-mod report;
-mod results;
+mod result;
 mod run_options;
-mod stages;
-mod steps;
-mod summarise;
+mod summary;
+mod telling;
 mod verdict;
+mod words;
 
 pub use checking::draw_case;
 pub use checking::{Checked, check, check_file};
 pub use checking::{FirstCase, first_case, path_from};
-pub use forecast::remedy as out_of_memory_remedy;
-pub use info::{info, version};
-pub use outcome::{Outcome, RunError};
+pub use checking::{info, version};
+pub use outcome::{Outcome, RunError, out_of_memory_remedy};
 pub use reading::read_case;
 pub use run_options::RunOptions;
+pub use telling::interruption;
 
 use crate::case::Case;
 use crate::discretisation::Scene;
-use crate::petsc::{self, Session};
-use origin::ResultOrigin;
-use report::Report;
-use stages::Stages;
+use crate::petsc::Session;
+use reading::options::refuse_options;
+use reading::origin::{self, ResultOrigin};
 use std::cell::RefCell;
 use std::ffi::OsString;
 use std::os::unix::ffi::OsStringExt;
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
+use telling::progress;
+use telling::report::Report;
+use telling::stages::Stages;
 
 /// Solves a case and writes its results. **Collective**
 ///
@@ -114,7 +113,7 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let report = Report::new(case, options, session);
     let stages = Rc::new(Stages::new(session)?);
     report.start(case);
-    verdict::turns::far_turns(case).iter().for_each(|words| report.warn(words));
+    verdict::warnings::turns::far_turns(case).iter().for_each(|words| report.warn(words));
     let (scene, origin) = read_scene(case, options, origin, &stages, &report, session)?;
     let run = Run { case, options, session, stages, report, files, origin, draws: true, true_errors: RefCell::default() };
     if !case.steps.is_empty() {
@@ -123,46 +122,6 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let solved = run.solve(scene, None)?;
     let summary = run.summarise(&solved)?;
     run.finish(summary, &solved.problem.scene.mesh)
-}
-
-/// Outer methods that the systems can be solved with; what else PETSc has wants another side, norm or start.
-const METHODS: [&str; 16] = [
-    "gmres",
-    "fgmres",
-    "lgmres",
-    "dgmres",
-    "pgmres",
-    "pipefgmres",
-    "gcr",
-    "bcgs",
-    "fbcgs",
-    "fbcgsr",
-    "bcgsl",
-    "pipebcgs",
-    "qmrcgs",
-    "tfqmr",
-    "tcqmr",
-    "cgs",
-];
-
-/// What the case says is not said again to PETSc, and what would end in one of its crashes is not said at all.
-fn refuse_options(session: &Session) -> Result<(), RunError> {
-    const REFUSED: [(&str, &str); 4] = [
-        ("-ksp_rtol", "has no effect here: give `--set solver.tolerance=...`"),
-        ("-ksp_max_it", "has no effect here: it is 300; a solve that needs more has failed"),
-        ("-fieldsplit_u_pc_mg_levels", "cannot be: the levels are those of the mesh; give `--set mesh.refine=...`"),
-        ("-fp_trap", "cannot be: infinite values are looked at where they arise, and are no errors"),
-    ];
-    if let Some((name, why)) = REFUSED.iter().find(|(name, _)| petsc::options::get(session, name).is_some()) {
-        return Err(RunError::Input(format!("PETSc option {name} {why}")));
-    }
-    match petsc::options::get(session, "-ksp_type").filter(|method| !METHODS.contains(&method.to_lowercase().as_str())) {
-        None => Ok(()),
-        Some(method) => Err(RunError::Input(format!(
-            "PETSc option -ksp_type {method}: the outer method is one that takes a nonsymmetric preconditioner from the right and an initial guess: {}",
-            METHODS.join(", ")
-        ))),
-    }
 }
 
 /// The folder of the results, made by rank 0: the place that all ranks write to until it is whole. **Collective**
@@ -210,6 +169,6 @@ fn read_scene(
     let origin = Arc::new(origin);
     interruption::keep_origin(origin.clone());
     let mesh = reading::input::parse_mesh(case, &bytes, session)?;
-    checking::slits::slits(&mesh).iter().for_each(|words| report.warn(words));
+    verdict::warnings::slits::slits(&mesh).iter().for_each(|words| report.warn(words));
     Ok((reading::scene::spread(case, mesh, session)?, origin))
 }

@@ -1,20 +1,14 @@
 //! A grid of runs, each a process of its own and a row of one table; finished runs are kept, and made again only if they would
 //! differ.
+//!
+//! In comes a study file, out comes a folder with all results, tables, figures and a page. The file becomes a checked `plan`, its runs
+//! are made in `runs`, put side by side in `table`, and become texts in `shown`. A study solves nothing itself: what it knows of a
+//! run is its exit code and its `summary.json`.
 
-mod ended;
 mod error;
-mod execution;
-mod figure;
-mod fit;
-mod folder;
-mod format;
-mod lines;
-mod page;
 mod plan;
-mod progress;
-mod record;
-mod repeats;
-mod summary_path;
+mod runs;
+mod shown;
 mod table;
 
 use std::path::Path;
@@ -22,14 +16,15 @@ use std::path::Path;
 pub use error::StudyError;
 pub use plan::Plan;
 
-use ended::Ended;
-use execution::Execution;
-use folder::{Folder, ResultPlace, Wanted};
-use plan::PlannedRun;
-use progress::Progress;
-use record::{Program, Record, inputs, what};
-use repeats::with_spreads;
-use table::Table;
+use plan::planned::PlannedRun;
+use runs::ended::Ended;
+use runs::execution::Execution;
+use runs::folder::{Folder, ResultPlace, Wanted};
+use runs::progress::Progress;
+use runs::record::{Program, Record, inputs, what};
+use shown::{figure, format, page};
+use table::repeats::with_spreads;
+use table::rows::Table;
 
 /// Makes every run of a study that has not been made yet, and tables and figures of all in the folder `out`. A run that fails is a
 /// row too. `overrides` are `KEY=VALUE` for keys of the study; with `force` all runs are made anew. Tells
@@ -49,8 +44,8 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     let places = folder.places(&wanted, plan.timeout);
     let progress = Progress::start(&plan, &places);
     let results = make(&plan, &program, &folder, &wanted, places, &progress)?;
+    let lines = table::lines::lines(&plan, &results);
     let table = with_spreads(Table::new(&plan, &results), &plan);
-    let lines = lines::lines(&plan, &results);
     let [first, all] = [figure::first_figure(&plan, &lines), figure::all_figures(&plan, &lines)];
     let mut texts = vec![
         ("study.csv", format::csv(&table)),

@@ -45,8 +45,8 @@ fn write_rows<'a>(
         for number in numbers {
             write!(out, ",{}", number_cell(number))?;
         }
-        let trust = contact.trust.map_or(String::new(), |trust| trust.to_string());
-        writeln!(out, ",{trust},{}", quoted(contact.verdict.as_deref().unwrap_or_default()))?;
+        let trust = contact.judged.trust.map_or(String::new(), |trust| trust.to_string());
+        writeln!(out, ",{trust},{}", quoted(contact.judged.verdict.as_deref().unwrap_or_default()))?;
     }
     out.flush()
 }
@@ -54,7 +54,7 @@ fn write_rows<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::summary::ContactSummary;
+    use crate::output::summary::{ContactSummary, ContactTrust};
     use proptest::prelude::*;
 
     proptest! {
@@ -68,8 +68,7 @@ mod tests {
                 resultant: Some(force),
                 place: Some(place),
                 closed: Some(closed.iter().map(|width| [3.0, 3.0 + width]).collect()),
-                trust,
-                verdict: Some("not trusted: \"a\"; b".into()),
+                judged: ContactTrust { trust, verdict: Some("not trusted: \"a\"; b".into()), ..ContactTrust::default() },
                 ..ContactSummary::default()
             };
             let summary = Summary { contact: [("a,b".to_owned(), contact.clone())].into(), ..Summary::default() };

@@ -19,8 +19,8 @@ pub const SIGNS: [&str; 5] = [
 ];
 
 /// A text as a cell of a table: in quotes where it holds what parts cells.
-fn quoted(text: &str) -> String {
-    match text.contains([',', '"', '\n']) {
+pub fn quoted(text: &str) -> String {
+    match text.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.into(),
     }

@@ -10,6 +10,7 @@ use rustix::io::Errno;
 use rustix::process::{Pid, test_kill_process};
 use rustix::system::uname;
 
+use super::entries::entries;
 use super::own_files::OwnFiles;
 use crate::output::error::OutputError;
 
@@ -83,8 +84,7 @@ pub fn retire(old: &Path, new: &Path, own: &OwnFiles) -> Result<(), OutputError>
 fn carry_over(old: &Path, new: &Path, inner: &Path, own: &OwnFiles) -> Result<(), OutputError> {
     let folder = old.join(inner);
     make_writable(&folder);
-    for entry in fs::read_dir(&folder).map_err(OutputError::io("read the folder", &folder))? {
-        let entry = entry.map_err(OutputError::io("read the folder", &folder))?;
+    for entry in entries(&folder)? {
         let name = inner.join(entry.file_name());
         let (from, to) = (old.join(&name), new.join(&name));
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());

@@ -1,8 +1,10 @@
 //! A result folder appears whole or not at all.
 
+mod entries;
 mod leftover;
 mod own_files;
 
+pub use entries::{entries, remove_if_there};
 pub use leftover::recover;
 
 use std::fs::{self, File};
@@ -100,12 +102,7 @@ impl ResultFolder {
     /// # Errors
     /// The operating system refuses.
     pub fn empty(&self) -> Result<(), OutputError> {
-        for entry in fs::read_dir(&self.temporary).map_err(OutputError::io("read the folder", &self.temporary))? {
-            let path = entry.map_err(OutputError::io("read the folder", &self.temporary))?.path();
-            let removed = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
-            removed.map_err(OutputError::io("remove", &path))?;
-        }
-        Ok(())
+        entries(&self.temporary)?.iter().try_for_each(|entry| remove_if_there(&entry.path()))
     }
 
     /// Gives the whole result its name. A result that was there is removed; files in it that it has not written are carried over.
@@ -221,9 +218,7 @@ fn holds_result(out: &Path, force: bool) -> Result<bool, OutputError> {
     if !out.is_dir() || out.is_symlink() {
         return Err(OutputError::NotAFolder(out.to_path_buf()));
     }
-    let empty = fs::read_dir(out).map_err(OutputError::io("read the folder", out))?.next().is_none();
-    let holds_result = OwnFiles::of(out).is_some();
-    match (empty, holds_result, force) {
+    match (entries(out)?.is_empty(), OwnFiles::of(out).is_some(), force) {
         (true, _, _) => Ok(false),
         (_, true, true) => Ok(true),
         (_, true, false) => Err(OutputError::HoldsResult(out.to_path_buf())),

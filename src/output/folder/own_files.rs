@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::entries::entries;
 use crate::output::error::OutputError;
 
 /// The file that makes a folder a result.
@@ -56,9 +57,7 @@ pub fn names_within(folder: &Path) -> Result<Vec<String>, OutputError> {
     let mut names = Vec::new();
     let mut folders = vec![PathBuf::new()];
     while let Some(inner) = folders.pop() {
-        let place = folder.join(&inner);
-        for entry in fs::read_dir(&place).map_err(OutputError::io("read the folder", &place))? {
-            let entry = entry.map_err(OutputError::io("read the folder", &place))?;
+        for entry in entries(&folder.join(&inner))? {
             let name = inner.join(entry.file_name());
             if entry.path().is_dir() { folders.push(name) } else { names.push(name.to_string_lossy().into_owned()) }
         }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::page::ReportPage;
-use crate::output::markup::{escape, figure, paragraph, subsection};
+use crate::output::markup::{figure, paragraph, subsection};
 use crate::output::summary::{MOST_WITH_FIGURES, Status};
 
 /// The text of a figure with a caption; nothing if there is no such figure.
@@ -40,19 +40,14 @@ pub fn of_solution(folder: &Path, page: &ReportPage) -> String {
         all += &paragraph(&words);
     }
     let steps = summary.steps.as_ref().filter(|_| !all.is_empty() && summary.status != Status::Interrupted);
-    match steps.and_then(|steps| steps.last()) {
-        Some(last) => {
-            format!("<p class=\"soft\">{}</p>\n", escape(&format!("All of this is load step {}, the last one.", last.step)))
-                + &all
-        }
-        None => all,
-    }
+    let last = steps.and_then(|steps| steps.last());
+    let words = last.map(|last| format!("<p class=\"soft\">All of this is load step {}, the last one.</p>\n", last.step));
+    words.unwrap_or_default() + &all
 }
 
 /// The figures of one contact: each interval that presses, then λ, gap and displacements all along it.
 fn of_contact(folder: &Path, page: &ReportPage, name: &str) -> String {
-    let bodies = page.contacts.iter().find(|(own, _)| own == name).map(|(_, bodies)| bodies);
-    let [one, two] = bodies.map_or(["body 1", "body 2"], |bodies| bodies.each_ref().map(String::as_str));
+    let [one, two] = page.bodies(name);
     let intervals = page.summary.contact.get(name).and_then(|contact| contact.closed.as_ref()).map_or(0, Vec::len);
     let zooms = (1..=intervals).map(|number| {
         let words = if intervals == 1 { "Where it presses".into() } else { format!("Interval {number} of those that press") };

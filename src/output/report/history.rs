@@ -48,16 +48,9 @@ fn load_steps(steps: &[StepSummary]) -> String {
         steps.iter().max_by_key(|step| step.contact.len()).map_or(Vec::new(), |step| step.contact.keys().collect());
     let names = &names[..names.len().min(MOST_COLUMNS)];
     let factors: Vec<&String> = steps.first().map_or(Vec::new(), |step| step.factors.keys().collect());
-    let header: Vec<String> = ["step".to_owned(), "status".into()]
-        .into_iter()
-        .chain(factors.iter().map(|name| format!("factor of {name}")))
-        .chain(
-            names
-                .iter()
-                .flat_map(|name| [format!("force of {name}"), format!("largest λ of {name}"), format!("pressure of {name}")]),
-        )
-        .chain(["iterations".into(), "seconds".into()])
-        .collect();
+    let of_contact = |name: &&String| ["force", "largest λ", "pressure"].map(|what| format!("{what} of {name}"));
+    let columns = factors.iter().map(|name| format!("factor of {name}")).chain(names.iter().flat_map(of_contact));
+    let columns: Vec<String> = columns.collect();
     let row = |step: &StepSummary| {
         let mut cells = vec![step.step.to_string(), word(step.status).to_lowercase()];
         cells.extend(factors.iter().map(|name| number(step.factors.get(*name).copied())));
@@ -71,7 +64,8 @@ fn load_steps(steps: &[StepSummary]) -> String {
         cells.push(step.seconds.map_or(UNKNOWN.into(), |seconds| format!("{seconds:.2}")));
         cells
     };
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let columns = columns.iter().map(String::as_str);
+    let header: Vec<&str> = ["step", "status"].into_iter().chain(columns).chain(["iterations", "seconds"]).collect();
     long_table(&header, steps.iter().map(row).collect(), "steps.csv")
 }
 

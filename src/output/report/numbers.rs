@@ -8,19 +8,23 @@ use super::page::{ReportPage, long_table};
 use crate::output::data::CONTACTS;
 use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, subsection, table};
 use crate::output::plot::{number_text, number_to};
-use crate::output::summary::Summary;
+use crate::output::summary::{ProbeSummary, RigidSummary, Summary};
 
 /// Intervals of one contact that are named one by one.
 const MOST_INTERVALS: usize = 6;
 
-/// A number for a cell.
+/// A number for a cell, with four digits.
 pub fn number(number: Option<f64>) -> String {
-    number.filter(|number| number.is_finite()).map_or(UNKNOWN.into(), number_text)
+    known(number, number_text)
 }
 
 /// A number of the solution itself for a cell.
 fn exact(number: Option<f64>) -> String {
-    number.filter(|number| number.is_finite()).map_or(UNKNOWN.into(), |number| number_to(6, number))
+    known(number, |number| number_to(6, number))
+}
+
+fn known(number: Option<f64>, text: impl Fn(f64) -> String) -> String {
+    number.filter(|number| number.is_finite()).map_or(UNKNOWN.into(), text)
 }
 
 /// A count in groups of three digits.
@@ -60,7 +64,7 @@ pub fn contacts(page: &ReportPage) -> String {
             exact(contact.pressure_max),
             number(contact.width()),
             number(contact.length),
-            trust_word(contact.trust),
+            trust_word(contact.judged.trust),
         ])
     };
     let rows: Vec<Vec<String>> = page.told().filter_map(row).collect();
@@ -111,24 +115,42 @@ fn closed(summary: &Summary) -> String {
 /// Forces of contacts, supports and rigid tools, balances and energies.
 pub fn forces(page: &ReportPage) -> String {
     let summary = page.summary;
-    let mut rows = Vec::new();
-    for (name, contact) in summary.contacts_told() {
-        let two = page.contacts.iter().find(|(own, _)| own == name).map_or("body 2", |(_, bodies)| &bodies[1]);
-        let [x, y] = pair(contact.resultant);
-        rows.push(vec![format!("contact {name}, on {two}"), x, y, exact(contact.moment), "the origin".into()]);
-    }
-    for (name, support) in &summary.support {
-        let [x, y] = pair(support.reaction);
-        let about = if support.moment.is_some() { "the middle of the body" } else { UNKNOWN };
-        rows.push(vec![format!("support {name}, on the bodies"), x, y, exact(support.moment), about.into()]);
-    }
-    for (name, rigid) in &summary.rigid {
-        let [x, y] = pair(rigid.force);
+    let row = |name: String, force: Option<[f64; 2]>, moment: Option<f64>, about: String| {
+        let [x, y] = pair(force);
+        vec![name, x, y, exact(moment), about]
+    };
+    let contacts = summary.contacts_told().map(|(name, contact)| {
+        let [_, two] = page.bodies(name);
+        row(format!("contact {name}, on {two}"), contact.resultant, contact.moment, "the origin".into())
+    });
+    let supports = summary.support.iter().map(|(name, support)| {
+        let about = support.moment.map_or(UNKNOWN, |_| "the middle of the body");
+        row(format!("support {name}, on the bodies"), support.reaction, support.moment, about.into())
+    });
+    let rigid = summary.rigid.iter().map(|(name, rigid)| {
         let about = rigid.about.map_or(UNKNOWN.into(), |[x, y]| format!("({}, {})", number_text(x), number_text(y)));
-        rows.push(vec![format!("rigid {name}, on the bodies"), x, y, exact(rigid.moment), about]);
-    }
-    let mut text = long_table(&["", "force x", "force y", "moment", "about"], rows, "summary.json");
-    text += &motions(summary);
+        row(format!("rigid {name}, on the bodies"), rigid.force, rigid.moment, about)
+    });
+    let rows = contacts.chain(supports).chain(rigid).collect();
+    let forces = long_table(&["", "force x", "force y", "moment", "about"], rows, "summary.json");
+    forces + &motions(summary) + &balances(summary) + &energies(summary)
+}
+
+/// A table below a title; nothing if it is empty.
+fn titled(title: &str, table: String) -> String {
+    if table.is_empty() { table } else { subsection(title) + &table }
+}
+
+fn motions(summary: &Summary) -> String {
+    let row = |(name, rigid): (&String, &RigidSummary)| {
+        let [x, y, turn] = rigid.motion?.map(|value| number(Some(value)));
+        Some(vec![name.clone(), x, y, turn])
+    };
+    let rows: Vec<Vec<String>> = summary.rigid.iter().filter_map(row).collect();
+    titled("Motions of what is rigid", table(&["rigid", "shift x", "shift y", "turn (radians)"], &rows))
+}
+
+fn balances(summary: &Summary) -> String {
     let balance = &summary.balance;
     let balances = [
         ("forces of each contact on its two bodies", balance.force),
@@ -138,21 +160,7 @@ pub fn forces(page: &ReportPage) -> String {
     ];
     let rows = balances.iter().filter(|(_, value)| value.is_some());
     let rows: Vec<Vec<String>> = rows.map(|(name, value)| vec![(*name).into(), number(*value)]).collect();
-    if !rows.is_empty() {
-        text += &subsection("Balances: what should be zero, relative");
-        text += &table(&["", "difference"], &rows);
-    }
-    text + &energies(summary)
-}
-
-fn motions(summary: &Summary) -> String {
-    let row = |(name, rigid): (&String, &crate::output::summary::RigidSummary)| {
-        let [x, y, turn] = rigid.motion?.map(|value| number(Some(value)));
-        Some(vec![name.clone(), x, y, turn])
-    };
-    let rows: Vec<Vec<String>> = summary.rigid.iter().filter_map(row).collect();
-    let table = table(&["rigid", "shift x", "shift y", "turn (radians)"], &rows);
-    if table.is_empty() { table } else { subsection("Motions of what is rigid") + &table }
+    titled("Balances: what should be zero, relative", table(&["", "difference"], &rows))
 }
 
 fn energies(summary: &Summary) -> String {
@@ -164,15 +172,14 @@ fn energies(summary: &Summary) -> String {
         ("work of loads and of prescribed displacements, without the factor ½", energy.external_work),
     ];
     let all = of_bodies.chain(whole.map(|(name, value)| (name.to_owned(), value))).filter(|(_, value)| value.is_some());
-    let rows: Vec<Vec<String>> = all.map(|(name, value)| vec![name, exact(value)]).collect();
-    let table = long_table(&["", "energy"], rows, "summary.json");
-    if table.is_empty() { table } else { subsection("Energies") + &table }
+    let rows = all.map(|(name, value)| vec![name, exact(value)]).collect();
+    titled("Energies", long_table(&["", "energy"], rows, "summary.json"))
 }
 
 /// Displacement and stress at the points asked for, and the largest values of the bodies.
 pub fn points(page: &ReportPage) -> String {
     let summary = page.summary;
-    let row = |(name, probe): (&String, &crate::output::summary::ProbeSummary)| {
+    let row = |(name, probe): (&String, &ProbeSummary)| {
         let ([x, y], [ux, uy]) = (pair(probe.x), pair(probe.u));
         let stress = (0..3).map(|at| exact(probe.stress.map(|stress| stress[at])));
         [name.clone(), x, y, ux, uy].into_iter().chain(stress).collect()
@@ -192,9 +199,12 @@ pub fn points(page: &ReportPage) -> String {
 /// Sizes, solver, times and memory.
 pub fn effort(page: &ReportPage) -> String {
     let Summary { mesh, unknowns, solver, time_s: time, memory_mib: memory, .. } = page.summary;
-    let seconds = |value: Option<f64>| value.map(|seconds| format!("{seconds:.2} s"));
+    let seconds = |values: &[Option<f64>]| {
+        let words: Option<Vec<String>> = values.iter().map(|value| value.map(|seconds| format!("{seconds:.2} s"))).collect();
+        words.map(|words| words.join(", "))
+    };
     let mib = |value: Option<f64>| value.filter(|mib| mib.is_finite()).map(|mib| format!("{mib:.0} MiB"));
-    let known = |value: Option<u64>| value.map(|_| count(value));
+    let counted = |value: Option<u64>| value.map(|_| count(value));
     let iterations = |all: &[usize]| {
         let words: Vec<String> = all.iter().map(usize::to_string).collect();
         (!all.is_empty()).then(|| words.join(" "))
@@ -204,24 +214,18 @@ pub fn effort(page: &ReportPage) -> String {
         .iter()
         .map(|solve| (format!("iterations on refinement {}, before", solve.refine), iterations(&solve.iterations)));
     let rows = [
-        ("triangles", known(mesh.triangles)),
+        ("triangles", counted(mesh.triangles)),
         ("order of the displacement", mesh.order.map(|order| format!("P{order}"))),
         ("edges", mesh.h_min.zip(mesh.h_max).map(|(least, most)| format!("{} to {}", number_text(least), number_text(most)))),
-        ("displacement unknowns", known(unknowns.displacement)),
-        ("contact pressures", known(unknowns.multiplier)),
+        ("displacement unknowns", counted(unknowns.displacement)),
+        ("contact pressures", counted(unknowns.multiplier)),
         ("ranks", Some(page.summary.ranks.to_string())),
         ("solver", solver.krylov.clone().or(solver.name.clone())),
         ("iterations of each linear solve", iterations(&solver.iterations)),
         ("relative residual", solver.residual.map(number_text)),
-        ("time in all", seconds(time.total)),
-        (
-            "time of mesh, contact, assembly",
-            time.mesh.zip(time.contact).zip(time.assemble).map(|((a, b), c)| format!("{a:.2} s, {b:.2} s, {c:.2} s")),
-        ),
-        (
-            "time of set-up, solves, output so far",
-            time.setup.zip(time.solve).zip(time.output).map(|((a, b), c)| format!("{a:.2} s, {b:.2} s, {c:.2} s")),
-        ),
+        ("time in all", seconds(&[time.total])),
+        ("time of mesh, contact, assembly", seconds(&[time.mesh, time.contact, time.assemble])),
+        ("time of set-up, solves, output so far", seconds(&[time.setup, time.solve, time.output])),
         ("memory of the largest rank", mib(memory.max_rank)),
         ("memory in all", mib(memory.sum)),
     ];

@@ -27,6 +27,12 @@ impl<'a> ReportPage<'a> {
         let told: BTreeSet<&str> = self.summary.told().into_iter().collect();
         self.contacts.iter().filter(move |(name, _)| told.contains(name.as_str()))
     }
+
+    /// Names of both bodies of a contact.
+    pub fn bodies(&self, contact: &str) -> [&'a str; 2] {
+        let bodies = self.contacts.iter().find(|(name, _)| name == contact).map(|(_, bodies)| bodies);
+        bodies.map_or(["body 1", "body 2"], |bodies| bodies.each_ref().map(String::as_str))
+    }
 }
 
 /// Rows of a table at most; of more the first and the last are shown.

@@ -18,8 +18,8 @@ pub fn trust(page: &ReportPage) -> String {
         let estimate = summary.estimate.contact.get(name);
         Some(vec![
             name.clone(),
-            trust_word(contact.trust),
-            trust_word(contact.trust_force),
+            trust_word(contact.judged.trust),
+            trust_word(contact.judged.trust_force),
             number(estimate.and_then(|estimate| estimate.lambda)),
             number(estimate.and_then(|estimate| estimate.force)),
             number(contact.inf_sup),

@@ -1,10 +1,10 @@
 //! What everybody wants to know first.
 
+use super::numbers::number;
 use super::page::{ExpectedValue, ReportPage};
 use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, paragraph, subsection, table};
 use crate::output::plot::number_text;
-use crate::output::summary::Summary;
-use crate::output::summary::{GoalSummary, MOST_TOLD, Status, WORST, listed};
+use crate::output::summary::{GoalSummary, MOST_TOLD, Status, Summary, WORST, listed};
 
 /// The verdict in a word or two.
 pub fn word(status: Status) -> &'static str {
@@ -21,9 +21,9 @@ pub fn verdict(page: &ReportPage) -> String {
     let summary = page.summary;
     let reason = clauses(summary.reason.as_deref().unwrap_or_default());
     let rest = if reason.is_empty() { String::new() } else { format!("<p>{}.</p>\n", escape(&capital(&reason.join("; ")))) };
-    let class = match (summary.status, is_trusted(summary)) {
-        (Status::Converged, Trust::All) => "good",
-        (Status::Converged, _) => "open",
+    let class = match summary.status {
+        Status::Converged if doubtful(summary).iter().all(Vec::is_empty) => "good",
+        Status::Converged => "open",
         _ => "bad",
     };
     format!(
@@ -35,43 +35,32 @@ pub fn verdict(page: &ReportPage) -> String {
     )
 }
 
-/// Whether the pressures of all contacts can be trusted.
-enum Trust {
-    All,
-    None(Vec<String>),
-    Unknown(Vec<String>),
-}
-
-fn is_trusted(summary: &Summary) -> Trust {
-    let named =
-        |wanted: Option<bool>| summary.named(|contact| contact.trust == wanted).into_iter().map(String::from).collect::<Vec<_>>();
-    match (named(Some(false)), named(None)) {
-        (none, _) if !none.is_empty() => Trust::None(none),
-        (_, unknown) if !unknown.is_empty() => Trust::Unknown(unknown),
-        _ => Trust::All,
-    }
+/// Contacts whose pressures cannot be trusted, and those of which nothing tells.
+fn doubtful(summary: &Summary) -> [Vec<&str>; 2] {
+    [Some(false), None].map(|trust| summary.named(|contact| contact.judged.trust == trust))
 }
 
 /// The verdict in a sentence.
 fn sentence(summary: &Summary) -> String {
-    let contacts = |names: &[String]| {
+    let contacts = |names: &[&str]| {
         let word = if names.len() == 1 { "contact" } else { "contacts" };
         format!("{word} {}", listed(names))
     };
-    match (summary.status, is_trusted(summary)) {
-        (Status::Interrupted, _) => "A signal has ended the run: there is no result, and below stands what was reached.".into(),
-        (Status::Unresolved, _) => {
+    let [untrusted, untold] = doubtful(summary);
+    match summary.status {
+        Status::Interrupted => "A signal has ended the run: there is no result, and below stands what was reached.".into(),
+        Status::Unresolved => {
             "The equations are solved, but on a mesh, or contact boundaries, that cannot hold what the case says.".into()
         }
-        (Status::NotConverged, _) => not_converged(summary.reason.as_deref().unwrap_or_default()).into(),
-        (Status::Converged, Trust::None(names)) => {
-            format!("The equations are solved, but the pressure of {} cannot be trusted.", contacts(&names))
+        Status::NotConverged => not_converged(summary.reason.as_deref().unwrap_or_default()).into(),
+        Status::Converged if !untrusted.is_empty() => {
+            format!("The equations are solved, but the pressure of {} cannot be trusted.", contacts(&untrusted))
         }
-        (Status::Converged, Trust::Unknown(names)) => {
-            format!("The equations are solved; nothing tells whether the pressure of {} can be trusted.", contacts(&names))
+        Status::Converged if !untold.is_empty() => {
+            format!("The equations are solved; nothing tells whether the pressure of {} can be trusted.", contacts(&untold))
         }
-        (Status::Converged, Trust::All) if summary.contact.is_empty() => "The equations are solved.".into(),
-        (Status::Converged, Trust::All) => "The equations are solved, and the contact pressure can be trusted.".into(),
+        Status::Converged if summary.contact.is_empty() => "The equations are solved.".into(),
+        Status::Converged => "The equations are solved, and the contact pressure can be trusted.".into(),
     }
 }
 
@@ -119,7 +108,6 @@ fn expected(values: &[ExpectedValue]) -> String {
             (_, Some(_)) => MISSED,
             _ => UNKNOWN,
         };
-        let number = |number: Option<f64>| number.map_or(UNKNOWN.into(), number_text);
         let known = |text: &str| if text.is_empty() { UNKNOWN.into() } else { text.to_owned() };
         vec![
             value.name.clone(),
@@ -137,33 +125,34 @@ fn expected(values: &[ExpectedValue]) -> String {
 /// The accuracy that the case asks for.
 fn goals(summary: &Summary) -> String {
     let Some(last) = summary.accuracy.as_ref().and_then(|steps| steps.last()) else { return String::new() };
-    let mut all: Vec<(String, &Option<GoalSummary>)> = vec![("energy norm".into(), &last.energy)];
+    let mut all = vec![("energy norm".to_owned(), &last.energy)];
     for (name, contact) in &last.contact {
-        let goals = [("force", &contact.force), ("pressure", &contact.pressure), ("largest pressure", &contact.peak)];
+        let goals = [
+            ("force", &contact.force),
+            ("pressure", &contact.pressure),
+            ("largest pressure", &contact.peak),
+            ("ends", &contact.ends),
+        ];
         all.extend(goals.map(|(what, goal)| (format!("{what} of {name}"), goal)));
-        all.push((format!("ends of {name}"), &contact.ends));
     }
     for (name, probe) in &last.probe {
         let goals = [("displacement", &probe.displacement), ("stress", &probe.stress)];
         all.extend(goals.map(|(what, goal)| (format!("{what} at {name}"), goal)));
     }
-    let number = |number: Option<f64>| number.map_or(UNKNOWN.into(), number_text);
-    let row = |(name, goal): (String, &Option<GoalSummary>)| {
-        let goal = goal.as_ref()?;
+    let mut all: Vec<(String, &GoalSummary)> = all.into_iter().filter_map(|(name, goal)| Some((name, goal.as_ref()?))).collect();
+    let row = |(name, goal): &(String, &GoalSummary)| {
         let holds = if goal.estimate.is_some_and(|estimate| estimate <= goal.asked) { HOLDS } else { MISSED };
-        Some(vec![name, number_text(goal.asked), number(goal.estimate), number(goal.error), holds.into()])
+        vec![name.clone(), number_text(goal.asked), number(goal.estimate), number(goal.error), holds.into()]
     };
-    all.retain(|(_, goal)| goal.is_some());
     let count = all.len();
+    let mut words = String::new();
     if count > MOST_TOLD {
         let excess = |goal: &GoalSummary| goal.estimate.map_or(f64::INFINITY, |estimate| estimate / goal.asked);
-        let excess = |goal: &Option<GoalSummary>| goal.as_ref().map_or(0.0, excess);
         all.sort_by(|(_, a), (_, b)| excess(b).total_cmp(&excess(a)));
         all.truncate(WORST);
+        words = paragraph(&format!("The worst of {count} goals; all of them stand in summary.json."));
     }
-    let rows: Vec<Vec<String>> = all.into_iter().filter_map(row).collect();
-    let words = format!("The worst of {count} goals; all of them stand in summary.json.");
-    let words = if rows.len() < count { paragraph(&words) } else { String::new() };
+    let rows: Vec<Vec<String>> = all.iter().map(row).collect();
     let header = ["", "error asked for", "estimated", "true", ""];
     if rows.is_empty() { String::new() } else { subsection("Accuracy") + &words + &table(&header, &rows) }
 }

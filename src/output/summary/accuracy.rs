@@ -71,7 +71,6 @@ pub struct GoalSummary {
     /// As estimated; null where there is not enough to tell.
     pub estimate: Option<f64>,
     /// As the expected values of the case tell it; null where they do not.
-    #[serde(default)]
     pub error: Option<f64>,
     /// The largest that was asked for.
     pub asked: f64,

@@ -65,24 +65,27 @@ pub struct ContactSummary {
     /// the largest overlap relative to the largest displacement.
     pub missing: Option<f64>,
     /// The same as a force (force per thickness), on undeformed bodies.
-    #[serde(default)]
     pub missing_force: Option<f64>,
     /// Deepest place of one body in the other, by their whole sides (length).
-    #[serde(default)]
     pub depth: Option<f64>,
     /// Where that is.
-    #[serde(default)]
     pub deepest: Option<[f64; 2]>,
     /// How far the sides have come together since they touched first, or have parted that were drawn in each other (length).
-    #[serde(default)]
     pub approach: Option<f64>,
+    /// Whether it can be trusted; on the same level of the file as the figures that this is judged by.
+    #[serde(flatten)]
+    pub judged: ContactTrust,
+}
+
+/// Whether a contact can be trusted. `run/verdict` judges it by all figures of a summary.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactTrust {
     /// Whether the contact pressure can be trusted; null if nothing tells, or if the corner of a body presses on too
     /// few edges: the reason says which.
     pub trust: Option<bool>,
     /// Whether ∫ λ ds can be trusted to one per cent; null if nothing estimates it.
     pub trust_force: Option<bool>,
-    /// The verdict on it in a few words: `trusted`, why not, or that it only touches.
-    #[serde(default)]
+    /// The verdict in a few words: `trusted`, why not, or that the contact only touches.
     pub verdict: Option<String>,
 }
 
@@ -105,7 +108,6 @@ pub struct ZoneSummary {
     /// Its share of the force.
     pub share: Option<f64>,
     /// Width that its force asks for between smooth convex sides (length); null elsewhere.
-    #[serde(default)]
     pub hertz_width: Option<f64>,
     /// Largest contact pressure.
     pub pressure_max: Option<f64>,

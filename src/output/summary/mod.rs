@@ -15,7 +15,7 @@ mod thickness;
 mod told;
 
 pub use accuracy::{AccuracyStep, ContactGoals, Cycles, GoalSummary, ProbeGoals};
-pub use contact::{ContactEstimate, ContactSummary, ZoneSummary};
+pub use contact::{ContactEstimate, ContactSummary, ContactTrust, ZoneSummary};
 pub use machine::{machine, whole_machine};
 pub use passes::{BoundaryIteration, OuterIteration};
 pub use provenance::Provenance;
@@ -46,7 +46,6 @@ pub struct Summary {
     /// Number of ranks.
     pub ranks: usize,
     /// What made the result, and of what; null in results of older versions.
-    #[serde(default)]
     pub provenance: Option<Provenance>,
     /// Names of all files of the result, relative to its folder, sorted: a run that replaces it removes these and no others.
     #[serde(default)]
@@ -73,7 +72,6 @@ pub struct Summary {
     /// Energies of the solution.
     pub energy: Energy,
     /// Largest displacement of a node (length).
-    #[serde(default)]
     pub displacement_max: Option<f64>,
     /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
     #[serde(default)]
@@ -164,7 +162,6 @@ pub struct SupportSummary {
     #[serde(deserialize_with = "numbers")]
     pub reaction: Option<[f64; 2]>,
     /// Its moment about the middle of the body, where it holds a mean motion.
-    #[serde(default)]
     pub moment: Option<f64>,
 }
 
@@ -181,7 +178,6 @@ pub struct Energy {
     /// U from the stationary value of the Lagrangian, of second order in the algebraic error; not in all scenes.
     pub stationary: Option<f64>,
     /// Energy in elastic supports, ½∫k u²; null without any.
-    #[serde(default)]
     pub springs: Option<f64>,
     /// f·u + r·u_D, without the factor one half.
     pub external_work: Option<f64>,

@@ -14,7 +14,6 @@ pub struct SolverSummary {
     /// Solves on coarser meshes before, the coarsest first.
     pub coarse: Vec<CoarseSolveSummary>,
     /// Iterations on all meshes, each by its unknowns, in iterations on the last one.
-    #[serde(default)]
     pub cycles: Option<f64>,
     /// Relative residual of the scaled augmented system.
     pub residual: Option<f64>,

@@ -1,12 +1,8 @@
 //! What a summary says of load steps.
 
-use super::BalanceSummary;
-use super::ProbeSummary;
-use super::RigidSummary;
-use super::Status;
-use super::Summary;
-use super::SupportSummary;
+use super::contact::ContactSummary;
 use super::numbers::numbers;
+use super::{BalanceSummary, ProbeSummary, RigidSummary, Status, Summary, SupportSummary};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -64,10 +60,10 @@ pub struct StepContact {
 impl StepSummary {
     /// What a list of steps keeps of the summary of one.
     pub fn new(step: usize, factors: &[(String, f64)], of: &Summary, seconds: f64) -> Self {
-        let contact = |(name, contact): (&String, &super::contact::ContactSummary)| {
+        let contact = |(name, contact): (&String, &ContactSummary)| {
             let (closed, width) = (contact.closed.clone(), contact.width());
             let (force, resultant, pressure_max) = (contact.force, contact.resultant, contact.pressure_max);
-            (name.clone(), StepContact { force, resultant, closed, width, pressure_max, trust: contact.trust })
+            (name.clone(), StepContact { force, resultant, closed, width, pressure_max, trust: contact.judged.trust })
         };
         Self {
             step,

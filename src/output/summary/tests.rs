@@ -19,7 +19,7 @@ fn filled() -> Summary {
         closed: Some(vec![[0.0, 6.0]]),
         closed_points: Some(vec![[[0.0, 3.0], [6.0, 4.0]]]),
         resultant: Some([1.0, -6.0]),
-        trust: Some(true),
+        judged: ContactTrust { trust: Some(true), ..ContactTrust::default() },
         zones: vec![ZoneSummary { ends: Some([0.0, 6.0]), ..ZoneSummary::default() }],
         ..ContactSummary::default()
     };

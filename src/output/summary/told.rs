@@ -35,7 +35,7 @@ impl Summary {
     /// Names of all contacts: those that are not to be trusted before those of which nothing tells, these before the others, and
     /// of each kind those with the largest forces first.
     pub fn worst_first(&self) -> Vec<&str> {
-        let trust = |contact: &ContactSummary| contact.trust.map_or(1, |trust| if trust { 2 } else { 0 });
+        let trust = |contact: &ContactSummary| contact.judged.trust.map_or(1, |trust| if trust { 2 } else { 0 });
         self.sorted(|a, b| trust(a).cmp(&trust(b)).then_with(|| by_force(a, b)))
     }
 
@@ -69,21 +69,20 @@ impl Summary {
         if count <= MOST_TOLD {
             return None;
         }
-        let counted = |is: &dyn Fn(&ContactSummary) -> bool, words: &str| {
-            let own = self.named(is).len();
-            (own > 0).then(|| format!("{own} {words}"))
+        let is_idle = |contact: &ContactSummary| contact.judged.verdict.as_ref().is_some_and(|words| !words.contains("trusted"));
+        let kind = |contact: &ContactSummary| match contact.judged.trust {
+            Some(true) if is_idle(contact) => "touch or are open",
+            Some(true) => "are trusted",
+            Some(false) => "are not trusted",
+            None => "nothing tells of",
         };
-        let is_idle = |contact: &ContactSummary| contact.verdict.as_ref().is_some_and(|words| !words.contains("trusted"));
-        let kinds = [
-            counted(&|contact| contact.trust == Some(true) && !is_idle(contact), "are trusted"),
-            counted(&|contact| contact.trust == Some(true) && is_idle(contact), "touch or are open"),
-            counted(&|contact| contact.trust == Some(false), "are not trusted"),
-            counted(&|contact| contact.trust.is_none(), "nothing tells of"),
-        ];
-        let kinds: Vec<String> = kinds.into_iter().flatten().collect();
+        let kinds = ["are trusted", "touch or are open", "are not trusted", "nothing tells of"];
+        let kinds = kinds.map(|words| (self.named(|contact| kind(contact) == words).len(), words));
+        let kinds: Vec<String> = kinds.iter().filter(|(own, _)| *own > 0).map(|(own, words)| format!("{own} {words}")).collect();
         let one = |name: &&str| {
             let contact = self.contact.get(*name)?;
-            let (force, verdict) = (contact.force.unwrap_or(f64::NAN), contact.verdict.as_deref().unwrap_or("nothing tells"));
+            let (force, verdict) =
+                (contact.force.unwrap_or(f64::NAN), contact.judged.verdict.as_deref().unwrap_or("nothing tells"));
             Some(format!("{name} (force {force:.4e}, {:.2} of the largest; {verdict})", force.abs() / largest))
         };
         let worst: Vec<String> = self.worst_first().iter().take(WORST).filter_map(one).collect();
@@ -106,12 +105,14 @@ fn by_force(a: &ContactSummary, b: &ContactSummary) -> Ordering {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::summary::ContactTrust;
     use proptest::prelude::*;
 
     fn summary(contacts: &[(Option<bool>, f64)]) -> Summary {
         let contact = |(at, &(trust, force)): (usize, &(Option<bool>, f64))| {
             let verdict = Some(if trust == Some(true) { "trusted" } else { "not trusted: narrow" }.to_owned());
-            (format!("c{at:03}"), ContactSummary { trust, force: Some(force), verdict, ..ContactSummary::default() })
+            let judged = ContactTrust { trust, verdict, ..ContactTrust::default() };
+            (format!("c{at:03}"), ContactSummary { force: Some(force), judged, ..ContactSummary::default() })
         };
         Summary { contact: contacts.iter().enumerate().map(contact).collect(), ..Summary::default() }
     }
@@ -129,7 +130,7 @@ mod tests {
             let force = |name: &&str| summary.contact[*name].force.unwrap_or(0.0).abs();
             let left = worst.iter().filter(|name| !told.contains(name)).map(force).fold(0.0, f64::max);
             prop_assert!(told.iter().filter(|name| force(name) >= left).count() >= told.len().saturating_sub(WORST));
-            let key = |name: &&str| (summary.contact[*name].trust.map_or(1, |trust| 2 * usize::from(trust)), -force(name));
+            let key = |name: &&str| (summary.contact[*name].judged.trust.map_or(1, |trust| 2 * usize::from(trust)), -force(name));
             prop_assert!(worst.iter().map(key).is_sorted_by(|a, b| a <= b));
             let words = summary.contacts_in_words();
             prop_assert_eq!(words.is_some(), contacts.len() > MOST_TOLD);

@@ -4,10 +4,11 @@ use crate::body::{Load, LoadKind, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
 use crate::contact::Pair;
 use crate::geometry::{Formula, Point};
-use crate::mesh::{MacroMesh, MacroTriangle};
+use crate::mesh::{MacroMesh, MacroTriangle, Stretch};
 use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds};
 use crate::run::outcome::RunError;
 use crate::run::reading::scene;
+use crate::run::words::title;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -80,13 +81,10 @@ fn remarks(words: &str, file: &Path) -> Vec<String> {
         lines.push(String::new());
         for word in text.split_whitespace() {
             let line = lines.last_mut().expect("one was just pushed");
-            if line.is_empty() {
-                line.push_str(word);
-            } else if line.chars().count() + word.chars().count() < LONGEST_REMARK {
-                line.push(' ');
-                line.push_str(word);
-            } else {
-                lines.push(format!("    {word}"));
+            match line.is_empty() {
+                true => line.push_str(word),
+                false if line.chars().count() + word.chars().count() < LONGEST_REMARK => *line += &format!(" {word}"),
+                false => lines.push(format!("    {word}")),
             }
         }
     }
@@ -106,11 +104,10 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
         edges.dedup();
         rows(mesh, &edges)
     };
-    let title = if case.title.is_empty() { &case.name } else { &case.title };
     let is_big = mesh.edges.len() > MOST_EDGES;
     let curves = mesh.physical_curves().into_iter().filter(|boundary| case.tool_of(&boundary.name).is_none());
     let mut figure = SceneFigure {
-        title: title.clone(),
+        title: title(case).into(),
         parts: parts(case, mesh),
         edges: if is_big { Vec::new() } else { (0..mesh.edges.len() as u32).map(|edge| points(mesh, edge)).collect() },
         boundaries: curves
@@ -156,16 +153,16 @@ fn contacts(case: &Case, mesh: &MacroMesh) -> Vec<NamedRows> {
 /// The point of the first boundary that is nearest to the second one, and how far around it a contact of both is drawn.
 fn nearest([first, second]: [&Rows; 2]) -> Option<(BoundaryPoint, f64)> {
     let all = [first, second].map(|rows| rows.iter().flatten().copied().collect::<Vec<BoundaryPoint>>());
-    let distance = |a: usize, b: usize| {
+    let distance = |&[a, b]: &[usize; 2]| {
         let ([x, y], [u, v]) = (all[0][a].place, all[1][b].place);
         (x - u).hypot(y - v)
     };
+    let closest = |a: &[usize; 2], b: &[usize; 2]| distance(a).total_cmp(&distance(b));
     let steps = all.each_ref().map(|points| points.len().div_ceil(LOOKS).max(1));
     let pairs = (0..all[0].len()).step_by(steps[0]).flat_map(|a| (0..all[1].len()).step_by(steps[1]).map(move |b| [a, b]));
-    let [a, b] = pairs.min_by(|p, q| distance(p[0], p[1]).total_cmp(&distance(q[0], q[1])))?;
+    let [a, b] = pairs.min_by(closest)?;
     let around = |k: usize, at: usize| at.saturating_sub(steps[k])..(at + steps[k] + 1).min(all[k].len());
-    let pairs = around(0, a).flat_map(|a| around(1, b).map(move |b| [a, b]));
-    let [a, _] = pairs.min_by(|p, q| distance(p[0], p[1]).total_cmp(&distance(q[0], q[1])))?;
+    let [a, _] = around(0, a).flat_map(|a| around(1, b).map(move |b| [a, b])).min_by(closest)?;
     let size = |points: &[BoundaryPoint]| {
         let [low, high] = bounds(points.iter().map(|point| point.place));
         (high[0] - low[0]).hypot(high[1] - low[1])
@@ -202,16 +199,15 @@ fn parts(case: &Case, mesh: &MacroMesh) -> Vec<DrawnPart> {
     let part = |(number, own): (usize, Vec<usize>)| {
         let around = |&triangle: &usize| {
             let triangle = &mesh.triangles[triangle];
-            let mut all = Vec::new();
-            for (edge, forward) in triangle.edges.into_iter().zip(triangle.forward) {
+            let side = |(edge, forward): (u32, bool)| {
                 let mut points = points(mesh, edge);
                 if !forward {
                     points.reverse();
                 }
                 points.pop();
-                all.extend(points);
-            }
-            all
+                points
+            };
+            triangle.edges.into_iter().zip(triangle.forward).flat_map(side).collect()
         };
         let surface = &mesh.parts[number];
         let body = &mesh.bodies[surface.body as usize];
@@ -244,24 +240,15 @@ fn inside(mesh: &MacroMesh, own: &[usize]) -> Point {
 
 /// Rows of points of boundary edges, one for each stretch without corners.
 fn rows(mesh: &MacroMesh, edges: &[u32]) -> Rows {
-    let row = |stretch: crate::mesh::Stretch| {
-        let mut row: Vec<BoundaryPoint> = Vec::new();
-        for &edge in &stretch.edges {
-            let triangle = &mesh.triangles[mesh.beside(edge).0 as usize];
-            let forward = triangle.forward[mesh.beside(edge).1];
-            let bends = bends(mesh);
-            for k in 0..=bends {
-                let t = k as f64 / bends as f64;
-                let t = if forward { t } else { 1.0 - t };
-                row.push(BoundaryPoint {
-                    place: mesh.edge_position(edge, t).into(),
-                    normal: mesh.edge_normal(edge, t).into(),
-                    traction: [0.0; 2],
-                });
-            }
-        }
-        row
+    let bends = bends(mesh);
+    let point = |(edge, k): (u32, usize)| {
+        let (triangle, side) = mesh.beside(edge);
+        let t = k as f64 / bends as f64;
+        let t = if mesh.triangles[triangle as usize].forward[side] { t } else { 1.0 - t };
+        let [place, normal] = [mesh.edge_position(edge, t), mesh.edge_normal(edge, t)].map(Into::into);
+        BoundaryPoint { place, normal, traction: [0.0; 2] }
     };
+    let row = |stretch: Stretch| stretch.edges.iter().flat_map(|&edge| (0..=bends).map(move |k| (edge, k))).map(point).collect();
     mesh.stretches(edges).into_iter().map(row).collect()
 }
 
@@ -331,26 +318,28 @@ fn surface_load(load: &Load, on: &dyn Fn(&[String]) -> Rows) -> DrawnLoad {
 }
 
 fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnLoad> {
+    let arrow = |name: String, place: [f64; 2], along: [f64; 2]| DrawnLoad {
+        name,
+        rows: Vec::new(),
+        resultant: Some((place, along)),
+        is_plate: false,
+    };
     let plates = case.plates.iter().map(|plate| {
         let rows = on(&plate.on);
         let [fx, fy, _] = plate.motion.applied;
-        let points: Vec<&BoundaryPoint> = rows.iter().flatten().collect();
-        let middle = points.get(points.len() / 2).map_or([0.0; 2], |point| point.place);
-        let name = format!("{}: stiff plate", plate.name);
-        DrawnLoad { name, resultant: Some((middle, [fx, fy])), rows, is_plate: true }
+        let middle = rows.iter().flatten().nth(rows.iter().flatten().count() / 2).map_or([0.0; 2], |point| point.place);
+        DrawnLoad { rows, is_plate: true, ..arrow(format!("{}: stiff plate", plate.name), middle, [fx, fy]) }
     });
     let at_points = case.point_loads.iter().map(|load| {
-        let resultant = Some((load.at.place, load.force().into()));
-        DrawnLoad { name: load.name.clone(), rows: lone_point(load.at.place), resultant, is_plate: false }
+        let place = load.at.place;
+        DrawnLoad { rows: lone_point(place), ..arrow(load.name.clone(), place, load.force().into()) }
     });
     let tools = case.tools.iter().filter_map(|tool| {
         let [fx, fy, _] = tool.motion.applied;
         let moved = [0, 1].map(|k| tool.motion.prescribed[k].unwrap_or(0.0));
         let along = if fx != 0.0 || fy != 0.0 { [fx, fy] } else { moved };
-        (along != [0.0; 2]).then(|| {
-            let name = format!("{}: {}", tool.key(), if along == moved { "moves" } else { "force" });
-            DrawnLoad { name, rows: Vec::new(), resultant: Some((tool.motion.about.into(), along)), is_plate: false }
-        })
+        let name = format!("{}: {}", tool.key(), if along == moved { "moves" } else { "force" });
+        (along != [0.0; 2]).then(|| arrow(name, tool.motion.about.into(), along))
     });
     let of_parts = triangles_of(mesh, mesh.parts.len(), |triangle| triangle.part);
     let weights = case.bodies.iter().flat_map(|body| &body.parts).filter_map(|part| {
@@ -358,8 +347,7 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         let place = inside(mesh, &of_parts[number]);
         let force = [0, 1].map(|k| part.force[k].value(&[place.x, place.y]));
         let acts = force.iter().all(|part| part.is_finite()) && force != [0.0; 2];
-        let name = format!("force in {}", part.name);
-        acts.then(|| DrawnLoad { name, rows: Vec::new(), resultant: Some((place.into(), force)), is_plate: false })
+        acts.then(|| arrow(format!("force in {}", part.name), place.into(), force))
     });
     case.loads.iter().map(|load| surface_load(load, on)).chain(plates).chain(at_points).chain(tools).chain(weights).collect()
 }

@@ -1,6 +1,6 @@
 //! Whether the mean motions that a case holds are free to be held.
 
-use crate::body::{HeldMode, MeanHold, rigid_displacement};
+use crate::body::{HeldMode, MeanHold, Springs, Support, rigid_displacement};
 use crate::case::Case;
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
@@ -11,11 +11,10 @@ const AT_REST: f64 = 1e-9;
 /// A body is of one piece, has vertices enough, and nothing but contact resists the motions whose mean is held.
 ///
 /// # Errors
-/// Words that name the file, the support and the remedy.
+/// Words that begin with the key, and tell the remedy.
 pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
-    let holds = case.mean_holds(mesh).map_err(|words| format!("{}: {words}", case.file.display()))?;
-    for hold in &holds {
-        let error = |words: String| Err(format!("{}: support.{}: {words}", case.file.display(), hold.name));
+    for hold in &case.mean_holds(mesh)? {
+        let error = |words: String| Err(format!("support.{}: {words}", hold.name));
         let pieces = mesh.pieces.iter().filter(|piece| mesh.bodies[piece.body] == hold.body).count();
         if pieces > 1 {
             return error(format!("body \"{}\" is of {pieces} pieces; hold each by points, at = [x, y]", hold.body));
@@ -49,43 +48,48 @@ fn resisting<'a>(case: &Case, mesh: &MacroMesh, hold: &'a MeanHold) -> Option<(S
             rigid_displacement(about, &held.mode, x).dot(&direction).abs() > AT_REST * whole
         })
     };
-    let of_body = |edge: u32| mesh.bodies[mesh.body_beside(edge)] == hold.body;
-    let edges = |names: &[String]| -> Vec<u32> {
-        let boundaries = names.iter().filter_map(|name| mesh.boundary(name));
-        boundaries.flat_map(|boundary| boundary.edges.iter().copied()).filter(|&edge| of_body(edge)).collect()
+    let supports = case.supports.iter().map(|support| (&support.name, held_directions(support, mesh, &hold.body)));
+    let springs = case.springs.iter().map(|springs| (&springs.name, pulled_directions(springs, mesh, &hold.body)));
+    let resisted = supports.chain(springs).find_map(|(name, directions)| {
+        let (x, held) = directions.into_iter().find_map(|(x, direction)| Some((x, moved(x, direction)?)))?;
+        Some((format!("support.{name}"), held, x))
+    });
+    resisted.or_else(|| {
+        let on = case.plates.iter().find_map(|plate| Some((plate, *edges_of(mesh, &plate.on, &hold.body).first()?)));
+        on.and_then(|(plate, edge)| Some((format!("load.{}", plate.name), hold.held.first()?, mesh.edge_position(edge, 0.5))))
+    })
+}
+
+/// Edges of some boundaries beside a body.
+fn edges_of(mesh: &MacroMesh, names: &[String], body: &str) -> Vec<u32> {
+    let edges = names.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| boundary.edges.iter().copied());
+    edges.filter(|&edge| mesh.bodies[mesh.body_beside(edge)] == body).collect()
+}
+
+/// Ends and middles of such edges, with the normals there.
+fn places_on(mesh: &MacroMesh, names: &[String], body: &str) -> Vec<(Point, Point)> {
+    let places = edges_of(mesh, names, body).into_iter().flat_map(|edge| [0.0, 0.5, 1.0].map(|t| (edge, t)));
+    places.map(|(edge, t)| (mesh.edge_position(edge, t), mesh.edge_normal(edge, t))).collect()
+}
+
+/// Points of a body at which a support holds it, each with a direction.
+fn held_directions(support: &Support, mesh: &MacroMesh, body: &str) -> Vec<(Point, Point)> {
+    let on_edges = places_on(mesh, &support.on, body);
+    let vertex = support.at.as_ref().and_then(|spot| mesh.vertex_at(spot)).filter(|&vertex| {
+        mesh.triangle_at(vertex).is_some_and(|triangle| mesh.bodies[mesh.triangles[triangle as usize].body as usize] == body)
+    });
+    let places = vertex.map(|vertex| mesh.vertices[vertex as usize]).into_iter().chain(on_edges.iter().map(|(x, _)| *x));
+    let axes = [(&support.ux, Point::new(1.0, 0.0)), (&support.uy, Point::new(0.0, 1.0))];
+    let axes = axes.into_iter().filter(|(given, _)| given.is_some()).map(|(_, axis)| axis);
+    let along = places.flat_map(|x| axes.clone().map(move |axis| (x, axis)));
+    on_edges.iter().copied().filter(|_| support.normal.is_some()).chain(along).collect()
+}
+
+/// Points of a body at which springs pull, each with a direction.
+fn pulled_directions(springs: &Springs, mesh: &MacroMesh, body: &str) -> Vec<(Point, Point)> {
+    let at = |(x, normal): (Point, Point)| {
+        let pulling = springs.stiffness.at(x, normal).into_iter().filter(|(_, k)| *k > 0.0);
+        pulling.map(move |(direction, _)| (x, direction)).collect::<Vec<_>>()
     };
-    let axes = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
-    for support in &case.supports {
-        let given = [support.ux.is_some(), support.uy.is_some()];
-        let key = format!("support.{}", support.name);
-        let mut places: Vec<Point> = Vec::new();
-        if let Some(vertex) = support.at.as_ref().and_then(|spot| mesh.vertex_at(spot)) {
-            let body = mesh.triangle_at(vertex).map(|triangle| mesh.triangles[triangle as usize].body as usize);
-            places.extend(body.filter(|&body| mesh.bodies[body] == hold.body).map(|_| mesh.vertices[vertex as usize]));
-        }
-        let edges = edges(&support.on);
-        for (edge, t) in edges.iter().flat_map(|&edge| [0.0, 0.5, 1.0].map(|t| (edge, t))) {
-            let x = mesh.edge_position(edge, t);
-            places.push(x);
-            if let Some(held) = moved(x, mesh.edge_normal(edge, t)).filter(|_| support.normal.is_some()) {
-                return Some((key, held, x));
-            }
-        }
-        for (x, axis) in places.iter().flat_map(|&x| (0..2).map(move |axis| (x, axis))).filter(|(_, axis)| given[*axis]) {
-            if let Some(held) = moved(x, axes[axis]) {
-                return Some((key, held, x));
-            }
-        }
-    }
-    for springs in &case.springs {
-        for (edge, t) in edges(&springs.on).into_iter().flat_map(|edge| [0.0, 0.5, 1.0].map(|t| (edge, t))) {
-            let x = mesh.edge_position(edge, t);
-            let mut pulling = springs.stiffness.at(x, mesh.edge_normal(edge, t)).into_iter().filter(|(_, k)| *k > 0.0);
-            if let Some(held) = pulling.find_map(|(direction, _)| moved(x, direction)) {
-                return Some((format!("support.{}", springs.name), held, x));
-            }
-        }
-    }
-    let plate = case.plates.iter().find_map(|plate| Some((plate, *edges(&plate.on).first()?)));
-    plate.and_then(|(plate, edge)| Some((format!("load.{}", plate.name), hold.held.first()?, mesh.edge_position(edge, 0.5))))
+    places_on(mesh, &springs.on, body).into_iter().flat_map(at).collect()
 }

@@ -57,16 +57,14 @@ impl Names<'_> {
     /// Every key of the case that names physical curves.
     fn used(&self) -> Vec<(String, Vec<String>)> {
         let case = self.case;
-        let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
-        let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.as_slice()));
-        let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.as_slice()));
-        let plates = case.plates.iter().map(|plate| (format!("load.{}.on", plate.name), plate.on.as_slice()));
-        let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.as_slice()));
-        let sides = |pair: &Pair| pair.between.iter().flat_map(|name| case.curves_of(name)).collect::<Vec<_>>();
+        let supports = case.supports.iter().map(|s| (format!("support.{}.on", s.name), s.on.clone()));
+        let springs = case.springs.iter().map(|s| (format!("support.{}.on", s.name), s.on.clone()));
+        let loads = case.loads.iter().map(|l| (format!("load.{}.on", l.name), l.on.clone()));
+        let plates = case.plates.iter().map(|plate| (format!("load.{}.on", plate.name), plate.on.clone()));
+        let geometries = case.geometries.iter().map(|g| (format!("geometry.{}.curves", g.name), g.curves.clone()));
+        let sides = |pair: &Pair| pair.between.iter().flat_map(|name| case.curves_of(name)).collect();
         let contacts = case.contacts.iter().map(|pair| (format!("contact.{}.between", pair.name), sides(pair)));
-        let named =
-            supports.chain(springs).chain(loads).chain(plates).chain(geometries).map(|(key, names)| (key, names.to_vec()));
-        named.chain(contacts).collect()
+        supports.chain(springs).chain(loads).chain(plates).chain(geometries).chain(contacts).collect()
     }
 
     fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {

@@ -49,6 +49,14 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     for geometry in &case.geometries {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }
+    completed(case, mesh).map_err(|words| format!("{}: {words}", case.file.display()))
+}
+
+/// A mesh that has the names of its case, with tools, shapes and points, and checked.
+///
+/// # Errors
+/// Words that begin with the key.
+fn completed(case: &Case, mut mesh: MacroMesh) -> Result<MacroMesh, String> {
     add_tools(case, &mut mesh)?;
     let fitted = case.contacts.iter().filter(|pair| pair.curve.is_found()).flat_map(|pair| &pair.between);
     let fitted = fitted.filter(|name| case.tool_of(name).is_none());
@@ -58,7 +66,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     check_means(case, &mesh)?;
     check_springs(case, &mesh)?;
     check_points(case, &mesh)?;
-    check_exact(case, &mesh).map_err(|words| format!("{}: {words}", case.file.display()))?;
+    check_exact(case, &mesh)?;
     Ok(mesh)
 }
 
@@ -91,7 +99,7 @@ pub fn told_with_names(error: &CaseError, draft: Option<Case>) -> String {
 /// Adds the rigid tools, as fine as what they face.
 fn add_tools(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     for tool in &case.tools {
-        let error = |words: String| format!("{}: {}: {words}", case.file.display(), tool.key());
+        let error = |words: String| format!("{}: {words}", tool.key());
         if mesh.bodies.iter().any(|name| name == tool.key()) || mesh.boundary(tool.key()).is_some() {
             return Err(error(format!("{} has a physical group of that name, too; rename the tool", mesh.file.display())));
         }
@@ -161,8 +169,7 @@ fn add_grades(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
         let [x, y] = grade.point;
         mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
             format!(
-                "{}: mesh.grade.points: [{}, {}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
-                case.file.display(),
+                "mesh.grade.points: [{}, {}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
                 Rounded(x),
                 Rounded(y),
                 mesh.file.display(),
@@ -181,18 +188,12 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     for (key, spot) in supports.chain(loads).filter_map(|(key, spot)| Some((key, spot?))) {
         let [x, y] = spot.place;
         let is_body = |name: &str| case.bodies.iter().any(|body| body.name == name);
-        mesh.add_point(spot, is_body)
-            .map_err(|words| format!("{}: {key} = [{}, {}]: {words}", case.file.display(), Rounded(x), Rounded(y)))?;
+        mesh.add_point(spot, is_body).map_err(|words| format!("{key} = [{}, {}]: {words}", Rounded(x), Rounded(y)))?;
     }
     let bad = case.point_loads.iter().find(|load| load.force().iter().any(|component| !component.is_finite()));
     if let Some(load) = bad {
-        let ([x, y], file) = (load.at.place, case.file.display());
-        return Err(format!(
-            "{file}: load.{}.force: has no finite value at its point ({}, {}); correct the formula",
-            load.name,
-            Rounded(x),
-            Rounded(y)
-        ));
+        let ([x, y], name) = (load.at.place.map(Rounded), &load.name);
+        return Err(format!("load.{name}.force: has no finite value at its point ({x}, {y}); correct the formula"));
     }
     Ok(())
 }
@@ -200,24 +201,22 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
 /// Springs push back: their stiffness is a number >= 0 all along, and above 0 somewhere.
 fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
     for springs in &case.springs {
-        let error = |words: String| format!("{}: support.{}.stiffness: {words}", case.file.display(), springs.name);
+        let error = |words: &str| format!("support.{}.stiffness: {words}", springs.name);
         let mut largest = 0.0f64;
         for edge in springs.edges(mesh) {
             for t in (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64) {
                 let x = mesh.edge_position(edge, t);
                 for (_, k) in springs.stiffness.at(x, mesh.edge_normal(edge, t)) {
                     if !(k.is_finite() && k >= 0.0) {
-                        return Err(error(format!(
-                            "is {k} at {}; a spring wants a finite number >= 0 everywhere",
-                            Coordinates(x)
-                        )));
+                        let words = format!("is {k} at {}; a spring wants a finite number >= 0 everywhere", Coordinates(x));
+                        return Err(error(&words));
                     }
                     largest = largest.max(k);
                 }
             }
         }
         if largest == 0.0 {
-            return Err(error("is 0 all along the boundary; leave the support out, or correct the formula".into()));
+            return Err(error("is 0 all along the boundary; leave the support out, or correct the formula"));
         }
     }
     Ok(())
@@ -244,7 +243,7 @@ fn check_points(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
             ),
             _ => continue,
         };
-        return Err(format!("{}: {key} = [{}, {}]: {words}", case.file.display(), Rounded(x), Rounded(y)));
+        return Err(format!("{key} = [{}, {}]: {words}", Rounded(x), Rounded(y)));
     }
     Ok(())
 }

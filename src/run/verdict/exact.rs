@@ -4,9 +4,8 @@ use crate::case::{Case, LambdaExact};
 use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::recovery::Evaluation;
-use crate::run::outcome::RunError;
-use crate::run::outcome::outside;
-use crate::run::reading::has_values;
+use crate::run::outcome::{RunError, outside};
+use crate::run::reading::known::has_values;
 use std::collections::BTreeMap;
 
 /// Relative errors by name, and words for each that misses its tolerance.

@@ -1,6 +1,6 @@
 //! What a case expects beside what was found, as the report shows it.
 
-use crate::case::{Case, Exact, Expected, LambdaExact};
+use crate::case::{BodyExact, Case, ContactExact, Expected, LambdaExact};
 use crate::output::Summary;
 use crate::output::plot::number_to;
 use crate::output::report::ExpectedValue;
@@ -8,70 +8,64 @@ use crate::output::report::ExpectedValue;
 /// Digits of what is expected and of what was found.
 const DIGITS: i32 = 7;
 
-/// All expected values of a case.
+/// All expected values of a case; of load steps those of the last one.
 pub fn expected_values(case: &Case, summary: &Summary) -> Vec<ExpectedValue> {
-    let of_last = case.steps.last().map_or(&case.exact, |last| &last.case.exact);
-    let Exact { energy, contacts, bodies, .. } = of_last;
-    let error = |key: String| summary.errors.get(&key).copied().flatten();
-    let number = |expected: &Expected| number_to(DIGITS, expected.value * case.thickness);
-    let text = |found: Option<f64>| found.map_or(String::new(), |found| number_to(DIGITS, found));
-    let mut all = Vec::new();
-    if let Some(expected) = energy {
-        all.push(ExpectedValue {
-            name: "strain energy".into(),
-            expected: number(expected),
-            found: text(summary.energy.stationary.or(summary.energy.total)),
-            error: error("energy".into()),
-            tolerance: Some(expected.tolerance),
-        });
+    let exact = case.steps.last().map_or(&case.exact, |last| &last.case.exact);
+    let told = Told { summary, thickness: case.thickness };
+    let found = summary.energy.stationary.or(summary.energy.total);
+    let energy = exact.energy.as_ref().map(|expected| told.number("strain energy".into(), expected, found, "energy".into()));
+    let contacts = exact.contacts.iter().flat_map(|contact| told.contact(contact));
+    energy.into_iter().chain(contacts).chain(exact.bodies.iter().flat_map(|body| told.body(body))).collect()
+}
+
+/// A summary that tells what was found and the errors.
+struct Told<'a> {
+    summary: &'a Summary,
+    thickness: f64,
+}
+
+impl Told<'_> {
+    /// A value without a number to be found; `key` is that of its error in the summary.
+    fn words(&self, name: String, expected: String, tolerance: Option<f64>, key: String) -> ExpectedValue {
+        let error = self.summary.errors.get(&key).copied().flatten();
+        ExpectedValue { name, expected, found: String::new(), error, tolerance }
     }
-    for contact in contacts {
-        if let Some(expected) = &contact.force {
-            all.push(ExpectedValue {
-                name: format!("force of {}", contact.name),
-                expected: number(expected),
-                found: text(summary.contact.get(&contact.name).and_then(|contact| contact.force)),
-                error: error(format!("force_{}", contact.name)),
-                tolerance: Some(expected.tolerance),
-            });
-        }
-        if let Some(lambda) = &contact.lambda {
+
+    /// A force or an energy.
+    fn number(&self, name: String, expected: &Expected, found: Option<f64>, key: String) -> ExpectedValue {
+        let words = number_to(DIGITS, expected.value * self.thickness);
+        let found = found.map_or(String::new(), |found| number_to(DIGITS, found));
+        ExpectedValue { found, ..self.words(name, words, Some(expected.tolerance), key) }
+    }
+
+    fn contact(&self, ContactExact { name, force, lambda }: &ContactExact) -> Vec<ExpectedValue> {
+        let force = force.as_ref().map(|expected| {
+            let found = self.summary.contact.get(name).and_then(|contact| contact.force);
+            self.number(format!("force of {name}"), expected, found, format!("force_{name}"))
+        });
+        let lambda = lambda.as_ref().map(|lambda| {
             let (expected, tolerance) = match lambda {
                 LambdaExact::Points { at, value, tolerance } => (points(at.len(), value), *tolerance),
                 LambdaExact::Formula { formula, tolerance } => (formula.text().to_owned(), *tolerance),
             };
-            all.push(ExpectedValue {
-                name: format!("pressure of {}", contact.name),
-                expected,
-                found: String::new(),
-                error: error(format!("lambda_{}", contact.name)),
-                tolerance: Some(tolerance),
-            });
-        }
+            self.words(format!("pressure of {name}"), expected, Some(tolerance), format!("lambda_{name}"))
+        });
+        force.into_iter().chain(lambda).collect()
     }
-    for body in bodies {
-        let known = [
-            (
-                "displacement",
-                body.displacement.as_ref().map(|expected| (format!("at {}", count(expected.at.len())), Some(expected.tolerance))),
-            ),
-            ("energy_norm", body.stress.as_ref().map(|_| ("stress by formulas".into(), None))),
-            ("u", body.u.as_ref().map(|_| ("displacement by formulas".into(), None))),
-        ];
-        for (key, known) in known {
-            if let Some((expected, tolerance)) = known {
-                let name = if key == "energy_norm" { "stress" } else { "displacement" };
-                all.push(ExpectedValue {
-                    name: format!("{name} of {}", body.name),
-                    expected,
-                    found: String::new(),
-                    error: error(format!("{key}_{}", body.name)),
-                    tolerance,
-                });
-            }
-        }
+
+    fn body(&self, BodyExact { name, displacement, stress, u }: &BodyExact) -> Vec<ExpectedValue> {
+        let displacement = displacement.as_ref().map(|expected| {
+            let words = format!("at {}", count(expected.at.len()));
+            self.words(format!("displacement of {name}"), words, Some(expected.tolerance), format!("displacement_{name}"))
+        });
+        let stress = stress
+            .as_ref()
+            .map(|_| self.words(format!("stress of {name}"), "stress by formulas".into(), None, format!("energy_norm_{name}")));
+        let u = u
+            .as_ref()
+            .map(|_| self.words(format!("displacement of {name}"), "displacement by formulas".into(), None, format!("u_{name}")));
+        displacement.into_iter().chain(stress).chain(u).collect()
     }
-    all
 }
 
 fn points(places: usize, values: &[f64]) -> String {

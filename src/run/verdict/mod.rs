@@ -1,17 +1,16 @@
-//! What a result is worth: whether its pressures can be trusted, whether its mesh can hold what the case says, and how far it is
-//! from what is known.
+//! What a result is worth.
+//!
+//! In comes a summary with all its figures, beside the case and the solution it is of; out come words and errors, and the trust of
+//! each contact. `limits` has every number that a figure is held against. A solution may be none (`no_result`), one of something
+//! else than the case says (`unresolved`), with pressures to be trusted or not (`trust`), and near or far from what is known
+//! (`exact`, `expected`, `true_errors`). Nothing here prints, and nothing changes a digit of a result.
 
+pub(crate) mod balance;
 pub(crate) mod exact;
 pub(crate) mod expected;
-pub(crate) mod points;
-pub(crate) mod slivers;
+pub(crate) mod limits;
+pub(crate) mod no_result;
 pub(crate) mod true_errors;
 pub(crate) mod trust;
-pub(crate) mod turns;
 pub(crate) mod unresolved;
-pub(crate) mod zones;
-
-pub use exact::{Errors, compare};
-pub use slivers::slivers;
-pub use true_errors::true_errors;
-pub use turns::far_turns;
+pub(crate) mod warnings;

@@ -1,37 +1,14 @@
 //! Whether a solution is one of what the case says: not if its mesh, or its contact boundaries, cannot hold that.
-//!
-//! In all cases of the project no depth is above 3 % of the approach.
 
 use crate::accuracy::share_of_nothing;
 use crate::case::Case;
 use crate::contact::{Law, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
-use crate::run::report::short;
-use crate::run::verdict::trust::LEAST_PARTS;
-
-/// Way of the ends of a contact boundary, as a share of its length, beyond which it moves.
-const MOST_MOVED: f64 = 1e-2;
-
-/// How deep bodies may lie in each other, as a share of how far they have come together.
-const MOST_DEEP: f64 = 0.1;
-
-/// Force that overlaps within segments are worth, as a share of the force that was found; where nothing presses, the largest overlap
-/// as a share of the displacements.
-const MOST_WORTH: [f64; 2] = [0.5, 1e-5];
-
-/// Force of a contact narrower than its segment by that of `unresolved_force` at most (Hertz): π / (4 ln(4 R/b) - 2), and R > 5 b.
-const WORTH: f64 = 0.32;
-
-/// A depth by less than this share of the largest displacement is what the solve leaves.
-const LEFT: f64 = 1e-6;
-
-/// Relative error of a force by turning and sliding of its bodies, beyond which there is no result. What is estimated is .55 to 1.5
-/// times the true error (`tests/turning.rs`); a pile that cannot stand stood with .55, since turned discs are larger ones.
-const MOST_OFF: f64 = 0.5;
-
-/// Edges that the narrowest contact has at least.
-const LEAST_EDGES: f64 = 1.0;
+use crate::run::verdict::limits::{
+    DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, MOVES, NARROWEST, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS,
+};
+use crate::run::words::short;
 
 /// What is judged at.
 struct Judged<'a> {
@@ -64,7 +41,7 @@ fn too_narrow(judged: &Judged) -> Option<String> {
         force.abs() > least && (zone.corner != Some(true) || zone.hertz_width.is_some())
     });
     let widths = counting.filter_map(|(name, _, zone)| Some((name, width(zone)?)));
-    let (name, (width, edge)) = widths.filter(|(_, (width, edge))| *width < LEAST_EDGES * edge).min_by(|a, b| {
+    let (name, (width, edge)) = widths.filter(|(_, (width, edge))| *width < NARROWEST * edge).min_by(|a, b| {
         let share = |(_, (width, edge)): &(&str, (f64, f64))| width / edge;
         share(a).total_cmp(&share(b))
     })?;
@@ -95,7 +72,7 @@ fn in_each_other(judged: &Judged) -> Option<String> {
         deep(contact).map_or(0.0, |(depth, approach)| depth / if touches(contact) { largest } else { approach })
     };
     let (name, contact) = judged.contacts().max_by(|a, b| share(a.1).total_cmp(&share(b.1)))?;
-    let (depth, approach) = deep(contact).filter(|_| share(contact) > MOST_DEEP)?;
+    let (depth, approach) = deep(contact).filter(|_| share(contact) > DEEPEST)?;
     let [x, y] = contact.deepest?;
     let edges = contact.zones.iter().filter_map(width).map(|(width, edge)| width / edge).fold(f64::INFINITY, f64::min);
     Some(format!(
@@ -108,11 +85,14 @@ fn in_each_other(judged: &Judged) -> Option<String> {
 
 /// Bodies that lie in each other within segments which are longer than the contact.
 fn within_segments(judged: &Judged) -> Option<String> {
-    let [most, most_alone] = MOST_WORTH;
     let is_missed = |contact: &ContactSummary| {
         let (force, off) = (contact.force.unwrap_or(0.0).abs(), contact.unresolved_force.unwrap_or(0.0));
-        let is_worth = if force > 0.0 { off > most * force } else { contact.missing.is_some_and(|missing| missing > most_alone) };
-        WORTH * off > judged.least_force() && is_worth
+        let is_worth = if force > 0.0 {
+            off > WORTH_WITHIN_SEGMENTS * force
+        } else {
+            contact.missing.is_some_and(|missing| missing > OVERLAP_ALONE)
+        };
+        HERTZ_BY_UNRESOLVED * off > judged.least_force() && is_worth
     };
     let (name, _) = judged.contacts().find(|(_, contact)| is_missed(contact))?;
     let words = format!("contact {name}: the bodies lie in each other within segments that are longer than what presses");
@@ -125,7 +105,7 @@ fn within_segments(judged: &Judged) -> Option<String> {
 
 /// A contact boundary whose ends are held because they found no rest.
 fn still_moving(judged: &Judged) -> Option<String> {
-    let moved = judged.moved.filter(|moved| *moved > MOST_MOVED)?;
+    let moved = judged.moved.filter(|moved| *moved > MOVES)?;
     let (name, _) = judged.contacts().next()?;
     Some(format!(
         "the ends of the contact boundary find no rest: they still moved by {moved:.0e} of its length; {}",
@@ -138,7 +118,7 @@ fn moved_too_far(judged: &Judged) -> Option<String> {
     let error = |contact: &ContactSummary| contact.slip_error.unwrap_or(0.0).max(contact.rotation_error.unwrap_or(0.0));
     let counting = judged.contacts().filter(|(_, contact)| contact.force.is_some_and(|force| force.abs() > judged.least_force()));
     let (name, off) = counting.map(|(name, contact)| (name, error(contact))).max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (off > MOST_OFF).then(|| {
+    (off > FORCE_OFF).then(|| {
         format!(
             "contact {name}: the bodies turn or slide so far that its force is wrong by about {} of itself in a theory of small motions; draw them nearer to where they come to lie",
             short(off)
@@ -160,7 +140,7 @@ impl Judged<'_> {
 
     /// What would resolve a contact that is so many edges wide: enough edges on it, half as long ones at least, or an accuracy.
     fn remedy(&self, contact: &str, edges: f64) -> String {
-        let finer = (LEAST_PARTS / edges).log2().ceil().max(1.0) as usize;
+        let finer = (EDGES.value / edges).log2().ceil().max(1.0) as usize;
         if self.case.accuracy.is_some() {
             let tolerance = 0.25 * share_of_nothing(self.case.accuracy.as_ref());
             return format!("ask for a smaller error, as in [accuracy.contact.{contact}] force = {tolerance:.0e}");

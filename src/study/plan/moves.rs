@@ -3,7 +3,7 @@
 use toml::Value;
 
 use super::planned::{PlannedCase, PlannedRun};
-use super::settings::{GridAxis, Setting, StudyCurve};
+use super::settings::{GridAxis, Setting, StudyCurve, problem_at};
 use crate::case::Case;
 use crate::case::error::dotted;
 use crate::case::section::Section;
@@ -38,8 +38,7 @@ impl Moves {
     /// place.
     pub fn check_overlaps(&self, root: &Section) {
         let complain = |written: &[String], other: &[String]| {
-            let below: Vec<&str> = written.iter().map(String::as_str).collect();
-            root.problem(&below, format!("is also set by {}; a key moves in one place", dotted(other)));
+            problem_at(written, format!("is also set by {}; a key moves in one place", dotted(other)), root);
         };
         let common = self.common.iter().map(places);
         one_by_one(&self.grid.iter().map(places).chain(common).collect::<Vec<_>>(), complain);
@@ -88,8 +87,7 @@ impl Moves {
                     let meant = |unknown: &str| key == unknown || key.starts_with(&format!("{unknown}."));
                     let problem = error.problems.iter().find(|problem| problem.is_unknown() && meant(&problem.key));
                     if let Some(problem) = problem.filter(|_| !told.contains(&written)) {
-                        let below: Vec<&str> = written.iter().map(String::as_str).collect();
-                        root.problem(&below, format!("{} (asked of case {})", problem.words, case.label));
+                        problem_at(written, format!("{} (asked of case {})", problem.words, case.label), root);
                         told.push(written);
                     }
                 }

@@ -52,13 +52,17 @@ pub fn read_grid(section: &Section) -> Vec<GridAxis> {
     let table = section.optional("grid", values::table).unwrap_or_default();
     let mut axes = Vec::new();
     for setting in settings(&table, &["grid"], section) {
-        let below: Vec<&str> = setting.written.iter().map(String::as_str).collect();
         match values::list("a list of values, as in [2, 3]", &setting.value) {
             Ok(value) => axes.push(Setting { written: setting.written, path: setting.path, value }),
-            Err(words) => section.problem(&below, words),
+            Err(words) => problem_at(&setting.written, words, section),
         }
     }
     axes
+}
+
+/// Tells what is wrong where it is written.
+pub fn problem_at(written: &[String], words: String, section: &Section) {
+    section.problem(&written.iter().map(String::as_str).collect::<Vec<_>>(), words);
 }
 
 /// `[[curve]]`

@@ -2,10 +2,9 @@
 
 use super::super::page::ExpectedValue;
 use super::*;
-use crate::output::summary::Summary;
 use crate::output::summary::{
-    AccuracyStep, BoundaryIteration, ContactEstimate, ContactSummary, GoalSummary, OuterIteration, ProbeSummary, RigidSummary,
-    Status, StepContact, StepSummary, SupportSummary, ZoneSummary,
+    AccuracyStep, BoundaryIteration, ContactEstimate, ContactSummary, ContactTrust, GoalSummary, OuterIteration, ProbeSummary,
+    RigidSummary, Status, StepContact, StepSummary, Summary, SupportSummary, ZoneSummary,
 };
 
 /// A name that must not become markup.
@@ -24,7 +23,7 @@ fn summary(status: Status) -> Summary {
         closed: Some(vec![[1.0, 1.5]]),
         closed_points: Some(vec![[[1.0, f64::NAN], [1.5, 0.0]]]),
         resultant: Some([f64::NAN, 1.0]),
-        trust: Some(status == Status::Converged),
+        judged: ContactTrust { trust: Some(status == Status::Converged), ..ContactTrust::default() },
         zones: vec![zone],
         ..ContactSummary::default()
     };

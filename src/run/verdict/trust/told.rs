@@ -1,9 +1,10 @@
 //! What is said of contacts: of a few one by one, of many by causes.
 
-use super::doubt::Doubt;
 use crate::case::Case;
+use crate::contact::Pair;
 use crate::output::Summary;
-use crate::output::summary;
+use crate::output::summary::{self, ContactTrust};
+use crate::run::verdict::limits::Doubt;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What nothing tells of a contact.
@@ -21,27 +22,40 @@ pub struct Unknown {
 pub struct Verdict {
     /// What speaks against its pressure.
     pub doubts: Vec<Doubt>,
+    /// What helps against each doubt.
+    pub remedies: Vec<&'static str>,
     /// What nothing tells.
     pub unknown: Option<Unknown>,
     /// Whether its pressure is to be trusted.
     pub trust: Option<bool>,
-    /// The same of its force.
+    /// Whether its force is.
     pub trust_force: Option<bool>,
     /// What it is called where it carries nothing that counts.
     pub idle: Option<String>,
 }
 
 impl Verdict {
-    /// In a few words.
-    pub fn words(&self) -> String {
-        let causes: BTreeSet<&str> = self.doubts.iter().map(|doubt| doubt.cause).collect();
-        match (self.trust, &self.idle, &self.unknown) {
-            (Some(false), _, _) if causes.is_empty() => "not trusted: the run has not converged".into(),
-            (Some(false), ..) => format!("not trusted: {}", Vec::from_iter(causes).join("; ")),
+    /// Doubts of a contact, and nothing else.
+    pub fn of(doubts: Vec<Doubt>, pair: &Pair, case: &Case) -> Self {
+        let remedies = doubts.iter().map(|doubt| doubt.limit.remedy.words(pair, case)).collect();
+        Self { doubts, remedies, ..Self::default() }
+    }
+
+    /// As the summary has it, in a few words.
+    pub fn trust(&self) -> ContactTrust {
+        let words = match (self.trust, &self.idle, &self.unknown) {
+            (Some(false), ..) if self.doubts.is_empty() => "not trusted: the run has not converged".into(),
+            (Some(false), ..) => format!("not trusted: {}", Vec::from_iter(self.causes()).join("; ")),
             (_, Some(idle), _) => idle.clone(),
             (Some(true), ..) => "trusted".into(),
             (None, _, unknown) => unknown.as_ref().map_or("nothing tells", |unknown| unknown.cause).into(),
-        }
+        };
+        ContactTrust { trust: self.trust, trust_force: self.trust_force, verdict: Some(words) }
+    }
+
+    /// Each cause once, in alphabetical order.
+    fn causes(&self) -> BTreeSet<&'static str> {
+        self.doubts.iter().map(|doubt| doubt.limit.cause).collect()
     }
 }
 
@@ -55,29 +69,25 @@ pub fn in_order<'a>(summary: &'a Summary, case: &'a Case, verdicts: &BTreeMap<St
 
 /// What speaks against pressures: of many contacts how many have each cause, before the worst of them.
 pub fn unreliable(names: &[&str], verdicts: &BTreeMap<String, Verdict>) -> Option<String> {
-    let doubtful: Vec<(&str, &Verdict)> = names.iter().filter_map(|name| Some((*name, verdicts.get(*name)?))).collect();
-    let doubtful: Vec<(&str, &Verdict)> = doubtful.into_iter().filter(|(_, verdict)| !verdict.doubts.is_empty()).collect();
+    let doubtful = names.iter().filter_map(|name| Some((*name, verdicts.get(*name)?)));
+    let doubtful: Vec<(&str, &Verdict)> = doubtful.filter(|(_, verdict)| !verdict.doubts.is_empty()).collect();
     let one = |(name, verdict): &(&str, &Verdict)| {
         let figures: Vec<&str> = verdict.doubts.iter().map(|doubt| doubt.figure.as_str()).collect();
         let force = if verdict.trust_force == Some(true) { ", whose force is to be trusted" } else { "" };
         format!("contact {name} ({}){force}", figures.join("; "))
     };
     let is_many = names.len() > summary::MOST_TOLD;
-    let few = if is_many { doubtful.len().min(summary::WORST) } else { doubtful.len() };
-    let told = doubtful[..few].iter().map(one).collect::<Vec<_>>().join(", ");
-    let told = if !is_many {
-        told
-    } else {
-        let causes =
-            doubtful.iter().flat_map(|(_, verdict)| verdict.doubts.iter().map(|doubt| doubt.cause).collect::<BTreeSet<_>>());
-        let counted = counted(causes).into_iter().map(|(cause, count)| format!("{count} because {cause}"));
-        let all = format!("{} of {} contacts", doubtful.len(), names.len());
-        format!("{all} ({}); the worst: {told}", counted.collect::<Vec<_>>().join("; "))
-    };
+    let few = if is_many { summary::WORST } else { doubtful.len() };
+    let mut told = doubtful.iter().take(few).map(one).collect::<Vec<_>>().join(", ");
+    if is_many {
+        let causes = counted(doubtful.iter().flat_map(|(_, verdict)| verdict.causes()));
+        let causes: Vec<String> = causes.iter().map(|(cause, count)| format!("{count} because {cause}")).collect();
+        told = format!("{} of {} contacts ({}); the worst: {told}", doubtful.len(), names.len(), causes.join("; "));
+    }
     let mut remedies: Vec<&str> = Vec::new();
-    for doubt in doubtful.iter().flat_map(|(_, verdict)| &verdict.doubts) {
-        if !remedies.contains(&doubt.remedy) {
-            remedies.push(doubt.remedy);
+    for remedy in doubtful.iter().flat_map(|(_, verdict)| &verdict.remedies) {
+        if !remedies.contains(remedy) {
+            remedies.push(remedy);
         }
     }
     (!doubtful.is_empty()).then(|| format!("{told}; {}", remedies.join("; ")))

@@ -1,0 +1,44 @@
+//! Options of PETSc that a run refuses.
+
+use crate::petsc::{Session, options};
+use crate::run::outcome::RunError;
+
+/// Outer methods that the systems can be solved with; what else PETSc has wants another side, norm or start.
+const METHODS: [&str; 16] = [
+    "gmres",
+    "fgmres",
+    "lgmres",
+    "dgmres",
+    "pgmres",
+    "pipefgmres",
+    "gcr",
+    "bcgs",
+    "fbcgs",
+    "fbcgsr",
+    "bcgsl",
+    "pipebcgs",
+    "qmrcgs",
+    "tfqmr",
+    "tcqmr",
+    "cgs",
+];
+
+/// What the case says is not said again to PETSc, and what would end in one of its crashes is not said at all.
+pub fn refuse_options(session: &Session) -> Result<(), RunError> {
+    const REFUSED: [(&str, &str); 4] = [
+        ("-ksp_rtol", "has no effect here: give `--set solver.tolerance=...`"),
+        ("-ksp_max_it", "has no effect here: it is 300; a solve that needs more has failed"),
+        ("-fieldsplit_u_pc_mg_levels", "cannot be: the levels are those of the mesh; give `--set mesh.refine=...`"),
+        ("-fp_trap", "cannot be: infinite values are looked at where they arise, and are no errors"),
+    ];
+    if let Some((name, why)) = REFUSED.iter().find(|(name, _)| options::get(session, name).is_some()) {
+        return Err(RunError::Input(format!("PETSc option {name} {why}")));
+    }
+    match options::get(session, "-ksp_type").filter(|method| !METHODS.contains(&method.to_lowercase().as_str())) {
+        None => Ok(()),
+        Some(method) => Err(RunError::Input(format!(
+            "PETSc option -ksp_type {method}: the outer method is one that takes a nonsymmetric preconditioner from the right and an initial guess: {}",
+            METHODS.join(", ")
+        ))),
+    }
+}

@@ -1,0 +1,98 @@
+//! A solution made into a summary, with its files.
+
+use crate::output::summary::{EstimateSummary, Status, Summary};
+use crate::output::{CONTACTS, ContactPoint, write_contacts};
+use crate::procedure::{Solved, Work};
+use crate::recovery::{Evaluation, TracePoint};
+use crate::run::Run;
+use crate::run::accuracy;
+use crate::run::outcome::RunError;
+use crate::run::summary::contact::contact;
+use crate::run::summary::described::described;
+use crate::run::summary::fields::with_fields;
+use crate::run::telling::progress;
+use crate::run::verdict::exact::compare;
+use crate::run::verdict::no_result::NO_NUMBERS;
+use crate::run::verdict::warnings::apart::apart;
+use crate::run::verdict::warnings::parts::large_strains;
+use crate::run::verdict::warnings::points::loaded_points;
+use crate::run::verdict::warnings::slivers::slivers;
+use std::collections::BTreeMap;
+
+use super::judge::{ended, remarks};
+
+impl Run<'_> {
+    /// Evaluates and judges a solution, and writes its files; what is left to be known are times and memory. **Collective**
+    pub(in crate::run) fn summarise(&self, solved: &Solved) -> Result<Summary, RunError> {
+        let estimate = EstimateSummary { energy: solved.estimate.energy, ..EstimateSummary::default() };
+        let before = Summary { estimate, ..Summary::new(&self.case.name, self.session.size()) };
+        let summary = described(before, self.case, solved);
+        let (summary, mut status, mut reason) = match ended(solved) {
+            _ if solved.is_solved() => {
+                let _stage = self.stages.output.enter();
+                self.evaluate(summary, solved)?
+            }
+            (Status::Converged, _) => (summary, Status::NotConverged, NO_NUMBERS.into()),
+            (status, reason) => (summary, status, reason),
+        };
+        let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
+        if let Some(adaptation) = &adaptation {
+            (status, reason) = accuracy::judge(adaptation, status, &reason);
+            let flat = slivers(&solved.problem.scene.mesh).filter(|_| !adaptation.is_reached());
+            reason += &flat.map_or(String::new(), |words| format!("; {words}"));
+        }
+        let accuracy = adaptation.as_ref().map(accuracy::summarise);
+        let summary = Summary { accuracy, status, ..summary };
+        let mut summary = Summary { reason: Some(reason + &remarks(&summary)), ..summary };
+        summary.times_thickness(self.case.thickness);
+        let contacts = self.case.contacts.iter().map(|pair| (pair.name.as_str(), &pair.between));
+        let write =
+            || if summary.contact.is_empty() { Ok(()) } else { write_contacts(&self.files.join(CONTACTS), contacts, &summary) };
+        self.on_first(write)?;
+        Ok(summary)
+    }
+
+    /// Fields, traces, balances and errors, the status and the reason so far; their files too. **Collective**
+    fn evaluate(&self, summary: Summary, solved: &Solved) -> Result<(Summary, Status, String), RunError> {
+        progress::enter(Work::Recovery);
+        let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
+        self.report.warn_all(&large_strains(&found));
+        self.report.warn_all(&loaded_points(&found));
+        let (mut contacts, mut estimates) = (BTreeMap::new(), BTreeMap::new());
+        let (mut traces, mut warnings) = (Vec::new(), Vec::new());
+        for (at, placed) in solved.problem.contacts.iter().enumerate() {
+            let points = found.traces(&found.pressure(at))?;
+            warnings.extend(apart(placed, &points));
+            let (figures, estimate) = contact(solved, &found, at, &points);
+            contacts.insert(placed.pair.name.clone(), figures);
+            estimates.insert(placed.pair.name.clone(), estimate);
+            // Rank 0 alone writes and draws them.
+            traces.push(if self.session.rank() == 0 { points.iter().map(contact_point).collect() } else { Vec::new() });
+        }
+        self.report.warn_all(&warnings);
+        let summary = with_fields(summary, self.case, &found)?;
+        let errors = compare(self.case, &found)?;
+        let estimate = EstimateSummary { contact: estimates, ..summary.estimate };
+        let mut summary = Summary { contact: contacts, estimate, errors: errors.values, ..summary };
+        let (status, reason) = self.judge(&mut summary, solved, &errors.missed);
+        let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
+        self.write_files(&found, &summary, &traces, adaptation.as_ref())?;
+        Ok((summary, status, reason))
+    }
+}
+
+fn contact_point(p: &TracePoint) -> ContactPoint {
+    ContactPoint {
+        s: p.arc,
+        x: p.x.x,
+        y: p.x.y,
+        nx: p.normal.x,
+        ny: p.normal.y,
+        lambda: p.lambda,
+        gap: p.gap,
+        un_1: p.displacement[0],
+        un_2: p.displacement[1],
+        sigma_1: p.stress[0],
+        sigma_2: p.stress[1],
+    }
+}

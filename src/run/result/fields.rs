@@ -1,0 +1,247 @@
+//! Fields of the bodies in files: one piece per rank, and the facets of the figure.
+
+use crate::element::{Order, von_mises};
+use crate::mesh::lattice::{self, Triangle};
+use crate::output::plot::{ContactZoom, DrawnEdge, Facet};
+use crate::output::vtk::{Piece, write_parallel, write_piece};
+use crate::recovery::Evaluation;
+use crate::run::outcome::RunError;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Facets of the figure at most, as far as triangles of the mesh file may be shown whole; of more of these than the second some
+/// are left out, and their places are empty.
+const MOST_FACETS: usize = 20_000;
+const MOST_TRIANGLES: usize = 100_000;
+
+/// On a lattice of every so many-th node, or more, the facets of a macro triangle may all lie beside a zoom that shows a part of it.
+const COARSE: usize = 4;
+
+/// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own. `stress` is that of a part at a
+/// node.
+pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4]) -> Result<(), RunError> {
+    let Evaluation { problem, session, u, .. } = found;
+    let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
+    let piece = PieceMesh::new(found);
+    let points: Vec<[f64; 2]> = piece.places.clone();
+    let displacement: Vec<[f64; 2]> = piece.nodes.iter().map(|&[_, node]| u.at(node)).collect();
+    let stresses: Vec<[f64; 4]> = piece.nodes.iter().map(|&[part, node]| stress(part, node)).collect();
+    let mises: Vec<f64> = stresses.iter().map(|&s| von_mises(s)).collect();
+    let file = folder.join(name(session.rank()));
+    write_piece(
+        &file,
+        &Piece {
+            points: &points,
+            cells: &piece.cells,
+            order: problem.scene.order,
+            displacement: &displacement,
+            stress: &stresses,
+            von_mises: &mises,
+            body: &piece.bodies,
+            part: &piece.parts,
+            rank: session.rank() as i32,
+        },
+    )?;
+    if session.size() > 1 && session.rank() == 0 {
+        let pieces: Vec<String> = (0..session.size()).map(name).collect();
+        write_parallel(&folder.join("fields.pvtu"), &pieces)?;
+    }
+    Ok(())
+}
+
+/// The mesh of one piece of the files: nodes and cells of the macro triangles of one rank.
+struct PieceMesh {
+    /// Part and number of each node: one between two parts is there twice, for its stress has two values.
+    nodes: Vec<[usize; 2]>,
+    places: Vec<[f64; 2]>,
+    cells: Vec<u32>,
+    bodies: Vec<i32>,
+    parts: Vec<i32>,
+}
+
+impl PieceMesh {
+    fn new(Evaluation { problem, session, .. }: &Evaluation) -> Self {
+        let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+        let (n, order) = (numbering.level.intervals, numbering.level.order);
+        let mut piece = Self { nodes: Vec::new(), places: Vec::new(), cells: Vec::new(), bodies: Vec::new(), parts: Vec::new() };
+        let mut known: HashMap<[usize; 2], u32> = HashMap::new();
+        for &triangle in problem.scene.partition.triangles_of(session.rank()) {
+            let numbers = numbering.triangle(mesh, triangle as usize);
+            let triangle_of = &mesh.triangles[triangle as usize];
+            let mut local = Vec::with_capacity(lattice::node_count(n));
+            for (i, j) in lattice::nodes(n) {
+                let node = [triangle_of.part as usize, numbers.node(i, j)];
+                let next = piece.nodes.len() as u32;
+                let inside = matches!(lattice::place(n, i, j), lattice::Place::Inside(_));
+                let at = if inside { next } else { *known.entry(node).or_insert(next) };
+                if at == next {
+                    let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
+                    piece.nodes.push(node);
+                    piece.places.push([x.x, x.y]);
+                }
+                local.push(at);
+            }
+            let [body, part] = [triangle_of.body, triangle_of.part].map(|number| number as i32);
+            for small in lattice::triangles(n, order) {
+                match order {
+                    Order::P1 => piece.cells.extend(small.nodes::<3>().map(|(i, j)| local[lattice::index(n, i, j)])),
+                    Order::P2 => piece.cells.extend(small.nodes::<6>().map(|(i, j)| local[lattice::index(n, i, j)])),
+                }
+                piece.bodies.push(body);
+                piece.parts.push(part);
+            }
+        }
+        piece
+    }
+}
+
+/// Facets for the figure of the deformed bodies, coarse enough to draw, from all ranks. **Collective**
+pub fn facets(found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4]) -> Vec<Facet> {
+    let count = found.problem.scene.mesh.triangles.len();
+    let n = found.problem.finest().numbering.level.intervals;
+    let (shown, skip) = shown(count, n);
+    let own = found.problem.scene.partition.triangles_of(found.session.rank()).iter().copied();
+    let drawn: Vec<u32> = own.filter(|&triangle| (triangle as usize).is_multiple_of(skip)).collect();
+    gather_facets(found, stress, &drawn, n / shown, |_| true)
+}
+
+/// The facets that a zoom shows, as fine as the mesh where there are not too many, from all ranks. **Collective**
+pub fn facets_of_zoom(found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4], zoom: &ContactZoom) -> Vec<Facet> {
+    let Evaluation { problem, session, .. } = found;
+    let own = problem.scene.partition.triangles_of(session.rank());
+    let mut step = problem.finest().numbering.level.intervals;
+    let mut drawn: Vec<u32> = own.iter().copied().filter(|&triangle| may_show(found, zoom, triangle)).collect();
+    loop {
+        let is_shown = |corners: &[DrawnNode; 3]| zoom.shows(&corners.each_ref().map(DrawnNode::moved));
+        let counts: Vec<usize> = drawn.iter().map(|&triangle| corners(found, triangle, step).filter(is_shown).count()).collect();
+        let mut count = [counts.iter().sum::<usize>() as f64];
+        session.sum(&mut count);
+        if step == 1 || 4.0 * count[0] > MOST_FACETS as f64 {
+            return gather_facets(found, stress, &drawn, step, |corners| zoom.shows(corners));
+        }
+        // On a coarse lattice a bulge may be missed.
+        let mut counts = counts.iter();
+        drawn.retain(|_| counts.next().is_some_and(|&count| count > 0) || step > COARSE);
+        step /= 2;
+    }
+}
+
+/// A node of a macro triangle as figures show it.
+struct DrawnNode {
+    number: usize,
+    place: [f64; 2],
+    displacement: [f64; 2],
+}
+
+impl DrawnNode {
+    fn moved(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.place[axis] + self.displacement[axis])
+    }
+}
+
+/// The nodes of a macro triangle, by their places in its lattice.
+fn nodes<'a>(found: &'a Evaluation, triangle: u32) -> impl Fn((usize, usize)) -> DrawnNode + 'a {
+    let (mesh, numbering) = (&found.problem.scene.mesh, &found.problem.finest().numbering);
+    let numbers = numbering.triangle(mesh, triangle as usize);
+    move |(i, j)| {
+        let (number, x) = (numbers.node(i, j), mesh.node_position(triangle as usize, numbering.level, (i, j)));
+        DrawnNode { number, place: [x.x, x.y], displacement: found.u.at(number) }
+    }
+}
+
+/// Corners of the facets of a macro triangle on a lattice of every `step`-th node.
+fn corners(found: &Evaluation, triangle: u32, step: usize) -> impl Iterator<Item = [DrawnNode; 3]> {
+    let node = nodes(found, triangle);
+    let facets = lattice::triangles(found.problem.finest().numbering.level.intervals / step, Order::P1);
+    facets.map(move |small| Triangle::nodes::<3>(&small).map(|(i, j)| node((step * i, step * j))))
+}
+
+/// Whether a zoom may show a macro triangle: with the room around it for edges that are bent.
+fn may_show(found: &Evaluation, zoom: &ContactZoom, triangle: u32) -> bool {
+    let (n, node) = (found.problem.finest().numbering.level.intervals, nodes(found, triangle));
+    let corners = [(0, 0), (n, 0), (0, n)].map(|place| node(place).moved());
+    let middle = [0, 1].map(|axis| corners.iter().map(|x| x[axis]).sum::<f64>() / 3.0);
+    zoom.shows(&corners.map(|x| [0, 1].map(|axis| middle[axis] + 3.0 * (x[axis] - middle[axis]))))
+}
+
+/// Those facets of macro triangles of this rank that are wanted by their deformed corners, of lattices of every `step`-th node,
+/// from all ranks. **Collective**
+fn gather_facets(
+    found: &Evaluation,
+    stress: impl Fn(usize, usize) -> [f64; 4],
+    triangles: &[u32],
+    step: usize,
+    wanted: impl Fn(&[[f64; 2]; 3]) -> bool,
+) -> Vec<Facet> {
+    let mut values: Vec<f64> = Vec::new();
+    for &triangle in triangles {
+        let part = found.problem.scene.mesh.triangles[triangle as usize].part as usize;
+        let shown = corners(found, triangle, step).filter(|corners| wanted(&corners.each_ref().map(DrawnNode::moved)));
+        for DrawnNode { number, place, displacement } in shown.flatten() {
+            values.extend(place);
+            values.extend(displacement);
+            values.push(von_mises(stress(part, number)));
+        }
+    }
+    let facet = |v: &[f64]| Facet {
+        corners: [[v[0], v[1]], [v[5], v[6]], [v[10], v[11]]],
+        displacement: [[v[2], v[3]], [v[7], v[8]], [v[12], v[13]]],
+        von_mises: [v[4], v[9], v[14]],
+    };
+    found.session.gather_all(&values).chunks_exact(15).map(facet).collect()
+}
+
+/// Those macro edges that are wanted for the figure of the deformed bodies, from all ranks; none of a mesh that it shows in part.
+/// **Collective**
+pub fn macro_edges(found: &Evaluation, wanted: impl Fn(u32) -> bool) -> Vec<DrawnEdge> {
+    let Evaluation { problem, session, .. } = found;
+    let mesh = &problem.scene.mesh;
+    let n = problem.finest().numbering.level.intervals;
+    let (shown, skip) = shown(mesh.triangles.len(), n);
+    let mut values: Vec<f64> = Vec::new();
+    for &triangle in problem.scene.partition.triangles_of(session.rank()).iter().filter(|_| skip == 1) {
+        let node = nodes(found, triangle);
+        let edges = mesh.triangles[triangle as usize].edges;
+        let is_own = |side: usize| mesh.edges[edges[side] as usize].triangles[0] == Some(triangle);
+        for side in (0..3).filter(|&side| is_own(side) && wanted(edges[side])) {
+            for DrawnNode { place, displacement, .. } in (0..=n).step_by(n / shown).map(|k| node(lattice::side_node(n, side, k)))
+            {
+                values.extend(place);
+                values.extend(displacement);
+            }
+        }
+    }
+    let edge = |v: &[f64]| DrawnEdge(v.chunks_exact(4).map(|v| ([v[0], v[1]], [v[2], v[3]])).collect());
+    session.gather_all(&values).chunks_exact(4 * (shown + 1)).map(edge).collect()
+}
+
+/// Intervals of a macro edge that the figure shows, of `n`, and of how many macro triangles it shows one: a mesh that is fine
+/// before refinement is shown in part.
+fn shown(macro_triangles: usize, n: usize) -> (usize, usize) {
+    let mut shown = n;
+    while shown > 1 && macro_triangles * shown * shown > MOST_FACETS {
+        shown /= 2;
+    }
+    (shown, macro_triangles.div_ceil(MOST_TRIANGLES).max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_figure_has_as_many_facets_as_it_may() {
+        assert_eq!(shown(50, 8), (8, 1), "all of a small mesh");
+        for macro_triangles in [1, 50, 83, 5_000, 19_999, 20_000, 20_001, 100_000, 100_001, 1_000_000] {
+            for n in [1, 2, 16, 64] {
+                let (shown, skip) = shown(macro_triangles, n);
+                let facets = |shown: usize, skip: usize| macro_triangles.div_ceil(skip) * shown * shown;
+                let words = format!("{macro_triangles} macro triangles, {n} intervals: {shown} shown of every {skip}th");
+                let most = if shown == 1 { MOST_TRIANGLES } else { MOST_FACETS };
+                assert!(n.is_multiple_of(shown) && facets(shown, skip) <= most, "{words}");
+                assert!(shown == n || facets(2 * shown, skip) > MOST_FACETS, "{words}: more would do");
+                assert!(skip == 1 || facets(shown, skip - 1) > MOST_TRIANGLES, "{words}: more would do");
+            }
+        }
+    }
+}

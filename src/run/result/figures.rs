@@ -1,0 +1,178 @@
+//! Figures of a solution.
+
+use super::fields;
+use crate::accuracy::Adaptation;
+use crate::case::Case;
+use crate::contact::{Configuration, Pair};
+use crate::discretisation::{Contact, Scene};
+use crate::mesh::MacroMesh;
+use crate::output::plot::{self, ContactZoom, DrawnContact, DrawnForce, Facet};
+use crate::output::summary::MOST_WITH_FIGURES;
+use crate::output::{ContactPoint, Summary};
+use crate::recovery::Evaluation;
+use crate::run::Run;
+use crate::run::accuracy;
+use crate::run::outcome::RunError;
+use crate::run::words::title;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Intervals that press are drawn one by one, those with the largest forces.
+const MOST_ZOOMS: usize = 6;
+
+/// Lines of forces reach into a body by this share of the smaller side of the box around it: nearly to its middle.
+const REACH: f64 = 0.4;
+
+/// An interval that is drawn: its contact, its number in it from 1, and what is shown.
+struct Drawing {
+    contact: usize,
+    number: usize,
+    zoom: ContactZoom,
+}
+
+impl Run<'_> {
+    /// Draws everything that is known of one solution. **Collective**
+    pub(super) fn write_figures(
+        &self,
+        found: &Evaluation,
+        summary: &Summary,
+        traces: &[Vec<ContactPoint>],
+        adaptation: Option<&Adaptation>,
+        stress: impl Fn(usize, usize) -> [f64; 4],
+    ) -> Result<(), RunError> {
+        let folder = &self.files;
+        let contacts = &found.problem.contacts;
+        let facets = fields::facets(found, &stress);
+        let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found, |_| true));
+        let interfaces = fields::macro_edges(found, |edge| found.problem.scene.mesh.is_interface(edge));
+        let titles: Vec<String> = contacts.iter().map(|contact| title_of(self.case, &contact.pair.name)).collect();
+        let bodies: Vec<[String; 2]> = contacts.iter().map(|contact| sides(&found.problem.scene.mesh, &contact.pair)).collect();
+        let drawn = |(at, contact): (usize, &Contact)| DrawnContact {
+            title: &titles[at],
+            bodies: bodies[at].each_ref().map(String::as_str),
+            points: &traces[at],
+            is_deformed: contact.pair.configuration == Configuration::Deformed,
+        };
+        let drawn: Vec<DrawnContact> = contacts.iter().enumerate().map(drawn).collect();
+        let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
+        let has_figures = |at: usize| shown.contains(contacts[at].pair.name.as_str());
+        let zooms = self.zooms(summary, contacts, &drawn, &facets, has_figures)?;
+        let zoomed: Vec<Vec<Facet>> = zooms.iter().map(|drawing| fields::facets_of_zoom(found, &stress, &drawing.zoom)).collect();
+        if self.session.rank() != 0 {
+            return Ok(());
+        }
+        for at in (0..contacts.len()).filter(|&at| has_figures(at)) {
+            plot::write_along(folder, &contacts[at].pair.name, &drawn[at])?;
+        }
+        if shown.len() < contacts.len() {
+            self.report.say(&format!(
+                "figures of {} of {} contacts: those that are trusted least, and those with the largest forces",
+                shown.len(),
+                contacts.len()
+            ));
+        }
+        for (drawing, facets) in zooms.iter().zip(&zoomed).filter(|(_, facets)| !facets.is_empty()) {
+            let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
+            plot::write_zoom(&folder.join(name), &drawing.zoom, &drawn[drawing.contact], facets)?;
+        }
+        let forces = drawn_forces(&found.problem.scene, contacts, summary);
+        // Where forces are many, their lines say where contacts are.
+        let drawn = if contacts.len() > MOST_WITH_FIGURES { &[][..] } else { &drawn };
+        let path = folder.join("deformed.svg");
+        plot::write_deformed(&path, title(self.case), &facets, [&macro_edges, &interfaces], drawn, &forces)?;
+        adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation))
+    }
+
+    /// The intervals that are drawn of the contacts that have figures, in the order of contacts and arc length. Rank 0 chooses.
+    /// **Collective**
+    fn zooms(
+        &self,
+        summary: &Summary,
+        contacts: &[Contact],
+        drawn: &[DrawnContact],
+        facets: &[Facet],
+        has_figures: impl Fn(usize) -> bool,
+    ) -> Result<Vec<Drawing>, RunError> {
+        let mut all: Vec<(f64, Drawing)> = Vec::new();
+        for (at, contact) in contacts.iter().enumerate().filter(|(at, _)| has_figures(*at)) {
+            let closed = summary.contact.get(&contact.pair.name).and_then(|contact| contact.closed.as_deref());
+            for (number, &interval) in closed.unwrap_or_default().iter().enumerate() {
+                let zoom = ContactZoom::new(&drawn[at], interval, facets);
+                let force = force_on(drawn[at].points, interval);
+                all.extend(zoom.map(|zoom| (force, Drawing { contact: at, number: number + 1, zoom })));
+            }
+        }
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        all.truncate(MOST_ZOOMS);
+        all.sort_by_key(|(_, drawing)| (drawing.contact, drawing.number));
+        let numbers = |(_, Drawing { contact, number, zoom }): &(f64, Drawing)| {
+            let [from, to] = zoom.frame;
+            [[*contact as f64, *number as f64], zoom.interval, from, to].concat()
+        };
+        let own = if self.session.rank() == 0 { all.iter().flat_map(numbers).collect() } else { Vec::new() };
+        let read = |v: &[[f64; 2]]| {
+            let ([contact, number], zoom) = (v[0].map(|v| v as usize), ContactZoom { interval: v[1], frame: [v[2], v[3]] });
+            Drawing { contact, number, zoom }
+        };
+        Ok(self.session.gather_all(&own).as_chunks().0.chunks_exact(4).map(read).collect())
+    }
+}
+
+/// The forces of several contacts, each with a line that reaches into both bodies by a share of the smaller one.
+fn drawn_forces(scene: &Scene, contacts: &[Contact], summary: &Summary) -> Vec<DrawnForce> {
+    if contacts.len() < 2 {
+        return Vec::new();
+    }
+    let mut sizes = vec![f64::INFINITY; scene.mesh.bodies.len()];
+    for (piece, [low, high]) in scene.mesh.pieces.iter().zip(scene.mesh.bounds()) {
+        sizes[piece.body] = sizes[piece.body].min((high - low).amin());
+    }
+    let is_tool = |body: usize| scene.rigid.iter().any(|set| set.key == scene.mesh.bodies[body]);
+    let force = |contact: &Contact| {
+        let found = summary.contact.get(&contact.pair.name)?;
+        let own = contact.bodies.into_iter().filter(|&body| !is_tool(body)).map(|body| sizes[body]);
+        let reach = REACH * own.fold(f64::INFINITY, f64::min);
+        let is_deformed = contact.pair.configuration == Configuration::Deformed;
+        Some(DrawnForce { place: found.place?, force: found.resultant?, reach, is_deformed })
+    };
+    contacts.iter().filter_map(force).collect()
+}
+
+/// ∫λ ds over an interval, by trapezoids.
+fn force_on(points: &[ContactPoint], [from, to]: [f64; 2]) -> f64 {
+    let inside = points.windows(2).filter(|pair| pair[0].s >= from && pair[1].s <= to);
+    inside.map(|pair| 0.5 * (pair[0].lambda + pair[1].lambda) * (pair[1].s - pair[0].s)).sum()
+}
+
+/// What stands above the figures of a contact, which is named where there are others.
+fn title_of(case: &Case, contact: &str) -> String {
+    if case.contacts.len() == 1 { title(case).into() } else { format!("{}, contact {contact}", title(case)) }
+}
+
+/// Names of both bodies of a contact; those of its boundaries where these do not tell them apart.
+pub fn sides(mesh: &MacroMesh, pair: &Pair) -> [String; 2] {
+    let body = |boundary: &String| {
+        let edges = mesh.boundary(boundary)?.edges.iter();
+        let mut bodies = edges.filter_map(|&edge| Some(mesh.triangles[mesh.edges[edge as usize].triangles[0]? as usize].body));
+        let first = bodies.next()?;
+        bodies.all(|body| body == first).then_some(first)
+    };
+    match pair.between.each_ref().map(body) {
+        [Some(one), Some(two)] if one != two => [one, two].map(|body| mesh.bodies[body as usize].clone()),
+        _ => pair.between.clone(),
+    }
+}
+
+/// Draws what was reached on each mesh, if there are two of them.
+fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result<(), RunError> {
+    let (sequences, count) = (accuracy::sequences(adaptation), adaptation.accuracy.goals.len());
+    let title = match sequences.len() {
+        few if few < count => format!("{title}; the {few} worst of {count} goals"),
+        _ => title.to_owned(),
+    };
+    let is_known = sequences.iter().any(|sequence| sequence.estimates.iter().any(|(_, error)| *error > 0.0));
+    if adaptation.meshes.len() >= 2 && is_known {
+        plot::write_accuracy(&folder.join("accuracy.svg"), &title, &sequences)?;
+    }
+    Ok(())
+}

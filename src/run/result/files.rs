@@ -1,0 +1,105 @@
+//! The files of a result, and its folder put in its place.
+
+use super::{fields, figures};
+use crate::accuracy::Adaptation;
+use crate::discretisation::Contact;
+use crate::mesh::MacroMesh;
+use crate::output::report::{ReportPage, write_report};
+use crate::output::summary::{Status, Summary};
+use crate::output::{ContactPoint, OutputError, ResultFolder, vtk, write_contact};
+use crate::recovery::Evaluation;
+use crate::run::Run;
+use crate::run::accuracy::ADAPTED_MESH;
+use crate::run::outcome::{Outcome, RunError};
+use crate::run::telling::report::memory;
+use crate::run::telling::{interruption, progress};
+use crate::run::verdict::expected::expected_values;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+impl Run<'_> {
+    /// Writes what tells the whole result, and prints the verdict. **Collective**
+    pub(in crate::run) fn finish(&self, summary: Summary, mesh: &MacroMesh) -> Result<Outcome, RunError> {
+        let time_s = self.report.times(&self.stages, self.session);
+        let provenance = Some(self.origin.provenance.clone());
+        let summary = Summary { time_s, memory_mib: memory(self.session), provenance, ..summary };
+        let finished = interruption::finish(|folder, warnings| self.put_in_place(&summary, mesh, folder, warnings));
+        let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
+        let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
+        self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
+        self.report.table(&summary);
+        summary.contacts_in_words().iter().for_each(|words| self.report.say(words));
+        let outcome = match summary.status {
+            Status::Converged => Outcome::Converged,
+            Status::Unresolved => Outcome::Unresolved,
+            Status::NotConverged | Status::Interrupted => Outcome::NotConverged,
+        };
+        self.report.verdict(outcome, summary.reason.as_deref().unwrap_or_default(), &self.options.out);
+        Ok(outcome)
+    }
+
+    /// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place.
+    fn put_in_place(
+        &self,
+        summary: &Summary,
+        mesh: &MacroMesh,
+        folder: ResultFolder,
+        warnings: &[String],
+    ) -> Result<(), OutputError> {
+        progress::write_files();
+        self.origin.write(&folder)?;
+        if self.case.output.fields {
+            let contacts = self.case.contacts.iter().map(|pair| (pair.name.clone(), figures::sides(mesh, pair)));
+            let (contacts, expected): (Vec<_>, _) = (contacts.collect(), expected_values(self.case, summary));
+            let (title, case) = (self.case.title.as_str(), self.origin.case());
+            let page = ReportPage { title, summary, expected: &expected, contacts: &contacts, warnings, case };
+            write_report(folder.temporary(), &page)?;
+        }
+        if summary.accuracy.as_ref().is_some_and(|steps| !steps.is_empty()) {
+            let own = mesh.without_tools(|name| self.case.tool_of(name).is_some());
+            let path = folder.path(ADAPTED_MESH);
+            std::fs::write(&path, own.to_gmsh()).map_err(OutputError::io("write", &path))?;
+        }
+        folder.write_summary(summary)?;
+        folder.commit()
+    }
+
+    /// Does something on rank 0; what fails there has failed on all. **Collective**
+    pub(super) fn on_first(&self, write: impl FnOnce() -> Result<(), OutputError>) -> Result<(), RunError> {
+        let written = if self.session.rank() == 0 { write() } else { Ok(()) };
+        self.session.agree(written.map_err(|error| error.to_string())).map_err(RunError::Failed)
+    }
+
+    /// Traces, which rank 0 has, in files; fields and figures too, unless the case wants none. **Collective**
+    pub(super) fn write_files(
+        &self,
+        found: &Evaluation,
+        summary: &Summary,
+        traces: &[Vec<ContactPoint>],
+        adaptation: Option<&Adaptation>,
+    ) -> Result<(), RunError> {
+        let folder = &self.files;
+        self.on_first(|| write_tables(folder, &found.problem.contacts, traces))?;
+        if !self.case.output.fields {
+            return Ok(());
+        }
+        let stress = found.stress()?;
+        let at_node = |part: usize, node: usize| stress.at(part, node);
+        progress::write_files();
+        self.session.agree(fields::write(folder, found, at_node)).map_err(RunError::Failed)?;
+        if self.session.rank() == 0 {
+            let curve = |name: &str| folder.join(format!("contact_{name}.vtu"));
+            let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
+            let pairs = found.problem.contacts.iter().zip(traces);
+            let mut pairs = pairs.filter(|(contact, _)| shown.contains(contact.pair.name.as_str()));
+            pairs.try_for_each(|(contact, points)| vtk::write_curve(&curve(&contact.pair.name), points))?;
+        }
+        if self.draws { self.write_figures(found, summary, traces, adaptation, at_node) } else { Ok(()) }
+    }
+}
+
+/// Writes the table along each contact boundary.
+fn write_tables(folder: &Path, contacts: &[Contact], traces: &[Vec<ContactPoint>]) -> Result<(), OutputError> {
+    let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
+    contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), points))
+}

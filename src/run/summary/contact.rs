@@ -1,0 +1,84 @@
+//! A contact in the terms of the summary.
+
+use super::zones::{Zones, contact_estimate};
+use crate::contact::{Configuration, MultiplierSpace};
+use crate::geometry::Point;
+use crate::output::summary::{ContactEstimate, ContactSummary, ContactTrust};
+use crate::procedure::Solved;
+use crate::recovery::{Evaluation, TracePoint};
+
+/// All figures of a contact, `at` its place among all, and the errors that are estimated of it; `points` are its traces.
+pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePoint]) -> (ContactSummary, ContactEstimate) {
+    let Evaluation { problem, solution, balance, .. } = found;
+    let pressure = found.pressure(at);
+    let contact = pressure.contact;
+    let boundary = &contact.boundary;
+    let (knots, force, penetration) = (boundary.knots(), &balance.contacts[at], &found.penetrations[at]);
+    let point = |s: f64| -> [f64; 2] { boundary.point(boundary.parameter_at(s)).into() };
+    let zones = Zones::new(solved, at, points);
+    let closed = zones.closed();
+    let corners = contact.pair.curve.is_found().then(|| found.corners(at, &zones.counting()));
+    let is_reference = contact.pair.configuration == Configuration::Reference;
+    let pressing = zones.arcs();
+    let missing = is_reference.then(|| found.missing_force(at, &pressing, points));
+    let at_ends = if is_reference { found.slip_at_ends(at, &pressing, points) } else { None };
+    let motion = found.motions[at];
+    // Where nothing presses, the growth of bodies that turn is compared with the smallest gap.
+    let growth = || found.growth_by_gap(at, points).filter(|_| closed.is_empty());
+    let described = ContactSummary {
+        length: Some(boundary.length()),
+        segments: Some(boundary.segments()),
+        multiplier: Some(space_name(contact.pair.space).into()),
+        h_ratio: Some(contact.segment_ratio),
+        inf_sup: solution.inf_sup.get(at).copied().flatten(),
+        ends: Some([knots[0], knots[knots.len() - 1]].map(|t| boundary.point(t).into())),
+        closed_edges: zones.closed_edges(),
+        closed_points: Some(closed.iter().map(|ends| ends.map(point)).collect()),
+        force: Some(force.force),
+        unresolved_force: Some(found.unresolved_force(at, points)),
+        resultant: Some(force.resultants[1].into()),
+        place: place(points),
+        moment: Some(force.moments[1]),
+        pressure_max: Some(pressure.largest()),
+        oscillation: pressure.oscillation(),
+        lost_points: Some(problem.coupling.lost[at] + points.iter().filter(|point| !point.is_complete()).count()),
+        slip: motion.and_then(|motion| motion.slip),
+        slip_at_ends: at_ends.map(|slip| slip.way),
+        lost_at_ends: at_ends.map(|slip| slip.lost),
+        slip_error: motion.and_then(|motion| motion.slip_error),
+        rotation_error: motion.map(|motion| motion.rotation_error).or_else(growth),
+        corner_angle: corners.as_ref().map(|corners| corners.angle.to_degrees()),
+        corner_error: corners.as_ref().map(|corners| corners.error),
+        missing: missing.and_then(|(share, _)| share),
+        missing_force: missing.map(|(_, force)| force),
+        depth: Some(penetration.depth),
+        deepest: (penetration.depth > 0.0).then(|| penetration.place.into()),
+        approach: Some(penetration.approach),
+        zones: zones.summaries(corners.as_ref().map(|corners| corners.error)),
+        closed: Some(closed),
+        judged: ContactTrust::default(),
+    };
+    let estimate = contact_estimate(solved.estimate.force.get(at).copied().flatten(), &described.zones);
+    (described, estimate)
+}
+
+/// The centre of the pressure, in either sign; where nothing presses, the point with the smallest gap.
+fn place(points: &[TracePoint]) -> Option<[f64; 2]> {
+    let parts = points.windows(2).map(|ends| {
+        let [a, b] = [0, 1].map(|k| 0.5 * (ends[1].arc - ends[0].arc) * ends[k].lambda.abs());
+        (a + b, a * ends[0].x + b * ends[1].x)
+    });
+    let (weight, moment) = parts.fold((0.0, Point::zeros()), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+    let nearest = || points.iter().filter(|point| point.gap.is_finite()).min_by(|a, b| a.gap.total_cmp(&b.gap));
+    let place = if weight > 0.0 { Some(moment / weight) } else { nearest().map(|point| point.x) };
+    place.map(Into::into)
+}
+
+/// Name of a multiplier space in the case file.
+fn space_name(space: MultiplierSpace) -> &'static str {
+    match space {
+        MultiplierSpace::P0 => "p0",
+        MultiplierSpace::P1Discontinuous => "p1-discontinuous",
+        MultiplierSpace::P1Continuous => "p1-continuous",
+    }
+}

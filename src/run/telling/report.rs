@@ -1,0 +1,292 @@
+//! What a run prints on rank 0 while it lives.
+
+use super::stages::Stages;
+use super::{interruption, progress};
+use crate::accuracy::{Accuracy, AdaptedMesh};
+use crate::case::{Case, LoadStep};
+use crate::discretisation::{Contact, Scene};
+use crate::element::Order;
+use crate::mesh::Numbering;
+use crate::output::Summary;
+use crate::output::summary::{MOST_TOLD, Memory, Provenance, Time, WORST, listed};
+use crate::petsc::Session;
+use crate::procedure::Event;
+use crate::run::accuracy;
+use crate::run::outcome::Outcome;
+use crate::run::reading::origin;
+use crate::run::run_options::RunOptions;
+use crate::run::verdict::warnings::parts::locking;
+use crate::run::verdict::warnings::segments::short_segments;
+use crate::run::words::{length, title};
+use std::collections::HashSet;
+use std::io::Write;
+use std::path::Path;
+use std::time::Instant;
+
+/// Prints to standard output, on rank 0 only and unless the run is quiet.
+#[derive(Clone)]
+pub struct Report {
+    speaks: bool,
+    first: bool,
+    ranks: usize,
+    started: Instant,
+    /// Whether the mesh is adapted: the one of the file, and its segments, are a beginning only.
+    adapts: bool,
+    /// What warnings begin with: the load step that they are of.
+    of_step: String,
+}
+
+impl Report {
+    /// A report of a run of a case.
+    pub fn new(case: &Case, options: &RunOptions, session: &Session) -> Self {
+        let first = session.rank() == 0;
+        let (speaks, ranks, adapts) = (first && !options.quiet, session.size(), case.accuracy.is_some());
+        Self { speaks, first, ranks, started: options.started, adapts, of_step: String::new() }
+    }
+
+    /// The report of a load step, which it announces.
+    pub fn of_step(&self, step: &LoadStep) -> Self {
+        self.say(&step.words());
+        progress::step(step.number, step.count);
+        Self { of_step: format!("step {}: ", step.number), ..self.clone() }
+    }
+
+    /// Prints a line.
+    pub fn say(&self, line: &str) {
+        if self.speaks {
+            // A reader that has gone away is no reason to stop.
+            let _ = progress::aside(|| writeln!(std::io::stdout(), "{line}"));
+        }
+    }
+
+    /// Title of the case.
+    pub fn start(&self, case: &Case) {
+        let ranks = if self.ranks == 1 { "1 rank".into() } else { format!("{} ranks", self.ranks) };
+        self.say(&format!("mezha {}: {} on {ranks}", env!("CARGO_PKG_VERSION"), title(case)));
+    }
+
+    /// Whether a run of the case beside a result repeats it, and if not, what differs.
+    pub fn repeats(&self, now: &Provenance, before: &Provenance, case: &Case) {
+        let unless = origin::may_end_elsewhere(case.accuracy.as_ref());
+        let (words, warns) = origin::repeats(now, before, &case.file, &unless);
+        if warns { self.warn(&words) } else { self.say(&words) }
+    }
+
+    /// An event of the solution procedure.
+    pub fn event(&self, event: &Event) {
+        match event {
+            Event::AtRest { scene, at_rest } => {
+                self.sizes(scene, &at_rest.contacts, &at_rest.numbering);
+                if !self.adapts {
+                    self.warn_all(&short_segments(&at_rest.contacts));
+                }
+                self.warn_all(&locking(scene));
+            }
+            Event::Solver(words) => self.say(&format!("solver: {words}")),
+            Event::Coarse { refine, unknowns, active, passes, converged } => {
+                let iterations: Vec<String> = passes.iter().map(|pass| pass.krylov_iterations.to_string()).collect();
+                self.say(&format!(
+                    "refine {refine}: {unknowns} unknowns, {}/{} multipliers in contact, {} iterations{}",
+                    active.iter().filter(|active| **active).count(),
+                    active.len(),
+                    iterations.join(" "),
+                    if *converged { "" } else { "; not converged, not used further" }
+                ));
+                passes.iter().for_each(|pass| self.fallback(pass.fallback.as_deref()));
+            }
+            Event::Refinement { .. } => {}
+            Event::Begin(follows) => self.head(*follows),
+            Event::Passed(pass, all) => {
+                self.say(&format!(
+                    "{:5}  {:>6}/{all:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
+                    pass.iteration,
+                    pass.active,
+                    format!("+{}", pass.added),
+                    format!("-{}", pass.released),
+                    pass.krylov_iterations,
+                    pass.residual,
+                    pass.max_penetration,
+                    pass.du
+                ));
+                self.fallback(pass.fallback.as_deref());
+            }
+            Event::Placed(step) => {
+                let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
+                let flipped = step.flipped.map_or("-".to_string(), |count| count.to_string());
+                let (length, moved, du) = (length(step.length), figure(step.moved), figure(step.du));
+                self.say(&format!(
+                    "boundary {}: length {length}, moves by {moved}, displacement by {du}, multipliers changed {flipped}",
+                    step.iteration
+                ));
+            }
+            Event::Again { from_before } => {
+                let from = if *from_before { "with the step before" } else { "with the bodies at rest" };
+                self.say(&format!("not converged; begins once more, {from}"));
+            }
+            Event::Adapted { accuracy: asked, mesh, .. } => self.adapted(asked, mesh),
+        }
+    }
+
+    /// Head of the table of passes, and before it, if boundaries follow the bodies, when they stand.
+    fn head(&self, follows: Option<[f64; 2]>) {
+        if let Some([boundary, displacement]) = follows {
+            self.say(&format!(
+                "boundaries follow the bodies until they move by {boundary:.0e} of their length, the displacement by {displacement:.0e} of its norm, and no multiplier changes; or, after coarser meshes, by less than this one is exact for"
+            ));
+        }
+        self.say("outer  active       +/-  Krylov  residual  penetration     du");
+    }
+
+    /// One mesh of a sequence.
+    fn adapted(&self, asked: &Accuracy, mesh: &AdaptedMesh) {
+        let figure = |error: Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
+        let error = |place: usize| figure(mesh.errors.get(place).copied().flatten());
+        let goal = |&place: &usize| format!("{} {}", accuracy::name(&asked.goals[place].quantity), error(place));
+        let all: Vec<String> = accuracy::told(asked, Some(mesh)).iter().map(goal).collect();
+        self.say(&format!(
+            "mesh {:2}: {} macro triangles, {} unknowns, {}{}, {:.2} s",
+            mesh.number,
+            mesh.macro_triangles,
+            mesh.unknowns,
+            accuracy::of_how_many(asked, Some(mesh)),
+            all.join(", "),
+            mesh.seconds
+        ));
+    }
+
+    /// Sizes of mesh and contacts.
+    fn sizes(&self, scene: &Scene, contacts: &[Contact], numbering: &Numbering) {
+        let level = numbering.level;
+        let order = if level.order == Order::P1 { "P1" } else { "P2" };
+        let triangles = scene.mesh.triangles.len() * level.triangles_per_edge().pow(2);
+        let unknowns = 2 * numbering.node_count();
+        let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
+        let first = if self.adapts { "the first mesh: " } else { "" };
+        self.say(&format!("{first}{triangles} {order} triangles, {unknowns} unknowns, {multipliers} multipliers"));
+        contact_lines(contacts).iter().for_each(|line| self.say(line));
+        if level.intervals > 1 {
+            self.bent(scene, contacts);
+        }
+    }
+
+    /// Edges whose shape nobody has declared, and that are taken for chords of something smooth.
+    fn bent(&self, scene: &Scene, contacts: &[Contact]) {
+        let mut known = HashSet::new();
+        let names = contacts.iter().flat_map(|contact| &contact.pair.between).filter(|name| known.insert(*name));
+        let bent: Vec<(&String, f64)> = names.map(|name| (name, scene.mesh.bent_by(name))).filter(|(_, by)| *by > 0.0).collect();
+        let words =
+            "no [geometry] gives its shape; its edges are bent onto a spline through the nodes of the mesh file, by up to";
+        if bent.len() <= MOST_TOLD {
+            return bent.iter().for_each(|(name, by)| self.say(&format!("boundary {name}: {words} {by:.1e}")));
+        }
+        let most = bent.iter().map(|(_, by)| *by).fold(0.0, f64::max);
+        let names: Vec<&String> = bent.iter().map(|(name, _)| *name).collect();
+        self.say(&format!("{} boundaries ({}): {words} {most:.1e}", names.len(), listed(&names)));
+    }
+
+    /// A stronger preconditioner, which all solves after it keep.
+    fn fallback(&self, words: Option<&str>) {
+        if let Some(words) = words {
+            self.say(&format!("       slow; went over to {words}"));
+        }
+    }
+
+    /// Warnings of one kind, a line each; of many the first ones, and how many others there are.
+    pub fn warn_all(&self, lines: &[String]) {
+        let few = if lines.len() > MOST_TOLD { WORST } else { lines.len() };
+        lines[..few].iter().for_each(|line| self.warn(line));
+        if few < lines.len() {
+            self.warn(&format!("{} more of this kind", lines.len() - few));
+        }
+    }
+
+    /// A line of warning on standard error, also if the run is quiet.
+    pub fn warn(&self, line: &str) {
+        if self.first {
+            interruption::keep_warning(&format!("{}{line}", self.of_step));
+            // The run is worth more than the words.
+            let words = format!("mezha: warning: {}{line}\n", self.of_step);
+            let _ = progress::aside(|| std::io::stderr().write_all(words.as_bytes()));
+        }
+    }
+
+    /// The last words: the verdict, and where the results are. A bad one is printed even if the run is quiet.
+    pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
+        match outcome {
+            Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),
+            Outcome::NotConverged | Outcome::Unresolved => {
+                let words = if outcome == Outcome::Unresolved { "resolved" } else { "converged" };
+                let words = format!("mezha: NOT {words}: {reason}");
+                if self.first && !self.speaks {
+                    let _ = progress::aside(|| writeln!(std::io::stderr(), "{words}"));
+                }
+                self.say(&words);
+            }
+        }
+        self.say(&format!("results in {}", out.display()));
+    }
+
+    /// Times of the stages on the slowest rank. **Collective**
+    pub fn times(&self, stages: &Stages, session: &Session) -> Time {
+        let Stages { mesh, assemble, contact, setup, solve, output } = stages;
+        let [mesh, assemble, contact, setup, solve, output] =
+            [mesh, assemble, contact, setup, solve, output].map(|stage| stage.seconds());
+        let mut seconds = [mesh, assemble, contact, setup, solve, output, self.started.elapsed().as_secs_f64()];
+        session.max(&mut seconds);
+        let [mesh, assemble, contact, setup, solve, output, total] = seconds.map(Some);
+        Time { mesh, assemble, contact, setup, solve, output, total }
+    }
+
+    /// The table of stages.
+    pub fn table(&self, summary: &Summary) {
+        let Time { mesh, contact, assemble, setup, solve, output, total } = summary.time_s;
+        let [mesh, contact, assemble, setup, solve, output, total] =
+            [mesh, contact, assemble, setup, solve, output, total].map(|seconds| seconds.unwrap_or(0.0));
+        self.say(&format!(
+            "seconds: mesh {mesh:.3}  contact {contact:.3}  assemble {assemble:.3}  setup {setup:.3}  solve {solve:.3}  output {output:.3}  total {total:.3}"
+        ));
+        let memory = &summary.memory_mib;
+        self.say(&format!(
+            "memory: {:.0} MiB on the largest rank, {:.0} MiB in all",
+            memory.max_rank.unwrap_or(0.0),
+            memory.sum.unwrap_or(0.0)
+        ));
+    }
+}
+
+/// A line for each contact; of many one for all.
+pub fn contact_lines(contacts: &[Contact]) -> Vec<String> {
+    if contacts.len() > MOST_TOLD {
+        let range = |all: &mut dyn Iterator<Item = f64>| {
+            all.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], one| [least.min(one), most.max(one)])
+        };
+        let [fewest, most] = range(&mut contacts.iter().map(|contact| contact.boundary.segments() as f64));
+        let [shortest, longest] = range(&mut contacts.iter().map(|contact| contact.boundary.length())).map(length);
+        let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
+        let count = contacts.len();
+        return vec![format!(
+            "{count} contacts: {fewest} to {most} segments over lengths of {shortest} to {longest}, {multipliers} multipliers"
+        )];
+    }
+    let words = |contact: &Contact| {
+        format!(
+            "contact {}: {} segments over a length of {}, {} multipliers",
+            contact.pair.name,
+            contact.boundary.segments(),
+            length(contact.boundary.length()),
+            contact.multipliers.count()
+        )
+    };
+    contacts.iter().map(words).collect()
+}
+
+/// Largest resident memory so far, as the system knows it. **Collective**
+pub fn memory(session: &Session) -> Memory {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).and_then(|rest| rest.split_whitespace().next());
+    let own = peak.and_then(|kib| kib.parse::<f64>().ok()).unwrap_or(f64::NAN) / 1024.0;
+    let (mut largest, mut sum) = ([own], [own]);
+    session.max(&mut largest);
+    session.sum(&mut sum);
+    Memory { max_rank: Some(largest[0]), sum: Some(sum[0]) }
+}

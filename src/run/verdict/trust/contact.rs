@@ -1,0 +1,82 @@
+//! The verdict on one contact.
+
+use super::beyond::doubts_beyond;
+use super::told::{Unknown, Verdict};
+use super::zones::{is_proved, overlaps, unknown_of, zone_doubts};
+use crate::accuracy::share_of_nothing;
+use crate::case::Case;
+use crate::contact::Pair;
+use crate::output::Summary;
+use crate::output::summary::{ContactSummary, ZoneSummary};
+use crate::run::verdict::balance::{balance_doubts, is_strained};
+use crate::run::verdict::limits::{CORNERS, Doubt, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE};
+use crate::run::words::short;
+
+/// What a contact without force is called.
+const NOTHING_PRESSES: &str = "nothing presses";
+
+/// The verdict on a contact, as it was solved. Trust is false if a figure speaks against the pressure, or if the solve that it comes
+/// from has not `converged`; it is null if nothing tells, or if the corner of a body presses on too few edges. Of a contact that
+/// carries next to nothing of the largest force no zone need be resolved.
+pub fn verdict(summary: &Summary, contact: &ContactSummary, pair: &Pair, case: &Case, converged: bool) -> Verdict {
+    let mut doubts = stability_doubts(contact);
+    if !converged {
+        return Verdict { trust: Some(false), trust_force: Some(false), ..Verdict::of(doubts, pair, case) };
+    }
+    if is_rounding(summary, contact, case) {
+        let words = "the bodies touch without being strained, and press by rounding alone";
+        return Verdict { unknown: Some(Unknown { cause: words, words: words.into(), remedy: None }), ..Verdict::default() };
+    }
+    let idle = idle_words(contact, case, summary.largest_force());
+    let carries = idle.is_none();
+    let force = summary.estimate.contact.get(&pair.name).and_then(|own| own.force);
+    let unbalanced = balance_doubts(summary, case);
+    // Where nothing presses, meshes agree on a force of zero though the bodies overlap.
+    let pressed = !contact.zones.is_empty() || !overlaps(contact);
+    let trust_force = force.map(|error| error <= TRUSTED_FORCE && unbalanced.is_empty() && pressed);
+    doubts.extend(zone_doubts(contact, trust_force));
+    doubts.retain(|_| carries);
+    doubts.extend(ENERGY.judge(summary.estimate.energy, &[]));
+    doubts.extend(unbalanced);
+    doubts.extend(FORCE.judge(force, &[]).filter(|_| carries));
+    let beyond = doubts_beyond(summary, contact, case, carries);
+    let trust_force = trust_force.map(|trust| trust && beyond.is_empty());
+    doubts.extend(beyond);
+    doubts.extend(corner_doubt(contact, &pair.between).filter(|_| carries));
+    let unknown = unknown_of(contact, trust_force, Remedy::MoreSegments.words(pair, case)).filter(|_| carries);
+    let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
+    let idle = idle.or_else(|| (contact.force == Some(0.0) && contact.zones.is_empty()).then(|| NOTHING_PRESSES.into()));
+    Verdict { unknown, trust, trust_force, idle, ..Verdict::of(doubts, pair, case) }
+}
+
+/// What a contact is called that carries next to nothing of the largest force, with all that overlaps beside it are worth.
+pub fn idle_words(contact: &ContactSummary, case: &Case, most: f64) -> Option<String> {
+    let share = share_of_nothing(case.accuracy.as_ref());
+    let force = contact.force?.abs();
+    let worth = force + contact.unresolved_force?.max(contact.missing_force.unwrap_or(0.0));
+    (worth < share * most).then(|| match force {
+        0.0 => NOTHING_PRESSES.into(),
+        _ => format!("touches; carries less than {share:e} of the largest force"),
+    })
+}
+
+/// Whether bodies have only moved, so that the little that presses is noise, which no mesh repeats.
+fn is_rounding(summary: &Summary, contact: &ContactSummary, case: &Case) -> bool {
+    let is_noise = |zone: &ZoneSummary| zone.lambda.is_none_or(|error| error > ENERGY.value);
+    !contact.zones.is_empty() && contact.zones.iter().all(is_noise) && !is_strained(summary, case)
+}
+
+/// What tells that the displacements do not control the pressure; it may be why a solve has failed.
+fn stability_doubts(contact: &ContactSummary) -> Vec<Doubt> {
+    let segment = contact.h_ratio.map_or(String::new(), |ratio| format!(" with segments of {} edges", short(ratio)));
+    // Beside a singular end λ swings without harm to its middle, which the estimate tells.
+    let harmless = contact.zones.iter().filter(|zone| zone.counts(&contact.zones)).all(|zone| is_proved(zone.lambda));
+    let figures = [(&INF_SUP, contact.inf_sup), (&OSCILLATION, contact.oscillation.filter(|_| !harmless))];
+    figures.into_iter().filter_map(|(limit, value)| limit.judge(value, &[("segment", &segment)])).collect()
+}
+
+/// What tells that bodies press with corners that the smooth contact boundary has not.
+pub fn corner_doubt(contact: &ContactSummary, [first, second]: &[String; 2]) -> Option<Doubt> {
+    let angle = format!("{:.0}", contact.corner_angle.unwrap_or(f64::NAN));
+    CORNERS.judge(contact.corner_error, &[("first", first), ("second", second), ("angle", &angle)])
+}

@@ -1,0 +1,64 @@
+//! Whether contact pressures are to be trusted, and what to do where they are not.
+//!
+//! In comes the summary of a run with all its figures, out comes the [`ContactTrust`] of each contact, and what the run says of them.
+//! Every figure is held against its row of `limits/table.rs`; nothing here has a number of its own. A figure that speaks against a
+//! pressure is a doubt; where no figure speaks for it either, it is unknown.
+
+mod beyond;
+mod contact;
+pub(super) mod remedies;
+#[cfg(test)]
+pub(super) mod samples;
+mod told;
+mod zones;
+
+use crate::case::Case;
+use crate::contact::{Pair, SegmentRule};
+use crate::output::Summary;
+use crate::output::summary::{ContactSummary, ContactTrust};
+use contact::verdict;
+use std::collections::BTreeMap;
+use told::{Verdict, in_order, unknown, unreliable};
+
+/// What is said of the pressures of a run.
+#[derive(Debug, Default)]
+pub struct Judgement {
+    /// Figures that speak against pressures, with what to do about them.
+    pub unreliable: Option<String>,
+    /// What nothing tells, a sentence each.
+    pub unknown: Vec<String>,
+}
+
+/// Sets the trust of every contact of a solution.
+pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
+    let judged = as_solved(case).into_iter().filter_map(|pair| {
+        let contact = summary.contact.get(&pair.name)?;
+        Some((pair.name.clone(), verdict(summary, contact, &pair, case, converged)))
+    });
+    let verdicts: BTreeMap<String, Verdict> = judged.collect();
+    for (name, contact) in &mut summary.contact {
+        contact.judged = verdicts.get(name).map(Verdict::trust).unwrap_or_default();
+    }
+    let names = in_order(summary, case, &verdicts);
+    Judgement { unreliable: unreliable(&names, &verdicts), unknown: unknown(&names, &verdicts) }
+}
+
+/// Leaves no contact trusted, of a run that is not resolved.
+pub fn distrust(summary: &mut Summary) {
+    for ContactSummary { judged, .. } in summary.contact.values_mut() {
+        let why = match judged.trust {
+            Some(false) => judged.verdict.take(),
+            _ => Some("not trusted: the run is not resolved".into()),
+        };
+        *judged = ContactTrust { trust: Some(false), trust_force: Some(false), verdict: why };
+    }
+}
+
+/// The contacts of a case as they were solved: with an accuracy the segments are the program's own.
+fn as_solved(case: &Case) -> Vec<Pair> {
+    let rule = |pair: &Pair| if case.accuracy.is_some() { SegmentRule::Auto } else { pair.segments.clone() };
+    case.contacts.iter().map(|pair| Pair { segments: rule(pair), ..pair.clone() }).collect()
+}
+
+#[cfg(test)]
+mod tests;

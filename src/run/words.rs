@@ -1,0 +1,41 @@
+//! Numbers and names as a run says them, on the terminal and in its result.
+
+use crate::case::Case;
+use crate::procedure::Work;
+
+/// A length to six decimals, in any unit.
+pub fn length(v: f64) -> String {
+    if (1e-2..1e6).contains(&v) { format!("{v:.6}") } else { format!("{v:.6e}") }
+}
+
+/// A number to two digits, however small it is.
+pub fn short(v: f64) -> String {
+    if v.abs() < 0.01 { format!("{v:.1e}") } else { format!("{v:.2}") }
+}
+
+/// What stands above all that is said of a case.
+pub fn title(case: &Case) -> &str {
+    if case.title.is_empty() { &case.name } else { &case.title }
+}
+
+/// What is done, in words that may follow *while*.
+pub fn doing(work: Work) -> &'static str {
+    match work {
+        Work::Contact => "placing contacts",
+        Work::Assembly => "assembling",
+        Work::SetUp => "setting up the solver",
+        Work::Solve => "solving",
+        Work::Recovery => "looking at the solution",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_units_keep_their_digits() {
+        assert_eq!([4.0, 6.082e-9, 6.082e9].map(length), ["4.000000", "6.082000e-9", "6.082000e9"]);
+        assert_eq!([1.5, 0.25, 6.3e-4].map(short), ["1.50", "0.25", "6.3e-4"]);
+    }
+}

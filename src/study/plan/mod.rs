@@ -1,0 +1,169 @@
+//! The study file: TOML text to a checked list of runs.
+
+mod moves;
+pub(super) mod planned;
+mod settings;
+pub(super) mod summary_path;
+
+use std::cell::RefCell;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use toml::Value;
+
+use crate::case::error::{CaseError, dotted};
+use crate::case::overrides::{overridden, read_key};
+use crate::case::schema::STUDY;
+use crate::case::section::{Section, read_text};
+use crate::case::{Case, name_of, values};
+
+use moves::Moves;
+use planned::{PlannedCase, PlannedRun};
+use settings::{StudyCurve, read_curve, read_grid, read_set};
+use summary_path::SummaryPath;
+
+/// A checked study: what is run, and what is asked of each result.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Name of the folder if the file is called `study.toml`, else the file's stem.
+    pub name: String,
+    /// Dotted keys of all grids, in the order of the file.
+    pub keys: Vec<String>,
+    /// Where the errors stand in `summary.json`, each an axis; the first one is the column `error`.
+    pub errors: Vec<SummaryPath>,
+    /// Where the time axis does.
+    pub time: SummaryPath,
+    /// The keys along which the points of a line are joined.
+    pub along: Vec<String>,
+    /// What else is asked of `summary.json`.
+    pub columns: Vec<SummaryPath>,
+    /// Time limit of a run.
+    pub timeout: Duration,
+    /// In the order in which they are made.
+    pub runs: Vec<PlannedRun>,
+}
+
+impl Plan {
+    /// Runs that differ in nothing but the number of their repeat; they follow each other.
+    pub fn groups(&self) -> Vec<Range<usize>> {
+        let starts: Vec<usize> = (0..self.runs.len()).filter(|&index| self.runs[index].repeat == 1).collect();
+        let ends = starts.iter().copied().skip(1).chain([self.runs.len()]);
+        starts.iter().copied().zip(ends).map(|(start, end)| start..end).collect()
+    }
+
+    /// Reads and checks a study file, after the overrides `KEY=VALUE`.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn read(file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        Self::parse(&read_text(file, "study")?, file, overrides)
+    }
+
+    /// Checks the text of a study file; case files are relative to the folder of `file`.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let (table, log) = overridden(text, file, overrides, &[])?;
+        let log = RefCell::new(log);
+        let draft = Self::from_section(&Section::root(&table, &STUDY, &log), file);
+        let mut log = log.into_inner();
+        log.add_faults(&STUDY, &table);
+        let problems = log.problems;
+        draft.filter(|_| problems.is_empty()).ok_or(CaseError { file: file.into(), problems })
+    }
+
+    /// None if a value is missing or bad; the log knows why.
+    fn from_section(root: &Section, file: &Path) -> Option<Self> {
+        let cases = root.required("cases", values::each(values::name));
+        let ranks = root.or("ranks", values::each(values::whole));
+        let repeat = root.or("repeat", values::whole);
+        let timeout = root.or("timeout", |value| values::number(value).map(Duration::from_secs_f64));
+        let errors = root.optional("error", one_or_more(SummaryPath::read));
+        let time = root.or("time", SummaryPath::read);
+        let along = root.optional("along", one_or_more(read_along));
+        let columns = root.optional("columns", values::each(SummaryPath::read));
+        let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
+        let cases = cases?;
+        let planned = find_cases(&cases, file, root);
+        check_curves(&curves, &planned, root);
+        let moves = Moves { common, grid, curves };
+        moves.check_overlaps(root);
+        moves.check_keys(&planned, root);
+        let keys = moves.keys();
+        if let Some(along) = along.iter().flatten().find(|along| !keys.contains(along)) {
+            root.problem(&["along"], format!("{along} stands in no grid; take one of its keys"));
+        }
+        let (ranks, repeat, timeout) = (ranks?, repeat?, timeout?);
+        let runs = moves.expand(&planned, &ranks, repeat, root)?;
+        Some(Self {
+            name: name_of(file, "study.toml"),
+            keys,
+            errors: errors.unwrap_or_default(),
+            time: time?,
+            along: along.unwrap_or(vec!["mesh.refine".into()]),
+            columns: columns.unwrap_or_default(),
+            timeout,
+            runs,
+        })
+    }
+}
+
+/// Reads one value, or a list of them.
+fn one_or_more<T>(read: impl Fn(&Value) -> Result<T, String> + Copy) -> impl Fn(&Value) -> Result<Vec<T>, String> {
+    move |value| match value {
+        Value::Array(_) => values::each(read)(value),
+        single => Ok(vec![read(single)?]),
+    }
+}
+
+/// A key of the case, as it is told from others.
+fn read_along(value: &Value) -> Result<String, String> {
+    let names = read_key(&values::name(value)?);
+    names.map(|names| dotted(&names)).ok_or("must be a key of the case with dots, as in \"mesh.refine\"".into())
+}
+
+/// Finds the case files, and a name for each that no other has.
+fn find_cases(cases: &[String], study: &Path, root: &Section) -> Vec<PlannedCase> {
+    let folder = study.parent().unwrap_or(Path::new(""));
+    let files: Vec<PathBuf> = cases.iter().map(|case| folder.join(case)).collect();
+    let names: Vec<String> = files.iter().map(|file| name_of(file, "case.toml")).collect();
+    for (case, file) in cases.iter().zip(&files).filter(|(_, file)| !file.is_file()) {
+        let words = format!("there is no file {} for \"{case}\"; case files are relative to the study file", file.display());
+        root.problem(&["cases"], words);
+    }
+    let label = |index: usize| {
+        let alone = names.iter().filter(|name| **name == names[index]).count() == 1;
+        if alone { names[index].clone() } else { cases[index].clone() }
+    };
+    let planned = |(index, file): (usize, &PathBuf)| PlannedCase {
+        written: cases[index].clone(),
+        file: file.clone(),
+        label: label(index),
+        title: Case::read(file, &[]).map(|case| case.title).unwrap_or_default(),
+    };
+    files.iter().enumerate().map(planned).collect()
+}
+
+/// Curves of one case are told apart by their names, and drawn for cases of the study.
+fn check_curves(curves: &[StudyCurve], cases: &[PlannedCase], root: &Section) {
+    for (index, curve) in curves.iter().enumerate() {
+        let number = (index + 1).to_string();
+        if curves[..index].iter().any(|other| other.name == curve.name && other.meets(curve)) {
+            let words = format!("\"{}\" is another curve's name; choose one of its own", curve.name);
+            root.problem(&["curve", &number, "name"], words);
+        }
+        for name in curve.cases.iter().flatten().filter(|name| cases.iter().all(|case| case.written != **name)) {
+            let words = format!("\"{name}\" does not stand in cases; write it there, letter by letter");
+            root.problem(&["curve", &number, "cases"], words);
+        }
+    }
+    for case in cases.iter().filter(|case| case.curves(curves).is_empty()) {
+        let words = format!("no [[curve]] is drawn for \"{}\"; take it from cases, or name it in a curve", case.written);
+        root.problem(&["cases"], words);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,183 @@
+//! The figures of a study: what an error costs, and lines as diagrams, one block for each case.
+
+use crate::output::plot::{Axis, Diagram, DiagramBlock, DiagramLine, LegendCell, Mark, diagrams, named_diagrams};
+use crate::study::plan::Plan;
+use crate::study::plan::summary_path::SummaryPath;
+use crate::study::table::fit::PowerLaw;
+use crate::study::table::lines::{Line, LinePoint};
+use crate::study::table::repeats::Spread;
+use crate::study::table::rows::once;
+
+/// What a diagram shows of the size of a run.
+const UNKNOWNS: &str = "unknowns N";
+
+/// The text of `study.svg`: for each case, time against the first error, or against unknowns without any; None if no line has
+/// two points.
+pub fn first_figure(plan: &Plan, lines: &[Line]) -> Option<String> {
+    named_diagrams(&by_case(lines).iter().map(|case| case.race(plan)).collect::<Vec<_>>())
+}
+
+/// The text of `study_all.svg`: all diagrams of all cases; None if no line has two points.
+pub fn all_figures(plan: &Plan, lines: &[Line]) -> Option<String> {
+    let block = |case: &CaseLines| {
+        let legend = case.lines.iter().map(|(style, line)| entry(plan, *style, line)).collect();
+        DiagramBlock { title: case.title.clone(), legend, diagrams: case.diagrams(plan) }
+    };
+    diagrams(&by_case(lines).iter().map(block).collect::<Vec<_>>())
+}
+
+/// The lines of each case, with styles by their names; none at all if no line has two points.
+fn by_case(lines: &[Line]) -> Vec<CaseLines<'_>> {
+    if lines.iter().all(|line| line.points.len() < 2) {
+        return Vec::new();
+    }
+    let (cases, names) = (once(lines.iter().map(|line| line.case.as_str())), once(lines.iter().map(|line| line.name.as_str())));
+    let style = |line: &Line| names.iter().position(|name| *name == line.name).unwrap_or_default();
+    let of_case = |case: &String| {
+        let own = lines.iter().filter(|line| line.case == *case && !line.points.is_empty());
+        let own: Vec<(usize, &Line)> = own.map(|line| (style(line), line)).collect();
+        let title = own.first().map(|(_, line)| line.title.as_str()).filter(|title| !title.is_empty());
+        let title = title.map_or(case.clone(), |title| format!("{case}: {title}"));
+        CaseLines { title, lines: own }
+    };
+    cases.iter().map(of_case).collect()
+}
+
+/// A line's row in the legend: its name, its orders, its cost.
+fn entry(plan: &Plan, style: usize, line: &Line) -> Vec<LegendCell> {
+    let order = |error: &SummaryPath| law(&format!("{} ~ h", error.text), line.orders.get(&error.text).copied().flatten());
+    let laws = plan.errors.iter().map(order).chain([law("time ~ N", line.cost)]).map(LegendCell::words);
+    [LegendCell::marked(line.name.as_str(), style)].into_iter().chain(laws).collect()
+}
+
+/// A power law in words.
+pub fn law(words: &str, law: Option<PowerLaw>) -> String {
+    match law {
+        Some(law) if law.holds() => format!("{words}^{:.2}", law.exponent),
+        Some(_) => format!("{words}: no power law"),
+        None => format!("{words}: too few points"),
+    }
+}
+
+/// The lines of one case, with their styles.
+struct CaseLines<'a> {
+    /// Name and title of the case.
+    title: String,
+    lines: Vec<(usize, &'a Line)>,
+}
+
+impl CaseLines<'_> {
+    /// A diagram with logarithmic axes, of the points that have a place in it.
+    fn diagram(&self, title: &str, [x, y]: [&str; 2], place: &dyn Fn(&LinePoint) -> Option<Mark>) -> Diagram {
+        let drawn = |(style, line): &(usize, &Line)| DiagramLine {
+            name: line.name.clone(),
+            style: *style,
+            marks: line.points.iter().filter_map(place).collect(),
+            ..DiagramLine::default()
+        };
+        let lines = self.lines.iter().map(drawn).collect();
+        Diagram { title: title.into(), x: Axis::logarithmic(x), y: Axis::logarithmic(y), behind: Vec::new(), lines }
+    }
+
+    /// Time against an error.
+    fn time_against(&self, title: &str, error: &str, [x, y]: [&str; 2]) -> Diagram {
+        let race = self.diagram(title, [x, y], &|point| Some(timed(*point.errors.get(error)?, point.time?, point)));
+        Diagram { behind: front(&self.lines, error), ..race }
+    }
+
+    /// What an error costs, or a size where no error is asked for.
+    fn race(&self, plan: &Plan) -> Diagram {
+        let time = format!("{} [s]", plan.time.text);
+        let Some(SummaryPath { text: error, .. }) = plan.errors.first() else {
+            return self.diagram(&self.title, [UNKNOWNS, &time], &|point| Some(timed(point.unknowns, point.time?, point)));
+        };
+        let mut race = self.time_against(&self.title, error, [&format!("{error}, better to the right"), &time]);
+        race.x.falling = true;
+        // Names stand where a line has come farthest.
+        for line in &mut race.lines {
+            if line.marks.first().zip(line.marks.last()).is_some_and(|(first, last)| first.x < last.x) {
+                line.marks.reverse();
+            }
+        }
+        race
+    }
+
+    /// For each error, time against error and error against unknowns; then time and iterations against unknowns, and without
+    /// errors memory too.
+    fn diagrams(&self, plan: &Plan) -> Vec<Diagram> {
+        let (unknowns, time) = (UNKNOWNS, &format!("{} [s]", plan.time.text));
+        let mut all = Vec::new();
+        for SummaryPath { text: error, .. } in &plan.errors {
+            all.push(self.time_against("time against error (grey: the Pareto front)", error, [error, time]));
+            all.push(self.diagram("error against unknowns", [unknowns, error], &|point| {
+                Some(Mark::at(point.unknowns, *point.errors.get(error)?, !point.trusted))
+            }));
+        }
+        all.push(
+            self.diagram("time against unknowns", [unknowns, time], &|point| Some(timed(point.unknowns, point.time?, point))),
+        );
+        let mut iterations =
+            self.diagram("Krylov iterations against unknowns", [unknowns, "iterations of all solves"], &|point| {
+                Some(Mark::at(point.unknowns, point.iterations?, !point.trusted))
+            });
+        iterations.y.logarithmic = false;
+        all.push(iterations);
+        if plan.errors.is_empty() {
+            all.push(self.diagram("memory against unknowns", [unknowns, "memory of all ranks [MiB]"], &|point| {
+                Some(Mark::at(point.unknowns, point.memory?, !point.trusted))
+            }));
+        }
+        all
+    }
+}
+
+fn timed(x: f64, time: Spread, point: &LinePoint) -> Mark {
+    Mark { reach: [time.least, time.most], ..Mark::at(x, time.median, !point.trusted) }
+}
+
+/// Errors and times of the points that no other beats, from the least accurate on, in steps: between two of them the time of the
+/// more accurate one is the least.
+fn front(lines: &[(usize, &Line)], error: &str) -> Vec<[f64; 2]> {
+    let points = lines.iter().flat_map(|(_, line)| &line.points).filter(|point| point.front.contains(error));
+    let mut best: Vec<[f64; 2]> = points.filter_map(|point| point.race(error).map(|(time, error)| [error, time])).collect();
+    best.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    let steps = best.windows(2).flat_map(|pair| [pair[0], [pair[0][0], pair[1][1]]]);
+    steps.chain(best.last().copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::table::repeats::Spread;
+
+    #[test]
+    fn laws_are_told_only_where_they_hold() {
+        let of = |deviation| Some(PowerLaw { exponent: 1.8249, deviation });
+        assert_eq!(law("error ~ h", of(1.1)), "error ~ h^1.82");
+        assert_eq!(law("error ~ h", of(2.0)), "error ~ h: no power law");
+        assert_eq!(law("error ~ h", None), "error ~ h: too few points");
+    }
+
+    fn line(front_errors: &[f64]) -> Line {
+        let point = |error: &f64| LinePoint {
+            unknowns: 1.0 / error,
+            iterations: None,
+            time: Spread::of(vec![1.0 / error]),
+            errors: [("e".to_string(), *error)].into(),
+            memory: None,
+            trusted: true,
+            front: ["e".to_string()].into(),
+            result: String::new(),
+        };
+        let points = front_errors.iter().map(point).collect();
+        let orders = Default::default();
+        Line { case: "bars".into(), title: "Two bars".into(), name: "P1".into(), ranks: 1, orders, cost: None, points }
+    }
+
+    #[test]
+    fn the_front_goes_down_in_steps() {
+        let line = line(&[0.1, 0.5, 0.25]);
+        assert_eq!(front(&[(0, &line)], "e"), [[0.5, 2.0], [0.5, 4.0], [0.25, 4.0], [0.25, 10.0], [0.1, 10.0]]);
+        assert!(front(&[], "e").is_empty());
+    }
+}

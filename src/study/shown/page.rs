@@ -1,0 +1,129 @@
+//! `report.html` of a study: figures and tables in one file, which needs nothing else.
+
+use super::figure::law;
+use super::format::{Readable, about};
+use crate::output::markup::{document, escape, figure, list, paragraph, section, table as rows};
+use crate::study::table::fit::{FARTHEST, FITTED};
+use crate::study::table::lines::{Line, LinePoint};
+use crate::study::table::rows::Table;
+
+/// The page, with the first figure and that of all diagrams, if there are any. It is well-formed XML too.
+pub fn html(table: &Table, lines: &[Line], [first, all]: [Option<&str>; 2]) -> String {
+    let mut sections = Vec::new();
+    if let Some(first) = first {
+        let words = match table.errors.first() {
+            Some(error) => format!(
+                "What an error costs: {} against {error}, which becomes better to the right. Grey: the Pareto front. Hollow marks are not to be trusted; bars reach from the fastest to the slowest repeat.",
+                table.time
+            ),
+            None => format!("What a size costs: {} against displacement unknowns.", table.time),
+        };
+        sections.push(figure(first, &words));
+    }
+    for (number, error) in table.errors.iter().enumerate() {
+        if lines.iter().flat_map(|line| &line.points).any(|point| point.front.contains(error)) {
+            sections.push(section(&format!("front-{}", number + 1), &format!("The Pareto front of {error}")));
+            sections.push(paragraph("No other run of the case is both as fast and as accurate."));
+            sections.push(front(table, lines, error));
+        }
+    }
+    if first.is_some() {
+        sections.push(section("laws", "Orders and costs"));
+        sections.push(paragraph(&format!(
+            "N is the number of unknowns, h the edge length with h² ~ 1/N. Exponents are fitted through the {FITTED} points of a line with most unknowns. Where one of them is further from the fit than by a factor of {FARTHEST}, it is no power law."
+        )));
+        sections.push(laws(table, lines));
+    }
+    if let Some(all) = all {
+        sections.push(section("diagrams", "All diagrams"));
+        sections.push(figure(all, "Errors, times, iterations of all lines, case by case."));
+    }
+    sections.push(section("runs", "All runs"));
+    let readable = Readable::new(table);
+    sections.push(rows(&readable.header, &readable.rows));
+    let header = format!("<header>\n<p class=\"kind\">Study</p>\n<h1>{}</h1>\n</header>\n", escape(&table.study));
+    document(&format!("Study {}", table.study), &format!("{header}{}{}", list(&about(table)), sections.concat()))
+}
+
+/// Orders and costs of all lines.
+fn laws(table: &Table, lines: &[Line]) -> String {
+    let errors = || table.errors.iter().map(String::as_str);
+    let header: Vec<&str> = ["case", "line"].into_iter().chain(errors()).chain([table.time.as_str()]).collect();
+    let row = |line: &Line| {
+        let mut cells = vec![line.case.clone(), line.name.clone()];
+        cells.extend(errors().map(|error| law("h", line.orders.get(error).copied().flatten())));
+        cells.push(law("N", line.cost));
+        cells
+    };
+    rows(&header, &lines.iter().map(row).collect::<Vec<_>>())
+}
+
+/// The points that no other beats, from the fastest to the most accurate one.
+fn front(table: &Table, lines: &[Line], error: &str) -> String {
+    let header = ["case", "line", "unknowns", &table.time, error, "result"];
+    let mut best: Vec<(&Line, &LinePoint, (f64, f64))> = Vec::new();
+    for line in lines {
+        let points = line.points.iter().filter(|point| point.front.contains(error));
+        best.extend(points.filter_map(|point| Some((line, point, point.race(error)?))));
+    }
+    let place = |case: &str| lines.iter().position(|line| line.case == case);
+    best.sort_by(|a, b| place(&a.0.case).cmp(&place(&b.0.case)).then(a.2.0.total_cmp(&b.2.0)));
+    let row = |(line, point, (time, error)): &(&Line, &LinePoint, (f64, f64))| {
+        let numbers = [format!("{}", point.unknowns), format!("{time:.3}"), format!("{error:.2e}")];
+        [line.case.clone(), line.name.clone()].into_iter().chain(numbers).chain([point.result.clone()]).collect()
+    };
+    rows(&header, &best.iter().map(row).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::table::fit::PowerLaw;
+    use crate::study::table::repeats::Spread;
+    use crate::study::table::rows::{Column, ColumnKind};
+
+    #[test]
+    fn the_page_holds_figure_laws_front_and_escaped_words() {
+        let point = |unknowns: f64, front: &[&str]| LinePoint {
+            unknowns,
+            iterations: Some(5.0),
+            time: Spread::of(vec![0.5]),
+            errors: [("errors.energy".to_string(), 1e-3)].into(),
+            memory: None,
+            trusted: true,
+            front: front.iter().map(|error| (*error).to_owned()).collect(),
+            result: "runs/004".into(),
+        };
+        let points = vec![point(1e3, &["errors.energy"]), point(4e3, &[])];
+        let law = Some(PowerLaw { exponent: 2.0, deviation: 1.0 });
+        let orders = [("errors.energy".to_string(), law)].into();
+        let line = Line {
+            case: "bars".into(),
+            title: "Two bars".into(),
+            name: "P1 & <P0>".into(),
+            ranks: 1,
+            orders,
+            cost: None,
+            points,
+        };
+        let table = Table { study: "a < b".into(), errors: vec!["errors.energy".into()], ..Table::default() };
+        let table =
+            Table { columns: ["status", "reason", "repeat"].map(|name| Column::new(name, ColumnKind::Main)).to_vec(), ..table };
+        let page = html(&table, std::slice::from_ref(&line), [Some("<svg ></svg>\n"), Some("<svg x=\"1\"></svg>\n")]);
+        for words in [
+            "<h1>a &lt; b</h1>",
+            "></svg>",
+            "x=\"1\"></svg>",
+            "errors.energy, which becomes better",
+            "P1 &amp; &lt;P0&gt;",
+            "h^2.00",
+            "too few points",
+            "runs/004",
+        ] {
+            assert!(page.contains(words), "{words}: {page}");
+        }
+        assert_eq!(page.matches("runs/004").count(), 1, "one of both points is on the front");
+        let bare = html(&Table { errors: Vec::new(), ..table }, &[], [None; 2]);
+        assert!(!bare.contains("svg>") && !bare.contains("Pareto") && !bare.contains("Orders"), "{bare}");
+    }
+}
