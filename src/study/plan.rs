@@ -17,8 +17,9 @@ use super::summary_path::SummaryPath;
 use crate::case::error::{CaseError, dotted};
 use crate::case::overrides::{overridden, read_key};
 use crate::case::schema::STUDY;
-use crate::case::section::{Section, read_text};
-use crate::case::{Case, name_of, values};
+use crate::case::schema::study::{ALONG, CASES, COLUMNS, ERROR, RANKS, REPEAT, TIME, TIMEOUT};
+use crate::case::section::Section;
+use crate::case::{Case, name_of, read_text, values};
 
 use moves::Moves;
 use planned::PlannedCase;
@@ -70,27 +71,20 @@ impl Plan {
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &STUDY, &log), file);
         let mut log = log.into_inner();
-        log.add_faults(&STUDY, &table);
+        STUDY.add_faults(&table, &mut log);
         let problems = log.problems;
         draft.filter(|_| problems.is_empty()).ok_or(CaseError { file: file.into(), problems })
     }
 
     /// None if a value is missing or bad; the log knows why.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
-        let cases = root.required("cases", values::each(values::name));
-        let ranks = root.or("ranks", values::each(values::whole));
-        let repeat = root.or("repeat", values::whole);
-        let timeout = root.or("timeout", |value| values::number(value).map(Duration::from_secs_f64));
-        let errors = root.optional("error", |value| match value {
-            Value::Array(_) => values::each(SummaryPath::read)(value),
-            single => Ok(vec![SummaryPath::read(single)?]),
-        });
-        let time = root.or("time", SummaryPath::read);
-        let along = root.optional("along", |value| match value {
-            Value::Array(_) => values::each(read_along)(value),
-            single => Ok(vec![read_along(single)?]),
-        });
-        let columns = root.optional("columns", values::each(SummaryPath::read));
+        let cases = root.required(CASES);
+        let (ranks, repeat) = (root.or(RANKS), root.or(REPEAT));
+        let timeout = root.or(TIMEOUT).map(Duration::from_secs_f64);
+        let errors = root.made("error", root.optional(ERROR), |value| values::one_or_each(&value, SummaryPath::read));
+        let time = root.made("time", root.or(TIME), |value| SummaryPath::read(&value));
+        let along = root.made("along", root.optional(ALONG), |value| values::one_or_each(&value, read_along));
+        let columns = root.made("columns", root.optional(COLUMNS), |value| values::one_or_each(&value, SummaryPath::read));
         let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
         let cases = cases?;
         let planned = find_cases(&cases, file, root);
