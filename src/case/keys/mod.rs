@@ -22,3 +22,6 @@ pub use declaring::*;
 pub use form::*;
 pub use from_value::{FromValue, OneOrEach};
 pub use section::Section;
+
+#[cfg(test)]
+mod tests;

@@ -56,8 +56,9 @@ impl<'a> Section<'a> {
 
     /// A value that must be given.
     pub fn required<T: FromValue>(&self, key: Key<T>) -> Option<T> {
-        if !self.has(key.form.name) {
-            self.missing(key.form.name);
+        let name = key.form.name;
+        if !self.has(name) {
+            self.problem(&[name], format!("missing; write {name} = {}", self.form_of(name).example));
         }
         self.optional(key)
     }
@@ -95,11 +96,6 @@ impl<'a> Section<'a> {
         make(value?).map_err(|words| self.problem(&[key], words)).ok()
     }
 
-    /// Reports that a key is missing which is wanted.
-    pub fn missing(&self, key: &'static str) {
-        self.problem(&[key], format!("missing; write {key} = {}", self.form_of(key).example));
-    }
-
     /// Reports each of some keys that is written.
     pub fn refuse(&self, keys: &[&'static str], words: &str) {
         keys.iter().filter(|key| self.has(key)).for_each(|key| self.problem(&[key], words.into()));
@@ -120,11 +116,7 @@ impl<'a> Section<'a> {
 
     /// The table under a key; an empty one if it is missing.
     pub fn table(&self, key: &'static str) -> Section<'a> {
-        let value = self.get(key);
-        if value.is_some_and(|value| !value.is_table()) {
-            self.problem(&[key], format!("must be a table; write [{}]", told(&self.child(key))));
-        }
-        self.inner(key, self.child(key), value.and_then(Value::as_table))
+        self.inner(key, self.child(key), self.tables(key))
     }
 
     /// The table under a key, if it is in the file.
@@ -134,13 +126,8 @@ impl<'a> Section<'a> {
 
     /// Reads every table under a key, as in `[body.lower]`, `[body.upper]`.
     pub fn named<T>(&self, key: &'static str, read: impl Fn(&Section) -> Option<T>) -> Vec<T> {
-        let Some(value) = self.get(key) else { return Vec::new() };
-        let Some(tables) = value.as_table() else {
-            self.problem(&[key], format!("must be a table; write [{}]", told(&self.child(key))));
-            return Vec::new();
-        };
         let mut results = Vec::new();
-        for (name, value) in tables {
+        for (name, value) in self.tables(key).into_iter().flatten() {
             let path: Vec<String> = self.child(key).into_iter().chain([name.clone()]).collect();
             match value.as_table() {
                 Some(table) => results.extend(read(&self.inner(key, path, Some(table)))),
@@ -193,6 +180,15 @@ impl<'a> Section<'a> {
         let tables = self.get(key).and_then(Value::as_table).into_iter().flat_map(Table::values);
         let inner = tables.filter_map(move |table| table.get(inner)?.as_table());
         inner.flat_map(Table::keys).map(String::as_str)
+    }
+
+    /// The table under a key as it is written, which may be one of tables; something else is reported.
+    fn tables(&self, key: &'static str) -> Option<&'a Table> {
+        let value = self.get(key)?;
+        if !value.is_table() {
+            self.problem(&[key], format!("must be a table; write [{}]", told(&self.child(key))));
+        }
+        value.as_table()
     }
 
     fn get(&self, key: &'static str) -> Option<&'a Value> {
