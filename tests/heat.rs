@@ -23,7 +23,9 @@ mesh.file = "mesh.msh"
 mesh.order = 2
 mesh.refine = 1
 solver.tolerance = 1e-13
-body.block = { young = 7000.0, poisson = 0.3, expansion = 1e-5 }
+body.block.young = 7000.0
+body.block.poisson = 0.3
+body.block.expansion = 1e-5
 probe.inside = { point = [1.4, 0.3], body = "block" }
 "#;
 
@@ -122,9 +124,9 @@ fn heat_that_does_nothing_or_has_no_value_is_told() {
         assert_eq!(ended.code, Some(2), "{}", ended.said());
         assert!(ended.said().contains(words), "{}", ended.said());
     };
-    told("title", "\"\"", "body.block.expansion = 1e-05: does nothing without a temperature");
-    told("body.block", "{ young = 1.0, poisson = 0.3, temperature = 5 }", "strains nothing without an expansion");
-    told("body.block.temperature", "\"1/(x - x)\"", "body.block.temperature: ");
+    told("title", "\"\"", "body.block.expansion = 1e-5: does nothing without temperature");
+    told("body.block", "{ young = 1.0, poisson = 0.3, temperature = 5 }", "strains nothing without expansion");
+    told("body.block.temperature", "\"1/(x - 1)\"", "body.block.temperature: ");
     let strained = Run::file(&file).ranks(2).set("body.block.temperature", 2e4).ended();
     assert!(strained.said().contains("body block is strained by"), "{}", strained.said());
 }

@@ -94,7 +94,7 @@ fn rings_pressed_into_each_other_have_the_order_of_their_elements() {
         let [coarse, fine] = [1, 3].map(|refine| errors(order, refine));
         let found = (coarse[0] / fine[0]).log2() / 2.0;
         assert!(found > least, "P{order}: order {found}");
-        assert!(fine[1] < [3e-3, 1e-6][order - 1], "P{order}: error of the pressure {:e}", fine[1]);
+        assert!(fine[1] < [3e-3, 1e-5][order - 1], "P{order}: error of the pressure {:e}", fine[1]);
     }
 }
 
@@ -124,7 +124,7 @@ fn a_body_that_nothing_holds_along_the_axis_is_told() {
     assert_eq!(ended.code, Some(3), "{}", ended.said());
     let reason = ended.value("/reason").to_string();
     assert!(reason.contains("can move by (0, 1)"), "{reason}");
-    let held = Run::file(&file).ranks(2).set("support.held", "{ body = \"lower\", uy = 0.0 }").converged();
+    let held = Run::file(&file).ranks(2).set("support.held", "{ body = \"lower\", mean = true, uy = 0.0 }").converged();
     assert!(held.number("/errors/lambda_seam") < 1e-7 && held.number("/balance/bodies") < 1e-8);
 }
 
@@ -142,7 +142,7 @@ fn what_only_bodies_in_the_plane_have_is_refused() {
     told(mesh(), &[("thickness", "2.0")], "a body of revolution has none");
     told(mesh(), &[("body.lower.plane", "\"stress\"")], "all bodies are of revolution, or none is");
     told(mesh(), &[("gravity.g", "[1.0, -9.81]"), ("body.lower.density", "1.0")], "its x component must be 0");
-    told(mesh(), &[("support.held", "{ body = \"upper\", ux = 0.0 }")], "moves along its axis alone");
+    told(mesh(), &[("support.held", "{ body = \"upper\", mean = true, ux = 0.0 }")], "moves along its axis alone");
     told(mesh(), &[("exact.body.lower.stress", "[0, -3, 0]")], "lacks the hoop stress");
     told(mesh(), &[("support.table.ux", "1e-3")], "the axis of revolution");
 }

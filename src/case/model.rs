@@ -1,226 +1,185 @@
-//! Mesh, bodies, geometry, loads, solver and probes.
+//! A case that was read: what to solve, on which mesh, and what is known of the result.
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use toml::Value;
+use toml::{Table, Value};
 
-use super::error::suggest;
-use super::grade::read_grade;
-use super::gravity::{Gravity, read_weight, with_weight};
-use super::rigid::{Plate, read_plate};
-use super::section::Section;
-use super::spot::read_where;
-use super::values::{self, Choice, PLANE};
-use super::{MeshChoice, Output, Probe, Solver};
-use crate::body::{Body, BodyPart, Load, LoadKind, Material, PointLoad};
-use crate::element::{Heat, Order, Plane};
-use crate::geometry::Formula;
-use crate::system::{SolverChoice, Tolerance};
+use super::acting::mean::MeanSupport;
+use super::acting::rigid::{PREFIX, Plate, Tool};
+use super::asked::exact::Exact;
+use super::asked::output::{Output, Probe};
+use super::asked::solver::Solver;
+use super::asked::steps::LoadFactor;
+use super::bodies::geometry::Geometry;
+use super::bodies::mesh::MeshChoice;
+use super::contact::sides::{Union, parts};
+use super::patterns::Matched;
+use crate::accuracy::Accuracy;
+use crate::body::{Body, Load, MeanHold, PointLoad, RigidSet, Springs, Support};
+use crate::contact::Pair;
+use crate::element::Plane;
+use crate::geometry::Point;
+use crate::mesh::MacroMesh;
 
-/// What the plane may stand for.
-const PLANES: [Choice<Plane>; 3] = [("strain", Plane::Strain), ("stress", Plane::Stress), ("axisymmetric", Plane::Revolution)];
-
-/// What a body, or each of its parts, is given.
-const CONSTANTS: [&str; 6] = ["young", "poisson", "body_force", "density", "expansion", "temperature"];
-
-/// `[mesh]`
-pub fn read_mesh(root: &Section, folder: &Path) -> Option<MeshChoice> {
-    let section = root.table("mesh");
-    let file = section.required("file", values::name);
-    let order = section.or("order", |value| Ok(if values::whole(value)? == 1 { Order::P1 } else { Order::P2 }));
-    let refine = section.or("refine", values::whole);
-    let grades = section.optional_table("grade").map_or(Some(Vec::new()), |section| read_grade(&section, order));
-    // What is bad is in the log; the file alone is enough to look for names.
-    let (order, refine) = (order.unwrap_or(Order::P2), refine.unwrap_or_default());
-    Some(MeshChoice { file: folder.join(file?), order, refine, grades: grades.unwrap_or_default() })
+/// A checked case: what to solve, on which mesh, and what is known of the result.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The case file.
+    pub file: PathBuf,
+    /// Folder of the case file; other files are relative to it.
+    pub folder: PathBuf,
+    /// Name of the folder if the file is called `case.toml`, else the file's stem.
+    pub name: String,
+    /// What it shows, in words.
+    pub title: String,
+    /// Mesh and discretisation.
+    pub mesh: MeshChoice,
+    /// Bodies, in the order of the file.
+    pub bodies: Vec<Body>,
+    /// Rigid tools.
+    pub tools: Vec<Tool>,
+    /// Thickness that forces, moments and energies of the file and of the results are those of (length); those of this case are of
+    /// a thickness of one.
+    pub thickness: f64,
+    /// What the plane stands for in bodies that say nothing else.
+    pub plane: Plane,
+    /// True shapes of boundaries.
+    pub geometries: Vec<Geometry>,
+    /// Prescribed displacements.
+    pub supports: Vec<Support>,
+    /// Elastic supports.
+    pub springs: Vec<Springs>,
+    /// Bodies whose mean motion is held.
+    pub means: Vec<MeanSupport>,
+    /// Surface loads.
+    pub loads: Vec<Load>,
+    /// Forces at points.
+    pub point_loads: Vec<PointLoad>,
+    /// Boundaries that stay rigid under a resultant.
+    pub plates: Vec<Plate>,
+    /// Contact pairs.
+    pub contacts: Vec<Pair>,
+    /// Sides of contacts that are made of several physical curves.
+    pub unions: Vec<Union>,
+    /// Linear solver.
+    pub solver: Solver,
+    /// The accuracy that the mesh is adapted to; nothing if it stays as it is.
+    pub accuracy: Option<Accuracy>,
+    /// What is written of the result.
+    pub output: Output,
+    /// Points to report.
+    pub probes: Vec<Probe>,
+    /// Exact or reference values.
+    pub exact: Exact,
+    /// Load steps, none if everything acts at once; the case itself is that of the last one.
+    pub steps: Vec<LoadStep>,
+    /// What the patterns of the file stand for.
+    pub matched: Vec<Matched>,
+    /// What scales it from step to step.
+    pub(super) factors: Vec<LoadFactor>,
+    /// The file with overrides and defaults written out.
+    pub(super) table: Table,
 }
 
-/// `plane`, before all tables.
-pub fn read_plane(root: &Section) -> Plane {
-    root.or("plane", values::choice(&PLANES)).unwrap_or_default()
+/// One load step.
+#[derive(Clone, Debug)]
+pub struct LoadStep {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Number of all steps.
+    pub count: usize,
+    /// Names of the factors, and their values in this step.
+    pub factors: Vec<(String, f64)>,
+    /// The case with everything scaled; expected values are those of the last step.
+    pub case: Case,
 }
 
-/// `[body.NAME]`; `plane` holds where it says nothing else.
-pub fn read_body(section: &Section, plane: Plane, gravity: Gravity) -> Option<Body> {
-    let plane = section.optional("plane", values::choice(&PLANES)).unwrap_or(plane);
-    let name = section.name().to_owned();
-    if !section.has("part") {
-        let part = read_part(section, plane, gravity)?;
-        return Some(Body { name, parts: vec![part] });
+impl LoadStep {
+    /// `step 2 of 4 (press = 0.5)`
+    pub fn words(&self) -> String {
+        let factors: Vec<String> = self.factors.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        format!("step {} of {} ({})", self.number, self.count, factors.join(", "))
     }
-    for key in CONSTANTS.into_iter().filter(|key| section.has(key)) {
-        section.problem(&[key], "stands beside parts of this body; give it in each of their tables".into());
-    }
-    let parts = section.named("part", |section| read_part(section, plane, gravity));
-    if section.names_below("part").next().is_none() {
-        section.problem(&["part"], format!("names no part; write [body.{name}.part.SURFACE] for each physical surface of it"));
-    }
-    if section.names_below("part").any(|part| part == name) {
-        section.problem(&["part", &name], "a part cannot have the name of its body; give the body another one".into());
-    }
-    Some(Body { name, parts })
 }
 
-/// The constants of a physical surface.
-fn read_part(section: &Section, plane: Plane, gravity: Gravity) -> Option<BodyPart> {
-    let young = section.required(CONSTANTS[0], values::number);
-    let poisson = section.required(CONSTANTS[1], |value| match (values::number(value)?, plane) {
-        (0.5, Plane::Strain | Plane::Revolution) => {
-            Err("must lie in (-1, 0.5); 0.5 is incompressible, for which displacement elements lock: take 0.49".into())
+impl Case {
+    /// A TOML text that reproduces the run from any folder: overrides done, every default written out, the mesh by its
+    /// absolute path.
+    pub fn resolved(&self) -> String {
+        let mesh_file = std::path::absolute(&self.mesh.file).unwrap_or_else(|_| self.mesh.file.clone());
+        self.resolved_with_mesh(&mesh_file.to_string_lossy())
+    }
+
+    /// A TOML text that reproduces the run with the mesh under another name, by its path from the folder that the text is written to.
+    pub fn resolved_with_mesh(&self, mesh_file: &str) -> String {
+        let mut table = self.table.clone();
+        if let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut) {
+            mesh.insert("file".into(), Value::from(mesh_file));
         }
-        (ratio, _) => Ok(ratio),
-    });
-    let force = section.or(CONSTANTS[2], values::formulas);
-    let weight = read_weight(section, gravity);
-    let heat = read_heat(section);
-    // What is bad is in the log; a body of this name is there.
-    let material = Material { young: young.unwrap_or(1.0), poisson: poisson.unwrap_or(0.0), plane };
-    let force = force.unwrap_or_else(|| [0.0; 2].map(Formula::constant));
-    Some(BodyPart { name: section.name().into(), material, force: with_weight(force, weight.unwrap_or_default()), heat })
-}
+        format!("# The case as it was run: all defaults are written out. `mezha run` takes this file.\n{table}")
+    }
 
-/// `expansion` and `temperature`: each of them alone does nothing.
-fn read_heat(section: &Section) -> Option<Heat> {
-    let expansion = section.optional("expansion", values::number);
-    let temperature = section.optional("temperature", values::formula(&PLANE));
-    match (section.has("expansion"), section.has("temperature")) {
-        (false, true) => {
-            section.problem(
-                &["temperature"],
-                "strains nothing without an expansion; give expansion, the strain by degree, too".into(),
-            );
+    /// The physical curves of a side of a contact, from its name.
+    pub fn curves_of(&self, side: &String) -> Vec<String> {
+        parts(&self.unions, side)
+    }
+
+    /// The bodies whose mean motion is held, on the first mesh of the case.
+    ///
+    /// # Errors
+    /// Words with the support for a body that has its middle where it is to go around.
+    pub fn mean_holds(&self, mesh: &MacroMesh) -> Result<Vec<MeanHold>, String> {
+        let hold = |mean: &MeanSupport| mean.hold(mesh).map_err(|words| format!("support.{}: {words}", mean.name));
+        self.means.iter().map(hold).collect()
+    }
+
+    /// Everything that moves as a rigid body on a mesh.
+    pub fn rigid_sets(&self, mesh: &MacroMesh) -> Vec<RigidSet> {
+        let plate = |plate: &Plate| match plate.has_reference {
+            true => plate.motion.clone(),
+            false => RigidSet { about: middle_of(mesh, &plate.on), ..plate.motion.clone() },
+        };
+        let sets = self.tools.iter().map(|tool| tool.motion.clone()).chain(self.plates.iter().map(plate));
+        sets.map(|set| if self.plane == Plane::Revolution { set.along_axis() } else { set }).collect()
+    }
+
+    /// Whether a boundary is named after a table `[rigid.NAME]` of the file, whether or not that could be read.
+    pub(crate) fn writes_tool_of(&self, boundary: &str) -> bool {
+        let names = self.table.get("rigid").and_then(Value::as_table).into_iter().flat_map(toml::Table::keys);
+        let of = |name: &String| boundary.strip_prefix(PREFIX).and_then(|rest| rest.strip_prefix(name.as_str()));
+        names.filter_map(of).any(|rest| rest.is_empty() || rest.starts_with('.'))
+    }
+
+    /// The tool that a boundary is the surface of, or a part of that.
+    pub fn tool_of(&self, boundary: &str) -> Option<&Tool> {
+        self.tools.iter().find(|tool| tool.has(boundary))
+    }
+
+    /// The case with everything that is a force, a moment or an energy of its thickness made that of a thickness of one: loads at
+    /// points, boundaries that stay rigid, rigid tools, expected values.
+    pub(super) fn per_thickness(mut self) -> Self {
+        if self.thickness == 1.0 {
+            return self;
         }
-        (true, false) => {
-            section.problem(
-                &["expansion"],
-                "does nothing without a temperature; give temperature, the difference to that without stress, too".into(),
-            );
+        let share = 1.0 / self.thickness;
+        for load in &mut self.point_loads {
+            load.force = load.force.each_ref().map(|component| component.times(share));
         }
-        _ => {}
-    }
-    Some(Heat { expansion: expansion?, temperature: temperature? })
-}
-
-/// A physical surface belongs to one body.
-pub fn check_parts(bodies: &[Body], root: &Section) {
-    for (at, body) in bodies.iter().enumerate() {
-        for part in body.parts.iter().filter(|_| body.has_parts()) {
-            let mut others = bodies.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, other)| other);
-            let has = |other: &&Body| other.name == part.name || other.parts.iter().any(|theirs| theirs.name == part.name);
-            if let Some(other) = others.find(has) {
-                let words = format!("body.{} has this name too; a physical surface belongs to one body", other.name);
-                root.problem(&["body", &body.name, "part", &part.name], words);
-            }
+        let plates = self.plates.iter_mut().map(|plate| &mut plate.motion);
+        for motion in plates.chain(self.tools.iter_mut().map(|tool| &mut tool.motion)) {
+            motion.applied = motion.applied.map(|component| share * component);
         }
+        let forces = self.exact.contacts.iter_mut().filter_map(|contact| contact.force.as_mut());
+        forces.chain(self.exact.energy.as_mut()).for_each(|expected| expected.value *= share);
+        self
     }
 }
 
-/// Names of all bodies, and of their parts.
-pub fn region_names<'a>(root: &Section<'a>) -> Vec<&'a str> {
-    root.names_below("body").chain(root.names_two_below("body", "part")).collect()
-}
-
-/// What a table `[load.NAME]` says.
-pub enum LoadTable {
-    /// It acts on physical curves.
-    OnCurves(Load),
-    /// It acts at a point.
-    AtPoint(PointLoad),
-    /// A resultant on a boundary that stays rigid.
-    OnPlate(Plate),
-}
-
-/// The loads on curves, those at points, and those on boundaries that stay rigid.
-pub fn split_loads(all: Vec<LoadTable>) -> (Vec<Load>, Vec<PointLoad>, Vec<Plate>) {
-    let (mut loads, mut point_loads, mut plates) = (Vec::new(), Vec::new(), Vec::new());
-    for load in all {
-        match load {
-            LoadTable::OnCurves(load) => loads.push(load),
-            LoadTable::AtPoint(load) => point_loads.push(load),
-            LoadTable::OnPlate(plate) => plates.push(plate),
-        }
-    }
-    (loads, point_loads, plates)
-}
-
-/// `[load.NAME]`
-pub fn read_load(section: &Section) -> Option<LoadTable> {
-    let place = read_where(section);
-    let name = section.name().to_string();
-    if section.has("at") {
-        for key in ["pressure", "traction"].into_iter().filter(|key| section.has(key)) {
-            section.problem(&[key], "acts on physical curves; at a point give force = [fx, fy]".into());
-        }
-        let force = section.required("force", values::formulas::<2>);
-        return Some(LoadTable::AtPoint(PointLoad { name, at: place?.at?, force: force? }));
-    }
-    if section.or("rigid", values::boolean)? {
-        return read_plate(section, place?.on).map(LoadTable::OnPlate);
-    }
-    for key in ["force", "moment"].into_iter().filter(|key| section.has(key)) {
-        let words =
-            "acts at a point, at = [x, y], or on curves that stay rigid, rigid = true; otherwise give pressure or traction";
-        section.problem(&[key], words.into());
-    }
-    let given = [section.has("pressure"), section.has("traction")];
-    let pressure = section.optional("pressure", values::formula(&PLANE)).map(LoadKind::Pressure);
-    let traction = section.optional("traction", values::formulas::<2>).map(LoadKind::Traction);
-    match given {
-        [false, false] => section.problem(&[], "loads nothing; give pressure or traction = [tx, ty]".into()),
-        [true, true] => section.problem(&["pressure"], "stands beside traction; give one of them, or two loads".into()),
-        _ => {}
-    }
-    // What is bad is in the log; the curves alone are enough to look for names.
-    let kind = pressure.or(traction).unwrap_or(LoadKind::Pressure(Formula::constant(0.0)));
-    Some(LoadTable::OnCurves(Load { name, on: place?.on, kind }))
-}
-
-/// `[solver]`
-pub fn read_solver(root: &Section) -> Option<Solver> {
-    let section = root.table("solver");
-    let choice = section.or(
-        "name",
-        values::choice(&[
-            ("auto", SolverChoice::Auto),
-            ("fieldsplit", SolverChoice::FieldSplit),
-            ("direct", SolverChoice::Direct),
-        ]),
-    );
-    let tolerance = section.or("tolerance", |value| match value {
-        Value::String(_) => Ok(Tolerance::Discretisation),
-        number => values::number(number).map(Tolerance::Residual),
-    });
-    let inf_sup = section.or("inf_sup", |value| Ok(value.as_bool()));
-    Some(Solver { choice: choice?, tolerance: tolerance?, inf_sup: inf_sup? })
-}
-
-/// `[output]`
-pub fn read_output(root: &Section) -> Option<Output> {
-    let fields = root.table("output").or("fields", values::boolean);
-    Some(Output { fields: fields? })
-}
-
-/// `[probe.NAME]`
-pub fn read_probe(section: &Section) -> Option<Probe> {
-    let point = section.required("point", values::point);
-    let body = section.required("body", values::name);
-    Some(Probe { name: section.name().into(), point: point?, body: body? })
-}
-
-/// There is something to solve for.
-pub fn check_bodies(root: &Section) {
-    if root.names_below("body").next().is_none() {
-        root.problem(&["body"], "missing; write [body.NAME] for every physical surface of the mesh".into());
-    }
-}
-
-/// Probes ask bodies of the case, or parts of them.
-pub fn check_probes(probes: &[Probe], root: &Section) {
-    for probe in probes {
-        let names = region_names(root);
-        if !names.contains(&probe.body.as_str()) {
-            let words = format!("no such body; {}", suggest(&probe.body, names.into_iter()));
-            root.problem(&["probe", &probe.name, "body"], words);
-        }
-    }
+/// Middle of the box around physical curves.
+fn middle_of(mesh: &MacroMesh, on: &[String]) -> Point {
+    let edges = on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
+    let vertices = edges.flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
+    let box_of = |[low, high]: [Point; 2], x: Point| [low.inf(&x), high.sup(&x)];
+    let [low, high] = vertices.fold([Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)], box_of);
+    0.5 * (low + high)
 }

@@ -5,6 +5,9 @@ use std::path::Path;
 use super::*;
 use crate::body::{LoadKind, Material};
 use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule};
+use crate::element::Order;
+use crate::geometry::Curve;
+use crate::system::{SolverChoice, Tolerance};
 
 /// Every key of the contract that can be given.
 const FULL: &str = r#"

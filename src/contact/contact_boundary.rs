@@ -64,6 +64,11 @@ impl ContactBoundary {
         self.plane.width(self.point(t))
     }
 
+    /// How far bodies extend across the plane at a point beside it.
+    pub fn width_at(&self, x: Point) -> f64 {
+        self.plane.width(x)
+    }
+
     /// Cuts it at these fractions of its arc length (from 0 to 1, ascending).
     pub fn cut(&mut self, fractions: &[f64]) {
         let (length, ends) = (self.length(), self.ends());

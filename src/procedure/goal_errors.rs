@@ -74,7 +74,7 @@ impl Procedure<'_> {
         let contact = &problem.contacts[at];
         let points = trace_points(problem, &solution.pressure(contact), &u, self.session)?;
         let complete = points.iter().filter(|point| point.is_complete());
-        let depth = complete.map(|point| -point.gap).fold(0.0, f64::max);
+        let depth = complete.map(|point| -point.gap * contact.boundary.width_at(point.x)).fold(0.0, f64::max);
         let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
         let worth = WORTH * modulus * depth;
         let is_needed = || needed_contacts(problem, &solution.active, self.session)[at];

@@ -80,6 +80,15 @@ fn whole_bodies(mesh: &MacroMesh, sums: &[TriangleIntegrals]) -> Vec<Deformation
         Deformation { strain: 0.0, place: middle, rotation: rotation / area, growth, middle, radius: 0.0 }
     };
     let mut found: Vec<Deformation> = totals.iter().map(whole).collect();
+    if mesh.plane == Plane::Revolution {
+        // A body around the axis cannot turn; the section of a ring can.
+        for triangle in
+            mesh.triangles.iter().filter(|triangle| triangle.vertices.iter().any(|&v| mesh.vertices[v as usize].x == 0.0))
+        {
+            let of_body = &mut found[triangle.body as usize];
+            (of_body.rotation, of_body.growth) = (0.0, 0.0);
+        }
+    }
     for triangle in &mesh.triangles {
         let Deformation { middle, radius, .. } = &mut found[triangle.body as usize];
         let farthest = triangle.vertices.map(|vertex| (mesh.vertices[vertex as usize] - *middle).norm());
@@ -137,7 +146,7 @@ fn integrals<const N: usize>(
         let middle = place.map_or(Point::zeros(), |x| place_of(&x, MIDDLE));
         let [xx, yy, ..] = law.heated(law.stress(&Strain { gradient, hoop }), heat, middle);
         let strain = principal(&gradient).max(hoop.abs());
-        let growth = 0.5 * (rotation * rotation - strain * strain).max(0.0);
+        let growth = 0.5 * (rotation * rotation - strain * strain).max(0.0) * law.plane.width(middle);
         let values = [strain, 1.0, rotation, growth * (xx + yy)];
         sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
     }

@@ -157,7 +157,9 @@ fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f6
     let is_whole = contact.boundary.turn().is_some_and(|turn| found.length > turn * (1.0 - 1e-9));
     let ends_inside = contact.ends_with_a_body() == [false; 2] && !is_whole;
     let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
-    modulus * if ends_inside { gap.bend } else { gap.deviation } / found.force
+    let middle = contact.boundary.parameter_at(0.5 * contact.boundary.length());
+    let width = contact.boundary.width(middle);
+    modulus * width * if ends_inside { gap.bend } else { gap.deviation } / found.force
 }
 
 /// Growth of two bodies by their turning, relative to the smallest gap; nothing if it is rounding beside their displacements in the

@@ -14,7 +14,8 @@ const LEFT: f64 = 1e-7;
 const ROUNDING: f64 = 1e-12;
 
 /// Force that is missing because bodies overlap where no segment presses: relative to the force found, or, without a force, the
-/// largest overlap relative to the largest relative displacement; and as it is (force per thickness).
+/// largest overlap relative to the largest relative displacement; and as it is (force per thickness; of the whole ring in bodies of
+/// revolution).
 ///
 /// A pressure p over a width w moves the boundary by about 2 p w/E; so an overlap δ asks for the force E δ/2, however wide. Bodies
 /// have `moved` by so much at most (length).
@@ -29,7 +30,7 @@ pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint
         if overlap == 0.0 {
             sum += std::mem::take(&mut deepest);
         }
-        deepest = deepest.max(contact.modulus_at(point.arc) * overlap);
+        deepest = deepest.max(contact.modulus_at(point.arc) * overlap * contact.boundary.width_at(point.x));
         largest = largest.max(overlap);
     }
     sum += deepest;
@@ -49,7 +50,8 @@ pub fn unresolved_force(contact: &Contact, points: &[TracePoint], moved: f64) ->
     let part = |ends: &[TracePoint]| {
         let [from, to] = [ends[0].arc, ends[1].arc];
         let segment = arcs.partition_point(|&s| s <= 0.5 * (from + to)).clamp(1, arcs.len() - 1);
-        let mean = 0.5 * (depth(&ends[0]) + depth(&ends[1]));
+        let [a, b] = [0, 1].map(|k: usize| depth(&ends[k]) * contact.boundary.width_at(ends[k].x));
+        let mean = 0.5 * (a + b);
         contact.moduli[segment - 1] * mean * (to - from) / (arcs[segment] - arcs[segment - 1])
     };
     points.windows(2).map(part).sum::<f64>()

@@ -4,10 +4,11 @@ use super::expansion::{Expansion, Matched, strings, table_at};
 use super::mesh_names::MeshNames;
 use super::spreading::SpreadTables;
 use super::wildcard::{is_pattern, matches};
-use crate::case::error::listed;
-use crate::case::rigid::{Tool, read_tool};
-use crate::case::schema::{CASE, LONGEST_NAME};
-use crate::case::section::{Log, Section};
+use crate::case::acting::rigid::{Tool, read_tool};
+use crate::case::file::error::listed;
+use crate::case::file::log::Log;
+use crate::case::keys::{LONGEST_NAME, Section};
+use crate::case::schema::CASE;
 use crate::contact::{CloseSide, close_sides};
 use crate::geometry::Quote;
 use std::cell::RefCell;
@@ -87,15 +88,7 @@ impl Expansion<'_> {
         let before = self.matched.len();
         let all = self.names(&path, side, &mesh.boundaries, "physical curve");
         self.matched.truncate(before);
-        let mut of_bodies: Vec<(Option<&String>, SideNames)> = Vec::new();
-        for curve in all {
-            let body = mesh.body_beside(&curve);
-            match of_bodies.iter_mut().find(|(known, _)| *known == body) {
-                Some((_, curves)) => curves.push(curve),
-                None => of_bodies.push((body, vec![curve])),
-            }
-        }
-        of_bodies.into_iter().map(|(_, curves)| curves).collect()
+        mesh.of_each_body(all).into_iter().map(|(_, curves)| curves).collect()
     }
 }
 

@@ -3,9 +3,9 @@
 use super::merging::{StandsFor, merged};
 use super::mesh_names::{MeshNames, point};
 use super::wildcard::{is_pattern, matches};
-use crate::case::error::{Problem, dotted, listed, quoted, told};
-use crate::case::overrides::{read_key, set_value};
-use crate::case::section::Log;
+use crate::case::file::error::{Problem, dotted, listed, quoted, told};
+use crate::case::file::log::Log;
+use crate::case::file::overrides::{read_key, set_value};
 use crate::geometry::Quote;
 use std::collections::{HashMap, HashSet};
 use toml::{Table, Value};

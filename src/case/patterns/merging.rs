@@ -1,7 +1,7 @@
 //! Tables whose names stand for several: one for each of these.
 
 use super::wildcard::plain_letters;
-use crate::case::error::{Problem, told};
+use crate::case::file::error::{Problem, told};
 use std::collections::{HashMap, HashSet};
 use toml::{Table, Value};
 

@@ -51,8 +51,21 @@ impl MeshNames {
         if inside.is_empty() { nearest().into_iter().cloned().collect() } else { inside }
     }
 
+    /// Physical curves by the body that they bound, in their order; those that bound none are of a body without a name.
+    pub fn of_each_body(&self, curves: Vec<String>) -> Vec<(&str, Vec<String>)> {
+        let mut all: Vec<(&str, Vec<String>)> = Vec::new();
+        for curve in curves {
+            let body = self.body_beside(&curve).unwrap_or_default();
+            match all.iter_mut().find(|(known, _)| *known == body) {
+                Some((_, curves)) => curves.push(curve),
+                None => all.push((body, vec![curve])),
+            }
+        }
+        all
+    }
+
     /// The body beside a physical curve.
-    pub fn body_beside(&self, curve: &str) -> Option<&String> {
+    fn body_beside(&self, curve: &str) -> Option<&str> {
         let edge = *self.mesh.boundary(curve)?.edges.first()?;
         Some(&self.mesh.bodies[self.mesh.body_beside(edge)])
     }

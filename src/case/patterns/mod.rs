@@ -13,7 +13,7 @@ mod wildcard;
 
 pub use expansion::Matched;
 
-use super::section::Log;
+use super::file::log::Log;
 use expansion::{Expansion, strings, table_at};
 use mesh_names::MeshNames;
 use std::collections::HashMap;

@@ -79,16 +79,9 @@ impl Expansion<'_> {
             return None;
         }
         let curves = self.names(&[kind, name, "on"], on, &mesh.boundaries, "physical curve");
-        let mut of_bodies: Vec<(String, Vec<Value>)> = Vec::new();
-        for curve in curves {
-            let body = mesh.body_beside(&curve).cloned().unwrap_or_default();
-            let curve = Value::String(curve);
-            match of_bodies.iter_mut().find(|(known, _)| *known == body) {
-                Some((_, curves)) => curves.push(curve),
-                None => of_bodies.push((body, vec![curve])),
-            }
-        }
-        let own = |(body, curves)| (format!("{name}.{body}"), Table::from_iter([("on".to_owned(), Value::Array(curves))]));
-        Some(of_bodies.into_iter().map(own).collect())
+        let own = |(body, curves): (&str, Vec<String>)| {
+            (format!("{name}.{body}"), Table::from_iter([("on".to_owned(), Value::from(curves))]))
+        };
+        Some(mesh.of_each_body(curves).into_iter().map(own).collect())
     }
 }

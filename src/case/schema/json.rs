@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value, json as value};
 
-use super::form::{Absent, KeyForm, LONGEST_NAME, ListForm, NamedForm, NumberRange, TableForm, TableRule, ValueForm};
+use crate::case::keys::{Absent, KeyForm, LONGEST_NAME, ListForm, NamedForm, NumberRange, TableForm, TableRule, ValueForm};
 use crate::geometry::Formula;
 
 /// White space, as the program has it: classes such as `\s` differ from one dialect to the other.
@@ -83,8 +83,8 @@ fn form(form: &ValueForm, definitions: &mut Definitions) -> Value {
             schema
         }
         ValueForm::List(list) => self::list(list, definitions),
-        ValueForm::Either(either) => {
-            let forms: Vec<Value> = either.of.iter().map(|form| self::form(form, definitions)).collect();
+        ValueForm::Either(forms, _) => {
+            let forms: Vec<Value> = forms.iter().map(|form| self::form(form, definitions)).collect();
             value!({ "anyOf": forms })
         }
         ValueForm::Table(table) => reference(table, definitions),
@@ -101,7 +101,7 @@ fn form(form: &ValueForm, definitions: &mut Definitions) -> Value {
 }
 
 fn list(list: &ListForm, definitions: &mut Definitions) -> Value {
-    let mut schema = value!({ "type": "array", "items": self::form(&list.of, definitions) });
+    let mut schema = value!({ "type": "array", "items": self::form(list.of, definitions) });
     let [least, most] = list.count;
     if least > 0 {
         schema["minItems"] = value!(least);

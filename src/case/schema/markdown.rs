@@ -1,6 +1,6 @@
 //! The tables of keys for people.
 
-use super::form::{Absent, KeyForm, NumberRange, TableForm, ValueForm};
+use crate::case::keys::{Absent, KeyForm, NumberRange, TableForm, ValueForm};
 
 /// One table of Markdown with all keys of a file.
 pub fn markdown(file: &'static TableForm) -> String {
@@ -71,7 +71,7 @@ impl ValueForm {
             Self::Word(words) => words.iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(" or "),
             Self::Formula(variables, range) => format!("{} or formula of {}", range.words("number"), variables.join(", ")),
             Self::List(list) => list.wanted.into(),
-            Self::Either(either) => either.of.iter().map(Self::words).collect::<Vec<_>>().join(", or "),
+            Self::Either(forms, _) => forms.iter().map(Self::words).collect::<Vec<_>>().join(", or "),
             Self::Table(table) => {
                 format!("table of {}", table.all().map(|key| format!("`{}`", key.name)).collect::<Vec<_>>().join(", "))
             }

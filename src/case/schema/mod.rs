@@ -1,29 +1,21 @@
 //! The keys of case and study files: one table of their names, forms, ranges, units, defaults and meanings.
 //!
-//! Files are checked with it, the JSON Schema for editors and other programs is made of
-//! it, and so are the tables of docs/case.md and docs/studies.md.
+//! In come the tables of keys of all sections; out come the tables of whole files, the JSON Schema for editors and other programs,
+//! and the tables of docs/case.md and docs/studies.md. The program reads files with the same tables.
 //!
 //! The *form* of a file is what can be said of each key without another one, without names that the file or the mesh holds, and
 //! which keys stand together: types, ranges, words, missing and unknown keys. What a formula says, whether a name is there, and
 //! how values go together is for the readers.
 
-mod acting;
-mod asked;
-#[cfg(test)]
-mod asking;
-mod check;
-mod contact;
-mod form;
+pub(crate) mod case;
 mod json;
 mod markdown;
-mod scene;
-mod study;
-mod surface;
+pub(crate) mod study;
 
-pub use form::{Absent, KeyForm, LONGEST_NAME, NO_FILE_NAME, TableForm};
+pub use crate::case::keys::TableForm;
+pub use case::CASE;
 pub use json::json;
 pub use markdown::markdown;
-pub use scene::CASE;
 pub use study::STUDY;
 
 /// Keys of a file that has not the form of the table, with words; none if the text is no TOML at all.
@@ -32,7 +24,7 @@ pub fn faults(table: &TableForm, text: &str) -> Option<Vec<(String, String)>> {
 }
 
 #[cfg(test)]
-pub use asking::{never_asked, note};
+pub use crate::case::keys::asking::never_asked;
 
 #[cfg(test)]
 mod tests;

@@ -1,9 +1,9 @@
 use std::path::Path;
 
-use super::asking::tables;
-use super::form::ValueForm;
 use super::*;
 use crate::case::Case;
+use crate::case::keys::ValueForm;
+use crate::case::keys::asking::tables;
 
 /// A case with what no case of the project has.
 const REST: &str = r#"
@@ -36,7 +36,7 @@ contact.c.lambda = { at = [[0, 0]], value = [1], tolerance = 1 }
 body.a = { u = ["x", "y"], stress = [1, 1, 1], displacement = { at = [[0, 0]], value = [[0, 0]], tolerance = 1 } }
 "#;
 
-/// The readers ask for every key of the table, and [`crate::case::section::Section`] panics where they ask for another one.
+/// The readers ask for every key of the table, and [`crate::case::keys::Section`] panics where they ask for another one.
 #[test]
 fn readers_ask_for_every_key_of_the_table() {
     let read = |text: &str| Case::parse(text, Path::new("case.toml"), &[]).map(drop);
@@ -66,7 +66,7 @@ fn words_have_meanings_and_defaults_their_form() {
             assert_eq!(key.refusal(&default), None, "{} of {}", key.name, table.name);
         }
         let forms = match &key.value {
-            ValueForm::Either(either) => either.of,
+            ValueForm::Either(forms, _) => forms,
             form => std::slice::from_ref(form),
         };
         for word in forms.iter().flat_map(|form| if let ValueForm::Word(words) = form { words } else { &[][..] }) {

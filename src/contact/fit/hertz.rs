@@ -30,6 +30,13 @@ pub(crate) fn half_width(curvature: f64, force: f64, compliance: f64) -> Option<
     (curvature > 0.0 && force > 0.0 && half * curvature <= MOST_ROUND).then_some(half)
 }
 
+/// Radius `a = (3 P R / 4 E*)^(1/3)` of the circle on which balls of the relative `curvature` 1/R press with a force P (Hertz; the
+/// `compliance` is 1/E*); nothing where [`half_width`] has none.
+pub(crate) fn ball_radius(curvature: f64, force: f64, compliance: f64) -> Option<f64> {
+    let radius = (0.75 * force * compliance / curvature).cbrt();
+    (curvature > 0.0 && force > 0.0 && radius * curvature <= MOST_ROUND).then_some(radius)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! The place at which two smooth sides come nearest to each other, and how round they are there.
 
-use crate::contact::fit::hertz::{MOST_ROUND, half_width};
+use crate::contact::fit::hertz::{MOST_ROUND, ball_radius, half_width};
 use crate::contact::pair::Configuration;
 use crate::contact::smooth_side::SmoothSide;
 use crate::element::Plane;
@@ -40,7 +40,11 @@ impl PointContact {
     /// Half width of what presses there with a force (per thickness; of the whole ring in bodies of revolution), by the compliance of both surfaces together (1/stress; Hertz);
     /// nothing if the sides conform.
     pub fn half_width(&self, force: f64, compliance: f64) -> Option<f64> {
-        half_width(self.curvature, force / self.width, compliance).filter(|half| half * self.roundest <= MOST_ROUND)
+        let half = match self.width > 0.0 {
+            true => half_width(self.curvature, force / self.width, compliance),
+            false => ball_radius(self.curvature, force, compliance),
+        };
+        half.filter(|half| half * self.roundest <= MOST_ROUND)
     }
 }
 

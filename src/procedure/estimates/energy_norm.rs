@@ -20,8 +20,10 @@ const SHARES_LEFT: [f64; 2] = [1.0 / 15.0, 3.0];
 /// that is halved once loses 1 - √½ where a refinement halves it, as at a sharp corner, one that is not refined only what its neighbours change.
 const LEAST_GONE: f64 = 0.3;
 
-/// Share of the energy of heated bodies that are kept from growing below which a strain energy is rounding.
-const ROUNDING: f64 = 1e-9;
+/// Share of the energy of heated bodies that are kept from growing by which errors are measured where less is stored: their stresses
+/// are then below a hundredth of those. A tenth of it would ask for stresses to a third of that, and an energy that is nothing but error
+/// would be resolved for ever.
+const LEAST_KEPT: f64 = 1e-4;
 
 /// Share of the energy that must be left without the triangles at forces on points, for the rest to tell anything.
 const LEAST_LEFT: f64 = 0.05;
@@ -45,8 +47,8 @@ pub(crate) fn without_points(problem: &Discretisation, parts: Vec<f64>, session:
     parts.into_iter().zip(left_out).map(|(part, is_out)| if is_out { 0.0 } else { part }).collect()
 }
 
-/// Strain energy without that at forces on points; not a number if too little is left to tell anything. Where heat strains nothing,
-/// that of what it moves. **Collective**
+/// Strain energy without that at forces on points; not a number if too little is left to tell anything. Where heat strains next
+/// to nothing, a small share of what it would store if bodies could not grow. **Collective**
 pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<f64, SystemError> {
     let parts = local_strain_energy(problem, u, session)?;
     let mut sums = [parts.iter().sum::<f64>(), 0.0];
@@ -55,8 +57,7 @@ pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Ses
     let heat = heat_energies(problem, u, session)?;
     let [work, kept] = heat.iter().fold([0.0; 2], |[work, kept], heat| [work + heat.work, kept + heat.kept]);
     let elastic = sums[1] - work + kept;
-    // Bodies that grow freely have an energy that is rounding of these three.
-    let whole = if elastic > ROUNDING * kept { elastic } else { sums[1] };
+    let whole = elastic.max(LEAST_KEPT * kept);
     Ok(if sums[1] > LEAST_LEFT * sums[0] || sums[0] == 0.0 { whole } else { f64::NAN })
 }
 

@@ -65,6 +65,7 @@ fn completed(case: &Case, mut mesh: MacroMesh) -> Result<MacroMesh, String> {
     add_grades(case, &mut mesh)?;
     check_means(case, &mesh)?;
     check_springs(case, &mesh)?;
+    check_temperatures(case, &mesh)?;
     check_points(case, &mesh)?;
     check_exact(case, &mesh)?;
     Ok(mesh)
@@ -194,6 +195,21 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     if let Some(load) = bad {
         let ([x, y], name) = (load.at.place.map(Rounded), &load.name);
         return Err(format!("load.{name}.force: has no finite value at its point ({x}, {y}); correct the formula"));
+    }
+    Ok(())
+}
+
+/// A temperature has a value at every vertex of what it heats, where stresses are shown.
+fn check_temperatures(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
+    let parts = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)));
+    for (body, part) in parts {
+        let Some(heat) = &part.heat else { continue };
+        let key = if body.has_parts() { format!("{}.part.{}", body.name, part.name) } else { body.name.clone() };
+        let own = mesh.triangles.iter().filter(|triangle| mesh.parts[triangle.part as usize].name == part.name);
+        for vertex in own.flat_map(|triangle| triangle.vertices) {
+            let value = heat.temperature.finite_value(mesh.vertices[vertex as usize]);
+            value.map_err(|words| format!("{}: body.{key}.temperature: {words}", case.file.display()))?;
+        }
     }
     Ok(())
 }

@@ -15,8 +15,9 @@ use toml::Value;
 use crate::case::error::{CaseError, dotted};
 use crate::case::overrides::{overridden, read_key};
 use crate::case::schema::STUDY;
-use crate::case::section::{Section, read_text};
-use crate::case::{Case, name_of, values};
+use crate::case::schema::study::{ALONG, CASES, COLUMNS, ERROR, RANKS, REPEAT, TIME, TIMEOUT};
+use crate::case::section::Section;
+use crate::case::{Case, name_of, read_text, values};
 
 use moves::Moves;
 use planned::{PlannedCase, PlannedRun};
@@ -69,21 +70,20 @@ impl Plan {
         let log = RefCell::new(log);
         let draft = Self::from_section(&Section::root(&table, &STUDY, &log), file);
         let mut log = log.into_inner();
-        log.add_faults(&STUDY, &table);
+        STUDY.add_faults(&table, &mut log);
         let problems = log.problems;
         draft.filter(|_| problems.is_empty()).ok_or(CaseError { file: file.into(), problems })
     }
 
     /// None if a value is missing or bad; the log knows why.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
-        let cases = root.required("cases", values::each(values::name));
-        let ranks = root.or("ranks", values::each(values::whole));
-        let repeat = root.or("repeat", values::whole);
-        let timeout = root.or("timeout", |value| values::number(value).map(Duration::from_secs_f64));
-        let errors = root.optional("error", one_or_more(SummaryPath::read));
-        let time = root.or("time", SummaryPath::read);
-        let along = root.optional("along", one_or_more(read_along));
-        let columns = root.optional("columns", values::each(SummaryPath::read));
+        let cases = root.required(CASES);
+        let (ranks, repeat) = (root.or(RANKS), root.or(REPEAT));
+        let timeout = root.or(TIMEOUT).map(Duration::from_secs_f64);
+        let errors = root.made("error", root.optional(ERROR), |value| values::one_or_each(&value, SummaryPath::read));
+        let time = root.made("time", root.or(TIME), |value| SummaryPath::read(&value));
+        let along = root.made("along", root.optional(ALONG), |value| values::one_or_each(&value, read_along));
+        let columns = root.made("columns", root.optional(COLUMNS), |value| values::one_or_each(&value, SummaryPath::read));
         let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
         let cases = cases?;
         let planned = find_cases(&cases, file, root);
@@ -107,14 +107,6 @@ impl Plan {
             timeout,
             runs,
         })
-    }
-}
-
-/// Reads one value, or a list of them.
-fn one_or_more<T>(read: impl Fn(&Value) -> Result<T, String> + Copy) -> impl Fn(&Value) -> Result<Vec<T>, String> {
-    move |value| match value {
-        Value::Array(_) => values::each(read)(value),
-        single => Ok(vec![read(single)?]),
     }
 }
 

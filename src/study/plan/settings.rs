@@ -3,6 +3,7 @@
 use toml::{Table, Value};
 
 use crate::case::overrides::read_key;
+use crate::case::schema::study::{CURVE_CASES, CURVE_NAME, GRID, SET};
 use crate::case::section::Section;
 use crate::case::values;
 
@@ -44,12 +45,12 @@ impl StudyCurve {
 
 /// `[set]`
 pub fn read_set(section: &Section) -> Vec<Setting<Value>> {
-    settings(&section.optional("set", values::table).unwrap_or_default(), &["set"], section)
+    settings(&section.optional(SET).unwrap_or_default(), &["set"], section)
 }
 
 /// `[grid]`
 pub fn read_grid(section: &Section) -> Vec<GridAxis> {
-    let table = section.optional("grid", values::table).unwrap_or_default();
+    let table = section.optional(GRID).unwrap_or_default();
     let mut axes = Vec::new();
     for setting in settings(&table, &["grid"], section) {
         match values::list("a list of values, as in [2, 3]", &setting.value) {
@@ -67,12 +68,12 @@ pub fn problem_at(written: &[String], words: String, section: &Section) {
 
 /// `[[curve]]`
 pub fn read_curve(section: &Section) -> Option<StudyCurve> {
-    let name = section.required("name", values::name);
+    let name = section.required(CURVE_NAME);
     let (mut set, mut grid) = (read_set(section), read_grid(section));
     for written in set.iter_mut().map(|s| &mut s.written).chain(grid.iter_mut().map(|axis| &mut axis.written)) {
         written.splice(0..0, ["curve".into(), section.name().into()]);
     }
-    let cases = section.optional("cases", values::each(values::name));
+    let cases = section.optional(CURVE_CASES);
     Some(StudyCurve { name: name?, set, grid, cases })
 }
 

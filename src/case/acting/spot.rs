@@ -1,0 +1,37 @@
+//! `at = [x, y]`, and `body` beside it: points of bodies that are held or loaded.
+
+use crate::case::keys::{Key, Section};
+use crate::mesh::Spot;
+
+/// Where a support or a load acts: on physical curves, or at a point.
+pub struct Where {
+    /// Physical curves.
+    pub on: Vec<String>,
+    /// Instead of curves, a point.
+    pub at: Option<Spot>,
+}
+
+/// `on`, or `at` and perhaps `body`.
+pub fn read_where(section: &Section, on: Key<Vec<String>>, at: Key<[f64; 2]>, body: Key<String>) -> Option<Where> {
+    let (at, body) = (section.optional(at), section.optional(body));
+    if !section.has("at") {
+        if section.has("body") {
+            section.problem(&["body"], "stands beside at = [x, y] only: a physical curve tells its body; leave it out".into());
+        }
+        let on = section.required(on);
+        return Some(Where { on: on?, at: None });
+    }
+    if section.has("on") {
+        section.problem(&["at"], "stands beside on; give physical curves or a point, or make two tables".into());
+        return None;
+    }
+    Some(Where { on: Vec::new(), at: Some(Spot { place: at?, body }) })
+}
+
+/// Points ask for bodies of the case; `table` holds them under these names.
+pub fn check_spots<'a>(table: &str, all: impl Iterator<Item = (&'a String, &'a Spot)>, root: &Section) {
+    for (name, spot) in all {
+        let Some(body) = &spot.body else { continue };
+        root.check_name(&[table, name, "body"], "body", body, root.names_below("body"));
+    }
+}

@@ -1,0 +1,198 @@
+//! A case file read: overrides, patterns, sections, and what lies between them.
+
+use std::cell::RefCell;
+use std::path::Path;
+
+use toml::Table;
+
+use super::acting::mean::check_means;
+use super::acting::rigid::read_tool;
+use super::acting::spot::check_spots;
+use super::acting::{load, support};
+use super::asked::solver::read_solver;
+use super::asked::{accuracy, exact, output, steps};
+use super::bodies::gravity::{check_gravity, read_gravity};
+use super::bodies::mesh::read_mesh;
+use super::bodies::{body, geometry, revolution};
+use super::contact::reading::read_contact;
+use super::contact::sides;
+use super::contact::tools::check_tools;
+use super::file::error::CaseError;
+use super::file::log::Log;
+use super::file::overrides::{overridden, set_value};
+use super::file::text::{name_of, read_text};
+use super::keys::Section;
+use super::model::{Case, LoadStep};
+use super::patterns::{self, Matched};
+use super::schema::case::{CASE, PLANE, THICKNESS, TITLE};
+use crate::mesh::read_bytes;
+
+impl Case {
+    /// Reads and checks a case file, after the overrides `KEY=VALUE`.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn read(file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        Self::parse(&read_text(file, "case")?, file, overrides)
+    }
+
+    /// Checks the text of a case file; `file` gives names to the case and to errors, and a folder to the mesh.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        Self::parse_with(text, file, overrides, read_mesh_bytes)
+    }
+
+    /// Checks the text of a case file, where `bytes` reads the mesh by its path, which is needed where names of the case are patterns.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn parse_with(
+        text: &str,
+        file: &Path,
+        overrides: &[String],
+        bytes: impl FnOnce(&Path) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, CaseError> {
+        let (table, log, matched) = Self::written_out(text, file, overrides, bytes)?;
+        let case = Self::from_table(table, log, file)?;
+        Self { matched, ..case }.with_steps()
+    }
+
+    /// The table of a text after its overrides, with all patterns written out, a log, and what the patterns stand for.
+    ///
+    /// # Errors
+    /// [`CaseError`] if the text is no TOML, or a pattern stands for nothing.
+    fn written_out(
+        text: &str,
+        file: &Path,
+        overrides: &[String],
+        bytes: impl FnOnce(&Path) -> Result<Vec<u8>, String>,
+    ) -> Result<(Table, Log, Vec<Matched>), CaseError> {
+        let (table, mut log) = overridden(text, file, overrides, &accuracy::SHORT)?;
+        if !patterns::has_patterns(&table) {
+            return Ok((table, log, Vec::new()));
+        }
+        let (table, matched) = patterns::written_out(table, file.parent().unwrap_or(Path::new("")), &mut log, bytes);
+        match log.problems.is_empty() {
+            true => Ok((table, log, matched)),
+            false => Err(CaseError { file: file.into(), problems: log.problems }),
+        }
+    }
+
+    /// Checks a table.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    fn from_table(mut table: Table, log: Log, file: &Path) -> Result<Self, CaseError> {
+        let log = RefCell::new(log);
+        let draft = Self::from_section(&Section::root(&table, &CASE, &log), file);
+        let mut log = log.into_inner();
+        CASE.add_faults(&table, &mut log);
+        let Some(mut case) = draft.filter(|_| log.problems.is_empty()) else {
+            return Err(CaseError { file: file.into(), problems: log.problems });
+        };
+        for (path, value) in log.defaults {
+            set_value(&mut table, &path, value).expect("a default stands in a table that was just read");
+        }
+        case.table = table;
+        Ok(case)
+    }
+
+    /// The case with its load steps, as that of the last one; itself if it has none.
+    ///
+    /// # Errors
+    /// [`CaseError`] if a value is bad where it is scaled.
+    fn with_steps(self) -> Result<Self, CaseError> {
+        let tables = steps::tables(&self.table, &self.factors);
+        let count = tables.len();
+        let mut steps = Vec::with_capacity(count);
+        for (k, (factors, table)) in tables.into_iter().enumerate() {
+            let case = Self::from_table(table, Log::default(), &self.file).map_err(|mut error| {
+                error.problems.iter_mut().for_each(|problem| problem.words += &format!(" (in step {} of {count})", k + 1));
+                error
+            })?;
+            steps.push(LoadStep { number: k + 1, count, factors, case });
+        }
+        Ok(match steps.last().map(|last: &LoadStep| last.case.clone()) {
+            Some(last) => Self { table: self.table, factors: self.factors, matched: self.matched, steps, ..last },
+            None => self,
+        })
+    }
+
+    /// What can be read of a text that has errors, so that more of them may be found; nothing if there is no mesh to speak of.
+    pub(crate) fn draft(text: &str, file: &Path, overrides: &[String]) -> Option<Self> {
+        let (table, log, _) = Self::written_out(text, file, overrides, read_mesh_bytes).ok()?;
+        let draft = Self::from_section(&Section::root(&table, &CASE, &RefCell::new(log)), file);
+        draft.map(|draft| Self { table, ..draft })
+    }
+
+    /// Reads every section, then checks what lies between them. None if there is no mesh to speak of; of what else is missing or
+    /// bad the log knows.
+    fn from_section(root: &Section, file: &Path) -> Option<Self> {
+        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
+        let title = root.or_default(TITLE);
+        let mesh = read_mesh(root, &folder);
+        let (plane, gravity) = (root.or_default(PLANE), read_gravity(root));
+        let bodies = root.named("body", |section| body::read_body(section, plane, gravity));
+        let tools = root.named("rigid", read_tool);
+        let geometries = root.named("geometry", geometry::read_geometry);
+        let (supports, springs, means) = support::split(root.named("support", support::read_support));
+        let (loads, point_loads, plates) = load::split_loads(root.named("load", load::read_load));
+        let (contacts, unions) = sides::split_contacts(root.named("contact", |section| read_contact(section, root)));
+        let (solver, output) = (read_solver(root), output::read_output(root));
+        let probes = root.named("probe", output::read_probe);
+        let exact = exact::read_exact(root, plane);
+        let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
+        let factors = root.named("steps", steps::read_factor);
+        body::check_bodies(root);
+        body::check_parts(&bodies, root);
+        check_gravity(gravity, root);
+        geometry::check_geometries(&geometries, root);
+        output::check_probes(&probes, root);
+        check_means(&means, root);
+        check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);
+        check_spots("load", point_loads.iter().map(|load| (&load.name, &load.at)), root);
+        accuracy::check_energy(accuracy.as_ref(), &point_loads, root);
+        sides::check_contacts(&contacts, &unions, &geometries, root);
+        check_tools(&tools, &contacts, root);
+        exact::check_exact(&exact, root);
+        steps::check_steps(&factors, root);
+        revolution::check(plane, &bodies, gravity, root);
+        let case = Self {
+            plane,
+            thickness: root.optional(THICKNESS).unwrap_or(1.0),
+            name: name_of(file, "case.toml"),
+            file: file.into(),
+            folder,
+            title,
+            mesh: mesh?,
+            bodies,
+            tools,
+            geometries,
+            supports,
+            springs,
+            means,
+            loads,
+            point_loads,
+            plates,
+            contacts,
+            unions,
+            solver,
+            accuracy,
+            output,
+            probes,
+            exact,
+            steps: Vec::new(),
+            matched: Vec::new(),
+            factors,
+            table: Table::new(),
+        };
+        Some(case.per_thickness())
+    }
+}
+
+/// The bytes of a mesh, for those who are alone.
+fn read_mesh_bytes(file: &Path) -> Result<Vec<u8>, String> {
+    read_bytes(file).map_err(|error| error.to_string())
+}
