@@ -22,7 +22,7 @@ Curve Loop(2) = {5, 6, 7, -3};
 Plane Surface(2) = {2};
 
 Field[1] = MathEval;
-Field[1].F = "min(0.6, 0.05 + 0.25*sqrt(x^2 + (y + 0.4)^2))";   // edges by the distance from there
+Field[1].F = "min(0.6, 0.025 + 0.25*sqrt(x^2 + (y + 0.4)^2))";   // edges by the distance from there
 Background Field = 1;
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.MeshSizeFromPoints = 0;

@@ -1,4 +1,4 @@
-// The halves of the sections of a pellet, radius 4.1, and of a tube around it, radii 4.18 to 4.75; x is the radius. Macro mesh: each
+// The halves of the sections of a pellet, radius 4.1, and of a tube around it, radii 4.15 to 4.75; x is the radius. Macro mesh: each
 // triangle is cut again by mezha.
 //   gmsh -2 -format msh41 pellet.geo -o pellet.msh
 Mesh.Algorithm = 5;
@@ -18,10 +18,10 @@ Curve Loop(1) = {1:4};
 Plane Surface(1) = {1};
 
 // Tube, body 2.
-Point(11) = {4.18, 0, 0};
+Point(11) = {4.15, 0, 0};
 Point(12) = {4.75, 0, 0};
 Point(13) = {4.75, H, 0};
-Point(14) = {4.18, H, 0};
+Point(14) = {4.15, H, 0};
 Line(11) = {11, 12};
 Line(12) = {12, 13};
 Line(13) = {13, 14};
