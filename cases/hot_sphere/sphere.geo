@@ -2,7 +2,7 @@
 // mezha.
 //   gmsh -2 -format msh41 sphere.geo -o sphere.msh
 // Macro vertices lie on the circle itself, joined by straight chords; mezha moves the nodes that it adds onto the circle, because
-// sphere.toml declares it as a [geometry].
+// case.toml declares it as a [geometry].
 Mesh.Algorithm = 5;
 
 n = 6;   // macro edges on the arc
