@@ -3,7 +3,7 @@
 use crate::discretisation::{Discretisation, Space, SystemError};
 use crate::multigrid::Interpolation;
 use crate::multigrid::Stiffness;
-use crate::petsc::{Matrix, Session, Vector};
+use crate::petsc::{Matrix, Session, Vector, options};
 use crate::system::choice::SolverChoice;
 use crate::system::rigid_border::RigidBorder;
 use crate::system::saddle_point::SaddlePoint;
@@ -279,12 +279,12 @@ impl<'a> System<'a> {
     /// `K + Bᵀ D B` on the levels that the solver uses, coarsest first, auxiliary ones among them. **Collective**
     pub fn levels(&mut self) -> Result<Vec<&Matrix>, SystemError> {
         self.bring_solver_up_to_date()?;
-        Ok(self.solver.auxiliary_operators().chain(self.blocks.stiffness.iter().map(Stiffness::operator)).collect())
+        Ok(self.solver.auxiliary_operators(&self.blocks)?.chain(self.blocks.stiffness.iter().map(Stiffness::operator)).collect())
     }
 
     /// What preconditions the displacements.
     pub fn preconditioning(&self) -> Preconditioning {
-        self.solver.preconditioning
+        self.solver.preconditioning()
     }
 
     /// What solves it, in words.
@@ -294,7 +294,7 @@ impl<'a> System<'a> {
 
     /// Options that the user gave and nothing has asked for.
     pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
-        self.solver.unused_options()
+        Ok(options::unused(&self.session)?)
     }
 }
 

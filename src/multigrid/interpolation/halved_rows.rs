@@ -25,8 +25,8 @@ impl HalvedRow {
     /// Adds the interpolated values of `x` to `y`.
     #[inline]
     fn prolong(&self, x: &[[f64; 2]], y: &mut [[f64; 2]]) {
-        let (half, [a, b]) = (0.5, self.parents);
-        let mean = |sum: &mut [f64; 2], x: [f64; 2], y: [f64; 2]| (0..2).for_each(|k| sum[k] += half * (x[k] + y[k]));
+        let [a, b] = self.parents;
+        let mean = |sum: &mut [f64; 2], x: [f64; 2], y: [f64; 2]| (0..2).for_each(|k| sum[k] += 0.5 * (x[k] + y[k]));
         let (pairs, last) = y[self.first..][..self.count].as_chunks_mut::<2>();
         let n = pairs.len();
         // The second node of each two lies between a coarse node and the next, or right of the one below.
@@ -42,23 +42,23 @@ impl HalvedRow {
     /// Adds what the transposed interpolation makes of `y` to `x`. Each coarse node is met once.
     #[inline]
     fn restrict(&self, y: &[[f64; 2]], x: &mut [[f64; 2]]) {
-        let (half, zero, [a, b]) = (0.5, [0.0; 2], self.parents);
+        let (zero, [a, b]) = ([0.0; 2], self.parents);
         let (pairs, last) = y[self.first..][..self.count].as_chunks::<2>();
         let (n, last) = (pairs.len(), last.first().copied().unwrap_or(zero));
         let mut before = zero;
         let ends = pairs.iter().map(|[even, odd]| (*even, *odd)).chain([(last, zero)]);
         if a == b {
             for ((even, odd), sum) in ends.zip(&mut x[a..=a + n]) {
-                (0..2).for_each(|k| sum[k] += even[k] + half * (before[k] + odd[k]));
+                (0..2).for_each(|k| sum[k] += even[k] + 0.5 * (before[k] + odd[k]));
                 before = odd;
             }
         } else {
             for ((even, odd), sum) in ends.clone().zip(&mut x[a..=a + n]) {
-                (0..2).for_each(|k| sum[k] += half * (before[k] + even[k]));
+                (0..2).for_each(|k| sum[k] += 0.5 * (before[k] + even[k]));
                 before = odd;
             }
             for ((even, odd), sum) in ends.zip(&mut x[b..][..self.count.div_ceil(2)]) {
-                (0..2).for_each(|k| sum[k] += half * (even[k] + odd[k]));
+                (0..2).for_each(|k| sum[k] += 0.5 * (even[k] + odd[k]));
             }
         }
     }

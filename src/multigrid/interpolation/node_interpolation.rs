@@ -120,11 +120,11 @@ impl NodeInterpolation {
             None => self.prolong_inside::<ADD>(true, x, &[], y, room),
         }
         self.prolong_inside::<ADD>(false, x, &far, y, room);
-        let (half, coarse) = (0.5, self.coarse);
+        let coarse = self.coarse;
         let value = |at: u32| if (at as usize) < coarse { x[at as usize] } else { far[at as usize - coarse] };
         for &[node, a, b] in &self.even {
             let (a, b, to) = (value(a), value(b), &mut y[node as usize]);
-            (0..2).for_each(|k| to[k] = half * (a[k] + b[k]) + if ADD { to[k] } else { 0.0 });
+            (0..2).for_each(|k| to[k] = 0.5 * (a[k] + b[k]) + if ADD { to[k] } else { 0.0 });
         }
         if !ADD {
             self.weighted.iter().for_each(|&(node, ..)| y[node as usize] = [0.0; 2]);
@@ -194,13 +194,13 @@ impl NodeInterpolation {
 
     /// Adds what comes from the nodes that are not inside of whole macro triangles; `far` goes to other ranks. **Collective**
     fn restrict_others(&self, y: &[[f64; 2]], x: &mut [[f64; 2]], mut far: Vec<[f64; 2]>) {
-        let (half, coarse) = (0.5, self.coarse);
+        let coarse = self.coarse;
         let mut add = |at: u32, value: [f64; 2]| {
             let sum = if (at as usize) < coarse { &mut x[at as usize] } else { &mut far[at as usize - coarse] };
             (0..2).for_each(|k| sum[k] += value[k]);
         };
         for &[node, a, b] in &self.even {
-            let value = y[node as usize].map(|v| half * v);
+            let value = y[node as usize].map(|v| 0.5 * v);
             add(a, value);
             add(b, value);
         }

@@ -20,10 +20,9 @@ pub fn prolong<const ADD: bool>(n: usize, coarse: &[[f64; 2]], y: &mut [[f64; 2]
 
 #[inline(always)]
 fn prolong_row<const ADD: bool>(n: usize, j: usize, coarse: &[[f64; 2]], y: &mut [[f64; 2]]) {
-    let half = 0.5;
     let put = |to: &mut [f64; 2], a: [f64; 2], b: [f64; 2]| {
         for k in 0..2 {
-            let mean = half * (a[k] + b[k]);
+            let mean = 0.5 * (a[k] + b[k]);
             to[k] = if ADD { to[k] + mean } else { mean };
         }
     };
@@ -58,7 +57,7 @@ pub fn restrict_inner(n: usize, y: &[[f64; 2]], coarse: &mut [[f64; 2]]) {
 
 #[inline(always)]
 fn restrict_inner_row(n: usize, b: usize, y: &[[f64; 2]], sums: &mut [[f64; 2]]) {
-    let (half, zero) = (0.5, [0.0; 2]);
+    let zero = [0.0; 2];
     // The inner nodes of a row, from the first one on; none in rows that lie on sides.
     let row = |j: usize| if (1..n - 1).contains(&j) { &y[lattice::row_start(n, j)..][..n - 1 - j] } else { &[] };
     let (below, own, above) = (if b == 0 { &[] } else { row(2 * b - 1) }, row(2 * b), row(2 * b + 1));
@@ -66,7 +65,7 @@ fn restrict_inner_row(n: usize, b: usize, y: &[[f64; 2]], sums: &mut [[f64; 2]])
     let put = |sum: &mut [f64; 2], own: [[f64; 2]; 3], below: [[f64; 2]; 2], above: [[f64; 2]; 2]| {
         *sum = [0, 1].map(|k| {
             let beside = (own[0][k] + own[2][k]) + (below[0][k] + below[1][k]);
-            own[1][k] + half * (beside + (above[0][k] + above[1][k]))
+            own[1][k] + 0.5 * (beside + (above[0][k] + above[1][k]))
         });
     };
     let last = sums.len() - 1;
@@ -113,7 +112,6 @@ fn restrict_side_by_side<const WIDTH: usize>(n: usize, fine: &[[f64; 2]], coarse
 
 #[inline(always)]
 fn restrict_row<const WIDTH: usize>(n: usize, b: usize, fine: &[[[f64; 2]; WIDTH]], sums: &mut [[[f64; 2]; WIDTH]]) {
-    let half = 0.5;
     // Beyond the ends of rows there are zeros: nodes on the sides.
     let pairs = |j: usize, first: isize| -> &[[[[f64; 2]; WIDTH]; 2]] {
         let start = lattice::index(n, 0, j).wrapping_add_signed(first);
@@ -126,7 +124,7 @@ fn restrict_row<const WIDTH: usize>(n: usize, b: usize, fine: &[[[f64; 2]; WIDTH
         }
     };
     let add = each(|a, b| a + b);
-    let halved = |a: [[f64; 2]; WIDTH]| a.map(|node| node.map(|v| half * v));
+    let halved = |a: [[f64; 2]; WIDTH]| a.map(|node| node.map(|v| 0.5 * v));
     if b == 0 {
         sums.iter_mut().zip(above).for_each(|(sum, above)| *sum = halved(add(&above[0], &above[1])));
         return;

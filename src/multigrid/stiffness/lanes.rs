@@ -9,7 +9,7 @@ pub trait Lanes: Copy + 'static {
     type Register: Copy;
     /// The same in memory.
     type Nodes: Copy + AsRef<[[f64; 2]]>;
-    /// How many nodes: two, or a multiple.
+    /// How many nodes: two or four.
     const COUNT: usize;
 
     /// Nodes in memory, as many as fill registers.
@@ -42,7 +42,7 @@ pub trait Lanes: Copy + 'static {
     /// The first and the second node of each two in the other order.
     fn crossed(self, a: Self::Register) -> Self::Register;
 
-    /// The nodes `step` places before those of `a`; `before` are the nodes in front of them. `step` is a power of two below
+    /// The nodes `step` places before those of `a`; `before` are the nodes in front of them. `step` is one or two, and below
     /// the count.
     fn earlier<const STEP: usize>(self, before: Self::Register, a: Self::Register) -> Self::Register;
 
@@ -141,13 +141,13 @@ mod x86 {
     use pulp::x86::{V3, V4};
     use pulp::{NullaryFnOnce, cast, f64x4, f64x8};
 
-    /// Two nodes in double precision, AVX2.
+    /// Two nodes, by the instructions AVX2 and FMA.
     #[derive(Clone, Copy)]
-    pub struct DoubleLanes(pub V3);
+    pub struct Avx2Lanes(pub V3);
 
-    /// Four nodes in double precision, AVX-512.
+    /// Four nodes, by the instructions AVX-512.
     #[derive(Clone, Copy)]
-    pub struct WideDoubleLanes(pub V4);
+    pub struct Avx512Lanes(pub V4);
 
     /// Work for one kind of processor.
     struct Call<W>(W);
@@ -220,7 +220,7 @@ mod x86 {
         };
     }
 
-    impl Lanes for DoubleLanes {
+    impl Lanes for Avx2Lanes {
         memory!(f64x4, 2);
         arithmetic!(_mm256_add_pd, _mm256_mul_pd, _mm256_fmadd_pd, avx, fma);
 
@@ -245,7 +245,7 @@ mod x86 {
         }
     }
 
-    impl Lanes for WideDoubleLanes {
+    impl Lanes for Avx512Lanes {
         memory!(f64x8, 4);
         arithmetic!(_mm512_add_pd, _mm512_mul_pd, _mm512_fmadd_pd, avx512f, avx512f);
 
@@ -274,4 +274,4 @@ mod x86 {
 }
 
 #[cfg(target_arch = "x86_64")]
-pub use x86::{DoubleLanes, WideDoubleLanes};
+pub use x86::{Avx2Lanes, Avx512Lanes};

@@ -1,4 +1,4 @@
-//! Strips and stored rows of a rank together, in some precision.
+//! Strips and stored rows of a rank together.
 
 use super::earlier_couplings::EarlierCouplings;
 use super::even_triangles::EvenTriangles;

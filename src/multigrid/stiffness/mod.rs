@@ -19,8 +19,8 @@
 //! ```
 //!
 //! An even macro triangle of 8 to 128 intervals (P2: 16 to 1024) is worked on as a whole (`triangle_lattice.rs`,
-//! `stiffness/even_triangles.rs`), several of them side by side: a vector register holds the same node of two, four or eight of
-//! them, as the processor and the precision allow. Their values, with those of their sides, come into a lattice, which up to
+//! `stiffness/even_triangles.rs`), several of them side by side: a vector register holds the same node of two or four of
+//! them, as the processor allows. Their values, with those of their sides, come into a lattice, which up to
 //! some 128 intervals stays in the cache, and where neighbours lie at fixed distances, and the inner nodes go back when they
 //! are done. Nodes of different macro triangles do not wait for each other in a sweep, so registers are as full on a lattice of
 //! eight intervals as on one of 128, and each macro triangle may have couplings of its own. Residuals are restricted in that
@@ -63,7 +63,7 @@
 //! auxiliary. Then PETSc sees a level as a shell (`petsc::Operator`): product, residual, one symmetric Gauss-Seidel sweep,
 //! diagonal, norm. Where options of the user's may want more, as another smoother, omega, or `-fieldsplit_u_pc_type hypre`, and
 //! on the coarsest level, it sees a matrix with all rows, made from the same storage and changed along with it. Where a
-//! factorisation wants one (the last fallback preconditioner, the inf-sup constant), it is made first. Contact changes stored
+//! factorisation wants one (the last rung of the ladder of solvers, the inf-sup constant), it is made first. Contact changes stored
 //! rows alone: nodes of Γ_C lie on sides of macro triangles.
 //! After the stencils of hierarchical hybrid grids (Bergen, Hülsemann 2004).
 //!

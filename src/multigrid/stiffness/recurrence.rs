@@ -17,14 +17,14 @@ pub enum Way {
 
 /// The recurrence: steps that double, the last one of a whole register.
 pub struct Chain<L: Lanes> {
-    pub steps: [BlockLanes<L>; 4],
+    pub steps: [BlockLanes<L>; 3],
     /// Of pairs: what one node gets from the other kind.
-    pub crossed: [BlockLanes<L>; 4],
+    pub crossed: [BlockLanes<L>; 3],
 }
 
 /// Where the recurrence stands: the last register before and after each step.
 pub struct State<L: Lanes> {
-    pub steps: [L::Register; 3],
+    pub steps: [L::Register; 2],
     pub relaxed: L::Register,
 }
 
@@ -34,11 +34,9 @@ impl<L: Lanes> State<L> {
     pub fn next<const SECOND: bool>(&mut self, lanes: L, way: Way, chain: &Chain<L>, t: L::Register) -> L::Register {
         let shifted = |step: usize, before: L::Register, a: L::Register| match (way, step) {
             (Way::Forward, 0) => lanes.earlier::<1>(before, a),
-            (Way::Forward, 1) => lanes.earlier::<2>(before, a),
-            (Way::Forward, _) => lanes.earlier::<4>(before, a),
+            (Way::Forward, _) => lanes.earlier::<2>(before, a),
             (Way::Backward, 0) => lanes.later::<1>(a, before),
-            (Way::Backward, 1) => lanes.later::<2>(a, before),
-            (Way::Backward, _) => lanes.later::<4>(a, before),
+            (Way::Backward, _) => lanes.later::<2>(a, before),
         };
         let mut sum = t;
         let last = L::COUNT.trailing_zeros() as usize;
@@ -90,12 +88,12 @@ impl<L: Lanes> Chain<L> {
         };
         let mut steps = vec![BlockLanes::new(lanes, &inside)];
         let mut crossed = vec![BlockLanes::new(lanes, &[zero, zero])];
-        for _ in 1..4 {
+        for _ in 1..3 {
             steps.push(BlockLanes::new(lanes, &[pair[0][0], pair[1][1]]));
             crossed.push(BlockLanes::new(lanes, &[pair[0][1], pair[1][0]]));
             pair = square(&pair);
         }
-        let all = |factors: Vec<BlockLanes<L>>| factors.try_into().unwrap_or_else(|_| unreachable!("four steps"));
+        let all = |factors: Vec<BlockLanes<L>>| factors.try_into().unwrap_or_else(|_| unreachable!("three steps"));
         Self { steps: all(steps), crossed: all(crossed) }
     }
 }

@@ -1,7 +1,7 @@
 //! Which registers suit the processor: it is asked at run time.
 
 #[cfg(target_arch = "x86_64")]
-use super::lanes::{DoubleLanes, WideDoubleLanes};
+use super::lanes::{Avx2Lanes, Avx512Lanes};
 use super::lanes::{LaneWork, Lanes, PlainLanes};
 use super::row_kernel::OnRows;
 use super::strip_kernel::{StripKernel, kernel};
@@ -29,10 +29,10 @@ pub fn strip_kernel(couplings: &Couplings) -> Box<dyn StripKernel> {
     #[cfg(target_arch = "x86_64")]
     {
         if let Some(simd) = pulp::x86::V4::try_new() {
-            return kernel(WideDoubleLanes(simd), couplings);
+            return kernel(Avx512Lanes(simd), couplings);
         }
         if let Some(simd) = pulp::x86::V3::try_new() {
-            return kernel(DoubleLanes(simd), couplings);
+            return kernel(Avx2Lanes(simd), couplings);
         }
     }
     kernel(PlainLanes, couplings)
@@ -52,10 +52,10 @@ pub fn triangles_kernel(couplings: &[&[Couplings]]) -> Box<dyn TriangleKernel> {
     #[cfg(target_arch = "x86_64")]
     {
         if let Some(simd) = pulp::x86::V4::try_new().filter(|_| couplings.len() > 2) {
-            return triangle_kernel(WideDoubleLanes(simd), couplings);
+            return triangle_kernel(Avx512Lanes(simd), couplings);
         }
         if let Some(simd) = pulp::x86::V3::try_new() {
-            return triangle_kernel(DoubleLanes(simd), couplings);
+            return triangle_kernel(Avx2Lanes(simd), couplings);
         }
     }
     triangle_kernel(PlainLanes, couplings)
@@ -65,7 +65,7 @@ pub fn triangles_kernel(couplings: &[&[Couplings]]) -> Box<dyn TriangleKernel> {
 pub fn on_rows(work: OnRows) {
     #[cfg(target_arch = "x86_64")]
     if let Some(simd) = pulp::x86::V3::try_new() {
-        return RowsWith(DoubleLanes(simd), work).run();
+        return RowsWith(Avx2Lanes(simd), work).run();
     }
     RowsWith(PlainLanes, work).run();
 }

@@ -14,7 +14,7 @@ pub struct StoredRows {
     /// The nodes, ascending, counted from this rank's first.
     pub(crate) nodes: Vec<u32>,
     /// Inverses of diagonal blocks.
-    pub(crate) inverses: Vec<[[f64; 2]; 2]>,
+    pub(crate) inverses: Vec<Block>,
     /// The inverse of each row.
     pub(crate) inverse_of: Vec<u32>,
     /// Columns of this rank.
@@ -30,7 +30,7 @@ pub struct Part {
     pub(crate) starts: Vec<u32>,
     pub(crate) columns: Vec<u32>,
     pub(crate) firsts: Vec<u32>,
-    pub(crate) blocks: Vec<[[f64; 2]; 2]>,
+    pub(crate) blocks: Vec<Block>,
 }
 
 /// A column of the stored rows.
@@ -74,7 +74,7 @@ impl Part {
     }
 
     /// Couplings of row `k`.
-    pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &[[f64; 2]; 2])> {
+    pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &Block)> {
         let row = self.row(k);
         let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
         self.columns[row].iter().copied().zip(blocks)
@@ -148,7 +148,7 @@ impl StoredRows {
 
     /// Inverse of the diagonal block of row `k`.
     #[inline(always)]
-    pub fn inverse(&self, k: usize) -> &[[f64; 2]; 2] {
+    pub fn inverse(&self, k: usize) -> &Block {
         &self.inverses[self.inverse_of[k] as usize]
     }
 }

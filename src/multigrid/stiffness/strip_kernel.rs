@@ -79,10 +79,10 @@ struct Stencil<L: Lanes, const UP: usize> {
 
 /// Couplings of one node to others, that with itself and its inverse.
 struct EndNode<const UP: usize> {
-    up: [[[f64; 2]; 2]; UP],
-    beside: [[[f64; 2]; 2]; 2],
-    diagonal: [[f64; 2]; 2],
-    inverse: [[f64; 2]; 2],
+    up: [Block; UP],
+    beside: [Block; 2],
+    diagonal: Block,
+    inverse: Block,
 }
 
 impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND> {
@@ -109,10 +109,10 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
             },
         };
         let row = |kind: usize| EndNode {
-            up: up.map(|step| rounded(&couplings.block(kind, step))),
-            beside: [1, 2].map(|step| rounded(&couplings.block(kind, (step, 0)))),
-            diagonal: rounded(&couplings.block(kind, (0, 0))),
-            inverse: rounded(&inverses[kind]),
+            up: up.map(|step| couplings.block(kind, step)),
+            beside: [1, 2].map(|step| couplings.block(kind, (step, 0))),
+            diagonal: couplings.block(kind, (0, 0)),
+            inverse: inverses[kind],
         };
         Self {
             lanes,
@@ -186,7 +186,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
     fn without_diagonal(&self, nodes: StripNodes, k: usize, x: &[[f64; 2]]) -> [f64; 2] {
         let (node, row) = (nodes.first + k, &self.single[k % 2]);
         let mut sum = [0.0; 2];
-        let mut add = |block: &[[f64; 2]; 2], a: usize, b: usize| sum = sum2(sum, times(block, sum2(x[a], x[b])));
+        let mut add = |block: &Block, a: usize, b: usize| sum = sum2(sum, times(block, sum2(x[a], x[b])));
         for ((di, dj), block) in self.up.into_iter().zip(&row.up) {
             let [next, before] = [(di, dj), (-di, -dj)].map(|step| node.wrapping_add_signed(nodes.distance(step)));
             add(block, next, before);
@@ -222,7 +222,7 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> UnrolledKernel<L, UP, SECOND
                 self.lanes.load(L::chunks(&nodes)[0])
             }
         };
-        State { steps: [known; 3], relaxed: known }
+        State { steps: [known; 2], relaxed: known }
     }
 
     /// The registers of a strip, one way.
@@ -327,13 +327,8 @@ impl<L: Lanes, const UP: usize, const SECOND: bool> StripKernel for UnrolledKern
     }
 }
 
-/// A block in another precision.
-fn rounded(block: &Block) -> [[f64; 2]; 2] {
-    block.map(|row| row)
-}
-
 #[inline(always)]
-fn times(block: &[[f64; 2]; 2], x: [f64; 2]) -> [f64; 2] {
+fn times(block: &Block, x: [f64; 2]) -> [f64; 2] {
     block.map(|row| row[0] * x[0] + row[1] * x[1])
 }
 

@@ -1,17 +1,16 @@
 //! The direct solver: MUMPS on the plain system.
 
-use super::fallback::Preconditioning;
 use super::field_split::replace_action;
-use super::linear_solver::LinearSolver;
+use super::operators::set_plain_operators;
 use super::options::Options;
+use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
 use crate::multigrid::GalerkinLevels;
 use crate::petsc::{self, Krylov, Session};
 use crate::system::saddle_point::SaddlePoint;
-use std::rc::Rc;
 
 /// PETSc options of the direct solver.
-const DIRECT: Options = &[
+const OPTIONS: Options = &[
     ("-ksp_type", "gmres"),
     ("-ksp_pc_side", "right"),
     ("-ksp_norm_type", "unpreconditioned"),
@@ -23,37 +22,20 @@ const DIRECT: Options = &[
     ("-mat_mumps_icntl_14", "100"),
 ];
 
-impl LinearSolver {
-    /// A factor of the plain system by MUMPS, with GMRES around it for what rounding leaves. **Collective**
-    ///
-    /// # Errors
-    /// [`SystemError`] from PETSc.
-    pub(super) fn direct(system: &SaddlePoint, session: &Session) -> Result<Self, SystemError> {
-        for (name, value) in DIRECT {
-            petsc::options::set_default(session, name, value)?;
-        }
-        let krylov = Krylov::new(session, "")?;
-        let name = "direct (MUMPS)".into();
-        let mut solver = Self {
-            krylov,
-            _replaced: None,
-            bordered: None,
-            session: session.clone(),
-            form: Form::Plain,
-            converted: None,
-            interpolations: Rc::new([]),
-            auxiliary: GalerkinLevels::default(),
-            cycle: None,
-            preconditioning: Preconditioning::Factor,
-            is_short: false,
-            name,
-            is_set_up: true,
-        };
-        solver.refresh(system)?;
-        solver.krylov.set_from_options()?;
-        solver.krylov.watch()?;
-        solver.krylov.set_up()?;
-        (solver._replaced, solver.bordered) = replace_action(&solver.krylov, None, system, Form::Plain, session)?;
-        Ok(solver)
+/// A factor of the plain system by MUMPS, with GMRES around it for what rounding leaves. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc.
+pub fn direct(system: &SaddlePoint, session: &Session) -> Result<Prepared, SystemError> {
+    for (name, value) in OPTIONS {
+        petsc::options::set_default(session, name, value)?;
     }
+    let krylov = Krylov::new(session, "")?;
+    set_plain_operators(&krylov, system)?;
+    krylov.set_from_options()?;
+    krylov.watch()?;
+    krylov.set_up()?;
+    let (_replaced, bordered) = replace_action(&krylov, None, system, Form::Plain, session)?;
+    let (auxiliary, cycle, name) = (GalerkinLevels::default(), None, "direct (MUMPS)".into());
+    Ok(Prepared { krylov, _replaced, bordered, auxiliary, cycle, name })
 }

@@ -1,96 +1,75 @@
-//! The field split of the augmented system: GMRES or BiCGStab, preconditioned by a block triangle with a multigrid cycle.
+//! The field split of the augmented system: a Krylov method, preconditioned by a block triangle with a multigrid cycle.
 
 use super::block_triangle::BlockTriangle;
 use super::bordered::Bordered;
-use super::fallback::Preconditioning;
-use super::linear_solver::LinearSolver;
+use super::ladder::Rung;
 use super::operators::{below, set_operators};
 use super::options::{
-    CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, SHORT_RECURRENCE, is_changed, is_method_chosen,
-    is_split_changed, lambda_options, preconditioning_options,
+    CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, is_changed, is_split_changed, lambda_options,
+    preconditioning_options,
 };
+use super::preconditioning::Preconditioning;
+use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
 use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, Stiffness};
 use crate::petsc::{self, Action, Krylov, MultigridCycle, MultigridLevel, Preconditioner, ReplacedAction, Session};
 use crate::system::saddle_point::SaddlePoint;
 use std::rc::Rc;
 
-impl LinearSolver {
-    /// A field split whose displacements are preconditioned by `preconditioning`, by a factor where there is one level only.
-    /// Above `many` unknowns of the displacement the method is BiCGStab, unless the user has chosen one. **Collective**
-    ///
-    /// # Errors
-    /// [`SystemError`] from PETSc.
-    pub(super) fn field_split(
-        system: &SaddlePoint,
-        interpolations: Rc<[Interpolation]>,
-        preconditioning: Preconditioning,
-        many: usize,
-        session: &Session,
-    ) -> Result<Self, SystemError> {
-        let preconditioning = if interpolations.is_empty() { Preconditioning::Factor } else { preconditioning };
-        let unknowns = system.finest_stiffness().operator().size().0;
-        let is_short = preconditioning == Preconditioning::Sweep && unknowns > many && !is_method_chosen(session);
-        set_options(system, &interpolations, preconditioning, is_short, session)?;
-        let krylov = Krylov::new(session, "")?;
-        set_operators(&krylov, system, preconditioning, session)?;
-        let [u, lambda] = system.nest.nest_index_sets()?;
-        let preconditioner = krylov.preconditioner();
-        preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
-        krylov.set_from_options()?;
-        krylov.watch()?;
-        krylov.set_up()?;
-        let (auxiliary, cycle) = match preconditioning {
-            Preconditioning::Factor => (GalerkinLevels::default(), None),
-            _ => levels(&preconditioner, system, &interpolations, preconditioning, session)?,
-        };
-        let block_triangle = match cycle.as_ref().filter(|_| !is_split_changed(session)) {
-            Some(cycle) => {
-                let lower = preconditioner.field_split_solvers()?.pop().expect("two fields");
-                Some(BlockTriangle::new(cycle.clone(), lower, &system.multipliers.transpose, session)?)
-            }
-            None => None,
-        };
-        let (replaced, bordered) = replace_action(&krylov, block_triangle, system, Form::Augmented, session)?;
-        let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
-        let own = kind == "mg" || kind == "shell" || is_factor(kind.as_ref()) && preconditioning == Preconditioning::Factor;
-        let name = if own { field_split_name(preconditioning) } else { format!("fieldsplit ({kind})") };
-        let (session, form) = (session.clone(), Form::Augmented);
-        Ok(Self {
-            krylov,
-            _replaced: replaced,
-            bordered,
-            session,
-            form,
-            converted: None,
-            interpolations,
-            auxiliary,
-            cycle,
-            preconditioning,
-            is_short,
-            name,
-            is_set_up: true,
-        })
-    }
+/// The rung of the field split of a system. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc.
+pub fn field_split(
+    system: &SaddlePoint,
+    interpolations: &Rc<[Interpolation]>,
+    rung: Rung,
+    session: &Session,
+) -> Result<Prepared, SystemError> {
+    let preconditioning = rung.preconditioning;
+    set_options(system, interpolations, rung, session)?;
+    let krylov = Krylov::new(session, "")?;
+    set_operators(&krylov, system, preconditioning, session)?;
+    let [u, lambda] = system.nest.nest_index_sets()?;
+    let preconditioner = krylov.preconditioner();
+    preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
+    krylov.set_from_options()?;
+    krylov.watch()?;
+    krylov.set_up()?;
+    let (auxiliary, cycle) = match preconditioning {
+        Preconditioning::Factor => (GalerkinLevels::default(), None),
+        _ => levels(&preconditioner, system, interpolations, preconditioning, session)?,
+    };
+    let block_triangle = match cycle.as_ref().filter(|_| !is_split_changed(session)) {
+        Some(cycle) => {
+            let lower = preconditioner.field_split_solvers()?.pop().expect("two fields");
+            Some(BlockTriangle::new(cycle.clone(), lower, &system.multipliers.transpose, session)?)
+        }
+        None => None,
+    };
+    let (_replaced, bordered) = replace_action(&krylov, block_triangle, system, Form::Augmented, session)?;
+    let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
+    let own = kind == "mg" || kind == "shell" || is_factor(&kind) && preconditioning == Preconditioning::Factor;
+    let name = if own { name(preconditioning) } else { format!("fieldsplit ({kind})") };
+    Ok(Prepared { krylov, _replaced, bordered, auxiliary, cycle, name })
 }
 
 /// Sets the options of the field split, where the user has set none.
 fn set_options(
     system: &SaddlePoint,
     interpolations: &[Interpolation],
-    preconditioning: Preconditioning,
-    is_short: bool,
+    Rung { method, preconditioning, .. }: Rung,
     session: &Session,
 ) -> Result<(), SystemError> {
     let coarsest = interpolations.first().map_or(0, |interpolation| interpolation.matrix.size().1);
     let coarse = CoarseSolver::of(coarsest);
     let lambda = lambda_options(system.multipliers.pattern, session.size());
     let unknowns = system.finest_stiffness().operator().size().0;
-    let method: Options = if is_short { SHORT_RECURRENCE } else { &[] };
+    let method = [("-ksp_type", method)];
     let is_redundant = preconditioning == Preconditioning::Factor && session.size() > 1 && unknowns <= MOST_REDUNDANT;
     let factor: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
     let smoother = preconditioning_options(preconditioning);
-    for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(method).chain(factor) {
+    for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(&method).chain(factor) {
         petsc::options::set_default(session, name, value)?;
     }
     Ok(())
@@ -155,6 +134,6 @@ fn is_factor(kind: &str) -> bool {
 }
 
 /// The solver with a preconditioning, in words.
-pub(super) fn field_split_name(preconditioning: Preconditioning) -> String {
+pub fn name(preconditioning: Preconditioning) -> String {
     format!("fieldsplit ({})", preconditioning.words("multigrid F-cycle"))
 }

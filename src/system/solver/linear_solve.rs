@@ -32,7 +32,7 @@ pub struct LinearSolve {
     pub iterations: usize,
     /// True residual of the augmented system, relative to the right-hand side.
     pub residual: f64,
-    /// The stronger preconditioner that it, or the next one, went over to; in words.
+    /// The method or the stronger preconditioner that it, or the next one, went over to; in words.
     pub fallback: Option<String>,
 }
 

@@ -1,43 +1,31 @@
-//! A linear solver that is ready for one system, and follows its changes.
+//! A linear solver of one system, which follows its changes.
 
-use super::bordered::Bordered;
-use super::fallback::Preconditioning;
-use super::operators::{below, set_operators};
+use super::direct::direct;
+use super::field_split::{field_split, name};
+use super::ladder::{DIRECT, Rung, climb, ladder};
+use super::linear_solve::LinearSolve;
+use super::operators::{below, set_operators, set_plain_operators};
+use super::options::chosen;
+use super::preconditioning::Preconditioning;
+use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
-use crate::multigrid::{Cycle, GalerkinLevels, Interpolation};
-use crate::petsc::{self, Krylov, Matrix, ReplacedAction, Session};
+use crate::multigrid::Interpolation;
+use crate::petsc::{Matrix, Session};
 use crate::system::choice::SolverChoice;
 use crate::system::saddle_point::SaddlePoint;
 use std::rc::Rc;
 
-/// Unknowns of the displacement above which BiCGStab takes the place of GMRES: it has nine vectors instead of fifteen for
-/// ten iterations, so that fewer are cleared and added. To 1e-8 that saves a tenth of a solve at a million unknowns. On smaller
-/// systems it saves less, and GMRES may end after every cycle.
-pub const MANY: usize = 500_000;
-
-/// A solver, ready for one system.
+/// A solver of one system.
 pub struct LinearSolver {
-    pub(super) krylov: Krylov,
-    /// What does the work of PETSc's fieldsplit, where no option asks for more, or stands around its preconditioner.
-    pub(super) _replaced: Option<ReplacedAction>,
-    /// What knows of rigid motions that are eliminated, if there are any.
-    pub(super) bordered: Option<Rc<Bordered>>,
     pub(super) session: Session,
-    pub(super) form: Form,
-    /// The converted system of the direct solver.
-    pub(super) converted: Option<Matrix>,
-    pub(super) interpolations: Rc<[Interpolation]>,
-    pub(super) auxiliary: GalerkinLevels,
-    /// The cycle, if it is mezha's own.
-    pub(super) cycle: Option<Cycle>,
-    /// Whether BiCGStab stands in the place of GMRES, to save memory and time. What it cannot solve GMRES gets.
-    pub(super) is_short: bool,
-    /// What preconditions the displacement block, from the next solve on.
-    pub preconditioning: Preconditioning,
+    form: Form,
+    interpolations: Rc<[Interpolation]>,
+    /// The rung that it stands on, and those to come.
+    rungs: Vec<Rung>,
+    /// What the rung works with. One that a solve has just gone up to waits for the next solve: there may be none.
+    prepared: Option<Prepared>,
     /// The solver and its preconditioning, in words.
     pub name: String,
-    /// Whether it is set up. A stronger one that a solve falls back on waits for the next solve: there may be none.
-    pub(super) is_set_up: bool,
 }
 
 impl LinearSolver {
@@ -52,50 +40,76 @@ impl LinearSolver {
         preconditioning: Preconditioning,
         session: &Session,
     ) -> Result<Self, SystemError> {
-        match choice.form() {
-            Form::Augmented => Self::field_split(system, interpolations.clone(), preconditioning, MANY, session),
-            Form::Plain => Self::direct(system, session),
-        }
+        let form = choice.form();
+        let first = if interpolations.is_empty() { Preconditioning::Factor } else { preconditioning };
+        let unknowns = system.finest_stiffness().operator().size().0;
+        let rungs = match form {
+            Form::Augmented => ladder(first, unknowns, system.border.is_some(), chosen(session)),
+            Form::Plain => vec![DIRECT],
+        };
+        let (session, interpolations) = (session.clone(), interpolations.clone());
+        let mut solver = Self { session, form, interpolations, rungs, prepared: None, name: String::new() };
+        solver.prepare(system)?;
+        Ok(solver)
     }
 
     /// Takes over changed blocks. **Collective**
     pub fn refresh(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
-        if let Some(bordered) = &self.bordered {
+        let rung = self.rung();
+        let Some(Prepared { krylov, bordered, auxiliary, cycle, .. }) = &mut self.prepared else { return Ok(()) };
+        if let Some(bordered) = bordered {
             bordered.forget();
         }
         if self.form == Form::Plain {
-            let mut converted = system.nest.convert_aij()?;
-            converted.set_symmetric(true)?;
-            let product = if system.border.is_some() { &system.product } else { &converted };
-            self.krylov.set_operators(product, &converted)?;
-            self.converted = Some(converted);
-        } else if !self.is_set_up {
-            self.set_up(system)?;
-        } else {
-            self.auxiliary.refresh(system.stiffness[0].operator(), &below(&self.interpolations, system))?;
-            if let Some(cycle) = &self.cycle {
-                cycle.refresh(&self.session)?;
-            }
-            set_operators(&self.krylov, system, self.preconditioning, &self.session)?;
+            return set_plain_operators(krylov, system);
         }
-        Ok(())
+        auxiliary.refresh(system.stiffness[0].operator(), &below(&self.interpolations, system))?;
+        if let Some(cycle) = cycle {
+            cycle.refresh(&self.session)?;
+        }
+        set_operators(krylov, system, rung.preconditioning, &self.session)
     }
 
-    /// Sets the preconditioning up that a solve has fallen back on. **Collective**
-    pub(super) fn set_up(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
-        let many = if self.is_short { MANY } else { usize::MAX };
-        let interpolations = self.interpolations.clone();
-        *self = Self::field_split(system, interpolations, self.preconditioning, many, &self.session)?;
-        Ok(())
+    /// What the rung works with, set up if it is not. **Collective**
+    pub(super) fn prepare(&mut self, system: &SaddlePoint) -> Result<&Prepared, SystemError> {
+        let prepared = match self.prepared.take() {
+            Some(prepared) => prepared,
+            None => match self.form {
+                Form::Augmented => field_split(system, &self.interpolations, self.rung(), &self.session)?,
+                Form::Plain => direct(system, &self.session)?,
+            },
+        };
+        self.name.clone_from(&prepared.name);
+        Ok(self.prepared.insert(prepared))
     }
 
-    /// Operators of the auxiliary levels, coarsest first.
-    pub fn auxiliary_operators(&self) -> impl Iterator<Item = &Matrix> {
-        self.auxiliary.iter()
+    /// The rung that it stands on.
+    pub(super) fn rung(&self) -> Rung {
+        self.rungs[0]
     }
 
-    /// Options that the user gave and no object of this solver has asked for.
-    pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
-        Ok(petsc::options::unused(&self.session)?)
+    /// Goes up to the rung for a solve that needs so many iterations on this one, if there is any, and notes it.
+    pub(super) fn climb(&mut self, needed: f64, solve: &mut LinearSolve) -> bool {
+        let Some(up) = climb(&self.rungs, needed) else { return false };
+        let before = self.preconditioning();
+        self.rungs.drain(..up);
+        self.prepared = None;
+        if self.preconditioning() == before {
+            solve.fallback = Some(format!("{}, GMRES", self.name));
+        } else {
+            self.name = name(self.preconditioning());
+            solve.fallback = Some(self.name.clone());
+        }
+        true
+    }
+
+    /// What preconditions the displacements, from the next solve on.
+    pub fn preconditioning(&self) -> Preconditioning {
+        self.rung().preconditioning
+    }
+
+    /// Operators of the auxiliary levels, coarsest first. **Collective**
+    pub fn auxiliary_operators(&mut self, system: &SaddlePoint) -> Result<impl Iterator<Item = &Matrix>, SystemError> {
+        Ok(self.prepare(system)?.auxiliary.iter())
     }
 }

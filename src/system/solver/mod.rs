@@ -2,8 +2,8 @@
 //!
 //! `fieldsplit`: GMRES (BiCGStab on many unknowns), preconditioned from the right by the block upper triangle of
 //! `K + BᵀDB` and `S = -D⁻¹`; one multigrid F-cycle stands for the inverse of the first, on the levels of the mesh and
-//! auxiliary ones below (`multigrid/auxiliary`). Where that is too weak, solves fall back on stronger ones, in the end on a
-//! Cholesky factor ([`Preconditioning`]). `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's
+//! auxiliary ones below (`multigrid/auxiliary`). A solve that is slow or stuck goes up a ladder of stronger ones, in the end to a
+//! Cholesky factor (`ladder.rs`). `direct`: MUMPS on the plain system. All settings are PETSc options, which a user's
 //! own override; only the tolerance is the case's.
 //!
 //! # The choices, and what was measured
@@ -55,16 +55,19 @@
 mod block_triangle;
 mod bordered;
 mod direct;
-mod fallback;
 mod field_split;
 mod inf_sup;
+mod ladder;
 mod linear_solve;
 mod linear_solver;
 mod operators;
 mod options;
+mod preconditioning;
+mod prepared;
 mod solving;
 
-pub use fallback::Preconditioning;
 pub use inf_sup::inf_sup;
+pub use ladder::MANY;
 pub use linear_solve::{LinearEnding, LinearSolve, Residual};
-pub use linear_solver::{LinearSolver, MANY};
+pub use linear_solver::LinearSolver;
+pub use preconditioning::Preconditioning;

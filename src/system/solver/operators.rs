@@ -1,6 +1,6 @@
 //! What a linear solver works on: the operator and the matrix it preconditions by, and the steps between auxiliary levels.
 
-use super::fallback::Preconditioning;
+use super::preconditioning::Preconditioning;
 use crate::discretisation::SystemError;
 use crate::multigrid::Interpolation;
 use crate::petsc::{Krylov, Matrix, Session};
@@ -19,6 +19,14 @@ pub(super) fn set_operators(
         None => krylov.set_operators(&system.product, &system.nest)?,
     }
     Ok(())
+}
+
+/// The nest converted, of which a factor is made, and as the operator the same or, with rigid motions beside it, its product.
+/// **Collective**
+pub(super) fn set_plain_operators(krylov: &Krylov, system: &SaddlePoint) -> Result<(), SystemError> {
+    let mut converted = system.nest.convert_aij()?;
+    converted.set_symmetric(true)?;
+    Ok(krylov.set_operators(if system.border.is_some() { &system.product } else { &converted }, &converted)?)
 }
 
 /// Those interpolations that lead to auxiliary levels, or up from them.

@@ -3,7 +3,8 @@
 use crate::discretisation::SMALL;
 use crate::petsc::{Session, options};
 use crate::system::saddle_point::SchurPattern;
-use crate::system::solver::fallback::Preconditioning;
+use crate::system::solver::ladder::Chosen;
+use crate::system::solver::preconditioning::Preconditioning;
 
 /// Names and values of PETSc options.
 pub(super) type Options = &'static [(&'static str, &'static str)];
@@ -24,21 +25,16 @@ pub(super) const FIELD_SPLIT: Options = &[
     ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
 ];
 
-/// The outer method of many unknowns.
-pub(super) const SHORT_RECURRENCE: Options = &[("-ksp_type", "fbcgs")];
-
-/// Whether the user has chosen the outer method, or how it is to work.
-pub(super) fn is_method_chosen(session: &Session) -> bool {
+/// What the user has chosen of a ladder.
+pub(super) fn chosen(session: &Session) -> Chosen {
     let is_of_method = |name: &str| ["-ksp_type", "-ksp_pc_side", "-ksp_norm_type"].contains(&name);
-    options::any_of_user(session, |name| is_of_method(name) || name.starts_with("-ksp_gmres_"))
+    Chosen {
+        method: options::any_of_user(session, |name| is_of_method(name) || name.starts_with("-ksp_gmres_")),
+        preconditioning: options::any_of_user(session, |name| name == "-fieldsplit_u_pc_type"),
+    }
 }
 
-/// Whether the user has chosen what preconditions the displacements.
-pub(super) fn is_chosen(session: &Session) -> bool {
-    options::any_of_user(session, |name| name == "-fieldsplit_u_pc_type")
-}
-
-/// Whether the user has changed anything about it: then it is PETSc's own multigrid, which has options.
+/// Whether the user has changed anything about what preconditions the displacements: then it is PETSc's own multigrid, which has options.
 pub(super) fn is_changed(session: &Session) -> bool {
     options::any_of_user(session, |name| name.starts_with("-fieldsplit_u_"))
 }
@@ -50,23 +46,15 @@ pub(super) fn is_split_changed(session: &Session) -> bool {
     options::any_of_user(session, is_like)
 }
 
-/// The outer method and the smoother of each preconditioning.
+/// The smoother of each preconditioning, or the factor.
 pub(super) fn preconditioning_options(preconditioning: Preconditioning) -> Options {
     match preconditioning {
-        Preconditioning::Sweep => &[
-            ("-ksp_type", "gmres"),
-            ("-fieldsplit_u_mg_levels_ksp_type", "richardson"),
-            ("-fieldsplit_u_mg_levels_ksp_max_it", "1"),
-        ],
-        Preconditioning::TwoSteps => {
-            &[("-ksp_type", "fgmres"), ("-fieldsplit_u_mg_levels_ksp_type", "cg"), ("-fieldsplit_u_mg_levels_ksp_max_it", "2")]
+        Preconditioning::Sweep => {
+            &[("-fieldsplit_u_mg_levels_ksp_type", "richardson"), ("-fieldsplit_u_mg_levels_ksp_max_it", "1")]
         }
-        Preconditioning::FourSteps => {
-            &[("-ksp_type", "fgmres"), ("-fieldsplit_u_mg_levels_ksp_type", "cg"), ("-fieldsplit_u_mg_levels_ksp_max_it", "4")]
-        }
-        Preconditioning::Factor => {
-            &[("-ksp_type", "gmres"), ("-fieldsplit_u_pc_type", "cholesky"), ("-fieldsplit_u_pc_factor_mat_solver_type", "mumps")]
-        }
+        Preconditioning::TwoSteps => &[("-fieldsplit_u_mg_levels_ksp_type", "cg"), ("-fieldsplit_u_mg_levels_ksp_max_it", "2")],
+        Preconditioning::FourSteps => &[("-fieldsplit_u_mg_levels_ksp_type", "cg"), ("-fieldsplit_u_mg_levels_ksp_max_it", "4")],
+        Preconditioning::Factor => &[("-fieldsplit_u_pc_type", "cholesky"), ("-fieldsplit_u_pc_factor_mat_solver_type", "mumps")],
     }
 }
 

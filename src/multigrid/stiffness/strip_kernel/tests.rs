@@ -88,11 +88,11 @@ fn arrays_do_what_one_node_after_the_other_does() {
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn registers_that_this_processor_has_do_what_one_node_after_the_other_does() {
-    use crate::multigrid::stiffness::lanes::{DoubleLanes, WideDoubleLanes};
+    use crate::multigrid::stiffness::lanes::{Avx2Lanes, Avx512Lanes};
     if let Some(simd) = pulp::x86::V3::try_new() {
-        check(DoubleLanes(simd), 1e-13);
+        check(Avx2Lanes(simd), 1e-13);
     }
     if let Some(simd) = pulp::x86::V4::try_new() {
-        check(WideDoubleLanes(simd), 1e-13);
+        check(Avx512Lanes(simd), 1e-13);
     }
 }

@@ -1,0 +1,74 @@
+//! Preconditioners of the displacements.
+
+use crate::discretisation::SMALL;
+
+/// What preconditions the displacements, the weakest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Preconditioning {
+    /// Multigrid with one symmetric Gauss-Seidel sweep.
+    Sweep,
+    /// Multigrid with two steps of CG, preconditioned by the sweep.
+    TwoSteps,
+    /// Multigrid with four.
+    FourSteps,
+    /// A Cholesky factor.
+    Factor,
+}
+
+/// Ratio of graded refinement below which triangles are too flat for a sweep: it needs more iterations on each level.
+const FLAT: f64 = 0.25;
+
+impl Preconditioning {
+    /// The cheapest one that does on a mesh of so many levels, the macro mesh among them, refined by these ratios.
+    pub fn of(levels: usize, ratios: &[Option<f64>]) -> Self {
+        let flat = levels > 1 && ratios.iter().flatten().any(|&ratio| ratio < FLAT);
+        if flat { Self::TwoSteps } else { Self::Sweep }
+    }
+
+    /// Where to begin if the choice is free, and why, in words; levels and ratios as in [`Self::of`].
+    pub fn first(levels: usize, ratios: &[Option<f64>], unknowns: usize) -> (Self, String) {
+        let preconditioning = Self::of(levels, ratios);
+        if levels > 1 {
+            let flat = format!(" and some mesh.grade.ratio is below {FLAT}");
+            let flat = if preconditioning == Self::Sweep { "" } else { &flat };
+            let words = preconditioning.words("multigrid");
+            return (preconditioning, format!("fieldsplit with {words}, because the mesh has {levels} levels{flat}"));
+        }
+        let begin = format!("because the mesh has no levels (refine = 0), and {unknowns} unknowns are");
+        if unknowns <= SMALL {
+            (Self::Factor, format!("fieldsplit with a Cholesky factor, {begin} no more than {SMALL}"))
+        } else {
+            (Self::Sweep, format!("fieldsplit with multigrid on auxiliary levels, {begin} more than {SMALL}"))
+        }
+    }
+
+    /// What it does, after the name of the cycle.
+    pub fn words(self, cycle: &str) -> String {
+        match self {
+            Self::Sweep => cycle.to_string(),
+            Self::TwoSteps => format!("{cycle}, smoothed by 2 CG steps"),
+            Self::FourSteps => format!("{cycle}, smoothed by 4 CG steps"),
+            Self::Factor => "Cholesky factor".to_string(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_mesh_without_levels_begins_with_a_factor() {
+        assert_eq!(Preconditioning::first(1, &[None], 2000).0, Preconditioning::Factor);
+        assert_eq!(Preconditioning::first(1, &[None], 10_000).0, Preconditioning::Sweep);
+        assert_eq!(Preconditioning::first(3, &[None], 10_000).0, Preconditioning::Sweep);
+    }
+
+    #[test]
+    fn flat_triangles_begin_with_the_stronger_smoother() {
+        let (preconditioning, words) = Preconditioning::first(3, &[None, Some(0.4), Some(0.2)], 10_000);
+        assert_eq!((preconditioning, Preconditioning::of(3, &[Some(0.3)])), (Preconditioning::TwoSteps, Preconditioning::Sweep));
+        assert!(words.contains("smoothed by 2 CG steps, because the mesh has 3 levels and some mesh.grade.ratio"), "{words}");
+        assert_eq!(Preconditioning::of(1, &[Some(0.2)]), Preconditioning::Sweep, "not refined at all");
+    }
+}
