@@ -1,12 +1,13 @@
 //! A contact boundary that nobody gives: fitted through the boundary nodes, gaps between splines.
 
 use crate::support::mesh::{GOOD, Mesh, grid, write_scene};
-use crate::support::{RANKS, Run, pairs_on_ranks};
+use crate::support::{RANKS, Run, is_long, pairs_on_ranks};
 
 #[test]
 fn patches_hold_on_a_fitted_line() {
-    for case in ["patch_flat/case.toml", "patch_inclined/case.toml"] {
-        for (order, space, ranks) in pairs_on_ranks() {
+    for (at, case) in ["patch_flat/case.toml", "patch_inclined/case.toml"].into_iter().enumerate() {
+        // In short form each pair of spaces on one of both.
+        for (_, (order, space, ranks)) in pairs_on_ranks().enumerate().filter(|(pair, _)| is_long() || pair % 2 == at) {
             let run = Run::case(case).ranks(ranks).set("mesh.order", order).set("contact.seam.multiplier", space);
             // The case's own expected values hold to 1e-9, or it would end with exit code 3.
             run.set("contact.seam.curve", "fit").set("contact.seam.gap", "geometry").converged();

@@ -66,8 +66,9 @@ fn iterations_stay_few_at_every_level() {
 /// says so.
 #[test]
 fn slivers_are_solved_within_sixty_iterations() {
-    for (file, order, space) in [("flat.msh", 1, "p0"), ("flat.msh", 2, "p1-discontinuous"), ("upright.msh", 1, "p0")] {
-        for ranks in RANKS {
+    let scenes = [("flat.msh", 1, "p0"), ("flat.msh", 2, "p1-discontinuous"), ("upright.msh", 1, "p0")];
+    for (at, (file, order, space)) in scenes.into_iter().enumerate() {
+        for ranks in ranks_in_turn(at) {
             let run = Run::case("hard/bars.toml").ranks(ranks).set("mesh.file", file).set("mesh.refine", 4 - order);
             let run = run.set("mesh.grade.points", "[[0, 3], [6, 4]]").set("mesh.grade.exponent", "[0.818, 1.057]");
             let run = run.set("mesh.order", order).set("contact.seam.multiplier", space).set("exact.must_hold", false);

@@ -1,8 +1,9 @@
 //! Consistent nodal forces.
 
+use super::map::{BadJacobian, jacobian};
 use super::plane_law::{Heat, Plane, PlaneLaw};
 use super::shape::{edge_shape, edge_slope, shape};
-use super::stiffness::{BadJacobian, SIX_POINTS, jacobian, six_points};
+use super::stiffness::{SIX_POINTS, six_points};
 use crate::geometry::{Point, gauss_points, turn_right};
 use std::f64::consts::TAU;
 

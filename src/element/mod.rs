@@ -1,18 +1,17 @@
 //! Local kernels: shape functions, stiffness, loads. They return values; callers insert them.
 
 mod load;
+mod map;
 mod plane_law;
 mod revolution;
 mod shape;
 mod stiffness;
 
 pub use load::{edge_load, heat_load, triangle_load};
+pub use map::{BadJacobian, Block, jacobian, place_of};
 pub use plane_law::{Heat, Plane, PlaneLaw, Strain, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
-pub use stiffness::{
-    BadJacobian, Block, Rule, SIX_POINTS, check_map, energies, heated_stress, jacobian, place_of, six_points, stiffness, strain,
-    stress,
-};
+pub use stiffness::{Rule, SIX_POINTS, check_map, energies, heated_stress, six_points, stiffness, strain, stress};
 
 /// Polynomial degree of the displacement on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
