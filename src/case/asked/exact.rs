@@ -79,8 +79,11 @@ declare! {
     ..WITHIN;
 }
 
-const STRESSES: FormOf<Vec<Formula>> =
-    of(ValueForm::List(ListForm { count: [3, 4], ..entries(&IN_PLANE, "a list of 3 or 4 numbers or formulas of x, y") }));
+const STRESSES: FormOf<Vec<Formula>> = of(ValueForm::List(ListForm {
+    count: [3, 4],
+    few: "must be a list of 3 or 4 numbers or formulas of x, y",
+    ..entries(&IN_PLANE, "a list of 3 or 4 numbers or formulas of x, y")
+}));
 
 /// Errors are relative.
 const ALL_ZERO: &str = "is 0 all over: the error is relative to it; leave it out";

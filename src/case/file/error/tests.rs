@@ -87,7 +87,7 @@ fn errors_of_bodies_and_of_their_weight_name_key_value_and_remedy() {
         ("body.a.body_force=['1', 't']", "entry 2: column 1: found `t`; allowed here: a number, x, y"),
         (
             "body.a.left.young=1",
-            "body.a.left: unknown key; there are plane, part, young, poisson, body_force, density (a name that holds dots stands in quotes)",
+            "body.a.left: unknown key; there are plane, part, young, poisson, body_force, density, expansion, temperature (a name that holds dots stands in quotes)",
         ),
         ("body.b=1", "body.b = 1 (--set): must be a table; write [body.b]"),
         ("body.a.density=2", "body.a.density = 2 (--set): weighs nothing without gravity; write [gravity]"),
@@ -222,7 +222,7 @@ fn errors_of_exact_values_name_key_value_and_remedy() {
         ("exact.contact.c.lambda.at=[[0, 0], [0, 1]]", "exact.contact.c.lambda.value = [1]: holds 1 for 2 points in at"),
         ("exact.contact.c.lambda.formula=x", "stands beside at and value"),
         ("exact.body.b.u=[\"x\", 0]", "exact.body.b: no such body; did you mean \"a\"?"),
-        ("exact.body.a.stress=[0, 0]", "must be a list of 3 numbers or formulas of x, y, not a list of length 2"),
+        ("exact.body.a.stress=[0, 0]", "must be a list of 3 or 4 numbers or formulas of x, y"),
         ("exact.energi=1", "exact.energi: unknown key; did you mean \"energy\"?"),
     ]);
 }
