@@ -108,17 +108,20 @@ impl Table {
 /// What stands in a column for a run.
 type CellOf<'a> = Box<dyn Fn(&PlannedRun, &Ended) -> Value + 'a>;
 
+/// A column by its name and kind, and what stands in it for a run, as it is planned or as it ended.
+type NamedCell<T> = (&'static str, ColumnKind, fn(&T) -> Value);
+
 /// All columns, each with its cells: what the study says of a run, what became of it, places in its summary, and its folder.
 fn columns<'a>(plan: &'a Plan, results: &[Ended]) -> Vec<(Column, CellOf<'a>)> {
     let (given, main, detail) = (ColumnKind::Given, ColumnKind::Main, ColumnKind::Detail);
     let repeat = if plan.runs.iter().any(|run| run.repeat > 1) { given } else { detail };
-    let of_plan: [(&str, ColumnKind, fn(&PlannedRun) -> Value); 4] = [
+    let of_plan: [NamedCell<PlannedRun>; 4] = [
         ("case", given, |run| text(&run.case)),
         ("curve", given, |run| run.curve.as_deref().map_or(Value::Null, text)),
         ("ranks", given, |run| run.ranks.into()),
         ("repeat", repeat, |run| run.repeat.into()),
     ];
-    let of_result: [(&str, ColumnKind, fn(&Ended) -> Value); 7] = [
+    let of_result: [NamedCell<Ended>; 7] = [
         ("status", main, |ended| ended.status.words().into()),
         ("reason", main, |ended| text(&ended.reason)),
         ("unknowns", main, |ended| ended.summary["unknowns"]["displacement"].clone()),
