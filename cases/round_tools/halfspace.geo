@@ -6,7 +6,7 @@ Mesh.Algorithm = 6;
 Mesh.CharacteristicLengthExtendFromBoundary = 0;
 Mesh.CharacteristicLengthFromPoints = 0;
 
-DefineConstant[ rings = 10 ];   // each doubles the radius, from 3.125: 10 give 3200
+DefineConstant[ rings = 12 ];   // each doubles the radius, from 3.125: 12 give 12 800
 
 For b In {0:0}
   side = 2 * b - 1;
