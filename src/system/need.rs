@@ -15,9 +15,10 @@ use crate::system::solver::Preconditioning;
 
 /// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve: with GMRES, of
 /// some ten iterations; with BiCGStab, on so many unknowns that it takes the place of GMRES; and where BiCGStab does not come to a
-/// tight tolerance, so that GMRES follows it. Measured as resident memory less that of the processes themselves, on one
-/// rank and on two, with fields and without, which are written after that peak: example 1 with P1 and P2 at 66 thousand to 16.8
-/// million unknowns, and whole rings up to 0.86 million. Forecasts are within a fifth of all of these.
+/// tight tolerance, so that GMRES follows it, with as many vectors as from the start at most. Measured as resident memory less that
+/// of the processes themselves, on one rank and on two, with fields and without, which are written after that peak: example 1 with
+/// P1 and P2 at 66 thousand to 16.8 million unknowns, and whole rings up to 0.86 million. Forecasts are within a fifth of all of
+/// these; where GMRES follows they may be above by more.
 const BY_UNKNOWN: [f64; 3] = [250.0, 175.0, 250.0];
 
 /// Relative residual below which BiCGStab mostly stops too early.
