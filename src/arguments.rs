@@ -131,7 +131,7 @@ pub struct RunArguments {
 /// When a run shows where it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum ShowProgress {
-    /// On a terminal, also that of mpirun on this host, unless the run is quiet
+    /// On a terminal, also that of mpirun on this host; elsewhere a line each minute; nothing of a quiet run
     #[default]
     Auto,
     /// Always; for a pipe that ends at a terminal, as of srun or ssh

@@ -1,7 +1,7 @@
 //! Bodies that are heated: free growth, growth that is kept, exact solutions, estimates, what is told.
 
 use crate::support::mesh::{Mesh, grid, two_blocks, write_scene};
-use crate::support::{Run, pairs_on_ranks};
+use crate::support::{Run, mezha, pairs_on_ranks};
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -114,6 +114,24 @@ fn steps_scale_a_temperature() {
         steps.map_or(run.clone(), |steps| run.set("steps", steps)).converged().number("/probe/inside/stress/1")
     });
     assert!((whole + 7.0).abs() < 1e-9 && (stepped - whole).abs() < 1e-9, "{whole}, {stepped}");
+}
+
+/// `check` tells what heats a body, and the fields have its temperature; those of cold bodies have none.
+#[test]
+fn the_temperature_is_told_and_in_the_fields() {
+    let case = format!("{FREE}support.low = {{ on = \"low\", ux = 0, uy = 0 }}\n");
+    let (_folder, file) = scene(&block(), &format!("{case}body.block.temperature = \"20 + 7*x\"\n"));
+    let (code, said, _) = mezha(None, &["check", &file.display().to_string()]);
+    assert!(code == Some(0) && said.contains("body block: E = 7000, ν = 0.3, heated: α = 1e-5, ϑ = 20 + 7*x"), "{said}");
+    let fields = |run: Run| {
+        let folder = run.converged().into_folder();
+        let text = |name: &str| std::fs::read_to_string(folder.path().join("result").join(name)).expect("a file of fields");
+        (text("fields.pvtu"), text("fields_0001.vtu"))
+    };
+    let (all, piece) = fields(Run::file(&file).ranks(2));
+    assert!([all, piece].iter().all(|text| text.contains("Name=\"temperature\"")));
+    let cold = fields(Run::file(&file).ranks(2).set("body.block", "{ young = 7000.0, poisson = 0.3 }"));
+    assert!([cold.0, cold.1].iter().all(|text| text.contains("von_mises") && !text.contains("temperature")));
 }
 
 #[test]

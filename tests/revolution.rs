@@ -3,7 +3,7 @@
 use crate::support::mesh::{Mesh, grid, two_blocks, write_scene};
 use crate::support::{Ended, Run, pairs_on_ranks};
 use std::f64::consts::PI;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// Two round bars of radius 2 from the axis on, one on the other, that a pressure of 3 squeezes.
@@ -114,6 +114,54 @@ fn estimates_are_of_the_size_of_the_errors() {
         + outer.number("/errors/energy_norm_outer").powi(2) * energy("outer");
     let (error, estimate) = ((squares / inner.number("/energy/total")).sqrt(), inner.number("/estimate/energy"));
     assert!((0.8..2.0).contains(&(estimate / error)), "estimated {estimate:e}, true {error:e}");
+}
+
+/// Two balls, whichever comes first: the contact begins on the axis, and has the radius .02 and the largest pressure of Hertz. With the
+/// smaller ball first, Γ_C left the axis out, and the run did not converge.
+#[test]
+fn balls_press_alike_whichever_is_first() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/round_hertz/balls.toml");
+    for (between, ranks) in [("[\"lower.round\", \"upper.round\"]", 1), ("[\"upper.round\", \"lower.round\"]", 2)] {
+        let run = Run::file(&file).ranks(ranks).set("contact.seam.between", between).set("exact.must_hold", false);
+        let ended = run.set("accuracy", "{ peak = 1e-2, ends = 1e-2 }").converged();
+        let [from, to] = [0, 1].map(|end| ended.number(&format!("/contact/seam/closed/0/{end}")));
+        assert!(from.abs() < 1e-9 && (to / 0.02 - 1.0).abs() < 1e-2, "{between}: from {from} to {to}");
+        let peak = ended.number("/contact/seam/pressure_max");
+        assert!((peak / 5.147868779252679 - 1.0).abs() < 1e-2, "{between}: {peak}");
+    }
+}
+
+/// A rim under a plate that goes down: a line far from the axis, narrower than its distance from there. Γ_C lies about the crown
+/// and stays there: its middle was once the moment of the pressure by the force of the whole ring, and it ran to its own first end.
+#[test]
+fn a_contact_far_from_the_axis_stays_where_it_presses() {
+    let rim = grid(24, 6, 1, |u, v| [4.0 + 2.0 * u, v * (1.0 - 0.5 * (2.0 * u - 1.0).powi(2))]);
+    let mesh = Mesh { bodies: vec![("rim", rim, ["base", "", "crown", ""])] };
+    let case = r#"
+plane = "axisymmetric"
+mesh = { file = "mesh.msh", order = 2, refine = 2 }
+body.rim = { young = 1000.0, poisson = 0.3 }
+geometry.crown = { curves = ["crown"], x = "t", y = "1 - 0.5*(t - 5)^2", t = [4, 6] }
+support.base = { on = "base", uy = 0.0 }
+rigid.lid = { line = [[7, 1], [3, 1]], uy = -0.005 }
+contact.top = { between = ["crown", "rigid.lid"] }
+"#;
+    let (_folder, file) = scene(&mesh, case);
+    let [coarse, fine] = [(2, 1), (3, 2)].map(|(refine, ranks)| Run::file(&file).ranks(ranks).set("mesh.refine", refine).solved());
+    for ended in [&coarse, &fine] {
+        let place = ended.number("/contact/top/place/0");
+        assert!((place - 5.0).abs() < 0.01, "it acts at x = {place}");
+    }
+    let [coarse, fine] = [coarse, fine].map(|ended| ended.number("/contact/top/force"));
+    assert!((coarse / fine - 1.0).abs() < 0.03, "{coarse} and {fine}");
+}
+
+#[test]
+fn figures_show_the_axis() {
+    let (_folder, file) = scene(&two_blocks([(4, 3, 1), (5, 2, 2)]), BARS);
+    let folder = Run::file(&file).converged().into_folder();
+    let figure = std::fs::read_to_string(folder.path().join("result/deformed.svg")).expect("a figure");
+    assert!(figure.contains("stroke-dasharray=\"120 30 20 30\"") && figure.contains("radius x"));
 }
 
 #[test]

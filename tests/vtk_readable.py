@@ -48,6 +48,7 @@ def check_bodies(points, cells, kinds, point_data, cell_data, kind, body, rank):
         "displacement": [0.1 * x + y / 3.0, x * y, 0 * x],
         "stress": [x + y, x - y, x * y, 0.3 * x],
         "von_mises": 1e-7 * x + 1e7 * y,
+        "temperature": 20.0 + x - 3.0 * y,
     }
     assert set(point_data) == set(exact) and set(cell_data) == {"body", "part", "rank"}
     for name, values in exact.items():

@@ -23,6 +23,7 @@ fn write_rectangle(path: &Path, order: Order, corner: [f64; 2], rank: i32) {
     let displacement: Vec<[f64; 2]> = points.iter().map(|[x, y]| [0.1 * x + y / 3.0, x * y]).collect();
     let stress: Vec<[f64; 4]> = points.iter().map(|[x, y]| [x + y, x - y, x * y, 0.3 * x]).collect();
     let von_mises: Vec<f64> = points.iter().map(|[x, y]| 1e-7 * x + 1e7 * y).collect();
+    let temperature: Vec<f64> = points.iter().map(|[x, y]| 20.0 + x - 3.0 * y).collect();
     let piece = Piece {
         points: &points,
         cells,
@@ -30,6 +31,7 @@ fn write_rectangle(path: &Path, order: Order, corner: [f64; 2], rank: i32) {
         displacement: &displacement,
         stress: &stress,
         von_mises: &von_mises,
+        temperature: Some(&temperature),
         body: &[7, 8],
         part: &[9, 8],
         rank,
@@ -69,9 +71,11 @@ fn python_reads_what_was_written() {
     write_rectangle(&path(pieces[0]), Order::P2, [0.0, 0.0], 0);
     write_rectangle(&path(pieces[1]), Order::P2, [2.0, 0.0], 1);
     let (order, body, part) = (Order::P2, &[], &[]);
-    let empty = Piece { points: &[], cells: &[], order, displacement: &[], stress: &[], von_mises: &[], body, part, rank: 2 };
+    let (displacement, temperature) = (&[], Some(&[][..]));
+    let empty =
+        Piece { points: &[], cells: &[], order, displacement, stress: &[], von_mises: &[], temperature, body, part, rank: 2 };
     write_piece(&path(pieces[2]), &empty).unwrap();
-    write_parallel(&path("fields.pvtu"), &pieces).unwrap();
+    write_parallel(&path("fields.pvtu"), &pieces, true).unwrap();
     write_curve(&path("contact_arc.vtu"), &quarter_circle()).unwrap();
     assert!(fs::read_to_string(path("fields.pvtu")).unwrap().contains("fields_2.vtu"));
 

@@ -2,6 +2,7 @@
 
 use super::pair::{Configuration, GapChoice, Pair};
 use super::side::Side;
+use crate::element::Plane;
 use crate::geometry::{Curve, Point, Spline, chord_lengths, cross, turn_right};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering, Stretch};
 
@@ -17,6 +18,10 @@ pub const APART: f64 = 6.4e-2;
 /// Cosine of the angle between the outward normals of a place and of its foot (120 degrees) above which neither looks at the other:
 /// points half-way between round bodies are told by their feet for a third of a right angle on either side.
 const LOOKS_BACK: f64 = -0.5;
+
+/// Sine of the angle to a right one at which a side meets the axis of revolution as its own image: of a spline through vertices of a
+/// ball eight edges away from the pole, and of a curve that is known. The tip of a cone is neither.
+const SQUARE: [f64; 2] = [2e-2, 1e-9];
 
 /// Displacement of a boundary node.
 pub type Displacement<'a> = &'a dyn Fn(EdgeNode) -> Point;
@@ -59,6 +64,8 @@ pub struct SmoothSide {
     pub shift: Point,
     /// Whether Γ_C lies on this side, or on the other one, and has the normals of that; nothing if it lies between both.
     bears: Option<bool>,
+    /// Whether its first and its last node are poles of a body of revolution: on the axis, which it meets at a right angle.
+    poles: [bool; 2],
 }
 
 impl SmoothSide {
@@ -92,7 +99,10 @@ impl SmoothSide {
         let places: Vec<Point> = nodes.iter().map(smooth).collect();
         let points: Vec<Point> = nodes.iter().zip(&places).map(|(&node, place)| place + displacement(node)).collect();
         let (hand, degree) = (if falls { -1.0 } else { 1.0 }, numbering.level.order.degree());
-        Self::through(stretch.curve.clone(), places, points, hand, degree, closed)
+        let is_open_round = mesh.plane == Plane::Revolution && !closed;
+        let is_pole = |x: Point| is_open_round && x.x.abs() <= 1e-9 * along.norm() && is_square(&stretch.curve, x);
+        let poles = if falls { [ends[1], ends[0]] } else { ends }.map(is_pole);
+        Self { poles, ..Self::through(stretch.curve.clone(), places, points, hand, degree, closed) }
     }
 
     /// Through nodes at rest and as they lie now, with the shape as it is known.
@@ -114,7 +124,20 @@ impl SmoothSide {
             false => Curve::Spline(Spline::through_at(parameters.clone(), points)),
         };
         let (undeformed, deformed, shift) = (spline(&places), spline(&points), Point::zeros());
-        Self { places, points, parameters, hand, degree, shape, undeformed, deformed, closed, shift, bears: None }
+        Self {
+            places,
+            points,
+            parameters,
+            hand,
+            degree,
+            shape,
+            undeformed,
+            deformed,
+            closed,
+            shift,
+            bears: None,
+            poles: [false; 2],
+        }
     }
 
     /// The side begun at node `seam`, if it is closed, and with its shift from Γ_C (length).
@@ -143,6 +166,11 @@ impl SmoothSide {
     pub fn unrolled(&self, node: usize) -> f64 {
         let count = self.nodes();
         self.turn().map_or_else(|| self.parameters[node], |turn| self.parameters[node % count] + (node / count) as f64 * turn)
+    }
+
+    /// Nodes at which it meets the axis of revolution at a right angle: it goes on there as its own image.
+    pub fn poles(&self) -> impl Iterator<Item = usize> {
+        [0, self.places.len() - 1].into_iter().zip(self.poles).filter(|(_, is_pole)| *is_pole).map(|(node, _)| node)
     }
 
     /// Positions of the nodes in a configuration.
@@ -274,6 +302,13 @@ impl SmoothSide {
         };
         Some(SideGaps { now: initial + opened, at_rest: initial, facing, is_inside })
     }
+}
+
+/// Whether a curve meets the axis of revolution at a right angle in a place.
+fn is_square(curve: &Curve, place: Point) -> bool {
+    let [of_spline, of_known] = SQUARE;
+    let most = if matches!(curve, Curve::Spline(_)) { of_spline } else { of_known };
+    curve.tangent(curve.nearest(place)).y.abs() <= most
 }
 
 /// Whether points go round clockwise.

@@ -62,7 +62,7 @@ const MESHES: [(&str, &str, &str); 36] = [
 ];
 
 /// Texts after the good case, and what the words have beside the file.
-const TEXTS: [(&str, &str); 17] = [
+const TEXTS: [(&str, &str); 24] = [
     ("=", "line 9"),
     ("a = ", "line 9"),
     ("[mesh", "line 9"),
@@ -80,6 +80,13 @@ const TEXTS: [(&str, &str); 17] = [
     ("young = 7000", "unknown key"),
     ("[bodies.lower]", "bodies: unknown key; there are title, mesh"),
     ("support.\"a.b\".ux = 0", "missing; write on"),
+    ("plane = \"axisymmetric\"\nthickness = 2.0", "a body of revolution has none"),
+    ("plane = \"axisymmetric\"\ngravity.g = [1, 0]", "along the axis of revolution alone"),
+    ("plane = \"axisymmetric\"\nsupport.m = { body = \"upper\", mean = true, ux = 0.0 }", "moves along its axis alone"),
+    ("plane = \"axisymmetric\"\nload.m = { on = \"top\", rigid = true, moment = 1.0 }", "moves along its axis alone"),
+    ("plane = \"axisymmetric\"\nrigid.m = { circle = { centre = [0, 3], radius = 1 }, ux = 0.0 }", "moves along its axis alone"),
+    ("plane = \"axisymmetric\"\nload.p = { at = [0, 0], force = [1, 0] }", "nothing is radial"),
+    ("plane = \"axisymmetric\"\nexact.body.upper = { stress = [\"1\", \"1\", \"0\"] }", "lacks the hoop stress"),
 ];
 
 fn main() -> std::process::ExitCode {

@@ -46,10 +46,10 @@ impl CaseError {
 
     /// An error of TOML itself, with a remedy if one is known.
     pub(crate) fn of_syntax(file: &Path, text: &str, error: &toml::de::Error, remedy: &str) -> Self {
-        let before = &text[..error.span().map_or(0, |span| span.start)];
+        let (before, behind) = text.split_at(error.span().map_or(0, |span| span.start));
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-        let message = plain_syntax(error.message());
+        let message = decimal_comma(before, behind).unwrap_or_else(|| plain_syntax(error.message()));
         Self::of_file(file, format!("line {line}, column {column}: {message}{remedy}; the file is written in TOML, see toml.io"))
     }
 }
@@ -87,6 +87,15 @@ impl Display for Problem {
             (key, Some(value)) => write!(f, "{key} = {value}: {}", self.words),
         }
     }
+}
+
+/// Words for a number with a comma in the place of its dot, if the text breaks off at one.
+fn decimal_comma(before: &str, behind: &str) -> Option<String> {
+    let digits = |text: &str| text.chars().take_while(char::is_ascii_digit).count();
+    let whole = before.len() - before.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let decimals = digits(behind.strip_prefix(',')?);
+    let number = format!("{}.{}", &before[before.len() - whole..], &behind[1..1 + decimals]);
+    (whole > 0 && decimals > 0).then(|| format!("a number has a dot, not a comma; write {number}"))
 }
 
 /// What the reader of TOML says, in words for those who have written the file.

@@ -7,7 +7,7 @@
 use crate::contact::fit::halfway::{BEYOND, Halfway, halfway, parameters_between, sort};
 use crate::contact::pair::Pair;
 use crate::contact::smooth_side::SmoothSide;
-use crate::geometry::{Curve, FitSample, Spline};
+use crate::geometry::{Curve, FitSample, Point, Spline};
 use std::ops::Range;
 
 /// Spans at most.
@@ -77,11 +77,8 @@ impl Bisector {
             ));
         }
         let curves = sides.map(|side| side.curve(pair.configuration));
-        let fit = |points: &[Halfway]| {
-            let between = points.iter().filter(|point| point.is_between);
-            let samples: Vec<FitSample> = between.map(|point| (point.parameter, point.place, point.weight)).collect();
-            Curve::Spline(fit_by_the_data(&samples, pair.spans, turn))
-        };
+        let pole = pole_between(sides, nodes);
+        let fit = |points: &[Halfway]| Curve::Spline(fit_by_the_data(&samples(points, pole), pair.spans, turn));
         let mut curve = fit(&points);
         let whole = points[points.len() - 1].parameter - points[0].parameter;
         for correction in 0..MOST_CORRECTIONS {
@@ -103,6 +100,28 @@ impl Bisector {
         let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);
         Ok(Self { curve, limits })
     }
+}
+
+/// Parameter of the first side at which both sides meet the axis of revolution at a right angle, within these nodes.
+fn pole_between(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2]) -> Option<f64> {
+    let [first, second] = [0, 1].map(|k| sides[k].poles().find(|pole| nodes[k].contains(pole)));
+    second.and(first).map(|pole| sides[0].parameters[pole])
+}
+
+/// What the curve is fitted to, ascending: points half-way, and beyond a pole their images at the other side of the axis, without
+/// which the curve may meet the axis at any angle, and leave it.
+fn samples(points: &[Halfway], pole: Option<f64>) -> Vec<FitSample> {
+    let between = || points.iter().filter(|point| point.is_between);
+    let image = |at: f64| between().map(move |point| (2.0 * at - point.parameter, reflected(point.place), point.weight));
+    let mut samples: Vec<FitSample> = between().map(|point| (point.parameter, point.place, point.weight)).collect();
+    samples.extend(pole.into_iter().flat_map(image));
+    samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+    samples
+}
+
+/// The image of a point at the other side of the axis of revolution.
+fn reflected(x: Point) -> Point {
+    Point::new(-x.x, x.y)
 }
 
 /// The part of the curve that both sides see: the data, but up to the feet of the ends of a side and no farther. Least squares
@@ -165,7 +184,7 @@ mod tests {
     use crate::contact::pair::{Configuration, CurveChoice, EndRule};
     use crate::contact::samples::seam;
     use crate::element::Order;
-    use crate::geometry::{Point, turn_right};
+    use crate::geometry::turn_right;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{EdgeNode, Level, Numbering, Partition};
     use std::rc::Rc;

@@ -32,6 +32,11 @@ pub struct PointContact {
 }
 
 impl PointContact {
+    /// Whether it lies on the axis of revolution.
+    pub fn is_at_pole(&self) -> bool {
+        self.width == 0.0
+    }
+
     /// The contact between bodies in another plane.
     pub fn in_plane(self, plane: Plane) -> Self {
         Self { width: plane.width(self.place), ..self }
@@ -40,16 +45,16 @@ impl PointContact {
     /// Half width of what presses there with a force (per thickness; of the whole ring in bodies of revolution), by the compliance of both surfaces together (1/stress; Hertz);
     /// nothing if the sides conform.
     pub fn half_width(&self, force: f64, compliance: f64) -> Option<f64> {
-        let half = match self.width > 0.0 {
-            true => half_width(self.curvature, force / self.width, compliance),
-            false => ball_radius(self.curvature, force, compliance),
+        let half = match self.is_at_pole() {
+            true => ball_radius(self.curvature, force, compliance),
+            false => half_width(self.curvature, force / self.width, compliance),
         };
         half.filter(|half| half * self.roundest <= MOST_ROUND)
     }
 }
 
 /// The place where the gap between undeformed sides is smallest, within `reach` of `around` along body 1's side; nothing if it is
-/// smallest at an end of that.
+/// smallest at an end of that, unless both sides go on there as their own images at the axis of revolution.
 pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f64) -> Option<PointContact> {
     let curve = first.curve(Configuration::Reference);
     let gap = |t: f64| {
@@ -65,23 +70,51 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
         let gaps = (0..=places).filter(is_there).map(|k| (k, gap(at(k))));
         let (least, _) = gaps.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         if window == 0 && (least == 0 || least == places || !is_there(&(least - 1)) || !is_there(&(least + 1))) {
-            return None;
+            return at_pole([first, second], curve.point(at(least)), 2.0 * half / places as f64);
         }
         (middle, half) = (at(least), 2.0 * half / places as f64);
     }
-    let place = curve.point(middle);
+    Some(touching([first, second], curve.point(middle), bulge))
+}
+
+/// The contact of two sides at a pole of both that is no farther than a step from a place; nothing if there is none.
+fn at_pole(sides: [&SmoothSide; 2], x: Point, step: f64) -> Option<PointContact> {
+    let [one, _] = sides.map(|side| side.poles().map(|pole| side.places[pole]).find(|pole| (pole - x).norm() <= step));
+    let place = one.filter(|one| sides[1].poles().any(|pole| (sides[1].places[pole] - one).norm() <= step))?;
+    Some(touching(sides, Point::new(0.0, place.y), bulge_at_pole))
+}
+
+fn touching([first, second]: [&SmoothSide; 2], place: Point, bulge: fn(&SmoothSide, Point) -> f64) -> PointContact {
     let [one, other] = [bulge(first, place), bulge(second, place)];
-    Some(PointContact { place, curvature: one + other, roundest: one.abs().max(other.abs()), width: 1.0 })
+    PointContact { place, curvature: one + other, roundest: one.abs().max(other.abs()), width: 1.0 }
 }
 
 /// Curvature of a side at the place nearest to a point (1/length), positive where the body bulges: by the shape as it is known, since
 /// that of a spline through nodes is off by some 1e-4.
 fn bulge(side: &SmoothSide, x: Point) -> f64 {
+    let (t, step) = on_shape(side, x);
+    curvature(side, x, [t - step, t + step])
+}
+
+/// Curvature of a side at a pole: the shape may be known on one side of the axis only.
+fn bulge_at_pole(side: &SmoothSide, x: Point) -> f64 {
+    let (t, step) = on_shape(side, x);
+    let goes_out = side.shape().point(t + step).x > side.shape().point(t - step).x;
+    curvature(side, x, if goes_out { [t, t + step] } else { [t - step, t] })
+}
+
+/// Parameter of the place on a side's shape that is nearest to a point, and the part of it over which the curvature is taken.
+fn on_shape(side: &SmoothSide, x: Point) -> (f64, f64) {
+    let t = side.shape().nearest(x);
+    (t, ALONG * side.length() / side.shape().derivative(t).norm())
+}
+
+/// Mean curvature of a side's shape about a place between two of its parameters (1/length), positive where the body bulges.
+fn curvature(side: &SmoothSide, x: Point, [from, to]: [f64; 2]) -> f64 {
     let (curve, shape) = (side.curve(Configuration::Reference), side.shape());
-    let (t, half) = (shape.nearest(x), ALONG * side.length());
-    let step = half / shape.derivative(t).norm();
-    let turn = cross(shape.tangent(t - step), shape.tangent(t + step)).asin();
+    let turn = cross(shape.tangent(from), shape.tangent(to)).asin();
+    let t = 0.5 * (from + to);
     // A side goes from left to right, however its shape does.
     let along = curve.tangent(side.nearest(x, Configuration::Reference)).dot(&shape.tangent(t)).signum();
-    side.hand() * along * turn / (2.0 * half)
+    side.hand() * along * turn / ((to - from) * shape.derivative(t).norm())
 }

@@ -35,6 +35,8 @@ pub struct Piece<'a> {
     pub stress: &'a [[f64; 4]],
     /// Von Mises stress at each node.
     pub von_mises: &'a [f64],
+    /// Temperature of each node; nothing if no body is heated.
+    pub temperature: Option<&'a [f64]>,
     /// Number of the body of each triangle.
     pub body: &'a [i32],
     /// Number of the part, the physical surface, of each triangle.
@@ -52,16 +54,17 @@ pub fn write_piece(path: &Path, piece: &Piece) -> Result<(), OutputError> {
     write_file(path, "UnstructuredGrid", |out| piece.write(out))
 }
 
-/// Writes `fields.pvtu`, which joins the pieces of all ranks; their names are relative to its folder.
+/// Writes `fields.pvtu`, which joins the pieces of all ranks; their names are relative to its folder, and they have the field of
+/// temperatures or not.
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S]) -> Result<(), OutputError> {
+pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S], is_heated: bool) -> Result<(), OutputError> {
     write_file(path, "PUnstructuredGrid", |out| {
         writeln!(out, "<PPoints>\n{}\n</PPoints>", declaration("PDataArray", "Float64", "Points", 3, &[]) + "/>")?;
         writeln!(out, "<PPointData>")?;
-        for (name, components, labels) in [("displacement", 3, &[][..]), ("stress", 4, &STRESS_COMPONENTS), ("von_mises", 1, &[])]
-        {
+        let always = [("displacement", 3, &[][..]), ("stress", 4, &STRESS_COMPONENTS), ("von_mises", 1, &[])];
+        for (name, components, labels) in always.into_iter().chain(is_heated.then_some(("temperature", 1, &[][..]))) {
             writeln!(out, "{}/>", declaration("PDataArray", "Float64", name, components, labels))?;
         }
         writeln!(out, "</PPointData>\n<PCellData>")?;
@@ -135,6 +138,7 @@ impl Piece<'_> {
             ("the displacement", self.displacement.len(), nodes),
             ("the stress", self.stress.len(), nodes),
             ("the von Mises stress", self.von_mises.len(), nodes),
+            ("the temperature", self.temperature.map_or(nodes, <[f64]>::len), nodes),
             ("the list of parts", self.part.len(), self.body.len()),
             ("the list of nodes of the triangles", self.cells.len(), self.body.len() * self.nodes_per_cell()),
         ];
@@ -155,6 +159,9 @@ impl Piece<'_> {
         write_array(out, "displacement", 3, &[], 3 * points, displacement)?;
         write_array(out, "stress", 4, &STRESS_COMPONENTS, 4 * points, self.stress.iter().flatten().copied())?;
         write_array(out, "von_mises", 1, &[], points, self.von_mises.iter().copied())?;
+        if let Some(temperature) = self.temperature {
+            write_array(out, "temperature", 1, &[], points, temperature.iter().copied())?;
+        }
         writeln!(out, "</PointData>\n<CellData>")?;
         write_array(out, "body", 1, &[], cells, self.body.iter().copied())?;
         write_array(out, "part", 1, &[], cells, self.part.iter().copied())?;
@@ -310,6 +317,7 @@ mod tests {
             displacement: &points,
             stress: &[[1.0, 2.0, 3.0, 4.0]; 3],
             von_mises: &[5.0, 6.0, 7.0],
+            temperature: Some(&[20.0, -3.0, 1e3]),
             body: &[9],
             part: &[7],
             rank: 4,
@@ -318,6 +326,7 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(doubles(&decoded(&text, "displacement")), [0., 0., 0., 1., 0., 0., 0., 1., 0.]);
         assert_eq!(doubles(&decoded(&text, "stress")), [1.0, 2.0, 3.0, 4.0].repeat(3));
+        assert_eq!(doubles(&decoded(&text, "temperature")), [20.0, -3.0, 1e3]);
         assert_eq!(decoded(&text, "connectivity"), [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
         assert_eq!(decoded(&text, "offsets"), [3, 0, 0, 0]);
         assert_eq!(decoded(&text, "types"), [VTK_TRIANGLE]);
@@ -334,6 +343,7 @@ mod tests {
             displacement: &[[0.0; 2]; 3],
             stress: &[[0.0; 4]; 3],
             von_mises: &[0.0; 3],
+            temperature: None,
             body: &[0],
             part: &[0],
             rank: 0,
@@ -343,6 +353,8 @@ mod tests {
         assert!(matches!(refusal, OutputError::Length { found: 3, expected: 6, .. }), "{refusal}");
         let short = Piece { order: Order::P1, von_mises: &[0.0; 2], ..piece };
         assert!(write_piece(&folder.path().join("fields.vtu"), &short).unwrap_err().to_string().contains("von Mises"));
+        let hot = Piece { order: Order::P1, temperature: Some(&[1.0]), ..piece };
+        assert!(write_piece(&folder.path().join("fields.vtu"), &hot).unwrap_err().to_string().contains("temperature"));
         assert!(!folder.path().join("fields.vtu").exists());
     }
 
@@ -350,7 +362,7 @@ mod tests {
     fn curve_of_no_points_is_a_file() {
         let folder = tempfile::tempdir().unwrap();
         write_curve(&folder.path().join("contact_a.vtu"), &[]).unwrap();
-        write_parallel(&folder.path().join("fields.pvtu"), &["a&b.vtu"]).unwrap();
+        write_parallel(&folder.path().join("fields.pvtu"), &["a&b.vtu"], true).unwrap();
         assert!(std::fs::read_to_string(folder.path().join("fields.pvtu")).unwrap().contains("Source=\"a&amp;b.vtu\""));
     }
 }

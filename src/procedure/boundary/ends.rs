@@ -87,17 +87,24 @@ pub fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]>
     if pressing as f64 * half * touch.roundest > TELLING_BESIDE_A_FORCE {
         return None;
     }
+    // ∫λ ds and ∫λ s ds of a segment, of a line across which λ does not change: the force itself is that of the whole width.
     let of_segment = |k: usize| {
         let [start, end] = boundary.segment_arcs(k);
         let [a, b] = [0.0, 1.0].map(|z| multipliers.value(pressure.values, k, z));
-        (end - start) * (0.5 * (a + b) * start + (end - start) * (a + 2.0 * b) / 6.0)
+        let length = end - start;
+        [0.5 * length * (a + b), length * (0.5 * (a + b) * start + length * (a + 2.0 * b) / 6.0)]
     };
+    let sum = |all: [f64; 2], own: [f64; 2]| [all[0] + own[0], all[1] + own[1]];
+    let [pressed, moment] = (0..boundary.segments()).map(of_segment).fold([0.0; 2], sum);
     let knots = boundary.knots();
     let now = [knots[0], knots[knots.len() - 1]];
     let segment = boundary.length() / boundary.segments() as f64;
-    let middle = (0..boundary.segments()).map(of_segment).sum::<f64>() / force;
+    let middle = moment / pressed;
     let at = |arc: f64| boundary.parameter_at(arc).clamp(limits[0], limits[1]);
     let place = |middle: f64| [at(middle - half), at(middle + half)];
+    if touch.is_at_pole() {
+        return Some(place(boundary.arc(boundary.foot(touch.place))));
+    }
     if pressing >= TELLING {
         return Some(place(middle));
     }

@@ -103,8 +103,10 @@ fn wide_contact(scene: &Scene, numbering: &Numbering, pair: &Pair, first: usize)
         return Ok(WideContact { known, contact, touch: None });
     }
     let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact));
-    let at = touch.map(|touch| boundary.arc(boundary.foot(touch.place)) / boundary.length());
-    let fractions = graded_towards(at.filter(|at| (SHORTEST..=1.0 - SHORTEST).contains(at)));
+    let at = |touch: &PointContact| boundary.arc(boundary.foot(touch.place)) / boundary.length();
+    let is_inside = |at: &f64| (SHORTEST..=1.0 - SHORTEST).contains(at);
+    let at = touch.map(|touch| if touch.is_at_pole() { at(&touch).round() } else { at(&touch) });
+    let fractions = graded_towards(at.filter(|at| is_inside(at) || touch.is_some_and(|touch| touch.is_at_pole())));
     let graded = Pair { segments: SegmentRule::Fractions(fractions), grading: [1.0, 1.0], ..even };
     let contact = Contact::new(scene, numbering, 0, &graded, first, &known, &at_rest)?;
     Ok(WideContact { known, contact, touch })

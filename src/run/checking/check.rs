@@ -3,7 +3,7 @@
 use crate::body::{Body, Material};
 use crate::case::{Case, Matched, read_text};
 use crate::discretisation::Scene;
-use crate::element::{Order, Plane};
+use crate::element::{Heat, Order, Plane};
 use crate::mesh::MacroMesh;
 use crate::output::summary::{MOST_TOLD, listed};
 use crate::procedure::Procedure;
@@ -117,7 +117,11 @@ fn body_lines(bodies: &[Body]) -> Vec<String> {
             Plane::Stress => ", plane stress",
             Plane::Revolution => ", of revolution",
         };
-        let words = format!("E = {young}, ν = {poisson}{plane}");
+        let heat = part
+            .heat
+            .as_ref()
+            .map(|Heat { expansion, temperature }| format!(", heated: α = {expansion:?}, ϑ = {}", temperature.text()));
+        let words = format!("E = {young}, ν = {poisson}{plane}{}", heat.unwrap_or_default());
         let place = *places.entry(words.clone()).or_insert(of_materials.len());
         if place == of_materials.len() {
             of_materials.push((words, Vec::new()));

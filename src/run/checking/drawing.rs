@@ -3,6 +3,7 @@
 use crate::body::{Load, LoadKind, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
 use crate::contact::Pair;
+use crate::element::Plane;
 use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, MacroTriangle, Stretch};
 use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds};
@@ -116,6 +117,7 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
         contacts: contacts(case, mesh),
         supports: supports(case, mesh, &on),
         loads: loads(case, mesh, &on),
+        has_axis: mesh.plane == Plane::Revolution,
         remarks: Vec::new(),
     };
     // What has no place on the mesh.

@@ -1,8 +1,9 @@
 //! Case and mesh brought together: names resolved, geometries applied, macro triangles spread over ranks.
 
-use crate::body::Body;
+use crate::body::{Body, PointLoad};
 use crate::case::{Case, CaseError, LoadStep};
 use crate::discretisation::{self, Scene};
+use crate::element::Plane;
 use crate::geometry::{Coordinates, Formula, Point, Rounded};
 use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, touching_surfaces};
 use crate::petsc::Session;
@@ -196,6 +197,11 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
         let ([x, y], name) = (load.at.place.map(Rounded), &load.name);
         return Err(format!("load.{name}.force: has no finite value at its point ({x}, {y}); correct the formula"));
     }
+    let is_radial = |load: &&PointLoad| mesh.plane == Plane::Revolution && load.at.place[0] == 0.0 && load.force()[0] != 0.0;
+    if let Some(load) = case.point_loads.iter().find(is_radial) {
+        let words = "acts on the axis of revolution, where nothing is radial; its x component must be 0 there";
+        return Err(format!("load.{}.force: {words}", load.name));
+    }
     Ok(())
 }
 
@@ -208,7 +214,7 @@ fn check_temperatures(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
         let own = mesh.triangles.iter().filter(|triangle| mesh.parts[triangle.part as usize].name == part.name);
         for vertex in own.flat_map(|triangle| triangle.vertices) {
             let value = heat.temperature.finite_value(mesh.vertices[vertex as usize]);
-            value.map_err(|words| format!("{}: body.{key}.temperature: {words}", case.file.display()))?;
+            value.map_err(|words| format!("body.{key}.temperature: {words}"))?;
         }
     }
     Ok(())

@@ -27,16 +27,22 @@ pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize, usize) ->
     let displacement: Vec<[f64; 2]> = piece.nodes.iter().map(|&[_, node]| u.at(node)).collect();
     let stresses: Vec<[f64; 4]> = piece.nodes.iter().map(|&[part, node]| stress(part, node)).collect();
     let mises: Vec<f64> = stresses.iter().map(|&s| von_mises(s)).collect();
+    let scene = &problem.scene;
+    let temperature: Option<Vec<f64>> = scene.is_heated().then(|| {
+        let at = |(&[part, _], x): (&[usize; 2], &[f64; 2])| scene.heat(part).map_or(0.0, |heat| heat.temperature.value(x));
+        piece.nodes.iter().zip(&piece.places).map(at).collect()
+    });
     let file = folder.join(name(session.rank()));
     write_piece(
         &file,
         &Piece {
             points: &points,
             cells: &piece.cells,
-            order: problem.scene.order,
+            order: scene.order,
             displacement: &displacement,
             stress: &stresses,
             von_mises: &mises,
+            temperature: temperature.as_deref(),
             body: &piece.bodies,
             part: &piece.parts,
             rank: session.rank() as i32,
@@ -44,7 +50,7 @@ pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize, usize) ->
     )?;
     if session.size() > 1 && session.rank() == 0 {
         let pieces: Vec<String> = (0..session.size()).map(name).collect();
-        write_parallel(&folder.join("fields.pvtu"), &pieces)?;
+        write_parallel(&folder.join("fields.pvtu"), &pieces, scene.is_heated())?;
     }
     Ok(())
 }

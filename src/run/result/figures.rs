@@ -5,8 +5,9 @@ use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, Pair};
 use crate::discretisation::{Contact, Scene};
+use crate::element::Plane;
 use crate::mesh::MacroMesh;
-use crate::output::plot::{self, ContactZoom, DrawnContact, DrawnForce, Facet};
+use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, Facet};
 use crate::output::summary::MOST_WITH_FIGURES;
 use crate::output::{ContactPoint, Summary};
 use crate::recovery::Evaluation;
@@ -71,15 +72,24 @@ impl Run<'_> {
                 contacts.len()
             ));
         }
+        let has_axis = self.case.plane == Plane::Revolution;
         for (drawing, facets) in zooms.iter().zip(&zoomed).filter(|(_, facets)| !facets.is_empty()) {
             let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
-            plot::write_zoom(&folder.join(name), &drawing.zoom, &drawn[drawing.contact], facets)?;
+            plot::write_zoom(&folder.join(name), &drawing.zoom, &drawn[drawing.contact], facets, has_axis)?;
         }
         let forces = drawn_forces(&found.problem.scene, contacts, summary);
         // Where forces are many, their lines say where contacts are.
         let drawn = if contacts.len() > MOST_WITH_FIGURES { &[][..] } else { &drawn };
-        let path = folder.join("deformed.svg");
-        plot::write_deformed(&path, title(self.case), &facets, [&macro_edges, &interfaces], drawn, &forces)?;
+        let figure = DeformedFigure {
+            title: title(self.case),
+            facets: &facets,
+            macro_edges: &macro_edges,
+            interfaces: &interfaces,
+            contacts: drawn,
+            forces: &forces,
+            has_axis,
+        };
+        figure.write(&folder.join("deformed.svg"))?;
         adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation))
     }
 

@@ -1,12 +1,14 @@
-//! A line on a terminal that says where a long run is, rewritten in place; nothing of it goes to a pipe unless it is asked for.
+//! A line on a terminal that says where a long run is, rewritten in place; in a log, a pipe or a file, a line each minute.
 //!
 //! A thread of rank 0 writes it to standard error; the run itself only notes what it does. So there is a sign of life in the
 //! longest assembly, and no digit depends on it.
 
+use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::arguments::ShowProgress;
 use crate::output::clock;
 use crate::petsc::{SolveAtWork, solve_at_work};
 use crate::procedure::{Event, Work};
+use crate::run::accuracy;
 use rustix::fs::{Mode, OFlags};
 use std::fs::File;
 use std::io::{IsTerminal, Write, stderr};
@@ -19,6 +21,9 @@ use std::time::{Duration, Instant};
 /// How often the line is written. A run that ends before shows nothing.
 const PULSE: Duration = Duration::from_millis(500);
 const FIRST: Duration = Duration::from_secs(1);
+
+/// How often a log has a line: a job of hours has hundreds.
+const IN_LOG: Duration = Duration::from_secs(60);
 
 /// Columns of a terminal that does not tell how many it has.
 const COLUMNS: usize = 80;
@@ -39,6 +44,8 @@ struct RunPlace {
     refine: Option<(usize, usize)>,
     boundary: Option<usize>,
     set: Option<usize>,
+    /// What the last mesh that was adapted is estimated to be off by.
+    estimate: Option<String>,
 }
 
 /// A line that is shown while this is there.
@@ -48,6 +55,8 @@ struct ProgressLine {
     terminal: Option<File>,
     place: RunPlace,
     visible: bool,
+    /// Whether each line stays, one below the other.
+    is_log: bool,
 }
 
 static LINE: Mutex<Option<ProgressLine>> = Mutex::new(None);
@@ -56,22 +65,24 @@ fn lock() -> MutexGuard<'static, Option<ProgressLine>> {
     LINE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// From now on, on rank 0, the line is shown if it is wanted, and there is a terminal to show it on.
+/// From now on, on rank 0, the line is shown if it is wanted: on a terminal, or as lines of a log where there is none.
 pub fn begin(show: ShowProgress, is_first: bool, quiet: bool, started: Instant) {
     if !is_first || show == ShowProgress::Never {
         return;
     }
     let terminal = terminal();
-    let is_read = || !quiet && std::env::var_os("TERM").is_none_or(|term| term != "dumb") && terminal.is_some();
-    if !(show == ShowProgress::Always || is_read()) {
+    let is_read = terminal.is_some() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
+    if quiet && show != ShowProgress::Always {
         return;
     }
-    *lock() = Some(ProgressLine { started, terminal, place: RunPlace::default(), visible: false });
+    let is_log = show != ShowProgress::Always && !is_read;
+    let [first, pulse] = if is_log { [IN_LOG; 2] } else { [FIRST, PULSE] };
+    *lock() = Some(ProgressLine { started, terminal, place: RunPlace::default(), visible: false, is_log });
     // Without a thread there is no line, and no harm.
-    let _ = thread::Builder::new().name("progress".into()).spawn(|| {
-        thread::sleep(FIRST);
+    let _ = thread::Builder::new().name("progress".into()).spawn(move || {
+        thread::sleep(first);
         while draw() {
-            thread::sleep(PULSE);
+            thread::sleep(pulse);
         }
     });
 }
@@ -94,6 +105,9 @@ fn draw() -> bool {
     let mut line = lock();
     let Some(line) = &mut *line else { return false };
     let words = words(&line.place, solve_at_work(), line.started.elapsed());
+    if line.is_log {
+        return write(&format!("mezha: {words}\n"));
+    }
     // A line that wraps could not be rewritten, and one that fills its row wraps on some terminals.
     let cut: String = words.chars().take(line.columns() - 1).collect();
     line.visible = write(&format!("{ERASE}{cut}"));
@@ -181,10 +195,20 @@ impl RunPlace {
             Event::Begin(_) => (self.boundary, self.set) = (None, Some(1)),
             Event::Passed(pass, _) => self.set = Some(pass.iteration + 1),
             Event::Placed(step) => self.boundary = Some(step.iteration + 1),
-            Event::Adapted { mesh, .. } => self.mesh = Some(mesh.number + 1),
+            Event::Adapted { accuracy, mesh, .. } => {
+                self.mesh = Some(mesh.number + 1);
+                self.estimate = worst(accuracy, mesh);
+            }
             Event::AtRest { .. } | Event::Solver(_) | Event::Again { .. } => {}
         }
     }
+}
+
+/// The goal of which a mesh misses most, with its estimate and what is asked; nothing if nothing is known.
+fn worst(accuracy: &Accuracy, mesh: &AdaptedMesh) -> Option<String> {
+    let known = accuracy.goals.iter().zip(&mesh.errors).filter_map(|(goal, error)| Some((goal, (*error)?)));
+    let (goal, error) = known.max_by(|a, b| (a.1 / a.0.tolerance).total_cmp(&(b.1 / b.0.tolerance)))?;
+    Some(format!("{} {error:.1e} of {:.0e}", accuracy::name(&goal.quantity), goal.tolerance))
 }
 
 /// What the line says.
@@ -192,6 +216,7 @@ fn words(place: &RunPlace, solve: Option<SolveAtWork>, elapsed: Duration) -> Str
     let mut words = vec![clock(elapsed)];
     words.extend(place.step.map(|(number, count)| format!("step {number} of {count}")));
     words.extend(place.mesh.map(|number| format!("mesh {number}")));
+    words.extend(place.estimate.clone());
     words.extend(place.refine.filter(|(_, last)| *last > 0).map(|(now, last)| format!("refine {now} of {last}")));
     // What is looked at is over, and the numbers are those of the next.
     if !matches!(place.doing, Some((None | Some(Work::Recovery), _))) {

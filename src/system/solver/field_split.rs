@@ -68,6 +68,10 @@ fn set_options(
     let method = [("-ksp_type", method)];
     let is_redundant = preconditioning == Preconditioning::Factor && session.size() > 1 && unknowns <= MOST_REDUNDANT;
     let factor: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
+    // A factor before leaves its package behind, which goes with nothing else.
+    for (name, _) in preconditioning_options(Preconditioning::Factor).iter().chain(REDUNDANT_FACTOR) {
+        petsc::options::clear(session, name)?;
+    }
     let smoother = preconditioning_options(preconditioning);
     for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(coarse.options()).chain(smoother).chain(&method).chain(factor) {
         petsc::options::set_default(session, name, value)?;

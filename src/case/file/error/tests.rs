@@ -15,6 +15,19 @@ fn a_bad_file_is_named() {
 }
 
 #[test]
+fn a_number_with_a_comma_is_told() {
+    for (text, words) in [
+        ("[body.a]\nyoung = 7000,0\n", "line 2, column 13: a number has a dot, not a comma; write 7000.0; "),
+        ("x = -0,25", "line 1, column 7: a number has a dot, not a comma; write 0.25; "),
+    ] {
+        assert!(error_of(text, &[]).starts_with(words), "{}", error_of(text, &[]));
+    }
+    for text in ["x = 1,", "x = 1,y", "x = 'a',5"] {
+        assert!(!error_of(text, &[]).contains("comma; write"), "{}", error_of(text, &[]));
+    }
+}
+
+#[test]
 fn names_are_unique() {
     let words = error_of(&format!("{LEAST}[body.a]\nyoung = 2\n"), &[]);
     assert!(words.starts_with("line 5, column 7: duplicate key"), "{words}");

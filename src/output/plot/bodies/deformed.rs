@@ -9,6 +9,7 @@ use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
 use crate::output::plot::drawing::{
     Canvas, Chart, GREY, HEAD, INK, LegendCell, Paint, PlotRoom, VERMILION, WHITE, bounds, number_text, round_number,
+    up_to_the_axis,
 };
 
 /// An edge of the macro mesh as the figure shows it: undeformed points from end to end, and their displacements.
@@ -38,57 +39,71 @@ const BETWEEN: Paint = Paint::line(WHITE, 1.2);
 /// Room for the plot.
 const ROOM: PlotRoom = PlotRoom { most: [640.0, 560.0], least: [320.0, 220.0], around: 0.0 };
 
-/// Draws `deformed.svg`: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact boundaries.
+/// What `deformed.svg` shows: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact
+/// boundaries.
 ///
 /// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title
 /// states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
-/// themselves with the nearest boundary. Forces are lines, as wide as they are large. Areas of one colour are merged over
-/// triangles, which keeps the file small. Macro edges, if there are any, are thin lines on the deformed bodies, those between two
-/// materials thicker ones.
-///
-/// # Errors
-/// There is no facet, or a number is not finite; the operating system refuses.
-pub fn write_deformed(
-    path: &Path,
-    title: &str,
-    facets: &[Facet],
-    [macro_edges, interfaces]: [&[DrawnEdge]; 2],
-    contacts: &[DrawnContact],
-    forces: &[DrawnForce],
-) -> Result<(), OutputError> {
-    check_facets(path, facets)?;
-    let (scale, colours, boundary) = (automatic_scale(facets), Colours::of(facets), boundary_edges(facets));
-    let (mut canvas, chart) = plane(around(facets, scale));
-    let largest = forces.iter().map(DrawnForce::size).fold(0.0, f64::max);
-    let [widest, least] = FORCE_WIDTHS;
-    let forces: Vec<&DrawnForce> = forces.iter().filter(|force| force.size() * widest > least * largest).collect();
-    let mut legend = vec![LegendCell::lines("undeformed", &[Paint::line(GREY, 0.7)])];
-    if !contacts.is_empty() {
-        legend.push(LegendCell::lines("contact boundary", &CONTACT));
+/// themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DeformedFigure<'a> {
+    /// Stands above.
+    pub title: &'a str,
+    /// All bodies.
+    pub facets: &'a [Facet],
+    /// Edges of the macro mesh, thin lines on the deformed bodies.
+    pub macro_edges: &'a [DrawnEdge],
+    /// Edges between two materials, thicker ones.
+    pub interfaces: &'a [DrawnEdge],
+    /// Contact boundaries.
+    pub contacts: &'a [DrawnContact<'a>],
+    /// Forces: lines, as wide as they are large.
+    pub forces: &'a [DrawnForce],
+    /// Whether bodies of revolution are shown, with their axis.
+    pub has_axis: bool,
+}
+
+impl DeformedFigure<'_> {
+    /// Draws it.
+    ///
+    /// # Errors
+    /// There is no facet, or a number is not finite; the operating system refuses.
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        let Self { facets, contacts, .. } = *self;
+        check_facets(path, facets)?;
+        let (scale, colours, boundary) = (automatic_scale(facets), Colours::of(facets), boundary_edges(facets));
+        let shown = around(facets, scale);
+        let (mut canvas, chart) = plane(if self.has_axis { up_to_the_axis(shown) } else { shown }, self.has_axis);
+        let largest = self.forces.iter().map(DrawnForce::size).fold(0.0, f64::max);
+        let mut legend = vec![LegendCell::lines("undeformed", &[Paint::line(GREY, 0.7)])];
+        if !contacts.is_empty() {
+            legend.push(LegendCell::lines("contact boundary", &CONTACT));
+        }
+        if largest > 0.0 {
+            let words = format!("contact force, up to {}", number_text(largest));
+            legend.push(LegendCell::lines(words, &[Paint::line(VERMILION, 0.5 * FORCE_WIDTHS[0])]));
+        }
+        legend.extend(colours.remark());
+        chart.draw_head(&mut canvas, &format!("{}, displacements × {}", self.title, number_text(scale)), &[legend]);
+        draw_outlines(&mut canvas, &chart, &boundary, 0.0, GREY);
+        draw_stress(&mut canvas, &chart, facets, scale, &colours);
+        for (edges, paint) in [(self.macro_edges, THIN), (self.interfaces, BETWEEN)] {
+            canvas.lines(paint, edges.iter().map(|edge| edge.moved(scale).map(|x| chart.place(x))));
+        }
+        draw_outlines(&mut canvas, &chart, &boundary, scale, INK);
+        for contact in contacts {
+            let moved = moved_contact(contact, &boundary, scale);
+            CONTACT.iter().for_each(|paint| canvas.line(*paint, moved.iter().map(|x| chart.place(*x))));
+        }
+        let [widest, least] = FORCE_WIDTHS;
+        for force in self.forces.iter().filter(|force| force.size() * widest > least * largest) {
+            let paint = Paint::line(VERMILION, widest * force.size() / largest).faint(0.8);
+            canvas.line(paint, force.line(&boundary, scale).map(|x| chart.place(x)));
+        }
+        chart.draw_axes(&mut canvas, false);
+        draw_colour_bar(&mut canvas, &chart, &colours);
+        canvas.write(path)
     }
-    if !forces.is_empty() {
-        let words = format!("contact force, up to {}", number_text(largest));
-        legend.push(LegendCell::lines(words, &[Paint::line(VERMILION, 0.5 * widest)]));
-    }
-    legend.extend(colours.remark());
-    chart.draw_head(&mut canvas, &format!("{title}, displacements × {}", number_text(scale)), &[legend]);
-    draw_outlines(&mut canvas, &chart, &boundary, 0.0, GREY);
-    draw_stress(&mut canvas, &chart, facets, scale, &colours);
-    for (edges, paint) in [(macro_edges, THIN), (interfaces, BETWEEN)] {
-        canvas.lines(paint, edges.iter().map(|edge| edge.moved(scale).map(|x| chart.place(x))));
-    }
-    draw_outlines(&mut canvas, &chart, &boundary, scale, INK);
-    for contact in contacts {
-        let moved = moved_contact(contact, &boundary, scale);
-        CONTACT.iter().for_each(|paint| canvas.line(*paint, moved.iter().map(|x| chart.place(*x))));
-    }
-    for force in forces {
-        let paint = Paint::line(VERMILION, widest * force.size() / largest).faint(0.8);
-        canvas.line(paint, force.line(&boundary, scale).map(|x| chart.place(x)));
-    }
-    chart.draw_axes(&mut canvas, false);
-    draw_colour_bar(&mut canvas, &chart, &colours);
-    canvas.write(path)
 }
 
 impl DrawnEdge {
@@ -120,8 +135,8 @@ fn around(facets: &[Facet], scale: f64) -> [[f64; 2]; 2] {
 }
 
 /// A canvas for a box of the plane, with room for the bar of colours.
-pub fn plane(shown: [[f64; 2]; 2]) -> (Canvas, Chart) {
-    let chart = Chart::of_plane(shown, &ROOM, [HEAD, BAR_ROOM]);
+pub fn plane(shown: [[f64; 2]; 2], has_axis: bool) -> (Canvas, Chart) {
+    let chart = Chart::of_plane(shown, &ROOM, [HEAD, BAR_ROOM], has_axis);
     (Canvas::new(chart.panel.extent()), chart)
 }
 
@@ -147,8 +162,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deformed.svg");
         let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
-        write_deformed(&path, "blocks", facets, [&[], &[]], &[drawn(&contact)], &[])
-            .map(|()| std::fs::read_to_string(path).unwrap())
+        let figure = DeformedFigure { title: "blocks", facets, contacts: &[drawn(&contact)], ..DeformedFigure::default() };
+        figure.write(&path).map(|()| std::fs::read_to_string(path).unwrap())
     }
 
     #[test]
@@ -186,7 +201,7 @@ mod tests {
         let facets = block(0.0, 4, |_, _| [0.0, 1e-3], |_, _| 1.0);
         let force = |x: f64, size: f64| DrawnForce { place: [x, 0.5], force: [0.0, size], reach: 0.25, is_deformed: false };
         let forces = [force(0.2, 8.0), force(0.5, -4.0), force(0.8, 0.0), force(0.9, f64::NAN), force(0.9, 1e-3)];
-        write_deformed(&path, "blocks", &facets, [&[], &[]], &[], &forces).unwrap();
+        DeformedFigure { facets: &facets, forces: &forces, ..DeformedFigure::default() }.write(&path).unwrap();
         let figure = std::fs::read_to_string(path).unwrap();
         let widths = [90, 45].map(|width| figure.matches(&format!("stroke-width=\"{width}\"")).count());
         // The line of the legend is half as wide as that of the largest force.
@@ -204,7 +219,7 @@ mod tests {
         let edge = |x: f64| DrawnEdge([0.0, 0.5, 1.0].map(|y| ([x, y], [0.0, 1e-3 * y])).into());
         let mut edges = vec![edge(0.0), edge(0.25), edge(0.5)];
         edges[2].0[1].1 = [f64::NAN, 0.0];
-        write_deformed(&path, "blocks", &facets, [&edges, &[]], &[], &[]).unwrap();
+        DeformedFigure { facets: &facets, macro_edges: &edges, ..DeformedFigure::default() }.write(&path).unwrap();
         let figure = std::fs::read_to_string(path).unwrap();
         let is_mesh = |line: &&str| line.contains("opacity=\"0.75\"");
         let lines: Vec<&str> = figure.lines().filter(is_mesh).collect();
@@ -213,6 +228,24 @@ mod tests {
         let moved: Vec<[f64; 2]> = edges[1].moved(100.0).collect();
         assert!(moved[0] == [0.25, 0.0] && (moved[2][1] - 1.1).abs() < 1e-12, "{moved:?}");
         assert!(!draw(&facets).unwrap().lines().any(|line| is_mesh(&line)), "no mesh unless there are macro edges");
+    }
+
+    /// The axis is shown where bodies are no farther from it than they are wide; where it lies far away, the title of x says radius.
+    #[test]
+    fn bodies_of_revolution_are_drawn_with_their_axis() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deformed.svg");
+        for (left, axes) in [(0.0, 1), (0.8, 1), (3.0, 0)] {
+            let facets = block(left, 4, |_, _| [0.0, 1e-3], |_, _| 1.0);
+            let figure = DeformedFigure { facets: &facets, has_axis: true, ..DeformedFigure::default() };
+            figure.write(&path).unwrap();
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert_eq!(text.matches("stroke-dasharray=\"120 30 20 30\"").count(), axes, "bodies from x = {left} on");
+            assert!(text.contains("radius x"));
+            DeformedFigure { has_axis: false, ..figure }.write(&path).unwrap();
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(!text.contains("stroke-dasharray") && !text.contains("radius"), "in the plane there is none");
+        }
     }
 
     #[test]

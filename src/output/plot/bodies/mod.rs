@@ -8,6 +8,6 @@ mod samples;
 mod stress;
 mod zoom;
 
-pub use deformed::{DrawnEdge, DrawnForce, write_deformed};
+pub use deformed::{DeformedFigure, DrawnEdge, DrawnForce};
 pub use facets::Facet;
 pub use zoom::{ContactZoom, write_zoom};

@@ -70,14 +70,20 @@ fn pressing(points: &[ContactPoint], [from, to]: [f64; 2]) -> impl Iterator<Item
 /// names, and the pressure on the contact boundary.
 ///
 /// Displacements are drawn as they are: with any other factor bodies whose gap closes would overlap, or stay apart. The facets
-/// are those that [`ContactZoom::shows`].
+/// are those that [`ContactZoom::shows`]; bodies of revolution have an axis.
 ///
 /// # Errors
 /// There is no facet, or a number is not finite; the operating system refuses.
-pub fn write_zoom(path: &Path, zoom: &ContactZoom, contact: &DrawnContact, facets: &[Facet]) -> Result<(), OutputError> {
+pub fn write_zoom(
+    path: &Path,
+    zoom: &ContactZoom,
+    contact: &DrawnContact,
+    facets: &[Facet],
+    has_axis: bool,
+) -> Result<(), OutputError> {
     check_facets(path, facets)?;
     let (colours, boundary) = (Colours::of(facets), boundary_edges(facets));
-    let (mut canvas, chart) = plane(zoom.frame);
+    let (mut canvas, chart) = plane(zoom.frame, has_axis);
     let (profile, largest) = profile(zoom, contact, &boundary);
     let [from, to] = zoom.interval.map(number_text);
     let title = format!("{}, s = {from} to {to}, displacements × 1", contact.title);

@@ -11,6 +11,8 @@ use super::scale::{LABEL, Scale};
 const TITLE: f64 = 34.0;
 /// Room below a plot for its horizontal axis (pixels).
 const BELOW: f64 = 54.0;
+/// What is shown behind the axis of revolution, as a share of the largest radius.
+const BEHIND_AXIS: f64 = 0.03;
 /// Length of the ticks (pixels).
 const TICK: f64 = 4.0;
 /// Above the plot of a figure: its title, one row of its legend, and some room (pixels).
@@ -36,6 +38,8 @@ pub struct Chart {
     pub panel: Frame,
     x: Scale,
     y: Scale,
+    /// Whether the line x = 0 is the axis of bodies of revolution.
+    has_axis: bool,
 }
 
 impl Chart {
@@ -43,21 +47,23 @@ impl Chart {
     pub fn new(panel: Frame, [above, beside]: [f64; 2], x: Scale, y: Scale) -> Self {
         let [left, top, right, bottom] = panel.0;
         let frame = Frame([left + y.room(), top + above, right - beside, bottom - BELOW]);
-        Self { frame, panel, x, y }
+        Self { frame, panel, x, y, has_axis: false }
     }
 
-    /// A box of the plane without distortion, given by its lower left and upper right corner.
-    pub fn of_plane([low, high]: [[f64; 2]; 2], room: &PlotRoom, margins: [f64; 2]) -> Self {
+    /// A box of the plane without distortion, given by its lower left and upper right corner; of bodies of revolution with their
+    /// axis.
+    pub fn of_plane([low, high]: [[f64; 2]; 2], room: &PlotRoom, margins: [f64; 2], has_axis: bool) -> Self {
         let needed = [0, 1].map(|axis| high[axis] - low[axis]);
         let inner = room.most.map(|most| most - 2.0 * room.around);
         let pixels_per_length = (inner[0] / needed[0]).min(inner[1] / needed[1]);
         let pixels = [0, 1].map(|axis| (needed[axis] * pixels_per_length + 2.0 * room.around).max(room.least[axis]).round());
-        let [x, y] = [(0, "x"), (1, "y")].map(|(axis, name)| {
+        let across = if has_axis { "radius x" } else { "x" };
+        let [x, y] = [(0, across), (1, "y")].map(|(axis, name)| {
             let (middle, half) = (0.5 * (low[axis] + high[axis]), 0.5 * pixels[axis] / pixels_per_length);
             Scale::linear([middle - half, middle + half], (pixels[axis] / 80.0).ceil() as usize, name, "length")
         });
         let extent = [pixels[0] + y.room() + margins[1], pixels[1] + margins[0] + BELOW];
-        Self::new(Frame::at([0.0; 2], extent), margins, x, y)
+        Self { has_axis, ..Self::new(Frame::at([0.0; 2], extent), margins, x, y) }
     }
 
     /// Where values of both axes are on the canvas.
@@ -93,6 +99,11 @@ impl Chart {
         canvas.line(line, [[left, top], [left, bottom], [right, bottom]]);
         across.iter().for_each(|(x, words)| canvas.text(label(TextAnchor::Middle), [*x, bottom + TICK + 9.0], words));
         up.iter().for_each(|(y, words)| canvas.text(label(TextAnchor::End), [left - TICK - 4.0, *y], words));
+        let [from, to] = self.x.range;
+        if self.has_axis && from <= 0.0 && 0.0 <= to {
+            let [x, _] = self.place([0.0, 0.0]);
+            canvas.line(Paint::line(GREY, 0.9).dash_dotted(), [[x, top], [x, bottom]]);
+        }
         let [middle, height] = self.frame.middle();
         let name = Letters::new(12.0, INK).at(TextAnchor::Middle);
         canvas.text(name, [middle, bottom + BELOW - 16.0], &self.x.name);
@@ -108,6 +119,13 @@ pub struct PlotRoom {
     pub least: [f64; 2],
     /// What lies around the part that is shown.
     pub around: f64,
+}
+
+/// A box of the plane with the axis of revolution in it, if that is no farther away than the box is wide.
+pub fn up_to_the_axis([low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let width = high[0] - low[0];
+    let left = if low[0] <= width { low[0].min(-BEHIND_AXIS * high[0]) } else { low[0] };
+    [[left, low[1]], high]
 }
 
 /// Lower left and upper right corner of the box around all points; the corners lie at infinity if there are none.

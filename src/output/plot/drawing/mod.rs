@@ -15,7 +15,7 @@ mod scale;
 mod ticks;
 
 pub use canvas::Canvas;
-pub use chart::{Chart, HEAD, PlotRoom, bounds, head, head_height};
+pub use chart::{Chart, HEAD, PlotRoom, bounds, head, head_height, up_to_the_axis};
 pub use frame::Frame;
 pub use legend::{LegendCell, draw_mark, style_colour};
 pub use letters::{Letters, TextAnchor, text_width};

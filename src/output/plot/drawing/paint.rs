@@ -62,18 +62,18 @@ pub struct Paint {
     fill: Option<Colour>,
     line: Option<(Colour, f64)>,
     opacity: f64,
-    is_dashed: bool,
+    dashes: Option<&'static str>,
 }
 
 impl Paint {
     /// A line of a width (pixels).
     pub const fn line(colour: Colour, width: f64) -> Self {
-        Self { fill: None, line: Some((colour, width)), opacity: 1.0, is_dashed: false }
+        Self { fill: None, line: Some((colour, width)), opacity: 1.0, dashes: None }
     }
 
     /// An area of one colour.
     pub const fn fill(colour: Colour) -> Self {
-        Self { fill: Some(colour), line: None, opacity: 1.0, is_dashed: false }
+        Self { fill: Some(colour), line: None, opacity: 1.0, dashes: None }
     }
 
     /// An area with a line around it, of a width (pixels).
@@ -88,7 +88,12 @@ impl Paint {
 
     /// In dashes.
     pub const fn dashed(self) -> Self {
-        Self { is_dashed: true, ..self }
+        Self { dashes: Some("60 40"), ..self }
+    }
+
+    /// In dashes and dots, as axes are.
+    pub const fn dash_dotted(self) -> Self {
+        Self { dashes: Some("120 30 20 30"), ..self }
     }
 }
 
@@ -101,8 +106,8 @@ impl Display for Paint {
         if let Some((colour, width)) = self.line {
             write!(f, " stroke=\"{colour}\" stroke-width=\"{:.0}\"", 10.0 * width)?;
         }
-        if self.is_dashed {
-            write!(f, " stroke-dasharray=\"60 40\"")?;
+        if let Some(dashes) = self.dashes {
+            write!(f, " stroke-dasharray=\"{dashes}\"")?;
         }
         if self.opacity < 1.0 { write!(f, " opacity=\"{}\"", self.opacity) } else { Ok(()) }
     }

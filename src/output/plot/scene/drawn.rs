@@ -92,6 +92,8 @@ pub struct SceneFigure {
     pub supports: Vec<DrawnSupport>,
     /// Loads.
     pub loads: Vec<DrawnLoad>,
+    /// Whether the bodies are bodies of revolution, drawn with their axis.
+    pub has_axis: bool,
     /// What is wrong with the case.
     pub remarks: Vec<String>,
 }

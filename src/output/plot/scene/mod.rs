@@ -8,7 +8,7 @@ mod supports;
 
 pub use drawn::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure};
 
-use super::drawing::{BLUE, Canvas, Chart, GREEN, HEAD, LegendCell, Letters, Paint, PlotRoom, VERMILION, bounds};
+use super::drawing::{BLUE, Canvas, Chart, GREEN, HEAD, LegendCell, Letters, Paint, PlotRoom, VERMILION, bounds, up_to_the_axis};
 use scene_plot::ScenePlot;
 
 /// Room for the plot, with marks and names around the bodies.
@@ -23,7 +23,7 @@ const RIGHT: f64 = 18.0;
 impl SceneFigure {
     /// The text of an SVG file; None if there is no triangle with finite corners. What is wrong stands below the axes.
     pub fn svg(&self) -> Option<String> {
-        let chart = Chart::of_plane(self.shown()?, &ROOM, [HEAD, RIGHT]);
+        let chart = Chart::of_plane(self.shown()?, &ROOM, [HEAD, RIGHT], self.has_axis);
         let [width, height] = chart.panel.extent();
         let mut canvas = Canvas::new([width, height + REMARK * self.remarks.len() as f64]);
         let legend = [("contact", BLUE, 4.0), ("support", GREEN, 2.0), ("load", VERMILION, 2.0)];
@@ -52,6 +52,9 @@ impl SceneFigure {
         let near = TOOLS * (high[0] - low[0]).max(high[1] - low[1]);
         for axis in [0, 1] {
             (low[axis], high[axis]) = (least[axis].max(low[axis] - near), most[axis].min(high[axis] + near));
+        }
+        if self.has_axis {
+            [low, high] = up_to_the_axis([low, high]);
         }
         let is_size = |size: f64| size.is_finite() && size > 0.0;
         (0..2).all(|axis| is_size(high[axis] - low[axis])).then_some([low, high])
