@@ -114,6 +114,32 @@ fn first_cases_of_many_meshes_can_be_checked() {
     }
 }
 
+/// What a mesh says by its names and by how it is drawn: a case without a load for bodies that reach into each other, one that pulls
+/// where a name says so, or where a push would open every contact, and one that holds a grip, whatever its side.
+#[test]
+fn loads_are_those_that_names_and_the_drawing_tell() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let new = |seam: f64, names: [&'static str; 3]| {
+        let mut mesh = two_blocks([(3, 2, 1), (4, 2, 2)]);
+        mesh.bodies[1].1 = crate::support::mesh::grid(4, 2, 2, |u, v| [2.0 * u, seam + v]);
+        let [base, right, top] = names;
+        (mesh.bodies[0].2[0], mesh.bodies[1].2[1], mesh.bodies[1].2[2]) = (base, right, top);
+        std::fs::write(folder.path().join("mesh.msh"), mesh.text()).expect("a mesh can be written");
+        std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case")
+    };
+    let text = new(0.95, ["bottom", "right", "upper.end"]);
+    assert!(
+        text.contains("# Bodies are drawn into each other: that interference is the load.") && text.contains("0.05 into each")
+    );
+    assert!(!text.lines().any(|line| line.starts_with("[load.") || line.starts_with("body_force")), "{text}");
+    let text = new(1.0, ["gripBelow", "right", "bolt.pull"]);
+    assert!(text.contains("# held: by its name") && text.contains("# pulled: by its name"), "{text}");
+    let force = text.lines().find(|line| line.starts_with("force = ")).expect("a force");
+    assert!(force.starts_with("force = [0.0, ") && !force.contains('-'), "{force}");
+    let text = new(1.0, ["bottom", "right", "top"]);
+    assert!(text.contains("# pressed: by its name") && text.contains("force = [0.0, -"), "{text}");
+}
+
 #[test]
 fn what_is_no_mesh_is_told() {
     let (code, output, errors) = mezha(None, &["new", "nowhere.msh"]);

@@ -38,6 +38,14 @@ pub enum OutputError {
         /// What could not be done.
         source: Box<OutputError>,
     },
+    /// The result is whole, and in another place than it was meant for.
+    #[error("{source}; nothing is lost: the result is in `{}`", place.display())]
+    Elsewhere {
+        /// The folder of the result.
+        place: PathBuf,
+        /// Why it is not where it was meant to be.
+        source: Box<OutputError>,
+    },
     /// The operating system refused.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {

@@ -122,7 +122,7 @@ impl Procedure<'_> {
         let late = self.session.any(late);
         let all = [
             (!solved.is_solved(), SequenceEnd::Unsolved),
-            (adaptation.is_reached(), SequenceEnd::Reached),
+            (solved.is_idle(self.session) || adaptation.is_reached(), SequenceEnd::Reached),
             (late, SequenceEnd::Seconds),
             (self.is_unbounded(adaptation, solved), SequenceEnd::Unbounded),
             (is_stuck(adaptation), SequenceEnd::Stuck),

@@ -6,6 +6,7 @@ use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::ending::Ending;
 use crate::procedure::estimates::Estimate;
+use crate::petsc::Session;
 use crate::procedure::sets::Pass;
 use crate::system::Preconditioning;
 
@@ -80,6 +81,13 @@ impl Solved {
         let earlier = self.adaptation.iter().flat_map(|adaptation| &adaptation.meshes).flat_map(|mesh| mesh.cycles.clone());
         let all = if self.adaptation.is_some() { earlier.collect() } else { self.cycles() };
         all.iter().map(|[unknowns, iterations]| (unknowns * iterations) as f64).sum::<f64>() / self.problem.unknown_count() as f64
+    }
+
+    /// Whether nothing moves and nothing presses, since nothing acts. The same on every rank. **Collective**
+    pub fn is_idle(&self, session: &Session) -> bool {
+        let Solution { displacement, multipliers, .. } = &self.solution;
+        let acts = displacement.iter().chain(multipliers).any(|value| *value != 0.0);
+        !session.any(acts) && self.is_solved()
     }
 
     /// Whether there are displacements to look at.

@@ -23,6 +23,9 @@ const APART: f64 = 0.5;
 /// A further pair of two bodies is as near as this share of the smaller one.
 const TOUCHING: f64 = 0.02;
 
+/// Edges that turn by more than this from one to the next (radians, 31 degrees) meet at a corner.
+const WIDEST_TURN: f64 = 0.541;
+
 /// Two named boundaries that may come in contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClosePair {
@@ -30,7 +33,7 @@ pub struct ClosePair {
     pub between: [String; 2],
     /// Indices of their bodies.
     pub bodies: [usize; 2],
-    /// Least distance at which they face each other (length); negative where they overlap.
+    /// Least distance at which they face each other (length); where they overlap, the largest depth, negative.
     pub distance: f64,
     /// Size of that distance as a share of the smaller body.
     pub share: f64,
@@ -57,6 +60,8 @@ pub struct CloseSide {
     /// Lowest and highest coordinates, and the largest distance of two places.
     around: [Point; 2],
     spacing: f64,
+    /// How far its straight edges lie from the curve that they are drawn for (length).
+    bow: f64,
 }
 
 impl CloseSide {
@@ -79,7 +84,7 @@ impl CloseSide {
         let sights = edges.iter().step_by(step).flat_map(on_edge).collect();
         let length = edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
         edges.sort_unstable();
-        Some(Self::new(Some(body), edges, length, sights))
+        Some(Self { bow: bow(mesh, &edges), ..Self::new(Some(body), edges, length, sights) })
     }
 
     /// The surface of a rigid tool, which may look to either side of its curves.
@@ -106,7 +111,7 @@ impl CloseSide {
         let wider = |[low, high]: [Point; 2], sight: &Sight| [low.inf(&sight.place), high.sup(&sight.place)];
         let around = sights.iter().fold(nothing, wider);
         let spacing = sights.iter().map(|sight| sight.spacing).fold(0.0, f64::max);
-        Self { body, edges, length, sights, around, spacing }
+        Self { body, edges, length, sights, around, spacing, bow: 0.0 }
     }
 
     /// Places of the side that are within a distance of the box around another side.
@@ -115,12 +120,14 @@ impl CloseSide {
         self.sights.iter().filter(|sight| sight.place >= low && sight.place <= high).collect()
     }
 
-    /// Least distance along a normal at which another side is faced within `reach`, over a length.
+    /// Least distance along a normal at which another side is faced within `reach`, over a length; where they overlap by more than
+    /// their straight edges do, the largest depth, as a negative number.
     fn distance(&self, other: &Self, reach: f64) -> Option<f64> {
-        let (mut least, mut is_faced) = (None::<f64>, false);
+        let (mut nearest, mut deepest, mut is_faced) = (None::<f64>, 0.0_f64, false);
         let farthest = 1.5 * reach + self.spacing + other.spacing;
         let others = other.near(self, farthest);
         for a in self.near(other, farthest) {
+            let mut own = None::<f64>;
             for b in others.iter().filter(|b| a.normal.dot(&b.normal) < OPPOSITE) {
                 let way = b.place - a.place;
                 let along = way.dot(&a.normal);
@@ -128,12 +135,15 @@ impl CloseSide {
                 // What lies behind is an overlap only if it is small.
                 let near = (-CLOSE * reach..=reach).contains(&along) && aside <= 0.5 * along.abs() + a.spacing + b.spacing;
                 is_faced |= near && !a.is_end && !b.is_end;
-                if near && least.is_none_or(|least| along.abs() < least.abs()) {
-                    least = Some(along);
+                if near && own.is_none_or(|own| along.abs() < own.abs()) {
+                    own = Some(along);
                 }
             }
+            deepest = deepest.min(own.unwrap_or_default());
+            nearest = own.into_iter().chain(nearest).min_by(|a, b| a.abs().total_cmp(&b.abs()));
         }
-        least.filter(|_| is_faced)
+        let bows = 2.0 * (self.bow + other.bow);
+        nearest.filter(|_| is_faced).map(|nearest| if deepest < -bows { deepest } else { nearest })
     }
 
     /// Whether this side and another have an edge in common.
@@ -141,6 +151,23 @@ impl CloseSide {
         let (few, many) = if self.edges.len() < other.edges.len() { (self, other) } else { (other, self) };
         few.edges.iter().any(|edge| many.edges.binary_search(edge).is_ok())
     }
+}
+
+/// How far straight edges that follow each other lie from the curve that they are drawn for (length): an edge h of a curve that turns
+/// by θ from one edge to the next is off by h θ/8. Larger turns are corners.
+fn bow(mesh: &MacroMesh, edges: &[u32]) -> f64 {
+    let mut before: HashMap<u32, u32> = HashMap::new();
+    let mut most = 0.0_f64;
+    for &edge in edges.iter().filter(|&&edge| mesh.edges[edge as usize].shape.is_none()) {
+        for vertex in mesh.edges[edge as usize].vertices {
+            let Some(other) = before.insert(vertex, edge) else { continue };
+            let turn = mesh.edge_normal(edge, 0.5).angle(&mesh.edge_normal(other, 0.5));
+            if turn <= WIDEST_TURN {
+                most = most.max(mesh.edge_length(edge).max(mesh.edge_length(other)) * turn / 8.0);
+            }
+        }
+    }
+    most
 }
 
 /// Two sides of different bodies that face each other, by their indices.

@@ -79,9 +79,12 @@ pub fn retire(old: &Path, new: &Path, own: &OwnFiles) -> Result<(), OutputError>
     fs::remove_dir_all(old).map_err(OutputError::io("remove", old))
 }
 
-/// The same of the files within the folder `inner` of both; what the old result has written stays where it is. A file whose name
-/// the new result has, too, gets another one.
-fn carry_over(old: &Path, new: &Path, inner: &Path, own: &OwnFiles) -> Result<(), OutputError> {
+/// Carries the files within the folder `inner` of an old result to a new one; what the old result has written stays where it is. A
+/// file whose name the new result has, too, gets another one.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn carry_over(old: &Path, new: &Path, inner: &Path, own: &OwnFiles) -> Result<(), OutputError> {
     let folder = old.join(inner);
     make_writable(&folder);
     for entry in entries(&folder)? {

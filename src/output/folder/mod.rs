@@ -2,6 +2,7 @@
 
 mod entries;
 mod leftover;
+mod mounted;
 mod own_files;
 
 pub use entries::{entries, remove_if_there};
@@ -19,7 +20,11 @@ use rustix::fs::{CWD, RenameFlags, renameat_with};
 use crate::output::error::OutputError;
 use crate::output::summary::Summary;
 use leftover::{make_hidden, remove_empty, retire};
+use mounted::{is_bare, is_mount_point, move_in};
 use own_files::{OwnFiles, SUMMARY, names_within};
+
+/// What a result is called within a mount point while it is written.
+const WITHIN: &str = "result";
 
 /// How often, and after which time, it is tried to remove a folder that other ranks still write to.
 const MOST_TRIES: usize = 5;
@@ -42,6 +47,8 @@ pub struct ResultFolder {
     _lock: Option<File>,
     /// A file of the replaced result that stays.
     kept: Option<PathBuf>,
+    /// Whether the target is a mount point: the temporary folder is within it then.
+    is_mounted: bool,
     committed: bool,
 }
 
@@ -59,14 +66,17 @@ impl ResultFolder {
         }
         // Without dots and slashes at its end, which a folder cannot be renamed to.
         let out = &out.components().collect::<PathBuf>();
-        recover(out);
+        let is_mounted = is_mount_point(out);
+        let place = &if is_mounted { out.join(WITHIN) } else { out.clone() };
+        recover(place);
         let replaced = match holds_result(out, force)? {
             true => Some(File::open(out).map_err(OutputError::io("open", out))?),
             false => None,
         };
-        let (temporary, made_above) = make_hidden(out).map_err(OutputError::io("create a folder beside", out))?;
+        let (temporary, made_above) = make_hidden(place).map_err(OutputError::io("create a folder beside", place))?;
         let lock = File::open(&temporary).ok().filter(|folder| folder.try_lock().is_ok());
-        Ok(ResultFolder { target: out.to_path_buf(), temporary, made_above, replaced, _lock: lock, kept: None, committed: false })
+        let target = out.to_path_buf();
+        Ok(ResultFolder { target, temporary, made_above, replaced, _lock: lock, kept: None, is_mounted, committed: false })
     }
 
     /// The temporary folder, by its path from the root.
@@ -109,17 +119,34 @@ impl ResultFolder {
     ///
     /// # Errors
     /// [`OutputError::Overtaken`] if the target is no longer what it was at the start; [`OutputError::Remains`] if the new result
-    /// is in its place, and not all of the old one could be removed; else the operating system refuses.
+    /// is in its place, and not all of the old one could be removed; [`OutputError::Elsewhere`] if it is in another place, since the
+    /// operating system refuses this one.
     pub fn commit(mut self) -> Result<(), OutputError> {
-        let left = match &self.replaced {
-            Some(seen) if is_there(&self.target) => self.replace(seen)?,
-            _ => self.appear()?,
+        let placed = match &self.replaced {
+            _ if self.is_mounted => move_in(&self.temporary, &self.target, self.kept.as_deref()).map(|()| None),
+            Some(seen) if is_there(&self.target) => self.replace(seen),
+            _ => self.appear(),
+        };
+        let left = match placed {
+            Err(refusal @ OutputError::Io { .. }) => return self.elsewhere(refusal),
+            placed => placed?,
         };
         self.committed = true;
         left.map_or(Ok(()), |old| {
             let retired = self.retire(&old);
             retired.map_err(|error| OutputError::Remains { target: self.target.clone(), old, source: Box::new(error) })
         })
+    }
+
+    /// Gives the result, whose target is refused, the name of its temporary folder without what hides it: nothing solved is lost.
+    fn elsewhere(mut self, refusal: OutputError) -> Result<(), OutputError> {
+        let hidden = self.temporary.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let place = self.temporary.with_file_name(hidden.trim_start_matches('.').trim_end_matches(".partial"));
+        if !is_there(&self.temporary) || fs::rename(&self.temporary, &place).is_err() {
+            return Err(refusal);
+        }
+        self.committed = true;
+        Err(OutputError::Elsewhere { place, source: Box::new(refusal) })
     }
 
     /// Removes the result that was replaced.
@@ -218,7 +245,8 @@ fn holds_result(out: &Path, force: bool) -> Result<bool, OutputError> {
     if !out.is_dir() || out.is_symlink() {
         return Err(OutputError::NotAFolder(out.to_path_buf()));
     }
-    match (entries(out)?.is_empty(), OwnFiles::of(out).is_some(), force) {
+    let is_empty = if is_mount_point(out) { is_bare(out)? } else { entries(out)?.is_empty() };
+    match (is_empty, OwnFiles::of(out).is_some(), force) {
         (true, _, _) => Ok(false),
         (_, true, true) => Ok(true),
         (_, true, false) => Err(OutputError::HoldsResult(out.to_path_buf())),

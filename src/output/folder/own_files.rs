@@ -15,6 +15,12 @@ pub const SUMMARY: &str = "summary.json";
 #[derive(Debug, Default)]
 pub struct OwnFiles(BTreeSet<PathBuf>);
 
+impl From<BTreeSet<PathBuf>> for OwnFiles {
+    fn from(names: BTreeSet<PathBuf>) -> Self {
+        Self(names)
+    }
+}
+
 impl OwnFiles {
     /// The files that the summary in a folder lists; None if there is no summary of mezha.
     pub fn of(folder: &Path) -> Option<Self> {
@@ -30,6 +36,11 @@ impl OwnFiles {
         };
         names.push(SUMMARY.into());
         Some(Self(names.into_iter().map(PathBuf::from).collect()))
+    }
+
+    /// Their names.
+    pub fn names(&self) -> impl Iterator<Item = &PathBuf> {
+        self.0.iter()
     }
 
     /// Whether the result has written the file of this name.

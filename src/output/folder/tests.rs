@@ -168,6 +168,43 @@ fn the_second_is_told() {
     }
 }
 
+/// A target that is refused at the end, since a file of its name has come where folders were to be: the result has another name.
+#[test]
+fn a_result_that_is_refused_is_kept_elsewhere() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("bars");
+    write_result(&out, false, "first").unwrap();
+    let folder = ResultFolder::create(&out, true).unwrap();
+    write_case(&folder, "second");
+    let refusal = folder.elsewhere(OutputError::io("make", &out)(std::io::ErrorKind::ResourceBusy.into())).unwrap_err();
+    let OutputError::Elsewhere { place, .. } = &refusal else { panic!("{refusal}") };
+    assert!(case_in(place) == "second" && refusal.to_string().contains("nothing is lost"), "{refusal}");
+    assert_eq!((case_in(&out), names(root.path()).len()), ("first".into(), 2));
+}
+
+/// Files move into a target that cannot be renamed, those of the result before go, and others stay.
+#[test]
+fn a_mount_point_is_filled() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("volume");
+    fs::create_dir_all(out.join("lost+found")).unwrap();
+    assert!(mounted::is_mount_point(Path::new("/proc")) && !mounted::is_mount_point(&out) && mounted::is_bare(&out).unwrap());
+    for text in ["first", "second"] {
+        let mut folder = ResultFolder::create(&out.join("inner"), true).unwrap();
+        (folder.target, folder.is_mounted) = (out.clone(), true);
+        fs::create_dir_all(folder.path("steps")).unwrap();
+        fs::write(folder.path(&format!("steps/{text}.csv")), text).unwrap();
+        write_case(&folder, text);
+        folder.commit().unwrap();
+        assert_eq!(case_in(&out), text);
+        fs::write(out.join("notes"), "mine").unwrap();
+    }
+    assert_eq!(
+        (names(&out), names(&out.join("steps"))),
+        (["lost+found", "notes", "steps", "summary.json"].map(String::from).into(), vec!["second.csv".into()])
+    );
+}
+
 #[test]
 fn a_result_that_was_taken_away_is_not_missed() {
     let root = tempfile::tempdir().unwrap();

@@ -14,6 +14,7 @@ use crate::run::outcome::RunError;
 use crate::run::reading::known::check_pressures;
 use crate::run::reading::{origin, scene};
 use crate::run::telling::report::contact_lines;
+use crate::run::verdict::warnings::idle::idle;
 use crate::run::verdict::warnings::slits::slits;
 use crate::run::verdict::warnings::turns::far_turns;
 use std::collections::HashMap;
@@ -88,7 +89,8 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     // An accuracy has a limit to its meshes.
     let (memory, warning) = if case.accuracy.is_none() { memory::told(need, of_macro_mesh) } else { Default::default() };
     lines.extend((!memory.is_empty()).then_some(memory));
-    let warnings = slits.into_iter().chain(far_turns(case)).chain(warning).collect();
+    let idle = idle(&scene, &at_rest.numbering).filter(|_| case.steps.is_empty());
+    let warnings = slits.into_iter().chain(far_turns(case)).chain(idle).chain(warning).collect();
     let not_held = not_held_before.map_or_else(|| at_rest.not_held(&scene), |words| Ok(Some(words)))?;
     let proposals = proposals(case, &scene.mesh, not_held.is_some());
     Ok(Checked { words: lines.join("\n"), warnings, not_held, proposals })

@@ -14,6 +14,7 @@ use crate::run::telling::progress;
 use crate::run::verdict::exact::compare;
 use crate::run::verdict::no_result::NO_NUMBERS;
 use crate::run::verdict::warnings::apart::apart;
+use crate::run::verdict::warnings::idle::IDLE;
 use crate::run::verdict::warnings::parts::large_strains;
 use crate::run::verdict::warnings::points::loaded_points;
 use crate::run::verdict::warnings::slivers::slivers;
@@ -40,6 +41,9 @@ impl Run<'_> {
             (status, reason) = accuracy::judge(adaptation, status, &reason);
             let flat = slivers(&solved.problem.scene.mesh).filter(|_| !adaptation.is_reached());
             reason += &flat.map_or(String::new(), |words| format!("; {words}"));
+        }
+        if solved.is_idle(self.session) {
+            (status, reason) = (Status::Converged, IDLE.into());
         }
         let accuracy = adaptation.as_ref().map(accuracy::summarise);
         let summary = Summary { accuracy, status, ..summary };

@@ -33,6 +33,10 @@ pub struct DrawnForce {
 const FORCE_WIDTHS: [f64; 2] = [9.0, 0.2];
 /// The largest displacement is drawn as about this fraction of the size of the bodies.
 const SHOWN_DISPLACEMENT: f64 = 0.05;
+/// Bodies that press are drawn over each other, or apart, by this share of their size at most: a few pixels.
+const SHOWN_OVERLAP: f64 = 0.01;
+/// A contact presses where its pressure is more than this share of the largest.
+const PRESSES: f64 = 1e-3;
 /// The macro mesh, and edges between two materials.
 const THIN: Paint = Paint::line(WHITE, 0.4).faint(0.75);
 const BETWEEN: Paint = Paint::line(WHITE, 1.2);
@@ -42,8 +46,8 @@ const ROOM: PlotRoom = PlotRoom { most: [640.0, 560.0], least: [320.0, 220.0], a
 /// What `deformed.svg` shows: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact
 /// boundaries.
 ///
-/// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies. The title
-/// states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
+/// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies, or by less where bodies
+/// that press would be drawn into each other. The title states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
 /// themselves with the nearest boundary. Areas of one colour are merged over triangles, which keeps the file small.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DeformedFigure<'a> {
@@ -71,7 +75,7 @@ impl DeformedFigure<'_> {
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let Self { facets, contacts, .. } = *self;
         check_facets(path, facets)?;
-        let (scale, colours, boundary) = (automatic_scale(facets), Colours::of(facets), boundary_edges(facets));
+        let (scale, colours, boundary) = (automatic_scale(facets, contacts), Colours::of(facets), boundary_edges(facets));
         let shown = around(facets, scale);
         let (mut canvas, chart) = plane(if self.has_axis { up_to_the_axis(shown) } else { shown }, self.has_axis);
         let largest = self.forces.iter().map(DrawnForce::size).fold(0.0, f64::max);
@@ -140,12 +144,30 @@ pub fn plane(shown: [[f64; 2]; 2], has_axis: bool) -> (Canvas, Chart) {
     (Canvas::new(chart.panel.extent()), chart)
 }
 
-/// The round number that makes the largest displacement about 5 % of the size of the bodies; 1 if nothing moves.
-fn automatic_scale(facets: &[Facet]) -> f64 {
+/// The round number that makes the largest displacement about 5 % of the size of the bodies, or a smaller one where bodies that press
+/// would be drawn into each other, or apart, by more than can be overlooked; 1 if nothing moves.
+fn automatic_scale(facets: &[Facet], contacts: &[DrawnContact]) -> f64 {
     let [low, high] = facet_bounds(facets, 0.0);
     let size = (high[0] - low[0]).max(high[1] - low[1]);
     let largest = facets.iter().flat_map(|facet| facet.displacement).map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);
-    if largest > 1e-300 * size { round_number(SHOWN_DISPLACEMENT * size / largest) } else { 1.0 }
+    let scale = if largest > 1e-300 * size { round_number(SHOWN_DISPLACEMENT * size / largest) } else { 1.0 };
+    // What presses has closed a gap, which the factor makes an overlap: less one, times the gap.
+    let closed = contacts.iter().map(closed_gap).fold(0.0, f64::max);
+    let most = 1.0 + SHOWN_OVERLAP * size / closed;
+    if scale <= most { scale } else { floor_number(most) }
+}
+
+/// The widest gap, or the deepest overlap, of the bodies as they are drawn that a contact has closed where it presses.
+fn closed_gap(contact: &DrawnContact) -> f64 {
+    let largest = contact.points.iter().map(|point| point.lambda).fold(0.0, f64::max);
+    let pressing = contact.points.iter().filter(|point| point.lambda > PRESSES * largest);
+    pressing.map(|point| (point.un_1 - point.un_2).abs()).fold(0.0, f64::max)
+}
+
+/// The largest of the numbers 1, 2 and 5 times a power of ten that is not above a positive number.
+fn floor_number(number: f64) -> f64 {
+    let nearest = round_number(number);
+    if nearest > number { round_number(nearest / 2.2) } else { nearest }
 }
 
 #[cfg(test)]
@@ -169,9 +191,21 @@ mod tests {
     #[test]
     fn scale_is_round_and_stated() {
         let facets = block(0.0, 4, |x, _| [3e-5 * x, 0.0], |x, _| x);
-        assert_eq!(automatic_scale(&facets), 2000.0);
+        assert_eq!(automatic_scale(&facets, &[]), 2000.0);
         assert!(draw(&facets).unwrap().contains("blocks, displacements × 2000"));
-        assert_eq!(automatic_scale(&block(0.0, 1, |_, _| [0.0, 0.0], |_, _| 0.0)), 1.0);
+        assert_eq!(automatic_scale(&block(0.0, 1, |_, _| [0.0, 0.0], |_, _| 0.0), &[]), 1.0);
+    }
+
+    /// Bodies of size 1 that have closed a gap of 1e-4: an overlap of .01 is that of a factor of 101.
+    #[test]
+    fn bodies_that_press_are_drawn_touching() {
+        let facets = block(0.0, 4, |x, _| [3e-5 * x, 0.0], |x, _| x);
+        let point = |lambda, un_1, un_2| ContactPoint { lambda, un_1, un_2, ..ContactPoint::default() };
+        let scale = |points: &[ContactPoint]| automatic_scale(&facets, &[drawn(points)]);
+        assert_eq!(scale(&[point(1.0, 0.6e-4, -0.4e-4), point(0.0, 1.0, 0.0)]), 100.0);
+        assert_eq!(scale(&[point(1.0, -1e-2, 1e-2)]), 1.0);
+        assert_eq!(scale(&[point(1.0, 1e-5, 1e-5)]), 2000.0, "they have moved together");
+        assert_eq!([1.0, 1.9, 4.99, 7.2, 99.0, 0.3].map(floor_number), [1.0, 1.0, 2.0, 5.0, 50.0, 0.2]);
     }
 
     #[test]

@@ -8,6 +8,8 @@ use crate::output::plot::drawing::{
 
 /// Steps of the colour bar.
 const LEVELS: usize = 40;
+/// What is below this share of the largest stress is none.
+const UNSTRAINED: f64 = 1e-9;
 /// Room for the colour bar beside the plot (pixels).
 pub const BAR_ROOM: f64 = 120.0;
 
@@ -24,7 +26,9 @@ impl Colours {
         let weighted: Vec<(f64, f64)> =
             facets.iter().map(|facet| (facet.von_mises.iter().sum::<f64>() / 3.0, area(facet.corners))).collect();
         let high = facets.iter().flat_map(|facet| facet.von_mises).fold(0.0, f64::max);
-        match cut_off(high, weighted) {
+        // Rigid tools have no stress, however large they are.
+        let strained = weighted.into_iter().filter(|(value, _)| *value > UNSTRAINED * high).collect();
+        match cut_off(high, strained) {
             Some(top) => Colours { top, peak: Some(high) },
             None => Colours { top: if high > 0.0 { high } else { 1.0 }, peak: None },
         }

@@ -1,14 +1,19 @@
 //! The text of a first case.
 
 use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
-use super::named_curve::{HELD, LOADED, MIRRORED, NamedCurve};
+use super::named_curve::{LOADED, MIRRORED, NamedCurve, PULLED};
 use super::node_circle::NodeCircle;
+use crate::geometry::Point;
 use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
 use std::fmt::Write;
 use std::path::Path;
 
 /// Boundaries that are named in comments at most.
 const MOST_NAMED: usize = 60;
+
+/// Unknowns that the example may have, and times those of the first mesh at least, so that there is room to adapt it.
+const MOST_UNKNOWNS: usize = 200_000;
+const ROOM: usize = 4;
 
 /// Coordinates below this share of a radius are 0.
 const NOTHING: f64 = 1e-9;
@@ -79,7 +84,9 @@ order = 2
             true => "energy = 0.02            # the mesh is adapted until the energy norm is good to 2 %",
             false => "pressure = 0.01          # the mesh is adapted until the contact pressure is good to 1 %",
         };
-        let _ = write!(text, "\n[accuracy]\n{accuracy}\nmax_unknowns = 200000\n");
+        // The first mesh cuts each triangle into sixteen, which have some four unknowns each with P2.
+        let most = MOST_UNKNOWNS.max(ROOM * 4 * 16 * self.guesses.mesh.triangles.len());
+        let _ = write!(text, "\n[accuracy]\n{accuracy}\nmax_unknowns = {most}\n");
     }
 
     fn bodies(&self, text: &mut String, weights: &[Weight]) {
@@ -108,7 +115,7 @@ order = 2
     fn circles(&self, text: &mut String) {
         let mut tables = TableNames::default();
         for curve in self.guesses.curves.iter().filter(|curve| curve.is_touched) {
-            let Some(NodeCircle { centre, radius }) = curve.circle else { continue };
+            let Some(NodeCircle { centre, radius, .. }) = curve.circle else { continue };
             let digits = |x: f64| format!("{x:.9e}").parse::<f64>().unwrap_or(x);
             let [x, y] = [centre.x, centre.y].map(|x| if x.abs() < NOTHING * radius { 0.0 } else { digits(x) });
             let _ = write!(
@@ -142,7 +149,7 @@ order = 2
             );
         }
         if let Some(curve) = self.guesses.held() {
-            let why = if curve.has(&HELD) { "by its name" } else { "the lowest boundary that looks down" };
+            let why = if curve.is_held() { "by its name" } else { "the lowest boundary that looks down" };
             let _ = write!(
                 text,
                 "\n[support.{}]       # held: {why}\non = {}\nux = 0.0\nuy = 0.0\n",
@@ -171,22 +178,33 @@ order = 2
 
     fn load(&self, text: &mut String, press: Press) {
         let Some(curve) = self.guesses.pressed().filter(|_| press != Press::Nothing) else {
-            *text += "\n# Nothing presses yet. A load is written so:\n# [load.NAME]\n# on = \"boundary\"\n# pressure = 1.0\n";
-            *text += "# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n";
+            *text += match self.guesses.is_pressed_in() {
+                true => "\n# Bodies are drawn into each other: that interference is the load. A further one is written so:\n",
+                false => "\n# Nothing presses yet. A load is written so:\n",
+            };
+            *text += "# [load.NAME]\n# on = \"boundary\"\n# pressure = 1.0\n# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n";
             return;
         };
-        let why = if curve.has(&LOADED) { "by its name" } else { "the highest boundary that looks up" };
+        let (direction, guided) = push(curve);
+        let sense = self.guesses.sense(curve, direction);
+        let what = if sense < 0.0 { "pulled" } else { "pressed" };
+        let why = match curve {
+            _ if sense < 0.0 && !curve.has(&PULLED) => "a push would open every contact of its body",
+            _ if curve.has(&LOADED) => "by its name",
+            _ => "the highest boundary that looks up",
+        };
         let mut tables = TableNames::default();
-        let _ = write!(text, "\n[load.{}]          # pressed: {why}\non = {}\n", tables.fresh(curve.name), quoted(curve.name));
+        let _ = write!(text, "\n[load.{}]          # {what}: {why}\non = {}\n", tables.fresh(curve.name), quoted(curve.name));
         if press == Press::Pressure {
-            let _ = writeln!(text, "pressure = {:?}       # example: pushes onto the body", PRESSED * YOUNG);
+            let pressure = sense * PRESSED * YOUNG;
+            let _ = writeln!(text, "pressure = {pressure:?}       # example: pushes onto the body if it is positive");
             return;
         }
-        let (push, guided) = push(curve, self.guesses.force());
+        let [x, y] = (sense * self.guesses.force() * direction).map(|part| if part == 0.0 { 0.0 } else { part }).into();
         let _ = write!(
             text,
             "rigid = true              # a stiff plate that is bonded to it carries the force; or leave these lines, and give pressure = ...
-force = {push}     # example: force for each length of thickness
+force = [{x:?}, {y:?}]     # example: force for each length of thickness
 {guided} = 0.0                  # the plate is guided,
 angle = 0.0               # and does not turn
 "
@@ -242,11 +260,11 @@ angle = 0.0               # and does not turn
     }
 }
 
-/// A force that pushes onto a boundary along an axis, as TOML, and the component along which its plate is guided.
-fn push(curve: &NamedCurve, force: f64) -> (String, &'static str) {
+/// The axis along which a boundary is pushed, and the component along which its plate is guided.
+fn push(curve: &NamedCurve) -> (Point, &'static str) {
     match curve.normal {
-        n if n.x.abs() > 2.0 * n.y.abs() => (format!("[{:?}, 0.0]", -force * n.x.signum()), "uy"),
-        n if n.y < 0.0 => (format!("[0.0, {force:?}]"), "ux"),
-        _ => (format!("[0.0, {:?}]", -force), "ux"),
+        n if n.x.abs() > 2.0 * n.y.abs() => (Point::new(-n.x.signum(), 0.0), "uy"),
+        n if n.y < 0.0 => (Point::new(0.0, 1.0), "ux"),
+        _ => (Point::new(0.0, -1.0), "ux"),
     }
 }

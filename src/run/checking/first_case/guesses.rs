@@ -1,8 +1,8 @@
 //! What a mesh is likely meant to be: what is held, what is pressed, what touches.
 
-use super::named_curve::{ALONG, HELD, LOADED, MIRRORED, NamedCurve};
+use super::named_curve::{ALONG, LOADED, MIRRORED, NamedCurve, PULLED};
 use crate::contact::{ClosePair, close_pairs};
-use crate::geometry::cross;
+use crate::geometry::{Point, cross};
 use crate::mesh::{Boundary, MacroMesh};
 use std::cmp::Ordering;
 
@@ -21,6 +21,12 @@ const ACROSS: f64 = 1e-6;
 
 /// Heights that differ by less than this share of a body's are the same.
 const LEVEL: f64 = 1e-6;
+
+/// Bodies that reach into each other by more than this share of the smaller one are meant to.
+const DRAWN: f64 = 1e-6;
+
+/// A load opens a contact whose mean normal is against it by more than this.
+const AWAY: f64 = 0.1;
 
 /// How the example presses.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -68,8 +74,8 @@ impl<'a> Guesses<'a> {
 
     /// The boundary that is held: by its name, or because it is the lowest and looks down.
     pub fn held(&self) -> Option<&NamedCurve<'a>> {
-        let rank = |curve: &&NamedCurve| (curve.has(&HELD), curve.normal.y < -ALONG, -curve.low.y);
-        let likely = self.free().filter(|curve| curve.has(&HELD) || curve.normal.y < -ALONG);
+        let rank = |curve: &&NamedCurve| (curve.is_held(), curve.normal.y < -ALONG, -curve.low.y);
+        let likely = self.free().filter(|curve| curve.is_held() || curve.normal.y < -ALONG);
         likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal))
     }
 
@@ -106,14 +112,37 @@ impl<'a> Guesses<'a> {
             None => self.foundation().is_none_or(|(body, _)| body != curve.body),
         };
         let rank = |curve: &&NamedCurve| (curve.has(&LOADED), curve.normal.y > ALONG, curve.high.y);
-        let likely = self.free().filter(other).filter(|curve| curve.has(&LOADED) || curve.normal.y > ALONG);
+        let likely = self.free().filter(other).filter(|curve| curve.has(&LOADED) || curve.normal.y > ALONG && !curve.is_held());
+        // Bodies that are drawn into each other are loaded by that, unless a name says otherwise.
+        let likely = likely.filter(|curve| curve.has(&LOADED) || !self.is_pressed_in());
         let best = likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
         best.filter(|curve| curve.is_of_one_piece)
+    }
+
+    /// Whether bodies are drawn into each other: that interference is the load.
+    pub fn is_pressed_in(&self) -> bool {
+        let circle = |name: &String| self.curves.iter().find(|curve| curve.name == name)?.circle.as_ref();
+        let reaches = |pair: &ClosePair| match pair.between.each_ref().map(circle) {
+            [Some(one), Some(other)] => one.reaches_into(other),
+            _ => pair.distance < 0.0 && pair.share > DRAWN,
+        };
+        self.pairs.iter().any(reaches)
+    }
+
+    /// What a boundary is loaded along (1), or against (-1), if a push onto it is along a direction: one that is pulled by its name is,
+    /// and so is one whose push would open every contact of its body.
+    pub fn sense(&self, curve: &NamedCurve, push: Point) -> f64 {
+        let mut touched = self.curves.iter().filter(|other| other.body == curve.body && other.is_touched).peekable();
+        let opens = touched.peek().is_some() && touched.all(|other| other.normal.dot(&push) < -AWAY);
+        if curve.has(&PULLED) || opens { -1.0 } else { 1.0 }
     }
 
     /// Bodies that rest on others and would lie loose there, since nothing presses them: neither a boundary nor a body that is
     /// higher. To each an example of a force per area that presses it down, and those mean motions that this leaves free.
     pub fn weights(&self) -> Vec<Weight> {
+        if self.is_pressed_in() {
+            return Vec::new();
+        }
         let Some(base) = self.held().map(|held| held.body).or_else(|| self.foundation().map(|(body, _)| body)) else {
             return Vec::new();
         };

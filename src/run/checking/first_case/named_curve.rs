@@ -5,11 +5,40 @@ use crate::contact::ClosePair;
 use crate::geometry::Point;
 use crate::mesh::{Boundary, MacroMesh};
 
-/// Words in names of boundaries that are held, pressed, and of symmetry.
-pub const HELD: [&str; 12] =
-    ["bottom", "base", "fixed", "fix", "clamp", "clamped", "ground", "floor", "foot", "foundation", "support", "wall"];
-pub const LOADED: [&str; 9] = ["top", "load", "loaded", "press", "pressed", "force", "punch", "push", "piston"];
+/// Words in names of boundaries that are held, loaded, those of them that are pulled, and of symmetry.
+pub const HELD: [&str; 19] = [
+    "bottom",
+    "base",
+    "fixed",
+    "fix",
+    "clamp",
+    "clamped",
+    "ground",
+    "floor",
+    "foot",
+    "foundation",
+    "support",
+    "wall",
+    "root",
+    "grip",
+    "hold",
+    "held",
+    "mount",
+    "anchor",
+    "encastre",
+];
+pub const LOADED: [&str; 16] = [
+    "top", "load", "loaded", "press", "pressed", "pressure", "force", "punch", "push", "piston", "pull", "pulled", "tension",
+    "drag", "lift", "traction",
+];
+pub const PULLED: [&str; 6] = ["pull", "pulled", "tension", "drag", "lift", "traction"];
 pub const MIRRORED: [&str; 4] = ["symmetry", "sym", "symm", "mirror"];
+
+/// Last words in names of holes that are held. Before other words they name the body: `hub.outside` is free.
+const BORES: [&str; 5] = ["bore", "axle", "axis", "hub", "shaft"];
+
+/// Words of so many letters at least are known at the beginning of a longer one, too: `clampleft`.
+const LONG: usize = 5;
 
 /// A boundary looks along an axis if its mean normal has this component at least.
 pub const ALONG: f64 = 0.95;
@@ -56,10 +85,44 @@ impl<'a> NamedCurve<'a> {
         })
     }
 
-    /// Whether its name has one of some words.
+    /// Whether its name has one of some words, in any case, with a number behind it or not.
     pub fn has(&self, words: &[&str]) -> bool {
-        let name = self.name.to_lowercase();
-        name.split(|c: char| !c.is_alphanumeric())
-            .any(|word| words.contains(&word.trim_end_matches(|c: char| c.is_ascii_digit())))
+        let is_known = |own: &String, word: &str| own == word || word.len() >= LONG && own.starts_with(word);
+        self.words().iter().any(|own| words.iter().any(|word| is_known(own, word)))
+    }
+
+    /// Whether its name says that it is held.
+    pub fn is_held(&self) -> bool {
+        self.has(&HELD) || self.words().last().is_some_and(|last| BORES.contains(&last.as_str()))
+    }
+
+    /// The words of its name, in small letters and without numbers: `Seal.gripLeft2` has three.
+    fn words(&self) -> Vec<String> {
+        let letters: Vec<char> = self.name.chars().collect();
+        let begins = |at: usize| at > 0 && letters[at].is_uppercase() && letters[at - 1].is_lowercase();
+        let spaced = letters.iter().enumerate().flat_map(|(at, &c)| begins(at).then_some(' ').into_iter().chain([c]));
+        let spaced: String = spaced.flat_map(char::to_lowercase).collect();
+        spaced.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(name: &str) -> NamedCurve<'_> {
+        let (low, high, normal) = (Point::zeros(), Point::zeros(), Point::zeros());
+        NamedCurve { name, body: 0, is_of_one_piece: true, low, high, normal, length: 1.0, is_touched: false, circle: None }
+    }
+
+    #[test]
+    fn words_are_known_in_any_case_and_with_others_around_them() {
+        for name in ["root", "Lever.Root", "gripLeft", "GRIP_2", "clampleft", "wheel axle", "hub", "gear.bore1", "base-3"] {
+            assert!(named(name).is_held(), "{name}");
+        }
+        for name in ["hub.outside", "basalt", "seam", "routed", "axle.left flank"] {
+            assert!(!named(name).is_held(), "{name}");
+        }
+        assert!(named("bolt.pull").has(&PULLED) && named("PullRight").has(&LOADED) && !named("pulley").has(&LOADED));
     }
 }

@@ -1,0 +1,45 @@
+//! A target that is a mount point, as the volume of a container is: no folder can take its name, so the files of a result move into it.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use rustix::fs::{AtFlags, CWD, StatxAttributes, StatxFlags, statx};
+
+use super::entries::{entries, remove_if_there};
+use super::leftover::carry_over;
+use super::own_files::{OwnFiles, SUMMARY};
+use crate::output::error::OutputError;
+
+/// What a file system has of itself in its first folder.
+const FOUND: &str = "lost+found";
+
+/// Whether another file system begins at a folder, or the same one once more.
+pub fn is_mount_point(folder: &Path) -> bool {
+    let found = statx(CWD, folder, AtFlags::empty(), StatxFlags::TYPE);
+    found.is_ok_and(|found| found.stx_attributes.contains(StatxAttributes::MOUNT_ROOT))
+}
+
+/// Whether there is nothing in a mount point but what the file system has of itself.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn is_bare(target: &Path) -> Result<bool, OutputError> {
+    Ok(entries(target)?.iter().all(|entry| entry.file_name() == FOUND))
+}
+
+/// Moves the files of a result from a folder within the target to the target itself, in the place of those that the result before
+/// has written, but for one that is kept. The summary, which makes it a result, goes first and comes last.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn move_in(temporary: &Path, target: &Path, kept: Option<&Path>) -> Result<(), OutputError> {
+    let before = OwnFiles::of(target).unwrap_or_default();
+    remove_if_there(&target.join(SUMMARY))?;
+    let before = kept.into_iter().fold(before, |own, kept| own.without(kept));
+    before.names().try_for_each(|name| remove_if_there(&target.join(name)))?;
+    let summary = OwnFiles::from(BTreeSet::from([SUMMARY.into()]));
+    carry_over(temporary, target, Path::new(""), &summary)?;
+    fs::rename(temporary.join(SUMMARY), target.join(SUMMARY)).map_err(OutputError::io("make", &target.join(SUMMARY)))?;
+    fs::remove_dir_all(temporary).map_err(OutputError::io("remove", temporary))
+}
