@@ -2,11 +2,11 @@
 
 use crate::accuracy::Adaptation;
 use crate::discretisation::{Discretisation, Solution};
+use crate::petsc::Session;
 use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::ending::Ending;
 use crate::procedure::estimates::Estimate;
-use crate::petsc::Session;
 use crate::procedure::sets::Pass;
 use crate::system::Preconditioning;
 

@@ -37,8 +37,7 @@ fn is_loaded(scene: &Scene) -> bool {
 }
 
 fn is_moved(scene: &Scene) -> bool {
-    let by_support =
-        scene.supports.iter().flat_map(|support| [&support.ux, &support.uy, &support.normal]).flatten().any(acts);
+    let by_support = scene.supports.iter().flat_map(|support| [&support.ux, &support.uy, &support.normal]).flatten().any(acts);
     let by_mean = scene.means.iter().flat_map(|mean| &mean.held).any(|held| held.value != 0.0);
     by_support || by_mean || scene.rigid.iter().any(|set| set.prescribed.iter().flatten().any(|value| *value != 0.0))
 }
