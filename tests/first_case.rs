@@ -1,6 +1,6 @@
 //! `mezha new` and what `mezha check` draws and proposes, from meshes to results.
 
-use crate::support::mesh::{two_blocks, write_scene};
+use crate::support::mesh::{GOOD, two_blocks, write_scene};
 use crate::support::{Run, mezha, mezha_in};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -138,6 +138,55 @@ fn loads_are_those_that_names_and_the_drawing_tell() {
     assert!(force.starts_with("force = [0.0, ") && !force.contains('-'), "{force}");
     let text = new(1.0, ["bottom", "right", "top"]);
     assert!(text.contains("# pressed: by its name") && text.contains("force = [0.0, -"), "{text}");
+}
+
+/// `check` lists what loads and holds the bodies, with resultants, and how the sides of contacts are drawn.
+#[test]
+fn check_lists_what_acts() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let case = GOOD.replace(", gap = \"closed\"", "");
+    let file = write_scene(folder.path(), &two_blocks([(3, 2, 1), (4, 2, 2)]).text(), &case).display().to_string();
+    let told = |sets: &[&str]| {
+        let words: Vec<&str> = ["check", &file].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect();
+        let (code, output, errors) = mezha_in(folder.path(), None, &words);
+        assert_eq!(code, Some(0), "{output}{errors}");
+        output + &errors
+    };
+    let said = told(&["load.side={ on = \"right\", traction = [\"0.5*y\", 0] }"]);
+    for words in [
+        "load top: pressure = 1, resultant (0, -2)",
+        "load side: tx = 0.5*y, ty = 0, resultant (1, 0)",
+        "support table: uy = 0",
+        "contact seam: its sides are drawn touching",
+    ] {
+        assert!(said.lines().any(|line| line.starts_with(words)), "{words} in\n{said}");
+    }
+    assert!(!said.contains("nothing loads"), "{said}");
+    let plate = told(&["load.top={ on = \"top\", rigid = true, force = [0, -3], ux = 0, angle = 0 }", "contact.seam.gap=-0.001"]);
+    assert!(plate.contains("load top: stiff plate, force (0, -3)") && plate.contains("a gap of -0.001 is given"), "{plate}");
+    let round = told(&["plane=\"axisymmetric\""]);
+    assert!(round.contains("resultant (0, -12.57)"), "the whole disc: {round}");
+}
+
+/// A scene without loads is told before and after it is run, and its mesh is not adapted.
+#[test]
+fn nothing_that_acts_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file =
+        write_scene(folder.path(), &two_blocks([(3, 2, 1), (4, 2, 2)]).text(), &GOOD.replace("pressure = 1.0", "pressure = 0.0"));
+    let (code, _, errors) = mezha(None, &["check", &file.display().to_string()]);
+    assert!(code == Some(0) && errors.contains("nothing loads, moves or presses the bodies"), "{errors}");
+    for (key, value) in [("mesh.refine", "1"), ("accuracy", "{ pressure = 1e-2 }")] {
+        let ended = Run::file(&file).ranks(2).set(key, value).converged();
+        assert!(ended.value("/reason").to_string().contains("nothing loads, moves or presses the bodies"), "{}", ended.said());
+        assert_eq!(ended.number("/energy/total"), 0.0);
+        assert!(ended.value("/accuracy").as_array().is_none_or(|meshes| meshes.len() == 1), "{}", ended.said());
+    }
+    for (key, value) in [("contact.seam.gap", "-1e-3"), ("support.table.uy", "1e-3"), ("load.top.pressure", "1.0")] {
+        let words = ["check".into(), file.display().to_string(), "--set".into(), format!("{key}={value}")];
+        let (code, _, errors) = mezha(None, &words);
+        assert!(code == Some(0) && !errors.contains("nothing loads"), "{key}: {errors}");
+    }
 }
 
 #[test]

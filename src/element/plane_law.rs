@@ -29,6 +29,13 @@ impl Plane {
         }
     }
 
+    /// Product `s : t` of two stresses (xx, yy, xy, zz), by which their sizes are measured: the one around the axis counts, that across
+    /// the plane, which follows from the others, does not.
+    pub fn stress_product(self, s: [f64; 4], t: [f64; 4]) -> f64 {
+        let around = if self == Self::Revolution { s[3] * t[3] } else { 0.0 };
+        s[0] * t[0] + s[1] * t[1] + 2.0 * s[2] * t[2] + around
+    }
+
     /// What is left of a force on a whole body: radial parts of forces around an axis balance each other.
     pub fn resultant(self, force: Point) -> Point {
         match self {

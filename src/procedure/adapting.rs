@@ -5,6 +5,7 @@ use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, Sequenc
 use crate::discretisation::{Scene, SystemError};
 use crate::mesh::Cells;
 use crate::petsc::StageGuard;
+use crate::procedure::ending::MOVES;
 use crate::procedure::estimates::Estimate;
 use crate::procedure::estimates::{Duals, weighted};
 use crate::procedure::observer::{Event, Observer, Work};
@@ -98,7 +99,9 @@ impl Procedure<'_> {
     /// Estimates the errors on a mesh. **Collective**
     fn judge(&self, sequence: &mut MeshSequence, solved: &Solved) -> Result<(), SystemError> {
         let goals = &sequence.adaptation.accuracy.goals;
-        let errors = if solved.ending.is_converged() { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
+        // What is estimated on a boundary that still moves is of another scene.
+        let stands = solved.ending.is_converged() && solved.ending.still_moved().is_none_or(|way| way <= MOVES);
+        let errors = if stands { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
         let adapted = AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,
             macro_triangles: sequence.scene.mesh.triangles.len(),

@@ -2,6 +2,9 @@
 
 use std::fmt::{self, Display, Formatter};
 
+/// Way of the ends of a contact boundary, as a share of its length, beyond which it moves.
+pub const MOVES: f64 = 1e-2;
+
 /// How the procedure ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
@@ -15,6 +18,14 @@ impl Ending {
     /// Whether everything stands.
     pub fn is_converged(&self) -> bool {
         matches!(self, Self::Converged(_))
+    }
+
+    /// By what share of its length a contact boundary would still move that stands to what the mesh is exact for; zero if none would.
+    pub fn would_move(&self) -> f64 {
+        match self {
+            Self::Converged(Standing::Boundary { way, .. }) => way.unwrap_or(0.0),
+            _ => 0.0,
+        }
     }
 
     /// How far the ends of a contact boundary, which stand because they are held, had moved last, as a share of its length;

@@ -52,7 +52,9 @@ impl Procedure<'_> {
                 _ => None,
             },
             Quantity::Ends(name) => match contact_called(problem, name) {
-                Some(at) if self.presses_throughout(solved, at)? => estimate.ends.get(at).copied().flatten(),
+                Some(at) if self.presses_throughout(solved, at)? => {
+                    estimate.ends.get(at).copied().flatten().map(|error| error + solved.ending.would_move())
+                }
                 _ => None,
             },
             Quantity::Displacement(probe) => self.probe_errors(solved, probe)[0],

@@ -33,7 +33,7 @@ mod solved;
 
 pub use at_rest::AtRest;
 pub use boundary::BoundaryStep;
-pub use ending::{Ending, Failure, Standing};
+pub use ending::{Ending, Failure, MOVES, Standing};
 pub use estimates::{Estimate, ZoneDifference, ZoneEstimate};
 pub use observer::{Event, Observer, Work};
 pub use sets::Pass;

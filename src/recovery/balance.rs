@@ -234,7 +234,10 @@ fn sum_over_nodes(
     let set_of = set_of_nodes(problem);
     let mut rigid = vec![0.0; 3 * sets.len()];
     let mut bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
-    let mut work = WorkTerms::default();
+    // The force on a set whose motion is unknown is a load, though no node has it.
+    let unknown = |set: &RigidSet| (0..3).filter(|&k| set.prescribed[k].is_none()).map(|k| set.applied[k].abs()).sum::<f64>();
+    let on_sets = if session.rank() == 0 { sets.iter().map(unknown).sum() } else { 0.0 };
+    let mut work = WorkTerms { given: [on_sets, 0.0], ..WorkTerms::default() };
     for (at, node) in space.own.clone().enumerate() {
         let [f, k, pull] = [applied.own()[at], internal.own()[at], springs.own()[at]].map(|[x, y]| Point::new(x, y));
         let (u, push) = (u.point(node), pressed.get(&node).copied().unwrap_or_default());

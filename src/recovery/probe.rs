@@ -141,7 +141,7 @@ fn add_squares<const N: usize>(
     let nodal = u.of_triangle::<N>(problem, triangle, &small);
     for &(l, weight) in SIX_POINTS {
         let s = stress(&x, &nodal, l, law)?;
-        sums[0] += weight * (s[0] * s[0] + s[1] * s[1] + 2.0 * s[2] * s[2]);
+        sums[0] += weight * law.plane.stress_product(s, s);
         sums[1] += weight;
     }
     Ok(())
@@ -201,7 +201,7 @@ fn add_stress_forces<const N: usize>(
             let mut moved = [Point::zeros(); N];
             moved[k] = axis;
             let found = mean(&moved)?;
-            sum[c] += pointing[0] * found[0] + pointing[1] * found[1] + 2.0 * pointing[2] * found[2];
+            sum[c] += law.plane.stress_product(pointing, found);
         }
     }
     Ok(())

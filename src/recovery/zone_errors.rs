@@ -21,7 +21,7 @@ pub struct ZoneErrors {
 pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[TracePoint]) -> Vec<ZoneErrors> {
     // The stress of a body that bears a load there says nothing of λ.
     let apart = |counts: &dyn Fn(f64) -> bool| {
-        let found = apart(points, counts);
+        let found = apart(points, counts, |point, k| on_boundary(contact, point, k));
         [0, 1].map(|k| if contact.loaded[k] { f64::NAN } else { found[k] })
     };
     let one = |zone: &Zone| {
@@ -48,16 +48,24 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
     zones.iter().map(one).collect()
 }
 
-/// Relative root mean squares of `λ + n·σn` of both bodies over some arc lengths, by the trapezoidal rule.
-fn apart(points: &[TracePoint], counts: impl Fn(f64) -> bool) -> [f64; 2] {
+/// By what the stress at a body's corresponding point becomes one per area of Γ_C: in a body of revolution a ring that lies farther
+/// from the axis is longer.
+fn on_boundary(contact: &Contact, point: &TracePoint, body: usize) -> f64 {
+    let width = |x| contact.boundary.width_at(x);
+    let own = width(point.x);
+    if own > 0.0 { width(point.x + point.distance[body] * point.normal) / own } else { 1.0 }
+}
+
+/// Relative root mean squares of `λ + n·σn` of both bodies over some arc lengths, by the trapezoidal rule, each stress times a factor.
+fn apart(points: &[TracePoint], counts: impl Fn(f64) -> bool, factor: impl Fn(&TracePoint, usize) -> f64) -> [f64; 2] {
     let mut sums = [0.0; 3];
     let complete = points.iter().filter(|point| point.is_complete());
     let ends = complete.clone().zip(complete.skip(1));
     for (first, second) in ends.filter(|(first, second)| counts(first.arc) && counts(second.arc)) {
         let half = 0.5 * (second.arc - first.arc);
         for point in [first, second] {
-            for (sum, stress) in sums.iter_mut().zip(point.stress) {
-                *sum += half * (point.lambda + stress).powi(2);
+            for k in 0..2 {
+                sums[k] += half * (point.lambda + factor(point, k) * point.stress[k]).powi(2);
             }
             sums[2] += half * point.lambda.powi(2);
         }
@@ -86,9 +94,9 @@ mod tests {
             gap: 0.0,
         };
         let points: Vec<TracePoint> = arcs.iter().map(point).collect();
-        let [first, second] = apart(&points, |arc| arc <= 3.0);
+        let [first, second] = apart(&points, |arc| arc <= 3.0, |_, _| 1.0);
         assert!((first - 0.05).abs() < 1e-12 && (second - 0.1 * 3f64.sqrt()).abs() < 1e-3, "{first}, {second}");
-        let [_, half] = apart(&points, |arc| arc <= 1.5);
+        let [_, half] = apart(&points, |arc| arc <= 1.5, |_, _| 1.0);
         assert!((half - 0.1 * (1.5f64 * 1.5 / 3.0).sqrt()).abs() < 5e-3, "{half}");
     }
 }

@@ -90,10 +90,11 @@ impl MacroMesh {
         for k in 0..3 {
             let Some(shape) = &self.edges[macro_triangle.edges[k] as usize].shape else { continue };
             let (a, b) = (weights[k], weights[(k + 1) % 3]);
-            if a * b <= 0.0 {
+            let t = 0.5 * (1.0 + b - a);
+            // Beside a vertex t may round to it, though neither weight is zero.
+            if a * b <= 0.0 || t * (1.0 - t) <= 0.0 {
                 continue;
             }
-            let t = 0.5 * (1.0 + b - a);
             let straight = corners[k] * (1.0 - t) + corners[(k + 1) % 3] * t;
             let along = if macro_triangle.forward[k] { t } else { 1.0 - t };
             x += (shape.curve.point(shape.parameter(along)) - straight) * (a * b / (t * (1.0 - t)));

@@ -29,11 +29,20 @@ pub struct Difference {
     pub ends: Vec<f64>,
     /// Error of these ends as they lie at ends of segments, by the same width; and whether that is all of it.
     pub within_segments: Vec<(f64, bool)>,
-    /// Relative difference of the displacement at each probe that a goal is set for, and of the stress there or, if that is
-    /// larger, in the mean over the triangle.
-    pub probes: Vec<[f64; 2]>,
+    /// Relative differences at each probe that a goal is set for.
+    pub probes: Vec<ProbeDifference>,
     /// The zones of each contact.
     pub zones: Vec<Vec<ZoneDifference>>,
+}
+
+/// Relative differences at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProbeDifference {
+    /// Of the displacement.
+    pub displacement: f64,
+    /// Of the stress there, and in the mean over the triangle, by the stress there: each is compared with its own kind on the mesh
+    /// before, since at some places a stress is good by luck.
+    pub stress: [f64; 2],
 }
 
 impl Difference {
@@ -81,20 +90,22 @@ impl Difference {
     }
 }
 
-/// Relative differences of displacement and stress at a point; not a number where no body holds it. **Collective**
+/// Relative differences at a point; not a number where no body holds it. **Collective**
 fn at_probe(
     problem: &Discretisation,
     point: &ProbePoint,
     u: &Field<2>,
     apart: &Field<2>,
     session: &Session,
-) -> Result<[f64; 2], SystemError> {
-    let Some(region) = problem.scene.mesh.region(&point.body) else { return Ok([f64::NAN; 2]) };
+) -> Result<ProbeDifference, SystemError> {
+    let unknown = ProbeDifference { displacement: f64::NAN, stress: [f64::NAN; 2] };
+    let Some(region) = problem.scene.mesh.region(&point.body) else { return Ok(unknown) };
     let both = [(u, Probing::Displacement), (apart, Probing::Difference)];
     let [whole, part] = both.map(|field| probe(problem, field, region, point.point, session));
-    let (Some(whole), Some(part)) = (whole?, part?) else { return Ok([f64::NAN; 2]) };
-    // Where a point lies in its triangle decides how good a stress is there: at some places it is by luck.
+    let (Some(whole), Some(part)) = (whole?, part?) else { return Ok(unknown) };
     let around = stress_around(problem, apart, region, point.point, session)?;
-    let size = |stress: [f64; 4]| (stress[0].powi(2) + stress[1].powi(2) + 2.0 * stress[2].powi(2)).sqrt();
-    Ok([part.displacement.norm() / whole.displacement.norm(), size(part.stress).max(around) / size(whole.stress)])
+    let plane = problem.scene.mesh.plane;
+    let size = |stress: [f64; 4]| plane.stress_product(stress, stress).sqrt();
+    let stress = [size(part.stress), around].map(|apart| apart / size(whole.stress));
+    Ok(ProbeDifference { displacement: part.displacement.norm() / whole.displacement.norm(), stress })
 }

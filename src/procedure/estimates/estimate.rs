@@ -7,7 +7,7 @@
 //! left. Where active sets or contact boundaries change from mesh to mesh the spaces are not nested, and this is heuristic.
 
 use super::decay::{FORCE_SLOWEST, SHARES, falls, left, value_left};
-use super::difference::Difference;
+use super::difference::{Difference, ProbeDifference};
 use super::energy_norm::share;
 use super::zone_estimate::{ZoneDifference, ZoneEstimate};
 use crate::contact::Zone;
@@ -152,15 +152,17 @@ impl Estimate {
                 .map(|error| error.max(within).max(residual))
         };
         let probe = |k: usize| {
-            [0, 1].map(|what: usize| {
-                let (now, then) = (last.probes[k][what], before.map(|before| before.probes[k][what]));
+            let left = |what: usize, of: &dyn Fn(&ProbeDifference) -> f64| {
+                let (now, then) = (of(&last.probes[k]), before.map(|before| of(&before.probes[k])));
                 let left = match PROBES_FALL[what][order.degree() - 1] {
                     Some(fall) => value_left(then, now, fall.max(slow), SHARES),
                     // Stresses of P1 jump from triangle to triangle: no difference is small but by luck.
                     None => Some(now.max(then.unwrap_or(now))).filter(|left| left.is_finite()),
                 };
                 left.map(|error| error.max(residual))
-            })
+            };
+            let [at_point, around] = [0, 1].map(|of: usize| left(1, &|probe| probe.stress[of]));
+            [left(0, &|probe| probe.displacement), at_point.zip(around).map(|(point, around)| point.max(around))]
         };
         Self {
             energy: energy.map(f64::sqrt).filter(|error| error.is_finite()),

@@ -39,16 +39,17 @@ pub(crate) fn share(system: &System) -> Result<f64, SystemError> {
     Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
 }
 
-/// The same where a rigid tool or plate acts, once the forces are known: they are small beside the right-hand side, which would
-/// close all the way that a tool goes by strain within one element. `share` is what it was before, `residual` the relative one
-/// that is wanted. **Collective**
+/// The same where a rigid tool or plate acts, or heat, once the forces are known: they are small beside the right-hand side, which would
+/// close all the way that a tool goes by strain within one element, or keep all of a body from growing. `share` is what it was before,
+/// `residual` the relative one that is wanted. **Collective**
 pub(crate) fn share_of_forces(system: &System, share: f64, residual: f64) -> Result<f64, SystemError> {
-    if system.problem().scene.rigid.is_empty() {
+    let scene = &system.problem().scene;
+    if scene.rigid.is_empty() && !scene.is_heated() {
         return Ok(share);
     }
     let ([loads, pressed], whole) = (system.force_norms()?, system.residual()?.whole);
-    // Where displacements are prescribed the load is one that would strain what they move rigidly.
-    let forces = if share < 1.0 { pressed } else { loads + pressed };
+    // Where displacements are prescribed the load is one that would strain what they move rigidly; that of heat strains nothing by itself.
+    let forces = if share < 1.0 || scene.is_heated() { pressed } else { loads + pressed };
     if forces == 0.0 || whole == 0.0 {
         return Ok(share);
     }

@@ -8,6 +8,7 @@ use crate::mesh::MacroMesh;
 use crate::output::summary::{MOST_TOLD, listed};
 use crate::procedure::Procedure;
 use crate::run::accuracy;
+use crate::run::checking::acting_lines::acting_lines;
 use crate::run::checking::proposals::{proposed_contacts, proposed_supports};
 use crate::run::memory;
 use crate::run::outcome::RunError;
@@ -79,6 +80,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     lines.extend(case.matched.iter().map(matched));
     lines.extend(body_lines(&scene.bodies));
     lines.extend(contact_lines(&at_rest.contacts));
+    lines.extend(acting_lines(case, &scene, &at_rest.numbering));
     if let Some(accuracy) = &case.accuracy {
         lines.push(format!("accuracy asked for: {}; the mesh is adapted to it", accuracy::request(accuracy)));
     }

@@ -6,7 +6,9 @@ use crate::contact::Pair;
 use crate::element::Plane;
 use crate::geometry::{Formula, Point};
 use crate::mesh::{MacroMesh, MacroTriangle, Stretch};
-use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds};
+use crate::output::plot::{
+    BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds, number_text,
+};
 use crate::run::outcome::RunError;
 use crate::run::reading::scene;
 use crate::run::words::title;
@@ -97,14 +99,23 @@ fn remarks(words: &str, file: &Path) -> Vec<String> {
     lines
 }
 
-/// Everything of a case that has a place on its mesh.
-fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
+/// What holds and loads the bodies of a case, as far as it has a place on its mesh.
+pub(super) fn acting(case: &Case, mesh: &MacroMesh) -> (Vec<DrawnSupport>, Vec<DrawnLoad>) {
     let on = |names: &[String]| {
         let curves: Vec<String> = names.iter().flat_map(|name| case.curves_of(name)).collect();
         let mut edges: Vec<u32> = curves.iter().filter_map(|name| mesh.boundary(name)).flat_map(|b| b.edges.clone()).collect();
         edges.dedup();
         rows(mesh, &edges)
     };
+    let (mut supports, mut loads) = (supports(case, mesh, &on), loads(case, mesh, &on));
+    supports.retain(|support| !support.rows.is_empty());
+    loads.retain(|load| !load.rows.is_empty() || load.resultant.is_some());
+    (supports, loads)
+}
+
+/// Everything of a case that has a place on its mesh.
+fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
+    let (supports, loads) = acting(case, mesh);
     let is_big = mesh.edges.len() > MOST_EDGES;
     let curves = mesh.physical_curves().into_iter().filter(|boundary| case.tool_of(&boundary.name).is_none());
     let mut figure = SceneFigure {
@@ -115,15 +126,13 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
             .map(|boundary| NamedRows { name: boundary.name.clone(), rows: rows(mesh, &boundary.edges), place: None })
             .collect(),
         contacts: contacts(case, mesh),
-        supports: supports(case, mesh, &on),
-        loads: loads(case, mesh, &on),
+        supports,
+        loads,
         has_axis: mesh.plane == Plane::Revolution,
         remarks: Vec::new(),
     };
     // What has no place on the mesh.
     figure.contacts.retain(|contact| !contact.rows.is_empty());
-    figure.supports.retain(|support| !support.rows.is_empty());
-    figure.loads.retain(|load| !load.rows.is_empty() || load.resultant.is_some());
     figure
 }
 
@@ -319,6 +328,11 @@ fn surface_load(load: &Load, on: &dyn Fn(&[String]) -> Rows) -> DrawnLoad {
     DrawnLoad { name, rows, resultant: None, is_plate: false }
 }
 
+/// Both components of a vector.
+fn vector([x, y]: [f64; 2]) -> String {
+    format!("({}, {})", number_text(x), number_text(y))
+}
+
 fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnLoad> {
     let arrow = |name: String, place: [f64; 2], along: [f64; 2]| DrawnLoad {
         name,
@@ -330,17 +344,24 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         let rows = on(&plate.on);
         let [fx, fy, _] = plate.motion.applied;
         let middle = rows.iter().flatten().nth(rows.iter().flatten().count() / 2).map_or([0.0; 2], |point| point.place);
-        DrawnLoad { rows, is_plate: true, ..arrow(format!("{}: stiff plate", plate.name), middle, [fx, fy]) }
+        DrawnLoad {
+            rows,
+            is_plate: true,
+            ..arrow(format!("{}: stiff plate, force {}", plate.name, vector([fx, fy])), middle, [fx, fy])
+        }
     });
     let at_points = case.point_loads.iter().map(|load| {
         let place = load.at.place;
-        DrawnLoad { rows: lone_point(place), ..arrow(load.name.clone(), place, load.force().into()) }
+        DrawnLoad {
+            rows: lone_point(place),
+            ..arrow(format!("{}: force {}", load.name, vector(load.force().into())), place, load.force().into())
+        }
     });
     let tools = case.tools.iter().filter_map(|tool| {
         let [fx, fy, _] = tool.motion.applied;
         let moved = [0, 1].map(|k| tool.motion.prescribed[k].unwrap_or(0.0));
         let along = if fx != 0.0 || fy != 0.0 { [fx, fy] } else { moved };
-        let name = format!("{}: {}", tool.key(), if along == moved { "moves" } else { "force" });
+        let name = format!("{}: {} {}", tool.key(), if along == moved { "moves" } else { "force" }, vector(along));
         (along != [0.0; 2]).then(|| arrow(name, tool.motion.about.into(), along))
     });
     let of_parts = triangles_of(mesh, mesh.parts.len(), |triangle| triangle.part);
@@ -349,7 +370,7 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         let place = inside(mesh, &of_parts[number]);
         let force = [0, 1].map(|k| part.force[k].value(&[place.x, place.y]));
         let acts = force.iter().all(|part| part.is_finite()) && force != [0.0; 2];
-        acts.then(|| arrow(format!("force in {}", part.name), place.into(), force))
+        acts.then(|| arrow(format!("force in {}: {} for each volume", part.name, vector(force)), place.into(), force))
     });
     case.loads.iter().map(|load| surface_load(load, on)).chain(plates).chain(at_points).chain(tools).chain(weights).collect()
 }

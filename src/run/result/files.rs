@@ -34,7 +34,7 @@ impl Run<'_> {
             Status::Unresolved => Outcome::Unresolved,
             Status::NotConverged | Status::Interrupted => Outcome::NotConverged,
         };
-        self.report.verdict(outcome, summary.reason.as_deref().unwrap_or_default(), &self.options.out);
+        self.report.verdict(outcome, &summary, &self.options.out);
         Ok(outcome)
     }
 

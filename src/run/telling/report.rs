@@ -211,9 +211,16 @@ impl Report {
     }
 
     /// The last words: the verdict, and where the results are. A bad one is printed even if the run is quiet.
-    pub fn verdict(&self, outcome: Outcome, reason: &str, out: &Path) {
+    pub fn verdict(&self, outcome: Outcome, summary: &Summary, out: &Path) {
+        let reason = summary.reason.as_deref().unwrap_or_default();
         match outcome {
-            Outcome::Converged => self.say(&format!("mezha: converged: {reason}")),
+            Outcome::Converged => match untrusted(summary) {
+                None => self.say(&format!("mezha: converged: {reason}")),
+                Some(contacts) => {
+                    self.say(&format!("mezha: converged; pressure NOT trusted ({contacts})"));
+                    clauses(reason).iter().for_each(|clause| self.say(&format!("    {clause}")));
+                }
+            },
             Outcome::NotConverged | Outcome::Unresolved => {
                 let words = if outcome == Outcome::Unresolved { "resolved" } else { "converged" };
                 let words = format!("mezha: NOT {words}: {reason}");
@@ -280,6 +287,30 @@ pub fn contact_lines(contacts: &[Contact]) -> Vec<String> {
     contacts.iter().map(words).collect()
 }
 
+/// How many contacts have a pressure that is not to be trusted, of how many; nothing if there are none.
+fn untrusted(summary: &Summary) -> Option<String> {
+    let (count, all) = (summary.named(|contact| contact.judged.trust == Some(false)).len(), summary.contact.len());
+    (count > 0).then(|| format!("{count} of {all} contact{}", if all == 1 { "" } else { "s" }))
+}
+
+/// The clauses of a reason, which semicolons part outside of brackets.
+fn clauses(reason: &str) -> Vec<&str> {
+    let (mut all, mut from, mut depth) = (Vec::new(), 0, 0_usize);
+    for (at, letter) in reason.char_indices() {
+        match letter {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            ';' if depth == 0 => {
+                all.push(reason[from..at].trim());
+                from = at + 1;
+            }
+            _ => {}
+        }
+    }
+    all.push(reason[from..].trim());
+    all
+}
+
 /// Largest resident memory so far, as the system knows it. **Collective**
 pub fn memory(session: &Session) -> Memory {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -289,4 +320,19 @@ pub fn memory(session: &Session) -> Memory {
     session.max(&mut largest);
     session.sum(&mut sum);
     Memory { max_rank: Some(largest[0]), sum: Some(sum[0]) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reason_is_told_by_its_clauses() {
+        let reason = "pressure unreliable: contact a (on 3 segments; off by 0.1); refine the mesh; estimated error 3e-2";
+        assert_eq!(
+            clauses(reason),
+            ["pressure unreliable: contact a (on 3 segments; off by 0.1)", "refine the mesh", "estimated error 3e-2"]
+        );
+        assert_eq!(clauses("one"), ["one"]);
+    }
 }

@@ -97,11 +97,12 @@ fn probe_errors(case: &Case, found: &Evaluation, probe: &ProbePoint) -> Result<[
         Some(all.value[place])
     });
     let displacement = exact.u.as_ref().map(|u| [u[0].value(&x), u[1].value(&x)]).or(listed);
-    let stress = exact.stress.as_ref().map(|stress| [0, 1, 2].map(|k: usize| stress[k].value(&x)));
+    let stress =
+        exact.stress.as_ref().map(|stress| [0, 1, 2, 3].map(|k: usize| stress.get(k).map_or(0.0, |part| part.value(&x))));
     let Some(probed) = found.probe(at, probe.point)? else { return Ok([None; 2]) };
-    let size = |stress: [f64; 3]| (stress[0].powi(2) + stress[1].powi(2) + 2.0 * stress[2].powi(2)).sqrt();
+    let size = |stress: [f64; 4]| case.plane.stress_product(stress, stress).sqrt();
     Ok([
         displacement.map(|[x, y]| (probed.displacement - Point::new(x, y)).norm() / x.hypot(y)),
-        stress.map(|exact| size([0, 1, 2].map(|k: usize| probed.stress[k] - exact[k])) / size(exact)),
+        stress.map(|exact| size([0, 1, 2, 3].map(|k: usize| probed.stress[k] - exact[k])) / size(exact)),
     ])
 }

@@ -5,8 +5,9 @@ use crate::case::Case;
 use crate::contact::{Law, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
+use crate::procedure::MOVES;
 use crate::run::verdict::limits::{
-    DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, MOVES, NARROWEST, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS,
+    DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, NARROWEST, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS,
 };
 use crate::run::words::short;
 

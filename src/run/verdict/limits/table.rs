@@ -192,9 +192,6 @@ pub const WORTH_WITHIN_SEGMENTS: f64 = 0.5;
 /// b.
 pub const HERTZ_BY_UNRESOLVED: f64 = 0.32;
 
-/// Way of the ends of a contact boundary, as a share of its length, beyond which it moves.
-pub const MOVES: f64 = 1e-2;
-
 /// Relative error of a force by turning and sliding of its bodies. What is estimated is .55 to 1.5 times the true error
 /// (`tests/turning.rs`); a pile that cannot stand stood with .55, since turned discs are larger ones.
 pub const FORCE_OFF: f64 = 0.5;

@@ -1,6 +1,7 @@
 //! Sentences of limits, and what the documents say of them.
 
 use super::*;
+use crate::procedure::MOVES;
 
 /// Every row of the table, with its figure.
 const ROWS: [(&str, &Limit); 25] = [

@@ -1,0 +1,71 @@
+//! What acts on a scene, in lines: loads with their resultants, supports with what they hold, contacts with how far apart their
+//! sides are drawn.
+
+use super::drawing::acting;
+use super::proposals::short;
+use crate::case::Case;
+use crate::contact::{GapChoice, Pair, SmoothSide};
+use crate::discretisation::Scene;
+use crate::element::Plane;
+use crate::geometry::Point;
+use crate::mesh::Numbering;
+use crate::output::plot::{BoundaryPoint, DrawnLoad, number_text};
+use crate::output::summary::MOST_TOLD;
+
+/// Sides that are nearer than this share of their length are drawn touching.
+const TOUCHING: f64 = 1e-6;
+
+/// The lines, of each kind as many as are told.
+pub fn acting_lines(case: &Case, scene: &Scene, numbering: &Numbering) -> Vec<String> {
+    let (plane, (supports, loads)) = (scene.mesh.plane, acting(case, &scene.mesh));
+    let mut lines = few("loads", &loads, |load| format!("load {}{}", load.name, resultant_words(load, plane)));
+    lines.extend(few("supports", &supports, |support| format!("support {}", support.name)));
+    lines.extend(few("contacts", &scene.pairs, |pair| format!("contact {}: {}", pair.name, gap_words(scene, numbering, pair))));
+    lines
+}
+
+/// As many lines as are told, and how many more there are.
+fn few<T>(kind: &str, all: &[T], line: impl Fn(&T) -> String) -> Vec<String> {
+    let more = all.len().saturating_sub(MOST_TOLD);
+    // Figures have a minus sign of their own.
+    let lines = all.iter().take(MOST_TOLD).map(|one| line(one).replace('−', "-"));
+    lines.chain((more > 0).then(|| format!("and {more} more {kind}"))).collect()
+}
+
+/// The force of tractions along a boundary, of the whole ring in a body of revolution; nothing where the name tells the force.
+fn resultant_words(load: &DrawnLoad, plane: Plane) -> String {
+    if load.resultant.is_some() || load.rows.is_empty() {
+        return String::new();
+    }
+    let part = |two: &[BoundaryPoint]| {
+        let [a, b] = [&two[0], &two[1]].map(|end| (Point::from(end.place), Point::from(end.traction)));
+        0.5 * (a.1 + b.1) * (b.0 - a.0).norm() * plane.width(0.5 * (a.0 + b.0))
+    };
+    let sum: Point = load.rows.iter().flat_map(|row| row.windows(2)).map(part).sum();
+    let size = load.rows.iter().flat_map(|row| row.windows(2)).map(|two| part(two).norm()).sum::<f64>();
+    let [x, y] = plane.resultant(sum).map(|part| if part.abs() < 1e-9 * size { 0.0 } else { part }).into();
+    format!(", resultant ({}, {})", number_text(x), number_text(y))
+}
+
+/// How far the sides of a contact are drawn apart, or into each other, or what gap is given in the place of that.
+fn gap_words(scene: &Scene, numbering: &Numbering, pair: &Pair) -> String {
+    match &pair.gap {
+        GapChoice::Closed => return "closed, wherever its sides are drawn".into(),
+        GapChoice::Formula(gap) => return format!("a gap of {} is given", gap.text()),
+        GapChoice::Geometry => {}
+    }
+    let [first, second] = SmoothSide::of_pair(&scene.mesh, numbering, pair, &|_| Point::zeros());
+    let both = || first.iter().flat_map(|one| second.iter().map(move |other| (one, other)));
+    let length = both().map(|(one, other)| one.length().min(other.length())).fold(0.0, f64::max);
+    let gaps = |one: &SmoothSide, other: &SmoothSide| {
+        let gaps = |node: usize| one.facing_gaps(node, other, pair, TOUCHING * length).map(|gaps| gaps.at_rest);
+        (0..one.nodes()).filter_map(gaps).reduce(f64::min)
+    };
+    let least = both().flat_map(|(one, other)| [gaps(one, other), gaps(other, one)]).flatten().reduce(f64::min);
+    match least {
+        None => "its sides do not face each other as they are drawn".into(),
+        Some(gap) if gap.abs() <= TOUCHING * length => "its sides are drawn touching".into(),
+        Some(gap) if gap > 0.0 => format!("its sides are drawn {} apart", short(gap)),
+        Some(gap) => format!("its sides are drawn {} into each other, which presses", short(-gap)),
+    }
+}
