@@ -29,9 +29,11 @@ pub struct Row {
     pub words: String,
 }
 
-/// Whether a run gives no reason to doubt its pressure. A warning that segments are short is none: the case asked for them.
+/// Whether a run gives no reason to doubt its pressure. A warning that segments are short is none: the case asked for
+/// them; nor is one that P1 locks towards ν = 0.5: whether it does is judged.
 pub fn is_quiet(said: &Said) -> bool {
-    let doubts = said.warnings.iter().filter(|words| !words.contains("or more are safe"));
+    let idle = ["or more are safe", "lock towards 0.5"];
+    let doubts = said.warnings.iter().filter(|words| !idle.iter().any(|known| words.contains(known)));
     said.code == Some(0) && said.trust != Some(false) && doubts.count() == 0
 }
 
