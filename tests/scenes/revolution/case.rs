@@ -38,8 +38,8 @@ pub struct Round {
     pub hot: [Option<Heat>; 2],
     /// The axis has no support of its own.
     pub bare_axis: bool,
-    /// The right ends lie on stiff plates that carry nothing: they move, and stay plane.
-    pub free_ends: bool,
+    /// How far the right ends of both bodies are moved outwards.
+    pub ends: [f64; 2],
     /// The error of λ and of its force that is asked for.
     pub accuracy: Option<f64>,
     /// The residual that is asked for.
@@ -77,10 +77,8 @@ impl Round {
             if self.bare_axis || k == 1 && self.is_tool() {
                 text = text.replace(&wall("left"), "");
             }
-            if self.free_ends {
-                let plate = format!("[load.{name}_end]\non = \"{name}.right\"\nrigid = true\nforce = [0.0, 0.0]\n");
-                text = text.replace(&wall("right"), &plate);
-            }
+            let moved = wall("right").replace("= 0.0", &format!("= {:?}", self.ends[k] * frame.scale));
+            text = text.replace(&wall("right"), &moved);
         }
         let held = match self.upper {
             Upper::Body => String::new(),

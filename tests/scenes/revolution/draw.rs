@@ -39,9 +39,9 @@ pub fn draw(seed: u64) -> (Round, Settings) {
         upper: Upper::Body,
         hot: [None, None],
         bare_axis: false,
-        free_ends: false,
+        ends: [0.0; 2],
         accuracy: None,
-        tolerance: 1e-10,
+        tolerance: 1e-11,
         exact: None,
     };
     let kind = lot.between(0.0, 1.0);
@@ -67,7 +67,7 @@ pub fn draw(seed: u64) -> (Round, Settings) {
     }
     // As a user draws it: finer about the point of contact.
     for (body, layers) in round.scene.bodies.iter().zip(&mut settings.layers).filter(|_| round.scene.frame.angle == 0.0) {
-        let (peaks, edges) = (&round.scene.focus, lot.factor(0.4, 1.2));
+        let (peaks, edges) = (&round.scene.focus, lot.factor(0.8, 2.5));
         let own = |peak: &Peak| Peak { edge: peak.edge / edges * f64::powi(2.0, settings.refine as i32), ..*peak };
         layers.peaks = peaks.iter().filter(|_| body.range == [0.0, 1.0]).map(own).collect();
     }
@@ -161,7 +161,8 @@ fn fit(round: &mut Round, lot: &mut Lot) {
     let is_long = lot.chance(0.6);
     scene.bodies.iter_mut().for_each(|body| body.walls[1] = is_long);
     let mean = lot.factor(1e-4, 2e-3);
-    let size = mean * radius * scene.bodies.iter().map(|body| radius / body.depth.min(radius) / body.young).sum::<f64>();
+    let softness = scene.bodies.iter().map(|body| radius / body.depth.min(radius) / body.young).sum::<f64>();
+    let size = radius * (mean * softness).min(4e-3);
     let mut gap = size * lot.between(0.1, 1.5);
     match lot.one(&["interference", "pressure", "heat", "heat", "bumps"]) {
         "interference" => gap = -size,
@@ -193,8 +194,10 @@ fn fit(round: &mut Round, lot: &mut Lot) {
     if lot.chance(0.4) {
         (scene.gap, scene.bodies[1].seam) = (Gap::Drawn, Shape::Line { height: gap });
     }
-    round.free_ends = is_long && round.scene.bodies[1].walls[1] && lot.chance(0.35);
-    round.exact = exact::lame(round).map(|pressure| exact::constant(pressure, round));
+    if let Some(lame) = exact::lame(round, lot.chance(0.35)) {
+        round.ends = lame.along;
+        round.exact = Some(exact::constant(lame.pressure, round));
+    }
 }
 
 /// A rigid tool on a block, or on a ring: round, a cone, or flat with an edge.

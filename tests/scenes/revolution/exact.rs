@@ -13,24 +13,39 @@ struct Ring {
     poisson: f64,
     /// Free thermal strain.
     growth: f64,
-    /// Whether its ends are free to move, and stay plane; otherwise they are held.
+    /// Whether its ends move apart as they like, and stay plane; otherwise they are held.
     free: bool,
 }
 
+/// λ all along the seam, and how far the ends of both rings move apart, by their length.
+pub struct Lame {
+    pub pressure: f64,
+    pub along: [f64; 2],
+}
+
 impl Ring {
-    /// Radial displacement at a radius under pressures on the inner and on the outer side.
-    fn moves(&self, r: f64, [inside, outside]: [f64; 2]) -> f64 {
-        let Self { radii: [a, b], young, poisson: nu, growth, free } = *self;
-        let area = b * b - a * a;
-        let even = (inside * a * a - outside * b * b) / area;
-        let around = a * a * b * b * (inside - outside) / area;
-        let along = if free { growth - 2.0 * nu * even / young } else { 0.0 };
+    /// Half of the sum of both stresses across the axis under pressures on the inner and on the outer side.
+    fn even(&self, [inside, outside]: [f64; 2]) -> f64 {
+        let [a, b] = self.radii;
+        (inside * a * a - outside * b * b) / (b * b - a * a)
+    }
+
+    /// Strain along the axis.
+    fn along(&self, pressures: [f64; 2]) -> f64 {
+        if self.free { self.growth - 2.0 * self.poisson * self.even(pressures) / self.young } else { 0.0 }
+    }
+
+    /// Radial displacement at a radius.
+    fn moves(&self, r: f64, pressures: [f64; 2]) -> f64 {
+        let Self { radii: [a, b], young, poisson: nu, growth, .. } = *self;
+        let around = a * a * b * b * (pressures[0] - pressures[1]) / (b * b - a * a);
+        let (even, along) = (self.even(pressures), self.along(pressures));
         (1.0 + nu) * ((1.0 - 2.0 * nu) * even * r + around / r) / young + ((1.0 + nu) * growth - nu * along) * r
     }
 }
 
-/// λ all along the seam of two rings whose ends all are held, or all stay plane; 0 where they do not meet. `None`: not such.
-pub fn lame(round: &Round) -> Option<f64> {
+/// Two rings whose ends are all held, or all free and plane; λ is 0 where they do not meet. `None`: the scene is no such.
+pub fn lame(round: &Round, free: bool) -> Option<Lame> {
     let scene = &round.scene;
     let even = |heat: &Option<Heat>| heat.is_none_or(|heat| heat.slope == 0.0);
     let whole = scene.bodies.iter().all(|body| body.walls == [true, true] && body.range == [0.0, 1.0] && body.seam.is_line());
@@ -55,12 +70,15 @@ pub fn lame(round: &Round) -> Option<f64> {
         let body = &scene.bodies[k];
         let radii = if k == inner { [seam - body.depth, seam] } else { [seam, seam + body.depth] };
         let growth = round.hot[k].map_or(0.0, |heat| heat.strain);
-        Ring { radii, young: body.young, poisson: body.poisson, growth, free: round.free_ends }
+        Ring { radii, young: body.young, poisson: body.poisson, growth, free }
     });
     // The load is on the outer side of the upper body.
     let loads = if inner == 0 { [0.0, load] } else { [load, 0.0] };
-    let opens = |p: f64| gap + rings[1].moves(seam, [p, loads[1]]) - rings[0].moves(seam, [loads[0], p]);
-    Some((-opens(0.0) / (opens(1.0) - opens(0.0))).max(0.0) * scene.stress)
+    let on = |p: f64| [[loads[0], p], [p, loads[1]]];
+    let opens = |p: f64| gap + rings[1].moves(seam, on(p)[1]) - rings[0].moves(seam, on(p)[0]);
+    let pressure = (-opens(0.0) / (opens(1.0) - opens(0.0))).max(0.0);
+    let along = [0, 1].map(|k| rings[k].along(on(pressure)[k]));
+    Some(Lame { pressure: pressure * scene.stress, along: if inner == 0 { along } else { [along[1], along[0]] } })
 }
 
 /// The same as a profile.
