@@ -139,6 +139,13 @@ fn a_handful_of_scenes() {
     assert!(totals.held, "{}", totals.text);
 }
 
+/// Of revolution, as Lamé and Hertz know them.
+#[test]
+fn a_handful_of_scenes_of_revolution() {
+    let totals = many([4, 27, 38, 40, 41].into_iter(), revolution::one);
+    assert!(totals.all_right, "{}", totals.text);
+}
+
 /// Two at a time: ranks wait for each other more than for the processor.
 #[test]
 fn a_wrong_pressure_is_doubted() {

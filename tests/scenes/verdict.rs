@@ -78,6 +78,8 @@ pub struct Totals {
     pub text: String,
     /// Whether the figures that are wanted are held.
     pub held: bool,
+    /// Whether there is nothing else than right ones.
+    pub all_right: bool,
 }
 
 /// Most of the rows may be wrong by 5 to 10 % without a word, and most may be doubted without need.
@@ -105,7 +107,8 @@ pub fn totals(rows: &[Row], dropped: usize) -> Totals {
     for (k, name) in ["force", "λ"].into_iter().enumerate() {
         text += &format!("estimate of {name} by true error: {}\n", effectivity(rows, k));
     }
-    Totals { text, held: loud == 0 && share(quiet) <= MOST_QUIET && share(needless) <= MOST_FALSE }
+    let all_right = right == rows.len() && dropped == 0;
+    Totals { text, all_right, held: loud == 0 && share(quiet) <= MOST_QUIET && share(needless) <= MOST_FALSE }
 }
 
 /// How estimates compare with true errors, in words.

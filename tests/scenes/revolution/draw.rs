@@ -161,8 +161,8 @@ fn fit(round: &mut Round, lot: &mut Lot) {
     let is_long = lot.chance(0.6);
     scene.bodies.iter_mut().for_each(|body| body.walls[1] = is_long);
     let mean = lot.factor(1e-4, 2e-3);
-    let softness = scene.bodies.iter().map(|body| radius / body.depth.min(radius) / body.young).sum::<f64>();
-    let size = radius * (mean * softness).min(4e-3);
+    let compliance = scene.bodies.iter().map(|body| radius / body.depth.min(radius) / body.young).sum::<f64>();
+    let size = radius * (mean * compliance).min(4e-3);
     let mut gap = size * lot.between(0.1, 1.5);
     match lot.one(&["interference", "pressure", "heat", "heat", "bumps"]) {
         "interference" => gap = -size,
