@@ -87,7 +87,7 @@ fn frame(lot: &mut Lot) -> Frame {
 }
 
 /// Round bodies drawn apart, or touching: the gap is measured.
-fn drawn(scene: &mut Scene, lot: &mut Lot, softness: f64) {
+pub fn drawn(scene: &mut Scene, lot: &mut Lot, softness: f64) {
     let half_width = lot.factor(0.03, 0.2);
     let peak = lot.factor(2e-4, 5e-3);
     let bend = 2.0 * peak * softness / half_width;
@@ -130,7 +130,7 @@ fn drawn(scene: &mut Scene, lot: &mut Lot, softness: f64) {
 }
 
 /// Both bodies along one parabola.
-fn curve(scene: &mut Scene, lot: &mut Lot) {
+pub fn curve(scene: &mut Scene, lot: &mut Lot) {
     let shape = Shape::Parabola { height: 0.0, bend: lot.between(-0.4, 0.4), middle: lot.between(0.0, 1.0) };
     for body in &mut scene.bodies {
         body.seam = shape;
@@ -139,7 +139,7 @@ fn curve(scene: &mut Scene, lot: &mut Lot) {
 }
 
 /// A part of two rings.
-fn ring(scene: &mut Scene, lot: &mut Lot, mean: f64) {
+pub fn ring(scene: &mut Scene, lot: &mut Lot, mean: f64) {
     let from = lot.between(0.0, 1.0);
     let to = from + lot.between(0.5, 1.6);
     let radius = lot.between(0.8, 2.0);
@@ -152,7 +152,7 @@ fn ring(scene: &mut Scene, lot: &mut Lot, mean: f64) {
     scene.press = Press::Pressure { mean, tilt: 0.0 };
 }
 
-fn declared_gap(scene: &mut Scene, lot: &mut Lot, softness: f64, mean: f64) {
+pub fn declared_gap(scene: &mut Scene, lot: &mut Lot, softness: f64, mean: f64) {
     let ring = matches!(scene.bodies[0].seam, Shape::Arc { .. });
     let length = scene.bodies[0].seam.length();
     let [begin, end] = scene.ends();
@@ -199,7 +199,7 @@ fn declared_gap(scene: &mut Scene, lot: &mut Lot, softness: f64, mean: f64) {
     }
 }
 
-fn settings(scene: &Scene, lot: &mut Lot, seed: u64) -> Settings {
+pub fn settings(scene: &Scene, lot: &mut Lot, seed: u64) -> Settings {
     let order = lot.one(&[1, 2]);
     let refine: usize = lot.one(&[1, 2, 2, 3]);
     let finest = if order == 1 { 400.0 } else { 220.0 } * lot.between(0.3, 1.0);

@@ -9,12 +9,15 @@ mod known;
 mod layers;
 mod profile;
 mod reference;
+mod revolution;
 mod run;
 mod scene;
 mod shape;
 mod verdict;
 
 use reference::Truth;
+use run::Said;
+use scene::{Scene, Settings};
 use verdict::{Kind, Row, Totals, totals};
 
 /// Draws a scene, runs it and compares. An error is a scene without a truth, in words.
@@ -22,9 +25,14 @@ fn one(seed: u64) -> Result<Row, String> {
     let (scene, settings) = draw::draw(seed);
     let truth = reference::truth(&scene, seed);
     let said = run::solve(&scene, &settings, &reference::folder(seed));
+    compared(seed, &scene, &settings, &truth, said)
+}
+
+/// What a run of a scene is worth beside the truth.
+fn compared(seed: u64, scene: &Scene, settings: &Settings, truth: &Truth, said: Said) -> Result<Row, String> {
     let ends = scene.ends();
     let smooth = [scene.smooth_end(0), scene.smooth_end(1)];
-    let apart = match (&truth, &said.profile) {
+    let apart = match (truth, &said.profile) {
         (Truth::Known(truth), Some(own)) if scene.drawn_aside != 0.0 => {
             Some(own.moved(truth.centre() - own.centre()).apart(truth, ends, smooth))
         }
@@ -36,7 +44,7 @@ fn one(seed: u64) -> Result<Row, String> {
     let possible = matches!(truth, Truth::Known(_));
     let mut kind = verdict::judge(&said, apart.as_ref());
     // Bodies that do not touch are right without a pressure.
-    let idle = matches!(&truth, Truth::Unknown(words) if words == "nothing presses");
+    let idle = matches!(truth, Truth::Unknown(words) if words == "nothing presses");
     if idle && said.code == Some(0) && said.profile.as_ref().is_some_and(|own| own.force == 0.0) {
         kind = if verdict::is_quiet(&said) { Kind::Right } else { Kind::FalseAlarm };
     }
@@ -59,7 +67,7 @@ fn one(seed: u64) -> Result<Row, String> {
 }
 
 /// Draws and runs scenes, says each, and adds them up.
-fn many(seeds: impl Iterator<Item = u64>) -> Totals {
+fn many(seeds: impl Iterator<Item = u64>, one: impl Fn(u64) -> Result<Row, String>) -> Totals {
     let (mut rows, mut dropped) = (Vec::new(), 0);
     for seed in seeds {
         match one(seed) {
@@ -76,24 +84,36 @@ fn many(seeds: impl Iterator<Item = u64>) -> Totals {
     totals(&rows, dropped)
 }
 
-/// `ci/scenes`: as many scenes as `SCENES` says, from the number `SEED` on.
+/// The numbers of as many scenes as `SCENES` says, from the number `SEED` on.
+fn numbers(count: u64) -> std::ops::Range<u64> {
+    let number = |name: &str, default: u64| std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default);
+    let (count, seed) = (number("SCENES", count), number("SEED", 1));
+    seed..seed + count
+}
+
+/// `ci/scenes`.
 #[test]
 #[ignore = "hours: ci/scenes"]
 fn two_hundred_scenes() {
-    let number = |name: &str, default: u64| std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default);
-    let (count, seed) = (number("SCENES", 200), number("SEED", 1));
-    let totals = many(seed..seed + count);
+    let totals = many(numbers(200), one);
     println!("{}", totals.text);
     assert!(totals.held, "{}", totals.text);
 }
 
-/// `ci/scenes assemblies`: as many as `SCENES` says, from the number `SEED` on.
+/// `ci/scenes revolution`.
+#[test]
+#[ignore = "half an hour: ci/scenes revolution"]
+fn sixty_scenes_of_revolution() {
+    let totals = many(numbers(60), revolution::one);
+    println!("{}", totals.text);
+    assert!(totals.held, "{}", totals.text);
+}
+
+/// `ci/scenes assemblies`.
 #[test]
 #[ignore = "half an hour: ci/scenes assemblies"]
 fn two_hundred_assemblies() {
-    let number = |name: &str, default: u64| std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default);
-    let (count, seed) = (number("SCENES", 200), number("SEED", 1));
-    let wrong = assembly::many(seed..seed + count);
+    let wrong = assembly::many(numbers(200));
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
@@ -115,8 +135,15 @@ fn turns_of_assemblies() {
 /// A handful of them, on small meshes.
 #[test]
 fn a_handful_of_scenes() {
-    let totals = many([3, 6, 9, 13].into_iter());
+    let totals = many([3, 6, 9, 13].into_iter(), one);
     assert!(totals.held, "{}", totals.text);
+}
+
+/// Of revolution, as Lamé and Hertz know them.
+#[test]
+fn a_handful_of_scenes_of_revolution() {
+    let totals = many([4, 27, 38, 40, 41].into_iter(), revolution::one);
+    assert!(totals.all_right, "{}", totals.text);
 }
 
 /// Two at a time: ranks wait for each other more than for the processor.

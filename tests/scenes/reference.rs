@@ -2,11 +2,11 @@
 
 use crate::layers::{Layers, Peak};
 use crate::profile::{Profile, Zone};
-use crate::run::solve;
+use crate::run::{Said, solve};
 use crate::scene::{Gap, Scene, Settings};
 use serde::{Deserialize, Serialize};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The finest pressure of a scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -65,16 +65,28 @@ pub fn truth(scene: &Scene, seed: u64) -> Truth {
     let smooth = [scene.smooth_end(0), scene.smooth_end(1)];
     let flat = scene.flattened();
     let scene = flat.as_ref().unwrap_or(scene);
+    kept(scene, smooth, seed, &folder(seed), |settings| scene.case(settings), |settings, folder| solve(scene, settings, folder))
+}
+
+/// The same with cases and runs of another kind of scene, in a folder.
+pub fn kept(
+    scene: &Scene,
+    smooth: [bool; 2],
+    seed: u64,
+    folder: &Path,
+    case: impl Fn(&Settings) -> String,
+    solve: impl Fn(&Settings, &Path) -> Said,
+) -> Truth {
     let mut hasher = DefaultHasher::new();
     let first = finest(scene, &scene.focus, 1, seed);
-    (scene.case(&first), scene.mesh(&first.layers)).hash(&mut hasher);
-    let folder = folder(seed);
-    std::fs::create_dir_all(&folder).expect("target/scenes can be made");
+    (case(&first), scene.mesh(&first.layers)).hash(&mut hasher);
+    std::fs::create_dir_all(folder).expect("a folder in target can be made");
     let file = folder.join(format!("truth-{:016x}.json", hasher.finish()));
     if let Some(truth) = std::fs::read_to_string(&file).ok().and_then(|text| serde_json::from_str(&text).ok()) {
         return truth;
     }
-    let truth = converge(scene, smooth, seed);
+    let reference = |settings: &Settings, name: &str| pressure(solve(settings, &folder.join(name)), name);
+    let truth = converge(scene, smooth, seed, reference);
     std::fs::write(&file, serde_json::to_string(&truth).expect("JSON")).expect("target/scenes can be written");
     truth
 }
@@ -85,16 +97,20 @@ pub fn folder(seed: u64) -> PathBuf {
 }
 
 /// A pressure that converged, or words why there is none.
-fn reference(scene: &Scene, settings: &Settings, seed: u64, name: &str) -> Result<Profile, String> {
-    let said = solve(scene, settings, &folder(seed).join(name));
+fn pressure(said: Said, name: &str) -> Result<Profile, String> {
     let converged = said.code == Some(0);
     let profile = said.profile.filter(|_| converged);
     profile.ok_or_else(|| format!("{name}: exit {:?}, {}", said.code, said.reason.trim()))
 }
 
 /// A first run tells where the bodies press; meshes that are fine there follow until two agree.
-fn converge(scene: &Scene, smooth: [bool; 2], seed: u64) -> Truth {
-    let first = match reference(scene, &finest(scene, &scene.focus, 1, seed), seed, "first") {
+fn converge(
+    scene: &Scene,
+    smooth: [bool; 2],
+    seed: u64,
+    reference: impl Fn(&Settings, &str) -> Result<Profile, String>,
+) -> Truth {
+    let first = match reference(&finest(scene, &scene.focus, 1, seed), "first") {
         Ok(first) if first.force == 0.0 => return Truth::Unknown("nothing presses".into()),
         Ok(first) => Some(first),
         Err(words) if words.contains("can move") => return Truth::Unknown(words),
@@ -107,7 +123,7 @@ fn converge(scene: &Scene, smooth: [bool; 2], seed: u64) -> Truth {
     let focus = first.map_or_else(|| scene.focus.clone(), |first| first.zones().iter().map(near).collect());
     let (mut last, mut words): (Option<Profile>, _) = (None, String::new());
     for refine in 1..=3 {
-        match reference(scene, &finest(scene, &focus, refine, seed), seed, &format!("finest-{refine}")) {
+        match reference(&finest(scene, &focus, refine, seed), &format!("finest-{refine}")) {
             Ok(found) => {
                 if let Some(last) = &last {
                     let apart = last.apart(&found, scene.ends(), smooth);

@@ -2,10 +2,13 @@
 
 use crate::profile::Profile;
 use crate::scene::{Scene, Settings};
-use crate::support::Run;
 use crate::support::mesh::write_scene;
+use crate::support::process::PATIENCE;
+use crate::support::{Run, TracePoint};
+use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::time::Duration;
 
 /// How a run ended.
 #[derive(Clone, Debug, Default)]
@@ -20,6 +23,9 @@ pub struct Said {
     pub profile: Option<Profile>,
     /// Estimated errors of ∫λ ds and of λ, all over its worst zone.
     pub estimate: [Option<f64>; 2],
+    /// All of `summary.json`, and the trace.
+    pub summary: Value,
+    pub trace: Vec<TracePoint>,
 }
 
 /// Runs a scene on as many ranks as its settings say; case and mesh stay in the folder.
@@ -31,7 +37,12 @@ pub fn solve(scene: &Scene, settings: &Settings, folder: &Path) -> Said {
 
 /// Runs a case of one contact `c`; `parameter` says where on the seam a point lies.
 pub fn run(file: &Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Said {
-    let run = Run::file(file);
+    run_within(PATIENCE, file, ranks, parameter)
+}
+
+/// The same; after this time it is ended.
+pub fn run_within(patience: Duration, file: &Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Said {
+    let run = Run::file(file).within(patience);
     let run = if ranks == 1 { run.alone() } else { run.ranks(ranks) };
     let Ok(ended) = catch_unwind(AssertUnwindSafe(|| run.ended())) else {
         return Said { reason: "it does not end".into(), ..Said::default() };
@@ -54,8 +65,10 @@ pub fn run(file: &Path, ranks: usize, parameter: impl Fn([f64; 2]) -> f64) -> Sa
     let worst = whole.collect::<Option<Vec<f64>>>().and_then(|all| all.into_iter().reduce(f64::max));
     said.estimate = [summary["estimate"]["c"]["force"].as_f64(), worst];
     if let Some(force) = contact["force"].as_f64().filter(|_| ended.out.join("contact_c.csv").exists()) {
-        let points = ended.trace("c").iter().map(|point| [parameter(point.x), point.lambda]).collect();
+        said.trace = ended.trace("c");
+        let points = said.trace.iter().map(|point| [parameter(point.x), point.lambda]).collect();
         said.profile = Some(Profile::new(points, force));
     }
+    said.summary = summary;
     said
 }

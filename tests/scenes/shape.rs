@@ -51,6 +51,8 @@ impl Frame {
 pub enum Shape {
     /// y = `height`, x from 0 to 1.
     Line { height: f64 },
+    /// y = `height` + `slope` x, x from 0 to 1.
+    Cone { height: f64, slope: f64 },
     /// y = `height` + `bend` (x - `middle`)², x from 0 to 1.
     Parabola { height: f64, bend: f64, middle: f64 },
     /// y = `height` + `rise` (1 - cos 2π(`count` x - `phase`))/2, x from 0 to 1.
@@ -66,6 +68,7 @@ impl Shape {
     pub fn at(&self, u: f64) -> [f64; 2] {
         match *self {
             Self::Line { height } => [u, height],
+            Self::Cone { height, slope } => [u, height + slope * u],
             Self::Parabola { height, bend, middle } => [u, height + bend * (u - middle).powi(2)],
             Self::Wave { height, rise, count, phase } => {
                 [u, height + 0.5 * rise * (1.0 - (2.0 * PI * (count * u - phase)).cos())]
@@ -115,13 +118,14 @@ impl Shape {
 
     /// Whether it is straight.
     pub fn is_line(&self) -> bool {
-        matches!(self, Self::Line { .. })
+        matches!(self, Self::Line { .. } | Self::Cone { .. })
     }
 
     /// Its height over the scene's own x, as a formula of what stands for x.
     pub fn height(&self, x: &str) -> String {
         match *self {
             Self::Line { height } => format!("({height:?})"),
+            Self::Cone { height, slope } => format!("({height:?})+({slope:?})*{x}"),
             Self::Parabola { height, bend, middle } => format!("({height:?})+({bend:?})*({x}-({middle:?}))^2"),
             Self::Wave { height, rise, count, phase } => {
                 format!("({height:?})+({:?})*(1-cos(2*pi*({count:?}*{x}-({phase:?}))))", 0.5 * rise)
@@ -142,7 +146,7 @@ impl Shape {
         let (s, c) = frame.angle.sin_cos();
         let ([a, b], size) = (frame.shift, frame.scale);
         match *self {
-            Self::Line { .. } => None,
+            Self::Line { .. } | Self::Cone { .. } => None,
             Self::Parabola { .. } | Self::Wave { .. } => {
                 let y = self.height("t");
                 Some(format!(

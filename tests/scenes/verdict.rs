@@ -29,9 +29,11 @@ pub struct Row {
     pub words: String,
 }
 
-/// Whether a run gives no reason to doubt its pressure. A warning that segments are short is none: the case asked for them.
+/// Whether a run gives no reason to doubt its pressure. A warning that segments are short is none: the case asked for
+/// them; nor is one that P1 locks towards ν = 0.5: whether it does is judged.
 pub fn is_quiet(said: &Said) -> bool {
-    let doubts = said.warnings.iter().filter(|words| !words.contains("or more are safe"));
+    let idle = ["or more are safe", "lock towards 0.5"];
+    let doubts = said.warnings.iter().filter(|words| !idle.iter().any(|known| words.contains(known)));
     said.code == Some(0) && said.trust != Some(false) && doubts.count() == 0
 }
 
@@ -76,6 +78,8 @@ pub struct Totals {
     pub text: String,
     /// Whether the figures that are wanted are held.
     pub held: bool,
+    /// Whether there is nothing else than right ones.
+    pub all_right: bool,
 }
 
 /// Most of the rows may be wrong by 5 to 10 % without a word, and most may be doubted without need.
@@ -103,7 +107,8 @@ pub fn totals(rows: &[Row], dropped: usize) -> Totals {
     for (k, name) in ["force", "λ"].into_iter().enumerate() {
         text += &format!("estimate of {name} by true error: {}\n", effectivity(rows, k));
     }
-    Totals { text, held: loud == 0 && share(quiet) <= MOST_QUIET && share(needless) <= MOST_FALSE }
+    let all_right = right == rows.len() && dropped == 0;
+    Totals { text, all_right, held: loud == 0 && share(quiet) <= MOST_QUIET && share(needless) <= MOST_FALSE }
 }
 
 /// How estimates compare with true errors, in words.

@@ -44,6 +44,7 @@ pub struct Run {
     words: Vec<String>,
     petsc: Vec<String>,
     has_grace: bool,
+    patience: Duration,
 }
 
 /// How a run ended, with its result folder while this lives.
@@ -81,7 +82,14 @@ impl Run {
 
     /// Any case file.
     pub fn file(file: &Path) -> Self {
-        Self { file: file.to_path_buf(), ranks: Some(1), words: Vec::new(), petsc: Vec::new(), has_grace: false }
+        Self {
+            file: file.to_path_buf(),
+            ranks: Some(1),
+            words: Vec::new(),
+            petsc: Vec::new(),
+            has_grace: false,
+            patience: process::PATIENCE,
+        }
     }
 
     /// On so many ranks.
@@ -99,6 +107,12 @@ impl Run {
     /// Leaves its ranks the second that mpirun leaves them by default to clear away what they have begun.
     pub fn with_grace(mut self) -> Self {
         self.has_grace = true;
+        self
+    }
+
+    /// Ends it after this time at the latest.
+    pub fn within(mut self, patience: Duration) -> Self {
+        self.patience = patience;
         self
     }
 
@@ -140,7 +154,7 @@ impl Run {
         if self.has_grace {
             command.envs(process::GRACE.map(|name| (name, "1")));
         }
-        let (code, output, errors) = process::finish(command);
+        let (code, output, errors) = process::finish_within(command, self.patience);
         Ended { code, output, errors, time: start.elapsed(), out, folder }
     }
 

@@ -27,7 +27,15 @@ pub const GRACE: [&str; 2] = ["OMPI_MCA_odls_base_sigkill_timeout", "PRTE_MCA_od
 ///
 /// # Panics
 /// If it takes too long.
-pub fn finish(mut command: Command) -> (Option<i32>, String, String) {
+pub fn finish(command: Command) -> (Option<i32>, String, String) {
+    finish_within(command, PATIENCE)
+}
+
+/// The same within a time of its own.
+///
+/// # Panics
+/// If it takes longer.
+pub fn finish_within(mut command: Command, patience: Duration) -> (Option<i32>, String, String) {
     let sessions = tempfile::tempdir().expect("a temporary folder");
     command.envs(ENVIRONMENT);
     // Of Open MPI 4, and of 5.
@@ -43,10 +51,10 @@ pub fn finish(mut command: Command) -> (Option<i32>, String, String) {
     let mut child = command.spawn().expect("mpirun starts (Debian: apt-get install openmpi-bin)");
     let output = reader(child.stdout.take().expect("piped"));
     let errors = reader(child.stderr.take().expect("piped"));
-    let code = wait(&mut child);
+    let code = wait(&mut child, patience);
     let text = |thread: JoinHandle<String>| thread.join().expect("a reader ends");
     let (output, errors) = (text(output), text(errors));
-    assert!(code.is_some(), "{command:?} was ended after {PATIENCE:?}:\n{output}{errors}");
+    assert!(code.is_some(), "{command:?} was ended after {patience:?}:\n{output}{errors}");
     (code, output, errors)
 }
 
@@ -60,9 +68,9 @@ fn reader(mut pipe: impl Read + Send + 'static) -> JoinHandle<String> {
 }
 
 /// Exit code; `None` if the command was told to end because it took too long.
-fn wait(child: &mut Child) -> Option<i32> {
+fn wait(child: &mut Child, patience: Duration) -> Option<i32> {
     let start = Instant::now();
-    while start.elapsed() < PATIENCE {
+    while start.elapsed() < patience {
         if let Some(status) = child.try_wait().expect("a child can be waited for") {
             return Some(status.code().unwrap_or(-1));
         }

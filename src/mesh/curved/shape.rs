@@ -201,6 +201,20 @@ mod tests {
         }
     }
 
+    /// Reference coordinates that miss a vertex by less than rounding, as Newton's method finds them.
+    #[test]
+    fn places_beside_a_vertex_are_beside_it() {
+        let (mesh, _) = bent();
+        let edge = mesh.boundary("lower.seam").expect("it has one").edges[0];
+        let triangle = mesh.beside(edge).0 as usize;
+        let corners = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        let tiny = 7e-17;
+        for (at, corner) in [([1.0, -tiny], 1), ([tiny, tiny], 0), ([-tiny, 1.0], 2), ([tiny, 1.0], 2), ([1.0, tiny], 1)] {
+            let x = mesh.position(triangle, at[0], at[1]);
+            assert!((x - corners[corner]).norm() < 1e-14, "{at:?}: {x}");
+        }
+    }
+
     #[test]
     fn normals_point_out_of_the_body() {
         let (mesh, _) = bent();
