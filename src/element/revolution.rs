@@ -20,8 +20,9 @@ const ROUNDING: f64 = 1e-13;
 /// Most points in one direction: enough for radii as 1 to 6.
 const MOST_POINTS: usize = 20;
 
-/// Share of the largest radius within which a corner lies on the axis.
-const ON_AXIS: f64 = 1e-12;
+/// Share of the largest radius of an element within which a place lies on the axis: beside it `u_x / x` has lost as many digits as
+/// rounding has of `x`, which leaves six here.
+const ON_AXIS: f64 = 1e-10;
 
 /// Hoop strain `u_x / x` at barycentric coordinates `l`, on the axis its limit `∂u_x/∂x`.
 pub(super) fn hoop_strain<const N: usize>(nodes: &[Point; N], u: &[Point; N], l: [f64; 3], gradient: &Matrix2<f64>) -> f64 {

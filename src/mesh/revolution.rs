@@ -3,12 +3,18 @@
 use super::MeshError;
 use super::macro_mesh::MacroMesh;
 use crate::element::Plane;
-use crate::geometry::Coordinates;
+use crate::geometry::{Coordinates, Point};
 
 /// Share of the largest radius within which a vertex lies on the axis: files have six digits or more.
 const ON_AXIS: f64 = 1e-7;
 
 impl MacroMesh {
+    /// Where a vertex is moved to: one on the axis of revolution stays there, though the point of a curve misses it by rounding.
+    pub(super) fn kept_on_axis(&self, here: Point, there: Point) -> Point {
+        let is_on_axis = self.plane == Plane::Revolution && here.x == 0.0;
+        if is_on_axis { Point::new(0.0, there.y) } else { there }
+    }
+
     /// Says what the plane stands for. In a body of revolution vertices beside the axis by rounding come to lie on it.
     ///
     /// # Errors

@@ -178,10 +178,23 @@ impl Contact {
         shortest / self.segment_ratio
     }
 
-    /// Edges of the softer body on a zone.
+    /// Edges of the softer body on a zone; of one that begins on the axis of revolution those of its image, too.
     pub fn edges_on(&self, zone: &Zone) -> f64 {
         let count = self.edge_lengths.len();
-        zone.segments.clone().map(|k| self.boundary.segment_length(k) / self.edge_lengths[k % count]).sum()
+        let own = zone.segments.clone().map(|k| self.boundary.segment_length(k) / self.edge_lengths[k % count]);
+        self.images(zone) as f64 * own.sum::<f64>()
+    }
+
+    /// Segments of a zone; of one that begins on the axis of revolution those of its image, too.
+    pub fn segments_on(&self, zone: &Zone) -> usize {
+        self.images(zone) * zone.segments.len()
+    }
+
+    /// Two where a zone goes on beyond the axis of revolution as its own image, else one.
+    fn images(&self, zone: &Zone) -> usize {
+        let radius = |arc: f64| self.boundary.point(self.boundary.parameter_at(arc)).x;
+        let is_on_axis = |arc: f64| radius(arc).abs() <= 1e-9 * self.boundary.length();
+        if self.boundary.is_round() && zone.arcs.into_iter().any(is_on_axis) { 2 } else { 1 }
     }
 
     /// Whether its ends follow the pressure, if it has any.

@@ -85,7 +85,8 @@ impl MacroMesh {
         let mut range = bow.ends.map(|vertex| circle.nearest(self.vertices[vertex as usize]));
         range[1] = range[0] + (range[1] - range[0] + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
         for (vertex, t) in bow.ends.into_iter().zip(range) {
-            let (here, there) = (self.vertices[vertex as usize], circle.point(t));
+            let here = self.vertices[vertex as usize];
+            let there = self.kept_on_axis(here, circle.point(t));
             if (here - there).norm() > 1e-14 * (here.norm() + bow.chord()) {
                 self.vertices[vertex as usize] = there;
             }

@@ -42,7 +42,8 @@ impl MacroMesh {
             range[1] = range[0] + (range[1] - range[0] + 0.5 * period).rem_euclid(period) - 0.5 * period;
         }
         for (vertex, t) in ends.into_iter().zip(range) {
-            let (here, there) = (self.vertices[vertex as usize], curve.point(t));
+            let here = self.vertices[vertex as usize];
+            let there = self.kept_on_axis(here, curve.point(t));
             let distance = (here - there).norm();
             let [first, last] = curve.range();
             let beyond = (first - t).max(t - last) > 1e-6 * (last - first).abs() && curve.period().is_none();

@@ -96,8 +96,8 @@ impl MacroMesh {
                 sides.push(SurfaceEdge { part: number, range: [part.parameter(pair[0]), part.parameter(pair[1])] });
             }
             for (k, &share) in shares.iter().enumerate() {
-                let place =
-                    SurfacePoint { x: part.point(share), right: part.right(share), depth: DEPTH * step(part, &shares, k) };
+                let x = self.rounded_to_axis(part.point(share), part);
+                let place = SurfacePoint { x, right: part.right(share), depth: DEPTH * step(part, &shares, k) };
                 match places.last_mut() {
                     Some(last) if k == 0 => join(last, &place),
                     _ => places.push(place),
@@ -110,9 +110,17 @@ impl MacroMesh {
         self.add_layer(name, parts, &places, &sides, if solid_right { 1.0 } else { -1.0 })
     }
 
-    /// A circle that is faced on a part of it only is cut open where it is not: an arc has ends, as most boundaries have.
+    /// A circle that is faced on a part of it only is cut open where it is not: an arc has ends, as most boundaries have. Of one about
+    /// a point of the axis of revolution its half at the right of that is left.
     fn opened(&self, parts: &[SurfacePart], against: &[u32]) -> Vec<SurfacePart> {
         let mut parts = parts.to_vec();
+        if let [SurfacePart { curve: Curve::Circle { centre, .. }, range }] = &mut parts[..]
+            && self.plane == Plane::Revolution
+            && centre[0] == 0.0
+        {
+            *range = [-0.25 * TAU, 0.25 * TAU];
+            return parts;
+        }
         if let [SurfacePart { curve: curve @ Curve::Circle { .. }, range }] = &mut parts[..] {
             let mut angles: Vec<f64> = against.iter().map(|&edge| curve.nearest(self.edge_position(edge, 0.5))).collect();
             angles.sort_by(f64::total_cmp);
@@ -147,6 +155,13 @@ impl MacroMesh {
         } else {
             Err("its surface faces none of the boundaries that it is in contact with; move or turn it".into())
         }
+    }
+
+    /// A point of a surface, on the axis of revolution if it misses that by rounding.
+    fn rounded_to_axis(&self, x: Point, part: &SurfacePart) -> Point {
+        let size = (part.point(0.5) - part.point(0.0)).norm();
+        let is_on_axis = self.plane == Plane::Revolution && x.x.abs() <= 1e-12 * size;
+        if is_on_axis { Point::new(0.0, x.y) } else { x }
     }
 
     /// The direction of the layer behind a vertex: on an axis of revolution along that.

@@ -31,6 +31,9 @@ const USUAL: f64 = 0.99e-8;
 /// Changes at which boundary and displacement stand at most, however loose the solves are.
 const MOST_STILL: f64 = 1e-4;
 
+/// Lengths of a boundary, by that of the one before, between which its segments stay.
+const ALIKE: std::ops::Range<f64> = 0.5..2.0;
+
 /// Penetration beyond the ends, as a share of the length of Γ_C, that is no contact missed.
 const MOST_BEYOND: f64 = 1e-3;
 
@@ -204,8 +207,11 @@ impl Following {
                 continue;
             }
             if contact.has_free_ends() && number < HELD {
-                known.ends = Some(free_ends(&solution.pressure(contact), ends, least));
-                if !settled {
+                let next = free_ends(&solution.pressure(contact), ends, least);
+                let ratio = (next[1] - next[0]) / (knots[knots.len() - 1] - knots[0]);
+                known.ends = Some(next);
+                // Segments are kept for a boundary that is nearly what it was: of another length they would be slivers, or coarse.
+                if !settled || !ALIKE.contains(&ratio) {
                     known.segments = None;
                 }
             }

@@ -83,16 +83,22 @@ impl WideContact {
 
 /// Contacts of undeformed bodies as the programme has them.
 pub(crate) fn wide_contacts(scene: &Scene, numbering: &Numbering) -> Result<Vec<WideContact>, SystemError> {
-    let (mut all, mut first) = (Vec::new(), 0);
+    let (mut all, mut first, extents) = (Vec::new(), 0, extents(scene));
     for pair in &scene.pairs {
-        let wide = wide_contact(scene, numbering, pair, first)?;
+        let wide = wide_contact(scene, numbering, pair, first, &extents)?;
         first = wide.contact.range().end;
         all.push(wide);
     }
     Ok(all)
 }
 
-fn wide_contact(scene: &Scene, numbering: &Numbering, pair: &Pair, first: usize) -> Result<WideContact, SystemError> {
+fn wide_contact(
+    scene: &Scene,
+    numbering: &Numbering,
+    pair: &Pair,
+    first: usize,
+    extents: &[f64],
+) -> Result<WideContact, SystemError> {
     let at_rest = |_: EdgeNode| Point::zeros();
     let known = widest(scene, numbering, pair);
     let even = Pair { space: MultiplierSpace::P0, stabilise: Stabilise::Off, ..pair.clone() };
@@ -102,7 +108,7 @@ fn wide_contact(scene: &Scene, numbering: &Numbering, pair: &Pair, first: usize)
         let contact = Contact::new(scene, numbering, 0, pair, first, &known, &at_rest)?;
         return Ok(WideContact { known, contact, touch: None });
     }
-    let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact));
+    let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact, extents));
     let at = |touch: &PointContact| boundary.arc(boundary.foot(touch.place)) / boundary.length();
     let is_inside = |at: &f64| (SHORTEST..=1.0 - SHORTEST).contains(at);
     let at = touch.map(|touch| if touch.is_at_pole() { at(&touch).round() } else { at(&touch) });
@@ -113,7 +119,7 @@ fn wide_contact(scene: &Scene, numbering: &Numbering, pair: &Pair, first: usize)
 }
 
 /// Where the smooth sides of a contact of undeformed bodies touch first, if they do so at a point.
-fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact) -> Option<PointContact> {
+fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact, extents: &[f64]) -> Option<PointContact> {
     let sides = SmoothSide::of_pair(&scene.mesh, numbering, &contact.pair, &|_| Point::zeros());
     let boundary = &contact.boundary;
     let (middle, half) = (boundary.point(boundary.parameter_at(0.5 * boundary.length())), 0.5 * boundary.length());
@@ -122,12 +128,25 @@ fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact) -> Option<Poin
         (0..stretches.len()).min_by(|&a, &b| away(&stretches[a]).total_cmp(&away(&stretches[b])))
     };
     let [one, other] = [nearest(&sides[0])?, nearest(&sides[1])?];
-    Some(point_contact([&sides[0][one], &sides[1][other]], middle, half)?.in_plane(scene.mesh.plane))
+    let touch = point_contact([&sides[0][one], &sides[1][other]], middle, half)?;
+    let [one, other] = contact.bodies.map(|body| extents[body]);
+    Some(touch.in_plane(scene.mesh.plane).within(one.min(other)))
+}
+
+/// The smallest side of the boxes around the pieces of each body (length); rigid tools are as thick as one likes.
+fn extents(scene: &Scene) -> Vec<f64> {
+    let mut extents = vec![f64::INFINITY; scene.mesh.bodies.len()];
+    for (piece, [low, high]) in scene.mesh.pieces.iter().zip(scene.mesh.bounds()).filter(|(piece, _)| !scene.is_rigid(piece.body))
+    {
+        extents[piece.body] = extents[piece.body].min((high - low).amin());
+    }
+    extents
 }
 
 /// What contacts that lie as they are drawn are placed by later on: where they touch first, if they do so at a point.
 pub(crate) fn with_touch(scene: &Scene, numbering: &Numbering, drawn: &[Contact]) -> Vec<Known> {
-    let touch = |contact: &Contact| contact.has_free_ends().then(|| touch(scene, numbering, contact)).flatten();
+    let extents = extents(scene);
+    let touch = |contact: &Contact| contact.has_free_ends().then(|| touch(scene, numbering, contact, &extents)).flatten();
     drawn.iter().map(|contact| Known { touch: touch(contact), ..contact.known.clone() }).collect()
 }
 

@@ -78,12 +78,12 @@ impl<'a> Zones<'a> {
             let singular = is_singular(grows, corner_error);
             let edges = contact.edges_on(zone);
             // All signs of a narrow zone may be small beside its error, unless they are very small.
-            let wide = edges >= EDGES.value && zone.segments.len() >= LEAST_SEGMENTS;
+            let wide = edges >= EDGES.value && contact.segments_on(zone) >= LEAST_SEGMENTS;
             let tells = |_: &f64| wide || found.worst.is_some_and(|worst| worst <= PROVES);
             ZoneSummary {
                 ends: Some(zone.arcs),
                 edges: Some(edges),
-                segments: Some(zone.segments.len()),
+                segments: Some(contact.segments_on(zone)),
                 share: Some(share),
                 hertz_width: hertz_width(gaps_at_rest(), zone.arcs, self.forces[k] / width, contact.compliance)
                     .filter(|width| *width <= contact.boundary.length()),
