@@ -155,7 +155,7 @@ fn check_lists_what_acts() {
     let said = told(&["load.side={ on = \"right\", traction = [\"0.5*y\", 0] }"]);
     for words in [
         "load top: pressure = 1, resultant (0, -2)",
-        "load side: tx = 0.5*y, ty = 0, resultant (1, 0)",
+        "load side: tx = …, ty = 0, resultant (1, 0)",
         "support table: uy = 0",
         "contact seam: its sides are drawn touching",
     ] {
@@ -180,7 +180,9 @@ fn nothing_that_acts_is_told() {
         let ended = Run::file(&file).ranks(2).set(key, value).converged();
         assert!(ended.value("/reason").to_string().contains("nothing loads, moves or presses the bodies"), "{}", ended.said());
         assert_eq!(ended.number("/energy/total"), 0.0);
-        assert!(ended.value("/accuracy").as_array().is_none_or(|meshes| meshes.len() == 1), "{}", ended.said());
+        let summary = ended.summary();
+        let meshes = summary["accuracy"].as_array().map_or(1, Vec::len);
+        assert_eq!(meshes, 1, "{}", ended.said());
     }
     for (key, value) in [("contact.seam.gap", "-1e-3"), ("support.table.uy", "1e-3"), ("load.top.pressure", "1.0")] {
         let words = ["check".into(), file.display().to_string(), "--set".into(), format!("{key}={value}")];

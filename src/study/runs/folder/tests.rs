@@ -52,18 +52,29 @@ impl std::fmt::Debug for Folder {
     }
 }
 
+/// Opens a folder. For a moment a process that another test starts holds the locks of this one, too.
+fn opened(out: &Path, name: &str, force: bool) -> Folder {
+    for _ in 0..1000 {
+        match Folder::open(out, name, force) {
+            Err(StudyError::Input(words)) if words.contains("is in use") => std::thread::sleep(Duration::from_millis(4)),
+            outcome => return outcome.unwrap(),
+        }
+    }
+    panic!("{} stays in use", out.display());
+}
+
 #[test]
 fn finished_runs_are_found_wherever_the_study_has_moved_them() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("deep/study");
     let [a, b, c, d] = ["a", "b", "c", "d"].map(|name| wanted(name, name));
-    let made = Folder::open(&out, "bars", false).unwrap();
+    let made = opened(&out, "bars", false);
     assert_eq!(said(&made.places(&[a.clone(), b.clone(), c.clone()], HOUR)), "1n 2n 3n");
     finish(&made, 1, &a, true);
     finish(&made, 2, &b, true);
     finish(&made, 3, &c, false);
     drop(made);
-    let made = Folder::open(&out, "bars", false).unwrap();
+    let made = opened(&out, "bars", false);
     let places = made.places(&[d.clone(), c.clone(), b.clone(), a.clone()], HOUR);
     assert_eq!(said(&places), "4n 3a 2k 1k", "a result that is gone is made again, a new run takes a new number");
     let kept = places[2].kept.as_ref().unwrap();
@@ -74,12 +85,12 @@ fn finished_runs_are_found_wherever_the_study_has_moved_them() {
 #[test]
 fn a_run_that_has_changed_takes_the_place_of_its_older_self() {
     let folder = tempfile::tempdir().unwrap();
-    let made = Folder::open(folder.path(), "bars", false).unwrap();
+    let made = opened(folder.path(), "bars", false);
     let (a, b) = (wanted("a", "1"), wanted("b", "1"));
     finish(&made, 1, &a, true);
     finish(&made, 2, &b, true);
     drop(made);
-    let made = Folder::open(folder.path(), "bars", false).unwrap();
+    let made = opened(folder.path(), "bars", false);
     assert_eq!(
         said(&made.places(&[wanted("new", "1"), wanted("b", "2")], HOUR)),
         "1k 2a",
@@ -92,7 +103,7 @@ fn a_run_that_has_changed_takes_the_place_of_its_older_self() {
     assert!(!made.result(2).exists() && made.result(1).exists());
     assert!(!left(2).exists() && left(1).exists(), "what a run of another host has left goes with its result");
     drop(made);
-    let made = Folder::open(folder.path(), "bars", false).unwrap();
+    let made = opened(folder.path(), "bars", false);
     assert_eq!(said(&made.places(&[wanted("b", "1")], HOUR)), "1k");
     assert_eq!(said(&made.places(&[a, b], HOUR)), "1k 2n");
 }
@@ -101,7 +112,7 @@ fn a_run_that_has_changed_takes_the_place_of_its_older_self() {
 fn an_older_study_goes_only_if_it_is_said_and_other_files_stay() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("study");
-    let made = Folder::open(&out, "bars", false).unwrap();
+    let made = opened(&out, "bars", false);
     for name in ["study.csv", "notes.md", "runs/007.stderr", "runs/mine.txt", "runs/008.json", "runs/.009.json.partial"] {
         fs::write(out.join(name), "old").unwrap();
     }
@@ -109,7 +120,7 @@ fn an_older_study_goes_only_if_it_is_said_and_other_files_stay() {
     drop(made);
     assert!(error(&out, "bars").contains("holds an older study; choose another folder with --out"));
     assert!(out.join("study.csv").exists());
-    let made = Folder::open(&out, "bars", true).unwrap();
+    let made = opened(&out, "bars", true);
     let there = |name: &str| out.join(name).exists();
     assert!(there("notes.md") && there("runs/mine.txt"));
     assert!(!there("study.csv") && !there("runs/007") && !there("runs/007.stderr") && !there("runs/008.json"));
@@ -117,19 +128,19 @@ fn an_older_study_goes_only_if_it_is_said_and_other_files_stay() {
     finish(&made, 1, &wanted("a", "a"), true);
     drop(made);
     assert!(error(&out, "rings").contains("holds the study bars"));
-    assert_eq!(Folder::open(&out, "rings", true).unwrap().records.len(), 0);
+    assert_eq!(opened(&out, "rings", true).records.len(), 0);
 }
 
 #[test]
 fn a_folder_serves_one_at_a_time() {
     let folder = tempfile::tempdir().unwrap();
-    let made = Folder::open(folder.path(), "bars", false).unwrap();
+    let made = opened(folder.path(), "bars", false);
     assert!(error(folder.path(), "bars").contains("is in use by another `mezha study`"));
     let left_behind = made.lock().unwrap();
     drop(made);
     assert!(error(folder.path(), "bars").contains("left behind"));
     drop(left_behind);
-    Folder::open(folder.path(), "bars", false).unwrap();
+    opened(folder.path(), "bars", false);
 }
 
 #[test]
@@ -143,7 +154,7 @@ fn a_file_is_no_folder() {
 #[test]
 fn tables_that_are_not_made_again_go() {
     let folder = tempfile::tempdir().unwrap();
-    let made = Folder::open(folder.path(), "bars", false).unwrap();
+    let made = opened(folder.path(), "bars", false);
     made.write_tables(&[("study.csv", "a".into()), ("study.svg", "b".into())]).unwrap();
     made.write_tables(&[("study.csv", "c".into())]).unwrap();
     assert_eq!(fs::read_to_string(folder.path().join("study.csv")).unwrap(), "c");
