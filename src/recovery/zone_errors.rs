@@ -64,8 +64,8 @@ fn apart(points: &[TracePoint], counts: impl Fn(f64) -> bool, factor: impl Fn(&T
     for (first, second) in ends.filter(|(first, second)| counts(first.arc) && counts(second.arc)) {
         let half = 0.5 * (second.arc - first.arc);
         for point in [first, second] {
-            for k in 0..2 {
-                sums[k] += half * (point.lambda + factor(point, k) * point.stress[k]).powi(2);
+            for (k, (sum, stress)) in sums.iter_mut().zip(point.stress).enumerate() {
+                *sum += half * (point.lambda + factor(point, k) * stress).powi(2);
             }
             sums[2] += half * point.lambda.powi(2);
         }
