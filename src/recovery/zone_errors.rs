@@ -53,7 +53,9 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
 fn on_boundary(contact: &Contact, point: &TracePoint, body: usize) -> f64 {
     let width = |x| contact.boundary.width_at(x);
     let own = width(point.x);
-    if own > 0.0 { width(point.x + point.distance[body] * point.normal) / own } else { 1.0 }
+    // On the axis, or beside it by rounding, both rings have no radius.
+    let is_ring = own > 1e-9 * contact.boundary.length();
+    if is_ring { width(point.x + point.distance[body] * point.normal) / own } else { 1.0 }
 }
 
 /// Relative root mean squares of `λ + n·σn` of both bodies over some arc lengths, by the trapezoidal rule, each stress times a factor.
