@@ -1,6 +1,6 @@
 //! Classical contacts whose end, or whose singular pressure, is known: what happens there, not only how large the pressure is.
 
-use crate::support::{Ended, RANKS, Run, difference};
+use crate::support::{Ended, RANKS, Run, difference, ranks_in_turn};
 
 /// Runs a case on 1, 2 and 3 ranks: force and energy must be the same, and so must the pressure, or where the boundary
 /// follows it, its length. The run on one rank.
@@ -111,7 +111,7 @@ fn a_pin_with_clearance_falls_to_the_bottom_of_its_hole() {
         let middle = 0.5 * (low + high);
         if load(middle) > wanted { low = middle } else { high = middle }
     }
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(1) {
         let run = Run::case("pin").ranks(ranks).set("contact.seam.gap", clearance).set("exact.must_hold", false);
         let ended = run.set("solver.tolerance", "1e-11").converged();
         near(ended.number("/contact/seam/resultant/1"), 0.5, 1e-6, "vertical force");

@@ -2,7 +2,7 @@
 //! wrong, or right where it seems not.
 
 use crate::support::mesh::{Block, Mesh, grid, write_scene};
-use crate::support::{Ended, PAIRS, RANKS, Run, TracePoint};
+use crate::support::{Ended, PAIRS, Run, TracePoint, is_long, ranks_in_turn};
 use std::fmt::Write;
 
 /// A case whose pressure is known along its contact, from a point (x, y).
@@ -72,7 +72,7 @@ fn estimates_are_of_the_size_of_the_errors() {
     let ([mut lambda, mut peak, mut force], mut table) = ([Vec::new(), Vec::new(), Vec::new()], String::new());
     for known in &KNOWN {
         for (order, space) in PAIRS {
-            for refine in [1, 2, 3] {
+            for refine in (1..=3).filter(|refine| is_long() || refine % 2 == 1) {
                 let (name, found) = effectivities(known, order, space, refine);
                 writeln!(table, "{name}: {found:.2?}").expect("a string grows");
                 [&mut lambda, &mut peak, &mut force].into_iter().zip(found).for_each(|(all, ratio)| all.extend(ratio));
@@ -82,7 +82,9 @@ fn estimates_are_of_the_size_of_the_errors() {
     let share = |all: &[f64], good: &dyn Fn(f64) -> bool| all.iter().filter(|v| good(**v)).count() as f64 / all.len() as f64;
     let near = |all: &[f64]| share(all, &|ratio| (0.5..=3.0).contains(&ratio));
     writeln!(table, "within .5 to 3: {:?}", [&lambda, &peak, &force].map(|all| (all.len(), near(all)))).expect("a string grows");
-    assert!(lambda.len() > 40 && peak.len() > 30 && force.len() > 30, "{table}");
+    let asked = [&lambda, &peak, &force].map(Vec::len);
+    let least = if is_long() { [40, 30, 30] } else { [26, 20, 20] };
+    assert!(asked.iter().zip(least).all(|(asked, least)| *asked > least), "{table}");
     assert!(lambda.iter().chain(&force).all(|ratio| *ratio >= 0.3), "{table}");
     assert!(near(&lambda) >= 0.85 && near(&force) >= 0.9, "{table}");
     assert!(share(&peak, &|ratio| ratio >= 0.3) >= 0.95, "{table}");
@@ -139,7 +141,7 @@ contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = 
         let ended = blocks([12, 14], &case(width), ranks);
         (ended.value("/contact/seam/trust"), ended.value("/reason").to_string())
     };
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(0) {
         let (trusted, reason) = trust(0.08, ranks);
         assert!(trusted == false && reason.contains("contact at s = 4."), "{ranks} ranks: {reason}");
     }

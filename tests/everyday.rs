@@ -2,7 +2,7 @@
 //! contacts that are made of several curves.
 
 use crate::support::mesh::{Block, Mesh, grid, two_blocks, write_scene};
-use crate::support::{RANKS, Run, close, mezha, numbers, with_both_orders};
+use crate::support::{Run, close, mezha, numbers, ranks_in_turn, with_both_orders};
 
 const EXACT: f64 = 1e-9;
 
@@ -131,7 +131,7 @@ fn a_point_stays_where_the_mesh_adapts() {
     let case = format!("accuracy = 4e-3\n{case}");
     let file = write_scene(folder.path(), &blocks().text(), &case);
     let mut forces = Vec::new();
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(1) {
         let ended = Run::file(&file).ranks(ranks).converged();
         for support in ["below", "above"] {
             let reaction = numbers(&ended, &format!("/support/{support}/reaction"));

@@ -1,7 +1,7 @@
 //! A contact boundary that nobody gives: fitted through the boundary nodes, gaps between splines.
 
 use crate::support::mesh::{GOOD, Mesh, grid, write_scene};
-use crate::support::{RANKS, Run, is_long, pairs_on_ranks};
+use crate::support::{Run, is_long, pairs_on_ranks, ranks_in_turn};
 
 #[test]
 fn patches_hold_on_a_fitted_line() {
@@ -133,7 +133,7 @@ fn corners_within_a_contact_are_told_with_what_they_do() {
 /// are apart by it, and the fit must not take that for an end of contact.
 #[test]
 fn a_declared_gap_rules_where_a_fitted_boundary_reaches() {
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(0) {
         let run = Run::case("rings_michell/stiff.toml").ranks(ranks).set("contact.seam.curve", "fit");
         // The case's own expected values hold, or it would end with exit code 3.
         let length = run.converged().number("/contact/seam/length");

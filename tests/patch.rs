@@ -1,6 +1,6 @@
 //! Patch tests: a constant stress field is met exactly by every pair of spaces, on any mesh, on any number of ranks.
 
-use crate::support::{Ended, PAIRS, RANKS, Run, difference, pairs_on_ranks, ranks_in_turn};
+use crate::support::{Ended, PAIRS, Run, difference, pairs_on_ranks, ranks_in_turn};
 use mezha::mesh::read_gmsh;
 use std::path::Path;
 
@@ -111,7 +111,7 @@ fn figures_of_an_even_pressure() {
     // Euler: two bodies without holes.
     let vertices = 2 + edges - triangles;
     let (length, energy) = (37f64.sqrt(), 0.0023812545714286);
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(0) {
         let ended = Run::case("patch_inclined").ranks(ranks).converged();
         for (path, expected) in [
             ("/mesh/triangles", triangles as f64),
@@ -163,7 +163,7 @@ fn the_largest_pressure_is_that_of_the_table() {
 /// Exact also by the direct solver, which sees no levels and no augmentation.
 #[test]
 fn by_the_direct_solver() {
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(1) {
         let ended = Run::case("patch_inclined").ranks(ranks).set("solver.name", "direct").converged();
         pressed_evenly(&ended, "seam", &format!("direct, {ranks} ranks"));
     }

@@ -1,7 +1,7 @@
 //! Rigid tools and boundaries that stay rigid, against exact solutions and against bodies a million times stiffer.
 
 use crate::support::mesh::{Mesh, grid, write_scene};
-use crate::support::{Ended, PAIRS, RANKS, Run, TracePoint};
+use crate::support::{Ended, PAIRS, Run, TracePoint, ranks_in_turn};
 
 const EXACT: f64 = 1e-9;
 
@@ -71,7 +71,7 @@ contact.top = {{ between = [\"top\", \"rigid.die\"], curve = \"line\", gap = \"c
 rigid.die = {{ line = [[3.0, 1.0], [-1.0, 1.0]], ux = 0.0, force = [0.0, -{force}], moment = -{} }}\n",
         force * eccentricity
     );
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(0) {
         let ended = in_folder(&block(), &case, |run| run.ranks(ranks).converged());
         for point in ended.trace("top") {
             let wanted = 0.5 * force * (1.0 + 3.0 * eccentricity * (point.x[0] - 1.0));
@@ -156,7 +156,7 @@ contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
     // The same roller, pressed by the force that moved it.
     let force = format!("[0.0, {:?}]", -moved.number("/contact/seam/resultant/1").abs());
     let pressed = rigid.replace("uy = -0.02", &format!("ux = 0.0, force = {force}"));
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(1) {
         let pressed = in_folder(&roller_scene(false), &pressed, |run| run.ranks(ranks).converged());
         assert!((pressed.number("/rigid/roller/motion/1") + 0.02).abs() < 1e-6, "{}", pressed.number("/rigid/roller/motion/1"));
         same(&pressed, &moved, "/contact/seam/pressure_max", 1e-4);
@@ -252,7 +252,7 @@ fn a_plate_presses_with_its_resultant() {
 load.plate = {{ on = \"top\", rigid = true, force = [1.0, -6.0], moment = 0.5 }}\n"
     )
     .replace("uy = 0.0 }", "ux = 0.0, uy = 0.0 }");
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(0) {
         let plate = in_folder(&block(), &pressed, |run| run.ranks(ranks).converged());
         for (path, wanted) in [("/rigid/plate/force/0", 1.0), ("/rigid/plate/force/1", -6.0), ("/rigid/plate/moment", 0.5)] {
             close(plate.number(path), wanted, 6.0, path);

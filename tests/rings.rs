@@ -1,6 +1,6 @@
 //! Rings pressed into one another, whose exact solution is smooth: errors fall with the order of the elements.
 
-use crate::support::{RANKS, Run};
+use crate::support::{Run, ranks_in_turn};
 
 /// Energy-norm errors of both bodies (inner, outer) and the L2 error of λ.
 fn errors(order: usize, space: &str, refine: usize, ranks: usize) -> [f64; 3] {
@@ -12,7 +12,7 @@ fn errors(order: usize, space: &str, refine: usize, ranks: usize) -> [f64; 3] {
 
 /// Mean orders over three refinements.
 fn orders(order: usize, space: &str, coarsest: usize, least: f64) {
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(1) {
         let all = [0, 1, 2, 3].map(|r| errors(order, space, coarsest + r, ranks));
         for (k, name) in ["energy, inner", "energy, outer", "pressure"].into_iter().enumerate() {
             let found = (all[0][k] / all[3][k]).log2() / 3.0;

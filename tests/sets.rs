@@ -1,7 +1,7 @@
 //! Active sets that are hard to find, and contact that the multipliers do not see.
 
 use crate::support::mesh::{Block, Mesh, grid, write_scene};
-use crate::support::{Ended, RANKS, Run, ranks_in_turn};
+use crate::support::{Ended, Run, ranks_in_turn};
 use std::f64::consts::PI;
 
 /// A rectangle with its lower left corner at `(x, y)`.
@@ -115,7 +115,7 @@ fn contact_that_touches_without_pressure_comes_to_rest() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &mesh.text(), &case);
     for space in ["p0", "p1-discontinuous", "p1-continuous"] {
-        for ranks in RANKS {
+        for ranks in ranks_in_turn(0) {
             let ended =
                 Run::file(&file).ranks(ranks).set("contact.touching.multiplier", space).set("output.fields", false).converged();
             let [pressed, touching] = ["pressed", "touching"].map(|name| ended.number(&format!("/contact/{name}/force")));

@@ -2,7 +2,7 @@
 //! materials. Bodies that touch two or four others, lines that share a corner, stacks.
 
 use crate::support::mesh::{Block, Mesh, grid, write_scene};
-use crate::support::{RANKS, Run, pairs_on_ranks, ranks_in_turn};
+use crate::support::{Run, pairs_on_ranks, ranks_in_turn};
 use std::fmt::Write;
 
 const EXACT: f64 = 1e-9;
@@ -172,7 +172,7 @@ fn stacks() {
         let mesh = Mesh { bodies: (0..count).map(body).collect() };
         let lines = (1..count).map(|k| (name("line", k), [name("below", k), name("above", k)], 2.0, 0.0)).collect();
         let scene = Scene { mesh, lines };
-        for ranks in RANKS {
+        for ranks in ranks_in_turn(1) {
             scene.holds(2, "p1-discontinuous", ranks);
             scene.holds(1, "p1-continuous", ranks);
         }

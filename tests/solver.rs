@@ -2,7 +2,7 @@
 //! ratio of the moduli. The law is bilateral, so that one linear solve counts.
 
 use crate::support::mesh::{Mesh, write_scene};
-use crate::support::{RANKS, Run, pairs_on_ranks, ranks_in_turn};
+use crate::support::{Run, pairs_on_ranks, ranks_in_turn};
 
 const LEVELS: u64 = 15;
 const STIFF_ON_SOFT: u64 = 20;
@@ -114,7 +114,7 @@ fn the_direct_solver_nearly_incompressible() {
 fn many_small_bodies() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &squares(400), &of_squares(400));
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(0) {
         let ended = Run::file(&file).ranks(ranks).set("solver.tolerance", "1e-9").converged();
         assert!(ended.number("/unknowns/displacement") > 2.0 * 3000.0, "a macro mesh of more than 3000 unknowns");
         assert!(ended.iterations() <= 5, "{ranks} ranks: {} iterations", ended.iterations());
@@ -168,7 +168,7 @@ fn of_squares(count: usize) -> String {
 fn the_cycle_above_auxiliary_levels_is_of_mezha_too() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &Mesh::inclined_bars(10).text(), BARS);
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(1) {
         let run = || Run::file(&file).ranks(ranks).set("mesh.refine", 1).set("solver.tolerance", "1e-6");
         let [own, of_petsc] =
             [run(), run().petsc("-fieldsplit_u_mg_levels_ksp_max_it 2")].map(|run| run.petsc("-ksp_view").converged());

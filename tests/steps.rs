@@ -1,7 +1,7 @@
 //! Load steps: each against closed forms, and against the same scene by itself.
 
 use crate::support::mesh::{GOOD, Mesh, grid, write_scene};
-use crate::support::{Ended, PAIRS, RANKS, Run, names_in};
+use crate::support::{Ended, PAIRS, Run, names_in, ranks_in_turn};
 use serde_json::Value;
 
 const EXACT: f64 = 1e-9;
@@ -45,7 +45,7 @@ fn check_closing_gap(step: &Value, words: &str) {
 
 #[test]
 fn a_gap_closes_at_its_load_and_the_line_goes_on_stiffer() {
-    for ranks in RANKS {
+    for ranks in ranks_in_turn(0) {
         let ended = Run::case("closing_gap").ranks(ranks).converged();
         let all = steps(&ended);
         assert_eq!(all.len(), 6);
