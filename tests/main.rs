@@ -27,6 +27,7 @@ mod hard_meshes;
 mod heat;
 mod held;
 mod interruption;
+mod largest_stress;
 mod manufactured;
 mod many;
 mod materials;

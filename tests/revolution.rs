@@ -147,7 +147,8 @@ rigid.lid = { line = [[7, 1], [3, 1]], uy = -0.005 }
 contact.top = { between = ["crown", "rigid.lid"] }
 "#;
     let (_folder, file) = scene(&mesh, case);
-    let [coarse, fine] = [(2, 1), (3, 2)].map(|(refine, ranks)| Run::file(&file).ranks(ranks).set("mesh.refine", refine).solved());
+    let [coarse, fine] =
+        [(2, 1), (3, 2)].map(|(refine, ranks)| Run::file(&file).ranks(ranks).set("mesh.refine", refine).solved());
     for ended in [&coarse, &fine] {
         let place = ended.number("/contact/top/place/0");
         assert!((place - 5.0).abs() < 0.01, "it acts at x = {place}");

@@ -4,6 +4,7 @@
 //! what does not apply, or was not reached, never shows as a made-up number.
 
 mod accuracy;
+mod body;
 mod contact;
 mod machine;
 mod numbers;
@@ -15,6 +16,7 @@ mod thickness;
 mod told;
 
 pub use accuracy::{AccuracyStep, ContactGoals, Cycles, GoalSummary, ProbeGoals};
+pub use body::BodySummary;
 pub use contact::{ContactEstimate, ContactSummary, ContactTrust, ZoneSummary};
 pub use machine::{machine, whole_machine};
 pub use passes::{BoundaryIteration, OuterIteration};
@@ -64,6 +66,9 @@ pub struct Summary {
     pub boundaries: Vec<BoundaryIteration>,
     /// By name of the contact.
     pub contact: BTreeMap<String, ContactSummary>,
+    /// The largest stress by name of the body, of those that are no rigid tools.
+    #[serde(default)]
+    pub body: BTreeMap<String, BodySummary>,
     /// By name of the rigid tool, or of the load that stays rigid.
     pub rigid: BTreeMap<String, RigidSummary>,
     /// By name of the support.

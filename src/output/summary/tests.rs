@@ -24,6 +24,9 @@ fn filled() -> Summary {
         ..ContactSummary::default()
     };
     summary.contact.insert("seam".into(), contact);
+    let part = BodySummary { von_mises_max: Some(2.0), place: Some([0.0, 3.0]), is_believed: true, ..BodySummary::default() };
+    let body = BodySummary { part: Some("core".into()), parts: [("core".into(), part.clone())].into(), ..part.clone() };
+    summary.body = [("lower".into(), part), ("upper".into(), body)].into();
     summary.energy.strain.insert("lower".into(), Some(1e-3));
     summary.estimate.contact.insert("seam".into(), ContactEstimate { force: Some(1e-9), ..ContactEstimate::default() });
     summary.probe.insert("corner".into(), ProbeSummary { x: Some([6.0, 4.0]), ..ProbeSummary::default() });
@@ -51,7 +54,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
     let expected = [
         (
             "",
-            "balance boundaries case contact displacement_max energy errors estimate files memory_mib mesh mezha outer probe provenance ranks reason rigid rotation solver status strain_max support time_s unknowns",
+            "balance body boundaries case contact displacement_max energy errors estimate files memory_mib mesh mezha outer probe provenance ranks reason rigid rotation solver status strain_max support time_s unknowns",
         ),
         ("/mesh", "h_max h_min order triangles vertices"),
         ("/unknowns", "displacement multiplier"),
@@ -64,6 +67,9 @@ fn keys_are_the_names_that_other_tools_rely_on() {
             "/contact/seam/zones/0",
             "corner edges ends force hertz_width lambda peak pressure_max segments share singular whole worst",
         ),
+        ("/body/lower", "is_believed place verdict von_mises_max"),
+        ("/body/upper", "is_believed part parts place verdict von_mises_max"),
+        ("/body/upper/parts/core", "is_believed place verdict von_mises_max"),
         ("/energy", "external_work springs stationary strain total"),
         ("/estimate", "energy seam"),
         ("/estimate/seam", "force lambda peak"),

@@ -7,7 +7,7 @@ use crate::contact::{Configuration, Pair};
 use crate::discretisation::{Contact, Scene};
 use crate::element::Plane;
 use crate::mesh::MacroMesh;
-use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, Facet};
+use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, DrawnPeak, Facet};
 use crate::output::summary::MOST_WITH_FIGURES;
 use crate::output::{ContactPoint, Summary};
 use crate::recovery::Evaluation;
@@ -37,7 +37,7 @@ impl Run<'_> {
         &self,
         found: &Evaluation,
         summary: &Summary,
-        traces: &[Vec<ContactPoint>],
+        (traces, peaks): (&[Vec<ContactPoint>], &[DrawnPeak]),
         adaptation: Option<&Adaptation>,
         stress: impl Fn(usize, usize) -> [f64; 4],
     ) -> Result<(), RunError> {
@@ -87,6 +87,7 @@ impl Run<'_> {
             interfaces: &interfaces,
             contacts: drawn,
             forces: &forces,
+            peaks,
             has_axis,
         };
         figure.write(&folder.join("deformed.svg"))?;

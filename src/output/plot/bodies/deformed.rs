@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, displacement_near, draw_outlines, facet_bounds};
 use super::moved::{CONTACT, moved_contact};
+use super::peaks::{DrawnPeak, draw_peaks};
 use super::stress::{BAR_ROOM, Colours, draw_colour_bar, draw_stress};
 use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
@@ -59,6 +60,8 @@ pub struct DeformedFigure<'a> {
     pub contacts: &'a [DrawnContact<'a>],
     /// Forces: lines, as wide as they are large.
     pub forces: &'a [DrawnForce],
+    /// The largest stress of each body.
+    pub peaks: &'a [DrawnPeak],
     /// Whether bodies of revolution are shown, with their axis.
     pub has_axis: bool,
 }
@@ -100,6 +103,7 @@ impl DeformedFigure<'_> {
             let paint = Paint::line(VERMILION, widest * force.size() / largest).faint(0.8);
             canvas.line(paint, force.line(&boundary, scale).map(|x| chart.place(x)));
         }
+        draw_peaks(&mut canvas, &chart, self.peaks, scale);
         chart.draw_axes(&mut canvas, false);
         draw_colour_bar(&mut canvas, &chart, &colours);
         canvas.write(path)

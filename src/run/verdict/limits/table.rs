@@ -199,6 +199,14 @@ pub const MOVES: f64 = 1e-2;
 /// (`tests/turning.rs`); a pile that cannot stand stood with .55, since turned discs are larger ones.
 pub const FORCE_OFF: f64 = 0.5;
 
+// What the largest von Mises stress of a body is worth.
+
+/// Share by which it may differ from that of the refinement before: of P2 a third of that is left, of P1 all of it.
+pub const STRESS_APART: f64 = 0.05;
+
+/// Share of the largest of all bodies below which it is next to nothing.
+pub const STRESS_COUNTS: f64 = 1e-6;
+
 // What is warned of.
 
 /// A support at a point that carries more than this share of all forces changes displacements by what shows.
