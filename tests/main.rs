@@ -57,4 +57,5 @@ mod study;
 mod supports;
 mod three_bodies;
 mod turning;
+mod units;
 mod vtk_readable;

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 use super::acting::mean::MeanSupport;
 use super::acting::rigid::{PREFIX, Plate, Tool};
 use super::asked::exact::Exact;
-use super::asked::output::{Output, Probe};
+use super::asked::output::{Output, Probe, UnitNames};
 use super::asked::solver::Solver;
 use super::asked::steps::LoadFactor;
 use super::bodies::geometry::Geometry;
@@ -41,6 +41,10 @@ pub struct Case {
     /// Thickness that forces, moments and energies of the file and of the results are those of (length); those of this case are of
     /// a thickness of one.
     pub thickness: f64,
+    /// Whether the file gives it.
+    pub has_thickness: bool,
+    /// The names of the units that the case is in.
+    pub units: UnitNames,
     /// What the plane stands for in bodies that say nothing else.
     pub plane: Plane,
     /// True shapes of boundaries.

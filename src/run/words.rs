@@ -1,6 +1,8 @@
 //! Numbers and names as a run says them, on the terminal and in its result.
 
 use crate::case::Case;
+use crate::element::Plane;
+use crate::output::Units;
 use crate::procedure::Work;
 
 /// A length to six decimals, in any unit.
@@ -11,6 +13,12 @@ pub fn length(v: f64) -> String {
 /// A number to two digits, however small it is.
 pub fn short(v: f64) -> String {
     if v.abs() < 0.01 { format!("{v:.1e}") } else { format!("{v:.2}") }
+}
+
+/// The units that a case names.
+pub fn units(case: &Case) -> Units {
+    let is_whole = case.plane == Plane::Revolution || case.has_thickness;
+    Units::new(case.units.length.as_deref(), case.units.force.as_deref(), is_whole)
 }
 
 /// What stands above all that is said of a case.

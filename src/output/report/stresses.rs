@@ -26,7 +26,9 @@ pub fn stresses(page: &ReportPage) -> String {
         true => vec![row(name, None, body)],
         false => body.parts.iter().map(|(part, own)| row(name, Some(part), own)).collect(),
     });
-    let header = ["body", "part", "largest von Mises stress", "x", "y", "", "why not"];
+    let largest = summary.units.stress().of("largest von Mises stress");
+    let [x, y] = ["x", "y"].map(|what| summary.units.length().of(what));
+    let header = ["body", "part", &largest, &x, &y, "", "why not"];
     let table = long_table(&header, rows.collect(), "summary.json");
     let words = summary.stresses_in_words().filter(|_| summary.status == Status::Converged);
     words.map_or(String::new(), |words| paragraph(&format!("{}.", capital(&words)))) + &table
@@ -43,6 +45,7 @@ fn capital(words: &str) -> String {
 mod tests {
     use super::*;
     use crate::output::summary::Summary;
+    use crate::output::units::Units;
 
     #[test]
     fn bodies_and_parts_have_a_row_each() {
@@ -67,6 +70,12 @@ mod tests {
             "{text}"
         );
         assert_eq!((text.matches("<tr>").count(), text.matches("it grows").count()), (4, 2), "{text}");
+        let named = Summary { units: Units::new(Some("mm"), Some("N"), false), ..summary.clone() };
+        let text = stresses(&ReportPage { summary: &named, ..page });
+        assert!(
+            text.contains("largest von Mises stress [MPa]") && text.contains("x [mm]") && text.contains("coated 70 MPa"),
+            "{text}"
+        );
         let nothing = Summary::default();
         assert_eq!(stresses(&ReportPage { summary: &nothing, ..page }), "");
     }

@@ -44,7 +44,7 @@ impl Summary {
         let one = |(name, body, stress): &(&str, &BodySummary, f64)| {
             let place = body.place.map_or(String::new(), |place| format!(" at {}", Coordinates(place.into())));
             let against = body.verdict.as_ref().map_or(String::new(), |words| format!(" (not to be believed: {words})"));
-            format!("{name} {}{place}{against}", Rounded(*stress))
+            format!("{name} {}{}{place}{against}", Rounded(*stress), self.units.stress().after())
         };
         let told: Vec<String> = all.iter().take(WORST).map(one).collect();
         let of = if all.len() > WORST { format!(" of {} bodies", all.len()) } else { String::new() };
@@ -60,6 +60,7 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::units::Units;
 
     fn summary(stresses: &[(&str, f64, Option<&str>)]) -> Summary {
         let body = |(name, stress, against): &(&str, f64, Option<&str>)| {
@@ -81,6 +82,8 @@ mod tests {
         assert_eq!(two.stresses_in_words().as_deref(), Some(words));
         let many = summary(&[("a", 1.0, None), ("b", 4.0, Some("x")), ("c", 3.0, None), ("d", 2.0, None), ("e", 0.5, Some("y"))]);
         let words = many.stresses_in_words().expect("five bodies");
+        let named = Summary { units: Units::new(Some("m"), Some("N"), false), ..two };
+        assert!(named.stresses_in_words().expect("two bodies").contains("punch 400 Pa at (2, 0.333333)"));
         assert!(words.starts_with("largest von Mises stress of 5 bodies: b 4 at"), "{words}");
         assert!(words.ends_with("d 2 at (2, 0.333333); the others have less, and 2 of all cannot be believed"), "{words}");
     }

@@ -32,6 +32,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::output::error::OutputError;
+use crate::output::units::Units;
 use numbers::numbers;
 
 /// The summary of a run. Start from [`Summary::new`] and fill in what is known.
@@ -56,6 +57,9 @@ pub struct Summary {
     /// thickness. The key is missing in the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<String>,
+    /// The units that the case names; the key is missing if it names none.
+    #[serde(default, skip_serializing_if = "Units::is_none")]
+    pub units: Units,
     /// The mesh after refinement.
     pub mesh: Mesh,
     /// Sizes of the linear system.

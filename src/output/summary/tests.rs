@@ -125,6 +125,15 @@ fn an_accuracy_is_told_where_it_was_asked_for() {
     assert_eq!(written(&none)["accuracy"], json!([]), "asked for, and ended before the first mesh");
 }
 
+/// The key stands there only if the case names units.
+#[test]
+fn units_are_repeated_where_the_case_names_them() {
+    assert!(written(&filled()).get("units").is_none());
+    let units = Units::new(Some("mm"), Some("N"), false);
+    let value = written(&Summary { units, ..filled() });
+    assert_eq!(value["units"], json!({"length": "mm", "force": "N", "stress": "MPa", "resultant": "N/mm"}));
+}
+
 #[test]
 fn what_is_unknown_or_not_finite_is_null() {
     let mut summary = filled();

@@ -9,7 +9,7 @@ use crate::mesh::{MacroMesh, MacroTriangle, Stretch};
 use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds};
 use crate::run::outcome::RunError;
 use crate::run::reading::scene;
-use crate::run::words::title;
+use crate::run::words::{title, units};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -118,6 +118,7 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
         supports: supports(case, mesh, &on),
         loads: loads(case, mesh, &on),
         has_axis: mesh.plane == Plane::Revolution,
+        units: units(case),
         remarks: Vec::new(),
     };
     // What has no place on the mesh.

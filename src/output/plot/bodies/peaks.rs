@@ -1,6 +1,7 @@
 //! Rings around the largest stresses.
 
 use crate::output::plot::drawing::{Canvas, Chart, INK, Letters, Name, Paint, PlacedNames, WHITE, Wish, number_text};
+use crate::output::units::Unit;
 
 /// Of so many bodies each has a ring, of more the one with the largest stress alone.
 const MOST_RINGS: usize = 4;
@@ -21,7 +22,7 @@ pub struct DrawnPeak {
 }
 
 /// Draws a ring around the largest stress of each body, or of all, with the number beside it.
-pub fn draw_peaks(canvas: &mut Canvas, chart: &Chart, peaks: &[DrawnPeak], scale: f64) {
+pub fn draw_peaks(canvas: &mut Canvas, chart: &Chart, peaks: &[DrawnPeak], (scale, unit): (f64, Unit)) {
     let mut shown: Vec<&DrawnPeak> = peaks.iter().filter(|peak| peak.von_mises > 0.0).collect();
     shown.sort_by(|a, b| b.von_mises.total_cmp(&a.von_mises));
     if peaks.len() > MOST_RINGS {
@@ -35,7 +36,7 @@ pub fn draw_peaks(canvas: &mut Canvas, chart: &Chart, peaks: &[DrawnPeak], scale
         canvas.circle(Paint::line(WHITE, 3.0).faint(0.85), at, RADIUS);
         canvas.circle(if peak.is_believed { ring } else { ring.dashed() }, at, RADIUS);
         let against = if peak.is_believed { "" } else { ", not to be believed" };
-        let text = format!("{}{against}", number_text(peak.von_mises));
+        let text = format!("{}{}{against}", number_text(peak.von_mises), unit.after());
         names.put(canvas, &Name { text: &text, letters: Letters::new(11.0, INK), anchor: at, wish: Wish::There });
     }
 }
@@ -44,10 +45,12 @@ pub fn draw_peaks(canvas: &mut Canvas, chart: &Chart, peaks: &[DrawnPeak], scale
 mod tests {
     use super::*;
     use crate::output::plot::drawing::PlotRoom;
+    use crate::output::units::Units;
 
     fn drawn(count: usize) -> String {
+        let units = Units::new(Some("mm"), Some("N"), false);
         let room = PlotRoom { most: [640.0, 560.0], least: [320.0, 220.0], around: 0.0 };
-        let chart = Chart::of_plane([[0.0, 0.0], [2.0, 1.0]], &room, [60.0, 0.0], false);
+        let chart = Chart::of_plane([[0.0, 0.0], [2.0, 1.0]], &room, [60.0, 0.0], (false, units.length()));
         let mut canvas = Canvas::new(chart.panel.extent());
         let peak = |k: usize| DrawnPeak {
             place: [0.1 + 0.2 * k as f64, 0.5],
@@ -55,7 +58,7 @@ mod tests {
             von_mises: 10.0 * k as f64,
             is_believed: k != 2,
         };
-        draw_peaks(&mut canvas, &chart, &(0..count).map(peak).collect::<Vec<_>>(), 100.0);
+        draw_peaks(&mut canvas, &chart, &(0..count).map(peak).collect::<Vec<_>>(), (100.0, units.stress()));
         canvas.svg()
     }
 
@@ -63,9 +66,9 @@ mod tests {
     fn few_bodies_have_a_ring_each_and_many_have_one() {
         let few = drawn(4);
         // Each ring has a rim, and each number too; a body without stress has none.
-        assert_eq!((few.matches("<circle").count(), few.matches(">20, not to be believed<").count()), (6, 2), "{few}");
-        assert!(few.contains(">30<") && few.contains(">10<") && few.matches("dasharray").count() == 1);
+        assert_eq!((few.matches("<circle").count(), few.matches(">20 MPa, not to be believed<").count()), (6, 2), "{few}");
+        assert!(few.contains(">30 MPa<") && few.contains(">10 MPa<") && few.matches("dasharray").count() == 1);
         let many = drawn(9);
-        assert_eq!((many.matches("<circle").count(), many.matches(">80<").count()), (2, 2), "{many}");
+        assert_eq!((many.matches("<circle").count(), many.matches(">80 MPa<").count()), (2, 2), "{many}");
     }
 }
