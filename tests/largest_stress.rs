@@ -67,6 +67,8 @@ fn one_mesh_alone_tells_nothing_and_a_punch_presses_with_its_corner() {
     assert!(words.as_str().is_some_and(|words| words.contains("no coarser refinement was solved")), "{words}");
     assert_eq!(alone.value("/body/upper/is_believed"), false);
     let punch = Run::case("punch").converged();
+    let contacts = std::fs::read_to_string(punch.out.join("contacts.csv")).expect("the contacts");
+    assert!(contacts.contains("trusted, but for the largest value: λ grows without bound"), "{contacts}");
     for body in ["base", "block"] {
         let words = punch.value(&format!("/body/{body}/verdict"));
         let wanted = "at the pressing corner of contact seam, (1, 0), where the stress has no bound: it grows with each mesh";
