@@ -278,3 +278,14 @@ fn what_only_bodies_in_the_plane_have_is_refused() {
     told(mesh(), &[("exact.body.lower.stress", "[0, -3, 0]")], "lacks the hoop stress");
     told(mesh(), &[("support.table.ux", "1e-3")], "the axis of revolution");
 }
+
+/// Rings press on each other all around: what is left of that along the axis is rounding, and no direction.
+#[test]
+fn a_radial_pressure_has_a_force_and_no_direction() {
+    let (_folder, file) = scene(&rings(), RINGS);
+    let ended = Run::file(&file).converged();
+    assert!(ended.number("/contact/seam/force") > 1.0);
+    let contacts = std::fs::read_to_string(ended.out.join("contacts.csv")).expect("the contacts");
+    let row: Vec<&str> = contacts.lines().nth(1).expect("a row").split(',').collect();
+    assert_eq!([row[4], row[5]], ["", ""], "{contacts}");
+}

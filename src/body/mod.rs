@@ -9,6 +9,7 @@ mod macro_stiffness;
 mod mean_hold;
 mod node_positions;
 mod rigid;
+mod singular_place;
 mod springs;
 
 pub use applied_force::{Applied, applied_forces, body_forces, heat_forces};
@@ -20,6 +21,7 @@ pub use macro_stiffness::{MacroStiffness, neighbours, one_stiffness, one_triangl
 pub use mean_hold::{Anchor, HeldMode, MeanHold};
 pub use node_positions::{NodePositions, positions};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
+pub use singular_place::{CHORDS, SingularPlace, Unbounded, singular_places};
 pub use springs::{SpringStiffness, Springs};
 
 use crate::element::{Heat, Plane, PlaneLaw};

@@ -1,13 +1,15 @@
 //! A case that was read: what to solve, on which mesh, and what is known of the result.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
+use nalgebra::{Matrix3, Vector3};
 use toml::{Table, Value};
 
 use super::acting::mean::MeanSupport;
 use super::acting::rigid::{PREFIX, Plate, Tool};
 use super::asked::exact::Exact;
-use super::asked::output::{Output, Probe};
+use super::asked::output::{Output, Probe, UnitNames};
 use super::asked::solver::Solver;
 use super::asked::steps::LoadFactor;
 use super::bodies::geometry::Geometry;
@@ -20,6 +22,13 @@ use crate::contact::Pair;
 use crate::element::Plane;
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
+
+/// Pieces that an edge is cut into for the mean place over its length.
+const PIECES: usize = 16;
+
+/// Vertices on a circle from which on it is one, and no rectangle; and by how much they may be off, by its radius.
+const ROUND: usize = 6;
+const OFF_CIRCLE: f64 = 1e-6;
 
 /// A checked case: what to solve, on which mesh, and what is known of the result.
 #[derive(Clone, Debug)]
@@ -41,6 +50,10 @@ pub struct Case {
     /// Thickness that forces, moments and energies of the file and of the results are those of (length); those of this case are of
     /// a thickness of one.
     pub thickness: f64,
+    /// Whether the file gives it.
+    pub has_thickness: bool,
+    /// The names of the units that the case is in.
+    pub units: UnitNames,
     /// What the plane stands for in bodies that say nothing else.
     pub plane: Plane,
     /// True shapes of boundaries.
@@ -175,11 +188,75 @@ impl Case {
     }
 }
 
-/// Middle of the box around physical curves.
+/// Middle of physical curves: the centre of a whole circle, otherwise the mean place over their length.
 fn middle_of(mesh: &MacroMesh, on: &[String]) -> Point {
-    let edges = on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
-    let vertices = edges.flat_map(|&edge| mesh.edges[edge as usize].vertices).map(|vertex| mesh.vertices[vertex as usize]);
-    let box_of = |[low, high]: [Point; 2], x: Point| [low.inf(&x), high.sup(&x)];
-    let [low, high] = vertices.fold([Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)], box_of);
-    0.5 * (low + high)
+    let edges: BTreeSet<u32> =
+        on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| boundary.edges.iter().copied()).collect();
+    centre_of_circle(mesh, &edges).unwrap_or_else(|| mean_place(mesh, &edges))
+}
+
+/// Mean place over the length of edges, in their true shapes.
+fn mean_place(mesh: &MacroMesh, edges: &BTreeSet<u32>) -> Point {
+    let place = |edge: u32, k: usize| mesh.edge_position(edge, k as f64 / PIECES as f64);
+    let pieces = edges.iter().flat_map(|&edge| (0..PIECES).map(move |k| [place(edge, k), place(edge, k + 1)]));
+    let (length, moment) = pieces.fold((0.0, Point::zeros()), |(length, moment), [a, b]| {
+        let own = (b - a).norm();
+        (length + own, moment + 0.5 * own * (a + b))
+    });
+    moment / length
+}
+
+/// Centre of the circle that edges go all around; nothing if they do not.
+fn centre_of_circle(mesh: &MacroMesh, edges: &BTreeSet<u32>) -> Option<Point> {
+    let mut ends: BTreeMap<u32, usize> = BTreeMap::new();
+    edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).for_each(|vertex| *ends.entry(vertex).or_default() += 1);
+    if ends.len() < ROUND || ends.values().any(|count| *count != 2) {
+        return None;
+    }
+    let first = mean_place(mesh, edges);
+    let arms: Vec<Point> = ends.keys().map(|&vertex| mesh.vertices[vertex as usize] - first).collect();
+    // |x - c|² = r² is linear in c and r² - |c|².
+    let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for arm in &arms {
+        let row = Vector3::new(2.0 * arm.x, 2.0 * arm.y, 1.0);
+        matrix += row * row.transpose();
+        right += row * arm.norm_squared();
+    }
+    let found = matrix.lu().solve(&right)?;
+    let centre = Point::new(found.x, found.y);
+    let radius = arms.iter().map(|arm| (arm - centre).norm()).sum::<f64>() / arms.len() as f64;
+    let is_on = |arm: &Point| ((arm - centre).norm() - radius).abs() <= OFF_CIRCLE * radius;
+    arms.iter().all(is_on).then_some(first + centre)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::samples::{fan, two_blocks};
+
+    #[test]
+    fn the_middle_of_a_circle_is_its_centre_however_its_vertices_lie() {
+        let mut mesh = fan(12);
+        let centre = Point::new(3.0, -1.0);
+        let rim = ["rim".to_owned()];
+        assert!((middle_of(&mesh, &rim) - centre).norm() < 1e-12);
+        for x in &mut mesh.vertices {
+            // Denser at the right.
+            let (radius, angle) = ((*x - centre).norm(), (x.y - centre.y).atan2(x.x - centre.x));
+            let angle = angle - 0.3 * angle.sin();
+            *x = centre + radius * Point::new(angle.cos(), angle.sin());
+        }
+        assert!((middle_of(&mesh, &rim) - centre).norm() < 1e-12);
+        mesh.vertices[0].x += 0.1;
+        let edges = mesh.boundary("rim").expect("named").edges.iter().copied().collect();
+        assert_eq!(centre_of_circle(&mesh, &edges), None, "a vertex is off");
+    }
+
+    #[test]
+    fn the_middle_of_other_curves_is_the_mean_over_their_length() {
+        let mesh = two_blocks();
+        let middle = |names: &[&str]| middle_of(&mesh, &names.iter().map(|name| name.to_string()).collect::<Vec<_>>());
+        assert!((middle(&["upper.seam"]) - Point::new(1.0, 1.0)).norm() < 1e-12, "not that of its vertices");
+        assert!((middle(&["bottom", "top"]) - Point::new(1.0, 1.0)).norm() < 1e-12);
+    }
 }

@@ -162,6 +162,8 @@ impl Case {
         let case = Self {
             plane,
             thickness: root.optional(THICKNESS).unwrap_or(1.0),
+            has_thickness: root.has("thickness"),
+            units: output::read_units(root),
             name: name_of(file, "case.toml"),
             file: file.into(),
             folder,

@@ -158,7 +158,7 @@ fn the_points_of_a_segment_are_counted() {
 fn the_resolved_case_is_an_equal_case_from_another_folder() {
     for (text, overrides) in [
         (FULL.to_owned(), vec![]),
-        (format!("{LEAST}{CONTACT}"), vec!["contact.c.gap=-1e-3", "exact.energy={value=1, tolerance=0.1}"]),
+        (format!("{LEAST}{CONTACT}"), vec!["contact.c.gap=-1e-3", "units.length=mm", "exact.energy={value=1, tolerance=0.1}"]),
     ] {
         let case = parse(&text, &overrides).unwrap();
         let resolved = case.resolved();
@@ -169,6 +169,17 @@ fn the_resolved_case_is_an_equal_case_from_another_folder() {
         let mesh = MeshChoice { file: std::path::absolute(&here.mesh.file).unwrap(), ..here.mesh };
         assert_eq!(format!("{:?}", Case { mesh, ..here }), format!("{again:?}"));
     }
+}
+
+#[test]
+fn units_are_names_and_change_no_number() {
+    let units = |settings: &[&str]| {
+        let case = parse(&format!("{LEAST}{CONTACT}"), settings).unwrap();
+        (case.units.length, case.units.force, case.thickness, case.has_thickness)
+    };
+    assert_eq!(units(&[]), (None, None, 1.0, false));
+    let settings = ["units={length = 'mm'}", "units.force=kN", "thickness=2"];
+    assert_eq!(units(&settings), (Some("mm".into()), Some("kN".into()), 2.0, true));
 }
 
 #[test]

@@ -73,7 +73,7 @@ mod spot;
 mod tools;
 
 pub use chain::Stretch;
-pub use curved::{Corner, SmoothNormals, SmoothPoint};
+pub use curved::{BoundaryVertex, Corner, SmoothNormals, SmoothPoint};
 pub use edge_shape::EdgeShape;
 pub use faults::Slit;
 pub use file::{parse_gmsh, parse_joined, read_bytes, read_gmsh, read_regular, surfaces, touching_surfaces};

@@ -47,6 +47,11 @@ pub(super) fn two_parts() -> RawMesh {
     raw
 }
 
+/// The unit square of the two parts "core" and "film".
+pub fn parted_square() -> MacroMesh {
+    MacroMesh::build(two_parts(), Path::new("parts.msh")).expect("a good mesh")
+}
+
 /// One block of so many columns of width 1 over y = 0, each of two triangles.
 pub fn columns(count: usize, height: f64) -> MacroMesh {
     let mut raw = RawMesh::default();

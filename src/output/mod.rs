@@ -23,9 +23,11 @@ pub mod markup;
 pub mod plot;
 pub mod report;
 pub mod summary;
+mod units;
 
 pub use clock::clock;
 pub use data::{CONTACTS, ContactPoint, SIGNS, quoted, vtk, write_contact, write_contacts, write_steps};
 pub use error::OutputError;
 pub use folder::{ResultFolder, entries, recover, remove_if_there};
 pub use summary::{Summary, machine, whole_machine};
+pub use units::{Unit, Units};

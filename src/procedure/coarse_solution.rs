@@ -15,6 +15,7 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
 use crate::petsc::Session;
+use crate::recovery::largest_stresses;
 use crate::system::{Preconditioning, Start};
 
 /// Share of the way of an end from one mesh to the next by which it goes on from there to the one after: its error falls by
@@ -32,6 +33,8 @@ pub struct CoarseSolution {
     displacement: Field<2>,
     numbering: Numbering,
     contact: ContactSolution,
+    /// The largest von Mises stress of each part (stress).
+    pub largest: Vec<f64>,
     /// The preconditioner it needed.
     pub preconditioning: Preconditioning,
     /// Whether its active set was hard to find, or that of a mesh before.
@@ -55,8 +58,10 @@ impl CoarseSolution {
         preconditioning: Preconditioning,
         session: &Session,
     ) -> Result<Self, SystemError> {
+        let displacement = Field::displacement(&problem, &solution.displacement, session)?;
         Ok(Self {
-            displacement: Field::displacement(&problem, &solution.displacement, session)?,
+            largest: largest_stresses(&problem, &displacement, session)?,
+            displacement,
             numbering: problem.finest().numbering.clone(),
             contact: ContactSolution::new(problem.contacts, &solution, true),
             preconditioning,

@@ -41,6 +41,8 @@ pub struct Solved {
     pub is_hard: bool,
     /// Estimated errors of discretisation.
     pub estimate: Estimate,
+    /// The largest von Mises stress of each part (stress) on the refinement before; nothing if none was solved.
+    pub coarse_stress: Option<Vec<f64>>,
     /// Coarser meshes that were solved first.
     pub coarse: Vec<CoarseSolve>,
     /// The solution on the last of them, if an accuracy was asked for.
@@ -63,6 +65,7 @@ impl Solved {
             preconditioning: Preconditioning::Sweep,
             is_hard: false,
             estimate: Estimate::default(),
+            coarse_stress: None,
             coarse,
             before: None,
             adaptation: None,

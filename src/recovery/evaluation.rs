@@ -9,6 +9,7 @@ use super::overlaps::{missing_force, unresolved_force};
 use super::penetrations::penetrations;
 use super::probe::{Probed, Probing, probe};
 use super::stress::{NodalStress, nodal_stress};
+use super::stress_peaks::{StressPeak, all_singular_places, stress_peaks};
 use super::traces::{TracePoint, trace_points};
 use super::zone_ends::{EndSlip, slip_at_ends};
 use crate::contact::Penetration;
@@ -16,6 +17,7 @@ use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, Sy
 use crate::geometry::{Formula, Point};
 use crate::mesh::Region;
 use crate::petsc::Session;
+use std::cell::OnceCell;
 
 /// A solution with its displacements at all nodes that this rank sees, its energies and its balances.
 pub struct Evaluation<'a> {
@@ -37,6 +39,8 @@ pub struct Evaluation<'a> {
     pub motions: Vec<Option<MotionError>>,
     /// How deep the bodies of each contact lie in each other, by their whole sides.
     pub penetrations: Vec<Penetration>,
+    /// Stress at the nodes, as soon as somebody has asked for it.
+    stress: OnceCell<NodalStress>,
 }
 
 impl<'a> Evaluation<'a> {
@@ -53,7 +57,18 @@ impl<'a> Evaluation<'a> {
         let motions = motion_errors(problem, solution, &balance.strain, &deformations, session);
         let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
         let penetrations = penetrations(problem, solution, &forces, session);
-        Ok(Self { problem, solution, session, u, moved: moved[0], balance, deformations, motions, penetrations })
+        Ok(Self {
+            problem,
+            solution,
+            session,
+            u,
+            moved: moved[0],
+            balance,
+            deformations,
+            motions,
+            penetrations,
+            stress: OnceCell::new(),
+        })
     }
 
     /// The pressure on one of the contacts.
@@ -108,8 +123,23 @@ impl<'a> Evaluation<'a> {
     ///
     /// # Errors
     /// As [`Evaluation::new`].
-    pub fn stress(&self) -> Result<NodalStress, SystemError> {
-        nodal_stress(self.problem, &self.u, self.session)
+    pub fn stress(&self) -> Result<&NodalStress, SystemError> {
+        match self.stress.get() {
+            Some(stress) => Ok(stress),
+            None => {
+                let stress = nodal_stress(self.problem, &self.u, self.session)?;
+                Ok(self.stress.get_or_init(|| stress))
+            }
+        }
+    }
+
+    /// The largest von Mises stress of each part; of each contact it is known whether λ `grows` without bound. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn stress_peaks(&self, grows: &[bool]) -> Result<Vec<StressPeak>, SystemError> {
+        let singular = all_singular_places(self.problem, self.solution, &self.balance, grows);
+        Ok(stress_peaks(self.problem, (&self.u, self.stress()?), &singular, self.session))
     }
 
     /// Error of the stress in a body or a part of one, and its size, both squared in the energy norm, against formulas. **Collective**

@@ -1,6 +1,8 @@
 //! Numbers and names as a run says them, on the terminal and in its result.
 
 use crate::case::Case;
+use crate::element::Plane;
+use crate::output::Units;
 use crate::procedure::Work;
 
 /// A length to six decimals, in any unit.
@@ -11,6 +13,18 @@ pub fn length(v: f64) -> String {
 /// A number to two digits, however small it is.
 pub fn short(v: f64) -> String {
     if v.abs() < 0.01 { format!("{v:.1e}") } else { format!("{v:.2}") }
+}
+
+/// A number to two digits that say something, beside another of its size.
+pub fn two_digits(v: f64) -> String {
+    let power = if v == 0.0 { 0.0 } else { v.abs().log10().floor() };
+    if (-2.0..2.0).contains(&power) { format!("{v:.*}", (1.0 - power) as usize) } else { format!("{v:.1e}") }
+}
+
+/// The units that a case names.
+pub fn units(case: &Case) -> Units {
+    let is_whole = case.plane == Plane::Revolution || case.has_thickness;
+    Units::new(case.units.length.as_deref(), case.units.force.as_deref(), is_whole)
 }
 
 /// What stands above all that is said of a case.
@@ -37,5 +51,7 @@ mod tests {
     fn small_units_keep_their_digits() {
         assert_eq!([4.0, 6.082e-9, 6.082e9].map(length), ["4.000000", "6.082000e-9", "6.082000e9"]);
         assert_eq!([1.5, 0.25, 6.3e-4].map(short), ["1.50", "0.25", "6.3e-4"]);
+        let told = [0.0123, 0.01, 0.25, 1.5, 12.0, 6.3e-4, 0.0].map(two_digits);
+        assert_eq!(told, ["0.012", "0.010", "0.25", "1.5", "12", "6.3e-4", "0.0"]);
     }
 }

@@ -1,7 +1,7 @@
 //! `[output]` and `[probe.NAME]`: what is written of the result.
 
 use crate::case::bodies::body::region_names;
-use crate::case::keys::{BOOLEAN, NAME, POINT, Section, declare, key, table};
+use crate::case::keys::{BOOLEAN, FormOf, NAME, POINT, Section, ValueForm, declare, key, of, table};
 
 declare! {
     static OUTPUT = table("output");
@@ -17,6 +17,26 @@ declare! {
     const PROBED: [f64; 2] = key("point", POINT).required("[1.0, 2.0]").unit("length");
     /// Name of a body, or of a part: between two parts, where the stress jumps, it must be one of these.
     const BODY: String = key("body", NAME).required("\"lower\"");
+}
+
+declare! {
+    static NAMED_UNITS = table("units").inline();
+    /// That of lengths.
+    const LENGTH: String = key("length", UNIT);
+    /// That of forces.
+    const FORCE: String = key("force", UNIT);
+}
+
+/// The name of a unit.
+const UNIT: FormOf<String> = of(ValueForm::Short(12));
+
+/// The names of the units that a case is in.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct UnitNames {
+    /// Of lengths.
+    pub length: Option<String>,
+    /// Of forces.
+    pub force: Option<String>,
 }
 
 /// What is written of the result.
@@ -40,6 +60,12 @@ pub struct Probe {
 /// `[output]`
 pub fn read_output(root: &Section) -> Output {
     Output { fields: root.table("output").or_default(FIELDS) }
+}
+
+/// `units`
+pub fn read_units(root: &Section) -> UnitNames {
+    let Some(section) = root.optional_table("units") else { return UnitNames::default() };
+    UnitNames { length: section.optional(LENGTH), force: section.optional(FORCE) }
 }
 
 /// `[probe.NAME]`

@@ -28,6 +28,7 @@ impl ValueForm {
             Self::Anything => None,
             Self::Text => values::text(value).err(),
             Self::Name => values::name(value).err(),
+            Self::Short(most) => values::short(value, *most).err(),
             Self::Names => values::names(value).err(),
             Self::Boolean => values::boolean(value).err(),
             Self::Yes => (value.as_bool() != Some(true)).then(|| "must be true".into()),
@@ -56,7 +57,7 @@ impl ValueForm {
     fn takes_type(&self, value: &Value) -> bool {
         match self {
             Self::Anything => true,
-            Self::Text | Self::Name | Self::Word(_) => value.is_str(),
+            Self::Text | Self::Name | Self::Short(_) | Self::Word(_) => value.is_str(),
             Self::Names => value.is_str() || value.is_array(),
             Self::Boolean | Self::Yes => value.is_bool(),
             Self::Number(_) => value.is_integer() || value.is_float(),

@@ -43,6 +43,8 @@ pub enum ValueForm {
     Text,
     /// A string with something in it.
     Name,
+    /// A string with something in it, of so many letters at most.
+    Short(usize),
     /// A name, or a list of names, each once.
     Names,
     /// `true` or `false`.

@@ -14,6 +14,13 @@ pub fn name(value: &Value) -> Result<String, String> {
     text(value).and_then(|text| if text.trim().is_empty() { Err("must not be empty".into()) } else { Ok(text) })
 }
 
+/// A string that says something, in so many letters at most.
+pub fn short(value: &Value, most: usize) -> Result<String, String> {
+    let name = name(value)?;
+    let count = name.chars().count();
+    if count <= most { Ok(name) } else { Err(format!("must have at most {most} letters, not {count}")) }
+}
+
 /// One name or a list of names, each once.
 pub fn names(value: &Value) -> Result<Vec<String>, String> {
     let names = match value {

@@ -5,7 +5,7 @@ use crate::case::acting::rigid::RIGID;
 use crate::case::acting::support::SUPPORT;
 use crate::case::asked::accuracy::ROOT;
 use crate::case::asked::exact::EXACT;
-use crate::case::asked::output::{OUTPUT, PROBE};
+use crate::case::asked::output::{NAMED_UNITS, OUTPUT, PROBE};
 use crate::case::asked::solver::SOLVER;
 use crate::case::asked::steps::STEPS;
 use crate::case::bodies::body::{BODY, PLANE_LAW};
@@ -27,6 +27,9 @@ declare! {
     /// What forces, moments and energies are those of, in the case and in `summary.json`; pressures, tractions, stiffnesses and
     /// body forces are per area or volume in any case; see [materials and the plane](#materials-and-the-plane).
     const THICKNESS: f64 = key("thickness", ABOVE_ZERO).or_else("1").unit("length");
+    /// The names of the units that the case is in, `{ length = "mm", force = "N" }`. They change no number: figures, the report and
+    /// `summary.json` show them; see [units](#units).
+    const UNITS: Table = key("units", inner(&NAMED_UNITS));
     const MESHES: Table = key("mesh", inner(&MESH)).required("{ file = \"bars.msh\" }");
     const BODIES: Table = key("body", some_named(&BODY, "NAME")).required("");
     const WEIGHT: Table = key("gravity", inner(&GRAVITY));

@@ -67,6 +67,7 @@ fn form(form: &ValueForm, definitions: &mut Definitions) -> Value {
         ValueForm::Anything => value!({}),
         ValueForm::Text => value!({ "type": "string" }),
         ValueForm::Name => value!({ "type": "string", "pattern": format!("[^{WHITE}]") }),
+        ValueForm::Short(most) => value!({ "type": "string", "pattern": format!("[^{WHITE}]"), "maxLength": most }),
         ValueForm::Names => {
             let name = self::form(&ValueForm::Name, definitions);
             value!({ "anyOf": [name, { "type": "array", "items": name, "minItems": 1, "uniqueItems": true }] })

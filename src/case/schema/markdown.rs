@@ -61,6 +61,7 @@ impl ValueForm {
         match self {
             Self::Anything => "any value".into(),
             Self::Text | Self::Name => "string".into(),
+            Self::Short(most) => format!("string of at most {most} letters"),
             Self::Names => "string, or a list of them, each once".into(),
             Self::Boolean => "`true` or `false`".into(),
             Self::Yes => "`true`".into(),

@@ -9,6 +9,7 @@ use crate::case::keys::asking::tables;
 const REST: &str = r#"
 mesh = { file = "a.msh", grade = { points = [[0, 0]], exponent = 0.5 } }
 thickness = 2
+units = { length = "mm", force = "N" }
 gravity.g = [0, -9.81]
 body.a = { young = 1, poisson = 0.3, density = 1, plane = "stress" }
 body.b.part.c = { young = 1, poisson = 0.3 }

@@ -12,6 +12,9 @@ use crate::output::summary::Summary;
 /// Name of the table in a result folder.
 pub const CONTACTS: &str = "contacts.csv";
 
+/// A resultant below this share of the force is rounding, as that of a pressure all around: it has no direction.
+const ROUNDING: f64 = 1e-6;
+
 const COLUMNS: &str = "name,boundary_1,boundary_2,force,direction_x,direction_y,x,y,width,pressure_max,trust,verdict";
 
 /// Writes `contacts.csv`: a line with the names of the columns, and one for each contact of the summary, given by its name and its
@@ -37,7 +40,8 @@ fn write_rows<'a>(
     writeln!(out, "{COLUMNS}")?;
     for (name, between) in contacts {
         let Some(contact) = summary.contact.get(name) else { continue };
-        let size = contact.resultant.map(|[x, y]| x.hypot(y)).filter(|size| *size > 0.0);
+        let least = ROUNDING * contact.force.unwrap_or(0.0).abs();
+        let size = contact.resultant.map(|[x, y]| x.hypot(y)).filter(|size| *size > least);
         let along = |axis: usize| Some(contact.resultant?[axis] / size?);
         let place = |axis: usize| contact.place.map(|place| place[axis]);
         let numbers = [contact.force, along(0), along(1), place(0), place(1), contact.width(), contact.pressure_max];
@@ -56,6 +60,22 @@ mod tests {
     use super::*;
     use crate::output::summary::{ContactSummary, ContactTrust};
     use proptest::prelude::*;
+
+    #[test]
+    fn a_pressure_all_around_has_no_direction() {
+        let cells = |resultant: [f64; 2]| {
+            let contact = ContactSummary { force: Some(2.0), resultant: Some(resultant), ..ContactSummary::default() };
+            let summary = Summary { contact: [("c".to_owned(), contact)].into(), ..Summary::default() };
+            let between = ["a".to_owned(), "b".to_owned()];
+            let mut text = Vec::new();
+            write_rows(&mut text, [("c", &between)].into_iter(), &summary).unwrap();
+            let text = String::from_utf8(text).unwrap();
+            let row: Vec<String> = text.lines().nth(1).expect("a row").split(',').map(String::from).collect();
+            [row[4].clone(), row[5].clone()]
+        };
+        assert_eq!(cells([0.0, -1e-9]), ["", ""]);
+        assert_eq!(cells([0.0, -1e-3]).map(|cell| cell.parse::<f64>().expect("a number")), [0.0, -1.0]);
+    }
 
     proptest! {
         #[test]

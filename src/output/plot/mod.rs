@@ -1,14 +1,14 @@
 //! Figures, as SVG: the contact boundary in diagrams, the deformed bodies, whole and where they touch, the scene of a case, and
 //! diagrams of many runs. All of them are drawn on one layer, `drawing`.
 //!
-//! Units are the user's own, so axes name the quantity: *unit of length*, *unit of stress*.
+//! Units are the user's own. Where the case names none, axes name the quantity: *unit of length*, *unit of stress*.
 
 mod bodies;
 mod diagrams;
 mod drawing;
 mod scene;
 
-pub use bodies::{ContactZoom, DeformedFigure, DrawnEdge, DrawnForce, Facet, write_zoom};
+pub use bodies::{ContactZoom, DeformedFigure, DrawnEdge, DrawnForce, DrawnPeak, Facet, write_zoom};
 pub use diagrams::{
     Diagram, DiagramBlock, DiagramLine, DrawnContact, Mark, Sequence, diagrams, named_diagrams, write_accuracy, write_along,
     write_step_figure,

@@ -8,6 +8,7 @@ use super::page::{ReportPage, long_table};
 use super::verdict::word;
 use crate::output::markup::{UNKNOWN, subsection};
 use crate::output::summary::{AccuracyStep, BoundaryIteration, OuterIteration, StepSummary};
+use crate::output::units::Units;
 
 /// Contacts that have columns in the table of load steps; all of them stand in `steps.csv`.
 const MOST_COLUMNS: usize = 4;
@@ -23,7 +24,7 @@ pub fn history(folder: &Path, page: &ReportPage) -> String {
             "steps.svg",
             "Forces, widths and largest pressures over the load steps; hollow marks have not converged.",
         );
-        text += &load_steps(steps);
+        text += &load_steps(steps, &summary.units);
     }
     if let Some(meshes) = &summary.accuracy {
         text += &subsection("Meshes");
@@ -43,12 +44,15 @@ pub fn history(folder: &Path, page: &ReportPage) -> String {
     text
 }
 
-fn load_steps(steps: &[StepSummary]) -> String {
+fn load_steps(steps: &[StepSummary], units: &Units) -> String {
     let names: Vec<&String> =
         steps.iter().max_by_key(|step| step.contact.len()).map_or(Vec::new(), |step| step.contact.keys().collect());
     let names = &names[..names.len().min(MOST_COLUMNS)];
     let factors: Vec<&String> = steps.first().map_or(Vec::new(), |step| step.factors.keys().collect());
-    let of_contact = |name: &&String| ["force", "largest λ", "pressure"].map(|what| format!("{what} of {name}"));
+    let of_contact = |name: &&String| {
+        let [force, largest, pressure] = ["force", "largest λ", "pressure"].map(|what| format!("{what} of {name}"));
+        [units.resultant().of(&force), units.stress().of(&largest), pressure]
+    };
     let columns = factors.iter().map(|name| format!("factor of {name}")).chain(names.iter().flat_map(of_contact));
     let columns: Vec<String> = columns.collect();
     let row = |step: &StepSummary| {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::page::ReportPage;
-use super::{drawings, history, numbers, trust, verdict};
+use super::{drawings, history, numbers, stresses, trust, verdict};
 use crate::output::error::OutputError;
 use crate::output::markup::{document, escape, section, verbatim};
 
@@ -28,6 +28,7 @@ fn html(folder: &Path, page: &ReportPage) -> String {
         ("estimate", "Estimated errors", trust::estimate(page)),
         ("history", "How it went", history::history(folder, page)),
         ("forces", "Forces and balances", numbers::forces(page)),
+        ("stresses", "Largest stresses", stresses::stresses(page)),
         ("points", "Points", numbers::points(page)),
         ("effort", "Mesh, solver, time", numbers::effort(page)),
         ("provenance", "Where it comes from", numbers::provenance(page)),

@@ -5,6 +5,7 @@ mod history;
 mod layout;
 mod numbers;
 mod page;
+mod stresses;
 mod trust;
 mod verdict;
 

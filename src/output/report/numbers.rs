@@ -68,7 +68,10 @@ pub fn contacts(page: &ReportPage) -> String {
         ])
     };
     let rows: Vec<Vec<String>> = page.told().filter_map(row).collect();
-    let header = ["contact", "between", "force ∫λ ds", "largest λ", "closed length", "whole length", "pressure"];
+    let (length, units) = (summary.units.length(), &summary.units);
+    let (force, largest) = (units.resultant().of("force ∫λ ds"), units.stress().of("largest λ"));
+    let [closed_length, whole] = ["closed length", "whole length"].map(|what| length.of(what));
+    let header = ["contact", "between", &force, &largest, &closed_length, &whole, "pressure"];
     let all = summary.contacts_in_words().map(|words| {
         paragraph(&format!("{words}.")) + &paragraph(&format!("These are the worst and the largest; all stand in {CONTACTS}."))
     });
@@ -108,7 +111,8 @@ fn closed(summary: &Summary) -> String {
         return paragraph("Nothing presses anywhere.");
     }
     let more = if left > 0 { paragraph(&format!("{left} more intervals stand in summary.json.")) } else { String::new() };
-    let header = ["contact", "interval", "from s", "to s", "length", "from (x, y)", "to (x, y)"];
+    let heads = ["from s", "to s", "length", "from (x, y)", "to (x, y)"].map(|what| summary.units.length().of(what));
+    let header: Vec<&str> = ["contact", "interval"].into_iter().chain(heads.iter().map(String::as_str)).collect();
     subsection("Intervals in contact") + &table(&header, &rows) + &more
 }
 
@@ -132,7 +136,8 @@ pub fn forces(page: &ReportPage) -> String {
         row(format!("rigid {name}, on the bodies"), rigid.force, rigid.moment, about)
     });
     let rows = contacts.chain(supports).chain(rigid).collect();
-    let forces = long_table(&["", "force x", "force y", "moment", "about"], rows, "summary.json");
+    let [x, y] = ["force x", "force y"].map(|what| summary.units.resultant().of(what));
+    let forces = long_table(&["", &x, &y, "moment", "about"], rows, "summary.json");
     forces + &motions(summary) + &balances(summary) + &energies(summary)
 }
 
@@ -147,7 +152,8 @@ fn motions(summary: &Summary) -> String {
         Some(vec![name.clone(), x, y, turn])
     };
     let rows: Vec<Vec<String>> = summary.rigid.iter().filter_map(row).collect();
-    titled("Motions of what is rigid", table(&["rigid", "shift x", "shift y", "turn (radians)"], &rows))
+    let [x, y] = ["shift x", "shift y"].map(|what| summary.units.length().of(what));
+    titled("Motions of what is rigid", table(&["rigid", &x, &y, "turn (radians)"], &rows))
 }
 
 fn balances(summary: &Summary) -> String {
@@ -185,20 +191,25 @@ pub fn points(page: &ReportPage) -> String {
         [name.clone(), x, y, ux, uy].into_iter().chain(stress).collect()
     };
     let rows: Vec<Vec<String>> = summary.probe.iter().map(row).collect();
-    let probes = table(&["point", "x", "y", "u x", "u y", "σ xx", "σ yy", "σ xy"], &rows);
+    let lengths = ["x", "y", "u x", "u y"].map(|what| summary.units.length().of(what));
+    let stresses = ["σ xx", "σ yy", "σ xy"].map(|what| summary.units.stress().of(what));
+    let heads = lengths.iter().chain(&stresses).map(String::as_str);
+    let probes = table(&std::iter::once("point").chain(heads).collect::<Vec<_>>(), &rows);
     let row = |(name, strain): (&String, &Option<f64>)| {
         vec![name.clone(), number(*strain), number(summary.rotation.get(name).copied().flatten())]
     };
     let rows: Vec<Vec<String>> = summary.strain_max.iter().map(row).collect();
     let bodies = long_table(&["body", "largest strain", "mean rotation (radians)"], rows, "summary.json");
+    let unit = summary.units.length().after();
     let largest =
-        summary.displacement_max.map(|u| paragraph(&format!("The largest displacement of a node is {}.", number_text(u))));
+        summary.displacement_max.map(|u| paragraph(&format!("The largest displacement of a node is {}{unit}.", number_text(u))));
     probes + &bodies + &largest.unwrap_or_default()
 }
 
 /// Sizes, solver, times and memory.
 pub fn effort(page: &ReportPage) -> String {
     let Summary { mesh, unknowns, solver, time_s: time, memory_mib: memory, .. } = page.summary;
+    let unit = page.summary.units.length().after();
     let seconds = |values: &[Option<f64>]| {
         let words: Option<Vec<String>> = values.iter().map(|value| value.map(|seconds| format!("{seconds:.2} s"))).collect();
         words.map(|words| words.join(", "))
@@ -216,7 +227,10 @@ pub fn effort(page: &ReportPage) -> String {
     let rows = [
         ("triangles", counted(mesh.triangles)),
         ("order of the displacement", mesh.order.map(|order| format!("P{order}"))),
-        ("edges", mesh.h_min.zip(mesh.h_max).map(|(least, most)| format!("{} to {}", number_text(least), number_text(most)))),
+        (
+            "edges",
+            mesh.h_min.zip(mesh.h_max).map(|(least, most)| format!("{} to {}{unit}", number_text(least), number_text(most))),
+        ),
         ("displacement unknowns", counted(unknowns.displacement)),
         ("contact pressures", counted(unknowns.multiplier)),
         ("ranks", Some(page.summary.ranks.to_string())),

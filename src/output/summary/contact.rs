@@ -90,6 +90,11 @@ pub struct ContactTrust {
 }
 
 impl ContactSummary {
+    /// Whether λ grows without bound towards an end of a zone that anyone would look at, as far as the meshes tell.
+    pub fn is_singular(&self) -> bool {
+        self.zones.iter().any(|zone| zone.singular == Some(true) && zone.counts(&self.zones))
+    }
+
     /// Length of all intervals in contact.
     pub fn width(&self) -> Option<f64> {
         self.closed.as_ref().map(|intervals| intervals.iter().fold(0.0, |sum, [first, last]| sum + last - first))

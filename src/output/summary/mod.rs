@@ -4,6 +4,7 @@
 //! what does not apply, or was not reached, never shows as a made-up number.
 
 mod accuracy;
+mod body;
 mod contact;
 mod machine;
 mod numbers;
@@ -15,6 +16,7 @@ mod thickness;
 mod told;
 
 pub use accuracy::{AccuracyStep, ContactGoals, Cycles, GoalSummary, ProbeGoals};
+pub use body::BodySummary;
 pub use contact::{ContactEstimate, ContactSummary, ContactTrust, ZoneSummary};
 pub use machine::{machine, whole_machine};
 pub use passes::{BoundaryIteration, OuterIteration};
@@ -30,6 +32,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::output::error::OutputError;
+use crate::output::units::Units;
 use numbers::numbers;
 
 /// The summary of a run. Start from [`Summary::new`] and fill in what is known.
@@ -54,6 +57,9 @@ pub struct Summary {
     /// thickness. The key is missing in the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<String>,
+    /// The units that the case names; the key is missing if it names none.
+    #[serde(default, skip_serializing_if = "Units::is_none")]
+    pub units: Units,
     /// The mesh after refinement.
     pub mesh: Mesh,
     /// Sizes of the linear system.
@@ -64,6 +70,9 @@ pub struct Summary {
     pub boundaries: Vec<BoundaryIteration>,
     /// By name of the contact.
     pub contact: BTreeMap<String, ContactSummary>,
+    /// The largest stress by name of the body, of those that are no rigid tools.
+    #[serde(default)]
+    pub body: BTreeMap<String, BodySummary>,
     /// By name of the rigid tool, or of the load that stays rigid.
     pub rigid: BTreeMap<String, RigidSummary>,
     /// By name of the support.

@@ -24,6 +24,9 @@ fn filled() -> Summary {
         ..ContactSummary::default()
     };
     summary.contact.insert("seam".into(), contact);
+    let part = BodySummary { von_mises_max: Some(2.0), place: Some([0.0, 3.0]), is_believed: true, ..BodySummary::default() };
+    let body = BodySummary { part: Some("core".into()), parts: [("core".into(), part.clone())].into(), ..part.clone() };
+    summary.body = [("lower".into(), part), ("upper".into(), body)].into();
     summary.energy.strain.insert("lower".into(), Some(1e-3));
     summary.estimate.contact.insert("seam".into(), ContactEstimate { force: Some(1e-9), ..ContactEstimate::default() });
     summary.probe.insert("corner".into(), ProbeSummary { x: Some([6.0, 4.0]), ..ProbeSummary::default() });
@@ -51,7 +54,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
     let expected = [
         (
             "",
-            "balance boundaries case contact displacement_max energy errors estimate files memory_mib mesh mezha outer probe provenance ranks reason rigid rotation solver status strain_max support time_s unknowns",
+            "balance body boundaries case contact displacement_max energy errors estimate files memory_mib mesh mezha outer probe provenance ranks reason rigid rotation solver status strain_max support time_s unknowns",
         ),
         ("/mesh", "h_max h_min order triangles vertices"),
         ("/unknowns", "displacement multiplier"),
@@ -64,6 +67,9 @@ fn keys_are_the_names_that_other_tools_rely_on() {
             "/contact/seam/zones/0",
             "corner edges ends force hertz_width lambda peak pressure_max segments share singular whole worst",
         ),
+        ("/body/lower", "is_believed place verdict von_mises_max"),
+        ("/body/upper", "is_believed part parts place verdict von_mises_max"),
+        ("/body/upper/parts/core", "is_believed place verdict von_mises_max"),
         ("/energy", "external_work springs stationary strain total"),
         ("/estimate", "energy seam"),
         ("/estimate/seam", "force lambda peak"),
@@ -117,6 +123,15 @@ fn an_accuracy_is_told_where_it_was_asked_for() {
     );
     let none = Summary { accuracy: Some(Vec::new()), ..filled() };
     assert_eq!(written(&none)["accuracy"], json!([]), "asked for, and ended before the first mesh");
+}
+
+/// The key stands there only if the case names units.
+#[test]
+fn units_are_repeated_where_the_case_names_them() {
+    assert!(written(&filled()).get("units").is_none());
+    let units = Units::new(Some("mm"), Some("N"), false);
+    let value = written(&Summary { units, ..filled() });
+    assert_eq!(value["units"], json!({"length": "mm", "force": "N", "stress": "MPa", "resultant": "N/mm"}));
 }
 
 #[test]

@@ -83,7 +83,8 @@ impl Summary {
             let contact = self.contact.get(*name)?;
             let (force, verdict) =
                 (contact.force.unwrap_or(f64::NAN), contact.judged.verdict.as_deref().unwrap_or("nothing tells"));
-            Some(format!("{name} (force {force:.4e}, {:.2} of the largest; {verdict})", force.abs() / largest))
+            let unit = self.units.resultant().after();
+            Some(format!("{name} (force {force:.4e}{unit}, {:.2} of the largest; {verdict})", force.abs() / largest))
         };
         let worst: Vec<String> = self.worst_first().iter().take(WORST).filter_map(one).collect();
         Some(format!("{count} contacts: {}; the worst {WORST}: {}", kinds.join(", "), worst.join(", ")))

@@ -239,6 +239,7 @@ impl Procedure<'_> {
             preconditioning,
             is_hard: is_hard || ascended,
             estimate,
+            coarse_stress: coarse.as_ref().map(|coarse| coarse.largest.clone()),
             coarse: solves,
             before: coarse.filter(|_| self.accuracy.is_some()),
             adaptation: None,

@@ -11,7 +11,7 @@ use crate::output::plot::{
 };
 use crate::run::outcome::RunError;
 use crate::run::reading::scene;
-use crate::run::words::title;
+use crate::run::words::{title, units};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -129,6 +129,7 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
         supports,
         loads,
         has_axis: mesh.plane == Plane::Revolution,
+        units: units(case),
         remarks: Vec::new(),
     };
     // What has no place on the mesh.

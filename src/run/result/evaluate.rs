@@ -7,6 +7,7 @@ use crate::recovery::{Evaluation, TracePoint};
 use crate::run::Run;
 use crate::run::accuracy;
 use crate::run::outcome::RunError;
+use crate::run::summary::bodies::{LargestStresses, largest_stresses};
 use crate::run::summary::contact::contact;
 use crate::run::summary::described::described;
 use crate::run::summary::fields::with_fields;
@@ -79,8 +80,10 @@ impl Run<'_> {
         let estimate = EstimateSummary { contact: estimates, ..summary.estimate };
         let mut summary = Summary { contact: contacts, estimate, errors: errors.values, ..summary };
         let (status, reason) = self.judge(&mut summary, solved, &errors.missed);
+        let LargestStresses { bodies, drawn } = largest_stresses(&found, solved, self.case, (&summary, status))?;
+        summary.body = bodies;
         let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
-        self.write_files(&found, &summary, &traces, adaptation.as_ref())?;
+        self.write_files(&found, &summary, (&traces, &drawn), adaptation.as_ref())?;
         Ok((summary, status, reason))
     }
 }

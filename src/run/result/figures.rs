@@ -7,7 +7,7 @@ use crate::contact::{Configuration, Pair};
 use crate::discretisation::{Contact, Scene};
 use crate::element::Plane;
 use crate::mesh::MacroMesh;
-use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, Facet};
+use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, DrawnPeak, Facet};
 use crate::output::summary::MOST_WITH_FIGURES;
 use crate::output::{ContactPoint, Summary};
 use crate::recovery::Evaluation;
@@ -37,7 +37,7 @@ impl Run<'_> {
         &self,
         found: &Evaluation,
         summary: &Summary,
-        traces: &[Vec<ContactPoint>],
+        (traces, peaks): (&[Vec<ContactPoint>], &[DrawnPeak]),
         adaptation: Option<&Adaptation>,
         stress: impl Fn(usize, usize) -> [f64; 4],
     ) -> Result<(), RunError> {
@@ -53,6 +53,7 @@ impl Run<'_> {
             bodies: bodies[at].each_ref().map(String::as_str),
             points: &traces[at],
             is_deformed: contact.pair.configuration == Configuration::Deformed,
+            units: &summary.units,
         };
         let drawn: Vec<DrawnContact> = contacts.iter().enumerate().map(drawn).collect();
         let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
@@ -77,7 +78,7 @@ impl Run<'_> {
             let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
             plot::write_zoom(&folder.join(name), &drawing.zoom, &drawn[drawing.contact], facets, has_axis)?;
         }
-        let forces = drawn_forces(&found.problem.scene, contacts, summary);
+        let forces = drawn_forces(&found.problem.scene, contacts, summary, self.case.thickness);
         // Where forces are many, their lines say where contacts are.
         let drawn = if contacts.len() > MOST_WITH_FIGURES { &[][..] } else { &drawn };
         let figure = DeformedFigure {
@@ -87,7 +88,9 @@ impl Run<'_> {
             interfaces: &interfaces,
             contacts: drawn,
             forces: &forces,
+            peaks,
             has_axis,
+            units: &summary.units,
         };
         figure.write(&folder.join("deformed.svg"))?;
         adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation))
@@ -128,8 +131,8 @@ impl Run<'_> {
     }
 }
 
-/// The forces of several contacts, each with a line that reaches into both bodies by a share of the smaller one.
-fn drawn_forces(scene: &Scene, contacts: &[Contact], summary: &Summary) -> Vec<DrawnForce> {
+/// The forces of several contacts, those of a thickness of one in the summary made those of the whole, each with a line that reaches into both bodies by a share of the smaller one.
+fn drawn_forces(scene: &Scene, contacts: &[Contact], summary: &Summary, thickness: f64) -> Vec<DrawnForce> {
     if contacts.len() < 2 {
         return Vec::new();
     }
@@ -143,7 +146,8 @@ fn drawn_forces(scene: &Scene, contacts: &[Contact], summary: &Summary) -> Vec<D
         let own = contact.bodies.into_iter().filter(|&body| !is_tool(body)).map(|body| sizes[body]);
         let reach = REACH * own.fold(f64::INFINITY, f64::min);
         let is_deformed = contact.pair.configuration == Configuration::Deformed;
-        Some(DrawnForce { place: found.place?, force: found.resultant?, reach, is_deformed })
+        let force = found.resultant?.map(|part| thickness * part);
+        Some(DrawnForce { place: found.place?, force, reach, is_deformed })
     };
     contacts.iter().filter_map(force).collect()
 }

@@ -4,6 +4,7 @@ use super::{fields, figures};
 use crate::accuracy::Adaptation;
 use crate::discretisation::Contact;
 use crate::mesh::MacroMesh;
+use crate::output::plot::DrawnPeak;
 use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, vtk, write_contact};
@@ -29,6 +30,9 @@ impl Run<'_> {
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
         self.report.table(&summary);
         summary.contacts_in_words().iter().for_each(|words| self.report.say(words));
+        if summary.status == Status::Converged {
+            summary.stresses_in_words().iter().for_each(|words| self.report.say(words));
+        }
         let outcome = match summary.status {
             Status::Converged => Outcome::Converged,
             Status::Unresolved => Outcome::Unresolved,
@@ -75,7 +79,7 @@ impl Run<'_> {
         &self,
         found: &Evaluation,
         summary: &Summary,
-        traces: &[Vec<ContactPoint>],
+        (traces, peaks): (&[Vec<ContactPoint>], &[DrawnPeak]),
         adaptation: Option<&Adaptation>,
     ) -> Result<(), RunError> {
         let folder = &self.files;
@@ -94,7 +98,7 @@ impl Run<'_> {
             let mut pairs = pairs.filter(|(contact, _)| shown.contains(contact.pair.name.as_str()));
             pairs.try_for_each(|(contact, points)| vtk::write_curve(&curve(&contact.pair.name), points))?;
         }
-        if self.draws { self.write_figures(found, summary, traces, adaptation, at_node) } else { Ok(()) }
+        if self.draws { self.write_figures(found, summary, (traces, peaks), adaptation, at_node) } else { Ok(()) }
     }
 }
 

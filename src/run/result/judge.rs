@@ -1,6 +1,6 @@
 //! The status of a run, and its reason.
 
-use crate::output::summary::{ContactSummary, Status, Summary, ZoneSummary, listed};
+use crate::output::summary::{ContactSummary, Status, Summary, listed};
 use crate::procedure::Solved;
 use crate::run::Run;
 use crate::run::verdict::no_result::no_result;
@@ -50,8 +50,7 @@ pub fn remarks(summary: &Summary) -> String {
     if let (Status::Converged, Some(error), false) = (summary.status, summary.estimate.energy, is_told) {
         remarks += &format!("; estimated error {error:.1e} in the energy norm");
     }
-    let is_singular = |zone: &ZoneSummary, all: &[ZoneSummary]| zone.singular == Some(true) && zone.counts(all);
-    let singular = names(&|contact| contact.zones.iter().any(|zone| is_singular(zone, &contact.zones)));
+    let singular = names(&ContactSummary::is_singular);
     if summary.status == Status::Converged && !singular.is_empty() {
         remarks += &format!(
             "; towards an end of contact {singular} λ grows without bound, as far as the meshes tell: its largest value says nothing"

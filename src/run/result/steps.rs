@@ -11,7 +11,7 @@ use crate::run::outcome::RunError;
 use crate::run::reading::known::check_pressures;
 use crate::run::reading::scene;
 use crate::run::telling::interruption;
-use crate::run::words::title;
+use crate::run::words::{title, units};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -115,7 +115,7 @@ impl Run<'_> {
             return Ok(());
         }
         if rows.iter().any(|row| !row.contact.is_empty()) {
-            plot::write_step_figure(&files.join("steps.svg"), title(self.case), rows)?;
+            plot::write_step_figure(&files.join("steps.svg"), title(self.case), rows, &units(self.case))?;
         }
         let fields = if self.session.size() == 1 { "fields.vtu" } else { "fields.pvtu" };
         write_all(files, "fields.pvd", fields, count)?;

@@ -5,6 +5,7 @@ use crate::element::Order;
 use crate::output::summary::{CoarseSolveSummary, Mesh, SolverSummary, Summary, Unknowns};
 use crate::petsc::versions;
 use crate::procedure::Solved;
+use crate::run::words::units;
 
 /// A summary with all that is known without the fields; what `before` tells else stays.
 pub fn described(before: Summary, case: &Case, solved: &Solved) -> Summary {
@@ -30,6 +31,7 @@ pub fn described(before: Summary, case: &Case, solved: &Solved) -> Summary {
             displacement: Some(2 * numbering.node_count() as u64),
             multiplier: Some(problem.multiplier_count() as u64),
         },
+        units: units(case),
         outer: solved.passes.iter().map(Into::into).collect(),
         boundaries: solved.boundaries.iter().map(Into::into).collect(),
         solver: SolverSummary {

@@ -217,6 +217,8 @@ fn errors_of_solver_output_and_probes_name_key_value_and_remedy() {
         ("solver.tolerance=0", "must lie in [1e-16, 0.01]"),
         ("solver.tolerance=0.02", "must lie in [1e-16, 0.01]"),
         ("solver.tolerance=fine", "must be a number like 1e-8, or \"discretisation\""),
+        ("units.length=kilometres per h", "must have at most 12 letters, not 16"),
+        ("units.forces=N", "unknown key; did you mean \"force\"?"),
         ("output.fields=no", "must be true or false, not of type string"),
         ("output.field=false", "unknown key; did you mean \"fields\"?"),
         ("probe.p.body=aa", "probe.p.body = \"aa\" (--set): no such body; did you mean \"a\"?"),

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, displacement_near, draw_outlines, facet_bounds};
 use super::moved::{CONTACT, moved_contact};
+use super::peaks::{DrawnPeak, draw_peaks};
 use super::stress::{BAR_ROOM, Colours, draw_colour_bar, draw_stress};
 use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
@@ -11,6 +12,7 @@ use crate::output::plot::drawing::{
     Canvas, Chart, GREY, HEAD, INK, LegendCell, Paint, PlotRoom, VERMILION, WHITE, bounds, number_text, round_number,
     up_to_the_axis,
 };
+use crate::output::units::Units;
 
 /// An edge of the macro mesh as the figure shows it: undeformed points from end to end, and their displacements.
 #[derive(Clone, Debug)]
@@ -63,8 +65,12 @@ pub struct DeformedFigure<'a> {
     pub contacts: &'a [DrawnContact<'a>],
     /// Forces: lines, as wide as they are large.
     pub forces: &'a [DrawnForce],
+    /// The largest stress of each body.
+    pub peaks: &'a [DrawnPeak],
     /// Whether bodies of revolution are shown, with their axis.
     pub has_axis: bool,
+    /// The units of the case.
+    pub units: &'a Units,
 }
 
 impl DeformedFigure<'_> {
@@ -77,17 +83,17 @@ impl DeformedFigure<'_> {
         check_facets(path, facets)?;
         let (scale, colours, boundary) = (automatic_scale(facets, contacts), Colours::of(facets), boundary_edges(facets));
         let shown = around(facets, scale);
-        let (mut canvas, chart) = plane(if self.has_axis { up_to_the_axis(shown) } else { shown }, self.has_axis);
+        let (mut canvas, chart) = plane(if self.has_axis { up_to_the_axis(shown) } else { shown }, self.has_axis, self.units);
         let largest = self.forces.iter().map(DrawnForce::size).fold(0.0, f64::max);
         let mut legend = vec![LegendCell::lines("undeformed", &[Paint::line(GREY, 0.7)])];
         if !contacts.is_empty() {
             legend.push(LegendCell::lines("contact boundary", &CONTACT));
         }
         if largest > 0.0 {
-            let words = format!("contact force, up to {}", number_text(largest));
+            let words = format!("contact force, up to {}{}", number_text(largest), self.units.resultant().after());
             legend.push(LegendCell::lines(words, &[Paint::line(VERMILION, 0.5 * FORCE_WIDTHS[0])]));
         }
-        legend.extend(colours.remark());
+        legend.extend(colours.remark(self.units.stress()));
         chart.draw_head(&mut canvas, &format!("{}, displacements × {}", self.title, number_text(scale)), &[legend]);
         draw_outlines(&mut canvas, &chart, &boundary, 0.0, GREY);
         draw_stress(&mut canvas, &chart, facets, scale, &colours);
@@ -104,8 +110,9 @@ impl DeformedFigure<'_> {
             let paint = Paint::line(VERMILION, widest * force.size() / largest).faint(0.8);
             canvas.line(paint, force.line(&boundary, scale).map(|x| chart.place(x)));
         }
+        draw_peaks(&mut canvas, &chart, self.peaks, (scale, self.units.stress()));
         chart.draw_axes(&mut canvas, false);
-        draw_colour_bar(&mut canvas, &chart, &colours);
+        draw_colour_bar(&mut canvas, &chart, &colours, self.units.stress());
         canvas.write(path)
     }
 }
@@ -139,8 +146,8 @@ fn around(facets: &[Facet], scale: f64) -> [[f64; 2]; 2] {
 }
 
 /// A canvas for a box of the plane, with room for the bar of colours.
-pub fn plane(shown: [[f64; 2]; 2], has_axis: bool) -> (Canvas, Chart) {
-    let chart = Chart::of_plane(shown, &ROOM, [HEAD, BAR_ROOM], has_axis);
+pub fn plane(shown: [[f64; 2]; 2], has_axis: bool, units: &Units) -> (Canvas, Chart) {
+    let chart = Chart::of_plane(shown, &ROOM, [HEAD, BAR_ROOM], (has_axis, units.length()));
     (Canvas::new(chart.panel.extent()), chart)
 }
 
@@ -177,7 +184,7 @@ mod tests {
     use crate::output::plot::bodies::samples::block;
 
     fn drawn(points: &[ContactPoint]) -> DrawnContact<'_> {
-        DrawnContact { title: "blocks", bodies: ["left", "right"], points, is_deformed: false }
+        DrawnContact { title: "blocks", bodies: ["left", "right"], points, is_deformed: false, units: Default::default() }
     }
 
     fn draw(facets: &[Facet]) -> Result<String, OutputError> {

@@ -3,6 +3,7 @@
 mod deformed;
 mod facets;
 mod moved;
+mod peaks;
 #[cfg(test)]
 mod samples;
 mod stress;
@@ -10,4 +11,5 @@ mod zoom;
 
 pub use deformed::{DeformedFigure, DrawnEdge, DrawnForce};
 pub use facets::Facet;
+pub use peaks::DrawnPeak;
 pub use zoom::{ContactZoom, write_zoom};

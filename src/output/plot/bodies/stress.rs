@@ -5,6 +5,7 @@ use crate::output::plot::drawing::{
     Canvas, Chart, Colour, Frame, GREY, INK, LegendCell, Letters, Paint, Scale, TextAnchor, cut_off, edges_around, merged,
     number_text, viridis,
 };
+use crate::output::units::Unit;
 
 /// Steps of the colour bar.
 const LEVELS: usize = 40;
@@ -35,8 +36,8 @@ impl Colours {
     }
 
     /// What a legend says of a peak above the last colour.
-    pub fn remark(&self) -> Option<LegendCell> {
-        self.peak.map(|peak| LegendCell::words(format!("stress up to {}", number_text(peak))))
+    pub fn remark(&self, unit: Unit) -> Option<LegendCell> {
+        self.peak.map(|peak| LegendCell::words(format!("stress up to {}{}", number_text(peak), unit.after())))
     }
 
     /// Corner values of a facet in steps of colour: level k reaches from k to k + 1.
@@ -93,7 +94,7 @@ fn band(corners: &[[f64; 2]; 3], values: &[f64; 3], [low, high]: [f64; 2]) -> Ve
 }
 
 /// Draws the bar of colours at the right of the plot, with its ticks and its name.
-pub fn draw_colour_bar(canvas: &mut Canvas, chart: &Chart, colours: &Colours) {
+pub fn draw_colour_bar(canvas: &mut Canvas, chart: &Chart, colours: &Colours, unit: Unit) {
     let [_, top, plot, bottom] = chart.frame.0;
     let [left, right] = [plot + 24.0, plot + 40.0];
     let height_of = |fraction: f64| bottom - (bottom - top) * fraction;
@@ -102,7 +103,7 @@ pub fn draw_colour_bar(canvas: &mut Canvas, chart: &Chart, colours: &Colours) {
         canvas.rectangle(Paint::fill(Colours::colour(level)), Frame([left, top, right, low]));
     }
     canvas.rectangle(Paint::line(GREY, 0.8), Frame([left, top, right, bottom]));
-    let scale = Scale::linear([0.0, colours.top], 5, "von Mises stress", "stress");
+    let scale = Scale::linear([0.0, colours.top], 5, "von Mises stress", unit);
     for (share, label) in scale.ticks() {
         let y = height_of(share);
         canvas.line(Paint::line(GREY, 0.8), [[right, y], [right + 4.0, y]]);

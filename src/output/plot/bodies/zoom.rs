@@ -83,16 +83,19 @@ pub fn write_zoom(
 ) -> Result<(), OutputError> {
     check_facets(path, facets)?;
     let (colours, boundary) = (Colours::of(facets), boundary_edges(facets));
-    let (mut canvas, chart) = plane(zoom.frame, has_axis);
+    let (mut canvas, chart) = plane(zoom.frame, has_axis, contact.units);
     let (profile, largest) = profile(zoom, contact, &boundary);
     let [from, to] = zoom.interval.map(number_text);
     let title = format!("{}, s = {from} to {to}, displacements × 1", contact.title);
     let pressure = Paint::line(BLUE, 1.6);
     let mut legend = vec![
         LegendCell::lines("contact boundary", &CONTACT),
-        LegendCell::lines(format!("contact pressure λ, up to {}", number_text(largest)), &[pressure]),
+        LegendCell::lines(
+            format!("contact pressure λ, up to {}{}", number_text(largest), contact.units.stress().after()),
+            &[pressure],
+        ),
     ];
-    legend.extend(colours.remark());
+    legend.extend(colours.remark(contact.units.stress()));
     chart.draw_head(&mut canvas, &title, &[legend]);
     canvas.within(chart.frame, |canvas| {
         draw_stress(canvas, &chart, facets, 1.0, &colours);
@@ -106,7 +109,7 @@ pub fn write_zoom(
         draw_names(canvas, chart, zoom, contact, &boundary);
     });
     chart.draw_axes(&mut canvas, false);
-    draw_colour_bar(&mut canvas, &chart, &colours);
+    draw_colour_bar(&mut canvas, &chart, &colours, contact.units.stress());
     canvas.write(path)
 }
 

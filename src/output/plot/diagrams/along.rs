@@ -7,6 +7,7 @@ use crate::output::error::OutputError;
 use crate::output::plot::drawing::{
     BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text,
 };
+use crate::output::units::{Unit, Units};
 
 /// Width and height of a figure, and what is to the right of the plot (pixels).
 const SIZE: [f64; 2] = [820.0, 460.0];
@@ -27,14 +28,16 @@ pub struct DrawnContact<'a> {
     pub points: &'a [ContactPoint],
     /// Whether they lie on the deformed bodies.
     pub is_deformed: bool,
+    /// The units of the case.
+    pub units: &'a Units,
 }
 
 /// What a figure shows of a contact boundary.
-struct AlongFigure {
+struct AlongFigure<'a> {
     /// The figure is called so, and the contact.
     file: &'static str,
     /// What the vertical axis shows, and its unit.
-    quantity: [&'static str; 2],
+    quantity: (&'static str, Unit<'a>),
     /// Whether zero is shown in any case.
     has_zero: bool,
     /// Whether peaks that would squeeze the rest are cut off.
@@ -60,12 +63,12 @@ struct DrawnCurve {
 /// # Errors
 /// No point has a finite value of one of them; the operating system refuses.
 pub fn write_along(folder: &Path, name: &str, contact: &DrawnContact) -> Result<(), OutputError> {
-    let figures = figures(contact.bodies);
+    let figures = figures(contact.bodies, contact.units);
     figures.iter().try_for_each(|figure| figure.write(&folder.join(format!("{}_{name}.svg", figure.file)), contact))
 }
 
 /// The figures of a contact between two bodies.
-fn figures([one, two]: [&str; 2]) -> [AlongFigure; 3] {
+fn figures<'a>([one, two]: [&str; 2], units: &'a Units) -> [AlongFigure<'a>; 3] {
     let pressures = vec![
         DrawnCurve { name: "contact pressure λ".into(), colour: BLUE, width: 2.0, value: |p| p.lambda },
         DrawnCurve { name: format!("−σ of {one}"), colour: VERMILION, width: 1.1, value: |p| -p.sigma_1 },
@@ -78,22 +81,22 @@ fn figures([one, two]: [&str; 2]) -> [AlongFigure; 3] {
     ];
     let figure = |file, quantity, has_zero, curves| AlongFigure { file, quantity, has_zero, cuts_peaks: false, curves };
     [
-        AlongFigure { cuts_peaks: true, ..figure("pressure", ["pressure", "stress"], true, pressures) },
-        figure("gap", ["gap", "length"], true, vec![DrawnCurve { name: gap, colour: BLUE, width: 1.6, value: |p| p.gap }]),
-        figure("displacement", ["normal displacement", "length"], false, displacements),
+        AlongFigure { cuts_peaks: true, ..figure("pressure", ("pressure", units.stress()), true, pressures) },
+        figure("gap", ("gap", units.length()), true, vec![DrawnCurve { name: gap, colour: BLUE, width: 1.6, value: |p| p.gap }]),
+        figure("displacement", ("normal displacement", units.length()), false, displacements),
     ]
 }
 
-impl AlongFigure {
-    fn write(&self, path: &Path, DrawnContact { title, points, .. }: &DrawnContact) -> Result<(), OutputError> {
+impl AlongFigure<'_> {
+    fn write(&self, path: &Path, DrawnContact { title, points, units, .. }: &DrawnContact) -> Result<(), OutputError> {
         let mut range = finite_range(path, points, &self.curves)?;
         if self.has_zero {
             range = [range[0].min(0.0), range[1].max(0.0)];
         }
         let (range, remark) = if self.cuts_peaks { cut_peaks(range, points, &self.curves) } else { (range, None) };
         let ends = [points[0].s, points[points.len() - 1].s];
-        let x = Scale::linear(widened(ends, 0.0), 8, "arc length s along the contact boundary", "length");
-        let y = Scale::linear(widened(range, 0.05), 6, self.quantity[0], self.quantity[1]);
+        let x = Scale::linear(widened(ends, 0.0), 8, "arc length s along the contact boundary", units.length());
+        let y = Scale::linear(widened(range, 0.05), 6, self.quantity.0, self.quantity.1);
         let crosses_zero = y.range[0] < 0.0 && y.range[1] > 0.0;
         let mut canvas = Canvas::new(SIZE);
         let chart = Chart::new(canvas.frame(), [HEAD, RIGHT], x, y);
@@ -200,8 +203,13 @@ mod tests {
 
     fn draw(file: &str, points: &[ContactPoint]) -> Result<String, OutputError> {
         let folder = tempfile::tempdir().unwrap();
-        let contact =
-            DrawnContact { title: "bars\u{1} <1 & 2>\u{1b}[0m", bodies: ["<lower>", "upper"], points, is_deformed: false };
+        let contact = DrawnContact {
+            title: "bars\u{1} <1 & 2>\u{1b}[0m",
+            bodies: ["<lower>", "upper"],
+            points,
+            is_deformed: false,
+            units: Default::default(),
+        };
         write_along(folder.path(), "seam", &contact)
             .map(|()| std::fs::read_to_string(folder.path().join(format!("{file}_seam.svg"))).unwrap())
     }

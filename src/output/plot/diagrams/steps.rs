@@ -8,6 +8,7 @@ use super::diagram::{Diagram, DiagramLine, Mark};
 use crate::output::error::OutputError;
 use crate::output::plot::drawing::{Axis, LegendCell};
 use crate::output::summary::{Status, StepContact, StepSummary};
+use crate::output::units::{Unit, Units};
 
 /// What is drawn of a contact in a step.
 type DrawnValue<'s> = &'s dyn Fn(&StepSummary, &StepContact) -> Option<f64>;
@@ -20,18 +21,18 @@ type OfStep<'s> = Box<dyn Fn(&StepSummary) -> Option<f64> + 's>;
 ///
 /// # Errors
 /// No step has a contact; the operating system refuses.
-pub fn write_step_figure(path: &Path, title: &str, steps: &[StepSummary]) -> Result<(), OutputError> {
+pub fn write_step_figure(path: &Path, title: &str, steps: &[StepSummary], units: &Units) -> Result<(), OutputError> {
     let failed = || OutputError::Figure { path: path.into(), reason: "no step has a contact".into() };
-    let text = diagrams(&[block(title, steps)]).ok_or_else(failed)?;
+    let text = diagrams(&[block(title, steps, units)]).ok_or_else(failed)?;
     fs::write(path, text).map_err(OutputError::io("write", path))
 }
 
 /// The diagrams of all contacts.
-fn block(title: &str, steps: &[StepSummary]) -> DiagramBlock {
+fn block(title: &str, steps: &[StepSummary], units: &Units) -> DiagramBlock {
     let mut names: Vec<&String> = steps.iter().flat_map(|step| step.contact.keys()).collect();
     names.sort();
     names.dedup();
-    let (way, moved) = displacement(steps);
+    let (way, moved) = displacement(steps, units.length());
     let diagram = |title: &str, [x, y]: [(&str, DrawnValue); 2]| {
         let axis = |name: &str| Axis { name: name.into(), ..Axis::default() };
         let mark = |step: &StepSummary, name: &str| {
@@ -45,9 +46,14 @@ fn block(title: &str, steps: &[StepSummary]) -> DiagramBlock {
     };
     let way: (&str, DrawnValue) = (&way, &|step, _| moved(step));
     let number: (&str, DrawnValue) = ("step", &|step, _| Some(step.step as f64));
-    let force: (&str, DrawnValue) = ("contact force, per thickness", &|_, contact| contact.force);
-    let width: (&str, DrawnValue) = ("contact width, unit of length", &|_, contact| contact.width);
-    let peak: (&str, DrawnValue) = ("pressure, unit of stress", &|_, contact| contact.pressure_max);
+    let [of_force, of_width, of_peak] = [
+        units.resultant().axis("contact force", Some("per thickness")),
+        units.length().axis("contact width", None),
+        units.stress().axis("pressure", None),
+    ];
+    let force: (&str, DrawnValue) = (&of_force, &|_, contact| contact.force);
+    let width: (&str, DrawnValue) = (&of_width, &|_, contact| contact.width);
+    let peak: (&str, DrawnValue) = (&of_peak, &|_, contact| contact.pressure_max);
     let entry = |(style, name): (usize, &&String)| vec![LegendCell::marked(format!("contact {name}"), style)];
     DiagramBlock {
         title: title.into(),
@@ -63,19 +69,19 @@ fn block(title: &str, steps: &[StepSummary]) -> DiagramBlock {
 
 /// The displacement that says how far the scene has gone, in words and in each step: the shift of the first rigid tool or plate
 /// that is shifted, else the displacement of the first probe, else the largest one of a node.
-fn displacement(steps: &[StepSummary]) -> (String, OfStep<'_>) {
+fn displacement<'s>(steps: &'s [StepSummary], unit: Unit) -> (String, OfStep<'s>) {
     let shift = |step: &StepSummary, name: &str| {
         step.rigid.get(name).and_then(|rigid| rigid.motion).map(|motion| motion[0].hypot(motion[1]))
     };
     let is_shifted = |name: &&String| steps.iter().any(|step| shift(step, name).is_some_and(|shift| shift > 0.0));
     if let Some(name) = steps.iter().flat_map(|step| step.rigid.keys()).find(is_shifted) {
-        return (format!("shift of {name}, unit of length"), Box::new(move |step| shift(step, name)));
+        return (unit.axis(&format!("shift of {name}"), None), Box::new(move |step| shift(step, name)));
     }
     if let Some(name) = steps.iter().flat_map(|step| step.probe.keys()).next() {
         let moved = move |step: &StepSummary| step.probe.get(name).and_then(|probe| probe.u).map(|u| u[0].hypot(u[1]));
-        return (format!("displacement of probe {name}, unit of length"), Box::new(moved));
+        return (unit.axis(&format!("displacement of probe {name}"), None), Box::new(moved));
     }
-    ("largest displacement, unit of length".into(), Box::new(|step| step.displacement_max))
+    (unit.axis("largest displacement", None), Box::new(|step| step.displacement_max))
 }
 
 #[cfg(test)]
@@ -97,27 +103,34 @@ mod tests {
         }
     }
 
+    fn units() -> Units {
+        Units::new(Some("mm"), Some("N"), false)
+    }
+
     fn draw(steps: &[StepSummary]) -> Result<String, OutputError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("steps.svg");
-        write_step_figure(&path, "press", steps).map(|()| fs::read_to_string(path).unwrap())
+        write_step_figure(&path, "press", steps, &units()).map(|()| fs::read_to_string(path).unwrap())
     }
 
     #[test]
     fn the_displacement_is_that_of_a_tool_else_of_a_probe_else_the_largest() {
         let mut steps: Vec<StepSummary> = (1..4).map(step).collect();
-        assert!(draw(&steps).unwrap().contains("largest displacement"));
+        let text = draw(&steps).unwrap();
+        assert!(
+            text.contains("largest displacement, mm") && text.contains("contact force, N/mm") && text.contains("pressure, MPa")
+        );
         let probe = ProbeSummary { u: Some([0.3, -0.4]), ..ProbeSummary::default() };
         steps.iter_mut().for_each(|step| _ = step.probe.insert("tip".into(), probe.clone()));
         assert!(draw(&steps).unwrap().contains("displacement of probe tip"));
-        assert_eq!(displacement(&steps).1(&steps[0]), Some(0.5));
+        assert_eq!(displacement(&steps, units().length()).1(&steps[0]), Some(0.5));
         let rigid = |y| RigidSummary { motion: Some([0.0, y, 0.1]), ..RigidSummary::default() };
         for (step, y) in steps.iter_mut().zip([0.0, -0.5, -1.0]) {
             step.rigid = [("at_rest".into(), rigid(0.0)), ("die".into(), rigid(y))].into();
         }
         let text = draw(&steps).unwrap();
         assert!(text.contains("shift of die") && text.contains("contact seam") && !text.contains("NaN"));
-        assert_eq!(displacement(&steps).1(&steps[2]), Some(1.0));
+        assert_eq!(displacement(&steps, units().length()).1(&steps[2]), Some(1.0));
     }
 
     #[test]

@@ -6,6 +6,7 @@ use super::legend::{LegendCell, ROW, draw_legend};
 use super::letters::{Letters, TextAnchor, text_width};
 use super::paint::{GREY, GRID, INK, Paint};
 use super::scale::{LABEL, Scale};
+use crate::output::units::Unit;
 
 /// Height of the title (pixels); rows of the legend come below it.
 const TITLE: f64 = 34.0;
@@ -51,8 +52,8 @@ impl Chart {
     }
 
     /// A box of the plane without distortion, given by its lower left and upper right corner; of bodies of revolution with their
-    /// axis.
-    pub fn of_plane([low, high]: [[f64; 2]; 2], room: &PlotRoom, margins: [f64; 2], has_axis: bool) -> Self {
+    /// axis. `unit` is that of lengths.
+    pub fn of_plane([low, high]: [[f64; 2]; 2], room: &PlotRoom, margins: [f64; 2], (has_axis, unit): (bool, Unit)) -> Self {
         let needed = [0, 1].map(|axis| high[axis] - low[axis]);
         let inner = room.most.map(|most| most - 2.0 * room.around);
         let pixels_per_length = (inner[0] / needed[0]).min(inner[1] / needed[1]);
@@ -60,7 +61,7 @@ impl Chart {
         let across = if has_axis { "radius x" } else { "x" };
         let [x, y] = [(0, across), (1, "y")].map(|(axis, name)| {
             let (middle, half) = (0.5 * (low[axis] + high[axis]), 0.5 * pixels[axis] / pixels_per_length);
-            Scale::linear([middle - half, middle + half], (pixels[axis] / 80.0).ceil() as usize, name, "length")
+            Scale::linear([middle - half, middle + half], (pixels[axis] / 80.0).ceil() as usize, name, unit)
         });
         let extent = [pixels[0] + y.room() + margins[1], pixels[1] + margins[0] + BELOW];
         Self { has_axis, ..Self::new(Frame::at([0.0; 2], extent), margins, x, y) }

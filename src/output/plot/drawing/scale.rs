@@ -2,6 +2,7 @@
 
 use super::letters::text_width;
 use super::ticks::Ticks;
+use crate::output::units::Unit;
 
 /// Size of the labels of ticks (pixels).
 pub const LABEL: f64 = 11.0;
@@ -64,7 +65,7 @@ pub struct Scale {
 
 impl Scale {
     /// A linear axis with about so many ticks, named by a quantity and its unit.
-    pub fn linear(range: [f64; 2], ticks: usize, name: &str, unit: &str) -> Self {
+    pub fn linear(range: [f64; 2], ticks: usize, name: &str, unit: Unit) -> Self {
         let ticks = Ticks::new(range, ticks);
         Self { is_logarithmic: false, name: format!("{name} [{}]", ticks.unit(unit)), range, ticks }
     }

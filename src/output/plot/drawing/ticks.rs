@@ -1,5 +1,7 @@
 //! Round numbers for axes and colour bars.
 
+use crate::output::units::Unit;
+
 /// An axis with fewer ticks would tell nobody how its values are spread.
 const FEW: usize = 3;
 
@@ -48,11 +50,11 @@ impl Ticks {
         Ticks { labels: values.into_iter().map(|value| (value, label(value))).collect(), exponent: 0 }
     }
 
-    /// The unit of the labels: `unit of length`, or `10⁻⁴ units of length`.
-    pub fn unit(&self, quantity: &str) -> String {
+    /// The unit of the labels: `mm`, or `10⁻⁴ mm`.
+    pub fn unit(&self, unit: Unit) -> String {
         match self.exponent {
-            0 => format!("unit of {quantity}"),
-            exponent => format!("{} units of {quantity}", power_of_ten(exponent)),
+            0 => unit.words(),
+            exponent => unit.times(&power_of_ten(exponent)),
         }
     }
 }
@@ -118,10 +120,11 @@ fn power_of_ten(exponent: i32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::units::Units;
 
     fn labels(range: [f64; 2], count: usize) -> (Vec<String>, String) {
         let ticks = Ticks::new(range, count);
-        let unit = ticks.unit("length");
+        let unit = ticks.unit(Units::default().length());
         (ticks.labels.into_iter().map(|(_, label)| label).collect(), unit)
     }
 

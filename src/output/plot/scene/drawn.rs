@@ -1,5 +1,7 @@
 //! What the figure of a scene shows: bodies, boundaries, supports, loads and contacts.
 
+use crate::output::units::Units;
+
 /// A point of a boundary and the outward normal there.
 #[derive(Clone, Copy, Debug)]
 pub struct BoundaryPoint {
@@ -94,6 +96,8 @@ pub struct SceneFigure {
     pub loads: Vec<DrawnLoad>,
     /// Whether the bodies are bodies of revolution, drawn with their axis.
     pub has_axis: bool,
+    /// The units of the case.
+    pub units: Units,
     /// What is wrong with the case.
     pub remarks: Vec<String>,
 }

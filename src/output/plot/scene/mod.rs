@@ -23,7 +23,7 @@ const RIGHT: f64 = 18.0;
 impl SceneFigure {
     /// The text of an SVG file; None if there is no triangle with finite corners. What is wrong stands below the axes.
     pub fn svg(&self) -> Option<String> {
-        let chart = Chart::of_plane(self.shown()?, &ROOM, [HEAD, RIGHT], self.has_axis);
+        let chart = Chart::of_plane(self.shown()?, &ROOM, [HEAD, RIGHT], (self.has_axis, self.units.length()));
         let [width, height] = chart.panel.extent();
         let mut canvas = Canvas::new([width, height + REMARK * self.remarks.len() as f64]);
         let legend = [("contact", BLUE, 4.0), ("support", GREEN, 2.0), ("load", VERMILION, 2.0)];

@@ -72,6 +72,7 @@ impl Draft<'_> {
 # `mezha schema > case.schema.json` beside this file lets editors that read the first line (Taplo) complete and explain keys.
 # Units are your own, consistent ones: with mm and N, stresses are in MPa, and forces in N for each mm of thickness.
 title = {}
+units = {{ length = \"mm\", force = \"N\" }}   # names alone: they change no number
 
 [mesh]
 file = {}          # found from the folder of this file

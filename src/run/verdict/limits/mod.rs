@@ -33,7 +33,7 @@ pub struct Limit {
     pub remedy: Remedy,
     /// What is wrong, without figures: contacts are counted by it.
     pub cause: &'static str,
-    /// What is wrong, with `{value}`, `{limit}`, and in braces what else [`Limit::doubt`] is given.
+    /// What is wrong, with `{value}`, `{limit}` or `{bound}`, and in braces what else [`Limit::doubt`] is given.
     words: &'static str,
 }
 
@@ -68,6 +68,8 @@ impl Limit {
         let word = |name: &str| match name {
             "value" => (self.digits)(value),
             "limit" => self.value.to_string(),
+            // In the digits of the value, where both may be near each other.
+            "bound" => (self.digits)(self.value),
             _ => named.iter().find(|(known, _)| *known == name).map_or(String::new(), |(_, word)| (*word).into()),
         };
         // Names come from files and may hold braces: only those of the sentence are looked for.

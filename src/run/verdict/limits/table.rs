@@ -5,7 +5,7 @@
 
 use super::Remedy::{Finer, MoreSegments, Stability, Words};
 use super::{Limit, least, most};
-use crate::run::words::short;
+use crate::run::words::{short, two_digits};
 
 fn one(value: f64) -> String { format!("{value:.1}") }
 fn two(value: f64) -> String { format!("{value:.2}") }
@@ -101,14 +101,14 @@ pub static CORNERS: Limit = most((0.04, short,
     "\"{first}\" or \"{second}\" has corners of up to {angle} degrees within the contact, which change λ by about {value}"));
 
 /// `balance.bodies`: all forces on a body, as a share of their magnitudes; and the share beyond which there is no result.
-pub static BODY_BALANCE: Limit = most((0.01, short, Words("take a smaller solver.tolerance, or correct what holds the bodies"),
-    "the forces on a body are out of balance", "the forces on a body are out of balance by {value}, at most {limit} wanted"));
+pub static BODY_BALANCE: Limit = most((0.01, two_digits, Words("take a smaller solver.tolerance, or correct what holds the bodies"),
+    "the forces on a body are out of balance", "the forces on a body are out of balance by {value}, at most {bound} wanted"));
 pub const OUT_OF_BALANCE: f64 = 0.1;
 
 /// `balance.force`: the forces of a contact on its two bodies: the pressure is off by their difference at least.
-pub static SIDE_BALANCE: Limit = most((0.01, short,
+pub static SIDE_BALANCE: Limit = most((0.01, two_digits,
     Words("see lost_points: the bodies must face each other all along the boundary"),
-    "forces on the two bodies differ", "forces on the two bodies differ by {value}, at most {limit} wanted"));
+    "forces on the two bodies differ", "forces on the two bodies differ by {value}, at most {bound} wanted"));
 
 /// Strain energy, by that of the softest body strained by the largest displacement over its length, below which bodies have moved
 /// and not strained: what is left there is rounding.
@@ -124,28 +124,28 @@ pub static RESIDUAL: Limit = most((1e-4, short, Words("take a smaller solver.tol
 pub const LITTLE_SLIP: f64 = 0.02;
 
 /// `slip_error`: error of force or pressure by sliding along a curve.
-pub static SLIP: Limit = most((0.01, short, Words("take configuration = \"deformed\""),
+pub static SLIP: Limit = most((0.01, two_digits, Words("take configuration = \"deformed\""),
     "the bodies slide too far along each other",
-    "the bodies slide along each other by {slip} of the length in contact: force or pressure wrong by about {value} (relative), at most {limit} wanted"));
+    "the bodies slide along each other by {slip} of the length in contact: force or pressure wrong by about {value} (relative), at most {bound} wanted"));
 
 const SLIDING_CAUSE: &str = "sliding changes what the bodies have in common";
 const AFTER_SLIDING: &str = "draw the bodies as they lie after sliding, or take curve = \"fit\" with configuration = \"deformed\"";
 
 /// `lost_at_ends`: share of the length in contact that bodies lose by sliding at their ends: the force is off by about as much.
-pub static LOST_AT_ENDS: Limit = most((0.02, short, Words(AFTER_SLIDING), SLIDING_CAUSE,
-    "sliding takes {value} of the length in contact from what the bodies have in common, at most {limit} wanted: force or pressure wrong by about as much"));
+pub static LOST_AT_ENDS: Limit = most((0.02, two_digits, Words(AFTER_SLIDING), SLIDING_CAUSE,
+    "sliding takes {value} of the length in contact from what the bodies have in common, at most {bound} wanted: force or pressure wrong by about as much"));
 
 /// `slip_at_ends`: share by which one body slides along another that goes on: the force stays, the pressure on that one lies
 /// elsewhere.
-pub static SLIP_AT_ENDS: Limit = most((0.1, short, Words(AFTER_SLIDING), SLIDING_CAUSE,
-    "one body slides along the other by {value} of the length in contact, at most {limit} wanted: the pressure lies elsewhere"));
+pub static SLIP_AT_ENDS: Limit = most((0.1, two_digits, Words(AFTER_SLIDING), SLIDING_CAUSE,
+    "one body slides along the other by {value} of the length in contact, at most {bound} wanted: the pressure lies elsewhere"));
 
 const TURNING_CAUSE: &str = "the bodies turn too far";
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
 
 /// `rotation_error`: error of force or pressure by turning.
-pub static TURNING: Limit = most((0.01, short, Words(TURN_LESS), TURNING_CAUSE,
-    "the bodies turn: force or pressure wrong by about {value} (relative), at most {limit} wanted"));
+pub static TURNING: Limit = most((0.01, two_digits, Words(TURN_LESS), TURNING_CAUSE,
+    "the bodies turn: force or pressure wrong by about {value} (relative), at most {bound} wanted"));
 
 /// `rotation_error`: growth of bodies that turn, by the smallest gap of a contact where nothing presses: half of it is closed by
 /// a growth that is none.
@@ -195,6 +195,14 @@ pub const HERTZ_BY_UNRESOLVED: f64 = 0.32;
 /// Relative error of a force by turning and sliding of its bodies. What is estimated is .55 to 1.5 times the true error
 /// (`tests/turning.rs`); a pile that cannot stand stood with .55, since turned discs are larger ones.
 pub const FORCE_OFF: f64 = 0.5;
+
+// What the largest von Mises stress of a body is worth.
+
+/// Share by which it may differ from that of the refinement before: of P2 a third of that is left, of P1 all of it.
+pub const STRESS_APART: f64 = 0.05;
+
+/// Share of the largest of all bodies below which it is next to nothing.
+pub const STRESS_COUNTS: f64 = 1e-6;
 
 // What is warned of.
 

@@ -56,6 +56,8 @@ fn a_sentence_is_filled_by_names_and_names_are_none() {
     assert_eq!(told(0.25, &[("of", "a {limit}")]).as_deref(), Some("body a {limit} turns by 0.25, at most 0.2 wanted"));
     assert_eq!(INF_SUP.judge(Some(0.1), &[]).map(|doubt| doubt.figure), None);
     assert_eq!(INF_SUP.judge(Some(0.05), &[]).expect("a doubt").figure, "inf-sup constant 0.050, at least 0.1 wanted");
+    let turned = TURNING.judge(Some(0.0123), &[]).expect("a doubt").figure;
+    assert!(turned.ends_with("wrong by about 0.012 (relative), at most 0.010 wanted"), "{turned}");
     assert!(RESIDUAL.judge(None, &[]).is_none() && RESIDUAL.judge(Some(f64::NAN), &[]).is_none());
 }
 

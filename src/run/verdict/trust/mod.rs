@@ -18,7 +18,10 @@ use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ContactTrust};
 use contact::verdict;
 use std::collections::BTreeMap;
-use told::{Verdict, in_order, unknown, unreliable};
+use told::{TRUSTED, Verdict, in_order, unknown, unreliable};
+
+/// What is said of a contact whose largest pressure means nothing.
+const GROWS: &str = "λ grows without bound towards an end";
 
 /// What is said of the pressures of a run.
 #[derive(Debug, Default)]
@@ -38,6 +41,9 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     let verdicts: BTreeMap<String, Verdict> = judged.collect();
     for (name, contact) in &mut summary.contact {
         contact.judged = verdicts.get(name).map(Verdict::trust).unwrap_or_default();
+        if contact.judged.verdict.as_deref() == Some(TRUSTED) && contact.is_singular() {
+            contact.judged.verdict = Some(format!("{TRUSTED}, but for the largest value: {GROWS}"));
+        }
     }
     let names = in_order(summary, case, &verdicts);
     Judgement { unreliable: unreliable(&names, &verdicts), unknown: unknown(&names, &verdicts) }

@@ -257,6 +257,24 @@ fn scene(count: usize, force: impl Fn(usize) -> f64, edges: impl Fn(usize) -> f6
     (summary, judgement)
 }
 
+/// The verdict on a pressure that is to be trusted, but grows towards an end on each mesh.
+#[test]
+fn a_largest_pressure_that_means_nothing_is_told_in_the_verdict() {
+    let verdict = |singular| {
+        let zones = vec![ZoneSummary { singular: Some(singular), ..zone() }];
+        let (force, nothing) = (Some(5.0), Some(0.0));
+        let contact =
+            ContactSummary { zones, force, unresolved_force: nothing, missing_force: nothing, ..ContactSummary::default() };
+        let mut summary = Summary { contact: [("seam".to_owned(), contact)].into(), ..Summary::default() };
+        judge(&mut summary, &parsed(CASE, &[]), true);
+        let judged = summary.contact["seam"].judged.clone();
+        (judged.trust, judged.verdict.unwrap_or_default())
+    };
+    assert_eq!(verdict(false), (Some(true), "trusted".into()));
+    let words = "trusted, but for the largest value: λ grows without bound towards an end";
+    assert_eq!(verdict(true), (Some(true), words.into()));
+}
+
 #[test]
 fn a_contact_that_carries_next_to_nothing_holds_up_no_verdict() {
     let verdict = |share: f64, settings: &[&str]| {

@@ -7,6 +7,9 @@ use crate::output::summary::{self, ContactTrust};
 use crate::run::verdict::limits::Doubt;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// What a contact is called whose pressure is to be trusted.
+pub const TRUSTED: &str = "trusted";
+
 /// What nothing tells of a contact.
 pub struct Unknown {
     /// Without figures: contacts are counted by it.
@@ -47,7 +50,7 @@ impl Verdict {
             (Some(false), ..) if self.doubts.is_empty() => "not trusted: the run has not converged".into(),
             (Some(false), ..) => format!("not trusted: {}", Vec::from_iter(self.causes()).join("; ")),
             (_, Some(idle), _) => idle.clone(),
-            (Some(true), ..) => "trusted".into(),
+            (Some(true), ..) => TRUSTED.into(),
             (None, _, unknown) => unknown.as_ref().map_or("nothing tells", |unknown| unknown.cause).into(),
         };
         ContactTrust { trust: self.trust, trust_force: self.trust_force, verdict: Some(words) }

@@ -1,0 +1,244 @@
+//! The largest von Mises stress of each part of the bodies: how large it is, where, and whether the exact stress has a bound there.
+
+use super::balance::Balance;
+use super::stress::{NodalStress, nodal_stress};
+use crate::body::{CHORDS, SingularPlace, Unbounded, singular_places};
+use crate::contact::Configuration;
+use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, Solution, SystemError};
+use crate::element::von_mises;
+use crate::geometry::Point;
+use crate::mesh::{MacroMesh, Spot, lattice};
+use crate::petsc::Session;
+use std::collections::HashMap;
+
+/// Of stresses that differ by a smaller share of the largest the first one in a direction counts, so that rounding does not choose
+/// between the two sides of a symmetric body.
+const ALIKE: f64 = 1e-4;
+
+/// That direction: along none in which bodies are symmetric.
+const FIRST: [f64; 2] = [1.0, 0.37];
+
+/// Edges around a singular place within which a largest stress is that of the place.
+const NEAR: f64 = 2.0;
+
+/// Coordinates below this share of the scene are rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Share of all forces from which a point at a support carries any.
+const LOADED: f64 = 1e-4;
+
+/// The largest von Mises stress of a part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StressPeak {
+    /// How large it is (stress).
+    pub von_mises: f64,
+    /// The node, undeformed.
+    pub place: Point,
+    /// Its displacement.
+    pub displacement: Point,
+    /// Why the exact stress has no bound there, if it has none.
+    pub unbounded: Option<SingularPlace>,
+}
+
+/// The largest von Mises stress at the nodes of each part. **Collective**
+///
+/// # Errors
+/// [`SystemError`] from PETSc or an inverted triangle.
+pub fn largest_stresses(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
+    Ok(largest(problem, &nodal_stress(problem, u, session)?, session))
+}
+
+/// A node of a macro triangle of this rank: the triangle, and its place in the lattice.
+type LatticeNode = (usize, (usize, usize));
+
+/// All nodes of this rank's macro triangles, each with its part and its number.
+fn all_nodes<'a>(problem: &'a Discretisation, session: &Session) -> impl Iterator<Item = (LatticeNode, usize, usize)> + 'a {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    problem.scene.partition.triangles_of(session.rank()).iter().flat_map(move |&triangle| {
+        let (part, numbers) = (mesh.triangles[triangle as usize].part as usize, numbering.triangle(mesh, triangle as usize));
+        lattice::nodes(numbering.level.intervals).map(move |at| ((triangle as usize, at), part, numbers.node(at.0, at.1)))
+    })
+}
+
+/// **Collective**
+fn largest(problem: &Discretisation, stress: &NodalStress, session: &Session) -> Vec<f64> {
+    let mut largest = vec![0.0_f64; problem.scene.mesh.parts.len()];
+    for (_, part, node) in all_nodes(problem, session) {
+        largest[part] = largest[part].max(von_mises(stress.at(part, node)));
+    }
+    session.max(&mut largest);
+    largest
+}
+
+/// The largest von Mises stress of each part, the same on all ranks. `singular` are the places where the stress has no bound.
+/// **Collective**
+pub fn stress_peaks(
+    problem: &Discretisation,
+    (u, stress): (&Field<2>, &NodalStress),
+    singular: &[SingularPlace],
+    session: &Session,
+) -> Vec<StressPeak> {
+    let mesh = &problem.scene.mesh;
+    let largest = largest(problem, stress, session);
+    let level = problem.finest().numbering.level;
+    // How far the node lies in the direction, its number, its place and its displacement.
+    let mut own = vec![[f64::INFINITY; 6]; largest.len()];
+    for ((triangle, at), part, node) in all_nodes(problem, session) {
+        if von_mises(stress.at(part, node)) < (1.0 - ALIKE) * largest[part] {
+            continue;
+        }
+        let (x, [ux, uy]) = (mesh.node_position(triangle, level, at), u.at(node));
+        let along = FIRST[0] * x.x + FIRST[1] * x.y;
+        if along < own[part][0] {
+            own[part] = [along, node as f64, x.x, x.y, ux, uy];
+        }
+    }
+    let mut firsts = vec![[f64::INFINITY; 6]; largest.len()];
+    for (at, found) in session.gather_all(own.as_flattened()).as_chunks::<6>().0.iter().enumerate() {
+        let first = &mut firsts[at % largest.len()];
+        *first = if found[0] < first[0] { *found } else { *first };
+    }
+    let nodes: Vec<usize> = firsts.iter().map(|first| first[1] as usize).collect();
+    let edges = edges_at(problem, &nodes, session);
+    let size = mesh.vertices.iter().map(|x| x.amax()).fold(0.0, f64::max);
+    let peak = |(part, [_, _, x, y, ux, uy]): (usize, [f64; 6])| {
+        let (place, displacement) = (without_rounding(Point::new(x, y), size), Point::new(ux, uy));
+        let away = |other: &SingularPlace| (if other.is_deformed { place + displacement } else { place } - other.place).norm();
+        let is_near = |other: &&SingularPlace| other.body == mesh.parts[part].body as usize && away(other) <= NEAR * edges[part];
+        let near = singular.iter().filter(is_near);
+        let unbounded = near.min_by(|a, b| away(a).total_cmp(&away(b))).cloned();
+        StressPeak { von_mises: largest[part], place, displacement, unbounded }
+    };
+    firsts.into_iter().enumerate().map(peak).collect()
+}
+
+/// The longest edge of a triangle at a node of each part (length). **Collective**
+fn edges_at(problem: &Discretisation, nodes: &[usize], session: &Session) -> Vec<f64> {
+    let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
+    let step = level.order.degree();
+    let mut longest = vec![0.0_f64; nodes.len()];
+    for ((triangle, (i, j)), part, _) in all_nodes(problem, session).filter(|(_, part, node)| nodes[*part] == *node) {
+        let here = mesh.node_position(triangle, level, (i, j));
+        let beside = [(i + step, j), (i, j + step)].into_iter().chain(i.checked_sub(step).map(|i| (i, j)));
+        let beside = beside.chain(j.checked_sub(step).map(|j| (i, j)));
+        for at in beside.filter(|(i, j)| i + j <= level.intervals) {
+            longest[part] = longest[part].max((mesh.node_position(triangle, level, at) - here).norm());
+        }
+    }
+    session.max(&mut longest);
+    longest
+}
+
+/// All places where the stress has no bound: by the shape of a body and what holds it, at points that carry a force, where a corner
+/// presses at the end of a contact, and at the ends of those contacts whose pressure `grows`.
+pub fn all_singular_places(
+    problem: &Discretisation,
+    solution: &Solution,
+    balance: &Balance,
+    grows: &[bool],
+) -> Vec<SingularPlace> {
+    let scene = &problem.scene;
+    let mut all = singular_places(&scene.mesh, &scene.parts(), &scene.supports, &scene.rigid);
+    let held = scene.supports.iter().zip(&balance.reactions);
+    let held =
+        held.filter(|(_, reaction)| reaction.norm() > LOADED * balance.forces).filter_map(|(support, _)| support.at.as_ref());
+    all.extend(held.chain(scene.point_loads.iter().map(|load| &load.at)).filter_map(|spot| at_point(problem, spot)));
+    let angles = scene.mesh.boundary_vertices().into_iter().map(|found| (found.vertex, found.angle)).collect();
+    let contacts = problem.contacts.iter().zip(grows);
+    all.extend(contacts.flat_map(|(contact, grows)| contact_ends((&scene.mesh, &angles), &solution.pressure(contact), *grows)));
+    let size = scene.mesh.vertices.iter().map(|x| x.amax()).fold(0.0, f64::max);
+    all.iter_mut().for_each(|found| found.place = without_rounding(found.place, size));
+    all
+}
+
+/// A place with zeros instead of the rounding of them, in a scene of this size.
+fn without_rounding(place: Point, size: f64) -> Point {
+    place.map(|x| if x.abs() < ROUNDING * size { 0.0 } else { x })
+}
+
+/// The vertex of a point that carries a force.
+fn at_point(problem: &Discretisation, spot: &Spot) -> Option<SingularPlace> {
+    let mesh = &problem.scene.mesh;
+    let vertex = mesh.vertex_at(spot)?;
+    let triangle = mesh.triangles.iter().find(|triangle| triangle.vertices.contains(&vertex))?;
+    let (body, place) = (triangle.body as usize, mesh.vertices[vertex as usize]);
+    Some(SingularPlace { body, place, is_deformed: false, why: Unbounded::Point })
+}
+
+/// The ends of a contact up to which bodies press with a pressure that has no bound, for each of its bodies: where a corner of one
+/// presses on the other, and where λ `grows`. `angles` are those of the bodies at the vertices of their boundaries (radians).
+fn contact_ends((mesh, angles): (&MacroMesh, &HashMap<u32, f64>), pressure: &ContactPressure, grows: bool) -> Vec<SingularPlace> {
+    let (contact, zones) = (pressure.contact, pressure.zones());
+    let (knots, last) = (contact.boundary.knots(), contact.boundary.segments() - 1);
+    let why = |end: usize| {
+        let zone = zones.iter().find(|zone| zone.is_at_end[end])?;
+        let [outer, inner] = if end == 0 { [0, 1] } else { [last, last.saturating_sub(1)] };
+        let is_higher = pressure.value(outer, 0.5) > pressure.value(inner.min(last), 0.5);
+        let is_corner = pressure.ends_at_a_corner(mesh, zone, end)
+            || one_turns((mesh, angles), contact, knots[if end == 0 { 0 } else { last + 1 }]);
+        let name = || contact.pair.name.clone();
+        match is_corner {
+            true => Some(Unbounded::PressingCorner(name())),
+            false => (grows && is_higher).then(|| Unbounded::GrowingPressure(name())),
+        }
+    };
+    let ends = [(0, knots[0]), (1, knots[knots.len() - 1])].into_iter().filter(|_| !contact.boundary.is_closed());
+    let found = ends.filter_map(|(end, knot)| Some((knot, why(end)?)));
+    let is_deformed = contact.pair.configuration == Configuration::Deformed;
+    let of_both = |(knot, why): (f64, Unbounded)| {
+        let place = contact.boundary.point(knot);
+        contact.bodies.map(|body| SingularPlace { body, place, is_deformed, why: why.clone() })
+    };
+    found.flat_map(of_both).collect()
+}
+
+/// Whether one body of a contact has a corner at an end of Γ_C, and the other has none: nearest to it on both boundaries.
+fn one_turns((mesh, angles): (&MacroMesh, &HashMap<u32, f64>), contact: &Contact, knot: f64) -> bool {
+    let here = contact.boundary.point(knot);
+    let turns = contact.pair.between.each_ref().map(|name| {
+        let edges = mesh.boundary(name)?.edges.iter();
+        let vertices = edges.flat_map(|&edge| mesh.edges[edge as usize].vertices);
+        let away = |vertex: u32| (mesh.vertices[vertex as usize] - here).norm();
+        let nearest = vertices.min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
+        Some((180.0 - angles.get(&nearest)?.to_degrees()).abs() > CHORDS)
+    });
+    matches!(turns, [Some(one), Some(other)] if one != other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Known, MultiplierSpace};
+    use crate::discretisation::samples::{blocks, contact, pair};
+
+    #[test]
+    fn what_is_rounding_beside_a_scene_is_zero() {
+        assert_eq!(without_rounding(Point::new(1e-16, -2.0), 2.0), Point::new(0.0, -2.0));
+        assert_eq!(without_rounding(Point::new(1e-16, -2e-16), 1e-15), Point::new(1e-16, -2e-16));
+    }
+
+    /// The blocks as they are end together; the upper one, made narrower, presses with its corners.
+    #[test]
+    fn a_corner_presses_where_one_body_ends() {
+        let ends = |upper: &dyn Fn(Point) -> Point, values: [f64; 4], grows: bool| {
+            let scene = blocks(pair(MultiplierSpace::P0, 4), upper, Vec::new());
+            let contact = contact(&scene, Known::default());
+            let active = values.map(|value| value > 0.0);
+            let angles = scene.mesh.boundary_vertices().into_iter().map(|found| (found.vertex, found.angle)).collect();
+            let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
+            let found = contact_ends((&scene.mesh, &angles), &pressure, grows);
+            assert!(found.iter().all(|found| !found.is_deformed) && found.len().is_multiple_of(2), "one for each body");
+            found.iter().step_by(2).map(|found| (found.place.x, found.why.clone())).collect::<Vec<_>>()
+        };
+        let narrower = |x: Point| Point::new(0.3 * (1.0 - x.x), 0.0);
+        let corner = || Unbounded::PressingCorner("seam".into());
+        let pressed = ends(&narrower, [1.0; 4], false);
+        assert!((pressed[0].0 - 0.3).abs() < 1e-9 && (pressed[1].0 - 1.7).abs() < 1e-9, "{pressed:?}");
+        assert_eq!(pressed.into_iter().map(|(_, why)| why).collect::<Vec<_>>(), [corner(), corner()]);
+        assert_eq!(ends(&narrower, [0.0, 1.0, 1.0, 0.0], true), [], "it presses up to neither end");
+        let as_they_are = |_: Point| Point::zeros();
+        assert_eq!(ends(&as_they_are, [1.0; 4], false), []);
+        let grown = ends(&as_they_are, [1.0, 2.0, 3.0, 5.0], true);
+        assert_eq!(grown, [(2.0, Unbounded::GrowingPressure("seam".into()))], "towards one end");
+    }
+}
