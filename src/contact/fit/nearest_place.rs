@@ -25,8 +25,8 @@ pub struct PointContact {
     pub place: Point,
     /// Relative curvature of the sides there (1/length): positive if they part on both sides of the place.
     pub curvature: f64,
-    /// Curvature of the rounder one of both, or one by the extent of the thinner one if that is larger (1/length): beside both the
-    /// contact has to be small for its bodies to be half-planes.
+    /// Curvature of the rounder one of both, or what stands for their thinness if that is larger (1/length): beside both the contact
+    /// has to be small for its bodies to be half-planes.
     pub roundest: f64,
     /// How far the bodies extend across the plane there ([`Plane::width`]).
     pub width: f64,
@@ -43,9 +43,10 @@ impl PointContact {
         Self { width: plane.width(self.place), ..self }
     }
 
-    /// The contact between bodies that extend by so much at least (length).
-    pub fn within(self, extent: f64) -> Self {
-        Self { roundest: self.roundest.max(1.0 / extent), ..self }
+    /// The contact between bodies that are thin: one by twice their thickness (1/length). Two layers that press over a width of 1.8
+    /// times that had .8 of this width and twice the true peak by Hertz.
+    pub fn beside(self, thinness: f64) -> Self {
+        Self { roundest: self.roundest.max(thinness), ..self }
     }
 
     /// Half width of what presses there with a force (per thickness; of the whole ring in bodies of revolution), by the compliance of both surfaces together (1/stress; Hertz);

@@ -1,5 +1,6 @@
 //! Contacts as the programme of the first mesh has them, and where Γ_C lies by what it says of them.
 
+use crate::body::Body;
 use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, point_contact};
 use crate::discretisation::{Contact, Scene, SystemError, widest};
 use crate::geometry::Point;
@@ -83,9 +84,9 @@ impl WideContact {
 
 /// Contacts of undeformed bodies as the programme has them.
 pub(crate) fn wide_contacts(scene: &Scene, numbering: &Numbering) -> Result<Vec<WideContact>, SystemError> {
-    let (mut all, mut first, extents) = (Vec::new(), 0, extents(scene));
+    let (mut all, mut first, thin) = (Vec::new(), 0, thinness(scene));
     for pair in &scene.pairs {
-        let wide = wide_contact(scene, numbering, pair, first, &extents)?;
+        let wide = wide_contact(scene, numbering, pair, first, &thin)?;
         first = wide.contact.range().end;
         all.push(wide);
     }
@@ -97,7 +98,7 @@ fn wide_contact(
     numbering: &Numbering,
     pair: &Pair,
     first: usize,
-    extents: &[f64],
+    thin: &[Thinness],
 ) -> Result<WideContact, SystemError> {
     let at_rest = |_: EdgeNode| Point::zeros();
     let known = widest(scene, numbering, pair);
@@ -108,7 +109,7 @@ fn wide_contact(
         let contact = Contact::new(scene, numbering, 0, pair, first, &known, &at_rest)?;
         return Ok(WideContact { known, contact, touch: None });
     }
-    let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact, extents));
+    let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact, thin));
     let at = |touch: &PointContact| boundary.arc(boundary.foot(touch.place)) / boundary.length();
     let is_inside = |at: &f64| (SHORTEST..=1.0 - SHORTEST).contains(at);
     let at = touch.map(|touch| if touch.is_at_pole() { at(&touch).round() } else { at(&touch) });
@@ -119,7 +120,7 @@ fn wide_contact(
 }
 
 /// Where the smooth sides of a contact of undeformed bodies touch first, if they do so at a point.
-fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact, extents: &[f64]) -> Option<PointContact> {
+fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact, thin: &[Thinness]) -> Option<PointContact> {
     let sides = SmoothSide::of_pair(&scene.mesh, numbering, &contact.pair, &|_| Point::zeros());
     let boundary = &contact.boundary;
     let (middle, half) = (boundary.point(boundary.parameter_at(0.5 * boundary.length())), 0.5 * boundary.length());
@@ -129,24 +130,40 @@ fn touch(scene: &Scene, numbering: &Numbering, contact: &Contact, extents: &[f64
     };
     let [one, other] = [nearest(&sides[0])?, nearest(&sides[1])?];
     let touch = point_contact([&sides[0][one], &sides[1][other]], middle, half)?;
-    let [one, other] = contact.bodies.map(|body| extents[body]);
-    Some(touch.in_plane(scene.mesh.plane).within(one.min(other)))
+    // Each body counts as it strains: how thin a stiff one is does not matter beside a soft one.
+    let [one, other] = contact.bodies.map(|body| thin[body]);
+    let thinness = (one.compliance / one.extent + other.compliance / other.extent) / (one.compliance + other.compliance);
+    Some(touch.in_plane(scene.mesh.plane).beside(0.5 * thinness))
 }
 
-/// The smallest side of the boxes around the pieces of each body (length); rigid tools are as thick as one likes.
-fn extents(scene: &Scene) -> Vec<f64> {
-    let mut extents = vec![f64::INFINITY; scene.mesh.bodies.len()];
+/// How thin a body is, and how much it strains.
+#[derive(Clone, Copy)]
+struct Thinness {
+    /// Smallest side of the boxes around its pieces (length); rigid tools are as thick as one likes.
+    extent: f64,
+    /// One by the smallest modulus of its parts (1/stress); none of rigid tools.
+    compliance: f64,
+}
+
+/// Of each body.
+fn thinness(scene: &Scene) -> Vec<Thinness> {
+    let of_body = |(at, body): (usize, &Body)| {
+        let softest = body.parts.iter().map(|part| part.material.young).fold(f64::INFINITY, f64::min);
+        let compliance = if scene.is_rigid(at) { 0.0 } else { 1.0 / softest };
+        Thinness { extent: f64::INFINITY, compliance }
+    };
+    let mut all: Vec<Thinness> = scene.bodies.iter().enumerate().map(of_body).collect();
     for (piece, [low, high]) in scene.mesh.pieces.iter().zip(scene.mesh.bounds()).filter(|(piece, _)| !scene.is_rigid(piece.body))
     {
-        extents[piece.body] = extents[piece.body].min((high - low).amin());
+        all[piece.body].extent = all[piece.body].extent.min((high - low).amin());
     }
-    extents
+    all
 }
 
 /// What contacts that lie as they are drawn are placed by later on: where they touch first, if they do so at a point.
 pub(crate) fn with_touch(scene: &Scene, numbering: &Numbering, drawn: &[Contact]) -> Vec<Known> {
-    let extents = extents(scene);
-    let touch = |contact: &Contact| contact.has_free_ends().then(|| touch(scene, numbering, contact, &extents)).flatten();
+    let thin = thinness(scene);
+    let touch = |contact: &Contact| contact.has_free_ends().then(|| touch(scene, numbering, contact, &thin)).flatten();
     drawn.iter().map(|contact| Known { touch: touch(contact), ..contact.known.clone() }).collect()
 }
 
