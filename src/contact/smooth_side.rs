@@ -19,8 +19,9 @@ pub const APART: f64 = 6.4e-2;
 /// points half-way between round bodies are told by their feet for a third of a right angle on either side.
 const LOOKS_BACK: f64 = -0.5;
 
-/// Sine of the angle to a right one at which a side meets the axis of revolution as its own image: of a spline through vertices of a
-/// ball eight edges away from the pole, and of a curve that is known. The tip of a cone is neither.
+/// Sine of the angle to a right one up to which a side meets the axis of revolution as its own image: of a spline through vertices,
+/// and of a curve that is known. A spline through points of a circle 20 degrees apart misses the right angle by 7e-3, 10 degrees
+/// apart by 9e-4; a cone of fewer than 1.1 degrees that no `[geometry]` declares is taken for round.
 const SQUARE: [f64; 2] = [2e-2, 1e-9];
 
 /// Displacement of a boundary node.

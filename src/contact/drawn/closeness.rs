@@ -23,8 +23,9 @@ const APART: f64 = 0.5;
 /// A further pair of two bodies is as near as this share of the smaller one.
 const TOUCHING: f64 = 0.02;
 
-/// Edges that turn by more than this from one to the next (radians, 31 degrees) meet at a corner.
-const WIDEST_TURN: f64 = 0.541;
+/// Edges that turn by more than this from one to the next (radians, 31 degrees) meet at a corner: fewer than twelve around a circle
+/// are a polygon that may be meant.
+pub const WIDEST_TURN: f64 = 0.541;
 
 /// Two named boundaries that may come in contact.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,5 +5,5 @@ mod closeness;
 mod drawing_check;
 mod facing;
 
-pub use closeness::{ClosePair, CloseSide, close_pairs, close_sides};
+pub use closeness::{ClosePair, CloseSide, WIDEST_TURN, close_pairs, close_sides};
 pub use facing::Facing;

@@ -41,7 +41,7 @@ pub struct ResultFolder {
     temporary: PathBuf,
     /// Folders above that were made for it, from the inside out.
     made_above: Vec<PathBuf>,
-    /// The result that is to be replaced; while it is open, no other folder can be taken for it.
+    /// The result that is to be replaced, in a mount point its summary; while it is open, no other one can be taken for it.
     replaced: Option<File>,
     /// Locked while this lives, so that nobody clears the temporary away.
     _lock: Option<File>,
@@ -70,7 +70,10 @@ impl ResultFolder {
         let place = &if is_mounted { out.join(WITHIN) } else { out.clone() };
         recover(place);
         let replaced = match holds_result(out, force)? {
-            true => Some(File::open(out).map_err(OutputError::io("open", out))?),
+            true => {
+                let seen = if is_mounted { out.join(SUMMARY) } else { out.clone() };
+                Some(File::open(&seen).map_err(OutputError::io("open", &seen))?)
+            }
             false => None,
         };
         let (temporary, made_above) = make_hidden(place).map_err(OutputError::io("create a folder beside", place))?;
@@ -123,7 +126,7 @@ impl ResultFolder {
     /// operating system refuses this one.
     pub fn commit(mut self) -> Result<(), OutputError> {
         let placed = match &self.replaced {
-            _ if self.is_mounted => move_in(&self.temporary, &self.target, self.kept.as_deref()).map(|()| None),
+            _ if self.is_mounted => self.move_in(),
             Some(seen) if is_there(&self.target) => self.replace(seen),
             _ => self.appear(),
         };
@@ -154,6 +157,16 @@ impl ResultFolder {
         let own = OwnFiles::of(old).unwrap_or_default();
         let own = self.kept.iter().fold(own, |own, kept| own.without(kept));
         retire(old, &self.target, &own)
+    }
+
+    /// Moves into a mount point, if the result there, which its summary makes one, is still that of the start.
+    fn move_in(&self) -> Result<Option<PathBuf>, OutputError> {
+        let summary = self.target.join(SUMMARY);
+        let is_seen = self.replaced.as_ref().is_some_and(|seen| is_same(&summary, seen));
+        if is_there(&summary) && !is_seen {
+            return Err(self.overtaken());
+        }
+        move_in(&self.temporary, &self.target, self.kept.as_deref()).map(|()| None)
     }
 
     /// Takes the name of a target that is missing or empty: a folder never replaces one that holds anything.

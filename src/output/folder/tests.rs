@@ -192,6 +192,7 @@ fn a_mount_point_is_filled() {
     for text in ["first", "second"] {
         let mut folder = ResultFolder::create(&out.join("inner"), true).unwrap();
         (folder.target, folder.is_mounted) = (out.clone(), true);
+        folder.replaced = File::open(out.join(SUMMARY)).ok();
         fs::create_dir_all(folder.path("steps")).unwrap();
         fs::write(folder.path(&format!("steps/{text}.csv")), text).unwrap();
         write_case(&folder, text);
@@ -203,6 +204,24 @@ fn a_mount_point_is_filled() {
         (names(&out), names(&out.join("steps"))),
         (["lost+found", "notes", "steps", "summary.json"].map(String::from).into(), vec!["second.csv".into()])
     );
+}
+
+/// Of two results that were begun at the same time in a mount point the first that ends stays.
+#[test]
+fn the_second_in_a_mount_point_is_told() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("volume");
+    fs::create_dir_all(&out).unwrap();
+    let [first, second] = ["first", "second"].map(|text| {
+        let mut folder = ResultFolder::create(&out.join("inner"), true).unwrap();
+        (folder.target, folder.is_mounted) = (out.clone(), true);
+        write_case(&folder, text);
+        folder
+    });
+    first.commit().unwrap();
+    let refusal = second.commit().unwrap_err();
+    assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
+    assert_eq!((case_in(&out), names(&out)), ("first".into(), vec!["summary.json".into()]));
 }
 
 #[test]

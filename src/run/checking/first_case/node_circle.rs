@@ -1,14 +1,14 @@
 //! Circles that the nodes of a boundary lie on.
 
+use crate::contact::WIDEST_TURN;
 use crate::geometry::{Point, cross};
 use crate::mesh::MacroMesh;
 
 /// Distance of nodes from the circle at most, as a share of its radius.
 const OFF: f64 = 1e-6;
 
-/// Edges at least, and the angle of each at the centre at most (radians, 31 degrees): fewer are a polygon that may be meant.
+/// Edges at least.
 const LEAST_EDGES: usize = 3;
-const WIDEST: f64 = 0.541;
 
 /// Circles are about one centre if theirs are nearer to each other than this share of a radius.
 const CONCENTRIC: f64 = 1e-3;
@@ -45,7 +45,7 @@ impl NodeCircle {
             2.0 * (0.5 * (b - a).norm() / radius).min(1.0).asin()
         };
         let is_hole = mesh.edge_normal(edges[0], 0.5).dot(&(first - centre)) < 0.0;
-        (is_on && edges.iter().all(|&edge| angle(edge) <= WIDEST)).then_some(Self { centre, radius, is_hole })
+        (is_on && edges.iter().all(|&edge| angle(edge) <= WIDEST_TURN)).then_some(Self { centre, radius, is_hole })
     }
 
     /// Whether it is drawn into another one about the same centre, of which one is a hole.
