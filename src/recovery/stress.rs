@@ -3,7 +3,7 @@
 use crate::body::NodePositions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{Heat, Order, PlaneLaw, heated_stress, jacobian};
+use crate::element::{Heat, Order, PlaneLaw, nodal_stresses};
 use crate::mesh::{MacroMesh, lattice};
 use crate::petsc::Session;
 
@@ -72,7 +72,6 @@ fn add<const N: usize>(
     (law, heat): (&PlaneLaw, Option<&Heat>),
     sums: &mut Field<5>,
 ) -> Result<(), SystemError> {
-    const NODES: [[f64; 3]; 6] = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [0.5, 0.5, 0.], [0., 0.5, 0.5], [0.5, 0., 0.5]];
     let level = problem.finest().numbering.level;
     let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
     let all = NodePositions::new(&problem.scene.mesh, triangle, level);
@@ -80,9 +79,7 @@ fn add<const N: usize>(
         let nodes = small.nodes::<N>();
         let x = all.of(&nodes);
         let u = u.of_triangle::<N>(problem, triangle, &small);
-        for (&(i, j), l) in nodes.iter().zip(NODES) {
-            let (_, area) = jacobian(&x, l)?;
-            let s = heated_stress(&x, &u, l, law, heat)?;
+        for (&(i, j), (s, area)) in nodes.iter().zip(nodal_stresses(&x, &u, law, heat)?) {
             let sum = sums.at_mut(numbers.node(i, j));
             for k in 0..4 {
                 sum[k] += area * s[k];
