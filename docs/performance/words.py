@@ -69,7 +69,7 @@ def speed_section(study, small):
         "square on the rings.",
         "A run counts for a bound only if all finer runs of its line stay below it too, since an error may be small by accident.",
         "![time against error](figures/speed_against_error.svg)",
-        "All errors, time and iterations: [all diagrams](figures/speed_against_error_all.svg).",
+        "All errors, their orders, time and iterations: [all diagrams](figures/speed_against_error_all.svg).",
         "Seconds to an error below a bound, for the fastest run of each pair. The fastest pair is bold; a dash: no run meets the bound.",
     ]
     cases = unique(line["case"] for line in study["lines"])
@@ -86,7 +86,6 @@ def speed_section(study, small):
             "The best run of one group against the best of the other, at the tightest bound that both meet:",
             races_table(of_case, errors),
         ]
-    parts += ["### Orders", "p in error ~ h^p; a dash: no power law.", orders_table(of_case, errors)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -151,31 +150,18 @@ def met(bound, first, names):
     return f"equal within {100 * (EQUAL - 1):.0f} % ({power(bound)})"
 
 
-def orders_table(of_case, errors):
-    head = ["pair"] + [(f"{case}: " if error == errors[0] else "") + short(error) for case in of_case for error in errors]
-    rows = []
-    for name in unique(line["name"] for lines in of_case.values() for line in lines):
-        cells = []
-        for lines in of_case.values():
-            own = next((line for line in lines if line["name"] == name), None)
-            cells += [law(own["orders"][error]) if own else "" for error in errors]
-        rows.append([name] + cells)
-    return table(head, rows)
-
-
 # Large meshes
 
 
 def scaling_section(study, small):
-    header = ["pair", "unknowns", "Krylov iterations", "seconds", "of which in solves", "microseconds for each unknown", "bytes for each unknown"]
+    header = ["pair", "unknowns", "Krylov iterations", "seconds", "of which in solves", "bytes for each unknown"]
     rows, laws = [], []
     for line in study["lines"]:
         for point in line["points"]:
             unknowns, time = point["unknowns"], point["time"]["median"]
             row = next(row for row in study["rows"] if row["result"] == point["result"])
-            each = [f"{1e6 * time / unknowns:.2f}", f"{point['memory'] * 2**20 / unknowns:.0f}"]
             cells = [count(unknowns), f"{point['iterations']:.0f}", seconds(time), seconds(row["time_s.solve"])]
-            rows.append([line["name"]] + cells + each)
+            rows.append([line["name"]] + cells + [f"{point['memory'] * 2**20 / unknowns:.0f}"])
         cost = line["cost"]
         if cost is not None:
             growth = f"grows like N^{cost['exponent']:.2f}" if cost["deviation"] <= 1.5 else "follows no power law"
@@ -267,10 +253,6 @@ def unique(items):
 def table(header, rows):
     lines = ["| " + " | ".join(cells) + " |" for cells in [header] + rows]
     return "\n".join([lines[0], "|" + "---|" * len(header)] + lines[1:])
-
-
-def law(law):
-    return f"{law['exponent']:.2f}" if law is not None and law["deviation"] <= 1.5 else "–"
 
 
 def seconds(time):
