@@ -67,7 +67,7 @@ def speed_section(study, small):
         "loads alone do work.\n"
         "- *λ*, `errors.lambda_seam`: relative error of the pressure, at points away from the corners on both pairs of bars, in the mean "
         "square on the rings.",
-        "A run counts for a bound only if all finer runs of its line stay below it too, since an error may be small by accident.",
+        "A run counts for a bound only if all finer runs of its line stay below it too.",
         "![time against error](figures/speed_against_error.svg)",
         "All errors, their orders, time and iterations: [all diagrams](figures/speed_against_error_all.svg).",
         "Seconds to an error below a bound, for the fastest run of each pair. The fastest pair is bold; a dash: no run meets the bound.",
