@@ -170,8 +170,7 @@ def scaling_section(study, small):
     parts = [
         "## Large meshes",
         f"Example 1 with even meshes and segments, {' and '.join(map(str, ranks))} ranks, `tolerance = 1e-8`. Iterations are those on the "
-        "finest mesh: of GMRES, with one cycle each, and above half a million unknowns of BiCGStab, with two. `tests/scaling.rs` holds these "
-        "counts on small meshes, `ci/scaling` on large ones.",
+        "finest mesh: of GMRES, with one cycle each, and above half a million unknowns of BiCGStab, with two.",
         "![time against unknowns](figures/scaling.svg)",
         table(header, rows),
         f"Over the three largest meshes time {', and '.join(laws)}." if laws and not small else "",
