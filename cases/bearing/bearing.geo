@@ -1,4 +1,5 @@
 // Twelve rollers of radius 5 between an inner ring 20-30 and an outer ring 40-50, all touching. Edges of half a roller's radius.
+//   gmsh -2 -order 2 -format msh41 bearing.geo -o bearing.msh
 SetFactory("OpenCASCADE");
 Mesh.MeshSizeMax = 5;
 Disk(1) = {0, 0, 0, 30};

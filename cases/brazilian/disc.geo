@@ -1,4 +1,5 @@
 // A disc of radius 1. Its four points on the rim are not where the forces act.
+//   gmsh -2 -format msh41 disc.geo -o disc.msh
 r = 1;
 h = .35;
 turn = 22 * Pi / 180;

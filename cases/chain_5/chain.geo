@@ -1,5 +1,6 @@
 // Five links: each but the first has a dovetail on its left; each but the last a neck with a round head, which lies in the
 // dovetail of the next one and touches both its flanks. Edges of 3.5 at most.
+//   gmsh -2 -order 2 -format msh41 chain.geo -o chain.msh
 SetFactory("OpenCASCADE");
 Mesh.MeshSizeMax = 3.5;
 head = 24 + 2 - 2.5 + Sqrt(50);

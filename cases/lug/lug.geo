@@ -1,4 +1,5 @@
 // A pin of radius 9.98 in the middle of a hole of radius 10, in a lug of radius 25 on a shank 50 wide.
+//   gmsh -2 -order 2 -format msh41 lug.geo -o lug.msh
 SetFactory("OpenCASCADE");
 Mesh.MeshSizeMax = 7;
 Mesh.MeshSizeFromCurvature = 16;

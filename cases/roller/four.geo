@@ -1,4 +1,5 @@
 // Four rollers of radius 5 between two plates 48 x 10.
+//   gmsh -2 -order 2 -format msh41 four.geo -o four.msh
 SetFactory("OpenCASCADE");
 Mesh.MeshSizeMax = 2.5;
 Rectangle(1) = {-24, -10, 0, 48, 10};

@@ -1,4 +1,5 @@
 // One roller of radius 5 between two plates 20 x 10. Edges of half a radius everywhere: nothing is drawn fine where they touch.
+//   gmsh -2 -order 2 -format msh41 roller.geo -o roller.msh
 SetFactory("OpenCASCADE");
 Mesh.MeshSizeMax = 2.5;
 Rectangle(1) = {-10, -10, 0, 20, 10};

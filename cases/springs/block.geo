@@ -1,4 +1,5 @@
 // A block of 2 by 1.
+//   gmsh -2 -format msh41 block.geo -o block.msh
 h = .4;
 Point(1) = {0, 0, 0, h};
 Point(2) = {2, 0, 0, h};

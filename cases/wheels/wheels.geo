@@ -1,4 +1,5 @@
 // A wheel of radius 4 on two of radius 6, each with a bore of radius 2: edges of half a radius, and of 2 in the upper one.
+//   gmsh -2 -order 2 -format msh41 wheels.geo -o wheels.msh
 SetFactory("OpenCASCADE");
 Mesh.MeshSizeMax = 3;
 height = Sqrt(51);

@@ -58,8 +58,7 @@ def counts_section(lines):
         f"One problem of {number(first[0]['unknowns'], 9)} unknowns on ever more ranks, which share the cores of one machine: two bars "
         f"of 496 macro triangles in all, pressed together, with {SPACES[1]} and {SPACES[2]}. A layer of MPI's profiling interface "
         "([counting.c](scaling/counting.c)) counts what each rank does in one Krylov iteration on the finest mesh: the difference of "
-        "two solves, to 1e-6 and to 1e-10. All ranks wait for collectives (reductions, sums and gatherings); a message goes from one "
-        "rank to another. [Coarse levels](method.md#auxiliary-levels) are brought together on fewer ranks.",
+        "two solves, to 1e-6 and to 1e-10. All ranks wait for collectives; a message goes from one rank to another.",
         table(head, rows),
     ])
 
@@ -71,9 +70,9 @@ def collectives(line):
 def latency_section(lines):
     return "\n\n".join([
         "## Latencies on the critical path",
-        "The profiling layer makes every wait for messages longer by a delay of 1, 2 and 4 ms, once for all messages that are waited for "
-        "together, and every collective by that times log₂ of the number of ranks, rounded up. The slope of the time of an iteration "
-        "over the delay is the number of latencies that follow each other (P1, the problem above). Waits that ranks make at the same time count once. "
+        "The profiling layer makes every wait for messages longer by a delay of 1, 2 and 4 ms, "
+        "and every collective by that times log₂ of the number of ranks, rounded up. The slope of the time of an iteration "
+        "over the delay is the number of latencies that follow each other (P1, the problem above). "
         "[two_hosts](scaling/two_hosts) makes a network of any latency on one machine, where the kernel has `sch_netem`.",
         table(
             ["ranks", "latencies of an iteration", "waits for messages of a rank, most"],
