@@ -55,7 +55,7 @@ fn labels(svg: &str, anchor: &str) -> [f64; 2] {
 
 #[test]
 fn a_contact_that_is_small_beside_its_scene_is_shown_large() {
-    let ended = Run::case("hertz").set("mesh.refine", 2).ranks(2).ended();
+    let ended = Run::case("hertz").set("mesh.refine", 2).set("output.figures", "[\"sigma_1\", \"tau_max\"]").ranks(2).ended();
     let page = page(&ended.out);
     check_figures(&ended, &page);
     let zoom = fs::read_to_string(ended.out.join("deformed_seam_1.svg")).expect("a zoom");
@@ -67,6 +67,7 @@ fn a_contact_that_is_small_beside_its_scene_is_shown_large() {
     let width = high - low;
     assert!(first < low && last > high, "{first} to {last} around {low} to {high}");
     assert!(low - first < width && last - high < width, "{first} to {last} around {low} to {high}");
+    assert!(ended.out.join("field_sigma_1.svg").exists() && page.contains("largest shear stress τ"));
     assert!(page.contains("Expected values") && page.contains("Estimated errors"));
     assert!(!zoom.contains("body 1") && !page.contains("body 1"));
 }

@@ -2,6 +2,7 @@
 
 mod load;
 mod map;
+mod measure;
 mod plane_law;
 mod revolution;
 mod shape;
@@ -9,6 +10,7 @@ mod stiffness;
 
 pub use load::{edge_load, heat_load, triangle_load};
 pub use map::{BadJacobian, Block, jacobian, place_of};
+pub use measure::{MEASURE_NAMES, MEASURES, StressMeasure};
 pub use plane_law::{Heat, Plane, PlaneLaw, Strain, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
 pub use stiffness::{Rule, SIX_POINTS, check_map, energies, heated_stress, six_points, stiffness, strain, stress};

@@ -4,7 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use super::page::ReportPage;
+use crate::element::{MEASURES, StressMeasure};
 use crate::output::markup::{figure, paragraph, subsection};
+use crate::output::plot::stress_file;
 use crate::output::summary::{MOST_WITH_FIGURES, Status};
 
 /// The text of a figure with a caption; nothing if there is no such figure.
@@ -23,6 +25,15 @@ pub fn of_solution(folder: &Path, page: &ReportPage) -> String {
         "deformed.svg",
         "The deformed bodies, coloured by von Mises stress; displacements are drawn larger than they are by the factor above.",
     );
+    for measure in MEASURES {
+        let words = match measure {
+            StressMeasure::Shear => {
+                "The same bodies, coloured by half of the largest difference between any two of the three principal stresses."
+            }
+            _ => "The same bodies, coloured by the stress that the bar names; tension is positive.",
+        };
+        all += &drawing(folder, &stress_file(measure), words);
+    }
     for (name, _) in page.told() {
         let own = of_contact(folder, page, name);
         if !own.is_empty() {

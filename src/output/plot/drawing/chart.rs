@@ -40,7 +40,7 @@ pub struct Chart {
     x: Scale,
     y: Scale,
     /// Whether the line x = 0 is the axis of bodies of revolution.
-    has_axis: bool,
+    pub has_axis: bool,
 }
 
 impl Chart {
