@@ -1,14 +1,17 @@
-//! Pages that need nothing beside them: no other file, no network, no script. They are well-formed XML.
+//! Pages that need nothing beside them: no other file, no network. They are well-formed XML. Their script adds to what is there:
+//! without it a page reads as it does on paper.
 
 /// Style of all pages: light and dark, on a screen and on paper.
 const STYLE: &str = include_str!("style.css");
+/// Script of all pages: it needs no other file either.
+const SCRIPT: &str = include_str!("page.js");
 
 /// A whole page.
 pub fn document(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}</body>\n</html>\n",
+         <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
         escape(title)
     )
 }
@@ -118,7 +121,7 @@ mod tests {
         let text = "&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt; &amp; &quot;y&quot;";
         assert_eq!(escape(name), text);
         let page = document(name, &(section("a", name) + &paragraph(name) + &list(&[name]) + &figure("<svg ></svg>", name)));
-        assert!(!page.contains("<script") && page.matches("&lt;script&gt;").count() == 6, "{page}");
+        assert!(page.matches("<script").count() == 1 && page.matches("&lt;script&gt;").count() == 6, "{page}");
         assert!(table(&[name], &[vec![name.into()]]).matches(text).count() == 2);
     }
 

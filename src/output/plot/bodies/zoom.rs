@@ -98,7 +98,7 @@ pub fn write_zoom(
     ];
     legend.extend(colours.remark(contact.units.stress()));
     chart.draw_head(&mut canvas, &title, &[legend]);
-    canvas.within(chart.frame, |canvas| {
+    canvas.within(chart.frame, "", |canvas| {
         draw_stress(canvas, &chart, facets, 1.0, &colours);
         draw_outlines(canvas, &chart, &boundary, 1.0, INK);
         let whole = moved_contact(contact, &boundary, 1.0);

@@ -78,6 +78,11 @@ impl Chart {
         self.x.range.map(|x| self.place([x, y]))
     }
 
+    /// What is drawn by `draw`, without those parts that lie outside the plot, which tells scripts what its linear axes are.
+    pub fn within(&self, canvas: &mut Canvas, draw: impl FnOnce(&mut Canvas)) {
+        canvas.within(self.frame, &format!(" data-x=\"{}\" data-y=\"{}\"", self.x.told(), self.y.told()), draw);
+    }
+
     /// Draws title and legend above the plot.
     pub fn draw_head(&self, canvas: &mut Canvas, title: &str, legend: &[Vec<LegendCell>]) {
         head(canvas, [self.frame.0[0], self.panel.0[1]], self.panel.0[2] - 10.0, title, legend);

@@ -2,6 +2,7 @@
 
 use super::letters::text_width;
 use super::ticks::Ticks;
+use crate::output::markup::escape;
 use crate::output::units::Unit;
 
 /// Size of the labels of ticks (pixels).
@@ -48,7 +49,7 @@ impl Axis {
         if self.falling {
             range.reverse();
         }
-        Scale { is_logarithmic: self.logarithmic, range, ticks, name: self.name.clone() }
+        Scale { is_logarithmic: self.logarithmic, range, ticks, name: self.name.clone(), after: String::new() }
     }
 }
 
@@ -61,13 +62,15 @@ pub struct Scale {
     /// Whether equal ratios of values are equal distances, instead of equal differences; all are positive then.
     is_logarithmic: bool,
     ticks: Ticks,
+    /// What stands after its numbers.
+    after: String,
 }
 
 impl Scale {
     /// A linear axis with about so many ticks, named by a quantity and its unit.
     pub fn linear(range: [f64; 2], ticks: usize, name: &str, unit: Unit) -> Self {
         let ticks = Ticks::new(range, ticks);
-        Self { is_logarithmic: false, name: format!("{name} [{}]", ticks.unit(unit)), range, ticks }
+        Self { is_logarithmic: false, name: format!("{name} [{}]", ticks.unit(unit)), range, ticks, after: unit.after() }
     }
 
     /// Where a value is, as a share of the way from the first to the last one.
@@ -79,6 +82,12 @@ impl Scale {
     /// The ticks: where they are, as shares, and their labels.
     pub fn ticks(&self) -> Vec<(f64, &str)> {
         self.ticks.labels.iter().map(|(value, label)| (self.share(*value), label.as_str())).collect()
+    }
+
+    /// Its first and last value and its unit, for scripts.
+    pub fn told(&self) -> String {
+        let [first, last] = self.range;
+        escape(&format!("{first} {last}{}", self.after))
     }
 
     /// Room that it takes at the left of a plot if it is vertical (pixels): its name, its widest label, its ticks.
