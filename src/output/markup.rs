@@ -67,6 +67,11 @@ pub fn figure(svg: &str, words: &str) -> String {
     format!("<figure>\n{svg}\n<figcaption>{}</figcaption>\n</figure>\n", escape(words))
 }
 
+/// Something that a reader unfolds.
+pub fn folded(title: &str, content: &str) -> String {
+    format!("<details>\n<summary>{}</summary>\n{content}</details>\n", escape(title))
+}
+
 /// Text as it stands in a file.
 pub fn verbatim(text: &str) -> String {
     format!("<pre>{}</pre>\n", escape(text))

@@ -34,8 +34,8 @@ pub fn of_solution(folder: &Path, page: &ReportPage) -> String {
         };
         all += &drawing(folder, &stress_file(measure), words);
     }
-    for (name, _) in page.told() {
-        let own = of_contact(folder, page, name);
+    for (at, (name, _)) in page.told().enumerate() {
+        let own = of_contact(folder, page, name, at == 0);
         if !own.is_empty() {
             all += &subsection(&format!("Contact {name}"));
             all += &own;
@@ -56,26 +56,28 @@ pub fn of_solution(folder: &Path, page: &ReportPage) -> String {
     words.unwrap_or_default() + &all
 }
 
-/// The figures of one contact: each interval that presses, then λ, gap and displacements all along it.
-fn of_contact(folder: &Path, page: &ReportPage, name: &str) -> String {
+/// The figures of one contact: each interval that presses, then λ, gap and displacements all along it. What holds of all contacts
+/// stands at the first of them.
+fn of_contact(folder: &Path, page: &ReportPage, name: &str, is_first: bool) -> String {
     let [one, two] = page.bodies(name);
     let intervals = page.summary.contact.get(name).and_then(|contact| contact.closed.as_ref()).map_or(0, Vec::len);
+    let with = |words: String, more: &str| if is_first { words + more } else { words + "." };
     let zooms = (1..=intervals).map(|number| {
         let words = if intervals == 1 { "Where it presses".into() } else { format!("Interval {number} of those that press") };
-        let words = format!("{words}, with displacements as they are. The blue line is the contact pressure, upon the boundary.");
-        drawing(folder, &format!("deformed_{name}_{number}.svg"), &words)
+        let more = ", with displacements as they are. The blue line is the contact pressure, upon the boundary.";
+        drawing(folder, &format!("deformed_{name}_{number}.svg"), &with(words, if number == 1 { more } else { "." }))
     });
+    let follow = ", and the normal pressures of both bodies on it: they follow λ where the meshes are fine enough.";
     let along = [
+        ("pressure", with("Contact pressure λ".into(), follow)),
         (
-            format!("pressure_{name}.svg"),
-            "Contact pressure λ, and the normal pressures of both bodies on it: they follow λ where the meshes are fine enough."
-                .into(),
+            "gap",
+            with(
+                format!("Gap between {one} and {two} after deformation"),
+                ": zero where they touch, positive where they are apart.",
+            ),
         ),
-        (
-            format!("gap_{name}.svg"),
-            format!("Gap between {one} and {two} after deformation: zero where they touch, positive where they are apart."),
-        ),
-        (format!("displacement_{name}.svg"), format!("Normal displacements, positive from {one} to {two}.")),
+        ("displacement", format!("Normal displacements, positive from {one} to {two}.")),
     ];
-    zooms.chain(along.iter().map(|(file, words): &(String, String)| drawing(folder, file, words))).collect()
+    zooms.chain(along.iter().map(|(file, words)| drawing(folder, &format!("{file}_{name}.svg"), words))).collect()
 }
