@@ -6,6 +6,9 @@ const STYLE: &str = include_str!("style.css");
 /// Script of all pages: it needs no other file either.
 const SCRIPT: &str = include_str!("page.js");
 
+/// A cell with more letters is wide, so that it is not high.
+const LONG: usize = 60;
+
 /// A whole page.
 pub fn document(title: &str, body: &str) -> String {
     format!(
@@ -50,6 +53,7 @@ pub fn table<S: AsRef<str>>(header: &[S], rows: &[Vec<String>]) -> String {
     let class = |column: usize| if right.get(column) == Some(&true) { " class=\"number\"" } else { "" };
     let cell = |(column, text): (usize, &String)| match judged(text) {
         Some(class) => format!("<td class=\"{class}\">{}</td>", escape(text)),
+        None if text.chars().count() > LONG => format!("<td class=\"long\">{}</td>", escape(text)),
         None => format!("<td{}>{}</td>", class(column), escape(text)),
     };
     let row = |cells: &Vec<String>| format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>());
@@ -65,6 +69,11 @@ pub fn table<S: AsRef<str>>(header: &[S], rows: &[Vec<String>]) -> String {
 pub fn figure(svg: &str, words: &str) -> String {
     let svg = svg.trim().replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{}\" ", escape(words)), 1);
     format!("<figure>\n{svg}\n<figcaption>{}</figcaption>\n</figure>\n", escape(words))
+}
+
+/// Figures side by side, as many as there is room for.
+pub fn grid(figures: impl Iterator<Item = String>) -> String {
+    format!("<div class=\"grid\">\n{}</div>\n", figures.collect::<String>())
 }
 
 /// Something that a reader unfolds.
@@ -138,5 +147,6 @@ mod tests {
         assert!(text.contains("<td>seam</td>") && text.contains("<td>−seat</td>"));
         assert_eq!(table::<&str>(&["name"], &[]), "");
         assert!(table(&["a"], &[vec![MISSED.into()]]).contains("class=\"bad\""));
+        assert!(table(&["reason"], &[vec!["a reason ".repeat(9)]]).contains("<td class=\"long\">a reason"));
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::output::data::ContactPoint;
 use crate::output::error::OutputError;
 use crate::output::plot::drawing::{
-    BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text,
+    BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text, widened,
 };
 use crate::output::units::{Unit, Units};
 
@@ -173,13 +173,6 @@ fn cut_peaks([low, high]: [f64; 2], points: &[ContactPoint], curves: &[DrawnCurv
     }
     let remark = format!("peaks cut off; full range {} … {}", number_text(low), number_text(high));
     ([bottom, top], Some(remark))
-}
-
-/// A range with some room on both sides; a single value becomes a range around it.
-fn widened([low, high]: [f64; 2], fraction: f64) -> [f64; 2] {
-    let size = high - low;
-    let room = if size > 1e-12 * low.abs().max(high.abs()) { fraction * size } else { low.abs().max(high.abs()).max(1e-12) };
-    [low - room, high + room]
 }
 
 #[cfg(test)]

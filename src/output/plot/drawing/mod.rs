@@ -22,5 +22,5 @@ pub use letters::{Letters, TextAnchor, text_width};
 pub use names::{Name, PlacedNames, Wish};
 pub use outline::{edges_around, loops, merged, path_data, tenths, unmatched};
 pub use paint::{BLUE, Colour, GREEN, GREY, INK, LINES, Paint, VERMILION, WHITE, diverging, viridis};
-pub use scale::{Axis, Scale};
+pub use scale::{Axis, Scale, widened};
 pub use ticks::{cut_off, number_text, number_to, round_number};

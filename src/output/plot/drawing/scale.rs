@@ -21,12 +21,14 @@ pub struct Axis {
     pub logarithmic: bool,
     /// Whether it runs from large values to small ones: errors become better to the right.
     pub falling: bool,
+    /// Whether a linear one does not begin at zero, but fits what is drawn.
+    pub fits: bool,
 }
 
 impl Axis {
     /// A logarithmic axis.
     pub fn logarithmic(name: impl Into<String>) -> Self {
-        Self { name: name.into(), logarithmic: true, falling: false }
+        Self { name: name.into(), logarithmic: true, ..Self::default() }
     }
 
     /// Whether it can show a value.
@@ -43,7 +45,8 @@ impl Axis {
             let range = [low / room, high * room];
             (range, Ticks::decades(range, 7))
         } else {
-            let range = [0.0, if high > 0.0 { 1.12 * high } else { 1.0 }];
+            let whole = if self.fits { widened([low, high], 0.06) } else { [0.0, 1.12 * high] };
+            let range = if self.fits || high > 0.0 { whole } else { [0.0, 1.0] };
             (range, Ticks::new(range, 6))
         };
         if self.falling {
@@ -97,6 +100,13 @@ impl Scale {
     }
 }
 
+/// A range with some room on both sides, by this share of it; a single value becomes a range around it.
+pub fn widened([low, high]: [f64; 2], fraction: f64) -> [f64; 2] {
+    let size = high - low;
+    let room = if size > 1e-12 * low.abs().max(high.abs()) { fraction * size } else { low.abs().max(high.abs()).max(1e-12) };
+    [low - room, high + room]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,6 +116,14 @@ mod tests {
         let axis = Axis::logarithmic("").around([1.0, 100.0].into_iter());
         let place = |value: f64| axis.share(value);
         assert!((place(100.0) - 2.0 * place(10.0) + place(1.0)).abs() < 1e-12 && place(1.0) > 0.0 && place(100.0) < 1.0);
+    }
+
+    #[test]
+    fn an_axis_that_fits_does_not_begin_at_zero() {
+        let around = |fits| Axis { fits, ..Axis::default() }.around([-3.0, 97.0].into_iter()).range;
+        assert!(around(true) == [-9.0, 103.0] && around(false)[0] == 0.0);
+        let [low, high] = Axis { fits: true, ..Axis::default() }.around([5.0].into_iter()).range;
+        assert!(low < 5.0 && high > 5.0, "one value is inside");
     }
 
     #[test]
