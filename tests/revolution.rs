@@ -243,9 +243,13 @@ contact.seam = { between = ["top", "rigid.ball"] }
 #[test]
 fn figures_show_the_axis() {
     let (_folder, file) = scene(&two_blocks([(4, 3, 1), (5, 2, 2)]), BARS);
-    let folder = Run::file(&file).converged().into_folder();
-    let figure = std::fs::read_to_string(folder.path().join("result/deformed.svg")).expect("a figure");
-    assert!(figure.contains("stroke-dasharray=\"120 30 20 30\"") && figure.contains("radius x"));
+    let folder = Run::file(&file).set("output.figures", "[\"sigma_tt\", \"sigma_yy\"]").converged().into_folder();
+    for (name, bar) in [("deformed", "von Mises stress"), ("field_sigma_tt", "hoop stress"), ("field_sigma_yy", "axial stress")] {
+        let figure = std::fs::read_to_string(folder.path().join(format!("result/{name}.svg"))).expect("a figure");
+        assert!(figure.contains("stroke-dasharray=\"120 30 20 30\"") && figure.contains("radius x") && figure.contains(bar));
+    }
+    let ended: Ended = Run::file(&file).set("output.figures", "[\"sigma_zz\"]").ended();
+    assert!(ended.code == Some(2) && ended.said().contains("write \"sigma_yy\" for that along the axis"), "{}", ended.said());
 }
 
 #[test]

@@ -322,7 +322,7 @@ fn repeats_have_medians_in_every_table() {
 #[test]
 fn figure_and_page_are_well_formed() {
     let study = Study::new(
-        "error = 'errors.energy'\ngrid.'mesh.refine' = [0, 1, 2]\n[[curve]]\nname = 'a < b & \"c\"'\n[[curve]]\nname = 'P1'\nset = { 'mesh.order' = 1 }",
+        "error = 'errors.energy'\nfigure = ['refine', 'energy.total']\ngrid.'mesh.refine' = [0, 1, 2]\n[[curve]]\nname = 'a < b & \"c\"'\n[[curve]]\nname = 'P1'\nset = { 'mesh.order' = 1 }",
     );
     study.rows();
     let page = study.read("report.html");
@@ -332,12 +332,14 @@ fn figure_and_page_are_well_formed() {
     assert!(!page.contains("http://") || page.matches("http://").count() == page.matches("http://www.w3.org/").count());
     let content = |figure: &str| figure.trim().split_once('>').expect("a tag").1.to_owned();
     let (first, all) = (study.read("study.svg"), study.read("study_all.svg"));
+    let asked = study.read("study_figure.svg");
+    assert!(page.contains(&content(&asked)) && asked.contains(">patch_flat: energy.total against mesh.refine<"), "{asked}");
     assert!(page.contains(&content(&first)) && page.contains(&content(&all)) && all.matches("<polygon").count() > 8, "{all}");
     assert!(page.find("<figure>") < page.find("<table>"), "the figure stands first");
     let names = first.lines().filter(|line| line.contains("a &lt; b &amp; &quot;c&quot;") && !line.contains("stroke="));
     assert_eq!(names.count(), 1, "each line bears its name: {first}");
     let program = "import sys, xml.etree.ElementTree as tree\nfor file in sys.argv[1:]: tree.parse(file)";
-    let files = ["study.svg", "study_all.svg", "report.html"].map(|name| study.out().join(name));
+    let files = ["study_figure.svg", "study.svg", "study_all.svg", "report.html"].map(|name| study.out().join(name));
     match Command::new("python3").arg("-c").arg(program).args(files).output() {
         Ok(read) => assert!(read.status.success(), "{}", text(&read.stderr)),
         Err(error) => println!("skipped: nobody has read the files, since python3 does not start: {error}"),

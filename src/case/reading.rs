@@ -150,6 +150,7 @@ impl Case {
         check_gravity(gravity, root);
         geometry::check_geometries(&geometries, root);
         output::check_probes(&probes, root);
+        output::check_figures(&output, plane, root);
         check_means(&means, root);
         check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);
         check_spots("load", point_loads.iter().map(|load| (&load.name, &load.at)), root);

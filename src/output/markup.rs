@@ -1,14 +1,20 @@
-//! Pages that need nothing beside them: no other file, no network, no script. They are well-formed XML.
+//! Pages that need nothing beside them: no other file, no network. They are well-formed XML. Their script adds to what is there:
+//! without it a page reads as it does on paper.
 
 /// Style of all pages: light and dark, on a screen and on paper.
 const STYLE: &str = include_str!("style.css");
+/// Script of all pages: it needs no other file either.
+const SCRIPT: &str = include_str!("page.js");
+
+/// A cell with more letters is wide, so that it is not high.
+const LONG: usize = 60;
 
 /// A whole page.
 pub fn document(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}</body>\n</html>\n",
+         <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
         escape(title)
     )
 }
@@ -47,6 +53,7 @@ pub fn table<S: AsRef<str>>(header: &[S], rows: &[Vec<String>]) -> String {
     let class = |column: usize| if right.get(column) == Some(&true) { " class=\"number\"" } else { "" };
     let cell = |(column, text): (usize, &String)| match judged(text) {
         Some(class) => format!("<td class=\"{class}\">{}</td>", escape(text)),
+        None if text.chars().count() > LONG => format!("<td class=\"long\">{}</td>", escape(text)),
         None => format!("<td{}>{}</td>", class(column), escape(text)),
     };
     let row = |cells: &Vec<String>| format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>());
@@ -62,6 +69,16 @@ pub fn table<S: AsRef<str>>(header: &[S], rows: &[Vec<String>]) -> String {
 pub fn figure(svg: &str, words: &str) -> String {
     let svg = svg.trim().replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{}\" ", escape(words)), 1);
     format!("<figure>\n{svg}\n<figcaption>{}</figcaption>\n</figure>\n", escape(words))
+}
+
+/// Figures side by side, as many as there is room for.
+pub fn grid(figures: impl Iterator<Item = String>) -> String {
+    format!("<div class=\"grid\">\n{}</div>\n", figures.collect::<String>())
+}
+
+/// Something that a reader unfolds.
+pub fn folded(title: &str, content: &str) -> String {
+    format!("<details>\n<summary>{}</summary>\n{content}</details>\n", escape(title))
 }
 
 /// Text as it stands in a file.
@@ -118,7 +135,7 @@ mod tests {
         let text = "&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt; &amp; &quot;y&quot;";
         assert_eq!(escape(name), text);
         let page = document(name, &(section("a", name) + &paragraph(name) + &list(&[name]) + &figure("<svg ></svg>", name)));
-        assert!(!page.contains("<script") && page.matches("&lt;script&gt;").count() == 6, "{page}");
+        assert!(page.matches("<script").count() == 1 && page.matches("&lt;script&gt;").count() == 6, "{page}");
         assert!(table(&[name], &[vec![name.into()]]).matches(text).count() == 2);
     }
 
@@ -130,5 +147,6 @@ mod tests {
         assert!(text.contains("<td>seam</td>") && text.contains("<td>−seat</td>"));
         assert_eq!(table::<&str>(&["name"], &[]), "");
         assert!(table(&["a"], &[vec![MISSED.into()]]).contains("class=\"bad\""));
+        assert!(table(&["reason"], &[vec!["a reason ".repeat(9)]]).contains("<td class=\"long\">a reason"));
     }
 }

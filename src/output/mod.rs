@@ -6,7 +6,7 @@
 //! | `contacts.csv` | [`write_contacts`] |
 //! | `contact_NAME.csv` | [`write_contact`] |
 //! | `fields.vtu`, or `fields.pvtu` and its pieces; `contact_NAME.vtu` | [`vtk`] |
-//! | `pressure_NAME.svg`, `gap_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `deformed_NAME_1.svg`, `accuracy.svg`, `steps.svg` | [`plot`] |
+//! | `pressure_NAME.svg`, `gap_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `field_sigma_1.svg`, `deformed_NAME_1.svg`, `accuracy.svg`, `steps.svg` | [`plot`] |
 //! | `report.html` | [`report`] |
 //! | `steps.csv` | [`write_steps`] |
 //! | `case.toml`, `case.msh`: the case as it was run, and its mesh, if that is not large | `run` |

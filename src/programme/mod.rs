@@ -11,7 +11,7 @@ mod kernel;
 
 use self::elimination::Elimination;
 use crate::body::{Applied, BodyPart, MeanHold, applied_forces, body_forces, rigid_displacement};
-use crate::contact::{Programme, ProgrammeOutcome, describe_motion};
+use crate::contact::{Programme, ProgrammeOutcome, Side, describe_motion};
 use crate::discretisation::{Contact, Coupled, Scene, SystemError, bilateral, coupled_here};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{EdgeNode, Numbering};
@@ -80,9 +80,15 @@ impl<'s> Predictor<'s> {
     /// # Errors
     /// [`SystemError::Case`] if a contact cannot be integrated.
     pub fn predict(&self, contacts: &[Contact]) -> Result<Prediction, SystemError> {
-        let (coupled, gap) = coupled_here(contacts)?;
+        let (coupled, mut gap) = coupled_here(contacts)?;
+        let both = bilateral(contacts);
+        for contact in contacts {
+            for i in contact.range().filter(|&i| !both[i] && !meets_both_sides(&coupled[i])) {
+                gap[i] = contact.boundary.length() * contact.multipliers.integral(i - contact.first);
+            }
+        }
         let mut rows: Vec<ProgrammeRow> = coupled.iter().map(|coupled| self.row_of(coupled)).collect();
-        let pushes: Vec<bool> = bilateral(contacts).iter().map(|both| !both).collect();
+        let pushes: Vec<bool> = both.iter().map(|both| !both).collect();
         let right = gap.iter().copied().chain(self.means.iter().map(|(_, value)| *value));
         let right: Vec<f64> = right.collect();
         rows.extend(self.means.iter().map(|(row, _)| row.clone()));
@@ -302,6 +308,12 @@ fn held_component(moves: [f64; 3]) -> &'static str {
     ["ux = 0.0", "uy = 0.0", "angle = 0.0"][largest]
 }
 
+/// Whether a row has nodes on both sides. One that has not lies beyond a body: no gap is measured there, nothing presses, and a
+/// pressure on a rigid tool alone would be as large as it likes.
+fn meets_both_sides(coupled: &[Coupled]) -> bool {
+    [Side::First, Side::Second].into_iter().all(|side| coupled.iter().any(|coupled| coupled.side == side))
+}
+
 fn product(entries: &[(usize, f64)], values: &[f64]) -> f64 {
     entries.iter().map(|&(at, entry)| entry * values[at]).sum()
 }
@@ -315,4 +327,28 @@ fn added_up(mut entries: Vec<(usize, usize, f64)>) -> Vec<(usize, usize, f64)> {
         is_same
     });
     entries
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Known, MultiplierSpace};
+    use crate::discretisation::finest_numbering;
+    use crate::discretisation::samples::{blocks, contact, pair};
+
+    #[test]
+    fn beyond_the_end_of_a_body_sides_are_far_apart_and_nothing_presses() {
+        let mut scene = blocks(pair(MultiplierSpace::P0, 8), |_| Point::zeros(), Vec::new());
+        scene.bodies.iter_mut().flat_map(|body| &mut body.parts).for_each(|part| part.material.poisson = 0.3);
+        let mut half = contact(&scene, Known::default());
+        half.edges[1].retain(|edge| edge.points.iter().all(|x| x.x < 1.0 + 1e-9));
+        let numbering = finest_numbering(&scene).expect("a small mesh");
+        let predictor = Predictor::new(&scene, &numbering).expect("good triangles");
+        let Prediction::Held { pressures, gaps, .. } = predictor.predict(&[half]).expect("it can be integrated") else {
+            panic!("nothing drives the blocks");
+        };
+        assert!(gaps[..4].iter().all(|gap| gap.abs() < 1e-9), "they touch: {gaps:?}");
+        assert!(gaps[4..].iter().all(|gap| *gap > 1.0), "there is no upper block: {gaps:?}");
+        assert!(pressures.iter().all(|pressure| pressure.abs() < 1e-9), "{pressures:?}");
+    }
 }

@@ -13,6 +13,8 @@ mod table;
 
 use std::path::Path;
 
+use crate::output::plot::{diagrams, named_diagrams};
+
 pub use error::StudyError;
 pub use plan::Plan;
 
@@ -22,6 +24,8 @@ use runs::execution::Execution;
 use runs::folder::{Folder, ResultPlace, Wanted};
 use runs::progress::Progress;
 use runs::record::{Program, Record, inputs, what};
+use shown::asked::asked_diagrams;
+use shown::page::Figures;
 use shown::{figure, format, page};
 use table::repeats::with_spreads;
 use table::rows::Table;
@@ -46,17 +50,22 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     let results = make(&plan, &program, &folder, &wanted, places, &progress)?;
     let lines = table::lines::lines(&plan, &results);
     let table = with_spreads(Table::new(&plan, &results), &plan);
-    let [first, all] = [figure::first_figure(&plan, &lines), figure::all_figures(&plan, &lines)];
+    let figures = Figures {
+        asked: asked_diagrams(&table, &plan.figure),
+        first: figure::first_diagrams(&plan, &lines),
+        all: figure::all_diagrams(&plan, &lines),
+    };
     let mut texts = vec![
         ("study.csv", format::csv(&table)),
         ("study.json", format::json(&table, &lines)),
         ("study.md", format::markdown(&table)),
-        ("report.html", page::html(&table, &lines, [first.as_deref(), all.as_deref()])),
+        ("report.html", page::html(&table, &lines, &figures)),
     ];
-    texts.extend(first.map(|text| ("study.svg", text)));
-    texts.extend(all.map(|text| ("study_all.svg", text)));
+    let svg = [named_diagrams(&figures.asked), named_diagrams(&figures.first), diagrams(&figures.all)];
+    let named = ["study_figure.svg", "study.svg", "study_all.svg"].into_iter().zip(svg);
+    texts.extend(named.filter_map(|(name, text)| Some((name, text?))));
     folder.write_tables(&texts)?;
-    progress.end(&plan, &results, &out.join("report.html"));
+    progress.end(&plan, &results, !figures.asked.is_empty(), &out.join("report.html"));
     Ok(results.iter().any(Ended::has_result))
 }
 

@@ -1,13 +1,21 @@
 //! `[output]` and `[probe.NAME]`: what is written of the result.
 
 use crate::case::bodies::body::region_names;
-use crate::case::keys::{BOOLEAN, FormOf, NAME, POINT, Section, ValueForm, declare, key, of, table};
+use crate::case::keys::{
+    BOOLEAN, Choice, FormOf, ListForm, NAME, POINT, Section, ValueForm, declare, entries, key, of, table, word,
+};
+use crate::element::{MEASURE_NAMES, MEASURES, Plane, StressMeasure};
 
 declare! {
     static OUTPUT = table("output");
     /// `false`: no fields, no figures and no report, only `summary.json`, `case.toml`, `case.msh` (of up to 4 MiB), `adapted.msh`
     /// of an accuracy, `contacts.csv`, `contact_NAME.csv`, and `steps.csv` of load steps; for many runs, or very large ones.
     const FIELDS: bool = key("fields", BOOLEAN).or("true");
+    /// More figures of the deformed bodies, `field_sigma_1.svg` and so on, beside that of von Mises stress: `"sigma_1"` and
+    /// `"sigma_2"`, the larger and the smaller principal stress in the plane; `"tau_max"`, half of the largest difference between
+    /// any two of the three principal stresses; `"sigma_xx"`, `"sigma_yy"`, `"sigma_xy"`, `"sigma_zz"`; of bodies of revolution
+    /// `"sigma_rr"` along the radius, `"sigma_yy"` along the axis and `"sigma_tt"` around it. Tension is positive.
+    const FIGURES: Vec<StressMeasure> = key("figures", SOME_MEASURES).or("[]");
 }
 
 declare! {
@@ -27,6 +35,11 @@ declare! {
     const FORCE: String = key("force", UNIT);
 }
 
+/// Quantities of which figures are asked for.
+const SOME_MEASURES: FormOf<Vec<StressMeasure>> =
+    of(ValueForm::List(ListForm { count: [0, usize::MAX], unique: true, ..entries(&MEASURE, "a list of names") }));
+const MEASURE: FormOf<StressMeasure> = word();
+
 /// The name of a unit.
 const UNIT: FormOf<String> = of(ValueForm::Short(12));
 
@@ -40,10 +53,17 @@ pub struct UnitNames {
 }
 
 /// What is written of the result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Output {
     /// Whether fields and figures are; the numbers always are.
     pub fields: bool,
+    /// What figures show beside von Mises stress.
+    pub figures: Vec<StressMeasure>,
+}
+
+impl Choice for StressMeasure {
+    const WORDS: &[&str] = &MEASURE_NAMES;
+    const MEANINGS: &[Self] = &MEASURES;
 }
 
 /// A point whose displacement and stress are reported.
@@ -59,7 +79,28 @@ pub struct Probe {
 
 /// `[output]`
 pub fn read_output(root: &Section) -> Output {
-    Output { fields: root.table("output").or_default(FIELDS) }
+    let section = root.table("output");
+    Output { fields: section.or_default(FIELDS), figures: section.or_default(FIGURES) }
+}
+
+/// Stresses have names of their own in bodies of revolution, where zz is the axis to some and the hoop to others.
+pub fn check_figures(output: &Output, plane: Plane, root: &Section) {
+    let is_for_others = |measure: &StressMeasure| match measure {
+        StressMeasure::Zz => plane == Plane::Revolution,
+        StressMeasure::Radial | StressMeasure::Hoop => plane != Plane::Revolution,
+        _ => false,
+    };
+    if output.figures.iter().any(is_for_others) {
+        let words = match plane {
+            Plane::Revolution => {
+                "\"sigma_zz\" may mean two stresses here: write \"sigma_yy\" for that along the axis, \"sigma_tt\" for that around it"
+            }
+            _ => {
+                "\"sigma_rr\" and \"sigma_tt\" are for bodies of revolution: write \"sigma_xx\", and \"sigma_zz\" for the stress across the plane"
+            }
+        };
+        root.problem(&["output", "figures"], words.into());
+    }
 }
 
 /// `units`

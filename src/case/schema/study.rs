@@ -2,7 +2,9 @@
 
 use toml::{Table, Value};
 
-use crate::case::keys::{COUNT, FormOf, NAME, NumberRange, POSITIVE, ValueForm, declare, either, key, number, of, set, table};
+use crate::case::keys::{
+    COUNT, FormOf, ListForm, NAME, NumberRange, POSITIVE, ValueForm, declare, either, entries, key, number, of, set, table,
+};
 
 declare! {
     static STUDY = table("study");
@@ -24,6 +26,10 @@ declare! {
         .or_else("`\"mesh.refine\"`");
     /// More places in `summary.json` that become columns.
     const COLUMNS: Value = key("columns", of(PATHS.value));
+    /// A figure of one column against another: what is across, what is up, and, if there are three, by what lines are told apart. A
+    /// column is named by a key of a grid, a path in `summary.json`, `"curve"`, `"ranks"`, `"unknowns"`, or the last part of such a
+    /// name.
+    const FIGURE: Vec<String> = key("figure", FIGURE_COLUMNS);
     /// Keys of the case that are set in every run.
     const SET: Table = key("set", of(ValueForm::CaseKeys));
     /// Keys of the case with lists of values: every combination is a run.
@@ -49,4 +55,6 @@ const LONGEST: f64 = 30.0 * 86_400.0;
 
 const FILES: FormOf<Vec<String>> = set(&NAME, "a list of case files");
 const PATHS: FormOf<Vec<String>> = set(&NAME, "a list of paths in summary.json");
+const FIGURE_COLUMNS: FormOf<Vec<String>> =
+    of(ValueForm::List(ListForm { count: [2, 3], unique: true, ..entries(&NAME, "two or three names of columns") }));
 const CASE_KEYS: FormOf<Vec<String>> = set(&NAME, "a list of keys of the case");

@@ -2,7 +2,7 @@
 
 use super::numbers::number;
 use super::page::{ExpectedValue, ReportPage};
-use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, paragraph, subsection, table};
+use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, folded, paragraph, subsection, table};
 use crate::output::plot::number_text;
 use crate::output::summary::{GoalSummary, MOST_TOLD, Status, Summary, WORST, listed};
 
@@ -97,16 +97,22 @@ fn capital(text: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// The values that the case expects.
+/// The error of a value by what is allowed: 0 where anything is, infinite where it is not known.
+fn excess(value: &ExpectedValue) -> f64 {
+    let known = |most: f64| value.error.filter(|error| !error.is_nan()).map_or(f64::INFINITY, |error| error / most);
+    value.tolerance.map_or(0.0, known)
+}
+
+/// The values that the case expects; of many the worst, and all of them where the reader asks for them.
 fn expected(values: &[ExpectedValue]) -> String {
     if values.is_empty() {
         return String::new();
     }
     let row = |value: &ExpectedValue| {
-        let holds = match (value.error, value.tolerance) {
-            (Some(error), Some(most)) if error <= most => HOLDS,
-            (_, Some(_)) => MISSED,
-            _ => UNKNOWN,
+        let holds = match value.tolerance {
+            Some(_) if excess(value) <= 1.0 => HOLDS,
+            Some(_) => MISSED,
+            None => UNKNOWN,
         };
         let known = |text: &str| if text.is_empty() { UNKNOWN.into() } else { text.to_owned() };
         vec![
@@ -118,8 +124,23 @@ fn expected(values: &[ExpectedValue]) -> String {
             holds.into(),
         ]
     };
-    let rows: Vec<Vec<String>> = values.iter().map(row).collect();
-    subsection("Expected values") + &table(&["", "expected", "reached", "relative error", "allowed", ""], &rows)
+    let shown = |values: &[&ExpectedValue]| {
+        let rows: Vec<Vec<String>> = values.iter().map(|value| row(value)).collect();
+        table(&["", "expected", "reached", "relative error", "allowed", ""], &rows)
+    };
+    let (all, title) = (values.iter().collect::<Vec<_>>(), subsection("Expected values"));
+    if all.len() <= MOST_TOLD {
+        return title + &shown(&all);
+    }
+    let mut worst = all.clone();
+    worst.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+    let missed = worst.iter().filter(|value| excess(value) > 1.0).count();
+    let words = match missed {
+        0 => "None".into(),
+        count => count.to_string(),
+    };
+    let words = format!("{words} of {} values {} missed. The worst {WORST}:", all.len(), if missed > 1 { "are" } else { "is" });
+    title + &paragraph(&words) + &shown(&worst[..WORST]) + &folded(&format!("All {} expected values", all.len()), &shown(&all))
 }
 
 /// The accuracy that the case asks for.
@@ -160,6 +181,28 @@ fn goals(summary: &Summary) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn many_expected_values_are_folded_below_the_worst() {
+        let value = |k: usize, error: Option<f64>, tolerance: Option<f64>| ExpectedValue {
+            name: format!("force of c{k}"),
+            error,
+            tolerance,
+            ..ExpectedValue::default()
+        };
+        let few: Vec<ExpectedValue> = (0..MOST_TOLD).map(|k| value(k, Some(1e-3), Some(1e-2))).collect();
+        let text = expected(&few);
+        assert!(!text.contains("<details>") && text.matches("<tr>").count() == 1 + MOST_TOLD, "{text}");
+        let mut many =
+            [few, vec![value(20, Some(2e-2), Some(1e-2)), value(21, None, Some(1.0)), value(22, Some(9.0), None)]].concat();
+        let text = expected(&many);
+        let (shown, all) = text.split_once("<details>").expect("a part that is folded");
+        assert!(shown.contains("2 of 11 values are missed. The worst 3:"), "{shown}");
+        assert!(["c21", "c20", "c0"].iter().all(|name| shown.contains(name)) && !shown.contains("c22"), "{shown}");
+        assert!(all.contains("<summary>All 11 expected values</summary>") && all.matches("<tr>").count() == 12, "{all}");
+        many[8].error = Some(1e-3);
+        assert!(expected(&many).contains("1 of 11 values is missed."));
+    }
 
     #[test]
     fn a_reason_is_parted_outside_of_brackets() {

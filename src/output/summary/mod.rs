@@ -23,7 +23,7 @@ pub use passes::{BoundaryIteration, OuterIteration};
 pub use provenance::Provenance;
 pub use solver::{CoarseSolveSummary, SolverSummary};
 pub use steps::{StepContact, StepSummary};
-pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, listed};
+pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, alike, lines_alike, listed};
 
 use std::collections::BTreeMap;
 use std::fs;

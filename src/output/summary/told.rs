@@ -3,6 +3,7 @@
 use super::Summary;
 use super::contact::ContactSummary;
 use std::cmp::Ordering;
+use std::collections::HashMap;
 
 /// Contacts that are told one by one, at most: with a line or two for each they fill half of a screen of 24 lines.
 pub const MOST_TOLD: usize = 8;
@@ -13,6 +14,29 @@ pub const MOST_WITH_FIGURES: usize = 24;
 
 /// Of more so many are told: the worst, by trust, then by the force that they carry.
 pub const WORST: usize = 3;
+
+/// Things of which the same is said, in the order of the first of each.
+pub fn alike<T>(all: impl IntoIterator<Item = (String, T)>) -> Vec<(String, Vec<T>)> {
+    let (mut groups, mut places) = (Vec::<(String, Vec<T>)>::new(), HashMap::new());
+    for (words, one) in all {
+        let place = *places.entry(words.clone()).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push((words, Vec::new()));
+        }
+        groups[place].1.push(one);
+    }
+    groups
+}
+
+/// A line for each of some things, given by words and names, or one for many of which the same is said; and of how many each line
+/// tells. `kind` is the word for one and for several of them.
+pub fn lines_alike(kind: [&str; 2], all: impl IntoIterator<Item = (String, String)>) -> Vec<(usize, String)> {
+    let lines = |(words, names): (String, Vec<String>)| match names.len() {
+        count if count > MOST_TOLD => vec![(count, format!("{count} {} ({}): {words}", kind[1], listed(&names)))],
+        _ => names.iter().map(|name| (1, format!("{} {name}: {words}", kind[0]))).collect(),
+    };
+    alike(all).into_iter().flat_map(lines).collect()
+}
 
 /// Names in a sentence: all of a few, of many the first ones and how many others there are.
 pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
@@ -139,6 +163,16 @@ mod tests {
             let counts = words.is_none_or(|words| bad == 0 || words.contains(&format!("{bad} are not trusted")));
             prop_assert!(counts);
         }
+    }
+
+    #[test]
+    fn many_of_which_the_same_is_said_have_one_line() {
+        let all = (0..12).map(|k| (if k == 3 { "ux = 0" } else { "mean angle" }.to_owned(), format!("s{k}")));
+        let lines = lines_alike(["support", "supports"], all.clone());
+        assert_eq!(lines, [(11, "11 supports (s0, s1, s2 and 8 others): mean angle".into()), (1, "support s3: ux = 0".into())]);
+        let few = lines_alike(["support", "supports"], all.take(3));
+        assert_eq!(few.iter().map(|(count, _)| count).sum::<usize>(), 3);
+        assert_eq!(few[2].1, "support s2: mean angle");
     }
 
     #[test]

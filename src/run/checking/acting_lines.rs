@@ -9,27 +9,34 @@ use crate::discretisation::Scene;
 use crate::element::Plane;
 use crate::geometry::Point;
 use crate::mesh::Numbering;
-use crate::output::plot::{BoundaryPoint, DrawnLoad, number_text};
-use crate::output::summary::MOST_TOLD;
+use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnSupport, number_text};
+use crate::output::summary::{MOST_TOLD, lines_alike};
 
 /// Sides that are nearer than this share of their length are drawn touching.
 const TOUCHING: f64 = 1e-6;
 
+/// Of so many things of a kind is found what is said of them; a thousand gaps would take their time.
+const MOST_LOOKED_AT: usize = 100;
+
 /// The lines, of each kind as many as are told.
 pub fn acting_lines(case: &Case, scene: &Scene, numbering: &Numbering) -> Vec<String> {
     let (plane, (supports, loads)) = (scene.mesh.plane, acting(case, &scene.mesh));
-    let mut lines = few("loads", &loads, |load| format!("load {}{}", load.name, resultant_words(load, plane)));
-    lines.extend(few("supports", &supports, |support| format!("support {}", support.name)));
-    lines.extend(few("contacts", &scene.pairs, |pair| format!("contact {}: {}", pair.name, gap_words(scene, numbering, pair))));
+    let load = |load: &DrawnLoad| (format!("{}{}", load.words, resultant_words(load, plane)), load.name.clone());
+    let mut lines = few(["load", "loads"], loads.len(), loads.iter().map(load));
+    let support = |support: &DrawnSupport| (support.words.clone(), support.name.clone());
+    lines.extend(few(["support", "supports"], supports.len(), supports.iter().map(support)));
+    let contact = |pair: &Pair| (gap_words(scene, numbering, pair), pair.name.clone());
+    lines.extend(few(["contact", "contacts"], scene.pairs.len(), scene.pairs.iter().map(contact)));
     lines
 }
 
 /// As many lines as are told, and how many more there are.
-fn few<T>(kind: &str, all: &[T], line: impl Fn(&T) -> String) -> Vec<String> {
-    let more = all.len().saturating_sub(MOST_TOLD);
+fn few(kind: [&str; 2], count: usize, all: impl Iterator<Item = (String, String)>) -> Vec<String> {
+    let told: Vec<(usize, String)> = lines_alike(kind, all.take(MOST_LOOKED_AT)).into_iter().take(MOST_TOLD).collect();
+    let more = count - told.iter().map(|(own, _)| own).sum::<usize>();
     // Figures have a minus sign of their own.
-    let lines = all.iter().take(MOST_TOLD).map(|one| line(one).replace('−', "-"));
-    lines.chain((more > 0).then(|| format!("and {more} more {kind}"))).collect()
+    let lines = told.into_iter().map(|(_, line)| line.replace('−', "-"));
+    lines.chain((more > 0).then(|| format!("and {more} more {}", kind[1]))).collect()
 }
 
 /// The force of tractions along a boundary, of the whole ring in a body of revolution; nothing where the name tells the force.

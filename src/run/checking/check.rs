@@ -1,11 +1,11 @@
 //! `mezha check`.
 
-use crate::body::{Body, Material};
+use crate::body::{Body, BodyPart, Material};
 use crate::case::{Case, Matched, read_text};
 use crate::discretisation::Scene;
 use crate::element::{Heat, Order, Plane};
 use crate::mesh::MacroMesh;
-use crate::output::summary::{MOST_TOLD, listed};
+use crate::output::summary::lines_alike;
 use crate::procedure::Procedure;
 use crate::run::accuracy;
 use crate::run::checking::acting_lines::acting_lines;
@@ -18,7 +18,6 @@ use crate::run::telling::report::contact_lines;
 use crate::run::verdict::warnings::idle::idle;
 use crate::run::verdict::warnings::slits::slits;
 use crate::run::verdict::warnings::turns::far_turns;
-use std::collections::HashMap;
 use std::path::Path;
 
 /// Names that a pattern stands for which are told.
@@ -112,9 +111,7 @@ fn matched(Matched { place, kind, names }: &Matched) -> String {
 
 /// A line for each part of a body; of many one for each material.
 fn body_lines(bodies: &[Body]) -> Vec<String> {
-    let mut of_materials: Vec<(String, Vec<String>)> = Vec::new();
-    let mut places = HashMap::new();
-    for (body, part) in bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part))) {
+    let words = |(body, part): (&Body, &BodyPart)| {
         let Material { young, poisson, plane } = part.material;
         let plane = match plane {
             Plane::Strain => "",
@@ -125,19 +122,11 @@ fn body_lines(bodies: &[Body]) -> Vec<String> {
             .heat
             .as_ref()
             .map(|Heat { expansion, temperature }| format!(", heated: α = {expansion:?}, ϑ = {}", temperature.text()));
-        let words = format!("E = {young}, ν = {poisson}{plane}{}", heat.unwrap_or_default());
-        let place = *places.entry(words.clone()).or_insert(of_materials.len());
-        if place == of_materials.len() {
-            of_materials.push((words, Vec::new()));
-        }
         let of = if body.has_parts() { format!("{}, part {}", body.name, part.name) } else { body.name.clone() };
-        of_materials[place].1.push(of);
-    }
-    let words = |(words, names): &(String, Vec<String>)| match names.len() {
-        count if count > MOST_TOLD => vec![format!("{count} bodies or parts ({}): {words}", listed(names))],
-        _ => names.iter().map(|name| format!("body {name}: {words}")).collect(),
+        (format!("E = {young}, ν = {poisson}{plane}{}", heat.unwrap_or_default()), of)
     };
-    of_materials.iter().flat_map(words).collect()
+    let all = bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)));
+    lines_alike(["body", "bodies or parts"], all.map(words)).into_iter().map(|(_, line)| line).collect()
 }
 
 /// What may be missing, as TOML to paste.

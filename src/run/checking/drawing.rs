@@ -269,11 +269,11 @@ fn lone_point(place: [f64; 2]) -> Rows {
     vec![vec![BoundaryPoint { place, normal: [0.0, -1.0], traction: [0.0; 2] }]]
 }
 
-/// A name and what is prescribed there.
-fn with_values(name: &str, components: &[(&str, Option<&Formula>)]) -> String {
+/// What is prescribed.
+fn values(components: &[(&str, Option<&Formula>)]) -> String {
     let value = |formula: &Formula| formula.as_constant().map_or_else(|| "…".into(), crate::run::checking::proposals::short);
     let given = components.iter().filter_map(|(key, formula)| Some(format!("{key} = {}", value((*formula)?))));
-    format!("{name}: {}", given.collect::<Vec<_>>().join(", "))
+    given.collect::<Vec<_>>().join(", ")
 }
 
 /// A support that prescribes displacements.
@@ -285,17 +285,18 @@ fn fixed_support(support: &Support, on: &dyn Fn(&[String]) -> Rows) -> DrawnSupp
         (None, Some(_), _) => Grip::Along([0.0, -1.0]),
         _ => Grip::Both,
     };
-    let name = with_values(name, &[("ux", ux.as_ref()), ("uy", uy.as_ref()), ("normal", normal.as_ref())]);
-    DrawnSupport { name, rows: at.as_ref().map_or_else(|| on(curves), |spot| lone_point(spot.place)), grip }
+    let words = values(&[("ux", ux.as_ref()), ("uy", uy.as_ref()), ("normal", normal.as_ref())]);
+    let rows = at.as_ref().map_or_else(|| on(curves), |spot| lone_point(spot.place));
+    DrawnSupport { name: name.clone(), words, rows, grip }
 }
 
 /// A support by springs.
 fn elastic_support(springs: &Springs, on: &dyn Fn(&[String]) -> Rows) -> DrawnSupport {
-    let stiffness = match &springs.stiffness {
-        SpringStiffness::Normal(normal) => with_values(&springs.name, &[("springs, normal", Some(normal))]),
-        SpringStiffness::Axes([x, y]) => with_values(&springs.name, &[("springs, x", x.as_ref()), ("springs, y", y.as_ref())]),
+    let words = match &springs.stiffness {
+        SpringStiffness::Normal(normal) => values(&[("springs, normal", Some(normal))]),
+        SpringStiffness::Axes([x, y]) => values(&[("springs, x", x.as_ref()), ("springs, y", y.as_ref())]),
     };
-    DrawnSupport { name: stiffness, rows: on(&springs.on), grip: Grip::Springs }
+    DrawnSupport { name: springs.name.clone(), words, rows: on(&springs.on), grip: Grip::Springs }
 }
 
 fn supports(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnSupport> {
@@ -304,8 +305,8 @@ fn supports(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Ve
         let body = mesh.bodies.iter().position(|name| *name == mean.body)?;
         let rows = lone_point(inside(mesh, &of_bodies[body]).into());
         let keys: Vec<&str> = mean.held.iter().map(|(key, ..)| *key).collect();
-        let name = format!("{}: mean {}", mean.name, keys.join(", "));
-        Some(DrawnSupport { name, rows, grip: Grip::Both })
+        let words = format!("mean {}", keys.join(", "));
+        Some(DrawnSupport { name: mean.name.clone(), words, rows, grip: Grip::Both })
     });
     let fixed = case.supports.iter().map(|support| fixed_support(support, on));
     fixed.chain(case.springs.iter().map(|springs| elastic_support(springs, on))).chain(held).collect()
@@ -322,11 +323,11 @@ fn surface_load(load: &Load, on: &dyn Fn(&[String]) -> Rows) -> DrawnLoad {
         };
         point.traction = point.traction.map(|part| if part.is_finite() { part } else { 0.0 });
     }
-    let name = match &load.kind {
-        LoadKind::Pressure(pressure) => with_values(&load.name, &[("pressure", Some(pressure))]),
-        LoadKind::Traction([x, y]) => with_values(&load.name, &[("tx", Some(x)), ("ty", Some(y))]),
+    let words = match &load.kind {
+        LoadKind::Pressure(pressure) => values(&[("pressure", Some(pressure))]),
+        LoadKind::Traction([x, y]) => values(&[("tx", Some(x)), ("ty", Some(y))]),
     };
-    DrawnLoad { name, rows, resultant: None, is_plate: false }
+    DrawnLoad { name: load.name.clone(), words, rows, resultant: None, is_plate: false }
 }
 
 /// Both components of a vector.
@@ -335,8 +336,9 @@ fn vector([x, y]: [f64; 2]) -> String {
 }
 
 fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnLoad> {
-    let arrow = |name: String, place: [f64; 2], along: [f64; 2]| DrawnLoad {
-        name,
+    let arrow = |name: &str, words: String, place: [f64; 2], along: [f64; 2]| DrawnLoad {
+        name: name.into(),
+        words,
         rows: Vec::new(),
         resultant: Some((place, along)),
         is_plate: false,
@@ -348,22 +350,22 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         DrawnLoad {
             rows,
             is_plate: true,
-            ..arrow(format!("{}: stiff plate, force {}", plate.name, vector([fx, fy])), middle, [fx, fy])
+            ..arrow(&plate.name, format!("stiff plate, force {}", vector([fx, fy])), middle, [fx, fy])
         }
     });
     let at_points = case.point_loads.iter().map(|load| {
         let place = load.at.place;
         DrawnLoad {
             rows: lone_point(place),
-            ..arrow(format!("{}: force {}", load.name, vector(load.force().into())), place, load.force().into())
+            ..arrow(&load.name, format!("force {}", vector(load.force().into())), place, load.force().into())
         }
     });
     let tools = case.tools.iter().filter_map(|tool| {
         let [fx, fy, _] = tool.motion.applied;
         let moved = [0, 1].map(|k| tool.motion.prescribed[k].unwrap_or(0.0));
         let along = if fx != 0.0 || fy != 0.0 { [fx, fy] } else { moved };
-        let name = format!("{}: {} {}", tool.key(), if along == moved { "moves" } else { "force" }, vector(along));
-        (along != [0.0; 2]).then(|| arrow(name, tool.motion.about.into(), along))
+        let words = format!("{} {}", if along == moved { "moves" } else { "force" }, vector(along));
+        (along != [0.0; 2]).then(|| arrow(tool.key(), words, tool.motion.about.into(), along))
     });
     let of_parts = triangles_of(mesh, mesh.parts.len(), |triangle| triangle.part);
     let weights = case.bodies.iter().flat_map(|body| &body.parts).filter_map(|part| {
@@ -371,7 +373,7 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         let place = inside(mesh, &of_parts[number]);
         let force = [0, 1].map(|k| part.force[k].value(&[place.x, place.y]));
         let acts = force.iter().all(|part| part.is_finite()) && force != [0.0; 2];
-        acts.then(|| arrow(format!("force in {}: {} for each volume", part.name, vector(force)), place.into(), force))
+        acts.then(|| arrow(&format!("force in {}", part.name), format!("{} for each volume", vector(force)), place.into(), force))
     });
     case.loads.iter().map(|load| surface_load(load, on)).chain(plates).chain(at_points).chain(tools).chain(weights).collect()
 }

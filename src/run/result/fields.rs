@@ -186,15 +186,15 @@ fn gather_facets(
         for DrawnNode { number, place, displacement } in shown.flatten() {
             values.extend(place);
             values.extend(displacement);
-            values.push(von_mises(stress(part, number)));
+            values.extend(stress(part, number));
         }
     }
-    let facet = |v: &[f64]| Facet {
-        corners: [[v[0], v[1]], [v[5], v[6]], [v[10], v[11]]],
-        displacement: [[v[2], v[3]], [v[7], v[8]], [v[12], v[13]]],
-        von_mises: [v[4], v[9], v[14]],
+    let facet = |corner: &[[f64; 8]; 3]| Facet {
+        corners: corner.map(|v| [v[0], v[1]]),
+        displacement: corner.map(|v| [v[2], v[3]]),
+        stress: corner.map(|v| [v[4], v[5], v[6], v[7]]),
     };
-    found.session.gather_all(&values).chunks_exact(15).map(facet).collect()
+    found.session.gather_all(&values).as_chunks::<8>().0.as_chunks::<3>().0.iter().map(facet).collect()
 }
 
 /// Those macro edges that are wanted for the figure of the deformed bodies, from all ranks; none of a mesh that it shows in part.

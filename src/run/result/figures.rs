@@ -5,7 +5,7 @@ use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::contact::{Configuration, Pair};
 use crate::discretisation::{Contact, Scene};
-use crate::element::Plane;
+use crate::element::{Plane, StressMeasure};
 use crate::mesh::MacroMesh;
 use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, DrawnPeak, Facet};
 use crate::output::summary::MOST_WITH_FIGURES;
@@ -83,6 +83,7 @@ impl Run<'_> {
         let drawn = if contacts.len() > MOST_WITH_FIGURES { &[][..] } else { &drawn };
         let figure = DeformedFigure {
             title: title(self.case),
+            measure: StressMeasure::VonMises,
             facets: &facets,
             macro_edges: &macro_edges,
             interfaces: &interfaces,
@@ -92,7 +93,10 @@ impl Run<'_> {
             has_axis,
             units: &summary.units,
         };
-        figure.write(&folder.join("deformed.svg"))?;
+        figure.write(&folder.join(plot::stress_file(figure.measure)))?;
+        for &measure in &self.case.output.figures {
+            DeformedFigure { measure, peaks: &[], ..figure }.write(&folder.join(plot::stress_file(measure)))?;
+        }
         adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation))
     }
 

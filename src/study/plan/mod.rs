@@ -1,5 +1,6 @@
 //! The study file: TOML text to a checked list of runs.
 
+mod asked_figure;
 mod moves;
 pub(super) mod planned;
 mod settings;
@@ -15,10 +16,11 @@ use toml::Value;
 use crate::case::error::{CaseError, dotted};
 use crate::case::overrides::{overridden, read_key};
 use crate::case::schema::STUDY;
-use crate::case::schema::study::{ALONG, CASES, COLUMNS, ERROR, RANKS, REPEAT, TIME, TIMEOUT};
+use crate::case::schema::study::{ALONG, CASES, COLUMNS, ERROR, FIGURE, RANKS, REPEAT, TIME, TIMEOUT};
 use crate::case::section::Section;
 use crate::case::{Case, name_of, read_text, values};
 
+use asked_figure::asked_columns;
 use moves::Moves;
 use planned::{PlannedCase, PlannedRun};
 use settings::{StudyCurve, read_curve, read_grid, read_set};
@@ -39,6 +41,8 @@ pub struct Plan {
     pub along: Vec<String>,
     /// What else is asked of `summary.json`.
     pub columns: Vec<SummaryPath>,
+    /// Names of the two or three columns of the figure that it asks for, or none.
+    pub figure: Vec<String>,
     /// Time limit of a run.
     pub timeout: Duration,
     /// In the order in which they are made.
@@ -84,6 +88,7 @@ impl Plan {
         let time = root.made("time", root.or(TIME), |value| SummaryPath::read(&value));
         let along = root.made("along", root.optional(ALONG), |value| values::one_or_each(&value, read_along));
         let columns = root.made("columns", root.optional(COLUMNS), |value| values::one_or_each(&value, SummaryPath::read));
+        let figure = root.optional(FIGURE).unwrap_or_default();
         let (common, grid, curves) = (read_set(root), read_grid(root), root.listed("curve", read_curve));
         let cases = cases?;
         let planned = find_cases(&cases, file, root);
@@ -95,6 +100,9 @@ impl Plan {
         if let Some(along) = along.iter().flatten().find(|along| !keys.contains(along)) {
             root.problem(&["along"], format!("{along} stands in no grid; take one of its keys"));
         }
+        let mut columns = columns.unwrap_or_default();
+        let others: Vec<SummaryPath> = errors.iter().flatten().chain(&time).cloned().collect();
+        let figure = asked_columns(root, &figure, &keys, &others, &mut columns);
         let (ranks, repeat, timeout) = (ranks?, repeat?, timeout?);
         let runs = moves.expand(&planned, &ranks, repeat, root)?;
         Some(Self {
@@ -103,7 +111,8 @@ impl Plan {
             errors: errors.unwrap_or_default(),
             time: time?,
             along: along.unwrap_or(vec!["mesh.refine".into()]),
-            columns: columns.unwrap_or_default(),
+            columns,
+            figure,
             timeout,
             runs,
         })

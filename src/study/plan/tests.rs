@@ -69,6 +69,28 @@ fn readers_ask_for_every_key_of_the_table() {
 }
 
 #[test]
+fn columns_of_a_figure_are_named_in_whole_or_by_their_last_part() {
+    let with = |figure: &str| {
+        let base = "cases = ['rings.toml']\nerror = 'errors.energy'\ncolumns = ['contact.seam.pressure_max']";
+        format!("{base}\nfigure = {figure}\n[grid]\n'body.a.young' = [1, 2]\n'accuracy.energy' = [1e-2]")
+    };
+    let plan = parse(&with("['young', 'pressure_max', 'accuracy.energy']")).unwrap();
+    assert_eq!(plan.figure, ["body.a.young", "contact.seam.pressure_max", "accuracy.energy"]);
+    assert_eq!(plan.columns.len(), 1);
+    let plan = parse(&with("['ranks', 'probe.tip.u.1']")).unwrap();
+    assert_eq!(
+        (plan.figure[1].as_str(), plan.columns[1].text.as_str()),
+        ("probe.tip.u.1", "probe.tip.u.1"),
+        "it becomes a column"
+    );
+    let refused = |figure: &str| only_error(&with(figure));
+    assert!(refused("['young', 'presure_max']").contains("there is no column presure_max; there are "));
+    assert!(refused("['young']").contains("two or three names of columns"));
+    assert!(refused("['young', 'young']").contains("twice"));
+    assert!(refused("['energy', 'unknowns']").contains("energy may be accuracy.energy or errors.energy; write out which"));
+}
+
+#[test]
 fn the_least_study_is_one_run() {
     let plan = parse("cases = ['rings.toml']").unwrap();
     let [run] = &plan.runs[..] else { panic!("{plan:?}") };

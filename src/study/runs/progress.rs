@@ -46,12 +46,15 @@ impl Progress {
     }
 
     /// The last lines: what is asked of the results and none has, how many runs ended how, and where the page is.
-    pub fn end(&self, plan: &Plan, results: &[Ended], page: &Path) {
+    pub fn end(&self, plan: &Plan, results: &[Ended], has_figure: bool, page: &Path) {
         for path in plan.errors.iter().chain([&plan.time]).chain(&plan.columns) {
             let has_summary = results.iter().any(Ended::has_result);
             if has_summary && results.iter().all(|ended| path.of(&ended.summary).is_null()) {
                 say(&format!("mezha: no run has a value at {} of its summary.json; is it spelt right?\n", path.text));
             }
+        }
+        if let ([x, y, ..], false) = (&plan.figure[..], has_figure) {
+            say(&format!("mezha: there is no figure of {y} against {x}: no run that converged has numbers of both\n"));
         }
         say(&format!("mezha: {}; {} in all; see {}\n", verdict(results), clock(self.started.elapsed()), page.display()));
     }

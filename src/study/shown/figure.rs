@@ -1,6 +1,6 @@
 //! The figures of a study: what an error costs, and lines as diagrams, one block for each case.
 
-use crate::output::plot::{Axis, Diagram, DiagramBlock, DiagramLine, LegendCell, Mark, diagrams, named_diagrams};
+use crate::output::plot::{Axis, Diagram, DiagramBlock, DiagramLine, LegendCell, Mark};
 use crate::study::plan::Plan;
 use crate::study::plan::summary_path::SummaryPath;
 use crate::study::table::fit::PowerLaw;
@@ -11,19 +11,19 @@ use crate::study::table::rows::once;
 /// What a diagram shows of the size of a run.
 const UNKNOWNS: &str = "unknowns N";
 
-/// The text of `study.svg`: for each case, time against the first error, or against unknowns without any; None if no line has
-/// two points.
-pub fn first_figure(plan: &Plan, lines: &[Line]) -> Option<String> {
-    named_diagrams(&by_case(lines).iter().map(|case| case.race(plan)).collect::<Vec<_>>())
+/// What `study.svg` has one below the other: for each case, time against the first error, or against unknowns without any; none if
+/// no line has two points.
+pub fn first_diagrams(plan: &Plan, lines: &[Line]) -> Vec<Diagram> {
+    by_case(lines).iter().map(|case| case.race(plan)).collect()
 }
 
-/// The text of `study_all.svg`: all diagrams of all cases; None if no line has two points.
-pub fn all_figures(plan: &Plan, lines: &[Line]) -> Option<String> {
+/// What `study_all.svg` has: all diagrams of each case; none if no line has two points.
+pub fn all_diagrams(plan: &Plan, lines: &[Line]) -> Vec<DiagramBlock> {
     let block = |case: &CaseLines| {
         let legend = case.lines.iter().map(|(style, line)| entry(plan, *style, line)).collect();
         DiagramBlock { title: case.title.clone(), legend, diagrams: case.diagrams(plan) }
     };
-    diagrams(&by_case(lines).iter().map(block).collect::<Vec<_>>())
+    by_case(lines).iter().map(block).collect()
 }
 
 /// The lines of each case, with styles by their names; none at all if no line has two points.

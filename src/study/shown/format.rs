@@ -125,7 +125,7 @@ impl Serialize for Row<'_> {
 }
 
 /// A value without the quotes of JSON; null is empty.
-fn plain(value: &Value) -> String {
+pub fn plain(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),

@@ -2,15 +2,32 @@
 
 use super::figure::law;
 use super::format::{Readable, about};
-use crate::output::markup::{document, escape, figure, list, paragraph, section, table as rows};
+use crate::output::markup::{document, escape, figure, grid, list, paragraph, section, table as rows};
+use crate::output::plot::{Diagram, DiagramBlock, diagrams, named_diagrams};
 use crate::study::table::fit::{FARTHEST, FITTED};
 use crate::study::table::lines::{Line, LinePoint};
 use crate::study::table::rows::Table;
+use std::slice::from_ref;
 
-/// The page, with the first figure and that of all diagrams, if there are any. It is well-formed XML too.
-pub fn html(table: &Table, lines: &[Line], [first, all]: [Option<&str>; 2]) -> String {
+/// The figures of a study.
+#[derive(Default)]
+pub struct Figures {
+    /// What it asks for, case by case.
+    pub asked: Vec<Diagram>,
+    /// What an error or a size costs, case by case.
+    pub first: Vec<Diagram>,
+    /// All diagrams, case by case.
+    pub all: Vec<DiagramBlock>,
+}
+
+/// The page, with the figures that there are, one for each case side by side. It is well-formed XML too.
+pub fn html(table: &Table, lines: &[Line], figures: &Figures) -> String {
     let mut sections = Vec::new();
-    if let Some(first) = first {
+    if !figures.asked.is_empty() {
+        let words = "What the study asks for. Hollow marks have a pressure that is not to be trusted.";
+        sections.extend([paragraph(words), grid(figures.asked.iter().filter_map(named))]);
+    }
+    if !figures.first.is_empty() {
         let words = match table.errors.first() {
             Some(error) => format!(
                 "What an error costs: {} against {error}, which becomes better to the right. Grey: the Pareto front. Hollow marks are not to be trusted; bars reach from the fastest to the slowest repeat.",
@@ -18,7 +35,7 @@ pub fn html(table: &Table, lines: &[Line], [first, all]: [Option<&str>; 2]) -> S
             ),
             None => format!("What a size costs: {} against displacement unknowns.", table.time),
         };
-        sections.push(figure(first, &words));
+        sections.extend([paragraph(&words), grid(figures.first.iter().filter_map(named))]);
     }
     for (number, error) in table.errors.iter().enumerate() {
         if lines.iter().flat_map(|line| &line.points).any(|point| point.front.contains(error)) {
@@ -27,22 +44,28 @@ pub fn html(table: &Table, lines: &[Line], [first, all]: [Option<&str>; 2]) -> S
             sections.push(front(table, lines, error));
         }
     }
-    if first.is_some() {
+    if !figures.first.is_empty() {
         sections.push(section("laws", "Orders and costs"));
         sections.push(paragraph(&format!(
             "N is the number of unknowns, h the edge length with h² ~ 1/N. Exponents are fitted through the {FITTED} points of a line with most unknowns. Where one of them is further from the fit than by a factor of {FARTHEST}, it is no power law."
         )));
         sections.push(laws(table, lines));
     }
-    if let Some(all) = all {
+    if !figures.all.is_empty() {
         sections.push(section("diagrams", "All diagrams"));
-        sections.push(figure(all, "Errors, times, iterations of all lines, case by case."));
+        let block = |block: &DiagramBlock| Some(figure(&diagrams(from_ref(block))?, &block.title));
+        sections.extend([paragraph("Errors, times, iterations of all lines."), grid(figures.all.iter().filter_map(block))]);
     }
     sections.push(section("runs", "All runs"));
     let readable = Readable::new(table);
     sections.push(rows(&readable.header, &readable.rows));
     let header = format!("<header>\n<p class=\"kind\">Study</p>\n<h1>{}</h1>\n</header>\n", escape(&table.study));
     document(&format!("Study {}", table.study), &format!("{header}{}{}", list(&about(table)), sections.concat()))
+}
+
+/// A diagram of one case.
+fn named(diagram: &Diagram) -> Option<String> {
+    Some(figure(&named_diagrams(from_ref(diagram))?, &diagram.title))
 }
 
 /// Orders and costs of all lines.
@@ -78,6 +101,7 @@ fn front(table: &Table, lines: &[Line], error: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::plot::{Axis, DiagramLine, Mark};
     use crate::study::table::fit::PowerLaw;
     use crate::study::table::repeats::Spread;
     use crate::study::table::rows::{Column, ColumnKind};
@@ -109,11 +133,23 @@ mod tests {
         let table = Table { study: "a < b".into(), errors: vec!["errors.energy".into()], ..Table::default() };
         let table =
             Table { columns: ["status", "reason", "repeat"].map(|name| Column::new(name, ColumnKind::Main)).to_vec(), ..table };
-        let page = html(&table, std::slice::from_ref(&line), [Some("<svg ></svg>\n"), Some("<svg x=\"1\"></svg>\n")]);
+        let diagram = |x: &str| Diagram {
+            x: Axis::logarithmic(x),
+            lines: vec![DiagramLine { marks: vec![Mark::at(1.0, 2.0, false)], ..DiagramLine::default() }],
+            ..Diagram::default()
+        };
+        let figures = Figures {
+            asked: ["young", "size"].map(diagram).to_vec(),
+            first: vec![diagram("errors")],
+            all: vec![DiagramBlock { diagrams: vec![diagram("unknowns")], ..DiagramBlock::default() }],
+        };
+        let page = html(&table, from_ref(&line), &figures);
         for words in [
             "<h1>a &lt; b</h1>",
-            "></svg>",
-            "x=\"1\"></svg>",
+            ">young<",
+            ">size<",
+            ">errors<",
+            ">unknowns<",
             "errors.energy, which becomes better",
             "P1 &amp; &lt;P0&gt;",
             "h^2.00",
@@ -123,7 +159,8 @@ mod tests {
             assert!(page.contains(words), "{words}: {page}");
         }
         assert_eq!(page.matches("runs/004").count(), 1, "one of both points is on the front");
-        let bare = html(&Table { errors: Vec::new(), ..table }, &[], [None; 2]);
+        assert_eq!((page.matches("<div class=\"grid\">").count(), page.matches("<figure>").count()), (3, 4), "{page}");
+        let bare = html(&Table { errors: Vec::new(), ..table }, &[], &Figures::default());
         assert!(!bare.contains("svg>") && !bare.contains("Pareto") && !bare.contains("Orders"), "{bare}");
     }
 }

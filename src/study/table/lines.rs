@@ -178,6 +178,7 @@ mod tests {
             time: SummaryPath::parse("time_s.total").unwrap(),
             along: vec!["mesh.refine".into()],
             columns: Vec::new(),
+            figure: Vec::new(),
             timeout: Duration::from_secs(1),
             runs: runs.flatten().collect(),
         }

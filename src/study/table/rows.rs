@@ -229,6 +229,7 @@ mod tests {
             time: SummaryPath::parse("time_s.total").unwrap(),
             along: vec!["mesh.refine".into()],
             columns: ["errors.energy", "probe.tip.u.1"].map(|path| SummaryPath::parse(path).unwrap()).to_vec(),
+            figure: Vec::new(),
             timeout: Duration::from_secs(1),
             runs: vec![run(1), run(2)],
         }

@@ -220,6 +220,8 @@ fn errors_of_solver_output_and_probes_name_key_value_and_remedy() {
         ("units.length=kilometres per h", "must have at most 12 letters, not 16"),
         ("units.forces=N", "unknown key; did you mean \"force\"?"),
         ("output.fields=no", "must be true or false, not of type string"),
+        ("output.figures=[\"sigma_1\", \"sigma_3\"]", "entry 2: must be \"sigma_1\" or \"sigma_2\" or \"tau_max\""),
+        ("output.figures=[\"sigma_tt\"]", "write \"sigma_xx\", and \"sigma_zz\" for the stress across the plane"),
         ("output.field=false", "unknown key; did you mean \"fields\"?"),
         ("probe.p.body=aa", "probe.p.body = \"aa\" (--set): no such body; did you mean \"a\"?"),
         ("probe.p.point=[0, nan]", "entry 2: must be a finite number"),

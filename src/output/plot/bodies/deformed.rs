@@ -6,6 +6,7 @@ use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, displaceme
 use super::moved::{CONTACT, moved_contact};
 use super::peaks::{DrawnPeak, draw_peaks};
 use super::stress::{BAR_ROOM, Colours, draw_colour_bar, draw_stress};
+use crate::element::StressMeasure;
 use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
 use crate::output::plot::drawing::{
@@ -45,8 +46,8 @@ const BETWEEN: Paint = Paint::line(WHITE, 1.2);
 /// Room for the plot.
 const ROOM: PlotRoom = PlotRoom { most: [640.0, 560.0], least: [320.0, 220.0], around: 0.0 };
 
-/// What `deformed.svg` shows: the deformed bodies coloured by von Mises stress, their undeformed outlines, and the contact
-/// boundaries.
+/// What `deformed.svg` and `field_sigma_1.svg` show: the deformed bodies coloured by a measure of the stress, their undeformed
+/// outlines, and the contact boundaries.
 ///
 /// Displacements are multiplied by a round number that makes the largest about 5 % of the size of the bodies, or by less where bodies
 /// that press would be drawn into each other. The title states it. Contact boundaries move along: normal to themselves by the mean of both bodies' normal displacements, along
@@ -55,6 +56,8 @@ const ROOM: PlotRoom = PlotRoom { most: [640.0, 560.0], least: [320.0, 220.0], a
 pub struct DeformedFigure<'a> {
     /// Stands above.
     pub title: &'a str,
+    /// What the colours are of.
+    pub measure: StressMeasure,
     /// All bodies.
     pub facets: &'a [Facet],
     /// Edges of the macro mesh, thin lines on the deformed bodies.
@@ -81,7 +84,8 @@ impl DeformedFigure<'_> {
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         let Self { facets, contacts, .. } = *self;
         check_facets(path, facets)?;
-        let (scale, colours, boundary) = (automatic_scale(facets, contacts), Colours::of(facets), boundary_edges(facets));
+        let (scale, colours, boundary) =
+            (automatic_scale(facets, contacts), Colours::of(facets, self.measure), boundary_edges(facets));
         let shown = around(facets, scale);
         let (mut canvas, chart) = plane(if self.has_axis { up_to_the_axis(shown) } else { shown }, self.has_axis, self.units);
         let largest = self.forces.iter().map(DrawnForce::size).fold(0.0, f64::max);
@@ -182,6 +186,7 @@ mod tests {
     use super::*;
     use crate::output::data::ContactPoint;
     use crate::output::plot::bodies::samples::block;
+    use crate::output::plot::drawing::{diverging, viridis};
 
     fn drawn(points: &[ContactPoint]) -> DrawnContact<'_> {
         DrawnContact { title: "blocks", bodies: ["left", "right"], points, is_deformed: false, units: Default::default() }
@@ -289,12 +294,33 @@ mod tests {
         }
     }
 
+    /// A bar pulled by 2 at its left and pushed by 1 at its right: colours of both signs, and as strong as their values are large.
+    #[test]
+    fn stress_with_a_sign_has_two_colours_and_light_for_zero() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("field.svg");
+        let facets = block(0.0, 30, |_, _| [0.0, 0.0], |x, _| 2.0 - 3.0 * x);
+        let figure = DeformedFigure { measure: StressMeasure::Xx, facets: &facets, ..DeformedFigure::default() };
+        figure.write(&path).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let has = |value: f64| text.contains(&format!("<path fill=\"{}\"", diverging(value)));
+        let levels = (0..40).map(|level| (-1.0 + (f64::from(level) + 0.5) / 40.0 * 3.0) / 2.0);
+        assert!(levels.clone().all(has) && !has(-1.0) && levels.count() == 40, "{text}");
+        assert!(
+            [">−1.0<", ">0.0<", ">2.0<", ">stress σ xx [unit of stress]<"].iter().all(|words| text.contains(words)),
+            "{text}"
+        );
+        DeformedFigure { measure: StressMeasure::Shear, ..figure }.write(&path).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains("largest shear stress τ") && !text.contains(">−") && text.contains(&viridis(1.0).to_string()));
+    }
+
     #[test]
     fn peaks_of_stress_take_the_last_colour() {
         let mut facets = block(0.0, 20, |_, _| [0.0, 0.0], |_, _| 2.0);
-        facets[0].von_mises = [100.0; 3];
+        facets[0].stress = [[100.0, 0.0, 0.0, 0.0]; 3];
         assert!(draw(&facets).unwrap().contains("stress up to 100"));
-        facets[0].von_mises[1] = f64::NAN;
+        facets[0].stress[1][2] = f64::NAN;
         assert!(matches!(draw(&facets), Err(OutputError::Figure { .. })));
         assert!(matches!(draw(&[]), Err(OutputError::Figure { .. })));
     }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::element::StressMeasure;
 use crate::output::error::OutputError;
 use crate::output::plot::drawing::{Canvas, Chart, Colour, Paint, bounds, loops, path_data, tenths, unmatched};
 
@@ -12,11 +13,16 @@ pub struct Facet {
     pub corners: [[f64; 2]; 3],
     /// Their displacements.
     pub displacement: [[f64; 2]; 3],
-    /// Von Mises stress at the corners.
-    pub von_mises: [f64; 3],
+    /// Stress (xx, yy, xy, zz) at the corners.
+    pub stress: [[f64; 4]; 3],
 }
 
 impl Facet {
+    /// A measure of the stress at the corners.
+    pub fn values(&self, measure: StressMeasure) -> [f64; 3] {
+        self.stress.map(|stress| measure.of(stress))
+    }
+
     /// Its corners with their displacements.
     pub fn deformed(&self, scale: f64) -> [[f64; 2]; 3] {
         std::array::from_fn(|k| [0, 1].map(|axis| self.corners[k][axis] + scale * self.displacement[k][axis]))
@@ -27,7 +33,7 @@ impl Facet {
 pub fn check_facets(path: &Path, facets: &[Facet]) -> Result<(), OutputError> {
     let finite = |facet: &Facet| {
         let numbers = facet.corners.iter().chain(&facet.displacement).flatten();
-        numbers.chain(&facet.von_mises).all(|number| number.is_finite())
+        numbers.chain(facet.stress.as_flattened()).all(|number| number.is_finite())
     };
     let reason = match facets {
         [] => "there is no triangle",

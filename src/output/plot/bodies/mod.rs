@@ -12,4 +12,5 @@ mod zoom;
 pub use deformed::{DeformedFigure, DrawnEdge, DrawnForce};
 pub use facets::Facet;
 pub use peaks::DrawnPeak;
+pub use stress::stress_file;
 pub use zoom::{ContactZoom, write_zoom};

@@ -6,6 +6,7 @@ use super::deformed::plane;
 use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, draw_outlines};
 use super::moved::{CONTACT, moved_contact, moved_point, some_of};
 use super::stress::{Colours, draw_colour_bar, draw_stress};
+use crate::element::StressMeasure;
 use crate::output::data::ContactPoint;
 use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
@@ -82,7 +83,7 @@ pub fn write_zoom(
     has_axis: bool,
 ) -> Result<(), OutputError> {
     check_facets(path, facets)?;
-    let (colours, boundary) = (Colours::of(facets), boundary_edges(facets));
+    let (colours, boundary) = (Colours::of(facets, StressMeasure::VonMises), boundary_edges(facets));
     let (mut canvas, chart) = plane(zoom.frame, has_axis, contact.units);
     let (profile, largest) = profile(zoom, contact, &boundary);
     let [from, to] = zoom.interval.map(number_text);
@@ -97,7 +98,7 @@ pub fn write_zoom(
     ];
     legend.extend(colours.remark(contact.units.stress()));
     chart.draw_head(&mut canvas, &title, &[legend]);
-    canvas.within(chart.frame, |canvas| {
+    canvas.within(chart.frame, "", |canvas| {
         draw_stress(canvas, &chart, facets, 1.0, &colours);
         draw_outlines(canvas, &chart, &boundary, 1.0, INK);
         let whole = moved_contact(contact, &boundary, 1.0);

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::output::data::ContactPoint;
 use crate::output::error::OutputError;
 use crate::output::plot::drawing::{
-    BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text,
+    BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text, widened,
 };
 use crate::output::units::{Unit, Units};
 
@@ -103,7 +103,7 @@ impl AlongFigure<'_> {
         let legend = self.curves.iter().map(|curve| LegendCell::lines(curve.name.as_str(), &[curve.paint()]));
         chart.draw_head(&mut canvas, title, &[legend.chain(remark.map(LegendCell::words)).collect()]);
         chart.draw_axes(&mut canvas, true);
-        canvas.within(chart.frame, |canvas| {
+        chart.within(&mut canvas, |canvas| {
             if crosses_zero {
                 canvas.line(Paint::line(GREY, 0.8), chart.level(0.0));
             }
@@ -131,7 +131,7 @@ impl DrawnCurve {
         canvas.lines(Paint::line(self.colour, 0.6).faint(0.45), shown);
         let column = (places[places.len() - 1][0] - places[0][0]) / COLUMNS;
         let runs = places.chunk_by(continuous).filter(|run| run[0][1].is_finite());
-        canvas.lines(self.paint(), runs.map(|run| placed(thinned(run, column))));
+        canvas.named(&self.name, |canvas| canvas.lines(self.paint(), runs.map(|run| placed(thinned(run, column)))));
     }
 }
 
@@ -173,13 +173,6 @@ fn cut_peaks([low, high]: [f64; 2], points: &[ContactPoint], curves: &[DrawnCurv
     }
     let remark = format!("peaks cut off; full range {} … {}", number_text(low), number_text(high));
     ([bottom, top], Some(remark))
-}
-
-/// A range with some room on both sides; a single value becomes a range around it.
-fn widened([low, high]: [f64; 2], fraction: f64) -> [f64; 2] {
-    let size = high - low;
-    let room = if size > 1e-12 * low.abs().max(high.abs()) { fraction * size } else { low.abs().max(high.abs()).max(1e-12) };
-    [low - room, high + room]
 }
 
 #[cfg(test)]
@@ -227,6 +220,26 @@ mod tests {
         assert!(!figure.contains(['\u{1}', '\u{1b}']), "what XML cannot hold is left out");
         assert!(!figure.contains("peaks"));
         assert!(figure.contains("−σ of &lt;lower&gt;") && figure.contains("−σ of upper"));
+    }
+
+    /// What the script of a page reads: the axes of the plot with their units, and each curve in a path with its name.
+    #[test]
+    fn a_diagram_tells_its_axes_and_the_names_of_its_curves() {
+        let folder = tempfile::tempdir().unwrap();
+        let units = Units::new(Some("mm"), Some("N"), false);
+        let (points, bodies) = (stepped(2.0), ["<lower>", "upper"]);
+        let contact = DrawnContact { title: "bars", bodies, points: &points, is_deformed: false, units: &units };
+        write_along(folder.path(), "seam", &contact).unwrap();
+        let figure = std::fs::read_to_string(folder.path().join("pressure_seam.svg")).unwrap();
+        assert_eq!(figure.matches(" data-x=\"0 2 mm\" data-y=\"-0.1 2.1 MPa\">").count(), 1, "{figure}");
+        let names = ["−σ of upper", "−σ of &lt;lower&gt;", "contact pressure λ"];
+        let groups: Vec<&str> = figure.split("<g data-name=\"").skip(1).collect();
+        assert_eq!(groups.len(), names.len());
+        for (group, name) in groups.iter().zip(names) {
+            let path = group.strip_prefix(name).and_then(|rest| rest.strip_prefix("\">\n<path "));
+            let runs = path.and_then(|path| path.split_once("</g>")).map(|(path, _)| path.matches('M').count());
+            assert_eq!(runs, Some(2), "{name}: {group}");
+        }
     }
 
     #[test]

@@ -89,14 +89,21 @@ impl Canvas {
         }
     }
 
-    /// What is drawn by `draw`, without those parts that lie outside a box.
-    pub fn within(&mut self, frame: Frame, draw: impl FnOnce(&mut Self)) {
+    /// What is drawn by `draw`, without those parts that lie outside a box, which has these further attributes.
+    pub fn within(&mut self, frame: Frame, attributes: &str, draw: impl FnOnce(&mut Self)) {
         let Frame([left, top, right, bottom]) = frame;
         let shown = [left, top, right - left, bottom - top].map(|side| format!("{:.0}", 10.0 * side)).join(" ");
         // An element of its own cuts off, without a name that other figures of a page might have, too.
-        self.add(format_args!("<svg {} viewBox=\"{shown}\">", sides(frame)));
+        self.add(format_args!("<svg {} viewBox=\"{shown}\"{attributes}>", sides(frame)));
         draw(self);
         self.add(format_args!("</svg>"));
+    }
+
+    /// What is drawn by `draw`, with a name by which scripts find it.
+    pub fn named(&mut self, name: &str, draw: impl FnOnce(&mut Self)) {
+        self.add(format_args!("<g data-name=\"{}\">", escape(name)));
+        draw(self);
+        self.add(format_args!("</g>"));
     }
 
     /// The text of an SVG file.

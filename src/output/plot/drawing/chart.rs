@@ -40,7 +40,7 @@ pub struct Chart {
     x: Scale,
     y: Scale,
     /// Whether the line x = 0 is the axis of bodies of revolution.
-    has_axis: bool,
+    pub has_axis: bool,
 }
 
 impl Chart {
@@ -76,6 +76,11 @@ impl Chart {
     /// A horizontal line through the plot at a value.
     pub fn level(&self, y: f64) -> [[f64; 2]; 2] {
         self.x.range.map(|x| self.place([x, y]))
+    }
+
+    /// What is drawn by `draw`, without those parts that lie outside the plot, which tells scripts what its linear axes are.
+    pub fn within(&self, canvas: &mut Canvas, draw: impl FnOnce(&mut Canvas)) {
+        canvas.within(self.frame, &format!(" data-x=\"{}\" data-y=\"{}\"", self.x.told(), self.y.told()), draw);
     }
 
     /// Draws title and legend above the plot.

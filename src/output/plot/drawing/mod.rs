@@ -21,6 +21,6 @@ pub use legend::{LegendCell, draw_mark, style_colour};
 pub use letters::{Letters, TextAnchor, text_width};
 pub use names::{Name, PlacedNames, Wish};
 pub use outline::{edges_around, loops, merged, path_data, tenths, unmatched};
-pub use paint::{BLUE, Colour, GREEN, GREY, INK, LINES, Paint, VERMILION, WHITE, viridis};
-pub use scale::{Axis, Scale};
+pub use paint::{BLUE, Colour, GREEN, GREY, INK, LINES, Paint, VERMILION, WHITE, diverging, viridis};
+pub use scale::{Axis, Scale, widened};
 pub use ticks::{cut_off, number_text, number_to, round_number};

@@ -38,13 +38,26 @@ const VIRIDIS: [[u8; 3]; 9] = [
     [253, 231, 37],
 ];
 
+/// Blue and vermilion of Okabe and Ito between a light middle and dark ends.
+const DIVERGING: [[u8; 3]; 5] = [[0, 36, 84], [0, 114, 178], [242, 242, 242], [213, 94, 0], [92, 24, 0]];
+
 /// Viridis at a fraction of its range; fractions outside 0 to 1 take the colour of the nearest end.
 pub fn viridis(fraction: f64) -> Colour {
-    let place = fraction.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
-    let below = (place as usize).min(VIRIDIS.len() - 2);
+    between(&VIRIDIS, fraction)
+}
+
+/// Blue for −1, light for 0, vermilion for 1.
+pub fn diverging(value: f64) -> Colour {
+    between(&DIVERGING, 0.5 + 0.5 * value)
+}
+
+/// The colour at a fraction of a range of equally spaced ones.
+fn between(colours: &[[u8; 3]], fraction: f64) -> Colour {
+    let place = fraction.clamp(0.0, 1.0) * (colours.len() - 1) as f64;
+    let below = (place as usize).min(colours.len() - 2);
     let weight = place - below as f64;
     let mixed = |channel: usize| {
-        let [low, high] = [VIRIDIS[below][channel], VIRIDIS[below + 1][channel]].map(f64::from);
+        let [low, high] = [colours[below][channel], colours[below + 1][channel]].map(f64::from);
         (low + weight * (high - low)).round() as u8
     };
     Colour(mixed(0), mixed(1), mixed(2))
@@ -118,8 +131,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn viridis_brightens_from_end_to_end() {
+    fn viridis_brightens_from_end_to_end_and_diverging_colours_to_zero() {
         let luminance = |Colour(r, g, b)| 0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b);
+        let side = |sign: f64| (0..=16).map(|level| luminance(diverging(sign * f64::from(level) / 16.0))).collect::<Vec<_>>();
+        assert!([1.0, -1.0].iter().all(|sign| side(*sign).windows(2).all(|pair| pair[0] > pair[1])));
+        assert_eq!([-9.0, -0.5, 0.5].map(diverging), [Colour(0, 36, 84), BLUE, VERMILION]);
         let values: Vec<f64> = (0..=32).map(|level| luminance(viridis(f64::from(level) / 32.0))).collect();
         assert!(values.windows(2).all(|pair| pair[0] < pair[1]));
         assert_eq!(viridis(-1.0), viridis(0.0));

@@ -2,6 +2,7 @@
 
 use super::letters::text_width;
 use super::ticks::Ticks;
+use crate::output::markup::escape;
 use crate::output::units::Unit;
 
 /// Size of the labels of ticks (pixels).
@@ -20,12 +21,14 @@ pub struct Axis {
     pub logarithmic: bool,
     /// Whether it runs from large values to small ones: errors become better to the right.
     pub falling: bool,
+    /// Whether a linear one does not begin at zero, but fits what is drawn.
+    pub fits: bool,
 }
 
 impl Axis {
     /// A logarithmic axis.
     pub fn logarithmic(name: impl Into<String>) -> Self {
-        Self { name: name.into(), logarithmic: true, falling: false }
+        Self { name: name.into(), logarithmic: true, ..Self::default() }
     }
 
     /// Whether it can show a value.
@@ -42,13 +45,14 @@ impl Axis {
             let range = [low / room, high * room];
             (range, Ticks::decades(range, 7))
         } else {
-            let range = [0.0, if high > 0.0 { 1.12 * high } else { 1.0 }];
+            let whole = if self.fits { widened([low, high], 0.06) } else { [0.0, 1.12 * high] };
+            let range = if self.fits || high > 0.0 { whole } else { [0.0, 1.0] };
             (range, Ticks::new(range, 6))
         };
         if self.falling {
             range.reverse();
         }
-        Scale { is_logarithmic: self.logarithmic, range, ticks, name: self.name.clone() }
+        Scale { is_logarithmic: self.logarithmic, range, ticks, name: self.name.clone(), after: String::new() }
     }
 }
 
@@ -61,13 +65,15 @@ pub struct Scale {
     /// Whether equal ratios of values are equal distances, instead of equal differences; all are positive then.
     is_logarithmic: bool,
     ticks: Ticks,
+    /// What stands after its numbers.
+    after: String,
 }
 
 impl Scale {
     /// A linear axis with about so many ticks, named by a quantity and its unit.
     pub fn linear(range: [f64; 2], ticks: usize, name: &str, unit: Unit) -> Self {
         let ticks = Ticks::new(range, ticks);
-        Self { is_logarithmic: false, name: format!("{name} [{}]", ticks.unit(unit)), range, ticks }
+        Self { is_logarithmic: false, name: format!("{name} [{}]", ticks.unit(unit)), range, ticks, after: unit.after() }
     }
 
     /// Where a value is, as a share of the way from the first to the last one.
@@ -81,11 +87,24 @@ impl Scale {
         self.ticks.labels.iter().map(|(value, label)| (self.share(*value), label.as_str())).collect()
     }
 
+    /// Its first and last value and its unit, for scripts.
+    pub fn told(&self) -> String {
+        let [first, last] = self.range;
+        escape(&format!("{first} {last}{}", self.after))
+    }
+
     /// Room that it takes at the left of a plot if it is vertical (pixels): its name, its widest label, its ticks.
     pub fn room(&self) -> f64 {
         let widths = self.ticks().into_iter().map(|(_, label)| text_width(label, LABEL));
         (BESIDE + widths.fold(0.0, f64::max)).ceil().max(LEAST_BESIDE)
     }
+}
+
+/// A range with some room on both sides, by this share of it; a single value becomes a range around it.
+pub fn widened([low, high]: [f64; 2], fraction: f64) -> [f64; 2] {
+    let size = high - low;
+    let room = if size > 1e-12 * low.abs().max(high.abs()) { fraction * size } else { low.abs().max(high.abs()).max(1e-12) };
+    [low - room, high + room]
 }
 
 #[cfg(test)]
@@ -97,6 +116,14 @@ mod tests {
         let axis = Axis::logarithmic("").around([1.0, 100.0].into_iter());
         let place = |value: f64| axis.share(value);
         assert!((place(100.0) - 2.0 * place(10.0) + place(1.0)).abs() < 1e-12 && place(1.0) > 0.0 && place(100.0) < 1.0);
+    }
+
+    #[test]
+    fn an_axis_that_fits_does_not_begin_at_zero() {
+        let around = |fits| Axis { fits, ..Axis::default() }.around([-3.0, 97.0].into_iter()).range;
+        assert!(around(true) == [-9.0, 103.0] && around(false)[0] == 0.0);
+        let [low, high] = Axis { fits: true, ..Axis::default() }.around([5.0].into_iter()).range;
+        assert!(low < 5.0 && high > 5.0, "one value is inside");
     }
 
     #[test]

@@ -44,7 +44,7 @@ impl Ticks {
         let inside = |value: &f64| *value >= range[0] * (1.0 - 1e-9) && *value <= range[1] * (1.0 + 1e-9);
         let mut values: Vec<f64> = values.filter(inside).collect();
         if decades < 1.0 && values.len() < FEW {
-            values = multiples(range, count).1;
+            values = multiples(range, count.min(FEW + 1)).1;
         }
         let label = |value: f64| if has_powers { power_of_ten(value.log10().round() as i32) } else { number_text(value) };
         Ticks { labels: values.into_iter().map(|value| (value, label(value))).collect(), exponent: 0 }

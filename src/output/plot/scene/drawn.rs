@@ -45,8 +45,10 @@ pub enum Grip {
 /// A support.
 #[derive(Clone, Debug)]
 pub struct DrawnSupport {
-    /// Its name and what it prescribes.
+    /// Its name.
     pub name: String,
+    /// What it prescribes.
+    pub words: String,
     /// Where it stands.
     pub rows: Rows,
     /// What it holds.
@@ -58,6 +60,8 @@ pub struct DrawnSupport {
 pub struct DrawnLoad {
     /// Its name.
     pub name: String,
+    /// What it is.
+    pub words: String,
     /// Where it acts, with tractions there.
     pub rows: Rows,
     /// A resultant instead, of a stiff plate, a point or a body: where, and its direction.

@@ -1,9 +1,10 @@
 //! Names of what a scene shows.
 
-use super::drawn::{DrawnLoad, DrawnPart, NamedRows, Rows, SceneFigure};
+use super::drawn::{DrawnLoad, DrawnPart, DrawnSupport, NamedRows, Rows, SceneFigure};
 use super::loads::RESULTANT;
 use super::scene_plot::{MOST_NAMES, ScenePlot, contact_colour, flipped, size_of_marks};
 use crate::output::plot::drawing::{Colour, GREEN, GREY, INK, Letters, Name, Paint, TextAnchor, VERMILION, Wish};
+use crate::output::summary::{MOST_TOLD, alike};
 
 /// Of more things than can be named about so many are.
 const FEW_NAMES: usize = 6;
@@ -13,7 +14,7 @@ type WantedName = (String, Colour, [f64; 2], Wish);
 
 impl ScenePlot {
     /// Names: of bodies first, then of what was asked for, then of all boundaries, whose ends are marked.
-    pub fn names(&mut self, figure: &SceneFigure) {
+    pub fn names(&mut self, figure: &SceneFigure, has_list: bool) {
         let radius = 1.8 * size_of_marks(figure.boundaries.len());
         for row in figure.boundaries.iter().flat_map(|boundary| &boundary.rows) {
             for end in [row.first(), row.last()].into_iter().flatten() {
@@ -28,18 +29,22 @@ impl ScenePlot {
         let of_contact = |(number, contact): (usize, &NamedRows)| {
             let place = contact.place.map(|point| (self.chart.place(point.place), flipped(point.normal)));
             let (anchor, [x, y]) = place.or_else(|| self.middle(&contact.rows, 0.5))?;
-            Some((format!("contact {}", contact.name), contact_colour(number), anchor, Wish::Towards([-x, -y])))
+            let name = if has_list { (number + 1).to_string() } else { format!("contact {}", contact.name) };
+            Some((name, contact_colour(number), anchor, Wish::Towards([-x, -y])))
         };
-        let of_load = |load: &DrawnLoad| {
+        let of_support = |(name, support): (String, &DrawnSupport)| beside(&name, GREEN, &support.rows, 0.5);
+        let of_load = |(name, load): (String, &DrawnLoad)| {
             let at = |place: [f64; 2]| self.labels.within(self.chart.place(place), RESULTANT);
-            let resultant = || Some((load.name.clone(), VERMILION, at(load.resultant?.0), Wish::Towards([1.0, 0.0])));
-            beside(&load.name, VERMILION, &load.rows, 0.5).or_else(resultant)
+            let resultant = || Some((name.clone(), VERMILION, at(load.resultant?.0), Wish::Towards([1.0, 0.0])));
+            beside(&name, VERMILION, &load.rows, 0.5).or_else(resultant)
         };
+        let supports = once_each("supports", figure.supports.iter().map(|one| (&one.name, &one.words, one)));
+        let loads = once_each("loads", figure.loads.iter().map(|one| (&one.name, &one.words, one)));
         let wanted: [(&str, f64, Vec<Option<WantedName>>); 5] = [
             ("bodies", 14.0, figure.parts.iter().map(of_part).collect()),
             ("contacts", 12.0, figure.contacts.iter().enumerate().map(of_contact).collect()),
-            ("supports", 11.0, figure.supports.iter().map(|one| beside(&one.name, GREEN, &one.rows, 0.5)).collect()),
-            ("loads", 11.0, figure.loads.iter().map(of_load).collect()),
+            ("supports", 11.0, supports.into_iter().map(of_support).collect()),
+            ("loads", 11.0, loads.into_iter().map(of_load).collect()),
             ("boundaries", 11.0, figure.boundaries.iter().map(|one| beside(&one.name, GREY, &one.rows, 0.3)).collect()),
         ];
         let counts = wanted.into_iter().filter_map(|(kind, size, names)| self.named(&names, kind, size));
@@ -62,4 +67,13 @@ impl ScenePlot {
         }
         (count < all.len()).then(|| format!("{count} of {} {kind}", all.len()))
     }
+}
+
+/// Things with their labels: name and words, or words once for many of which the same is said, beside the first of them.
+fn once_each<'a, T>(kind: &str, all: impl Iterator<Item = (&'a String, &'a String, &'a T)>) -> Vec<(String, &'a T)> {
+    let label = |(words, own): (String, Vec<(&String, &'a T)>)| match own.len() {
+        count if count > MOST_TOLD => vec![(format!("{count} {kind}: {words}"), own[0].1)],
+        _ => own.iter().map(|(name, one)| (format!("{name}: {words}"), *one)).collect(),
+    };
+    alike(all.map(|(name, words, one)| (words.clone(), (name, one)))).into_iter().flat_map(label).collect()
 }

@@ -42,7 +42,7 @@ impl ScenePlot {
         let place = |points: &Vec<[f64; 2]>| points.iter().map(|x| chart.place(*x)).collect::<Vec<_>>();
         let outline = |part: &DrawnPart| merged(part.triangles.iter().flat_map(|points| edges_around(place(points))));
         let outlines: Vec<String> = figure.parts.iter().map(outline).collect();
-        self.canvas.within(chart.frame, |canvas| {
+        self.canvas.within(chart.frame, "", |canvas| {
             for (number, (part, data)) in figure.parts.iter().zip(&outlines).enumerate() {
                 let filling = Paint::fill(LINES[number % LINES.len()]).faint(FILLING);
                 canvas.path(if part.is_rigid { RIGID } else { filling }, data);

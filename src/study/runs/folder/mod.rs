@@ -14,7 +14,8 @@ use crate::study::runs::ended::Ended;
 use crate::study::runs::record::{Identity, Record};
 
 /// What a whole study leaves, but for the runs; the last one is of older versions, which called the page so.
-const TABLES: [&str; 7] = ["study.csv", "study.json", "study.md", "study.svg", "study_all.svg", "report.html", "study.html"];
+const TABLES: [&str; 8] =
+    ["study.csv", "study.json", "study.md", "study_figure.svg", "study.svg", "study_all.svg", "report.html", "study.html"];
 const RUNS: &str = "runs";
 /// Held by the program, and by the run that it has started, as long as one of them lives.
 const LOCK: &str = ".lock";
