@@ -158,7 +158,7 @@ mod tests {
         assert!(rungs[0].is_short() && !ladder(TwoSteps, MILLION, false, NOTHING)[0].is_short());
         assert_eq!([10.0, 27.0].map(|needed| next(&rungs, needed)), [Some(("gmres", Sweep)), Some(("fgmres", TwoSteps))]);
         let bordered = ladder(Sweep, MILLION, true, NOTHING);
-        assert_eq!([27.0, 61.0].map(|needed| next(&bordered, needed)), [Some(("gmres", Sweep)), Some(("fgmres", TwoSteps))]);
+        assert_eq!([27.0, 101.0].map(|needed| next(&bordered, needed)), [Some(("gmres", Sweep)), Some(("fgmres", TwoSteps))]);
         assert!(bordered.iter().all(|rung| rung.trial == OF_MOTIONS));
     }
 
