@@ -15,7 +15,7 @@ use crate::discretisation::{
 };
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, Numbering, Partition, lattice};
-use crate::procedure::one_mesh::wide_contact::{FoundByProgramme, narrowed, wide_contacts, with_touch};
+use crate::procedure::one_mesh::wide_contact::{Fineness, FoundByProgramme, WideContact, narrowed, wide_contacts, with_touch};
 use crate::procedure::sequence::LoadedPlace;
 use crate::procedure::settings::Procedure;
 use crate::programme::{Prediction, Predictor};
@@ -54,21 +54,22 @@ impl Procedure<'_> {
         }
         let whole = on_one_rank(&scene);
         let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
-        let wide = wide_contacts(&whole, &numbering)?;
-        let drawn: Vec<Contact> = wide.iter().map(|wide| wide.contact.clone()).collect();
+        let wide = wide_contacts(&whole, &numbering, Fineness::Graded)?;
+        let drawn = contacts_of(&wide);
         let free = not_held_if_closed(&whole, &numbering, &drawn);
         if let Some(words) = self.session.agree(free).map_err(SystemError::Case)? {
             return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
         }
         let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
         let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
-        let mut found = match self.shared(predictor.as_ref(), &drawn, numbering.node_count())? {
-            Ok(found) => found,
+        let (wide, mut found) = match self.held(predictor.as_ref(), &whole, &numbering, wide)? {
+            Ok(held) => held,
             Err(Prediction::Driven { words, .. }) => {
                 return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
             }
             Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
         };
+        let drawn = contacts_of(&wide);
         let pressing = active(&drawn, &found);
         let largest = wide.iter().map(|wide| wide.force(&found.pressures)).fold(0.0, f64::max);
         let least = share_of_nothing(self.accuracy) * largest;
@@ -126,8 +127,8 @@ impl Procedure<'_> {
     pub(crate) fn loaded_places(&self, scene: &Scene) -> Result<Option<Vec<LoadedPlace>>, SystemError> {
         let whole = on_one_rank(scene);
         let numbering = finest_numbering(&whole)?;
-        let wide = wide_contacts(&whole, &numbering)?;
-        let drawn: Vec<Contact> = wide.iter().map(|wide| wide.contact.clone()).collect();
+        let wide = wide_contacts(&whole, &numbering, Fineness::Graded)?;
+        let drawn = contacts_of(&wide);
         if work_of_programme(scene, numbering.level, &drawn) > MOST_WORK {
             return Ok(None);
         }
@@ -137,6 +138,24 @@ impl Procedure<'_> {
         let places =
             |found: FoundByProgramme| wide.iter().enumerate().map(|(at, wide)| wide.loaded(at, &found.pressures)).collect();
         Ok(found.map(places))
+    }
+
+    /// What the programme says of these contacts, with them. A body that they let go is asked for again on fine segments: one long
+    /// segment pushes along its mean normal alone, and a roller that climbs to the end of its seat needs that of the end. **Collective**
+    fn held(
+        &self,
+        predictor: Option<&Predictor>,
+        whole: &Scene,
+        numbering: &Numbering,
+        wide: Vec<WideContact>,
+    ) -> Result<Result<(Vec<WideContact>, FoundByProgramme), Prediction>, SystemError> {
+        match self.shared(predictor, &contacts_of(&wide), numbering.node_count())? {
+            Err(Prediction::Driven { .. }) => {}
+            other => return Ok(other.map(|found| (wide, found))),
+        }
+        let fine = wide_contacts(whole, numbering, Fineness::Fine)?;
+        let found = self.shared(predictor, &contacts_of(&fine), numbering.node_count())?;
+        Ok(found.map(|found| (fine, found)))
     }
 
     /// Words for a body that has to turn before contacts which lie there hold it; nothing if none has. **Collective**
@@ -188,6 +207,11 @@ impl Procedure<'_> {
         let (pressures, gaps) = multipliers.split_at(count);
         Ok(Ok(FoundByProgramme { displacement, pressures: pressures.to_vec(), gaps: gaps.to_vec() }))
     }
+}
+
+/// The contacts alone.
+fn contacts_of(wide: &[WideContact]) -> Vec<Contact> {
+    wide.iter().map(|wide| wide.contact.clone()).collect()
 }
 
 /// Operations of the programme on a mesh, roughly: the factor of each body, and a solve with it for each multiplier that it sees.

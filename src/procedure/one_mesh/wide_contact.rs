@@ -10,6 +10,9 @@ use crate::procedure::sequence::LoadedPlace;
 /// Segments of the programme where no place is known to touch first.
 const EVEN: usize = 16;
 
+/// Segments, at least, where the programme is asked again: those of a quarter of a circle turn by less than three degrees each.
+const FINE: usize = 32;
+
 /// The shortest segment of the programme as a share of the contact, on either side of the place that touches first, and how segments
 /// grow from there. Its mean gap is that of s²/2R over a thousandth of R: less than what bodies of E = 1000 p bulge by.
 const SHORTEST: f64 = 2e-3;
@@ -82,11 +85,20 @@ impl WideContact {
     }
 }
 
+/// How the programme cuts a contact.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fineness {
+    /// By segments that grow from where the sides touch first.
+    Graded,
+    /// By these, none longer than a small share of the contact.
+    Fine,
+}
+
 /// Contacts of undeformed bodies as the programme has them.
-pub(crate) fn wide_contacts(scene: &Scene, numbering: &Numbering) -> Result<Vec<WideContact>, SystemError> {
+pub(crate) fn wide_contacts(scene: &Scene, numbering: &Numbering, fineness: Fineness) -> Result<Vec<WideContact>, SystemError> {
     let (mut all, mut first, thin) = (Vec::new(), 0, thinness(scene));
     for pair in &scene.pairs {
-        let wide = wide_contact(scene, numbering, pair, first, &thin)?;
+        let wide = wide_contact(scene, numbering, (pair, fineness), first, &thin)?;
         first = wide.contact.range().end;
         all.push(wide);
     }
@@ -96,7 +108,7 @@ pub(crate) fn wide_contacts(scene: &Scene, numbering: &Numbering) -> Result<Vec<
 fn wide_contact(
     scene: &Scene,
     numbering: &Numbering,
-    pair: &Pair,
+    (pair, fineness): (&Pair, Fineness),
     first: usize,
     thin: &[Thinness],
 ) -> Result<WideContact, SystemError> {
@@ -113,7 +125,10 @@ fn wide_contact(
     let at = |touch: &PointContact| boundary.arc(boundary.foot(touch.place)) / boundary.length();
     let is_inside = |at: &f64| (SHORTEST..=1.0 - SHORTEST).contains(at);
     let at = touch.map(|touch| if touch.is_at_pole() { at(&touch).round() } else { at(&touch) });
-    let fractions = graded_towards(at.filter(|at| is_inside(at) || touch.is_some_and(|touch| touch.is_at_pole())));
+    let mut fractions = graded_towards(at.filter(|at| is_inside(at) || touch.is_some_and(|touch| touch.is_at_pole())));
+    if fineness == Fineness::Fine {
+        fractions = cut_to(&fractions, FINE);
+    }
     let graded = Pair { segments: SegmentRule::Fractions(fractions), grading: [1.0, 1.0], ..even };
     let contact = Contact::new(scene, numbering, 0, &graded, first, &known, &at_rest)?;
     Ok(WideContact { known, contact, touch })
@@ -179,6 +194,16 @@ fn graded_towards(place: Option<f64>) -> Vec<f64> {
     all
 }
 
+/// Segment ends between which more are put, so that none is longer than one of so many even ones.
+fn cut_to(fractions: &[f64], even: usize) -> Vec<f64> {
+    let cut = |ends: &[f64]| {
+        let (from, length) = (ends[0], ends[1] - ends[0]);
+        let parts = (length * even as f64 - 1e-9).ceil().max(1.0);
+        (0..parts as usize).map(move |k| from + length * k as f64 / parts)
+    };
+    fractions.windows(2).flat_map(cut).chain(fractions.last().copied()).collect()
+}
+
 /// Where a contact whose ends are free lies: as far as its force, or the `least` one that counts, presses sides that touch at a point
 /// (Hertz); else what presses, and a segment on either side of it; what does not press lies where the gap is smallest.
 pub(crate) fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgramme, least: f64) -> Known {
@@ -216,4 +241,19 @@ pub(crate) fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgr
         }
     }
     Known { ends: Some(ends.map(|arc| boundary.parameter_at(arc))), touch: narrow, ..known.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fine_segments_keep_the_graded_ends_and_are_never_long() {
+        let graded = graded_towards(Some(0.3));
+        let fine = cut_to(&graded, FINE);
+        assert!(graded.iter().all(|end| fine.contains(end)), "{fine:?}");
+        let lengths: Vec<f64> = fine.windows(2).map(|ends| ends[1] - ends[0]).collect();
+        assert!(lengths.iter().all(|length| *length > 0.0 && *length < 1.0 / FINE as f64 + 1e-9), "{lengths:?}");
+        assert_eq!(cut_to(&[0.0, 0.5, 1.0], 2), [0.0, 0.5, 1.0], "they are short enough");
+    }
 }
