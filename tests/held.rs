@@ -2,7 +2,7 @@
 //! and right scenes of the same kind that must pass.
 
 use crate::support::mesh::{Block, GOOD, Mesh, grid, write_scene};
-use crate::support::{Run, mezha, ranks_in_turn};
+use crate::support::{Run, mezha, numbers, ranks_in_turn};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -372,4 +372,34 @@ fn the_cases_of_the_project_pass() {
         let (code, _, errors) = mezha(None, &["check", file.as_str()]);
         assert_eq!(code, Some(0), "{name}: {errors}");
     }
+}
+
+/// A roller at the bottom of a seat that is a little wider, drawn by a force 50 degrees off the vertical: it comes to rest where the
+/// normal has that direction, and contact carries the whole force.
+#[test]
+fn a_roller_that_climbs_its_seat_is_held_there() {
+    const CASE: &str = r#"
+mesh.file = "mesh.msh"
+body.seat = { young = 2e5, poisson = 0.3 }
+body.roller = { young = 2e5, poisson = 0.3, body_force = [76.604444312, -64.278760969] }
+support.around = { on = "around", ux = 0.0, uy = 0.0 }
+support.upright = { body = "roller", mean = true, angle = 0.0 }
+contact.seam = { between = ["seat.arc", "roller.arc"] }
+accuracy = { force = 1e-2 }
+"#;
+    let arc = |degrees: f64, radius: f64, height: f64| {
+        let angle = degrees.to_radians();
+        [radius * angle.sin(), height - radius * angle.cos()]
+    };
+    let seat = grid(24, 6, 1, |u, v| arc(120.0 * u - 60.0, 1.62 - 0.6 * v, 1.02));
+    let roller = grid(34, 8, 2, |u, v| arc(150.0 * u - 75.0, 1.0 - 0.7 * v, 1.0));
+    let area = 0.5 * 150f64.to_radians() * (1.0 - 0.3 * 0.3);
+    let mesh = Mesh { bodies: vec![("seat", seat, ["around", "", "seat.arc", ""]), ("roller", roller, ["roller.arc", "", "", ""])] };
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = write_scene(folder.path(), &mesh.text(), CASE);
+    let ended = Run::file(&file).ranks(2).converged();
+    let [x, y] = numbers(&ended, "/contact/seam/resultant");
+    // The arc of the mesh is a polygon, of a thousandth less area.
+    assert!((x.hypot(y) / (100.0 * area) - 1.0).abs() < 2e-3, "{x} {y}: {}", ended.said());
+    assert!(((x / y).abs() / 50f64.to_radians().tan() - 1.0).abs() < 1e-6, "{x} {y}: {}", ended.said());
 }
