@@ -394,7 +394,8 @@ accuracy = { force = 1e-2 }
     let seat = grid(24, 6, 1, |u, v| arc(120.0 * u - 60.0, 1.62 - 0.6 * v, 1.02));
     let roller = grid(34, 8, 2, |u, v| arc(150.0 * u - 75.0, 1.0 - 0.7 * v, 1.0));
     let area = 0.5 * 150f64.to_radians() * (1.0 - 0.3 * 0.3);
-    let mesh = Mesh { bodies: vec![("seat", seat, ["around", "", "seat.arc", ""]), ("roller", roller, ["roller.arc", "", "", ""])] };
+    let mesh =
+        Mesh { bodies: vec![("seat", seat, ["around", "", "seat.arc", ""]), ("roller", roller, ["roller.arc", "", "", ""])] };
     let folder = tempfile::tempdir().expect("a folder");
     let file = write_scene(folder.path(), &mesh.text(), CASE);
     let ended = Run::file(&file).ranks(2).converged();

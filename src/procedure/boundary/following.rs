@@ -9,7 +9,6 @@ use crate::mesh::EdgeNode;
 use crate::petsc::Session;
 use crate::procedure::ending::Failure;
 use crate::procedure::sets::relative_change;
-use crate::system::Start;
 
 /// Boundaries placed at most on meshes before the last one, which tell the next where its boundaries lie: their ends are aligned
 /// with the pressure twice.
@@ -226,16 +225,4 @@ impl Following {
         }
         all
     }
-}
-
-/// A start from a solution, on the boundary it was found on.
-pub fn start_from(solution: &Solution) -> Start {
-    let Solution { displacement, multipliers, active, .. } = solution;
-    Start { displacement: displacement.clone(), pressures: multipliers.clone(), active: active.clone() }
-}
-
-/// A start from a solution on the next boundary, where the segments are as many as before.
-pub fn carried(before: &[Contact], after: &[Contact], solution: &Solution) -> Option<Start> {
-    let alike = before.iter().zip(after).all(|(a, b)| a.multipliers.count() == b.multipliers.count());
-    alike.then(|| start_from(solution))
 }

@@ -330,7 +330,7 @@ impl BoundaryLoop<'_, '_> {
             }
             NextBoundary::GivenUp(failure) => After::Ended(Ending::NotConverged(failure)),
             NextBoundary::Again(contacts, motion) => {
-                let start = carried(&problem.contacts, &contacts, solution);
+                let start = Some(carried(&problem.contacts, &contacts, solution));
                 After::Moved { contacts, motion, start, is_near }
             }
         }))
