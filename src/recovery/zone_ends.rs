@@ -135,7 +135,8 @@ fn slip_near_ends(contact: &Contact, mesh: &MacroMesh, zones: &[[f64; 2]], point
         let nearest = complete.min_by(|a, b| (a.arc - ends[end]).abs().total_cmp(&(b.arc - ends[end]).abs()))?;
         Some(0.25 * (nearest.slip / least).powi(2))
     };
-    let lost = [0, 1].into_iter().filter_map(of_end).fold(0.0, f64::max);
+    // Where there is no room at all, they lose no more than everything.
+    let lost = [0, 1].into_iter().filter_map(of_end).fold(0.0, f64::max).min(1.0);
     Some(EndSlip { way: 0.0, lost })
 }
 
