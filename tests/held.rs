@@ -1,7 +1,7 @@
 //! Whether bodies are held, hang together, face each other, and are strained a little only: what is refused, in which words,
 //! and right scenes of the same kind that must pass.
 
-use crate::support::mesh::{Block, GOOD, Mesh, grid, write_scene};
+use crate::support::mesh::{Block, GOOD, Mesh, grid, two_blocks, write_scene};
 use crate::support::{Run, mezha, ranks_in_turn};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -107,6 +107,27 @@ fn the_holds_that_are_proposed_hold() {
     // A point holds what loads drive.
     let driven = "load.ring={ on = \"bore\", traction = [1.0, 0.0] }";
     loose(&mesh, ROLLING, &[turn, driven], &["body ring can move by (1, 0)", "hold it, for example by a support with at = ["]);
+}
+
+/// The programme of a coarse mesh, which a run begins with, is asked before it: loads that are turned round are found, on fine
+/// meshes too, in the load step that has them, and not where another contact stops the body.
+#[test]
+fn loads_that_drive_a_body_off_its_contacts_are_told_by_check() {
+    let mesh = two_blocks([(3, 2, 1), (4, 2, 2)]);
+    let words = ["body upper can move by (0, 1): load.top drives it there", "turn the load round"];
+    for refine in ["mesh.refine=0", "mesh.refine=2", "mesh.refine=7"] {
+        loose(&mesh, GOOD, &[refine, "load.top.pressure=-1.0"], &words);
+        right(&mesh, GOOD, &[refine]);
+    }
+    let both = "load.edge={ on = \"right\", traction = [0.0, 3.0] }";
+    loose(&mesh, GOOD, &["load.top.pressure=-1.0", both], &["body upper can move by (0, 1): load.top, load.edge drive it there"]);
+    let steps = |factors: &str| format!("steps.p={{ factors = {factors}, scales = [\"load.top\"] }}");
+    loose(&mesh, GOOD, &[&steps("[1, -1, -2]")], &["mezha: step 2 of 3 (p = -1): body upper can move"]);
+    loose(&mesh, GOOD, &[&steps("[0, 1, -2]")], &["mezha: step 3 of 3 (p = -2): body upper can move"]);
+    right(&mesh, GOOD, &[&steps("[0, 1, 2]")]);
+    // A stop above it, with clearance.
+    let stop = ["rigid.stop={ line = [[-0.5, 2.1], [2.5, 2.1]] }", "contact.stop={ between = [\"top\", \"rigid.stop\"] }"];
+    right(&mesh, GOOD, &[stop[0], stop[1], "body.upper.body_force=[0.0, 1.0]", "load.top.pressure=0.0"]);
 }
 
 /// A tool with clearance around a block, which it is driven against: it cannot fall away, though no set that presses may be found.

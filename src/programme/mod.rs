@@ -184,10 +184,11 @@ impl<'s> Predictor<'s> {
         let own = &motion[of_piece.first..of_piece.first + of_piece.kernel.len()];
         let loads = self.loads_that_drive(self.elimination.freedoms.block_of_piece[piece], own)?;
         let by = if loads.is_empty() { "what acts on it".into() } else { loads.join(", ") };
+        let drive = if loads.len() > 1 { "drive" } else { "drives" };
         let (name, body) = (self.scene.mesh.name_of_piece(piece), &self.scene.bodies[self.scene.mesh.pieces[piece].body].name);
         let motion = &mechanism.motion;
         let words = format!(
-            "{name} can {motion}: {by} drives it there, and neither contact, which only pushes, nor a support holds it; turn the load round if it is meant to press the bodies together, or hold the body, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and {}",
+            "{name} can {motion}: {by} {drive} it there, and neither contact, which only pushes, nor a support holds it; turn the load round if it is meant to press the bodies together, or hold the body, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and {}",
             held_component(moves)
         );
         Ok(Prediction::Driven { words, turns: moves[2].abs() > moves[0].hypot(moves[1]) })
