@@ -1,7 +1,7 @@
 //! Whether bodies are held, hang together, face each other, and are strained a little only: what is refused, in which words,
 //! and right scenes of the same kind that must pass.
 
-use crate::support::mesh::{Block, GOOD, Mesh, grid, two_blocks, write_scene};
+use crate::support::mesh::{Block, GOOD, Mesh, grid, write_scene};
 use crate::support::{Run, mezha, ranks_in_turn};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -113,7 +113,7 @@ fn the_holds_that_are_proposed_hold() {
 /// meshes too, in the load step that has them, and not where another contact stops the body.
 #[test]
 fn loads_that_drive_a_body_off_its_contacts_are_told_by_check() {
-    let mesh = two_blocks([(3, 2, 1), (4, 2, 2)]);
+    let mesh = crate::support::mesh::two_blocks([(3, 2, 1), (4, 2, 2)]);
     let words = ["body upper can move by (0, 1): load.top drives it there", "turn the load round"];
     for refine in ["mesh.refine=0", "mesh.refine=2", "mesh.refine=7"] {
         loose(&mesh, GOOD, &[refine, "load.top.pressure=-1.0"], &words);

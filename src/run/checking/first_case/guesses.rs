@@ -60,7 +60,7 @@ pub struct Guesses<'a> {
 
 impl<'a> Guesses<'a> {
     pub fn new(mesh: &'a MacroMesh) -> Self {
-        let pairs = close_pairs(mesh);
+        let pairs = close_pairs(mesh, &[]);
         let curves = mesh.boundaries.iter().filter_map(|boundary| NamedCurve::new(mesh, boundary, &pairs)).collect();
         let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
         let unnamed = close_outlines(mesh).into_iter().filter(|bodies| !is_known(bodies)).collect();
@@ -195,7 +195,7 @@ fn close_outlines(mesh: &MacroMesh) -> Vec<[usize; 2]> {
         Boundary { name: mesh.bodies[body].clone(), edges, is_union: false }
     };
     let outlines = MacroMesh { boundaries: (0..mesh.bodies.len()).map(outline).collect(), ..mesh.clone() };
-    close_pairs(&outlines).into_iter().filter(|pair| pair.share <= NEAR).map(|pair| pair.bodies).collect()
+    close_pairs(&outlines, &[]).into_iter().filter(|pair| pair.share <= NEAR).map(|pair| pair.bodies).collect()
 }
 
 /// A number of one digit, for an example.
