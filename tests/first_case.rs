@@ -114,6 +114,33 @@ fn first_cases_of_many_meshes_can_be_checked() {
     }
 }
 
+/// A boundary that turns from a flat over into an arc, and sides that face each other at a corner only: no contact can be made of
+/// them as they are drawn. The case has the others, says why, and passes.
+#[test]
+fn contacts_that_check_refuses_are_left_out_of_first_cases() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, left_out, why, others) in [
+        (
+            "bars_parabola/bars",
+            "# [contact.seam]\n# between = [\"lower.seam\", \"upper.seam\"]",
+            "pieces with different shapes",
+            0,
+        ),
+        ("three_bodies/sectors", "# between = [\"right.first\", \"bottom.first\"]", "face each other nowhere over a length", 2),
+    ] {
+        std::fs::copy(cases.join(format!("{name}.msh")), folder.path().join("mesh.msh")).expect("a mesh");
+        let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
+        assert!(text.contains("\n# Left out, since `mezha check` refuses it:\n") && text.contains(left_out), "{name}:\n{text}");
+        assert!(text.contains(why) && !text.contains("does not pass"), "{name}:\n{text}");
+        assert_eq!(text.matches("\n[contact.").count(), others, "{name}:\n{text}");
+        let (code, _, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+        assert_eq!(code, Some(0), "{name}: {errors}\n{text}");
+        let (_, _, errors) = mezha_in(folder.path(), None, &["new", "mesh.msh"]);
+        assert!(errors.contains("is left out: ") && errors.contains(why), "{name}: {errors}");
+    }
+}
+
 /// What a mesh says by its names and by how it is drawn: a case without a load for bodies that reach into each other, one that pulls
 /// where a name says so, or where a push would open every contact, and one that holds a grip, whatever its side.
 #[test]

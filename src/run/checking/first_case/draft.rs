@@ -3,6 +3,7 @@
 use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
 use super::named_curve::{LOADED, MIRRORED, NamedCurve, PULLED};
 use super::node_circle::NodeCircle;
+use crate::contact::ClosePair;
 use crate::geometry::Point;
 use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
 use std::fmt::Write;
@@ -58,7 +59,11 @@ impl Draft<'_> {
                 bodies[a], bodies[b]
             )
         };
-        self.guesses.unnamed.iter().map(close).collect()
+        let left_out = |(pair, why): &(ClosePair, String)| {
+            let [first, second] = &pair.between;
+            format!("the contact of \"{first}\" and \"{second}\" is left out: {why}")
+        };
+        self.guesses.unnamed.iter().map(close).chain(self.guesses.refused.iter().map(left_out)).collect()
     }
 
     fn head(&self, text: &mut String, named: &str) {
@@ -131,12 +136,16 @@ order = 2
 
     fn contacts(&self, text: &mut String) {
         let mut tables = TableNames::default();
-        if self.guesses.mesh.bodies.len() > 1 && self.guesses.pairs.is_empty() {
+        if self.guesses.mesh.bodies.len() > 1 && self.guesses.pairs.is_empty() && self.guesses.refused.is_empty() {
             *text += "\n# No named boundaries of two bodies lie close and face each other. What may touch is written so:\n";
             *text += "# [contact.NAME]\n# between = [\"boundary of body 1\", \"boundary of body 2\"]\n";
         }
         for pair in &self.guesses.pairs {
             let _ = write!(text, "\n{}", contact_table(pair, &mut tables));
+        }
+        for (pair, why) in &self.guesses.refused {
+            let _ = write!(text, "\n# Left out, since `mezha check` refuses it:\n#   {why}\n");
+            contact_table(pair, &mut tables).lines().for_each(|line| *text += &format!("# {line}\n"));
         }
     }
 
