@@ -127,7 +127,7 @@ fn contacts_that_check_refuses_are_left_out_of_first_cases() {
             "pieces with different shapes",
             0,
         ),
-        ("three_bodies/sectors", "# between = [\"right.first\", \"bottom.first\"]", "face each other nowhere over a length", 2),
+        ("three_bodies/sectors", "# between = [\"right.first\", \"bottom.first\"]", "face each other nowhere over a length", 3),
     ] {
         std::fs::copy(cases.join(format!("{name}.msh")), folder.path().join("mesh.msh")).expect("a mesh");
         let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
@@ -312,6 +312,23 @@ fn a_second_contact_of_two_bodies_is_proposed_where_they_touch_elsewhere() {
     let one = keel_in_groove(["keel.both", "keel.both"]);
     assert_eq!(proposed(&one, &[["groove.left", "keel.both"]]), ["between = [\"groove.right\", \"keel.both\"]"]);
     assert_eq!(proposed(&one, &[["groove.left", "keel.both"], ["keel.both", "groove.right"]]), nothing);
+}
+
+/// A pin whose mesh is not quite even about its centre turns in its hole: its turn is proposed to be held, and no shift, which its load
+/// drives.
+#[test]
+fn the_turn_alone_of_a_loaded_pin_is_proposed_to_be_held() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/lug");
+    std::fs::copy(place.join("lug.msh"), folder.path().join("lug.msh")).expect("a mesh");
+    let case = std::fs::read_to_string(place.join("case.toml")).expect("the case");
+    let (before, after) = case.split_once("[support.pin]").expect("a hold");
+    let (_, after) = after.split_once("[contact.seam]").expect("a contact");
+    std::fs::write(folder.path().join("case.toml"), format!("{before}[contact.seam]{after}")).expect("a case can be written");
+    let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+    let (_, table) = output.split_once("[support.pin-still]\n").expect("a proposal");
+    let keys: Vec<&str> = table.lines().take_while(|line| line.contains(" = ")).skip(2).collect();
+    assert_eq!((code, keys), (Some(3), vec!["angle = 0.0"]), "{output}{errors}");
 }
 
 /// The figure has every name, also where the case names a boundary that is not there.

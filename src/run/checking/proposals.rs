@@ -16,9 +16,6 @@ const MOST_SUPPORTS: usize = 100;
 /// Boundaries that are proposed for a contact are nearer than this share of the smaller body.
 const CLOSE: f64 = 0.02;
 
-/// Components of a motion that are below this share of the largest are none.
-const FAINT: f64 = 1e-3;
-
 /// A name as a TOML string.
 pub(crate) fn quoted(name: &str) -> String {
     Value::String(name.into()).to_string()
@@ -187,7 +184,9 @@ fn support_for(
     let largest = parts.iter().fold(0.0f64, |largest, part| largest.max(part.abs()));
     let is_free = motion.motion == "move in every direction";
     if is_whole && !is_held {
-        let moves = parts.map(|part| is_free || part.abs() > FAINT * largest);
+        // One component for one motion: another one may be what loads drive.
+        let most = parts.iter().position(|part| part.abs() == largest);
+        let moves = [0, 1, 2].map(|k| is_free || most == Some(k));
         // A hold that is there already is completed.
         let is_there = is_ours(name);
         let fresh = if is_there { String::new() } else { names.fresh(&format!("{name}-still")) };

@@ -1,7 +1,7 @@
 //! What is said of points that carry forces, since the displacement there has no limit in the plane, and of mean motions that loads
 //! drive.
 
-use crate::body::{HeldMode, MeanHold, PointLoad, Support};
+use crate::body::{MeanHold, PointLoad, Support};
 use crate::discretisation::Scene;
 use crate::geometry::Point;
 use crate::recovery::Evaluation;
@@ -39,22 +39,20 @@ pub fn loaded_points(Evaluation { problem, balance, .. }: &Evaluation) -> Vec<St
 fn driven_mean(scene: &Scene, hold: &MeanHold, force: Point, moment: f64, little: f64) -> Option<String> {
     let reach = hold.reach(&scene.mesh);
     let size = force.norm() + moment.abs() / reach;
-    let is_driven = |held: &&HeldMode| if held.is_turn() { moment.abs() > reach * little } else { force.norm() > little };
     (size > little).then(|| {
-        let (driven, kept): (Vec<&HeldMode>, Vec<&HeldMode>) = hold.held.iter().partition(is_driven);
         format!(
             "support {}: the mean motion that it holds is driven by a force of {} and a moment of {}, which act on \"{}\" here like a weight, all over it; {}",
             hold.name,
             force_words(force),
             four_digits(moment, size * reach),
             hold.body,
-            remedy(scene, &hold.body, &driven, &kept)
+            remedy(scene, &hold.body)
         )
     })
 }
 
 /// What is to carry the loads of a body in the place of its mean: its contacts, where it has any, or a support.
-fn remedy(scene: &Scene, body: &str, driven: &[&HeldMode], kept: &[&HeldMode]) -> String {
+fn remedy(scene: &Scene, body: &str) -> String {
     let mesh = &scene.mesh;
     let touches = |name: &str| scene.pairs.iter().any(|pair| pair.between.iter().any(|side| side == name));
     let is_own = |edges: &[u32]| edges.first().is_some_and(|&edge| mesh.bodies[mesh.body_beside(edge)] == body);
@@ -65,16 +63,12 @@ fn remedy(scene: &Scene, body: &str, driven: &[&HeldMode], kept: &[&HeldMode]) -
         Some(boundary) => format!("support a boundary, as \"{}\"", boundary.name),
         None => "hold a place of the body, by at = [x, y], whose own displacement depends on the mesh then".into(),
     };
-    if touched.is_empty() || driven.is_empty() {
-        return format!("where loads are to be carried, {support}");
+    match touched.is_empty() {
+        true => format!("where loads are to be carried, {support}"),
+        false => format!(
+            "to let contact carry that, leave this support out and hold what `mezha check` then proposes, of a pin in a hole angle = 0.0 alone; where contact cannot, {support}"
+        ),
     }
-    let keys = |held: &[&HeldMode]| held.iter().map(|held| held.key).collect::<Vec<_>>().join(" and ");
-    let rest = match kept {
-        [] if driven.iter().any(|held| held.is_turn()) => "out".into(),
-        [] => "out, and hold angle = 0.0 instead, unless something else keeps the body from turning".into(),
-        kept => format!("out, and hold {} alone", keys(kept)),
-    };
-    format!("to let contact carry that, leave {} {rest}; where contact cannot, {support}", keys(driven))
 }
 
 /// `(12.3, 0)`: components that are nothing beside the whole are 0.
