@@ -188,9 +188,15 @@ order = 2
 
     fn load(&self, text: &mut String, press: Press) {
         let Some(curve) = self.guesses.pressed().filter(|_| press != Press::Nothing) else {
-            *text += match self.guesses.is_pressed_in() {
-                true => "\n# Bodies are drawn into each other: that interference is the load. A further one is written so:\n",
-                false => "\n# Nothing presses yet. A load is written so:\n",
+            *text += &match (self.guesses.is_pressed_in(), self.guesses.pressed()) {
+                (true, _) => {
+                    "\n# Bodies are drawn into each other: that interference is the load. A further one is written so:\n".into()
+                }
+                (_, Some(curve)) => format!(
+                    "\n# Nothing presses yet: `mezha check` refuses a load on {}, as the bodies are held here. A load is written so:\n",
+                    quoted(curve.name)
+                ),
+                (_, None) => "\n# Nothing presses yet. A load is written so:\n".to_owned(),
             };
             *text += "# [load.NAME]\n# on = \"boundary\"\n# pressure = 1.0\n# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n";
             return;
