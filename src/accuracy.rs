@@ -181,20 +181,24 @@ impl Adaptation {
         Self { accuracy, resolved: Vec::new(), meshes: Vec::new(), end: SequenceEnd::Unsolved, refusal: None }
     }
 
-    /// The goals that are missed on the last mesh, with their places among all. The first mesh may be too coarse to show how
+    /// The estimate of each goal at which it counts as reached on the last mesh. The first mesh may be too coarse to show how
     /// slowly a value comes to rest: its estimate must be so much smaller, but of contacts whose width was known before.
-    pub fn missed(&self) -> impl Iterator<Item = (usize, &Goal)> {
-        let errors = self.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
+    pub fn wanted(&self) -> Vec<f64> {
         let is_first = self.meshes.len() == 1;
-        let share = move |goal: &Goal| {
+        let share = |goal: &Goal| {
             let is_resolved = goal.quantity.contact().is_some_and(|name| self.resolved.iter().any(|resolved| resolved == name));
             let may_be_luck = is_first && goal.quantity != Quantity::Energy && !is_resolved;
             if may_be_luck { FIRST } else { 1.0 }
         };
-        let holds = move |place: usize, goal: &Goal| {
-            errors.get(place).copied().flatten().is_some_and(|error| error <= share(goal) * goal.tolerance)
-        };
-        self.accuracy.goals.iter().enumerate().filter(move |(place, goal)| !holds(*place, goal))
+        self.accuracy.goals.iter().map(|goal| share(goal) * goal.tolerance).collect()
+    }
+
+    /// The goals that are missed on the last mesh, with their places among all.
+    pub fn missed(&self) -> impl Iterator<Item = (usize, &Goal)> {
+        let errors = self.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
+        let wanted = self.wanted();
+        let holds = move |place: usize| errors.get(place).copied().flatten().is_some_and(|error| error <= wanted[place]);
+        self.accuracy.goals.iter().enumerate().filter(move |(place, _)| !holds(*place))
     }
 
     /// Whether the errors on the last mesh are what was asked for.

@@ -1,6 +1,6 @@
 //! `mezha new` and what `mezha check` draws and proposes, from meshes to results.
 
-use crate::support::mesh::{GOOD, two_blocks, write_scene};
+use crate::support::mesh::{GOOD, Mesh, grid, two_blocks, write_scene};
 use crate::support::{Run, mezha, mezha_in};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -114,14 +114,41 @@ fn first_cases_of_many_meshes_can_be_checked() {
     }
 }
 
+/// A boundary that turns from a flat over into an arc, and sides that face each other at a corner only: no contact can be made of
+/// them as they are drawn. The case has the others, says why, and passes.
+#[test]
+fn contacts_that_check_refuses_are_left_out_of_first_cases() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, left_out, why, others) in [
+        (
+            "bars_parabola/bars",
+            "# [contact.seam]\n# between = [\"lower.seam\", \"upper.seam\"]",
+            "pieces with different shapes",
+            0,
+        ),
+        ("three_bodies/sectors", "# between = [\"right.first\", \"bottom.first\"]", "face each other nowhere over a length", 3),
+    ] {
+        std::fs::copy(cases.join(format!("{name}.msh")), folder.path().join("mesh.msh")).expect("a mesh");
+        let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
+        assert!(text.contains("\n# Left out, since `mezha check` refuses it:\n") && text.contains(left_out), "{name}:\n{text}");
+        assert!(text.contains(why) && !text.contains("does not pass"), "{name}:\n{text}");
+        assert_eq!(text.matches("\n[contact.").count(), others, "{name}:\n{text}");
+        let (code, _, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+        assert_eq!(code, Some(0), "{name}: {errors}\n{text}");
+        let (_, _, errors) = mezha_in(folder.path(), None, &["new", "mesh.msh"]);
+        assert!(errors.contains("is left out: ") && errors.contains(why), "{name}: {errors}");
+    }
+}
+
 /// What a mesh says by its names and by how it is drawn: a case without a load for bodies that reach into each other, one that pulls
-/// where a name says so, or where a push would open every contact, and one that holds a grip, whatever its side.
+/// where a name says so and contact holds the body, or where a push would open every contact, and one that holds a grip, whatever its side.
 #[test]
 fn loads_are_those_that_names_and_the_drawing_tell() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let new = |seam: f64, names: [&'static str; 3]| {
         let mut mesh = two_blocks([(3, 2, 1), (4, 2, 2)]);
-        mesh.bodies[1].1 = crate::support::mesh::grid(4, 2, 2, |u, v| [2.0 * u, seam + v]);
+        mesh.bodies[1].1 = grid(4, 2, 2, |u, v| [2.0 * u, seam + v]);
         let [base, right, top] = names;
         (mesh.bodies[0].2[0], mesh.bodies[1].2[1], mesh.bodies[1].2[2]) = (base, right, top);
         std::fs::write(folder.path().join("mesh.msh"), mesh.text()).expect("a mesh can be written");
@@ -132,10 +159,12 @@ fn loads_are_those_that_names_and_the_drawing_tell() {
         text.contains("# Bodies are drawn into each other: that interference is the load.") && text.contains("0.05 into each")
     );
     assert!(!text.lines().any(|line| line.starts_with("[load.") || line.starts_with("body_force")), "{text}");
-    let text = new(1.0, ["gripBelow", "right", "bolt.pull"]);
+    let text = new(1.0, ["gripBelow", "bolt.pull", "upper.end"]);
     assert!(text.contains("# held: by its name") && text.contains("# pulled: by its name"), "{text}");
-    let force = text.lines().find(|line| line.starts_with("force = ")).expect("a force");
-    assert!(force.starts_with("force = [0.0, ") && !force.contains('-'), "{force}");
+    assert!(text.lines().any(|line| line.starts_with("pressure = -")), "{text}");
+    // A pull that lifts the body off its only contact is none that `check` passes.
+    let text = new(1.0, ["gripBelow", "right", "bolt.pull"]);
+    assert!(text.contains("`mezha check` refuses a load on \"bolt.pull\"") && !text.contains("\n[load."), "{text}");
     let text = new(1.0, ["bottom", "right", "top"]);
     assert!(text.contains("# pressed: by its name") && text.contains("force = [0.0, -"), "{text}");
 }
@@ -239,6 +268,69 @@ fn a_missing_contact_and_missing_supports_are_proposed_and_heal_the_case() {
     std::fs::write(&file, format!("{CASE}{pasted}")).expect("a case can be written");
     let (code, output, errors) = check();
     assert_eq!((code, output.contains("paste")), (Some(0), false), "{output}{errors}");
+}
+
+/// A block with a keel in a groove, which touch along two flanks; those of the keel have these names.
+fn keel_in_groove(flanks_of_keel: [&'static str; 2]) -> Mesh {
+    let fold = |x: f64, v: f64| [4.0 * x, v + (4.0 * x - 2.0).abs()];
+    let mut bodies = [grid(8, 2, 1, move |u, v| fold(u, v - 1.0)), grid(6, 2, 2, move |u, v| fold(u, 2.0 * v))];
+    for (body, along) in bodies.iter_mut().zip([2, 0]) {
+        let points = &body.points;
+        let is_left = |edge: &[usize; 2]| points[edge[0]][0] + points[edge[1]][0] < 4.0;
+        let (left, right) = std::mem::take(&mut body.sides[along]).into_iter().partition(is_left);
+        // A flank takes the place of a wall, which has no name.
+        body.sides = match along {
+            2 => [std::mem::take(&mut body.sides[0]), right, left, Vec::new()],
+            _ => [left, right, std::mem::take(&mut body.sides[2]), Vec::new()],
+        };
+    }
+    let [groove, keel] = bodies;
+    let [left, right] = flanks_of_keel;
+    Mesh {
+        bodies: vec![("groove", groove, ["bottom", "groove.right", "groove.left", ""]), ("keel", keel, [left, right, "top", ""])],
+    }
+}
+
+/// Two bodies that share a contact may touch elsewhere, too, and a boundary may touch in two places; what is in contact already is not
+/// proposed a second time, by none of its names.
+#[test]
+fn a_second_contact_of_two_bodies_is_proposed_where_they_touch_elsewhere() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let bodies =
+        "[mesh]\nfile = \"mesh.msh\"\n[body.groove]\nyoung = 1.0\npoisson = 0.3\n[body.keel]\nyoung = 1.0\npoisson = 0.3\n";
+    let acting = "[support.base]\non = \"bottom\"\nux = 0.0\nuy = 0.0\n[load.top]\non = \"top\"\ntraction = [0.0, -1e-3]\n";
+    let proposed = |mesh: &Mesh, contacts: &[[&str; 2]]| -> Vec<String> {
+        let table = |(at, [a, b]): (usize, &[&str; 2])| format!("[contact.c{at}]\nbetween = [\"{a}\", \"{b}\"]\n");
+        let contacts: String = contacts.iter().enumerate().map(table).collect();
+        write_scene(folder.path(), &mesh.text(), &format!("{bodies}{acting}{contacts}"));
+        let (_, output, _) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+        let line = |line: &str| line.split("   #").next().unwrap_or(line).to_owned();
+        output.lines().filter(|line| line.starts_with("between = ")).map(line).collect()
+    };
+    let (right, nothing) = ("between = [\"groove.right\", \"keel.right\"]", Vec::<String>::new());
+    let both = keel_in_groove(["keel.left", "keel.right"]);
+    assert_eq!(proposed(&both, &[["groove.left", "keel.left"]]), [right]);
+    assert_eq!(proposed(&both, &[["keel.left", "groove.left"], ["groove.right", "keel.right"]]), nothing);
+    let one = keel_in_groove(["keel.both", "keel.both"]);
+    assert_eq!(proposed(&one, &[["groove.left", "keel.both"]]), ["between = [\"groove.right\", \"keel.both\"]"]);
+    assert_eq!(proposed(&one, &[["groove.left", "keel.both"], ["keel.both", "groove.right"]]), nothing);
+}
+
+/// A pin whose mesh is not quite even about its centre turns in its hole: its turn is proposed to be held, and no shift, which its load
+/// drives.
+#[test]
+fn the_turn_alone_of_a_loaded_pin_is_proposed_to_be_held() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/lug");
+    std::fs::copy(place.join("lug.msh"), folder.path().join("lug.msh")).expect("a mesh");
+    let case = std::fs::read_to_string(place.join("case.toml")).expect("the case");
+    let (before, after) = case.split_once("[support.pin]").expect("a hold");
+    let (_, after) = after.split_once("[contact.seam]").expect("a contact");
+    std::fs::write(folder.path().join("case.toml"), format!("{before}[contact.seam]{after}")).expect("a case can be written");
+    let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+    let (_, table) = output.split_once("[support.pin-still]\n").expect("a proposal");
+    let keys: Vec<&str> = table.lines().take_while(|line| line.contains(" = ")).skip(2).collect();
+    assert_eq!((code, keys), (Some(3), vec!["angle = 0.0"]), "{output}{errors}");
 }
 
 /// The figure has every name, also where the case names a boundary that is not there.

@@ -109,6 +109,27 @@ fn the_holds_that_are_proposed_hold() {
     loose(&mesh, ROLLING, &[turn, driven], &["body ring can move by (1, 0)", "hold it, for example by a support with at = ["]);
 }
 
+/// The programme of a coarse mesh, which a run begins with, is asked before it: loads that are turned round are found, on fine
+/// meshes too, in the load step that has them, and not where another contact stops the body.
+#[test]
+fn loads_that_drive_a_body_off_its_contacts_are_told_by_check() {
+    let mesh = crate::support::mesh::two_blocks([(3, 2, 1), (4, 2, 2)]);
+    let words = ["body upper can move by (0, 1): load.top drives it there", "turn the load round"];
+    for refine in ["mesh.refine=0", "mesh.refine=2", "mesh.refine=7"] {
+        loose(&mesh, GOOD, &[refine, "load.top.pressure=-1.0"], &words);
+        right(&mesh, GOOD, &[refine]);
+    }
+    let both = "load.edge={ on = \"right\", traction = [0.0, 3.0] }";
+    loose(&mesh, GOOD, &["load.top.pressure=-1.0", both], &["body upper can move by (0, 1): load.top, load.edge drive it there"]);
+    let steps = |factors: &str| format!("steps.p={{ factors = {factors}, scales = [\"load.top\"] }}");
+    loose(&mesh, GOOD, &[&steps("[1, -1, -2]")], &["mezha: step 2 of 3 (p = -1): body upper can move"]);
+    loose(&mesh, GOOD, &[&steps("[0, 1, -2]")], &["mezha: step 3 of 3 (p = -2): body upper can move"]);
+    right(&mesh, GOOD, &[&steps("[0, 1, 2]")]);
+    // A stop above it, with clearance.
+    let stop = ["rigid.stop={ line = [[-0.5, 2.1], [2.5, 2.1]] }", "contact.stop={ between = [\"top\", \"rigid.stop\"] }"];
+    right(&mesh, GOOD, &[stop[0], stop[1], "body.upper.body_force=[0.0, 1.0]", "load.top.pressure=0.0"]);
+}
+
 /// A tool with clearance around a block, which it is driven against: it cannot fall away, though no set that presses may be found.
 #[test]
 fn what_contact_would_stop_is_not_said_to_be_free() {

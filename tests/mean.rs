@@ -142,6 +142,27 @@ fn a_mean_turn_that_contact_holds_already_leaves_no_result() {
     }
 }
 
+/// A load that a mean motion carries is told, with what to hold instead: what `check` proposes without that support, and a place where
+/// contact cannot carry it; the sides of the block are named together with those of the other one.
+#[test]
+fn a_loaded_body_is_told_to_let_contact_carry_its_load() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |case: &str| write_scene(folder.path(), &blocks().text(), case);
+    let ended = Run::file(&write(&BLOCKS.replace("ux = 0.01 }", "ux = 0.0, uy = -0.002, angle = 0.0 }"))).converged();
+    let said = "support above: the mean motion that it holds is driven by a force of (0, -";
+    let remedy = "leave this support out and hold what `mezha check` then proposes, of a pin in a hole angle = 0.0 alone; where contact cannot, hold a place of the body";
+    assert!(ended.errors.contains(said) && ended.errors.contains(remedy), "{}", ended.said());
+    // What it proposes carries nothing.
+    let without: String =
+        BLOCKS.lines().filter(|line| !line.starts_with("support.above")).map(|line| format!("{line}\n")).collect();
+    let (code, output, errors) = mezha(None, &["check", &write(&without).display().to_string()]);
+    let proposed = "[support.upper-still]\nbody = \"upper\"   # its mean motion: a hold that carries nothing where loads balance\nmean = true\nux = 0.0\n";
+    assert!(code == Some(3) && output.contains(proposed), "{output}{errors}");
+    let ended = Run::file(&write(&format!("{without}\n{proposed}"))).converged();
+    close(ended.number("/contact/seam/force"), 6.0, 6.0, "contact carries it");
+    assert!(!ended.errors.contains("is driven by"), "{}", ended.errors);
+}
+
 /// The contact line is inclined: it resists the shift that is held, and a force along the line drives the upper block.
 #[test]
 fn a_mean_motion_that_contact_resists_is_as_asked_and_its_force_is_told() {
@@ -160,7 +181,9 @@ fn a_mean_motion_that_contact_resists_is_as_asked_and_its_force_is_told() {
         close(force * cos, 6.0, 6.0, words);
         let reaction = numbers(&ended, "/support/above/reaction");
         close(reaction[0], force * sin, 6.0, words);
-        assert!(ended.errors.contains("support above: the mean motion that it holds is driven by a force of (3.46"), "{words}");
+        let said = "support above: the mean motion that it holds is driven by a force of (3.464, 0) and a moment of ";
+        let remedy = "to let contact carry that, leave this support out";
+        assert!(ended.errors.contains(said) && ended.errors.contains(remedy), "{words}: {}", ended.errors);
         assert!(ended.number("/balance/bodies") < EXACT, "{words}");
     });
 }

@@ -1,9 +1,10 @@
 //! Stress at all nodes of one triangle.
 
 use super::map::{BadJacobian, jacobian};
-use super::plane_law::{Heat, Plane, PlaneLaw};
+use super::plane_law::{Heat, Plane, PlaneLaw, Strain};
 use super::stiffness::heated_stress;
 use crate::geometry::Point;
+use nalgebra::Matrix2;
 
 /// The nodes in barycentric coordinates: corners, then midsides.
 const NODES: [[f64; 3]; 6] = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [0.5, 0.5, 0.], [0., 0.5, 0.5], [0.5, 0., 0.5]];
@@ -48,11 +49,11 @@ fn straight<const N: usize>(nodes: &[Point; N], u: &[Point; N], law: &PlaneLaw) 
         let own = 3.0 * u[corner];
         let others = [4.0 * u[3 + corner] - u[next], 4.0 * u[3 + last] - u[last]];
         let by = [(own, corner), (others[0], next), (others[1], last)];
-        let mut gradient = nalgebra::Matrix2::zeros();
+        let mut gradient = Matrix2::zeros();
         for (slope, of) in by {
             gradient += slope * corner_gradients[of].transpose();
         }
-        found[corner].0 = law.stress(&super::Strain { gradient, hoop: 0.0 });
+        found[corner].0 = law.stress(&Strain { gradient, hoop: 0.0 });
     }
     for side in 0..3 {
         let (a, b) = (found[side].0, found[(side + 1) % 3].0);

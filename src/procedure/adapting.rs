@@ -112,8 +112,10 @@ impl Procedure<'_> {
             true_errors: Vec::new(),
             seconds: sequence.started.elapsed().as_secs_f64(),
         };
-        self.observer.observe(Event::Adapted { accuracy: &sequence.adaptation.accuracy, mesh: &adapted, solved });
-        sequence.adaptation.meshes.push(adapted);
+        let adaptation = &mut sequence.adaptation;
+        adaptation.meshes.push(adapted.clone());
+        let wanted = adaptation.wanted();
+        self.observer.observe(Event::Adapted { accuracy: &adaptation.accuracy, mesh: &adapted, wanted: &wanted, solved });
         Ok(())
     }
 

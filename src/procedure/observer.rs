@@ -72,6 +72,8 @@ pub enum Event<'a> {
         accuracy: &'a Accuracy,
         /// The mesh.
         mesh: &'a AdaptedMesh,
+        /// The estimate of each goal at which it counts as reached on this mesh: what was asked for, or less.
+        wanted: &'a [f64],
         /// What was found on it.
         solved: &'a Solved,
     },

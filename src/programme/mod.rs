@@ -184,13 +184,20 @@ impl<'s> Predictor<'s> {
         let own = &motion[of_piece.first..of_piece.first + of_piece.kernel.len()];
         let loads = self.loads_that_drive(self.elimination.freedoms.block_of_piece[piece], own)?;
         let by = if loads.is_empty() { "what acts on it".into() } else { loads.join(", ") };
+        let drive = if loads.len() > 1 { "drive" } else { "drives" };
         let (name, body) = (self.scene.mesh.name_of_piece(piece), &self.scene.bodies[self.scene.mesh.pieces[piece].body].name);
         let motion = &mechanism.motion;
+        let turns = moves[2].abs() > moves[0].hypot(moves[1]);
+        let hold = match turns {
+            true => {
+                format!("hold its turn, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and angle = 0.0")
+            }
+            false => "let a support on one of its boundaries, or at a point of it, carry what acts on it".into(),
+        };
         let words = format!(
-            "{name} can {motion}: {by} drives it there, and neither contact, which only pushes, nor a support holds it; turn the load round if it is meant to press the bodies together, or hold the body, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and {}",
-            held_component(moves)
+            "{name} can {motion}: {by} {drive} it there, and neither contact, which only pushes, nor a support holds it; turn the load round if it is meant to press the bodies together, or {hold}"
         );
-        Ok(Prediction::Driven { words, turns: moves[2].abs() > moves[0].hypot(moves[1]) })
+        Ok(Prediction::Driven { words, turns })
     }
 
     /// Loads, body forces and forces on tools that do most of the work in a motion of a block.
@@ -300,12 +307,6 @@ impl ProgrammeRow {
         });
         self
     }
-}
-
-/// The component of the mean motion that is to be held, as the case has it.
-fn held_component(moves: [f64; 3]) -> &'static str {
-    let largest = (0..3).max_by(|&a, &b| moves[a].abs().total_cmp(&moves[b].abs())).unwrap_or_default();
-    ["ux = 0.0", "uy = 0.0", "angle = 0.0"][largest]
 }
 
 /// Whether a row has nodes on both sides. One that has not lies beyond a body: no gap is measured there, nothing presses, and a

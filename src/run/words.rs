@@ -21,6 +21,16 @@ pub fn two_digits(v: f64) -> String {
     if (-2.0..2.0).contains(&power) { format!("{v:.*}", (1.0 - power) as usize) } else { format!("{v:.1e}") }
 }
 
+/// A number to four digits, beside a whole; what is nothing beside that is 0.
+pub fn four_digits(v: f64, whole: f64) -> String {
+    let rounded: f64 = format!("{v:.3e}").parse().unwrap_or(v);
+    match rounded.abs() {
+        size if size <= 1e-6 * whole => "0".into(),
+        size if (1e-3..1e6).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
 /// The units that a case names.
 pub fn units(case: &Case) -> Units {
     let is_whole = case.plane == Plane::Revolution || case.has_thickness;
@@ -51,6 +61,8 @@ mod tests {
     fn small_units_keep_their_digits() {
         assert_eq!([4.0, 6.082e-9, 6.082e9].map(length), ["4.000000", "6.082000e-9", "6.082000e9"]);
         assert_eq!([1.5, 0.25, 6.3e-4].map(short), ["1.50", "0.25", "6.3e-4"]);
+        let told = [-1161008551.33, 3.4641, -1e-9, 0.0, 12.0, 4.56789e-5].map(|v| four_digits(v, v.abs().max(1e-2)));
+        assert_eq!(told, ["-1.161e9", "3.464", "0", "0", "12", "4.568e-5"]);
         let told = [0.0123, 0.01, 0.25, 1.5, 12.0, 6.3e-4, 0.0].map(two_digits);
         assert_eq!(told, ["0.012", "0.010", "0.25", "1.5", "12", "6.3e-4", "0.0"]);
     }

@@ -23,6 +23,9 @@ const APART: f64 = 0.5;
 /// A further pair of two bodies is as near as this share of the smaller one.
 const TOUCHING: f64 = 0.02;
 
+/// Distances that differ by less than this share of the smaller body are alike.
+const ALIKE: f64 = 1e-4;
+
 /// Edges that turn by more than this from one to the next (radians, 31 degrees) meet at a corner: fewer than twelve around a circle
 /// are a polygon that may be meant.
 pub const WIDEST_TURN: f64 = 0.541;
@@ -48,6 +51,21 @@ struct Sight {
     spacing: f64,
     /// Whether it is an end of an edge, where sides that look elsewhere may meet.
     is_end: bool,
+}
+
+impl Sight {
+    /// How far another place lies along the normal (length), if it looks back, lies within reach, and not far aside.
+    fn faces(&self, other: &Self, reach: f64) -> Option<f64> {
+        if self.normal.dot(&other.normal) >= OPPOSITE {
+            return None;
+        }
+        let way = other.place - self.place;
+        let along = way.dot(&self.normal);
+        let aside = (way - along * self.normal).norm();
+        // What lies behind is an overlap only if it is small.
+        let is_near = (-CLOSE * reach..=reach).contains(&along) && aside <= 0.5 * along.abs() + self.spacing + other.spacing;
+        is_near.then_some(along)
+    }
 }
 
 /// What may be one side of a contact: boundaries of one body, or the surface of a rigid tool.
@@ -128,23 +146,31 @@ impl CloseSide {
         let farthest = 1.5 * reach + self.spacing + other.spacing;
         let others = other.near(self, farthest);
         for a in self.near(other, farthest) {
-            let mut own = None::<f64>;
-            for b in others.iter().filter(|b| a.normal.dot(&b.normal) < OPPOSITE) {
-                let way = b.place - a.place;
-                let along = way.dot(&a.normal);
-                let aside = (way - along * a.normal).norm();
-                // What lies behind is an overlap only if it is small.
-                let near = (-CLOSE * reach..=reach).contains(&along) && aside <= 0.5 * along.abs() + a.spacing + b.spacing;
-                is_faced |= near && !a.is_end && !b.is_end;
-                if near && own.is_none_or(|own| along.abs() < own.abs()) {
-                    own = Some(along);
-                }
-            }
+            let faced = others.iter().filter_map(|b| {
+                let along = a.faces(b, reach)?;
+                is_faced |= !a.is_end && !b.is_end;
+                Some(along)
+            });
+            let own = faced.min_by(|a, b| a.abs().total_cmp(&b.abs()));
             deepest = deepest.min(own.unwrap_or_default());
             nearest = own.into_iter().chain(nearest).min_by(|a, b| a.abs().total_cmp(&b.abs()));
         }
-        let bows = 2.0 * (self.bow + other.bow);
+        let bows = self.bows(other);
         nearest.filter(|_| is_faced).map(|nearest| if deepest < -bows { deepest } else { nearest })
+    }
+
+    /// Least distance along a normal at which another side is faced within `reach` where a third one is not.
+    fn distance_beside(&self, other: &Self, third: &Self, reach: f64) -> Option<f64> {
+        let farthest = 1.5 * reach + self.spacing + other.spacing.max(third.spacing);
+        let [others, thirds] = [other, third].map(|side| side.near(self, farthest));
+        let places =
+            self.near(other, farthest).into_iter().filter(|a| !a.is_end && thirds.iter().all(|b| a.faces(b, reach).is_none()));
+        places.flat_map(|a| others.iter().filter_map(|b| Some(a.faces(b, reach)?.abs()))).reduce(f64::min)
+    }
+
+    /// How far straight edges of this side and another lie from their curves together, on either way (length).
+    fn bows(&self, other: &Self) -> f64 {
+        2.0 * (self.bow + other.bow)
     }
 
     /// Whether this side and another have an edge in common.
@@ -218,21 +244,37 @@ fn facing_sides(mesh: &MacroMesh, sides: &[CloseSide], most: f64, is_asked: impl
 }
 
 /// Pairs of named boundaries of different bodies that lie close and face each other, the nearest first. Of two bodies one pair
-/// is enough, unless others touch too; a body that is close to none has its nearest pair.
-pub fn close_pairs(mesh: &MacroMesh) -> Vec<ClosePair> {
+/// is enough, unless others touch too, elsewhere; a body that is close to none has its nearest pair. Pairs that are `taken` already, of
+/// two bodies each, are none of them, and neither is another name for their place.
+pub fn close_pairs(mesh: &MacroMesh, taken: &[[String; 2]]) -> Vec<ClosePair> {
+    let side = |boundary: &Boundary| CloseSide::of_boundaries(mesh, std::iter::once(boundary));
     let named = mesh.boundaries.iter().filter(|boundary| !boundary.is_union);
-    let named = named.filter_map(|boundary| Some((boundary, CloseSide::of_boundaries(mesh, std::iter::once(boundary))?)));
-    let (boundaries, sides): (Vec<&Boundary>, Vec<CloseSide>) = named.unzip();
+    let (boundaries, mut sides): (Vec<&Boundary>, Vec<CloseSide>) =
+        named.filter_map(|boundary| Some((boundary, side(boundary)?))).unzip();
+    let count = sides.len();
     let (mut chosen, mut met) = (Vec::new(), HashSet::new());
     let mut alike: HashMap<[Option<usize>; 2], Vec<[usize; 2]>> = HashMap::new();
-    for pair in facing_sides(mesh, &sides, APART, |_, _| true) {
+    for between in taken {
+        let both = between.each_ref().map(|name| mesh.boundary(name).and_then(side));
+        let [Some(mut first), Some(mut second)] = both else { continue };
+        if second.body < first.body {
+            std::mem::swap(&mut first, &mut second);
+        }
+        let bodies = [first.body, second.body];
+        met.extend(bodies);
+        alike.entry(bodies).or_default().push([sides.len(), sides.len() + 1]);
+        sides.extend([first, second]);
+    }
+    let sizes = body_sizes(mesh);
+    for pair in facing_sides(mesh, &sides, APART, |a, b| a < count && b < count) {
         let bodies = pair.sides.map(|side| sides[side].body);
+        let [Some(first), Some(second)] = bodies else { continue };
+        let size = sizes[first].min(sizes[second]);
         let others = alike.entry(bodies).or_default();
         let is_meant = match others.is_empty() {
             true => pair.share <= CLOSE || bodies.iter().any(|body| !met.contains(body)),
-            false => pair.share <= TOUCHING && !others.iter().any(|other| shares_edges(&sides, *other, pair.sides)),
+            false => pair.share <= TOUCHING && others.iter().all(|other| pair.is_beside(&sides, *other, size)),
         };
-        let [Some(first), Some(second)] = bodies else { continue };
         if is_meant {
             others.push(pair.sides);
             met.extend(bodies);
@@ -241,6 +283,20 @@ pub fn close_pairs(mesh: &MacroMesh) -> Vec<ClosePair> {
         }
     }
     chosen
+}
+
+impl FacingSides {
+    /// Whether the sides come as close as they do beside another pair of the same bodies of that size, too: they touch elsewhere, and
+    /// are no other names for the same place, nor what goes on from there.
+    fn is_beside(&self, sides: &[CloseSide], other: [usize; 2], size: f64) -> bool {
+        let shared = [0, 1].map(|k| sides[self.sides[k]].shares_edges(&sides[other[k]]));
+        let [first, second] = self.sides.map(|side| &sides[side]);
+        let most = self.distance.abs() + first.bows(second).max(ALIKE * size);
+        (0..2).filter(|&k| shared[k] || shared == [false; 2]).all(|k| {
+            let [own, faced, third] = [self.sides[k], self.sides[1 - k], other[1 - k]].map(|side| &sides[side]);
+            own.distance_beside(faced, third, TOUCHING * size).is_some_and(|distance| distance <= most)
+        })
+    }
 }
 
 /// Pairs of sides, by their indices, that are asked for, lie close and face each other, in their order; no edge of two bodies
@@ -291,7 +347,7 @@ mod tests {
     #[test]
     fn the_seam_of_two_blocks_is_found_wherever_they_lie() {
         for (by, distance) in [([0.0, 0.0], 0.0), ([0.3, 0.1], 0.1), ([0.0, 0.9], 0.9), ([0.0, -0.05], -0.05)] {
-            let pairs = close_pairs(&moved(by.into()));
+            let pairs = close_pairs(&moved(by.into()), &[]);
             let [pair] = &pairs[..] else { panic!("{pairs:?}") };
             assert_eq!(pair.between, ["lower.seam", "upper.seam"]);
             assert!((pair.distance - distance).abs() < 1e-12, "{pair:?}");
@@ -301,7 +357,7 @@ mod tests {
     #[test]
     fn what_lies_far_or_turns_its_back_is_none() {
         for by in [[0.0, 3.0], [9.0, 0.0], [0.0, -4.0]] {
-            assert_eq!(close_pairs(&moved(by.into())), [], "{by:?}");
+            assert_eq!(close_pairs(&moved(by.into()), &[]), [], "{by:?}");
         }
     }
 }

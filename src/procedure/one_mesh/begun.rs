@@ -15,7 +15,9 @@ use crate::discretisation::{
 };
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, Numbering, Partition, lattice};
-use crate::procedure::one_mesh::wide_contact::{Fineness, FoundByProgramme, WideContact, narrowed, wide_contacts, with_touch};
+use crate::procedure::one_mesh::wide_contact::{
+    Fineness, FoundByProgramme, WideContact, as_drawn, drawn_contacts, largest_force, narrowed, wide_contacts, with_touch,
+};
 use crate::procedure::sequence::LoadedPlace;
 use crate::procedure::settings::Procedure;
 use crate::programme::{Prediction, Predictor};
@@ -23,7 +25,7 @@ use crate::system::Start;
 use std::rc::Rc;
 
 /// Operations of a programme that are less than a few sets on the same mesh cost: some tenths of a second.
-const MOST_WORK: f64 = 3e8;
+pub const MOST_WORK: f64 = 3e8;
 
 /// Gap by the length of a contact that counts as closed: what the programme leaves of none.
 const TOUCHING: f64 = 1e-9;
@@ -55,7 +57,7 @@ impl Procedure<'_> {
         let whole = on_one_rank(&scene);
         let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
         let wide = wide_contacts(&whole, &numbering, Fineness::Graded)?;
-        let drawn = contacts_of(&wide);
+        let drawn = drawn_contacts(&wide);
         let free = not_held_if_closed(&whole, &numbering, &drawn);
         if let Some(words) = self.session.agree(free).map_err(SystemError::Case)? {
             return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
@@ -69,15 +71,13 @@ impl Procedure<'_> {
             }
             Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
         };
-        let drawn = contacts_of(&wide);
+        let drawn = drawn_contacts(&wide);
         let pressing = active(&drawn, &found);
-        let largest = wide.iter().map(|wide| wide.force(&found.pressures)).fold(0.0, f64::max);
-        let least = share_of_nothing(self.accuracy) * largest;
-        if wide.iter().any(|wide| wide.presses_elsewhere(&found.pressures, least)) {
-            let drawn: Vec<Known> = wide.iter().map(|wide| wide.as_drawn(&found.pressures, least)).collect();
-            if let Some(words) = self.tips(predictor.as_ref(), &whole, &numbering, &drawn)? {
-                return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
-            }
+        let least = share_of_nothing(self.accuracy) * largest_force(&wide, &found.pressures);
+        if let Some(drawn) = as_drawn(&wide, &found.pressures, least)
+            && let Some(words) = self.tips(predictor.as_ref(), &whole, &numbering, &drawn)?
+        {
+            return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
         }
         let known: Vec<Known> = wide.iter().map(|wide| narrowed(wide, &pressing, &found, least)).collect();
         let displacement = |node: EdgeNode| found.displacement[node.number(&whole.mesh, &numbering)];
@@ -128,7 +128,7 @@ impl Procedure<'_> {
         let whole = on_one_rank(scene);
         let numbering = finest_numbering(&whole)?;
         let wide = wide_contacts(&whole, &numbering, Fineness::Graded)?;
-        let drawn = contacts_of(&wide);
+        let drawn = drawn_contacts(&wide);
         if work_of_programme(scene, numbering.level, &drawn) > MOST_WORK {
             return Ok(None);
         }
@@ -149,12 +149,12 @@ impl Procedure<'_> {
         numbering: &Numbering,
         wide: Vec<WideContact>,
     ) -> Result<Result<(Vec<WideContact>, FoundByProgramme), Prediction>, SystemError> {
-        match self.shared(predictor, &contacts_of(&wide), numbering.node_count())? {
+        match self.shared(predictor, &drawn_contacts(&wide), numbering.node_count())? {
             Err(Prediction::Driven { .. }) => {}
             other => return Ok(other.map(|found| (wide, found))),
         }
         let fine = wide_contacts(whole, numbering, Fineness::Fine)?;
-        let found = self.shared(predictor, &contacts_of(&fine), numbering.node_count())?;
+        let found = self.shared(predictor, &drawn_contacts(&fine), numbering.node_count())?;
         Ok(found.map(|found| (fine, found)))
     }
 
@@ -209,13 +209,8 @@ impl Procedure<'_> {
     }
 }
 
-/// The contacts alone.
-fn contacts_of(wide: &[WideContact]) -> Vec<Contact> {
-    wide.iter().map(|wide| wide.contact.clone()).collect()
-}
-
 /// Operations of the programme on a mesh, roughly: the factor of each body, and a solve with it for each multiplier that it sees.
-fn work_of_programme(scene: &Scene, level: Level, contacts: &[Contact]) -> f64 {
+pub fn work_of_programme(scene: &Scene, level: Level, contacts: &[Contact]) -> f64 {
     let intervals = level.intervals as f64;
     let mut bodies = vec![[0.0; 2]; scene.bodies.len()];
     scene.mesh.triangles.iter().for_each(|triangle| bodies[triangle.body as usize][0] += intervals * intervals);

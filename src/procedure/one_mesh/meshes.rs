@@ -14,7 +14,7 @@ use crate::procedure::solved::{CoarseSolve, Solved};
 use crate::system::{Preconditioning, SolverChoice, Start, Tolerance};
 
 /// Refinements that are solved before the case's own.
-const COARSER: usize = 2;
+pub const COARSER: usize = 2;
 
 /// Relative residual of the solves on coarser meshes: below any discretisation error there.
 const COARSE: f64 = 1e-6;

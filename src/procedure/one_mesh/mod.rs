@@ -2,6 +2,7 @@
 
 mod begun;
 mod boundaries;
+mod foretold;
 mod meshes;
 mod wide_contact;
 

@@ -45,7 +45,7 @@ pub(crate) struct WideContact {
 
 impl WideContact {
     /// The force of what presses.
-    pub fn force(&self, pressures: &[f64]) -> f64 {
+    fn force(&self, pressures: &[f64]) -> f64 {
         let contact = &self.contact;
         contact.range().map(|i| pressures[i].max(0.0) * contact.multipliers.integral(i - contact.first)).sum()
     }
@@ -59,7 +59,7 @@ impl WideContact {
 
     /// Whether a force that counts presses farther from the place where the sides touch first than it is wide there: bodies have to
     /// move so far before contact holds them that their theory is that of another scene.
-    pub fn presses_elsewhere(&self, pressures: &[f64], least: f64) -> bool {
+    fn presses_elsewhere(&self, pressures: &[f64], least: f64) -> bool {
         let (contact, force) = (&self.contact, self.force(pressures));
         let Some([at, half]) = self.pressed_by(force).filter(|_| force > least && contact.has_free_ends()) else { return false };
         let (boundary, multipliers) = (&contact.boundary, &contact.multipliers);
@@ -69,7 +69,7 @@ impl WideContact {
     }
 
     /// Γ_C about the place where the sides touch first, as wide as its force presses there.
-    pub fn as_drawn(&self, pressures: &[f64], least: f64) -> Known {
+    fn as_drawn(&self, pressures: &[f64], least: f64) -> Known {
         let Some([at, half]) = self.pressed_by(self.force(pressures).max(least)) else { return self.known.clone() };
         let boundary = &self.contact.boundary;
         let ends = [(at - half).max(0.0), (at + half).min(boundary.length())];
@@ -103,6 +103,23 @@ pub(crate) fn wide_contacts(scene: &Scene, numbering: &Numbering, fineness: Fine
         all.push(wide);
     }
     Ok(all)
+}
+
+/// The contacts themselves.
+pub(crate) fn drawn_contacts(wide: &[WideContact]) -> Vec<Contact> {
+    wide.iter().map(|wide| wide.contact.clone()).collect()
+}
+
+/// The largest force of a contact.
+pub(crate) fn largest_force(wide: &[WideContact], pressures: &[f64]) -> f64 {
+    wide.iter().map(|wide| wide.force(pressures)).fold(0.0, f64::max)
+}
+
+/// Where contacts lie if bodies stay as they are drawn, if what presses on one of them lies elsewhere; a force below `least` does not
+/// count.
+pub(crate) fn as_drawn(wide: &[WideContact], pressures: &[f64], least: f64) -> Option<Vec<Known>> {
+    let presses_elsewhere = wide.iter().any(|wide| wide.presses_elsewhere(pressures, least));
+    presses_elsewhere.then(|| wide.iter().map(|wide| wide.as_drawn(pressures, least)).collect())
 }
 
 fn wide_contact(

@@ -1,6 +1,6 @@
 //! Goals of an accuracy in words: what is asked for, and which of many goals are told.
 
-use super::numbers::{grouped, plain};
+use super::numbers::{figure, grouped, plain};
 use crate::accuracy::{Accuracy, AdaptedMesh, Goal, Quantity};
 use crate::output::summary::{MOST_TOLD, WORST};
 
@@ -46,6 +46,21 @@ pub fn request(accuracy: &Accuracy) -> String {
     let unknowns = accuracy.most_unknowns.map(|most| format!("; at most {} unknowns", grouped(most)));
     let seconds = accuracy.most_seconds.map(|most| format!("; no further mesh after {} s", plain(most)));
     [goals.collect::<Vec<_>>().join(", ")].into_iter().chain(unknowns).chain(seconds).collect()
+}
+
+/// The estimate of a goal on a mesh, and what is asked if that is more than what is `wanted` there: `energy 1.3e-2`,
+/// `pressure of seam 4.0e-2 (asked 1e-2)`. A first mesh on which less than that is wanted says why.
+pub fn estimate(goal: &Goal, error: Option<f64>, wanted: f64) -> String {
+    let words = format!("{} {}", name(&goal.quantity), error.map_or("unknown".into(), |error| format!("{error:.1e}")));
+    match error {
+        Some(error) if error <= wanted => words,
+        Some(error) if error <= goal.tolerance => format!(
+            "{words} (asked {:e}: it takes one more mesh, because an estimate above {} on the first one may be so small by luck)",
+            goal.tolerance,
+            figure(wanted)
+        ),
+        _ => format!("{words} (asked {:e})", goal.tolerance),
+    }
 }
 
 /// `energy`, `pressure of seam`, `stress at tip`

@@ -6,7 +6,7 @@ mod numbers;
 mod verdict;
 
 pub(super) use extrapolation::sequences;
-pub(super) use goals::{name, of_how_many, request, told};
+pub(super) use goals::{estimate, name, of_how_many, request, told};
 pub(super) use verdict::judge;
 
 use super::memory;

@@ -41,6 +41,26 @@ fn the_verdict_says_what_is_reached() {
     assert_eq!(judge(&none, Status::NotConverged, "a mechanism"), (Status::NotConverged, "a mechanism".into()));
 }
 
+/// The line of a mesh says by itself why there is a next one: the first one wants a quarter of what is asked, but of the energy and
+/// of contacts whose width was known before.
+#[test]
+fn the_line_of_a_mesh_says_why_the_run_goes_on() {
+    let lines = |adaptation: &Adaptation| -> Vec<String> {
+        let (goals, mesh) = (&adaptation.accuracy.goals, adaptation.meshes.last().expect("a mesh"));
+        let line = |((goal, error), wanted): ((&Goal, &Option<f64>), f64)| estimate(goal, *error, wanted);
+        goals.iter().zip(&mesh.errors).zip(adaptation.wanted()).map(line).collect()
+    };
+    let both = adapted([Some(8e-5), Some(4e-4)]);
+    assert_eq!(lines(&both), ["energy 8.0e-5", "pressure of seam 4.0e-4"]);
+    assert!(both.is_reached());
+    let first = Adaptation { meshes: vec![both.meshes[1].clone()], ..both };
+    let why = "it takes one more mesh, because an estimate above 2.5e-4 on the first one may be so small by luck";
+    assert_eq!(lines(&first), ["energy 8.0e-5".into(), format!("pressure of seam 4.0e-4 (asked 1e-3: {why})")]);
+    assert!(!first.is_reached() && Adaptation { resolved: vec!["seam".into()], ..first }.is_reached());
+    let missed = adapted([Some(2e-4), None]);
+    assert_eq!(lines(&missed), ["energy 2.0e-4 (asked 1e-4)", "pressure of seam unknown (asked 1e-3)"]);
+}
+
 #[test]
 fn what_is_not_reached_has_not_converged() {
     for last in [[Some(1.1e-4), Some(4e-4)], [Some(8e-5), None], [Some(f64::NAN), Some(4e-4)]] {

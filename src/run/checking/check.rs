@@ -30,7 +30,8 @@ pub struct Checked {
     pub words: String,
     /// Words for bodies with a slit, for tools and plates that turn too far, and for a run that would be refused on this machine, for want of memory.
     pub warnings: Vec<String>,
-    /// Words for a body that can move though contact is closed everywhere; nothing if all are held.
+    /// Words for a body that can move though contact is closed everywhere, or that its loads drive off all its contacts; nothing if
+    /// all are held.
     pub not_held: Option<String>,
     /// Contacts and supports that may be missing, as TOML to paste, with words before them; empty if there is nothing to propose.
     pub proposals: String,
@@ -47,8 +48,8 @@ pub fn check_file(file: &Path, overrides: &[String]) -> Result<Checked, RunError
     check(&case)
 }
 
-/// Reads everything, solves nothing, and says what would be solved, and whether contact, closed everywhere, would hold all
-/// bodies.
+/// Reads everything, solves nothing on the mesh of the case, and says what would be solved, and whether contact would hold all bodies:
+/// closed everywhere, and, as far as a coarse mesh tells it at little cost, under the loads.
 ///
 /// # Errors
 /// [`RunError::Input`] with words.
@@ -92,7 +93,11 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     lines.extend((!memory.is_empty()).then_some(memory));
     let idle = idle(&scene, &at_rest.numbering).filter(|_| case.steps.is_empty());
     let warnings = slits.into_iter().chain(far_turns(case)).chain(idle).chain(warning).collect();
-    let not_held = not_held_before.map_or_else(|| at_rest.not_held(&scene), |words| Ok(Some(words)))?;
+    let last = |words: String| case.steps.last().map_or_else(|| words.clone(), |step| format!("{}: {words}", step.words()));
+    let not_held = match not_held_before {
+        None => at_rest.not_held(&scene)?.or_else(|| driven_off(case, &scene)).map(last),
+        before => before,
+    };
     let proposals = proposals(case, &scene.mesh, not_held.is_some());
     Ok(Checked { words: lines.join("\n"), warnings, not_held, proposals })
 }
@@ -145,15 +150,20 @@ fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
     text.trim_end().to_owned()
 }
 
-/// Looks at all load steps but the last, which is the case itself: words for a body that can move in one of them though contact
-/// is closed everywhere.
+/// Looks at all load steps but the last, which is the case itself: words for the first that is refused.
 fn check_steps(case: &Case, last: &Scene) -> Result<Option<String>, RunError> {
     for step in case.steps.iter().rev().skip(1).rev() {
         let scene = scene::of_step(step, last);
         let words = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.not_held(&scene));
-        if let Some(words) = words.map_err(|error| RunError::from(error).in_step(step))? {
+        let words = words.map_err(|error| RunError::from(error).in_step(step))?;
+        if let Some(words) = words.or_else(|| driven_off(case, &scene)) {
             return Ok(Some(format!("{}: {words}", step.words())));
         }
     }
     Ok(None)
+}
+
+/// Words for a body that the loads of a scene drive off all its contacts.
+fn driven_off(case: &Case, scene: &Scene) -> Option<String> {
+    Procedure::driven_off(scene, case.accuracy.as_ref(), case.steps.len().max(1))
 }

@@ -7,15 +7,14 @@ use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use crate::procedure::Procedure;
 use crate::run::reading::scene;
-use std::collections::HashSet;
 use std::path::Path;
 use toml::Value;
 
 /// Supports that are proposed at most: whoever lacks more has to think anyway.
 const MOST_SUPPORTS: usize = 100;
 
-/// Components of a motion that are below this share of the largest are none.
-const FAINT: f64 = 1e-3;
+/// Boundaries that are proposed for a contact are nearer than this share of the smaller body.
+const CLOSE: f64 = 0.02;
 
 /// A name as a TOML string.
 pub(crate) fn quoted(name: &str) -> String {
@@ -76,18 +75,13 @@ pub(crate) fn short(value: f64) -> String {
     format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
 }
 
-/// Contacts that a case may have forgotten: boundaries that lie close, of bodies between which it has none.
+/// Contacts that a case may have forgotten: boundaries that lie close, of bodies between which it has none, or elsewhere than those
+/// that it has.
 pub(crate) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
-    let body_of = |side: &String| mesh.boundary(side).and_then(|found| found.edges.first()).map(|&edge| mesh.body_beside(edge));
-    let bodies = case.contacts.iter().map(|contact| {
-        let mut bodies = contact.between.each_ref().map(body_of);
-        bodies.sort_unstable();
-        bodies
-    });
-    let known: HashSet<[Option<usize>; 2]> = bodies.collect();
+    let taken: Vec<[String; 2]> = case.contacts.iter().map(|contact| contact.between.clone()).collect();
     let mut names = TableNames::of(case.contacts.iter().map(|pair| pair.name.clone()));
-    let close = |pair: &ClosePair| pair.share <= 0.02 && !known.contains(&pair.bodies.map(Some));
-    close_pairs(mesh).iter().filter(|pair| close(pair)).map(|pair| contact_table(pair, &mut names)).collect()
+    let close = close_pairs(mesh, &taken);
+    close.iter().filter(|pair| pair.share <= CLOSE).map(|pair| contact_table(pair, &mut names)).collect()
 }
 
 /// Supports that would hold what can move though contact is closed everywhere, one after the other; none if all is held, or
@@ -190,7 +184,9 @@ fn support_for(
     let largest = parts.iter().fold(0.0f64, |largest, part| largest.max(part.abs()));
     let is_free = motion.motion == "move in every direction";
     if is_whole && !is_held {
-        let moves = parts.map(|part| is_free || part.abs() > FAINT * largest);
+        // One component for one motion: another one may be what loads drive.
+        let most = parts.iter().position(|part| part.abs() == largest);
+        let moves = [0, 1, 2].map(|k| is_free || most == Some(k));
         // A hold that is there already is completed.
         let is_there = is_ours(name);
         let fresh = if is_there { String::new() } else { names.fresh(&format!("{name}-still")) };

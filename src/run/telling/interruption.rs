@@ -251,7 +251,7 @@ impl Unfinished {
                 summary.solver.residual = Some(pass.residual);
             }
             Event::Placed(step) => summary.boundaries.push((*step).into()),
-            Event::Adapted { accuracy, mesh, solved } => {
+            Event::Adapted { accuracy, mesh, solved, .. } => {
                 *summary = described(std::mem::take(summary), case, solved);
                 let one = Adaptation { meshes: vec![(*mesh).clone()], ..Adaptation::new((*accuracy).clone()) };
                 summary.accuracy.get_or_insert_default().extend(accuracy::summarise(&one));

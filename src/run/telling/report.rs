@@ -123,7 +123,7 @@ impl Report {
                 let from = if *from_before { "with the step before" } else { "with the bodies at rest" };
                 self.say(&format!("not converged; begins once more, {from}"));
             }
-            Event::Adapted { accuracy: asked, mesh, .. } => self.adapted(asked, mesh),
+            Event::Adapted { accuracy: asked, mesh, wanted, .. } => self.adapted(asked, mesh, wanted),
         }
     }
 
@@ -138,10 +138,9 @@ impl Report {
     }
 
     /// One mesh of a sequence.
-    fn adapted(&self, asked: &Accuracy, mesh: &AdaptedMesh) {
-        let figure = |error: Option<f64>| error.map_or("unknown".to_string(), |error| format!("{error:.1e}"));
-        let error = |place: usize| figure(mesh.errors.get(place).copied().flatten());
-        let goal = |&place: &usize| format!("{} {}", accuracy::name(&asked.goals[place].quantity), error(place));
+    fn adapted(&self, asked: &Accuracy, mesh: &AdaptedMesh, wanted: &[f64]) {
+        let error = |place: usize| mesh.errors.get(place).copied().flatten();
+        let goal = |&place: &usize| accuracy::estimate(&asked.goals[place], error(place), wanted[place]);
         let all: Vec<String> = accuracy::told(asked, Some(mesh)).iter().map(goal).collect();
         self.say(&format!(
             "mesh {:2}: {} macro triangles, {} unknowns, {}{}, {:.2} s",

@@ -3,6 +3,7 @@
 use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
 use super::named_curve::{LOADED, MIRRORED, NamedCurve, PULLED};
 use super::node_circle::NodeCircle;
+use crate::contact::ClosePair;
 use crate::geometry::Point;
 use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
 use std::fmt::Write;
@@ -58,7 +59,11 @@ impl Draft<'_> {
                 bodies[a], bodies[b]
             )
         };
-        self.guesses.unnamed.iter().map(close).collect()
+        let left_out = |(pair, why): &(ClosePair, String)| {
+            let [first, second] = &pair.between;
+            format!("the contact of \"{first}\" and \"{second}\" is left out: {why}")
+        };
+        self.guesses.unnamed.iter().map(close).chain(self.guesses.refused.iter().map(left_out)).collect()
     }
 
     fn head(&self, text: &mut String, named: &str) {
@@ -131,12 +136,16 @@ order = 2
 
     fn contacts(&self, text: &mut String) {
         let mut tables = TableNames::default();
-        if self.guesses.mesh.bodies.len() > 1 && self.guesses.pairs.is_empty() {
+        if self.guesses.mesh.bodies.len() > 1 && self.guesses.pairs.is_empty() && self.guesses.refused.is_empty() {
             *text += "\n# No named boundaries of two bodies lie close and face each other. What may touch is written so:\n";
             *text += "# [contact.NAME]\n# between = [\"boundary of body 1\", \"boundary of body 2\"]\n";
         }
         for pair in &self.guesses.pairs {
             let _ = write!(text, "\n{}", contact_table(pair, &mut tables));
+        }
+        for (pair, why) in &self.guesses.refused {
+            let _ = write!(text, "\n# Left out, since `mezha check` refuses it:\n#   {why}\n");
+            contact_table(pair, &mut tables).lines().for_each(|line| *text += &format!("# {line}\n"));
         }
     }
 
@@ -179,9 +188,15 @@ order = 2
 
     fn load(&self, text: &mut String, press: Press) {
         let Some(curve) = self.guesses.pressed().filter(|_| press != Press::Nothing) else {
-            *text += match self.guesses.is_pressed_in() {
-                true => "\n# Bodies are drawn into each other: that interference is the load. A further one is written so:\n",
-                false => "\n# Nothing presses yet. A load is written so:\n",
+            *text += &match (self.guesses.is_pressed_in(), self.guesses.pressed()) {
+                (true, _) => {
+                    "\n# Bodies are drawn into each other: that interference is the load. A further one is written so:\n".into()
+                }
+                (_, Some(curve)) => format!(
+                    "\n# Nothing presses yet: `mezha check` refuses a load on {}, as the bodies are held here. A load is written so:\n",
+                    quoted(curve.name)
+                ),
+                (_, None) => "\n# Nothing presses yet. A load is written so:\n".to_owned(),
             };
             *text += "# [load.NAME]\n# on = \"boundary\"\n# pressure = 1.0\n# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n";
             return;

@@ -54,17 +54,28 @@ pub struct Guesses<'a> {
     pub curves: Vec<NamedCurve<'a>>,
     /// Named boundaries that may touch.
     pub pairs: Vec<ClosePair>,
+    /// Those of them that no contact can be made of as they are drawn, and why.
+    pub refused: Vec<(ClosePair, String)>,
     /// Bodies that lie close, though no named boundaries of theirs do.
     pub unnamed: Vec<[usize; 2]>,
 }
 
 impl<'a> Guesses<'a> {
     pub fn new(mesh: &'a MacroMesh) -> Self {
-        let pairs = close_pairs(mesh);
+        let pairs = close_pairs(mesh, &[]);
         let curves = mesh.boundaries.iter().filter_map(|boundary| NamedCurve::new(mesh, boundary, &pairs)).collect();
         let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
         let unnamed = close_outlines(mesh).into_iter().filter(|bodies| !is_known(bodies)).collect();
-        Self { mesh, curves, pairs, unnamed }
+        Self { mesh, curves, pairs, refused: Vec::new(), unnamed }
+    }
+
+    /// Leaves out the pair of these names, in any order; says whether there is one.
+    pub fn refuse(&mut self, between: &[String; 2], why: &str) -> bool {
+        let is_it = |pair: &ClosePair| pair.between.iter().all(|name| between.contains(name));
+        let found = self.pairs.iter().position(is_it).map(|at| (self.pairs.remove(at), why.to_owned()));
+        let is_there = found.is_some();
+        self.refused.extend(found);
+        is_there
     }
 
     /// Boundaries without contact and not of symmetry.
@@ -195,7 +206,7 @@ fn close_outlines(mesh: &MacroMesh) -> Vec<[usize; 2]> {
         Boundary { name: mesh.bodies[body].clone(), edges, is_union: false }
     };
     let outlines = MacroMesh { boundaries: (0..mesh.bodies.len()).map(outline).collect(), ..mesh.clone() };
-    close_pairs(&outlines).into_iter().filter(|pair| pair.share <= NEAR).map(|pair| pair.bodies).collect()
+    close_pairs(&outlines, &[]).into_iter().filter(|pair| pair.share <= NEAR).map(|pair| pair.bodies).collect()
 }
 
 /// A number of one digit, for an example.

@@ -9,9 +9,10 @@ mod named_curve;
 mod node_circle;
 
 use crate::case::{Case, CaseError};
+use crate::contact::Pair;
 use crate::mesh::{parse_joined, read_bytes, touching_surfaces};
 use crate::run::checking::check::check;
-use crate::run::checking::proposals::{TableNames, proposed_supports, quoted};
+use crate::run::checking::proposals::{TableNames, key, proposed_supports, quoted};
 use crate::run::outcome::RunError;
 use draft::Draft;
 use guesses::{Guesses, Press};
@@ -37,47 +38,69 @@ pub fn first_case(mesh_file: &Path, named: &str) -> Result<FirstCase, RunError> 
     let parts = groups.iter().zip(&names).flat_map(|(group, body)| group.iter().map(move |part| (part.clone(), body.clone())));
     let joined: HashMap<String, String> = parts.filter(|(part, body)| part != body).collect();
     let mesh = parse_joined(&bytes, mesh_file, joined).map_err(|error| RunError::Input(error.to_string()))?;
-    let draft = Draft { guesses: Guesses::new(&mesh), groups: &groups, names: &names };
-    let mut remarks = draft.remarks();
+    let mut draft = Draft { guesses: Guesses::new(&mesh), groups: &groups, names: &names };
     let place = std::path::absolute(mesh_file).unwrap_or_else(|_| mesh_file.to_path_buf());
-    let parse = &|text: &str| {
-        let file = place.with_file_name("case.toml");
-        Case::parse(text, &file, &[format!("mesh.file={}", quoted(&place.to_string_lossy()))])
-    };
+    let file = place.with_file_name("case.toml");
+    let parse = |text: &str| Case::parse(text, &file, &[format!("mesh.file={}", quoted(&place.to_string_lossy()))]);
     // The first way of pressing that can be is taken; the last presses nothing. If none can be, the first is told with its words.
     let mut failed = None;
     for press in [Press::Plate, Press::Pressure, Press::Nothing] {
-        let (text, words) = with_supports(draft.text(named, press), parse);
-        match words {
-            None => return Ok(FirstCase { text, remarks }),
-            Some(words) => _ = failed.get_or_insert((text, words)),
+        loop {
+            let (text, refusal) = with_supports(draft.text(named, press), parse);
+            let Some(Refusal { words, contact }) = refusal else { return Ok(FirstCase { text, remarks: draft.remarks() }) };
+            if !contact.is_some_and(|(between, why)| draft.guesses.refuse(&between, &why)) {
+                failed.get_or_insert((text, words));
+                break;
+            }
         }
     }
     let (text, words) = failed.expect("all have failed");
-    let file_prefix = format!("{}: ", place.with_file_name("case.toml").display());
+    let file_prefix = format!("{}: ", file.display());
     let words: String = words.lines().map(|line| format!("#   {}\n", line.trim_start_matches(&file_prefix))).collect();
+    let mut remarks = draft.remarks();
     remarks.push("the case does not pass `mezha check` yet; its first lines say why".into());
     let (schema, rest) = text.split_once("\n\n").unwrap_or(("", &text));
     let text = format!("{schema}\n\n# This case does not pass `mezha check` yet, which says:\n{words}\n{rest}");
     Ok(FirstCase { text, remarks })
 }
 
-/// A draft with supports for what it does not hold, and words if `check` does not pass it then.
-fn with_supports(mut text: String, parse: impl Fn(&str) -> Result<Case, CaseError>) -> (String, Option<String>) {
+/// What `check` says against a draft.
+struct Refusal {
+    words: String,
+    /// The boundaries of the contact that is refused, and why, if it is a contact.
+    contact: Option<([String; 2], String)>,
+}
+
+impl Refusal {
+    fn new(words: String, case: Option<&Case>) -> Self {
+        let refused = |pair: &Pair| {
+            let (_, why) = words.split_once(&format!(": contact.{}: ", key(&pair.name)))?;
+            Some((pair.between.clone(), why.lines().next()?.to_owned()))
+        };
+        let contact = case.and_then(|case| case.contacts.iter().find_map(refused));
+        Self { words, contact }
+    }
+}
+
+/// A draft with supports for what it does not hold, and what `check` says if it does not pass it then.
+fn with_supports(mut text: String, parse: impl Fn(&str) -> Result<Case, CaseError>) -> (String, Option<Refusal>) {
     let case = match parse(&text) {
         Ok(case) => case,
-        Err(error) => return (text, Some(error.to_string())),
+        Err(error) => return (text, Some(Refusal::new(error.to_string(), None))),
     };
     let supports = proposed_supports(&case);
     if !supports.is_empty() {
         text += "\n# Nothing else holds these motions; put what you mean in their place.\n";
         text += &supports.join("\n");
     }
-    let words = match parse(&text) {
-        Ok(case) => check(&case).map_or_else(|error| Some(error.to_string()), |checked| checked.not_held),
-        Err(error) => Some(error.to_string()),
+    let refusal = match parse(&text) {
+        Ok(case) => match check(&case) {
+            Ok(checked) => checked.not_held.map(|words| Refusal::new(words, None)),
+            Err(error) => Some(Refusal::new(error.to_string(), Some(&case))),
+        },
+        Err(error) => Some(Refusal::new(error.to_string(), None)),
     };
-    (text, words)
+    (text, refusal)
 }
 
 /// The path of a mesh file from the folder of a case, or its name alone where that folder is not known: the case then goes
