@@ -37,7 +37,7 @@ pub fn by_place(old: &Contact, new: &Contact, (multipliers, active): (&[f64], &[
         // A little inside, where the segment is known.
         MultiplierSpace::P1Discontinuous => {
             let [a, b] = [knots[i / 2], knots[i / 2 + 1]];
-            if i % 2 == 0 { a + 1e-3 * (b - a) } else { b - 1e-3 * (b - a) }
+            if i.is_multiple_of(2) { a + 1e-3 * (b - a) } else { b - 1e-3 * (b - a) }
         }
     };
     let at = |i: usize| {
