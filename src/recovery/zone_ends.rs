@@ -231,6 +231,21 @@ mod tests {
         assert_eq!(corners(|_| Point::zeros(), Some([0.25, 0.75])), [false; 2], "both go on");
     }
 
+    /// A place in contact where one body slides along the other.
+    fn slid_point(arc: f64, slip: f64) -> TracePoint {
+        TracePoint {
+            arc,
+            x: Point::zeros(),
+            normal: Point::y(),
+            lambda: 1.0,
+            displacement: [0.0; 2],
+            slip,
+            stress: [-1.0; 2],
+            distance: [0.0; 2],
+            gap: 0.0,
+        }
+    }
+
     /// Two blocks of the width 2, the upper one moved or stretched, that slide along each other: what they lose at their ends.
     #[test]
     fn bodies_lose_by_sliding_what_neither_goes_on() {
@@ -238,17 +253,7 @@ mod tests {
             let scene = blocks(pair(MultiplierSpace::P0, 8), upper, Vec::new());
             let contact = contact(&scene, Known::default());
             let length = contact.boundary.length();
-            let at = |arc: f64| TracePoint {
-                arc,
-                x: Point::zeros(),
-                normal: Point::y(),
-                lambda: 1.0,
-                displacement: [0.0; 2],
-                slip,
-                stress: [-1.0; 2],
-                distance: [0.0; 2],
-                gap: 0.0,
-            };
+            let at = |arc: f64| slid_point(arc, slip);
             let found = slip_at_ends(&contact, &scene.mesh, &[[0.0, length]], &[at(0.0), at(length)]).expect("both ends press");
             assert!((found.way * length - slip.abs()).abs() < 1e-12);
             found.lost * length
@@ -265,5 +270,19 @@ mod tests {
         let shifted = |_: Point| Point::new(0.1, 0.0);
         near(slid(&shifted, 0.3), 0.3);
         near(slid(&shifted, -0.3), 0.1);
+    }
+
+    /// Contact up to the ends of both bodies, taken for contact that ends before them: there is no room at all.
+    #[test]
+    fn bodies_without_room_lose_all_of_a_contact_and_no_more() {
+        let scene = blocks(pair(MultiplierSpace::P0, 8), |_| Point::zeros(), Vec::new());
+        let contact = contact(&scene, Known::default());
+        let lost = |zone: [f64; 2], slip: f64| {
+            let points = zone.map(|arc| slid_point(arc, slip));
+            slip_near_ends(&contact, &scene.mesh, &[zone], &points).expect("a zone").lost
+        };
+        let length = contact.boundary.length();
+        assert_eq!(lost([0.0, length], 0.3), 1.0);
+        assert!((lost([0.25 * length, 0.75 * length], 0.3) - 0.25 * (0.3 / (0.25 * length)).powi(2)).abs() < 1e-12);
     }
 }

@@ -73,7 +73,7 @@ enum After {
     Moved {
         contacts: Vec<Contact>,
         motion: BoundaryMotion,
-        start: Option<Start>,
+        start: Start,
         /// Whether it is nearly where it was.
         is_near: bool,
     },
@@ -150,7 +150,7 @@ impl OneMesh<'_> {
                 After::Moved { contacts, motion, start: next, is_near } => {
                     let _stage = self.procedure.observer.enter(Work::Contact);
                     problem.replace(contacts, motion, self.procedure.session)?;
-                    (start, is_last) = (next, is_near);
+                    (start, is_last) = (Some(next), is_near);
                 }
             }
         }
@@ -330,7 +330,7 @@ impl BoundaryLoop<'_, '_> {
             }
             NextBoundary::GivenUp(failure) => After::Ended(Ending::NotConverged(failure)),
             NextBoundary::Again(contacts, motion) => {
-                let start = Some(carried(&problem.contacts, &contacts, solution));
+                let start = carried(&problem.contacts, &contacts, solution);
                 After::Moved { contacts, motion, start, is_near }
             }
         }))

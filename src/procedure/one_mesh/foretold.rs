@@ -17,7 +17,7 @@ impl Procedure<'_> {
     pub fn driven_off(scene: &Scene, accuracy: Option<&Accuracy>, scenes: usize) -> Option<String> {
         for times in COARSER.min(scene.refine)..=scene.refine {
             let mesh = scene.coarser(times);
-            // What cannot be placed on a coarse mesh may be on a finer one.
+            // Nothing is said where a contact cannot be placed: it may be on a finer mesh.
             let numbering = finest_numbering(&mesh).ok()?;
             let wide = wide_contacts(&mesh, &numbering, Fineness::Graded).ok()?;
             if work_of_programme(&mesh, numbering.level, &drawn_contacts(&wide)) * scenes as f64 <= MOST_WORK {
