@@ -122,7 +122,7 @@ impl Constraints {
     ) -> Result<Self, SupportError> {
         let mut holds = all_holds(mesh, numbering, supports)?;
         for hold in means {
-            for anchor in hold.anchors(mesh).unwrap_or_default() {
+            for anchor in &hold.anchors {
                 let (_, known) = holds.entry(numbering.vertex(anchor.vertex)).or_insert((anchor.place, Vec::new()));
                 add(known, HeldBy::Support(&hold.name), anchor.direction, 0.0, anchor.place)?;
             }

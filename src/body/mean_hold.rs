@@ -8,7 +8,7 @@ use super::rigid::{Motion, rigid_displacement};
 use crate::geometry::{Point, cross};
 use crate::mesh::MacroMesh;
 use nalgebra::DMatrix;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 
 /// A vertex within a body holds its turn if it resists it by this share of what the best one on its boundary does.
 const ENOUGH: f64 = 0.5;
@@ -19,7 +19,7 @@ const SAME: f64 = 1e-3;
 /// Directions along x and y.
 const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
 
-/// A body whose mean motion is held.
+/// A body whose mean motion is held, on one mesh of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanHold {
     /// Name of the support in the case file.
@@ -28,6 +28,12 @@ pub struct MeanHold {
     pub body: String,
     /// What is held of its motion: no mode twice, and no more than two shifts.
     pub held: Vec<HeldMode>,
+    /// Middle of the body, by its macro triangles.
+    pub middle: Point,
+    /// Largest distance of a vertex from the middle.
+    pub reach: f64,
+    /// Where it is held while the system is solved; nothing if the vertices cannot hold its turn.
+    pub anchors: Vec<Anchor>,
 }
 
 /// A rigid mode of a body whose mean is held.
@@ -78,42 +84,47 @@ impl MeanHold {
         Some(format!("{all}, of which two tell the third; leave one of them out"))
     }
 
-    /// Macro triangles of the body, which is of one piece: one beside the other, so that none of other bodies is looked at.
-    fn triangles(&self, mesh: &MacroMesh) -> BTreeSet<usize> {
+    /// A support that holds no motion yet, of a body of a mesh.
+    pub fn nothing(name: &str, body: &str, mesh: &MacroMesh) -> Self {
+        let hold = Self {
+            name: name.into(),
+            body: body.into(),
+            held: Vec::new(),
+            middle: Point::zeros(),
+            reach: 0.0,
+            anchors: Vec::new(),
+        };
+        hold.on(mesh)
+    }
+
+    /// The same hold of the body on another mesh of it.
+    pub fn on(&self, mesh: &MacroMesh) -> Self {
+        let triangles = self.triangles(mesh);
+        let (middle, vertices) = (middle(mesh, &triangles), vertices(mesh, &triangles));
+        let distances = vertices.iter().map(|(vertex, _)| (mesh.vertices[*vertex as usize] - middle).norm());
+        let reach = distances.fold(f64::MIN_POSITIVE, f64::max);
+        Self { middle, reach, anchors: self.anchors(mesh, middle, &vertices).unwrap_or_default(), ..self.clone() }
+    }
+
+    /// Macro triangles of the body, which is of one piece, in ascending order: one beside the other, so that none of other bodies
+    /// is looked at.
+    fn triangles(&self, mesh: &MacroMesh) -> Vec<usize> {
         let pieces = mesh.pieces.iter().filter(|piece| mesh.bodies[piece.body] == self.body);
         let mut open: Vec<usize> = pieces.map(|piece| piece.first as usize).collect();
-        let mut found: BTreeSet<usize> = open.iter().copied().collect();
+        let mut found: HashSet<usize> = open.iter().copied().collect();
         while let Some(triangle) = open.pop() {
             let beside = mesh.triangles[triangle].edges.iter().flat_map(|&edge| mesh.edges[edge as usize].triangles);
             open.extend(beside.flatten().map(|other| other as usize).filter(|&other| found.insert(other)));
         }
+        let mut found: Vec<usize> = found.into_iter().collect();
+        found.sort_unstable();
         found
-    }
-
-    /// Middle of the body, by its macro triangles.
-    pub fn middle(&self, mesh: &MacroMesh) -> Point {
-        let (mut area, mut moment) = (0.0, Point::zeros());
-        for triangle in self.triangles(mesh) {
-            let [a, b, c] = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
-            let double = cross(b - a, c - a);
-            area += double;
-            moment += double * (a + b + c) / 3.0;
-        }
-        moment / area
-    }
-
-    /// Largest distance of a vertex from the middle.
-    pub fn reach(&self, mesh: &MacroMesh) -> f64 {
-        let middle = self.middle(mesh);
-        let distances = self.vertices(mesh).into_iter().map(|(vertex, _)| (mesh.vertices[vertex as usize] - middle).norm());
-        distances.fold(f64::MIN_POSITIVE, f64::max)
     }
 
     /// As many anchors as modes that are held, so that none of them is free: near the middle for shifts, along the only one, or
     /// both axes; for a turn where it is resisted beside these; and rather within the body than on its boundary. Nothing if no vertex
     /// resists the turn.
-    pub fn anchors(&self, mesh: &MacroMesh) -> Option<Vec<Anchor>> {
-        let (about, vertices) = (self.middle(mesh), self.vertices(mesh));
+    fn anchors(&self, mesh: &MacroMesh, about: Point, vertices: &[(u32, bool)]) -> Option<Vec<Anchor>> {
         let distance = |vertex: &u32| (mesh.vertices[*vertex as usize] - about).norm();
         let inner_first = |a: &(u32, bool), b: &(u32, bool)| a.1.cmp(&b.1);
         let near = vertices.iter().min_by(|a, b| inner_first(a, b).then(distance(&a.0).total_cmp(&distance(&b.0))))?.0;
@@ -139,22 +150,34 @@ impl MeanHold {
         anchors.push(last);
         Some(anchors)
     }
+}
 
-    /// Vertices of the body, and whether each is on the boundary; in ascending order.
-    fn vertices(&self, mesh: &MacroMesh) -> Vec<(u32, bool)> {
-        let mut seen = HashSet::new();
-        let mut once: HashSet<u32> = HashSet::new();
-        for triangle in self.triangles(mesh).into_iter().map(|triangle| &mesh.triangles[triangle]) {
-            seen.extend(triangle.vertices);
-            for edge in triangle.edges {
-                if !once.insert(edge) {
-                    once.remove(&edge);
-                }
+/// Middle of macro triangles.
+fn middle(mesh: &MacroMesh, triangles: &[usize]) -> Point {
+    let (mut area, mut moment) = (0.0, Point::zeros());
+    for &triangle in triangles {
+        let [a, b, c] = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        let double = cross(b - a, c - a);
+        area += double;
+        moment += double * (a + b + c) / 3.0;
+    }
+    moment / area
+}
+
+/// Vertices of macro triangles, and whether each is on their boundary; in ascending order.
+fn vertices(mesh: &MacroMesh, triangles: &[usize]) -> Vec<(u32, bool)> {
+    let mut seen = HashSet::new();
+    let mut once: HashSet<u32> = HashSet::new();
+    for triangle in triangles.iter().map(|&triangle| &mesh.triangles[triangle]) {
+        seen.extend(triangle.vertices);
+        for edge in triangle.edges {
+            if !once.insert(edge) {
+                once.remove(&edge);
             }
         }
-        let outer: HashSet<u32> = once.into_iter().flat_map(|edge| mesh.edges[edge as usize].vertices).collect();
-        let mut all: Vec<(u32, bool)> = seen.into_iter().map(|vertex| (vertex, outer.contains(&vertex))).collect();
-        all.sort_unstable();
-        all
     }
+    let outer: HashSet<u32> = once.into_iter().flat_map(|edge| mesh.edges[edge as usize].vertices).collect();
+    let mut all: Vec<(u32, bool)> = seen.into_iter().map(|vertex| (vertex, outer.contains(&vertex))).collect();
+    all.sort_unstable();
+    all
 }

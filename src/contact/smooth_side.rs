@@ -124,7 +124,8 @@ impl SmoothSide {
             true => Curve::Spline(Spline::through_closed_at(parameters.clone(), points)),
             false => Curve::Spline(Spline::through_at(parameters.clone(), points)),
         };
-        let (undeformed, deformed, shift) = (spline(&places), spline(&points), Point::zeros());
+        let (undeformed, shift) = (spline(&places), Point::zeros());
+        let deformed = if points == places { undeformed.clone() } else { spline(&points) };
         Self {
             places,
             points,

@@ -1,24 +1,25 @@
 //! Values at the nodes that a rank can see: those of the macro triangles it owns.
 
 use crate::discretisation::error::SystemError;
-use crate::discretisation::levels::Discretisation;
-use crate::geometry::Point;
-use crate::mesh::lattice::{self, Triangle};
+use crate::discretisation::scene::Scene;
+use crate::discretisation::space::Space;
+use crate::mesh::lattice;
 use crate::petsc::{Gather, Index, Session, Vector};
 use std::collections::HashMap;
 
 /// `K` numbers at every node of the macro triangles that this rank owns.
+#[derive(Clone)]
 pub struct Field<const K: usize> {
     first: usize,
-    own: Vec<[f64; K]>,
+    pub(super) own: Vec<[f64; K]>,
     others: HashMap<usize, [f64; K]>,
 }
 
 impl<const K: usize> Field<K> {
     /// Zeros.
-    pub fn zeros(problem: &Discretisation, session: &Session) -> Self {
-        let others = seen_nodes(problem, session.rank()).into_iter().map(|node| (node, [0.0; K])).collect();
-        let own = problem.finest().own.clone();
+    pub fn zeros(scene: &Scene, space: &Space, session: &Session) -> Self {
+        let others = seen_nodes(scene, space, session.rank()).into_iter().map(|node| (node, [0.0; K])).collect();
+        let own = space.own.clone();
         Self { first: own.start, own: vec![[0.0; K]; own.len()], others }
     }
 
@@ -48,6 +49,13 @@ impl<const K: usize> Field<K> {
         &self.own
     }
 
+    /// Adds another field of the same nodes.
+    pub fn add(&mut self, other: &Self) {
+        let plus = |values: &mut [f64; K], others: [f64; K]| (0..K).for_each(|k| values[k] += others[k]);
+        self.own.iter_mut().zip(&other.own).for_each(|(values, others)| plus(values, *others));
+        self.others.iter_mut().for_each(|(node, values)| plus(values, other.others[node]));
+    }
+
     /// Takes away another field of the same nodes.
     pub fn subtract(&mut self, other: &Self) {
         let minus = |values: &mut [f64; K], others: [f64; K]| (0..K).for_each(|k| values[k] -= others[k]);
@@ -72,7 +80,7 @@ impl<const K: usize> Field<K> {
     }
 
     /// Takes the values of other ranks' nodes from their owners.
-    fn fetch(&mut self, values: &Vector) -> Result<(), SystemError> {
+    pub(super) fn fetch(&mut self, values: &Vector) -> Result<(), SystemError> {
         let nodes: Vec<usize> = self.others.keys().copied().collect();
         let wanted: Vec<Index> = nodes.iter().flat_map(|&node| indices::<K>(node)).collect();
         let found = Gather::new(values, &wanted)?.fetch(values)?;
@@ -83,42 +91,12 @@ impl<const K: usize> Field<K> {
     }
 }
 
-impl Field<2> {
-    /// Displacements in global axes, from this rank's unknowns in the nodes' frames. **Collective**
-    pub fn displacement(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Result<Self, SystemError> {
-        let mut field = Self::zeros(problem, session);
-        let space = problem.finest();
-        for (at, (own, u)) in field.own.iter_mut().zip(unknowns.chunks_exact(2)).enumerate() {
-            let u = space.to_global(space.own.start + at, Point::new(u[0], u[1]));
-            *own = [u.x, u.y];
-        }
-        let mut values = Vector::new(session, unknowns.len())?;
-        values.values_mut().copy_from_slice(field.own.as_flattened());
-        field.fetch(&values)?;
-        Ok(field)
-    }
-
-    /// Displacement of a node.
-    #[inline]
-    pub fn point(&self, node: usize) -> Point {
-        let [x, y] = self.at(node);
-        Point::new(x, y)
-    }
-
-    /// Displacements at the nodes of one triangle of a macro triangle's lattice.
-    pub fn of_triangle<const N: usize>(&self, problem: &Discretisation, triangle: usize, small: &Triangle) -> [Point; N] {
-        let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
-        small.nodes::<N>().map(|(i, j)| self.point(numbers.node(i, j)))
-    }
-}
-
 fn indices<const K: usize>(node: usize) -> [Index; K] {
     std::array::from_fn(|k| (K * node + k) as Index)
 }
 
 /// Nodes of this rank's macro triangles that other ranks own.
-fn seen_nodes(problem: &Discretisation, rank: usize) -> Vec<usize> {
-    let (scene, space) = (&problem.scene, problem.finest());
+fn seen_nodes(scene: &Scene, space: &Space, rank: usize) -> Vec<usize> {
     let n = space.numbering.level.intervals;
     let mut seen: Vec<usize> = scene
         .partition

@@ -3,11 +3,14 @@
 use crate::contact::Jump;
 use crate::discretisation::contacts::{BoundaryMotion, Contact, Coupling};
 use crate::discretisation::error::SystemError;
+use crate::discretisation::field::Field;
+use crate::discretisation::held_bodies::HeldBodies;
 use crate::discretisation::level_ranks::ranks_in_group;
 use crate::discretisation::scene::Scene;
 use crate::discretisation::space::Space;
 use crate::mesh::{Level, MacroMesh, Numbering, levels};
 use crate::petsc::{Index, Session};
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 /// Everything that a system is assembled from.
@@ -26,6 +29,16 @@ pub struct Discretisation {
     pub mean_forces: Vec<[f64; 3]>,
     /// What presses as far as the programme of the first mesh tells, where no solution is known.
     pub first_set: Option<Vec<bool>>,
+    /// What bodies and loads alone give, once it has been asked for.
+    pub alone: WithoutContact,
+}
+
+/// What does not depend on contact, and is found once on each mesh.
+#[derive(Default)]
+pub struct WithoutContact {
+    /// Nodal forces of loads and body forces.
+    pub(super) applied: OnceCell<Field<2>>,
+    held: OnceCell<Rc<HeldBodies>>,
 }
 
 impl Discretisation {
@@ -53,7 +66,7 @@ impl Discretisation {
     ) -> Result<Self, SystemError> {
         let coupling = Coupling::new(&scene, &spaces, &contacts, session)?;
         let mean_forces = vec![[0.0; 3]; scene.means.len()];
-        Ok(Self { scene, spaces, contacts, coupling, motion, mean_forces, first_set: None })
+        Ok(Self { scene, spaces, contacts, coupling, motion, mean_forces, first_set: None, alone: WithoutContact::default() })
     }
 
     /// Puts contacts in place that were placed again on moved bodies, and couples them. **Collective**
@@ -64,6 +77,18 @@ impl Discretisation {
         self.coupling = Coupling::new(&self.scene, &self.spaces, &contacts, session)?;
         (self.contacts, self.motion, self.first_set) = (contacts, motion, None);
         Ok(())
+    }
+
+    /// Bodies whose mean motion is held. **Collective**
+    ///
+    /// # Errors
+    /// As of [`HeldBodies::new`].
+    pub fn held_bodies(&self, session: &Session) -> Result<Rc<HeldBodies>, SystemError> {
+        if let Some(found) = self.alone.held.get() {
+            return Ok(found.clone());
+        }
+        let found = Rc::new(HeldBodies::new(&self.scene, self.finest(), session)?);
+        Ok(self.alone.held.get_or_init(|| found).clone())
     }
 
     /// Whether some contact boundary depends on the solution.

@@ -11,10 +11,12 @@
 //! - Invariant: nothing here knows a solver. Matrices begin with [`crate::multigrid`].
 
 mod contacts;
+mod displacement;
 mod error;
 mod field;
 mod forces;
 mod form;
+mod held_bodies;
 mod level_ranks;
 mod levels;
 mod motions;
@@ -29,12 +31,11 @@ pub use contacts::{
 };
 pub use error::{SystemError, agreed};
 pub use field::Field;
-pub use forces::{
-    HeldBodies, SpringForces, held_motions, holds_of_bodies, internal_forces, load, local_strain_energy, nodal_forces,
-};
+pub use forces::{SpringForces, internal_forces, load, local_strain_energy, nodal_forces};
 pub use form::Form;
+pub use held_bodies::{HeldBodies, held_motions, holds_of_bodies};
 pub use level_ranks::{SMALL, ranks_in_group};
-pub use levels::{Discretisation, finest_numbering, node_count, spaces};
+pub use levels::{Discretisation, WithoutContact, finest_numbering, node_count, spaces};
 pub use motions::{
     few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed, rigid_motions, rigid_start, settle,
 };

@@ -23,7 +23,7 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Supports.
     pub supports: Vec<Support>,
-    /// Bodies whose mean motion is held.
+    /// Bodies whose mean motion is held, on this mesh.
     pub means: Vec<MeanHold>,
     /// Nodes that move together as rigid bodies.
     pub rigid: Vec<RigidSet>,
@@ -50,7 +50,8 @@ impl Scene {
     /// What PETSc says.
     pub fn on(&self, mesh: MacroMesh, session: &Session) -> petsc::Result<Self> {
         let partition = Rc::new(spread(&mesh, &self.pairs, self.order, self.refine, session)?);
-        Ok(Self { mesh: Rc::new(mesh), partition, ..self.clone() })
+        let means = self.means.iter().map(|hold| hold.on(&mesh)).collect();
+        Ok(Self { mesh: Rc::new(mesh), partition, means, ..self.clone() })
     }
 
     /// The rigid tool that a body is, if it is one.

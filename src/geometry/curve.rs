@@ -127,7 +127,7 @@ impl Curve {
 
     /// The nearest point from a parameter near it: Newton's method on `(p - x(t)) . x'(t) = 0`, with the curvature from the step before
     /// (a secant), since points farther away than the curve's radius would go back and forth without it; by steps of one part of its
-    /// range at most, since the way that is left on the tangent is too long there.
+    /// range at most, since the way that is left on the tangent is too long there, but for the tangents at the ends of a spline.
     fn nearest_from(&self, p: Point, mut t: f64, parts: usize) -> f64 {
         let [first, last] = self.range();
         let longest = (last - first).abs() / parts as f64;
@@ -137,6 +137,10 @@ impl Curve {
         for _ in 0..200 {
             let [point, slope] = self.point_and_derivative(t);
             let straight = (p - point).dot(&slope) / slope.norm_squared();
+            if matches!(self, Self::Spline(spline) if spline.goes_on_straight(t, straight)) {
+                t += straight;
+                break;
+            }
             // On a straight line the way that is left shrinks by as much as has been gone.
             let shrunk = before.map_or(1.0, |[at, left]| (left - straight) / (t - at));
             before = Some([t, straight]);
@@ -226,6 +230,17 @@ mod tests {
         let found = curve.hit(curve.point(t) - d * normal, normal);
         let (distance, beyond) = found.expect("a hit");
         assert!((distance - d).abs() < 1e-12 && beyond == 0.0);
+    }
+
+    /// A short arc, and points a thousand times its length away.
+    #[test]
+    fn a_point_far_beyond_the_ends_of_a_spline_has_its_foot_on_the_tangent_there() {
+        let points: Vec<Point> = (0..9).map(|k| 0.01 * f64::from(k)).map(|t| Point::new(t.sin(), 1.0 - t.cos())).collect();
+        let curve = Curve::Spline(Spline::through(&points));
+        for p in [Point::new(80.0, 3.0), Point::new(-80.0, 3.0)] {
+            let t = curve.nearest(p);
+            assert!((p - curve.point(t)).dot(&curve.tangent(t)).abs() < 1e-12, "{p}: {t}");
+        }
     }
 
     #[test]

@@ -31,7 +31,10 @@ impl Spline {
     /// The spline of spans with these coefficients, between knots of which there is one more.
     fn of_spans(knots: Vec<f64>, spans: Vec<[Point; 4]>, closed: bool) -> Self {
         let mut spline = Self { knots, spans, closed, points: Vec::new() };
-        spline.points = (0..=spline.parts()).map(|k| spline.point(spline.part_end(k))).collect();
+        let (in_a_span, last) = (spline.parts() / spline.spans.len(), spline.knots.len() - 1);
+        let part = |k: usize| at(&spline.spans[k / in_a_span], spline.part_end(k) - spline.knots[k / in_a_span])[0];
+        let end = at(&spline.spans[last - 1], spline.knots[last] - spline.knots[last - 1])[0];
+        spline.points = (0..spline.parts()).map(part).chain([end]).collect();
         spline
     }
 
@@ -55,6 +58,12 @@ impl Spline {
             true => t,
             false => t.clamp(first, last),
         }
+    }
+
+    /// Whether a step from `t` stays on the tangent at an end, along which an open spline goes on.
+    pub fn goes_on_straight(&self, t: f64, step: f64) -> bool {
+        let [first, last] = self.range();
+        !self.closed && (t >= last && step > 0.0 || t <= first && step < 0.0)
     }
 
     /// Number of equal parts of its spans, of which each turns little.
@@ -100,14 +109,19 @@ impl Spline {
     /// Point and derivative at once.
     pub fn point_and_derivative(&self, t: f64) -> [Point; 2] {
         let inside = self.inside(t);
-        let (&[a, b, c, d], tau) = self.span(inside);
-        let (point, slope) = (a + tau * (b + tau * (c + tau * d)), b + tau * (2.0 * c + 3.0 * tau * d));
+        let (span, tau) = self.span(inside);
+        let [point, slope] = at(span, tau);
         [if t == inside || self.closed { point } else { point + (t - inside) * slope }, slope]
     }
 
     /// Derivative of the point by the parameter.
     pub fn derivative(&self, t: f64) -> Point {
-        let (&[_, b, c, d], tau) = self.span(self.inside(t));
-        b + tau * (2.0 * c + 3.0 * tau * d)
+        let (span, tau) = self.span(self.inside(t));
+        at(span, tau)[1]
     }
+}
+
+/// Point and derivative on a span, of its own parameter.
+fn at(&[a, b, c, d]: &[Point; 4], tau: f64) -> [Point; 2] {
+    [a + tau * (b + tau * (c + tau * d)), b + tau * (2.0 * c + 3.0 * tau * d)]
 }

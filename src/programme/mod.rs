@@ -255,10 +255,9 @@ impl<'s> Predictor<'s> {
 
     /// Rows of the means that are held, `∫ mode · u dA / ∫ |mode|² dA`, and their values.
     fn held_means(&self) -> Result<Vec<(ProgrammeRow, f64)>, SystemError> {
-        let mesh = &self.scene.mesh;
         let mut all = Vec::new();
         for hold in &self.scene.means {
-            let about = hold.middle(mesh);
+            let about = hold.middle;
             for held in &hold.held {
                 let mode = |x: Point| rigid_displacement(about, &held.mode, x);
                 let mut weights = self.mean_weights(hold, &mode)?;

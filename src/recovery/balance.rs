@@ -294,8 +294,8 @@ fn set_of_nodes(problem: &Discretisation) -> HashMap<usize, (usize, Point)> {
 
 /// Nodes that hold bodies whose mean motion is held while the system is solved.
 fn anchor_nodes(problem: &Discretisation) -> HashSet<usize> {
-    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
-    let anchors = scene.means.iter().filter_map(|hold| hold.anchors(&scene.mesh)).flatten();
+    let numbering = &problem.finest().numbering;
+    let anchors = problem.scene.means.iter().flat_map(|hold| &hold.anchors);
     anchors.map(|anchor| numbering.vertex(anchor.vertex)).collect()
 }
 

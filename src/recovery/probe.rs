@@ -169,7 +169,7 @@ pub fn stress_forces(
     session: &Session,
 ) -> Result<Field<2>, SystemError> {
     let laws = problem.scene.laws();
-    let mut forces = Field::<2>::zeros(problem, session);
+    let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), session);
     let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
         let law = law_of(problem, &laws, triangle);
         match problem.finest().numbering.level.order {

@@ -50,7 +50,7 @@ fn stress_of_parts(
 ) -> Result<Field<4>, SystemError> {
     let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
     // Stress times area, and area.
-    let mut sums = Field::<5>::zeros(problem, session);
+    let mut sums = Field::<5>::zeros(&problem.scene, problem.finest(), session);
     let mut own = problem.scene.partition.triangles_of(session.rank()).iter();
     let added = own.try_for_each(|&triangle| {
         let part = mesh.triangles[triangle as usize].part;

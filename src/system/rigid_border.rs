@@ -17,7 +17,7 @@ use crate::discretisation::SpringForces;
 use crate::discretisation::internal_forces;
 use crate::discretisation::rigid_motions;
 use crate::discretisation::{Discretisation, Field, Space, SystemError, nodal_forces};
-use crate::discretisation::{HeldBodies, held_motions, holds_of_bodies};
+use crate::discretisation::{held_motions, holds_of_bodies};
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::Session;
@@ -143,21 +143,21 @@ impl RigidBorder {
     /// Adds the modes of bodies whose mean is held. **Collective**
     fn add_held_bodies(&mut self, problem: &Discretisation, loads: &Field<2>, session: &Session) -> Result<(), SystemError> {
         let (scene, space) = (&problem.scene, problem.finest());
-        let bodies = HeldBodies::new(problem, session)?;
+        let bodies = problem.held_bodies(session)?;
         let (sets, first) = (self.of_set.len(), self.components.len());
         let mut means: Vec<Free> = Vec::new();
         for (number, hold) in scene.means.iter().enumerate() {
             self.of_set.push(self.components.len()..self.components.len() + hold.held.len());
             self.about.push(bodies.about[number]);
             for (held, &asked) in hold.held.iter().zip(&bodies.asked[number]) {
-                let (arm, forces) = (if held.is_turn() { hold.reach(&scene.mesh) } else { 1.0 }, Sparse::new());
+                let (arm, forces) = (if held.is_turn() { hold.reach } else { 1.0 }, Sparse::new());
                 self.components.push(RigidComponent { mode: held.mode, forces, mean: None, arm, load: 0.0, asked });
                 means.push(Free::new(problem));
             }
         }
         let mut pushed = vec![0.0; means.len()];
         for &(node, hold, x) in &bodies.nodes {
-            for (weight, j) in bodies.weights(problem, hold, node).into_iter().zip(self.of_set[sets + hold].clone()) {
+            for (weight, j) in bodies.weights(scene, hold, node).into_iter().zip(self.of_set[sets + hold].clone()) {
                 means[j - first].add(node, weight);
                 pushed[j - first] += loads.point(node).dot(&self.moved(sets + hold, j, x));
             }
@@ -181,7 +181,7 @@ impl RigidBorder {
     /// `B R` by multipliers; what cancels is left out. **Collective**
     fn moved_gaps(&self, problem: &Discretisation, session: &Session) -> Vec<Vec<(usize, f64)>> {
         let (scene, numbering, coupling) = (&problem.scene, &problem.finest().numbering, &problem.coupling);
-        let (of_body, mut of_node) = (holds_of_bodies(problem), HashMap::<usize, Vec<(usize, Point)>>::new());
+        let (of_body, mut of_node) = (holds_of_bodies(&problem.scene), HashMap::<usize, Vec<(usize, Point)>>::new());
         for (number, set) in scene.rigid.iter().enumerate().filter(|(number, _)| !self.of_set[*number].is_empty()) {
             let places = set.places(&scene.mesh, numbering);
             places.into_iter().for_each(|(node, x)| of_node.entry(node).or_default().push((number, x)));
@@ -220,7 +220,7 @@ impl RigidBorder {
         let sets = rigid_motions(problem, displacement, session);
         let free = problem.scene.rigid.iter().zip(&sets).flat_map(|(set, motion)| set.free().map(|k| motion[k]));
         let about = &self.about[problem.scene.rigid.len()..];
-        free.chain(held_motions(problem, about, displacement, session).into_iter().flatten()).collect()
+        free.chain(held_motions(&problem.scene, problem.finest(), about, displacement, session).into_iter().flatten()).collect()
     }
 
     /// Adds the displacements by a motion to those of this rank, in the nodes' frames.
@@ -303,7 +303,7 @@ fn moved_forces(
     session: &Session,
 ) -> Result<Field<2>, SystemError> {
     if let RigidNodes::Body(_) = set.nodes {
-        return Ok(Field::zeros(problem, session));
+        return Ok(Field::zeros(&problem.scene, problem.finest(), session));
     }
     let space = problem.finest();
     let mut moved = vec![0.0; space.local_unknowns()];

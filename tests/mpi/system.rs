@@ -78,7 +78,8 @@ fn moving_problems(session: &Session) -> Vec<Discretisation> {
     let mut held = scene(MultiplierSpace::P1Discontinuous, Stabilise::Off);
     let modes = [("ux", 0, 2e-3), ("angle", 2, 1e-3)];
     let modes = modes.map(|(key, k, value)| HeldMode { key, mode: UNIT_MOTIONS[k], value });
-    held.means = vec![MeanHold { name: "mean".into(), body: held.mesh.bodies[1].clone(), held: modes.into() }];
+    let hold = MeanHold::nothing("mean", &held.mesh.bodies[1], &held.mesh);
+    held.means = vec![MeanHold { held: modes.into(), ..hold }.on(&held.mesh)];
     let mut plate = scene(MultiplierSpace::P0, Stabilise::On);
     let (nodes, about) = (RigidNodes::Boundaries(vec!["top".into()]), Point::new(3.0, 6.0));
     let (prescribed, applied) = ([Some(1e-3), None, None], [0.0, -5.0, 0.5]);

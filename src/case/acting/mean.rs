@@ -70,15 +70,14 @@ impl MeanSupport {
     /// # Errors
     /// Words for a body that has its middle where it is to go around.
     pub fn hold(&self, mesh: &MacroMesh) -> Result<MeanHold, String> {
-        let mut hold = MeanHold { name: self.name.clone(), body: self.body.clone(), held: Vec::new() };
-        let middle = hold.middle(mesh);
+        let mut hold = MeanHold::nothing(&self.name, &self.body, mesh);
         for &(key, way, value) in &self.held {
             let mode = match way {
                 MeanWay::Along(direction) => [direction.x, direction.y, 0.0],
                 MeanWay::Turning => UNIT_MOTIONS[2],
                 MeanWay::Around(centre) => {
-                    let arm = middle - centre;
-                    if arm.norm() <= AT_CENTRE * hold.reach(mesh) {
+                    let arm = hold.middle - centre;
+                    if arm.norm() <= AT_CENTRE * hold.reach {
                         let at = format!("about = [{}, {}]", centre.x, centre.y);
                         return Err(format!("the middle of \"{}\" is at {at}: it goes around nothing; give angle", self.body));
                     }
@@ -88,7 +87,7 @@ impl MeanSupport {
             };
             hold.held.push(HeldMode { key, mode, value });
         }
-        Ok(hold)
+        Ok(hold.on(mesh))
     }
 }
 

@@ -34,7 +34,7 @@ pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session
     let scene = &problem.scene;
     let laws = scene.laws();
     let mut strain = vec![0.0; scene.mesh.parts.len()];
-    let mut forces = Field::<2>::zeros(problem, session);
+    let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), session);
     let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
         let part = scene.mesh.triangles[triangle as usize].part as usize;
         each_force(problem, &laws, u, triangle as usize, |node, force, u| {

@@ -3,7 +3,7 @@
 use crate::body::{Applied, applied_forces, body_forces, check_body_forces, check_loads};
 use crate::discretisation::error::SystemError;
 use crate::discretisation::field::Field;
-use crate::discretisation::forces::held_bodies::{HeldBodies, holds_of_bodies};
+use crate::discretisation::held_bodies::holds_of_bodies;
 use crate::discretisation::levels::Discretisation;
 use crate::discretisation::scene::Scene;
 use crate::geometry::Point;
@@ -15,8 +15,23 @@ use crate::petsc::Session;
 /// # Errors
 /// [`SystemError::Case`] if a triangle is turned inside out, or a force has no finite value.
 pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
+    let mut forces = match problem.alone.applied.get() {
+        Some(found) => found.clone(),
+        None => {
+            let found = applied(problem, session)?;
+            problem.alone.applied.get_or_init(|| found).clone()
+        }
+    };
+    if problem.mean_forces.iter().flatten().any(|force| *force != 0.0) {
+        forces.add(&mean_forces(problem, session)?);
+    }
+    Ok(forces)
+}
+
+/// Forces of loads and body forces. **Collective**
+fn applied(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
-    let mut forces = Field::<2>::zeros(problem, session);
+    let mut forces = Field::<2>::zeros(scene, problem.finest(), session);
     let add = |node, force: Point| {
         let sum = forces.at_mut(node);
         sum[0] += force.x;
@@ -31,16 +46,14 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         session.agree(find_bad_force(scene, numbering, rank)).map_err(SystemError::Case)?;
         return Err(SystemError::Case("load or body_force: nodal forces are too large to be counted; make them smaller".into()));
     }
-    if problem.mean_forces.iter().flatten().any(|force| *force != 0.0) {
-        add_mean_forces(problem, &mut forces, session)?;
-    }
     forces.sum(session)
 }
 
-/// Adds what holds mean motions, as far as it acts on this rank's macro triangles. **Collective**
-fn add_mean_forces(problem: &Discretisation, forces: &mut Field<2>, session: &Session) -> Result<(), SystemError> {
+/// What holds mean motions. **Collective**
+fn mean_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
-    let (bodies, of_body) = (HeldBodies::new(problem, session)?, holds_of_bodies(problem));
+    let (bodies, of_body) = (problem.held_bodies(session)?, holds_of_bodies(scene));
+    let mut forces = Field::<2>::zeros(scene, problem.finest(), session);
     for triangle in scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize) {
         let Some(hold) = of_body[scene.mesh.triangles[triangle].body as usize] else { continue };
         let spread = bodies.spread(hold, &problem.mean_forces[hold]);
@@ -52,7 +65,7 @@ fn add_mean_forces(problem: &Discretisation, forces: &mut Field<2>, session: &Se
             sum[1] += force.y;
         });
     }
-    Ok(())
+    forces.sum(session)
 }
 
 /// The load or force on this rank's macro triangles that has no finite value.

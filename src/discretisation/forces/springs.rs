@@ -24,7 +24,7 @@ impl SpringForces {
     pub fn new(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Self, SystemError> {
         let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
         let mesh = &scene.mesh;
-        let mut nodes = Field::<2>::zeros(problem, session);
+        let mut nodes = Field::<2>::zeros(&problem.scene, problem.finest(), session);
         let mut sums = vec![0.0; 2 * scene.springs.len() + 1];
         for (at, springs) in scene.springs.iter().enumerate() {
             let is_own = |edge: &u32| scene.partition.owner(mesh.beside(*edge).0) == session.rank();

@@ -3,7 +3,7 @@
 use crate::body::Motion;
 use crate::discretisation::error::SystemError;
 use crate::discretisation::forces::nodal_forces;
-use crate::discretisation::forces::{HeldBodies, held_motions, holds_of_bodies};
+use crate::discretisation::held_bodies::{HeldBodies, held_motions, holds_of_bodies};
 use crate::discretisation::levels::Discretisation;
 use crate::discretisation::solution::Solution;
 use crate::geometry::Point;
@@ -15,17 +15,17 @@ use crate::petsc::Session;
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
 pub fn settle_means(problem: &mut Discretisation, solution: &Solution, session: &Session) -> Result<(), SystemError> {
-    let bodies = HeldBodies::new(problem, session)?;
+    let bodies = problem.held_bodies(session)?;
     let missing = missing_forces(problem, &bodies, solution, session)?;
-    let motions = held_motions(problem, &bodies.about, &solution.displacement, session);
+    let motions = held_motions(&problem.scene, problem.finest(), &bodies.about, &solution.displacement, session);
     let Discretisation { scene, spaces, mean_forces, .. } = &mut *problem;
     for (number, hold) in scene.means.iter().enumerate() {
         mean_forces[number].iter_mut().zip(missing[number]).for_each(|(sum, force)| *sum += force);
         let Some(space) = spaces.last_mut() else { continue };
-        for anchor in hold.anchors(&scene.mesh).unwrap_or_default() {
+        for anchor in &hold.anchors {
             let moved =
                 hold.held.iter().zip(&motions[number]).map(|(held, q)| *q * bodies.moved(number, &held.mode, anchor.place));
-            space.constraints.move_anchor(&space.numbering, &anchor, moved.sum());
+            space.constraints.move_anchor(&space.numbering, anchor, moved.sum());
         }
     }
     Ok(())
@@ -48,7 +48,7 @@ fn missing_forces(
         }
     };
     bodies.nodes.iter().for_each(|&(node, hold, x)| add(hold, x, -loads.point(node)));
-    let of_body = holds_of_bodies(problem);
+    let of_body = holds_of_bodies(scene);
     for row in coupling.own(0..coupling.owners.len(), session.rank()) {
         for coupled in &coupling.rows[row] {
             if let Some(hold) = of_body[coupled.body] {
@@ -57,5 +57,5 @@ fn missing_forces(
         }
     }
     session.sum(sums.as_flattened_mut());
-    Ok(sums.iter().enumerate().map(|(hold, pushed)| bodies.resultant(problem, hold, pushed)).collect())
+    Ok(sums.iter().enumerate().map(|(hold, pushed)| bodies.resultant(scene, hold, pushed)).collect())
 }

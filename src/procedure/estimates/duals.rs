@@ -172,7 +172,7 @@ fn point_force(
 ) -> Result<Vec<f64>, SystemError> {
     let (space, session) = (problem.finest(), system.session());
     let u = Field::displacement(problem, &solution.displacement, session)?;
-    let mut force = Field::<2>::zeros(problem, session);
+    let mut force = Field::<2>::zeros(&problem.scene, problem.finest(), session);
     let region = problem.scene.mesh.region(&point.body);
     for (triangle, at) in region.map_or_else(Vec::new, |region| holding(problem, region, point.point, session)) {
         let shapes = shapes_at(problem, triangle, at);

@@ -229,7 +229,7 @@ mod tests {
     use crate::accuracy::{AdaptedMesh, Goal};
     use crate::contact::MultiplierSpace;
     use crate::discretisation::samples::{blocks, pair};
-    use crate::discretisation::{BoundaryMotion, Coupling, Discretisation, spaces};
+    use crate::discretisation::{BoundaryMotion, Coupling, Discretisation, WithoutContact, spaces};
     use crate::geometry::Point;
     use crate::procedure::ending::{Ending, Failure, Standing};
 
@@ -252,6 +252,7 @@ mod tests {
             motion: BoundaryMotion::default(),
             mean_forces: Vec::new(),
             first_set: None,
+            alone: WithoutContact::default(),
         };
         sequence.adaptation.meshes.push(AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,

@@ -19,9 +19,9 @@ pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
         if pieces > 1 {
             return error(format!("body \"{}\" is of {pieces} pieces; hold each by points, at = [x, y]", hold.body));
         }
-        let Some(anchors) = hold.anchors(mesh) else {
+        if hold.anchors.is_empty() {
             return error(format!("body \"{}\" has too few vertices; hold it by a boundary, on = \"...\"", hold.body));
-        };
+        }
         if let Some(words) = hold.redundant() {
             return error(words);
         }
@@ -32,7 +32,7 @@ pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
             ));
         }
         let spots = case.supports.iter().filter_map(|support| support.at.as_ref());
-        if spots.filter_map(|spot| mesh.vertex_at(spot)).any(|vertex| anchors.iter().any(|anchor| anchor.vertex == vertex)) {
+        if spots.filter_map(|spot| mesh.vertex_at(spot)).any(|vertex| hold.anchors.iter().any(|anchor| anchor.vertex == vertex)) {
             return error("a point at which another support holds this body is in its way; hold the body by points alone".into());
         }
     }
@@ -41,7 +41,7 @@ pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
 
 /// What resists a held mean motion: its key, the motion, and where.
 fn resisting<'a>(case: &Case, mesh: &MacroMesh, hold: &'a MeanHold) -> Option<(String, &'a HeldMode, Point)> {
-    let (about, reach) = (hold.middle(mesh), hold.reach(mesh));
+    let (about, reach) = (hold.middle, hold.reach);
     let moved = |x: Point, direction: Point| {
         hold.held.iter().find(|held| {
             let whole = if held.is_turn() { reach } else { 1.0 };

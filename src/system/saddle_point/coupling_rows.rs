@@ -131,7 +131,7 @@ mod tests {
     use super::*;
     use crate::contact::{MultiplierSpace, Side};
     use crate::discretisation::samples::{blocks, pair};
-    use crate::discretisation::{BoundaryMotion, Contact, Coupling, spaces};
+    use crate::discretisation::{BoundaryMotion, Contact, Coupling, WithoutContact, spaces};
     use crate::geometry::Point;
     use crate::mesh::{Numbering, Partition};
     use crate::system::saddle_point::augmentation::Augmentation;
@@ -167,6 +167,7 @@ mod tests {
             motion: BoundaryMotion::default(),
             mean_forces: Vec::new(),
             first_set: None,
+            alone: WithoutContact::default(),
         }
     }
 

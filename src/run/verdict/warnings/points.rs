@@ -37,7 +37,7 @@ pub fn loaded_points(Evaluation { problem, balance, .. }: &Evaluation) -> Vec<St
 
 /// A warning for a mean motion that a force and a moment drive, if they are more than little.
 fn driven_mean(scene: &Scene, hold: &MeanHold, force: Point, moment: f64, little: f64) -> Option<String> {
-    let reach = hold.reach(&scene.mesh);
+    let reach = hold.reach;
     let size = force.norm() + moment.abs() / reach;
     (size > little).then(|| {
         format!(

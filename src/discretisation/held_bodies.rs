@@ -6,7 +6,8 @@
 use crate::body::{Anchor, MeanHold, Motion, UNIT_MOTIONS, body_forces, rigid_displacement};
 use crate::discretisation::error::SystemError;
 use crate::discretisation::field::Field;
-use crate::discretisation::levels::Discretisation;
+use crate::discretisation::scene::Scene;
+use crate::discretisation::space::Space;
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::Session;
@@ -36,12 +37,11 @@ impl HeldBodies {
     ///
     /// # Errors
     /// [`SystemError::Case`] if a triangle is turned inside out.
-    pub fn new(problem: &Discretisation, session: &Session) -> Result<Self, SystemError> {
-        let (scene, space) = (&problem.scene, problem.finest());
+    pub fn new(scene: &Scene, space: &Space, session: &Session) -> Result<Self, SystemError> {
         let (mesh, numbering) = (&scene.mesh, &space.numbering);
-        let about: Vec<Point> = scene.means.iter().map(|hold| hold.middle(mesh)).collect();
-        let of_body = holds_of_bodies(problem);
-        let (mut moments, mut places) = (Field::<3>::zeros(problem, session), BTreeMap::new());
+        let about: Vec<Point> = scene.means.iter().map(|hold| hold.middle).collect();
+        let of_body = holds_of_bodies(scene);
+        let (mut moments, mut places) = (Field::<3>::zeros(scene, space, session), BTreeMap::new());
         let mut add_triangle = |triangle: usize, hold: usize| {
             let mut add = |first: usize, node: usize, moment: Point| {
                 let sums = moments.at_mut(node);
@@ -66,7 +66,7 @@ impl HeldBodies {
         let (all, inverses, asked, off) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut bodies = Self { about, nodes, moments: moments.sum(session)?, off, all, inverses, asked };
         bodies.find_middles(session);
-        bodies.weigh(problem, session);
+        bodies.weigh(scene, session);
         Ok(bodies)
     }
 
@@ -82,8 +82,8 @@ impl HeldBodies {
     }
 
     /// Finds `N` of each body, and what follows from it. **Collective**
-    fn weigh(&mut self, problem: &Discretisation, session: &Session) {
-        let means = &problem.scene.means;
+    fn weigh(&mut self, scene: &Scene, session: &Session) {
+        let means = &scene.means;
         let mut sums = vec![[0.0; 9]; means.len()];
         for &(node, hold, x) in &self.nodes {
             for (i, a) in UNIT_MOTIONS.iter().enumerate() {
@@ -111,8 +111,8 @@ impl HeldBodies {
     }
 
     /// Resultant force and moment of what pushes along the modes that are held by `pushed` each, and is spread as they are.
-    pub fn resultant(&self, problem: &Discretisation, hold: usize, pushed: &[f64; 3]) -> Motion {
-        let held = &problem.scene.means[hold].held;
+    pub fn resultant(&self, scene: &Scene, hold: usize, pushed: &[f64; 3]) -> Motion {
+        let held = &scene.means[hold].held;
         let shares = &self.inverses[hold] * DVector::from_row_slice(&pushed[..held.len()]);
         let spread: Vector3<f64> = held.iter().zip(shares.iter()).map(|(held, share)| *share * Vector3::from(held.mode)).sum();
         std::array::from_fn(|k| self.all[hold][(k, k)] * spread[k])
@@ -131,40 +131,45 @@ impl HeldBodies {
     }
 
     /// What a node of this rank counts in the mean of each mode that is held.
-    pub fn weights(&self, problem: &Discretisation, hold: usize, node: usize) -> Vec<Point> {
-        let moments: Vec<Point> = problem.scene.means[hold].held.iter().map(|held| self.moment(hold, &held.mode, node)).collect();
+    pub fn weights(&self, scene: &Scene, hold: usize, node: usize) -> Vec<Point> {
+        let moments: Vec<Point> = scene.means[hold].held.iter().map(|held| self.moment(hold, &held.mode, node)).collect();
         let inverse = &self.inverses[hold];
         (0..moments.len()).map(|k| moments.iter().enumerate().map(|(l, moment)| inverse[(k, l)] * moment).sum()).collect()
     }
 }
 
 /// The hold of each body of the scene, if it has one.
-pub fn holds_of_bodies(problem: &Discretisation) -> Vec<Option<usize>> {
-    let means = &problem.scene.means;
+pub fn holds_of_bodies(scene: &Scene) -> Vec<Option<usize>> {
+    let means = &scene.means;
     let numbers: HashMap<&str, usize> = means.iter().enumerate().map(|(number, hold)| (hold.body.as_str(), number)).collect();
-    problem.scene.mesh.bodies.iter().map(|body| numbers.get(body.as_str()).copied()).collect()
+    scene.mesh.bodies.iter().map(|body| numbers.get(body.as_str()).copied()).collect()
 }
 
 /// How far bodies have been moved rigidly by the modes that are held, one body after the other, with turns `about` these places: from
 /// the displacements of their anchors on this rank, in the nodes' frames. **Collective**
-pub fn held_motions(problem: &Discretisation, about: &[Point], displacement: &[f64], session: &Session) -> Vec<Vec<f64>> {
-    let (space, mesh) = (problem.finest(), &problem.scene.mesh);
-    let anchors: Vec<Vec<Anchor>> = problem.scene.means.iter().map(|hold| hold.anchors(mesh).unwrap_or_default()).collect();
+pub fn held_motions(
+    scene: &Scene,
+    space: &Space,
+    about: &[Point],
+    displacement: &[f64],
+    session: &Session,
+) -> Vec<Vec<f64>> {
     let moved = |anchor: &Anchor| {
         let node = space.numbering.vertex(anchor.vertex);
         let own = space.own.contains(&node).then(|| 2 * (node - space.own.start));
         let u = own.map(|at| space.to_global(node, Point::new(displacement[at], displacement[at + 1])));
         u.map_or(0.0, |u| u.dot(&anchor.direction))
     };
-    let mut all: Vec<f64> = anchors.iter().flatten().map(moved).collect();
+    let mut all: Vec<f64> = scene.means.iter().flat_map(|hold| &hold.anchors).map(moved).collect();
     session.sum(&mut all);
     let mut all = all.into_iter();
-    let solve = |((hold, anchors), about): ((&MeanHold, &Vec<Anchor>), &Point)| {
+    let solve = |(hold, about): (&MeanHold, &Point)| {
+        let anchors = &hold.anchors;
         let along =
             |i: usize, j: usize| rigid_displacement(*about, &hold.held[j].mode, anchors[i].place).dot(&anchors[i].direction);
         let modes = DMatrix::from_fn(anchors.len(), hold.held.len(), along);
         let moved = DVector::from_iterator(anchors.len(), all.by_ref().take(anchors.len()));
         modes.lu().solve(&moved).map_or_else(|| vec![0.0; hold.held.len()], |q| q.as_slice().to_vec())
     };
-    problem.scene.means.iter().zip(&anchors).zip(about).map(solve).collect()
+    scene.means.iter().zip(about).map(solve).collect()
 }
