@@ -35,7 +35,7 @@ impl Procedure<'_> {
             if share < *tolerance {
                 return Ok(Some(share));
             }
-            if !self.presses_or_is_clear(solved, at)? {
+            if !self.presses_or_is_clear(solved, at)? || self.is_too_narrow(solved, at, *tolerance)? {
                 return Ok(None);
             }
         }
@@ -81,6 +81,17 @@ impl Procedure<'_> {
         let worth = WORTH * modulus * depth;
         let is_needed = || needed_contacts(problem, &solution.active, self.session)[at];
         Ok(if own + worth > tolerance * largest && is_needed() { own } else { own + worth } / largest)
+    }
+
+    /// Whether what a contact carries beyond a share of the largest force presses on less than an edge: meshes that do not hold a
+    /// contact may agree on its force. **Collective**
+    fn is_too_narrow(&self, solved: &Solved, at: usize, tolerance: f64) -> Result<bool, SystemError> {
+        let Solved { problem, solution, .. } = solved;
+        let largest = problem.contacts.iter().map(|contact| solution.pressure(contact).force().abs()).fold(0.0, f64::max);
+        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let pressure = solution.pressure(&problem.contacts[at]);
+        let points = trace_points(problem, &pressure, &u, self.session)?;
+        Ok(pressure.is_too_narrow(&problem.scene.mesh, &points, tolerance * largest))
     }
 
     /// Errors of displacement and stress at a point.

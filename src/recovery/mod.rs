@@ -31,6 +31,7 @@ mod stress_peaks;
 mod traces;
 mod zone_ends;
 mod zone_errors;
+mod zone_width;
 
 pub use balance::{Balance, ContactForce};
 pub use cell_energies::cell_energies;
@@ -44,3 +45,4 @@ pub use stress::NodalStress;
 pub use stress_peaks::{StressPeak, largest_stresses};
 pub use traces::{TracePoint, trace_points};
 pub use zone_errors::{ZoneErrors, zone_errors};
+pub use zone_width::NARROWEST;

@@ -1,6 +1,6 @@
 //! What each zone of a contact that presses is, and what is estimated of its pressure.
 
-use crate::contact::{Zone, hertz_width, zone_counts};
+use crate::contact::{Zone, zone_counts};
 use crate::discretisation::Contact;
 use crate::output::summary::{ContactEstimate, ZoneSummary};
 use crate::procedure::Solved;
@@ -69,10 +69,8 @@ impl<'a> Zones<'a> {
         let Self { solved: Solved { problem, solution, estimate, .. }, contact, zones, points, .. } = self;
         let pressure = solution.pressure(contact);
         let estimates = estimate.of_zones(self.at, &pressure, zones, points);
-        let gaps_at_rest = || points.iter().map(|point| [point.arc, contact.pair.gap.at_rest(point.x, point.distance)]);
         let describe = |(k, share): (usize, f64)| {
             let (zone, (found, at_ends)) = (&zones[k], &estimates[k]);
-            let width = contact.boundary.width(contact.boundary.parameter_at(0.5 * (zone.arcs[0] + zone.arcs[1])));
             let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
             let grows = (0..2).any(|end| pressure.grows_towards(zone, end, before(end)));
             let singular = is_singular(grows, corner_error);
@@ -85,8 +83,7 @@ impl<'a> Zones<'a> {
                 edges: Some(edges),
                 segments: Some(contact.segments_on(zone)),
                 share: Some(share),
-                hertz_width: hertz_width(gaps_at_rest(), zone.arcs, self.forces[k] / width, contact.compliance)
-                    .filter(|width| *width <= contact.boundary.length()),
+                hertz_width: pressure.hertz_width(zone, points),
                 pressure_max: Some(self.peaks[k]),
                 lambda: found.pressure.filter(tells),
                 whole: found.inside.filter(tells),

@@ -6,8 +6,9 @@ use crate::contact::{Law, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::procedure::MOVES;
+use crate::recovery::NARROWEST;
 use crate::run::verdict::limits::{
-    DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, NARROWEST, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS,
+    DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS,
 };
 use crate::run::words::short;
 

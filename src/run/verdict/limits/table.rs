@@ -176,9 +176,6 @@ pub const PASSED_THROUGH: f64 = 0.05;
 
 // What is not resolved. In all cases of the project no depth is above 3 % of the approach.
 
-/// Edges that the narrowest contact has at least.
-pub const NARROWEST: f64 = 1.0;
-
 /// How deep bodies may lie in each other, as a share of how far they have come together; a depth by less than `LEFT` of the
 /// largest displacement is what the solve leaves.
 pub const DEEPEST: f64 = 0.1;

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::procedure::MOVES;
+use crate::recovery::NARROWEST;
 
 /// Every row of the table, with its figure.
 const ROWS: [(&str, &Limit); 25] = [
