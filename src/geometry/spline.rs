@@ -96,8 +96,14 @@ impl Spline {
         self.part_end(nearest.unwrap_or(0))
     }
 
+    /// The span at a parameter within the range, found from where it would be among even ones.
     fn span(&self, t: f64) -> (&[Point; 4], f64) {
-        let k = self.knots.partition_point(|&knot| knot <= t).clamp(1, self.spans.len()) - 1;
+        let ([first, last], count) = (self.range(), self.spans.len());
+        let even = ((t - first) / (last - first) * count as f64) as usize;
+        let is_in = |k: &usize| self.knots[*k] <= t && t < self.knots[*k + 1];
+        let near = even.saturating_sub(1)..(even + 2).min(count);
+        let k = near.into_iter().find(is_in);
+        let k = k.unwrap_or_else(|| self.knots.partition_point(|&knot| knot <= t).clamp(1, count) - 1);
         (&self.spans[k], t - self.knots[k])
     }
 

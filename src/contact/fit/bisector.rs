@@ -25,6 +25,9 @@ const MOST_CORRECTIONS: usize = 12;
 /// Points that move by less than this share of the curve need no further correction.
 const CENTRED: f64 = 1e-3;
 
+/// Corrections that move the points by more than this share of what the one before did bring nothing.
+const STALLED: f64 = 0.7;
+
 /// The curve half-way between two sides.
 pub struct Bisector {
     /// The curve; its parameter is that of the first side.
@@ -81,6 +84,7 @@ impl Bisector {
         let fit = |points: &[Halfway]| Curve::Spline(fit_by_the_data(&samples(points, pole), pair.spans, turn));
         let mut curve = fit(&points);
         let whole = points[points.len() - 1].parameter - points[0].parameter;
+        let mut before = f64::INFINITY;
         for correction in 0..MOST_CORRECTIONS {
             let mut next = points.clone();
             let moved = next.iter_mut().map(|point| point.centre(&curve, curves, whole)).fold(0.0, f64::max);
@@ -92,9 +96,10 @@ impl Bisector {
             points = next;
             sort(&mut points);
             curve = fit(&points);
-            if correction + 1 >= CORRECTIONS && moved <= CENTRED * whole {
+            if correction + 1 >= CORRECTIONS && (moved <= CENTRED * whole || moved > STALLED * before) {
                 break;
             }
+            before = moved;
         }
         let data = parameters_between(&points);
         let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);
