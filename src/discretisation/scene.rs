@@ -4,7 +4,7 @@ use crate::body::{Body, BodyPart, Load, MeanHold, PointLoad, RigidNodes, RigidSe
 use crate::contact::{Extent, Pair};
 use crate::element::{Heat, Order, PlaneLaw};
 use crate::geometry::Point;
-use crate::mesh::{BodyPiece, Graph, MacroMesh, Partition, Surface};
+use crate::mesh::{BodyPiece, Graph, MacroMesh, Partition};
 use crate::petsc::{self, Session, partition};
 use std::rc::Rc;
 
@@ -67,15 +67,19 @@ impl Scene {
 
     /// Young's modulus of each part as contacts see it, in the order of the mesh: without bound for a rigid tool.
     pub fn young(&self) -> Vec<f64> {
-        let bodies = self.mesh.parts.iter().map(|surface| surface.body as usize);
-        let young = |(body, part): (usize, &BodyPart)| if self.is_rigid(body) { f64::INFINITY } else { part.material.young };
-        bodies.zip(self.parts()).map(young).collect()
+        (0..self.mesh.parts.len()).map(|part| self.young_of(part)).collect()
+    }
+
+    /// Young's modulus of a part as contacts see it: without bound for a rigid tool.
+    pub fn young_of(&self, part: usize) -> f64 {
+        let is_rigid = self.is_rigid(self.mesh.parts[part].body as usize);
+        if is_rigid { f64::INFINITY } else { self.part(part).material.young }
     }
 
     /// Compliance of the surface of a part (1/stress): none of a rigid tool.
     pub fn compliance(&self, part: usize) -> f64 {
         let is_rigid = self.is_rigid(self.mesh.parts[part].body as usize);
-        if is_rigid { 0.0 } else { 1.0 / self.parts()[part].material.plane_modulus() }
+        if is_rigid { 0.0 } else { 1.0 / self.part(part).material.plane_modulus() }
     }
 
     /// Whether each macro triangle of a rank has a corner at which a load acts: the energy there has no limit.
@@ -88,18 +92,19 @@ impl Scene {
 
     /// The parts of all bodies, in the order of the mesh.
     pub fn parts(&self) -> Vec<&BodyPart> {
-        let of = |surface: &Surface| {
-            let mut parts = self.bodies[surface.body as usize].parts.iter();
-            parts.find(|part| part.name == surface.name).expect("every physical surface has its constants")
-        };
-        self.mesh.parts.iter().map(of).collect()
+        (0..self.mesh.parts.len()).map(|part| self.part(part)).collect()
+    }
+
+    /// A part of the mesh.
+    fn part(&self, part: usize) -> &BodyPart {
+        let surface = &self.mesh.parts[part];
+        let mut parts = self.bodies[surface.body as usize].parts.iter();
+        parts.find(|part| part.name == surface.name).expect("every physical surface has its constants")
     }
 
     /// What a part of the mesh is heated by.
     pub fn heat(&self, part: usize) -> Option<&Heat> {
-        let surface = &self.mesh.parts[part];
-        let mut parts = self.bodies[surface.body as usize].parts.iter();
-        parts.find(|part| part.name == surface.name)?.heat.as_ref()
+        self.part(part).heat.as_ref()
     }
 
     /// Whether any part is heated.

@@ -9,36 +9,33 @@ use crate::discretisation::scene::Scene;
 use crate::mesh::BoundaryEdge;
 
 /// Young's moduli of the parts beside both boundaries of a contact; most boundaries have one part.
-pub struct SideMaterials {
-    /// Modulus of each part of the mesh (stress), without bound of rigid tools.
-    young: Vec<f64>,
-    /// Part of each macro triangle.
-    part_of: Vec<u32>,
+pub struct SideMaterials<'s> {
+    scene: &'s Scene,
     /// The softest and the hardest part beside each boundary.
     extremes: [[usize; 2]; 2],
     /// The softest part beside each boundary.
     pub softest: [usize; 2],
 }
 
-impl SideMaterials {
+impl<'s> SideMaterials<'s> {
     /// Of the macro edges of both boundaries.
-    pub fn new(scene: &Scene, sides: &[Vec<u32>; 2]) -> Self {
+    pub fn new(scene: &'s Scene, sides: &[Vec<u32>; 2]) -> Self {
         let mesh = &scene.mesh;
-        let young = scene.young();
         let extremes = sides.each_ref().map(|edges| {
             let mut parts: Vec<usize> =
                 edges.iter().map(|&edge| mesh.triangles[mesh.beside(edge).0 as usize].part as usize).collect();
-            parts.sort_by(|a, b| young[*a].total_cmp(&young[*b]));
+            parts.sort_unstable();
+            parts.dedup();
+            parts.sort_by(|&a, &b| scene.young_of(a).total_cmp(&scene.young_of(b)));
             [parts[0], parts[parts.len() - 1]]
         });
-        let part_of = mesh.triangles.iter().map(|triangle| triangle.part).collect();
-        Self { young, part_of, extremes, softest: extremes.map(|[softest, _]| softest) }
+        Self { scene, extremes, softest: extremes.map(|[softest, _]| softest) }
     }
 
     /// The moduli by which the softer body is told, whose edges rule the length of the segments. Where one body is softer here
     /// and the other one there they are equal: then both rule.
     pub fn ruling(&self) -> [f64; 2] {
-        let [[a, b], [c, d]] = self.extremes.map(|parts| parts.map(|part| self.young[part]));
+        let [[a, b], [c, d]] = self.extremes.map(|parts| parts.map(|part| self.scene.young_of(part)));
         if a <= d && c <= b { [a.min(c); 2] } else { [a, c] }
     }
 
@@ -50,14 +47,14 @@ impl SideMaterials {
 
     /// Modulus of one body beside each segment; its smallest one where a segment sees no edge of it.
     fn of_side(&self, side: usize, boundary: &ContactBoundary, edges: &[BoundaryEdge]) -> Vec<f64> {
-        let [least, most] = self.extremes[side].map(|part| self.young[part]);
+        let [least, most] = self.extremes[side].map(|part| self.scene.young_of(part));
         if least == most {
             return vec![least; boundary.segments()];
         }
         let knots = boundary.knots();
         let mut found = vec![f64::INFINITY; boundary.segments()];
         for edge in edges {
-            let young = self.young[self.part_of[edge.triangle] as usize];
+            let young = self.scene.young_of(self.scene.mesh.triangles[edge.triangle].part as usize);
             let feet = boundary.feet([edge.points[0], edge.points[1]]);
             let inner = [0.99 * feet[0] + 0.01 * feet[1], 0.01 * feet[0] + 0.99 * feet[1]];
             if inner[1] < knots[0] || inner[0] > knots[knots.len() - 1] {

@@ -9,7 +9,15 @@ pub struct Origin {
     pub corners: [[f64; 3]; 3],
 }
 
+/// Corners of a whole triangle.
+const WHOLE: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 impl Origin {
+    /// Whether it is the whole triangle, begun at the same corner.
+    pub fn is_whole(&self) -> bool {
+        self.corners == WHOLE
+    }
+
     /// Where it lies in a mesh that is coarser still, from where that one's triangles do.
     pub fn within(&self, coarser: &[Self]) -> Self {
         let outer = &coarser[self.triangle as usize];
@@ -18,7 +26,7 @@ impl Origin {
 
     /// All of a triangle.
     pub fn whole(triangle: usize) -> Self {
-        Self { triangle: triangle as u32, corners: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
+        Self { triangle: triangle as u32, corners: WHOLE }
     }
 
     /// A point of the part, by the barycentric coordinates of both.

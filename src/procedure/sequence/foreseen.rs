@@ -76,6 +76,9 @@ pub(crate) struct Indicators {
 impl LocalIndicator {
     /// The same for a part of the triangle: halving it brings the root of what quartering does.
     fn of_part(&self, part: &Origin) -> Self {
+        if part.is_whole() {
+            return *self;
+        }
         let fall = self.fall.powf(-0.5 * part.area().log2());
         Self { cells: self.cells.of_part(part).scaled(fall), fall: self.fall }
     }
