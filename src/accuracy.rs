@@ -117,6 +117,9 @@ pub struct Adaptation {
     pub refusal: Option<String>,
 }
 
+/// Edges that the narrowest contact which counts has at least: on less than one no element can bend to a pressure.
+pub const NARROWEST: f64 = 1.0;
+
 /// The share of the largest force of all contacts below which one only touches: the smallest error that is asked for, if any is.
 pub fn share_of_nothing(asked: Option<&Accuracy>) -> f64 {
     let goals = asked.iter().flat_map(|asked| &asked.goals);

@@ -7,6 +7,7 @@ use crate::procedure::estimates::AtEnds;
 use crate::procedure::settings::Procedure;
 use crate::procedure::solved::Solved;
 use crate::recovery::trace_points;
+use std::ops::Range;
 
 /// Error of λ above which it is not known where it presses.
 const MOST_UNKNOWN: f64 = 0.08;
@@ -35,13 +36,16 @@ impl Procedure<'_> {
             if share < *tolerance {
                 return Ok(Some(share));
             }
-            if !self.presses_or_is_clear(solved, at)? || self.is_too_narrow(solved, at, *tolerance)? {
+            if !self.presses_or_is_clear(solved, at)? || self.is_too_narrow(solved, at..at + 1, *tolerance)? {
                 return Ok(None);
             }
         }
         Ok(match quantity {
             // Where everything is found on the mesh before, rounding is all that the differences tell.
-            Quantity::Energy => estimate.energy.or_else(|| rounded(solved)),
+            Quantity::Energy => match estimate.energy.or_else(|| rounded(solved)) {
+                Some(error) if error <= *tolerance && self.is_too_narrow(solved, 0..problem.contacts.len(), *tolerance)? => None,
+                error => error,
+            },
             Quantity::Force(name) => contact_called(problem, name).and_then(|at| estimate.force.get(at).copied().flatten()),
             Quantity::Pressure(name) => match contact_called(problem, name) {
                 Some(at) => self.pressure_error(solved, at)?,
@@ -83,15 +87,24 @@ impl Procedure<'_> {
         Ok(if own + worth > tolerance * largest && is_needed() { own } else { own + worth } / largest)
     }
 
-    /// Whether what a contact carries beyond a share of the largest force presses on less than an edge: meshes that do not hold a
-    /// contact may agree on its force. **Collective**
-    fn is_too_narrow(&self, solved: &Solved, at: usize, tolerance: f64) -> Result<bool, SystemError> {
+    /// Whether what one of these contacts carries beyond a share of the largest force presses on less than an edge: meshes that do not
+    /// hold a contact may agree on its force. **Collective**
+    fn is_too_narrow(&self, solved: &Solved, contacts: Range<usize>, tolerance: f64) -> Result<bool, SystemError> {
         let Solved { problem, solution, .. } = solved;
         let largest = problem.contacts.iter().map(|contact| solution.pressure(contact).force().abs()).fold(0.0, f64::max);
+        let all = problem.contacts[contacts].iter().map(|contact| solution.pressure(contact));
+        let narrow: Vec<_> = all.filter(|pressure| pressure.may_be_too_narrow()).collect();
+        if narrow.is_empty() {
+            return Ok(false);
+        }
         let u = Field::displacement(problem, &solution.displacement, self.session)?;
-        let pressure = solution.pressure(&problem.contacts[at]);
-        let points = trace_points(problem, &pressure, &u, self.session)?;
-        Ok(pressure.is_too_narrow(&problem.scene.mesh, &points, tolerance * largest))
+        for pressure in narrow {
+            let points = trace_points(problem, &pressure, &u, self.session)?;
+            if pressure.is_too_narrow(&problem.scene.mesh, &points, tolerance * largest) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Errors of displacement and stress at a point.

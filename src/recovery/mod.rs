@@ -45,4 +45,3 @@ pub use stress::NodalStress;
 pub use stress_peaks::{StressPeak, largest_stresses};
 pub use traces::{TracePoint, trace_points};
 pub use zone_errors::{ZoneErrors, zone_errors};
-pub use zone_width::NARROWEST;

@@ -1,12 +1,13 @@
 //! How wide the zones of a contact are, and whether the mesh holds that.
 
+use crate::accuracy::NARROWEST;
 use crate::contact::{Law, Zone, hertz_width};
 use crate::discretisation::ContactPressure;
 use crate::mesh::MacroMesh;
 use crate::recovery::traces::TracePoint;
 
-/// Edges that the narrowest contact has at least: on less than one no element can bend to a pressure.
-pub const NARROWEST: f64 = 1.0;
+/// Edges on a zone from which it is as wide as its force asks for, but for some of them.
+const WIDE: f64 = 4.0;
 
 impl ContactPressure<'_> {
     /// Width that the force of a zone asks for between smooth convex sides (length; Hertz); `points` are the traces of the contact.
@@ -16,6 +17,11 @@ impl ContactPressure<'_> {
         let middle = contact.boundary.parameter_at(0.5 * (zone.arcs[0] + zone.arcs[1]));
         let force = self.force_of(zone) / contact.boundary.width(middle);
         hertz_width(gaps, zone.arcs, force, contact.compliance).filter(|width| *width <= contact.boundary.length())
+    }
+
+    /// Whether a zone is so narrow that it is worth a look at what its force asks for.
+    pub fn may_be_too_narrow(&self) -> bool {
+        self.contact.pair.law == Law::Unilateral && self.zones().iter().any(|zone| self.contact.edges_on(zone) < WIDE)
     }
 
     /// Whether a zone of unilateral contact that carries more than a force is narrower than an edge, by what presses or by what its force asks for. The force
@@ -28,5 +34,36 @@ impl ContactPressure<'_> {
             edges < NARROWEST && !is_corner
         };
         self.contact.pair.law == Law::Unilateral && self.zones().iter().any(|zone| self.force_of(zone).abs() > least && narrow(zone))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Known, MultiplierSpace};
+    use crate::discretisation::samples::{blocks, contact, pair};
+    use crate::geometry::Point;
+    use std::ops::Range;
+
+    /// Two flat blocks, the upper one moved by .3 along the other: an edge of the softer one is as long as eight segments.
+    #[test]
+    fn what_presses_on_less_than_an_edge_is_too_narrow_unless_it_is_little_or_a_corner() {
+        let scene = blocks(pair(MultiplierSpace::P0, 54), |_| Point::new(0.3, 0.0), Vec::new());
+        let mut contact = contact(&scene, Known::default());
+        let edge = contact.edge_lengths[27] / contact.boundary.segment_length(27);
+        assert!((7.5..8.5).contains(&edge), "{edge}");
+        let narrow = |contact: &crate::discretisation::Contact, pressed: Range<usize>, least: f64| {
+            let active: Vec<bool> = (0..54).map(|k| pressed.contains(&k)).collect();
+            let values: Vec<f64> = active.iter().map(|&active| f64::from(u8::from(active))).collect();
+            let pressure = ContactPressure { contact, values: &values, active: &active };
+            pressure.may_be_too_narrow() && pressure.is_too_narrow(&scene.mesh, &[], least)
+        };
+        let force = 2.0 * contact.boundary.segment_length(20);
+        assert!(narrow(&contact, 20..22, 0.5 * force));
+        assert!(!narrow(&contact, 20..22, 2.0 * force), "it carries little");
+        assert!(!narrow(&contact, 20..30, 0.0) && !narrow(&contact, 10..40, 0.0), "an edge and more");
+        assert!(!narrow(&contact, 0..2, 0.0), "where one body ends and the other goes on");
+        contact.pair.law = Law::Bilateral;
+        assert!(!narrow(&contact, 20..22, 0.0));
     }
 }

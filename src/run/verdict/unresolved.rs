@@ -1,12 +1,11 @@
 //! Whether a solution is one of what the case says: not if its mesh, or its contact boundaries, cannot hold that.
 
-use crate::accuracy::share_of_nothing;
+use crate::accuracy::{NARROWEST, share_of_nothing};
 use crate::case::Case;
 use crate::contact::{Law, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::procedure::MOVES;
-use crate::recovery::NARROWEST;
 use crate::run::verdict::limits::{
     DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS,
 };

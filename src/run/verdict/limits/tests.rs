@@ -1,8 +1,8 @@
 //! Sentences of limits, and what the documents say of them.
 
 use super::*;
+use crate::accuracy::NARROWEST;
 use crate::procedure::MOVES;
-use crate::recovery::NARROWEST;
 
 /// Every row of the table, with its figure.
 const ROWS: [(&str, &Limit); 25] = [
