@@ -84,8 +84,8 @@ impl MeanHold {
         Some(format!("{all}, of which two tell the third; leave one of them out"))
     }
 
-    /// A support that holds no motion yet, of a body of a mesh.
-    pub fn nothing(name: &str, body: &str, mesh: &MacroMesh) -> Self {
+    /// The support of a body of a mesh, which holds no motion yet.
+    pub fn of_body(name: &str, body: &str, mesh: &MacroMesh) -> Self {
         let hold = Self {
             name: name.into(),
             body: body.into(),
@@ -97,7 +97,7 @@ impl MeanHold {
         hold.on(mesh)
     }
 
-    /// The same hold of the body on another mesh of it.
+    /// The same hold of the body on another mesh of it, with the modes as they are.
     pub fn on(&self, mesh: &MacroMesh) -> Self {
         let triangles = self.triangles(mesh);
         let (middle, vertices) = (middle(mesh, &triangles), vertices(mesh, &triangles));

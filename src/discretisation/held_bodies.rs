@@ -147,13 +147,7 @@ pub fn holds_of_bodies(scene: &Scene) -> Vec<Option<usize>> {
 
 /// How far bodies have been moved rigidly by the modes that are held, one body after the other, with turns `about` these places: from
 /// the displacements of their anchors on this rank, in the nodes' frames. **Collective**
-pub fn held_motions(
-    scene: &Scene,
-    space: &Space,
-    about: &[Point],
-    displacement: &[f64],
-    session: &Session,
-) -> Vec<Vec<f64>> {
+pub fn held_motions(scene: &Scene, space: &Space, about: &[Point], displacement: &[f64], session: &Session) -> Vec<Vec<f64>> {
     let moved = |anchor: &Anchor| {
         let node = space.numbering.vertex(anchor.vertex);
         let own = space.own.contains(&node).then(|| 2 * (node - space.own.start));

@@ -30,7 +30,7 @@ pub struct Discretisation {
     /// What presses as far as the programme of the first mesh tells, where no solution is known.
     pub first_set: Option<Vec<bool>>,
     /// What bodies and loads alone give, once it has been asked for.
-    pub alone: WithoutContact,
+    pub without_contact: WithoutContact,
 }
 
 /// What does not depend on contact, and is found once on each mesh.
@@ -66,7 +66,16 @@ impl Discretisation {
     ) -> Result<Self, SystemError> {
         let coupling = Coupling::new(&scene, &spaces, &contacts, session)?;
         let mean_forces = vec![[0.0; 3]; scene.means.len()];
-        Ok(Self { scene, spaces, contacts, coupling, motion, mean_forces, first_set: None, alone: WithoutContact::default() })
+        Ok(Self {
+            scene,
+            spaces,
+            contacts,
+            coupling,
+            motion,
+            mean_forces,
+            first_set: None,
+            without_contact: WithoutContact::default(),
+        })
     }
 
     /// Puts contacts in place that were placed again on moved bodies, and couples them. **Collective**
@@ -84,11 +93,11 @@ impl Discretisation {
     /// # Errors
     /// As of [`HeldBodies::new`].
     pub fn held_bodies(&self, session: &Session) -> Result<Rc<HeldBodies>, SystemError> {
-        if let Some(found) = self.alone.held.get() {
+        if let Some(found) = self.without_contact.held.get() {
             return Ok(found.clone());
         }
         let found = Rc::new(HeldBodies::new(&self.scene, self.finest(), session)?);
-        Ok(self.alone.held.get_or_init(|| found).clone())
+        Ok(self.without_contact.held.get_or_init(|| found).clone())
     }
 
     /// Whether some contact boundary depends on the solution.

@@ -127,7 +127,7 @@ impl Curve {
 
     /// The nearest point from a parameter near it: Newton's method on `(p - x(t)) . x'(t) = 0`, with the curvature from the step before
     /// (a secant), since points farther away than the curve's radius would go back and forth without it; by steps of one part of its
-    /// range at most, since the way that is left on the tangent is too long there, but for the tangents at the ends of a spline.
+    /// range at most, since the way that is left on the tangent is too long there. Beyond the ends of a spline the tangent is the curve.
     fn nearest_from(&self, p: Point, mut t: f64, parts: usize) -> f64 {
         let [first, last] = self.range();
         let longest = (last - first).abs() / parts as f64;

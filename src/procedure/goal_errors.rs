@@ -7,7 +7,6 @@ use crate::procedure::estimates::AtEnds;
 use crate::procedure::settings::Procedure;
 use crate::procedure::solved::Solved;
 use crate::recovery::trace_points;
-use std::ops::Range;
 
 /// Error of λ above which it is not known where it presses.
 const MOST_UNKNOWN: f64 = 0.08;
@@ -27,8 +26,19 @@ impl Procedure<'_> {
         goals.iter().map(|goal| self.goal_error(goal, solved)).collect()
     }
 
-    /// Of one goal. **Collective**
-    fn goal_error(&self, Goal { quantity, tolerance }: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
+    /// Of one goal: nothing where it would be reached, but its contact presses on less than an edge. **Collective**
+    fn goal_error(&self, goal: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
+        let error = self.estimated_error(goal, solved)?;
+        let contact = goal.quantity.contact().and_then(|name| contact_called(&solved.problem, name));
+        let is_reached = error.is_some_and(|error| error <= goal.tolerance);
+        Ok(match contact.filter(|_| is_reached) {
+            Some(at) if self.is_too_narrow(solved, at, goal.tolerance)? => None,
+            _ => error,
+        })
+    }
+
+    /// What is estimated of one goal. **Collective**
+    fn estimated_error(&self, Goal { quantity, tolerance }: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
         let Solved { problem, estimate, .. } = solved;
         if let Some(at) = quantity.contact().and_then(|name| contact_called(problem, name)) {
             // What carries less than is asked for of the largest force needs no zone to be resolved.
@@ -36,16 +46,13 @@ impl Procedure<'_> {
             if share < *tolerance {
                 return Ok(Some(share));
             }
-            if !self.presses_or_is_clear(solved, at)? || self.is_too_narrow(solved, at..at + 1, *tolerance)? {
+            if !self.presses_or_is_clear(solved, at)? {
                 return Ok(None);
             }
         }
         Ok(match quantity {
             // Where everything is found on the mesh before, rounding is all that the differences tell.
-            Quantity::Energy => match estimate.energy.or_else(|| rounded(solved)) {
-                Some(error) if error <= *tolerance && self.is_too_narrow(solved, 0..problem.contacts.len(), *tolerance)? => None,
-                error => error,
-            },
+            Quantity::Energy => estimate.energy.or_else(|| rounded(solved)),
             Quantity::Force(name) => contact_called(problem, name).and_then(|at| estimate.force.get(at).copied().flatten()),
             Quantity::Pressure(name) => match contact_called(problem, name) {
                 Some(at) => self.pressure_error(solved, at)?,
@@ -87,24 +94,18 @@ impl Procedure<'_> {
         Ok(if own + worth > tolerance * largest && is_needed() { own } else { own + worth } / largest)
     }
 
-    /// Whether what one of these contacts carries beyond a share of the largest force presses on less than an edge: meshes that do not
-    /// hold a contact may agree on its force. **Collective**
-    fn is_too_narrow(&self, solved: &Solved, contacts: Range<usize>, tolerance: f64) -> Result<bool, SystemError> {
+    /// Whether what a contact carries beyond a share of the largest force presses on less than an edge: meshes that do not hold a
+    /// contact may agree on its force. **Collective**
+    fn is_too_narrow(&self, solved: &Solved, at: usize, tolerance: f64) -> Result<bool, SystemError> {
         let Solved { problem, solution, .. } = solved;
         let largest = problem.contacts.iter().map(|contact| solution.pressure(contact).force().abs()).fold(0.0, f64::max);
-        let all = problem.contacts[contacts].iter().map(|contact| solution.pressure(contact));
-        let narrow: Vec<_> = all.filter(|pressure| pressure.may_be_too_narrow()).collect();
-        if narrow.is_empty() {
+        let (pressure, least) = (solution.pressure(&problem.contacts[at]), tolerance * largest);
+        if !pressure.has_few_edges(least) {
             return Ok(false);
         }
         let u = Field::displacement(problem, &solution.displacement, self.session)?;
-        for pressure in narrow {
-            let points = trace_points(problem, &pressure, &u, self.session)?;
-            if pressure.is_too_narrow(&problem.scene.mesh, &points, tolerance * largest) {
-                return Ok(true);
-            }
-        }
-        Ok(false)
+        let points = trace_points(problem, &pressure, &u, self.session)?;
+        Ok(pressure.is_too_narrow(&problem.scene.mesh, &points, least))
     }
 
     /// Errors of displacement and stress at a point.

@@ -6,8 +6,8 @@ use crate::discretisation::ContactPressure;
 use crate::mesh::MacroMesh;
 use crate::recovery::traces::TracePoint;
 
-/// Edges on a zone from which it is as wide as its force asks for, but for some of them.
-const WIDE: f64 = 4.0;
+/// A zone on so many edges is not looked at: its force would have to ask for a quarter of it or less.
+const MANY: f64 = 4.0;
 
 impl ContactPressure<'_> {
     /// Width that the force of a zone asks for between smooth convex sides (length; Hertz); `points` are the traces of the contact.
@@ -19,13 +19,17 @@ impl ContactPressure<'_> {
         hertz_width(gaps, zone.arcs, force, contact.compliance).filter(|width| *width <= contact.boundary.length())
     }
 
-    /// Whether a zone is so narrow that it is worth a look at what its force asks for.
-    pub fn may_be_too_narrow(&self) -> bool {
-        self.contact.pair.law == Law::Unilateral && self.zones().iter().any(|zone| self.contact.edges_on(zone) < WIDE)
+    /// Whether a zone of unilateral contact presses on few edges, and carries more than a force.
+    pub fn has_few_edges(&self, least: f64) -> bool {
+        self.contact.pair.law == Law::Unilateral && self.zones().iter().any(|zone| self.is_on_few_edges(zone, least))
     }
 
-    /// Whether a zone of unilateral contact that carries more than a force is narrower than an edge, by what presses or by what its force asks for. The force
-    /// of a corner is right on any mesh.
+    fn is_on_few_edges(&self, zone: &Zone, least: f64) -> bool {
+        self.force_of(zone).abs() > least && (f64::MIN_POSITIVE..MANY).contains(&self.contact.edges_on(zone))
+    }
+
+    /// Whether a zone of unilateral contact that carries more than a force is narrower than an edge, by what presses or by what its
+    /// force asks for. The force of a corner is right on any mesh.
     pub fn is_too_narrow(&self, mesh: &MacroMesh, points: &[TracePoint], least: f64) -> bool {
         let narrow = |zone: &Zone| {
             let (length, width) = (zone.arcs[1] - zone.arcs[0], self.hertz_width(zone, points));
@@ -33,7 +37,8 @@ impl ContactPressure<'_> {
             let is_corner = width.is_none() && (0..2).any(|end| self.ends_at_a_corner(mesh, zone, end));
             edges < NARROWEST && !is_corner
         };
-        self.contact.pair.law == Law::Unilateral && self.zones().iter().any(|zone| self.force_of(zone).abs() > least && narrow(zone))
+        let zones = self.zones();
+        self.has_few_edges(least) && zones.iter().any(|zone| self.is_on_few_edges(zone, least) && narrow(zone))
     }
 }
 
@@ -56,7 +61,7 @@ mod tests {
             let active: Vec<bool> = (0..54).map(|k| pressed.contains(&k)).collect();
             let values: Vec<f64> = active.iter().map(|&active| f64::from(u8::from(active))).collect();
             let pressure = ContactPressure { contact, values: &values, active: &active };
-            pressure.may_be_too_narrow() && pressure.is_too_narrow(&scene.mesh, &[], least)
+            pressure.is_too_narrow(&scene.mesh, &[], least)
         };
         let force = 2.0 * contact.boundary.segment_length(20);
         assert!(narrow(&contact, 20..22, 0.5 * force));

@@ -78,7 +78,7 @@ fn moving_problems(session: &Session) -> Vec<Discretisation> {
     let mut held = scene(MultiplierSpace::P1Discontinuous, Stabilise::Off);
     let modes = [("ux", 0, 2e-3), ("angle", 2, 1e-3)];
     let modes = modes.map(|(key, k, value)| HeldMode { key, mode: UNIT_MOTIONS[k], value });
-    let hold = MeanHold::nothing("mean", &held.mesh.bodies[1], &held.mesh);
+    let hold = MeanHold::of_body("mean", &held.mesh.bodies[1], &held.mesh);
     held.means = vec![MeanHold { held: modes.into(), ..hold }.on(&held.mesh)];
     let mut plate = scene(MultiplierSpace::P0, Stabilise::On);
     let (nodes, about) = (RigidNodes::Boundaries(vec!["top".into()]), Point::new(3.0, 6.0));

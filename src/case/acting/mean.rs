@@ -70,7 +70,7 @@ impl MeanSupport {
     /// # Errors
     /// Words for a body that has its middle where it is to go around.
     pub fn hold(&self, mesh: &MacroMesh) -> Result<MeanHold, String> {
-        let mut hold = MeanHold::nothing(&self.name, &self.body, mesh);
+        let mut hold = MeanHold::of_body(&self.name, &self.body, mesh);
         for &(key, way, value) in &self.held {
             let mode = match way {
                 MeanWay::Along(direction) => [direction.x, direction.y, 0.0],

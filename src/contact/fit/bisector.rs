@@ -25,7 +25,9 @@ const MOST_CORRECTIONS: usize = 12;
 /// Points that move by less than this share of the curve need no further correction.
 const CENTRED: f64 = 1e-3;
 
-/// Corrections that move the points by more than this share of what the one before did bring nothing.
+/// Corrections that move as many points by more than this share of what the one before did bring little. Between discs of 24 edges the
+/// points of first fits do not come to rest: from the third correction on each moves them by .7 to 1.5 times the one before. To check
+/// 1003 discs takes some 5 s without these corrections, and 8 s with them.
 const STALLED: f64 = 0.7;
 
 /// The curve half-way between two sides.
@@ -84,22 +86,24 @@ impl Bisector {
         let fit = |points: &[Halfway]| Curve::Spline(fit_by_the_data(&samples(points, pole), pair.spans, turn));
         let mut curve = fit(&points);
         let whole = points[points.len() - 1].parameter - points[0].parameter;
-        let mut before = f64::INFINITY;
+        let mut before = (f64::INFINITY, 0);
         for correction in 0..MOST_CORRECTIONS {
             let mut next = points.clone();
             let moved = next.iter_mut().map(|point| point.centre(&curve, curves, whole)).fold(0.0, f64::max);
             // A first guess that is far off says nothing of most points, and no curve goes through less than two places.
             let [first, last] = parameters_between(&next);
-            if 2 * next.iter().filter(|point| point.is_between).count() < next.len() || first >= last {
+            let count = next.iter().filter(|point| point.is_between).count();
+            if 2 * count < next.len() || first >= last {
                 break;
             }
             points = next;
             sort(&mut points);
             curve = fit(&points);
-            if correction + 1 >= CORRECTIONS && (moved <= CENTRED * whole || moved > STALLED * before) {
+            let is_stalled = count <= before.1 && moved > STALLED * before.0;
+            if correction + 1 >= CORRECTIONS && (moved <= CENTRED * whole || is_stalled) {
                 break;
             }
-            before = moved;
+            before = (moved, count);
         }
         let data = parameters_between(&points);
         let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);

@@ -36,10 +36,14 @@ pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
         let (middle, half) = (touch.unwrap_or(0.5 * (first + last)), 0.5 * (last - first));
         PARTS.map(|part| Known { ends: Some([middle - part * half, middle + part * half]), ..whole(meeting) })
     };
-    if let Some(known) = Meeting::within_reach(&sides, pair).map(|meeting| whole(&meeting)).find(can_be_measured) {
-        return known;
+    let mut meetings = Vec::new();
+    for meeting in Meeting::within_reach(&sides, pair) {
+        let known = whole(&meeting);
+        if can_be_measured(&known) {
+            return known;
+        }
+        meetings.push(meeting);
     }
-    let meetings: Vec<Meeting> = Meeting::within_reach(&sides, pair).collect();
     let about = meetings.iter().filter(|meeting| !meeting.goes_round);
     let touches = about.map(|meeting| (meeting, touching(&sides, meeting, pair)));
     let (touched, others): (Vec<_>, Vec<_>) = touches.partition(|(_, touch)| touch.is_some());

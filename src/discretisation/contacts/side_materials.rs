@@ -24,7 +24,6 @@ impl<'s> SideMaterials<'s> {
         let extremes = sides.each_ref().map(|edges| {
             let mut parts: Vec<usize> =
                 edges.iter().map(|&edge| mesh.triangles[mesh.beside(edge).0 as usize].part as usize).collect();
-            parts.sort_unstable();
             parts.dedup();
             parts.sort_by(|&a, &b| scene.young_of(a).total_cmp(&scene.young_of(b)));
             [parts[0], parts[parts.len() - 1]]

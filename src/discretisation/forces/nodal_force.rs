@@ -15,11 +15,11 @@ use crate::petsc::Session;
 /// # Errors
 /// [`SystemError::Case`] if a triangle is turned inside out, or a force has no finite value.
 pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
-    let mut forces = match problem.alone.applied.get() {
+    let mut forces = match problem.without_contact.applied.get() {
         Some(found) => found.clone(),
         None => {
             let found = applied(problem, session)?;
-            problem.alone.applied.get_or_init(|| found).clone()
+            problem.without_contact.applied.get_or_init(|| found).clone()
         }
     };
     if problem.mean_forces.iter().flatten().any(|force| *force != 0.0) {
@@ -49,7 +49,7 @@ fn applied(problem: &Discretisation, session: &Session) -> Result<Field<2>, Syst
     forces.sum(session)
 }
 
-/// What holds mean motions. **Collective**
+/// What holds mean motions, as nodal forces. **Collective**
 fn mean_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let (bodies, of_body) = (problem.held_bodies(session)?, holds_of_bodies(scene));

@@ -13,7 +13,7 @@ pub struct Origin {
 const WHOLE: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Origin {
-    /// Whether it is the whole triangle, begun at the same corner.
+    /// Whether it is the whole triangle, with its corners in the same order.
     pub fn is_whole(&self) -> bool {
         self.corners == WHOLE
     }

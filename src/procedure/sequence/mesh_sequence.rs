@@ -252,7 +252,7 @@ mod tests {
             motion: BoundaryMotion::default(),
             mean_forces: Vec::new(),
             first_set: None,
-            alone: WithoutContact::default(),
+            without_contact: WithoutContact::default(),
         };
         sequence.adaptation.meshes.push(AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,

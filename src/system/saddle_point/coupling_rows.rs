@@ -167,7 +167,7 @@ mod tests {
             motion: BoundaryMotion::default(),
             mean_forces: Vec::new(),
             first_set: None,
-            alone: WithoutContact::default(),
+            without_contact: WithoutContact::default(),
         }
     }
 
