@@ -132,6 +132,13 @@ fn turns_of_assemblies() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// All goals hold on the first mesh, on which one contact presses on less than an edge: the mesh has to become finer there.
+#[test]
+fn an_assembly_with_a_contact_narrower_than_an_edge() {
+    let wrong = assembly::many([89].into_iter());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 /// A handful of them, on small meshes.
 #[test]
 fn a_handful_of_scenes() {
